@@ -1,0 +1,1 @@
+"""The cases: what is claimed about which scene, loaded from YAML."""

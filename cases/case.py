@@ -1,0 +1,83 @@
+"""A case: a claim about the motion of a scene, with its source and its three kinds of number."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from cases.mistake import Mistake, Source
+from cases.scene import Scene, Vector
+from cases.trajectory import Array
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where in the book the case comes from: numbers as text ("2.10" is not 2.1)."""
+
+    equations: tuple[str, ...] = ()
+    example: str | None = None
+    exercise: str | None = None
+    figure: str | None = None
+    section: str | None = None
+
+    def __str__(self) -> str:
+        words = [
+            f"{word} {number}"
+            for word in ("example", "exercise", "figure", "section")
+            if (number := getattr(self, word)) is not None
+        ]
+        return ", ".join([*words, *(f"({number})" for number in self.equations)])
+
+
+@dataclass(frozen=True)
+class Placement:
+    """What the case file gives of one body's start: coordinates, rates and placed points."""
+
+    given: Mapping[str, float] = field(default_factory=dict)  # x, y, angle, vx, vy, omega
+    points: Mapping[str, Vector] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """A declared difference of the model: the `limit` for h → 0, or an interval at the step."""
+
+    because: str
+    limit: float | None = None
+    by: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class Case:
+    """One variant of one case file, with every number resolved."""
+
+    name: str
+    title: str
+    origin: Origin
+    system: str | None
+    parameters: Mapping[str, float]
+    drops_out: tuple[str, ...]
+    scene: Scene
+    initial: Mapping[str, Placement]
+    near: Mapping[str, Placement]
+    duration: float
+    samples: int
+    step: Mapping[str, float]
+    allow: Mapping[str, float | None]  # None: `unknown`, to be measured
+    reach: Mapping[str, Mapping[str, float]]
+    deviates: Mapping[str, Mapping[str, Deviation]]
+    rests: bool
+    source: Source  # the file, for messages
+
+    @property
+    def times(self) -> Array:
+        """The sample times (samples,), the only times at which anything is compared."""
+        return np.arange(self.samples) * self.interval
+
+    @property
+    def interval(self) -> float:
+        return self.duration / (self.samples - 1)
+
+    def mistake(self, path: tuple[str | int, ...], what: str) -> Mistake:
+        """A mistake found after loading, at the place in the file that caused it."""
+        return self.source.mistake(path, what)

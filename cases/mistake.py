@@ -1,0 +1,54 @@
+"""Mistakes in a case file, as a person wants to read them: place, field, what is wrong."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+Path = tuple[str | int, ...]
+
+
+@dataclass(frozen=True, order=True)
+class Mistake:
+    """One mistake; `line` and `column` count from 1, and 0 means the whole file."""
+
+    file: str
+    line: int
+    column: int
+    where: str  # the field, `scene.bodies.crank.bar.mass`
+    what: str
+    text: str = field(default="", compare=False)  # the source line
+
+    def __str__(self) -> str:
+        place = f"{self.file}:{self.line}:{self.column}" if self.line else self.file
+        head = f"{place}: {self.where}: {self.what}" if self.where else f"{place}: {self.what}"
+        if not self.text.strip():
+            return head
+        return f"{head}\n    {self.text}\n    {' ' * (self.column - 1)}^"
+
+
+class CaseError(Exception):
+    """All mistakes of a case file at once."""
+
+    def __init__(self, mistakes: Sequence[Mistake]) -> None:
+        self.mistakes = sorted(set(mistakes))
+        super().__init__("\n".join(str(m) for m in self.mistakes))
+
+    def __reduce__(self) -> tuple[type["CaseError"], tuple[list[Mistake]]]:
+        return CaseError, (self.mistakes,)  # errors cross the border of a process
+
+
+@dataclass(frozen=True)
+class Source:
+    """A file's name, its lines, and the place (line, column from 1) of every key in it."""
+
+    file: str
+    lines: tuple[str, ...]
+    places: Mapping[Path, tuple[int, int]]
+
+    def mistake(self, path: Path, what: str) -> Mistake:
+        """A mistake at `path`, or at the nearest enclosing key that stands in the file."""
+        known = path
+        while known and known not in self.places:
+            known = known[:-1]
+        line, column = self.places.get(known, (0, 0))
+        text = self.lines[line - 1] if 0 < line <= len(self.lines) else ""
+        return Mistake(self.file, line, column, ".".join(str(p) for p in path), what, text)

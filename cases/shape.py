@@ -1,0 +1,41 @@
+"""Masses, inertias and points of the shapes a case can name.
+
+Shared by the generated reference and the engines, so it is tested by itself against
+integrals over the shape (tests/cases/test_shape.py). Hand-written systems carry their own.
+"""
+
+from collections.abc import Mapping
+
+from cases.scene import CENTER, Body, Vector
+
+Points = Mapping[str, Vector]
+
+
+def bar(*, name: str, mass: float, length: float, points: Points) -> Body:
+    """Slender bar along its own x from `start` to `end`: J = m l²/12 (Exercise 2.3)."""
+    ends = {"start": (-length / 2, 0.0), "end": (length / 2, 0.0)}
+    return Body(
+        name, "bar", mass, mass * length**2 / 12, {CENTER: (0.0, 0.0), **ends, **points}
+    )
+
+
+def disk(*, name: str, mass: float, radius: float, points: Points) -> Body:
+    """Thin homogeneous disk: J = m R²/2 (Exercise 2.2)."""
+    inertia = mass * radius**2 / 2
+    return Body(name, "disk", mass, inertia, {CENTER: (0.0, 0.0), **points}, radius=radius)
+
+
+def block(*, name: str, mass: float, width: float, height: float, points: Points) -> Body:
+    """Homogeneous rectangle: J = m (w² + h²)/12."""
+    inertia = mass * (width**2 + height**2) / 12
+    return Body(name, "block", mass, inertia, {CENTER: (0.0, 0.0), **points})
+
+
+def particle(*, name: str, mass: float) -> Body:
+    """Point mass: no inertia, no angle."""
+    return Body(name, "particle", mass, None, {CENTER: (0.0, 0.0)})
+
+
+def rigid(*, name: str, mass: float, inertia: float, points: Points) -> Body:
+    """Any rigid body, by its mass and its inertia about the centre of mass."""
+    return Body(name, "rigid", mass, inertia, {CENTER: (0.0, 0.0), **points})

@@ -1,0 +1,24 @@
+"""A motion as samples addressed by name; what a reference and an engine both answer with."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+X, Y, ANGLE, VX, VY, OMEGA = range(6)  # the columns of a body's states
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """Samples of a motion.
+
+    times: (N,) s. states: body → (N, 6), the columns x, y, angle, vx, vy, omega of its centre
+    of mass. reactions: quantity (`pin.fx`, `touch.normal`) → (N,), as the producer gives them.
+    """
+
+    times: Array
+    states: Mapping[str, Array]
+    reactions: Mapping[str, Array]

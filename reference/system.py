@@ -1,0 +1,114 @@
+"""What every textbook system answers: its explicit accelerations and its ingredients.
+
+The explicit accelerations are derived by hand; the ingredients (T, U, D, Q₄, constraints, free
+bodies) let the chapter's formalisms derive them again, without sharing a line of algebra.
+All ingredients must accept complex arguments: derivatives are taken by the complex step.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Vector = NDArray[Any]  # real, or complex while a derivative is taken
+Pose = tuple[Any, Any, Any, Any, Any, Any]  # x, y, angle, vx, vy, omega of a centre of mass
+
+
+@dataclass(frozen=True)
+class Mass:
+    """m [kg], and J [kg m²] about the centre of mass; J is None for a particle."""
+
+    m: float
+    J: float | None
+
+
+@dataclass(frozen=True)
+class Load:
+    """An applied force [N] at a point of a free-cut body, and a moment [N m]."""
+
+    body: str
+    at: tuple[float, float]
+    force: tuple[float, float]
+    moment: float = 0.0
+
+
+@dataclass(frozen=True)
+class Cut:
+    """Where bodies are cut free: unknown reactions along `directions` at a point.
+
+    The reaction acts on body b, its opposite on body a (None is the ground). `names` are the
+    quantities its components are observed as; `moment` adds an unknown reaction moment.
+    """
+
+    names: tuple[str, ...]
+    a: str | None
+    b: str
+    at: tuple[float, float]
+    directions: tuple[tuple[float, float], ...] = ((1.0, 0.0), (0.0, 1.0))
+    moment: bool = False
+
+
+class System:
+    """Defaults for a system with n coordinates q, rates v = q̇ and r constraints."""
+
+    coordinates: tuple[str, ...]
+    masses: Mapping[str, Mass]
+
+    def start(self) -> tuple[Array, Array]:
+        """q (n,) and v (n,) at t = 0."""
+        raise NotImplementedError
+
+    def accelerations(self, t: float, q: Array, v: Array) -> Array:
+        """q̈ (n,), derived by hand."""
+        raise NotImplementedError
+
+    def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
+        """(2.8) R_k(q), E_k(q) and their rates, for each body by its name in the scene."""
+        raise NotImplementedError
+
+    def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
+        """Reaction forces [N] by quantity, derived by hand (R_a = λ_b f_aᵇ in (2.60))."""
+        return {}
+
+    def closed_form(self, t: float) -> tuple[Array, Array] | None:
+        """q and v at time t by known functions, where there are any."""
+        return None
+
+    def T(self, t: Any, q: Vector, v: Vector) -> Any:
+        """Kinetic energy [J]."""
+        raise NotImplementedError
+
+    def U(self, t: Any, q: Vector) -> Any:
+        """Potential energy [J] of the forces of class 1 (2.45)."""
+        return 0.0
+
+    def D(self, t: Any, q: Vector, v: Vector) -> Any:
+        """Dissipation function [W] of the forces of class 2 (2.46)."""
+        return 0.0
+
+    def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
+        """Generalized forces of class 4 (2.50), (n,)."""
+        return np.zeros(len(q))
+
+    def f(self, t: Any, q: Vector) -> Vector:
+        """Residuals (2.14) of the holonomic constraints, (≤ r,)."""
+        return np.zeros(0)
+
+    def f_a(self, t: Any, q: Vector) -> Vector:
+        """Rows (r, n) of the constraints (2.15), f_a q̇ᵃ = g."""
+        return np.zeros((0, len(q)))
+
+    def g(self, t: Any, q: Vector) -> Vector:
+        """Right side (r,) of the constraints (2.15), zero unless a part is driven."""
+        return np.zeros(0)
+
+    def loads(self, t: float, q: Array, v: Array) -> list[Load]:
+        """Applied forces on the free-cut bodies, for (2.23) and (2.27)."""
+        raise NotImplementedError
+
+    def cuts(self, t: float, q: Array) -> list[Cut]:
+        """Where the bodies are cut free, for (2.23) and (2.27)."""
+        raise NotImplementedError
