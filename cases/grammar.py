@@ -1,0 +1,121 @@
+"""What may stand in a case file. cases/README.md explains every key by an example."""
+
+from typing import Annotated, Any
+
+from pydantic import ConfigDict, Field
+
+from cases.field import Bound, In, Literal, Place, Text, Word, equation, label
+from cases.number import Amount
+from cases.part import Angle, Body, Contact, Force, GroundPoint, Joint, Name, Part, Position
+from cases.words import wrong
+
+ENGINES = ("mujoco", "pymunk")
+WAYS = (*ENGINES, *(f"{engine}.law" for engine in ENGINES))
+SETTINGS = tuple(f"{engine}.{setting}" for engine in ENGINES for setting in ("shipped", "tuned"))
+
+BookPlace = Annotated[str, Place()]
+Quantity = Annotated[str, Text(description="part.field, as crank.angle")]
+Tolerance = Annotated[Amount, Bound()]
+
+
+class Source(Part):
+    """Where in the book the case comes from, as text: "2.10" is not 2.1."""
+
+    equations: tuple[Annotated[str, Place(equation, r"^2\.[1-9][0-9]?$")], ...] = ()
+    example: BookPlace | None = None
+    exercise: BookPlace | None = None
+    figure: BookPlace | None = None
+    section: BookPlace | None = None
+
+
+class Scene(Part):
+    """Bodies and what joins, touches and drives them."""
+
+    gravity: Annotated[str, Word("gravity", ("none",))] | None = Field(
+        None, description="`none`: a scene seen from above"
+    )
+    incline: Angle | None = Field(
+        None, description="turns gravity, never the ground: x points down the slope"
+    )
+    points: dict[Name, GroundPoint] = Field({}, description="points of the ground")
+    bodies: dict[Name, Body]
+    joints: dict[Name, Joint] = {}
+    contacts: dict[Name, Contact] = {}
+    forces: dict[Name, Force] = {}
+
+
+class Near(Part):
+    """A guess of where a body is, by its coordinates or by the places of its points."""
+
+    model_config = ConfigDict(extra="allow")
+    __pydantic_extra__: dict[str, Position]
+
+    x: Annotated[float, In("m")] | None = None
+    y: Annotated[float, In("m")] | None = None
+    angle: Angle | None = None
+
+
+class Initial(Near):
+    """How a body starts: coordinates and rates, or the places of its points."""
+
+    vx: Annotated[float, In("m/s")] | None = None
+    vy: Annotated[float, In("m/s")] | None = None
+    omega: Annotated[float, In("rad/s")] | None = None
+
+
+class Deviation(Part):
+    """A known difference of a model: its limit for h → 0, or an interval at the case's step."""
+
+    limit: Tolerance | None = None
+    by: tuple[Tolerance, Tolerance] | None = None
+    because: Annotated[str, Text()]
+
+    def model_post_init(self, context: object) -> None:
+        if (self.limit is None) == (self.by is None):
+            raise wrong("needs exactly one of limit, by")
+        if self.by is not None and not self.by[0].value < self.by[1].value:
+            raise wrong("`by` should be a list [low, high], low < high")
+
+
+class File(Part):
+    """A case: one claim about the motion of one scene."""
+
+    title: Annotated[str, Text()]
+    source: Source = Source()
+    system: Annotated[str, Text()] | None = Field(
+        None, description="the hand-written system in reference/systems; absent: the reference "
+        "is generated from the scene",
+    )
+    parameters: dict[Annotated[str, Text(label)], Annotated[Amount, Literal()]] = Field(
+        {}, description="numbers that the rest of the file names"
+    )
+    drops_out: tuple[Annotated[str, Text()], ...] = Field(
+        (), description="parameters on which the motion does not depend"
+    )
+    scene: Scene
+    initial: dict[Name, Initial]
+    near: dict[Name, Near] = Field(
+        {}, description="a guess, where the constraints have more than one solution"
+    )
+    duration: Annotated[float, In("s", above=0)]
+    samples: int = Field(ge=3, description="number of times at which anything is compared")
+    step: dict[Annotated[str, Word("engine", ENGINES)], Annotated[float, In("s", above=0)]] = Field(
+        min_length=1, description="step of the tuned setting of each engine"
+    )
+    allow: dict[Quantity, Annotated[Amount | None, Bound("unknown")]] = Field(
+        min_length=1, description="what still counts as textbook mechanics, for every engine"
+    )
+    reach: dict[Annotated[str, Word("engine", WAYS)], dict[Quantity, Tolerance]] = Field(
+        {}, description="what the tuned setting of an engine must hold at the step"
+    )
+    deviates: dict[Annotated[str, Word("setting", SETTINGS)], dict[Quantity, Deviation]] = Field(
+        {}, description="known differences of an engine's model"
+    )
+    rests: bool = Field(False, description="nothing moves here, on purpose")
+    variants: dict[Name, dict[str, Any]] = Field(
+        {}, description="each a deep overlay of the keys above, but title and source"
+    )
+
+
+FIXED = ("title", "source", "variants")  # what a variant cannot change
+OVERLAID = tuple(key for key in File.model_fields if key not in FIXED)

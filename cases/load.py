@@ -1,0 +1,52 @@
+"""A case file → its cases, one for each variant, or all of its mistakes at once."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path as FilePath
+
+from cases.case import Case
+from cases.check import check
+from cases.document import read
+from cases.mistake import CaseError, Mistake
+from cases.overlay import overlay
+from cases.parse import parse
+from cases.resolve import resolve_case, resolve_scene
+
+Systems = Mapping[str, tuple[str, ...]]
+
+
+def load(path: FilePath, *, systems: Systems | None = None) -> list[Case]:
+    """The cases of a file. `systems`: the parameters of each known hand-written system.
+
+    Raises CaseError with every mistake of the file.
+    """
+    document = read(path)
+    variants, mistakes = overlay(document)
+    mistakes = [*document.mistakes, *mistakes]
+    found: dict[str, list[Mistake]] = {}
+    cases: list[Case] = []
+    for variant, (data, source) in variants.items():
+        parsed = parse(data)
+        scene = resolve_scene(parsed.file)
+        findings = [*parsed.findings, *check(parsed, scene, data=document.data, systems=systems)]
+        found[variant] = [
+            source.mistake(where, what)
+            for where, what in findings
+            if what != "has no value"  # the document has said so
+        ]
+        name = f"{path.stem}.{variant}" if variant else path.stem
+        cases.append(resolve_case(name, parsed.file, scene, source))
+    mistakes += _once(found)
+    if mistakes:
+        raise CaseError(mistakes)
+    return cases
+
+
+def _once(found: Mapping[str, list[Mistake]]) -> list[Mistake]:
+    """What all variants share is said once; the rest names its variant."""
+    shared = set.intersection(*(set(mistakes) for mistakes in found.values()))
+    return [
+        m if m in shared else replace(m, what=f"{m.what} (variant {variant!r})")
+        for variant, mistakes in found.items()
+        for m in mistakes
+    ]

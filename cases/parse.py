@@ -1,0 +1,98 @@
+"""Plain data → the grammar's models, cutting out what is mistaken so that the rest is checked."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import ValidationError
+
+from cases.grammar import File
+from cases.mistake import Path
+from cases.number import names
+
+Finding = tuple[Path, str]  # where, and what is wrong there
+
+# How much is cut out around a mistake: `scene.bodies.crank`, not the scene.
+_DEPTH = {"scene": 3, "parameters": 2, "initial": 2, "near": 2, "allow": 2, "reach": 3}
+_DEPTH |= {"deviates": 3}
+
+# What stands in for a key that is missing or was cut out; `Parsed.broken` says so.
+_HOLLOW: dict[str, Any] = {
+    "title": "-",
+    "scene": {"bodies": {}},
+    "initial": {},
+    "duration": 1.0,
+    "samples": 3,
+    "step": {"mujoco": 1.0},
+    "allow": {"-": 1.0},
+}
+
+
+@dataclass(frozen=True)
+class Parsed:
+    """The sound part of a file, the mistakes of form, and the paths that are not sound."""
+
+    file: File
+    findings: tuple[Finding, ...]
+    broken: frozenset[Path]
+
+    def lacks(self, key: str) -> bool:
+        """Whether this top-level key is wholly or partly unsound."""
+        return any(path[0] == key for path in self.broken)
+
+    @property
+    def shaken(self) -> bool:
+        """Whether whole sections of the scene are unsound: then nothing can refer to a part."""
+        return any(
+            path[0] == "scene" and len(path) < 3 and path[1:] not in (("gravity",), ("incline",))
+            for path in self.broken
+        )
+
+    def hides(self, word: str, section: str | None = None) -> bool:
+        """Whether a part (or point of the ground) of this name may exist, but unsound."""
+        return self.shaken or any(
+            len(path) == 3 and path[0] == "scene" and path[2] == word
+            for path in self.broken
+            if (path[1] if len(path) > 1 else None) == section
+            or (section is None and path[1:2] != ("points",))
+        )
+
+
+def parse(data: Mapping[str, Any]) -> Parsed:
+    """The file's models, with as much of the file as is sound."""
+    known = names(data.get("parameters"))
+    rest = _copy(data)
+    findings: list[Finding] = []
+    broken: set[Path] = set()
+    while True:
+        try:
+            file = File.model_validate(rest, context=known)
+            return Parsed(file, tuple(findings), frozenset(broken))
+        except ValidationError as error:
+            first = not broken
+            for found in error.errors(include_url=False):
+                path = _path(found["loc"])
+                cut = path[: _DEPTH.get(str(path[0]), 1)] if first else path[:1]
+                broken.add(cut)
+                _remove(rest, cut)
+                if first:  # later ones only follow from what was cut out
+                    findings.append((path, found["msg"]))
+            rest = {**{k: v for k, v in _HOLLOW.items() if (k,) in broken}, **rest}
+
+
+def _path(loc: tuple[str | int, ...]) -> Path:
+    """pydantic's location without the names it gives to the branches of a choice."""
+    if len(loc) > 3 and loc[0] == "scene" and str(loc[3]).startswith("<"):
+        loc = (*loc[:3], *loc[4:])
+    return loc[:-1] if len(loc) > 1 and loc[-1] == "[key]" else loc
+
+
+def _copy(data: Any) -> Any:
+    return {k: _copy(v) for k, v in data.items()} if isinstance(data, dict) else data
+
+
+def _remove(data: Any, path: Path) -> None:
+    for key in path[:-1]:
+        data = data.get(key) if isinstance(data, dict) else None
+    if isinstance(data, dict):
+        data.pop(path[-1], None)

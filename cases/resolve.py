@@ -1,0 +1,146 @@
+"""The grammar's models → the nouns of the project."""
+
+from collections.abc import Mapping
+from math import cos, sin
+
+from cases import part, scene, shape
+from cases.case import Case, Deviation, Origin, Placement
+from cases.grammar import File, Near
+from cases.mistake import Source
+from cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Scene, Signal
+
+_COORDINATES = ("x", "y", "angle", "vx", "vy", "omega")
+
+
+def resolve_scene(file: File) -> Scene:
+    """The scene, with its references as they stand (cases/links.py checks them)."""
+    s = file.scene
+    return Scene(
+        gravity=_gravity(s.gravity, s.incline),
+        points={name: _ground(p) for name, p in s.points.items()},
+        bodies={name: _body(name, b) for name, b in s.bodies.items()},
+        joints={name: _joint(name, j) for name, j in s.joints.items()},
+        contacts={
+            name: scene.Contact(name, c.between[0], c.friction, "rolling")
+            for name, c in s.contacts.items()
+        },
+        forces={name: _force(name, f) for name, f in s.forces.items()},
+    )
+
+
+def resolve_case(name: str, file: File, scene: Scene, source: Source) -> Case:
+    """The case of a file without mistakes."""
+    book = file.source
+    return Case(
+        name=name,
+        title=file.title,
+        origin=Origin(book.equations, book.example, book.exercise, book.figure, book.section),
+        system=file.system,
+        parameters={name: amount.value for name, amount in file.parameters.items()},
+        drops_out=file.drops_out,
+        scene=scene,
+        initial=_placements(file.initial),
+        near=_placements(file.near),
+        duration=file.duration,
+        samples=file.samples,
+        step=file.step,
+        allow={q: None if amount is None else amount.value for q, amount in file.allow.items()},
+        reach={
+            way: {q: amount.value for q, amount in bounds.items()}
+            for way, bounds in file.reach.items()
+        },
+        deviates={
+            setting: {
+                q: Deviation(
+                    d.because,
+                    limit=None if d.limit is None else d.limit.value,
+                    by=None if d.by is None else (d.by[0].value, d.by[1].value),
+                )
+                for q, d in known.items()
+            }
+            for setting, known in file.deviates.items()
+        },
+        rests=file.rests,
+        source=source,
+    )
+
+
+def anchor(word: str) -> Anchor:
+    body, _, point = word.partition(".")
+    return Anchor(body, point)
+
+
+def _gravity(gravity: str | None, incline: float | None) -> scene.Vector:
+    if gravity == "none":
+        return (0.0, 0.0)
+    if incline is None:
+        return (0.0, -STANDARD_GRAVITY)
+    return (STANDARD_GRAVITY * sin(incline), -STANDARD_GRAVITY * cos(incline))
+
+
+def _ground(point: tuple[float, float] | part.DrivenPoint) -> GroundPoint:
+    if isinstance(point, part.DrivenPoint):
+        return GroundPoint(point.at, point.velocity)
+    return GroundPoint(point)
+
+
+def _body(name: str, body: part.AnyBody) -> scene.Body:
+    match body:
+        case part.BarBody(bar=s, points=points):
+            return shape.bar(name=name, mass=s.mass, length=s.length, points=points)
+        case part.DiskBody(disk=s, points=points):
+            return shape.disk(name=name, mass=s.mass, radius=s.radius, points=points)
+        case part.BlockBody(block=s, points=points):
+            return shape.block(
+                name=name, mass=s.mass, width=s.width, height=s.height, points=points
+            )
+        case part.ParticleBody(particle=s):
+            return shape.particle(name=name, mass=s.mass)
+        case part.RigidBody(rigid=s, points=points):
+            return shape.rigid(name=name, mass=s.mass, inertia=s.inertia, points=points)
+
+
+def _joint(name: str, joint: part.AnyJoint) -> scene.Joint:
+    match joint:
+        case part.Pin(pin=(a, b)):
+            return scene.Joint(name, "pin", anchor(a), anchor(b))
+        case part.Slide(slide=(a, b), along=along, angle=angle):
+            return scene.Joint(name, "slide", anchor(a), anchor(b), along, angle)
+        case part.Weld(weld=(a, b), angle=angle):
+            return scene.Joint(name, "weld", anchor(a), anchor(b), angle=angle)
+
+
+def _force(name: str, force: part.AnyForce) -> scene.Force:
+    match force:
+        case part.Spring(spring=(a, b), stiffness=c, rest_length=length):
+            return scene.Spring(name, anchor(a), anchor(b), c, length)
+        case part.Damper(damper=(a, b), damping=d):
+            return scene.Damper(name, anchor(a), anchor(b), d)
+        case part.Push(push=at):
+            return scene.Push(name, anchor(at), _signal(force))
+        case part.Torque(torque=body):
+            return scene.Torque(name, body, _signal(force))
+
+
+def _signal(force: part.Push | part.Torque) -> Signal:
+    if force.sine is not None:
+        sine = force.sine
+        return Signal("sine", _components(sine.amplitude), sine.angular_frequency, sine.phase)
+    if force.ramp is not None:
+        return Signal("ramp", _components(force.ramp))
+    assert force.constant is not None  # the grammar asks for exactly one
+    return Signal("constant", _components(force.constant))
+
+
+def _components(value: float | tuple[float, float]) -> tuple[float, ...]:
+    return value if isinstance(value, tuple) else (value,)
+
+
+def _placements(places: Mapping[str, Near]) -> dict[str, Placement]:
+    return {
+        body: Placement(
+            given={c: v for c in _COORDINATES if (v := getattr(place, c, None)) is not None},
+            points=dict(place.__pydantic_extra__),
+        )
+        for body, place in places.items()
+    }
