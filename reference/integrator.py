@@ -1,0 +1,192 @@
+"""What the explicit and the implicit integrator share: step control, samples, errors.
+
+A method only has to try one step and to judge it.  `march` picks the steps, so that each sample
+time is the end of a step (nothing is interpolated), and yields them one by one; `integrate` keeps
+the states at the samples.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Vector = NDArray[np.float64]
+Slope = Callable[[float, Vector], Vector]
+
+EPS = float(np.finfo(np.float64).eps)
+SAFETY = 0.8  # aim below the tolerance: on chaotic motion 0.9 has a quarter of the steps refused
+SHRINK, GROW = 0.2, 6.0  # one estimate is not trusted to change the step by more than this
+STRETCH = 0.05  # a step may be this much longer than wanted if that saves a step before a sample
+
+
+class IntegrationError(RuntimeError):
+    """The solution could not be continued; `time` is how far it got."""
+
+    def __init__(self, reason: str, time: float) -> None:
+        super().__init__(f"{reason} at t = {time!r}")
+        self.time = time
+
+
+@dataclass(frozen=True)
+class Integration:
+    """States at the sample times (one row each) and what they cost."""
+
+    y: NDArray[np.float64]
+    steps: int
+    rejected: int
+    evaluations: int
+
+
+class Step(NamedTuple):
+    """One accepted step and the number of attempts refused before it."""
+
+    t: float
+    y: Vector
+    h: float
+    t_next: float
+    y_next: Vector
+    rejected: int
+
+
+class Method(Protocol):
+    """A one-step method bound to an equation."""
+
+    power: float  # the error estimate behaves as h ** (1 / power)
+    tolerance: float
+    evaluations: int
+
+    def begin(self, t: float, y: Vector) -> Vector:
+        """The slope at the start of a step."""
+        ...
+
+    def attempt(self, t: float, y: Vector, h: float, peak: Vector) -> Vector:
+        """The increment of `y` over a step; not finite if the step failed."""
+        ...
+
+    def error(self, size: Vector) -> float:
+        """Estimated error of the last attempt; at most 1 is acceptable."""
+        ...
+
+
+def sizes(peak: Vector, tolerance: float) -> Vector:
+    """The size each component's error is measured against: the largest value it has taken so far.
+
+    A component that stays small beside the others counts as a hundredth of the largest, and never
+    so small that the tolerance falls below their rounding (4 ulp).  1e-300 serves a state at zero.
+    """
+    share = max(0.01, 4.0 * EPS / tolerance)
+    return np.maximum(peak, share * max(peak.tolist()) + 1e-300)
+
+
+def rms(values: Vector) -> float:
+    """Root mean square, by a plain dot product: cheaper than a norm on a few components."""
+    flat = values.ravel()
+    return math.sqrt(flat.dot(flat) / flat.size)
+
+
+@dataclass
+class _Walker:
+    """Where the march stands: `y + low` is the state, `low` holding what rounding cut off `y`."""
+
+    method: Method
+    t: float
+    y: Vector
+    low: Vector
+    peak: Vector
+    wanted: float
+
+    def step(self, target: float) -> Step:
+        """Take one step towards `target`, landing on it exactly with the last."""
+        rejected = 0
+        while True:
+            left = target - self.t
+            pieces = max(1, math.ceil(left / self.wanted - STRETCH))
+            h = left / pieces
+            error, tried, problem = self._try(h)
+            if not error < math.inf:
+                factor = SHRINK
+            else:
+                factor = SAFETY * error**-self.method.power if error > 0.0 else GROW
+                factor = min(1.0 if rejected else GROW, max(SHRINK, factor))
+            if error <= 1.0:
+                end = target if pieces == 1 else self.t + h
+                return self._accept(h, factor, end, tried, rejected)
+            rejected += 1
+            self.wanted = h * min(factor, SAFETY)
+            # Below 4 ulp the time no longer advances properly; at t = 0 some other bound is needed.
+            if self.wanted < max(4.0 * math.ulp(self.t), 1e-30 * left):
+                what = "the step size underflows" if error < math.inf else "values are not finite"
+                raise IntegrationError(what, self.t) from problem
+
+    def _try(self, h: float) -> tuple[float, tuple[Vector, Vector, Vector], Exception | None]:
+        try:
+            with np.errstate(all="ignore"):  # overflow shows as a step that is not finite
+                total = self.method.attempt(self.t, self.y, h, self.peak) + self.low
+                y = self.y + total
+                peak = np.maximum(self.peak, np.abs(y))
+                error = self.method.error(sizes(peak, self.method.tolerance))
+                return error, (y, total - (y - self.y), peak), None
+        except (ArithmeticError, ValueError) as problem:  # as of math.exp or math.sqrt, too far out
+            return math.inf, (self.y, self.low, self.peak), problem
+
+    def _accept(
+        self, h: float, factor: float, t: float, tried: tuple[Vector, Vector, Vector], rejected: int
+    ) -> Step:
+        y, low, peak = tried
+        done = Step(self.t, self.y, h, t, y, rejected)
+        # A step cut short by a sample says little about how far the method could have gone.
+        self.wanted = max(h * factor, self.wanted) if factor == GROW else h * factor
+        self.t, self.y, self.low, self.peak = t, y, low, peak
+        return done
+
+
+def _first_step(y: Vector, slope: Vector, size: Vector, span: float) -> float:
+    """A hundredth of the time in which the state changes by its own size, if that says anything."""
+    with np.errstate(all="ignore"):
+        value, rate = rms(y / size), rms(slope / size)
+    if value == 0.0 or not 0.0 < rate < math.inf:
+        return 1e-3 * span
+    return min(span, 0.01 * value / rate)
+
+
+def march(
+    method: Method, times: ArrayLike, y0: ArrayLike, *, most: int = 1_000_000
+) -> Iterator[Step]:
+    """The accepted steps from `times[0]` to `times[-1]`; every sample time ends one of them."""
+    grid, y = np.array(times, dtype=np.float64), np.array(y0, dtype=np.float64)
+    if grid.ndim != 1 or not grid.size or not np.isfinite(grid).all() or (np.diff(grid) <= 0).any():
+        raise ValueError("the sample times must be finite and strictly increasing")
+    if y.ndim != 1 or not y.size:
+        raise ValueError("the initial state must be a vector")
+    samples: list[float] = grid.tolist()
+    slope = method.begin(samples[0], y)
+    if not (np.isfinite(y).all() and np.isfinite(slope).all()):
+        raise IntegrationError("values are not finite", samples[0])
+    if len(samples) == 1:
+        return
+    size = sizes(np.abs(y), method.tolerance)
+    first = _first_step(y, slope, size, samples[1] - samples[0])
+    walker = _Walker(method, samples[0], y, np.zeros_like(y), np.abs(y), first)
+    taken = 0
+    for target in samples[1:]:
+        while walker.t < target:
+            if taken == most:
+                raise IntegrationError(f"more than {most} steps", walker.t)
+            taken += 1
+            yield walker.step(target)
+
+
+def integrate(method: Method, times: ArrayLike, y0: ArrayLike, *, most: int) -> Integration:
+    """March through the samples and keep the states there."""
+    samples: list[float] = np.array(times, dtype=np.float64).tolist()
+    rows = [np.array(y0, dtype=np.float64)]
+    steps = rejected = 0
+    for step in march(method, times, y0, most=most):
+        steps += 1
+        rejected += step.rejected
+        if step.t_next == samples[len(rows)]:
+            rows.append(step.y_next)
+    return Integration(np.array(rows), steps, rejected, method.evaluations)

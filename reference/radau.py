@@ -1,0 +1,79 @@
+"""The Radau IIA collocation methods: s stages, order 2s - 1, L-stable, last node at the step's end.
+
+E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996), sections IV.5
+(the methods) and IV.8 (the error estimate).  Every figure is computed from the definition.
+"""
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import roots_jacobi, roots_legendre
+
+
+@dataclass(frozen=True)
+class Collocation:
+    """Stage matrix, nodes, and what judges a step from its stage increments z.
+
+    The weights of the step itself are the last row of `a`, since the last node is 1.  The error
+    estimate is `gamma` h f(t, y) + `error` . z, and `leading` . z measures the last term of the
+    Taylor series that the stages resolve.
+    """
+
+    a: NDArray[np.float64]
+    c: NDArray[np.float64]
+    gamma: float
+    error: NDArray[np.float64]
+    leading: NDArray[np.float64]
+
+
+def lagrange(nodes: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Values of the Lagrange polynomials of `nodes` (columns) at the points `at` (rows).
+
+    The products are formed factor by factor: no Vandermonde matrix, so nothing is lost to rounding.
+    """
+    own = np.eye(len(nodes), dtype=bool)
+    gaps = np.where(own, 1.0, nodes[:, None] - nodes)
+    factors = np.where(own, 1.0, at[:, None, None] - nodes)
+    return np.prod(factors / gaps, axis=2)
+
+
+def _nodes(stages: int) -> NDArray[np.float64]:
+    """Zeros of the Jacobi polynomial for the weight (1 - x), moved to [0, 1], and the end point."""
+    if stages == 1:
+        return np.ones(1)
+    return np.append((1.0 + roots_jacobi(stages - 1, 1.0, 0.0)[0]) / 2.0, 1.0)
+
+
+def _stage_matrix(c: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Integrals of the Lagrange polynomials from 0 to each node.
+
+    Gauss quadrature with as many points as stages is exact well beyond their degree.
+    """
+    points, weights = roots_legendre(len(c))
+    return np.array([end / 2.0 * weights @ lagrange(c, end / 2.0 * (1.0 + points)) for end in c])
+
+
+def _gamma(a: NDArray[np.float64]) -> float:
+    """The real eigenvalue of `a`; an even number of stages has none, then a modulus serves."""
+    values = np.linalg.eigvals(a)
+    return float(abs(values[np.argmin(np.abs(values.imag))]))
+
+
+@cache
+def radau_table(stages: int) -> Collocation:
+    """The table for any number of stages from 1; odd numbers make the better error estimate."""
+    if stages < 1:
+        raise ValueError(f"a Radau IIA method needs at least one stage, not {stages}")
+    c = _nodes(stages)
+    a = _stage_matrix(c)
+    gamma = _gamma(a)
+    # The embedded formula gives the slope at the start the weight gamma and has order s.  Its other
+    # weights then differ from the method's by d with sum d_i p(c_i) = -gamma p(0) for every
+    # polynomial p of degree below s, which the Lagrange polynomials at 0 solve.  The slopes follow
+    # from the stage increments z = h a f, hence the inverse.
+    d = -gamma * lagrange(c, np.zeros(1))[0]
+    # Applied to the increments themselves, d is a divided difference over 0 and the nodes: the
+    # h^s term of the solution, with the factor the h^(s + 1) term has in the estimate.
+    return Collocation(a=a, c=c, gamma=gamma, error=np.linalg.solve(a.T, d), leading=d)
