@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 
@@ -72,7 +71,7 @@ class Case:
     @property
     def times(self) -> Array:
         """The sample times (samples,), the only times at which anything is compared."""
-        return np.arange(self.samples) * self.interval
+        return np.arange(self.samples, dtype=np.float64) * self.interval
 
     @property
     def interval(self) -> float:

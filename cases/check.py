@@ -79,9 +79,9 @@ def _parameters(
     parsed: Parsed, data: Mapping[str, Any], systems: Mapping[str, tuple[str, ...]] | None
 ) -> Iterator[Finding]:
     file = parsed.file
-    given = {*file.parameters, *(str(p[1]) for p in parsed.broken if p[0] == "parameters" != p[-1])}
     if ("parameters",) in parsed.broken:
         return
+    given = [*file.parameters, *(str(p[1]) for p in parsed.broken if p[0] == "parameters")]
     for i, name in enumerate(file.drops_out):
         if name not in given:
             yield ("drops_out", i), f"unknown parameter {name!r}{nearest(name, given)}"
@@ -99,8 +99,8 @@ def _parameters(
                 yield ("parameters",), f"system {file.system!r} needs the parameter {name!r}"
         for name in file.parameters:
             if name not in needed:
-                hint = nearest(name, needed)
-                yield ("parameters", name), f"system {file.system!r} has no parameter {name!r}{hint}"
+                what = f"system {file.system!r} has no parameter {name!r}{nearest(name, needed)}"
+                yield ("parameters", name), what
 
 
 def _words(data: object) -> set[str]:

@@ -4,9 +4,13 @@ from typing import Annotated, Any
 
 from pydantic import ConfigDict, Field
 
-from cases.field import Bound, In, Literal, Place, Text, Word, equation, label
+from cases.body import Body
+from cases.field import Bound, In, Literal
+from cases.force import Force
+from cases.joint import Contact, GroundPoint, Joint
 from cases.number import Amount
-from cases.part import Angle, Body, Contact, Force, GroundPoint, Joint, Name, Part, Position
+from cases.part import Angle, Name, Part, Position
+from cases.text import Place, Text, Word, equation, label
 from cases.words import wrong
 
 ENGINES = ("mujoco", "pymunk")
@@ -39,20 +43,25 @@ class Scene(Part):
     )
     points: dict[Name, GroundPoint] = Field({}, description="points of the ground")
     bodies: dict[Name, Body]
-    joints: dict[Name, Joint] = {}
-    contacts: dict[Name, Contact] = {}
-    forces: dict[Name, Force] = {}
+    joints: dict[Name, Joint] = Field({})
+    contacts: dict[Name, Contact] = Field({})
+    forces: dict[Name, Force] = Field({})
 
 
 class Near(Part):
     """A guess of where a body is, by its coordinates or by the places of its points."""
 
     model_config = ConfigDict(extra="allow")
-    __pydantic_extra__: dict[str, Position]
+    __pydantic_extra__: dict[str, Position] = Field(init=False)  # type: ignore[assignment]
 
     x: Annotated[float, In("m")] | None = None
     y: Annotated[float, In("m")] | None = None
     angle: Angle | None = None
+
+    @property
+    def places(self) -> dict[str, tuple[float, float]]:
+        """Where points of the body are."""
+        return self.__pydantic_extra__
 
 
 class Initial(Near):
@@ -73,8 +82,16 @@ class Deviation(Part):
     def model_post_init(self, context: object) -> None:
         if (self.limit is None) == (self.by is None):
             raise wrong("needs exactly one of limit, by")
-        if self.by is not None and not self.by[0].value < self.by[1].value:
+        if self.by is not None and self.by[0].value >= self.by[1].value:
             raise wrong("`by` should be a list [low, high], low < high")
+
+
+FIXED = ("title", "source", "variants")  # what a variant cannot change
+
+
+def _overlay_schema(schema: dict[str, Any]) -> None:
+    keys = [key for key in File.model_fields if key not in FIXED]
+    schema["additionalProperties"] = {"type": "object", "propertyNames": {"enum": keys}}
 
 
 class File(Part):
@@ -83,7 +100,8 @@ class File(Part):
     title: Annotated[str, Text()]
     source: Source = Source()
     system: Annotated[str, Text()] | None = Field(
-        None, description="the hand-written system in reference/systems; absent: the reference "
+        None,
+        description="the hand-written system in reference/systems; absent: the reference "
         "is generated from the scene",
     )
     parameters: dict[Annotated[str, Text(label)], Annotated[Amount, Literal()]] = Field(
@@ -113,9 +131,10 @@ class File(Part):
     )
     rests: bool = Field(False, description="nothing moves here, on purpose")
     variants: dict[Name, dict[str, Any]] = Field(
-        {}, description="each a deep overlay of the keys above, but title and source"
+        {},
+        description="each a deep overlay of the keys above, but title and source",
+        json_schema_extra=_overlay_schema,
     )
 
 
-FIXED = ("title", "source", "variants")  # what a variant cannot change
 OVERLAID = tuple(key for key in File.model_fields if key not in FIXED)

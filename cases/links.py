@@ -5,7 +5,7 @@ from typing import Any
 
 from cases.grammar import Near
 from cases.mistake import Path
-from cases.parse import Finding, Parsed
+from cases.parse import NAMED, Finding, Parsed
 from cases.quantity import nearest
 from cases.resolve import anchor
 from cases.scene import CENTER, FLOOR, GROUND, Anchor, Damper, Push, Scene, Spring, Torque
@@ -33,9 +33,8 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
 
 
 def _names(scene: Scene) -> Iterator[Finding]:
-    """Bodies, joints, contacts and forces share one set of names: they address quantities."""
     first: dict[str, str] = {}
-    for section in ("bodies", "joints", "contacts", "forces"):
+    for section in NAMED:
         for name in getattr(scene, section):
             if name in first:
                 yield ("scene", section, name), f"{name!r} already names one of the {first[name]}"
@@ -64,8 +63,9 @@ def _anchor(parsed: Parsed, scene: Scene, path: Path, at: Anchor) -> Iterator[Fi
     if at.body == GROUND:
         if at.point == FLOOR:
             yield path, "ground.floor is not a point; only a contact touches it"
-        elif at.point not in scene.points and not parsed.hides(at.point, "points"):
-            yield path, f"the ground has no point {at.point!r}{nearest(at.point, scene.points)}"
+        elif at.point not in scene.points and not parsed.hides(at.point, ("points",)):
+            known = parsed.names("points", scene.points)
+            yield path, f"the ground has no point {at.point!r}{nearest(at.point, known)}"
         return
     yield from _body(parsed, scene, path, at.body)
     if at.body in scene.bodies and at.point not in scene.bodies[at.body].points:
@@ -75,7 +75,7 @@ def _anchor(parsed: Parsed, scene: Scene, path: Path, at: Anchor) -> Iterator[Fi
 
 def _body(parsed: Parsed, scene: Scene, path: Path, name: str) -> Iterator[Finding]:
     if name not in scene.bodies and not parsed.hides(name):
-        yield path, f"unknown body {name!r}{nearest(name, scene.bodies)}"
+        yield path, f"unknown body {name!r}{nearest(name, parsed.names('bodies', scene.bodies))}"
 
 
 def _force(parsed: Parsed, scene: Scene, path: Path, force: Any) -> Iterator[Finding]:
@@ -114,7 +114,7 @@ def _placed(
         yield from _body(parsed, scene, (key, name), name)
         if name not in scene.bodies:
             continue
-        for point in place.__pydantic_extra__:
+        for point in place.places:
             if point not in scene.bodies[name].points:
                 yield from _anchor(parsed, scene, (key, name, point), anchor(f"{name}.{point}"))
         for turning in ("angle", "omega"):

@@ -11,6 +11,7 @@ from cases.mistake import CaseError, Mistake
 from cases.overlay import overlay
 from cases.parse import parse
 from cases.resolve import resolve_case, resolve_scene
+from cases.words import NO_VALUE
 
 Systems = Mapping[str, tuple[str, ...]]
 
@@ -32,7 +33,7 @@ def load(path: FilePath, *, systems: Systems | None = None) -> list[Case]:
         found[variant] = [
             source.mistake(where, what)
             for where, what in findings
-            if what != "has no value"  # the document has said so
+            if what != NO_VALUE  # the document has said so
         ]
         name = f"{path.stem}.{variant}" if variant else path.stem
         cases.append(resolve_case(name, parsed.file, scene, source))

@@ -22,7 +22,9 @@ class Mistake:
         head = f"{place}: {self.where}: {self.what}" if self.where else f"{place}: {self.what}"
         if not self.text.strip():
             return head
-        return f"{head}\n    {self.text}\n    {' ' * (self.column - 1)}^"
+        start = max(0, self.column - 60) if len(self.text) > 100 else 0  # a window on a long line
+        shown = self.text[start : start + 100]
+        return f"{head}\n    {shown}\n    {' ' * (self.column - 1 - start)}^"
 
 
 class CaseError(Exception):

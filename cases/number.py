@@ -150,6 +150,6 @@ def _registry() -> Any:
     """pint, imported only when a unit is met."""
     import pint
 
-    registry = pint.UnitRegistry(None)
+    registry = pint.UnitRegistry(None)  # type: ignore[arg-type]  # no table of its own
     registry.load_definitions(_UNITS.strip().splitlines())
     return registry

@@ -1,6 +1,6 @@
 """Plain data → the grammar's models, cutting out what is mistaken so that the rest is checked."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,6 +28,9 @@ _HOLLOW: dict[str, Any] = {
 }
 
 
+NAMED = ("bodies", "joints", "contacts", "forces")  # one set of names: they address quantities
+
+
 @dataclass(frozen=True)
 class Parsed:
     """The sound part of a file, the mistakes of form, and the paths that are not sound."""
@@ -48,14 +51,14 @@ class Parsed:
             for path in self.broken
         )
 
-    def hides(self, word: str, section: str | None = None) -> bool:
-        """Whether a part (or point of the ground) of this name may exist, but unsound."""
-        return self.shaken or any(
-            len(path) == 3 and path[0] == "scene" and path[2] == word
-            for path in self.broken
-            if (path[1] if len(path) > 1 else None) == section
-            or (section is None and path[1:2] != ("points",))
-        )
+    def hides(self, word: str, sections: tuple[str, ...] = NAMED) -> bool:
+        """Whether a part of this name may be there, but is unsound."""
+        return self.shaken or any(("scene", section, word) in self.broken for section in sections)
+
+    def names(self, section: str, sound: Iterable[str]) -> list[str]:
+        """The names of a section, sound or not, to hint at."""
+        unsound = (p[2] for p in self.broken if p[:2] == ("scene", section) and len(p) == 3)
+        return [*sound, *sorted(map(str, unsound))]
 
 
 def parse(data: Mapping[str, Any]) -> Parsed:

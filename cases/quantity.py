@@ -3,6 +3,7 @@
 A quantity is written `part.field`: `crank.angle`, `crank.end.x`, `hinge.force`, `energy.total`.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Literal
@@ -72,7 +73,7 @@ def table(scene: Scene) -> dict[str, Quantity]:
         parts |= {f"{body.name}.{point}": _POINT for point in body.points}
     for joint in scene.joints.values():
         parts[joint.name] = _JOINT | ({} if joint.kind == "pin" else _LOCKED)
-    parts |= {contact: _CONTACT for contact in scene.contacts}
+    parts |= dict.fromkeys(scene.contacts, _CONTACT)
     for line in (*scene.springs(), *scene.dampers()):
         parts[line.name] = _LINE
     parts |= {"energy": _ENERGY, "momentum": _MOMENTUM}
@@ -83,9 +84,9 @@ def table(scene: Scene) -> dict[str, Quantity]:
     }
 
 
-def nearest(word: str, words: object) -> str:
+def nearest(word: str, words: Iterable[str]) -> str:
     """A hint: `; did you mean 'crank.angle'?`, or what there is, or nothing."""
-    known = [str(w) for w in words]  # type: ignore[attr-defined]
+    known = list(words)
     close = get_close_matches(word, known, n=1, cutoff=0.6)
     if close:
         return f"; did you mean {close[0]!r}?"

@@ -3,7 +3,10 @@
 from collections.abc import Mapping
 from math import cos, sin
 
-from cases import part, scene, shape
+from cases import body as bodies
+from cases import force as forces
+from cases import joint as joints
+from cases import scene, shape
 from cases.case import Case, Deviation, Origin, Placement
 from cases.grammar import File, Near
 from cases.mistake import Source
@@ -78,51 +81,51 @@ def _gravity(gravity: str | None, incline: float | None) -> scene.Vector:
     return (STANDARD_GRAVITY * sin(incline), -STANDARD_GRAVITY * cos(incline))
 
 
-def _ground(point: tuple[float, float] | part.DrivenPoint) -> GroundPoint:
-    if isinstance(point, part.DrivenPoint):
+def _ground(point: tuple[float, float] | joints.DrivenPoint) -> GroundPoint:
+    if isinstance(point, joints.DrivenPoint):
         return GroundPoint(point.at, point.velocity)
     return GroundPoint(point)
 
 
-def _body(name: str, body: part.AnyBody) -> scene.Body:
+def _body(name: str, body: bodies.Body) -> scene.Body:
     match body:
-        case part.BarBody(bar=s, points=points):
+        case bodies.BarBody(bar=s, points=points):
             return shape.bar(name=name, mass=s.mass, length=s.length, points=points)
-        case part.DiskBody(disk=s, points=points):
+        case bodies.DiskBody(disk=s, points=points):
             return shape.disk(name=name, mass=s.mass, radius=s.radius, points=points)
-        case part.BlockBody(block=s, points=points):
+        case bodies.BlockBody(block=s, points=points):
             return shape.block(
                 name=name, mass=s.mass, width=s.width, height=s.height, points=points
             )
-        case part.ParticleBody(particle=s):
+        case bodies.ParticleBody(particle=s):
             return shape.particle(name=name, mass=s.mass)
-        case part.RigidBody(rigid=s, points=points):
+        case bodies.RigidBody(rigid=s, points=points):
             return shape.rigid(name=name, mass=s.mass, inertia=s.inertia, points=points)
 
 
-def _joint(name: str, joint: part.AnyJoint) -> scene.Joint:
+def _joint(name: str, joint: joints.Joint) -> scene.Joint:
     match joint:
-        case part.Pin(pin=(a, b)):
+        case joints.Pin(pin=(a, b)):
             return scene.Joint(name, "pin", anchor(a), anchor(b))
-        case part.Slide(slide=(a, b), along=along, angle=angle):
+        case joints.Slide(slide=(a, b), along=along, angle=angle):
             return scene.Joint(name, "slide", anchor(a), anchor(b), along, angle)
-        case part.Weld(weld=(a, b), angle=angle):
+        case joints.Weld(weld=(a, b), angle=angle):
             return scene.Joint(name, "weld", anchor(a), anchor(b), angle=angle)
 
 
-def _force(name: str, force: part.AnyForce) -> scene.Force:
+def _force(name: str, force: forces.Force) -> scene.Force:
     match force:
-        case part.Spring(spring=(a, b), stiffness=c, rest_length=length):
+        case forces.Spring(spring=(a, b), stiffness=c, rest_length=length):
             return scene.Spring(name, anchor(a), anchor(b), c, length)
-        case part.Damper(damper=(a, b), damping=d):
+        case forces.Damper(damper=(a, b), damping=d):
             return scene.Damper(name, anchor(a), anchor(b), d)
-        case part.Push(push=at):
+        case forces.Push(push=at):
             return scene.Push(name, anchor(at), _signal(force))
-        case part.Torque(torque=body):
+        case forces.Torque(torque=body):
             return scene.Torque(name, body, _signal(force))
 
 
-def _signal(force: part.Push | part.Torque) -> Signal:
+def _signal(force: forces.Push | forces.Torque) -> Signal:
     if force.sine is not None:
         sine = force.sine
         return Signal("sine", _components(sine.amplitude), sine.angular_frequency, sine.phase)
@@ -140,7 +143,7 @@ def _placements(places: Mapping[str, Near]) -> dict[str, Placement]:
     return {
         body: Placement(
             given={c: v for c in _COORDINATES if (v := getattr(place, c, None)) is not None},
-            points=dict(place.__pydantic_extra__),
+            points=dict(place.places),
         )
         for body, place in places.items()
     }

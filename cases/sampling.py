@@ -1,6 +1,7 @@
 """The sample interval is a whole multiple of 4 h, so that a ladder h, 2h, 4h meets every sample."""
 
 from collections.abc import Iterator
+from math import isfinite, isnan
 
 from cases.grammar import File
 from cases.parse import Finding
@@ -11,6 +12,8 @@ _SEARCHED = 10_000  # counts of samples tried on each side
 def sampling(file: File) -> Iterator[Finding]:
     """A mistake where some step does not divide the interval, with the nearest counts that do."""
     steps = tuple(file.step.values())
+    if any(isnan(number) for number in (file.duration, *steps)):
+        return  # a mistaken parameter, found elsewhere
     if _fits(file.duration, file.samples, steps):
         return
     below = range(file.samples - 1, max(2, file.samples - _SEARCHED), -1)
@@ -31,6 +34,6 @@ def sampling(file: File) -> Iterator[Finding]:
 def _fits(duration: float, samples: int, steps: tuple[float, ...]) -> bool:
     for h in steps:
         ratio = duration / (samples - 1) / (4 * h)
-        if round(ratio) < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:
+        if not isfinite(ratio) or round(ratio) < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:
             return False
     return True

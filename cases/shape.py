@@ -14,9 +14,7 @@ Points = Mapping[str, Vector]
 def bar(*, name: str, mass: float, length: float, points: Points) -> Body:
     """Slender bar along its own x from `start` to `end`: J = m l²/12 (Exercise 2.3)."""
     ends = {"start": (-length / 2, 0.0), "end": (length / 2, 0.0)}
-    return Body(
-        name, "bar", mass, mass * length**2 / 12, {CENTER: (0.0, 0.0), **ends, **points}
-    )
+    return Body(name, "bar", mass, mass * length**2 / 12, {CENTER: (0.0, 0.0), **ends, **points})
 
 
 def disk(*, name: str, mass: float, radius: float, points: Points) -> Body:

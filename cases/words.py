@@ -9,6 +9,8 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 from cases.number import shown
 from cases.quantity import nearest
 
+NO_VALUE = "has no value"
+
 _SHAPES = {
     "tuple_type": "a list",
     "dict_type": "a map of names",
@@ -26,7 +28,7 @@ def wrong(what: str) -> PydanticCustomError:
 
 def in_words(error: ValidationError, keys: Sequence[str]) -> ValidationError:
     """The same error of a model with these keys, in plain words."""
-    errors = [dict(e) for e in error.errors(include_url=False)]
+    errors: list[dict[str, Any]] = [dict(e) for e in error.errors(include_url=False)]
     misspelt = {hint for e in errors if (hint := _meant(e, keys))}
     details = [
         InitErrorDetails(type=wrong(what), loc=loc, input=e["input"])
@@ -51,12 +53,13 @@ def _meant(error: Mapping[str, Any], keys: Sequence[str]) -> str | None:
 
 
 def _said(error: Mapping[str, Any], keys: Sequence[str]) -> Iterator[tuple[Any, str]]:
-    loc, kind, value = error["loc"], error["type"], error["input"]
+    value: Any = error["input"]
+    loc, kind = error["loc"], error["type"]
     context = error.get("ctx", {})
-    if kind == "plain":
+    if value is None and kind != "missing":
+        yield loc, NO_VALUE
+    elif kind == "plain":
         yield loc, context["what"]
-    elif value is None and kind != "missing":
-        yield loc, "has no value"
     elif _unknown(error, keys):
         yield loc, f"unknown key {loc[0]!r}{nearest(loc[0], keys)}"
     elif kind == "choice":
@@ -66,7 +69,10 @@ def _said(error: Mapping[str, Any], keys: Sequence[str]) -> Iterator[tuple[Any, 
         if isinstance(last, str):
             yield loc, f"missing key {last!r}"
         else:
-            yield loc[:-1], f"should be a list of 2, has {len(value)}"  # every fixed list is a pair
+            yield (
+                loc[:-1],
+                f"should be a list of 2, has {len(value or ())}",
+            )  # every fixed list is a pair
     elif kind == "too_short":
         yield loc, "should not be empty"
     elif kind == "too_long":
