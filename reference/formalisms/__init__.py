@@ -1,0 +1,4 @@
+"""The chapter's formalisms, applied to the ingredients of any System.
+
+They never look at the explicit accelerations: what they answer is a second answer.
+"""

@@ -1,0 +1,46 @@
+"""A hand-written system shares no code with the answers it is compared with."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+import reference.systems
+
+SYSTEMS = sorted(
+    path for path in Path(next(iter(reference.systems.__path__))).glob("*.py")
+    if path.name != "__init__.py"
+)  # fmt: skip
+ALLOWED = {"numpy", "scipy.special", "math", "dataclasses", "typing", "reference.system"}
+
+
+def imported(source: str) -> set[str]:
+    """Modules named by the import statements anywhere in the source."""
+    names = set()
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        if isinstance(node, ast.ImportFrom):
+            names.add("." * node.level + (node.module or ""))
+    return names
+
+
+@pytest.mark.parametrize("path", SYSTEMS, ids=lambda path: path.stem)
+def test_system_imports_nothing_of_the_other_answers(path: Path):
+    assert imported(path.read_text(encoding="utf-8")) <= ALLOWED
+
+
+def test_every_system_is_seen():
+    assert {path.stem for path in SYSTEMS} >= {"bar_pendulum", "four_bar", "rolling_wheel"}
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "import cases", "from cases.shape import bar", "from reference.inertia import disk",
+        "from reference.formalisms import lagrange", "from reference import mechanism",
+        "from . import four_bar", "from .bar_pendulum import G", "def f():\n    import cases.scene",
+    ],
+)  # fmt: skip
+def test_forbidden_import_is_seen(line: str):
+    assert not imported(line) <= ALLOWED
