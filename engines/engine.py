@@ -1,6 +1,6 @@
 """What every engine adapter answers, with the same verbs. An adapter sees scenes, never cases."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
@@ -31,6 +31,8 @@ class Engine(Protocol):
     name: str
     setting: str
     version: str
+    comment: tuple[str, str]
+    """What opens and closes a line of comment in the engine's own files."""
     own_step: float | None
     """The step [s] a user gets who changes nothing; None: the case names the step."""
 
@@ -54,7 +56,7 @@ class Engine(Protocol):
         """Exponents of h in the error's expansion, as the setting declares them."""
         ...
 
-    def protocol(self, scene: Scene, realised: Realised) -> str:
+    def protocol(self, scene: Scene, start: State, step: float, realised: Realised) -> str:
         """What is done to start and readout, in a few words with sizes; empty if nothing."""
         ...
 
@@ -92,4 +94,10 @@ class Engine(Protocol):
         ladder's largest). reactions: the wanted `joint.fx|fy|force|torque` and
         `contact.normal|tangent`; others are not computed. Raises Diverged.
         """
+        ...
+
+    def prepare(
+        self, scene: Scene, start: State, step: float, *, realised: Realised
+    ) -> Callable[[int], None]:
+        """A function that takes n bare steps of the engine's own loop, for the benchmark."""
         ...

@@ -24,9 +24,11 @@ def balance(
     change = inertia_forces(system, t, q, v, a)
     applied, reacting = load_forces(system, t, q, v), reaction_columns(system, t, q, v)
     unknown = least_squares(reacting, change - applied)
-    terms = np.column_stack([change, applied, reacting * unknown])
+    # Loads one by one: a body at rest is one whose loads cancel, not one that has none.
+    loads = [abs(x) for load in system.loads(t, q, v) for x in (*load.force, load.moment)]
+    terms = max([abs(change).max(), abs(reacting * unknown).max(initial=0.0), *loads])
     unbalanced = change - applied - reacting @ unknown
-    return float(abs(unbalanced).max() / abs(terms).max()), named(system, t, q, unknown)
+    return float(abs(unbalanced).max() / terms), named(system, t, q, unknown)
 
 
 def accelerations(system: System, t: float, q: Array, v: Array) -> tuple[Array, dict[str, float]]:

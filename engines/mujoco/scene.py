@@ -1,0 +1,215 @@
+"""A scene as an MJCF file: the xy plane, gravity −y, hinges about +z, so no axes are mapped.
+
+Every body's frame sits in its centre of mass. Trees are native joints, loops close by `connect`,
+springs and dampers are tendons, pushes and torques are actuators at sites.
+"""
+
+import math
+from collections.abc import Iterable
+from xml.etree import ElementTree as ET
+
+from cases.scene import CENTER, GROUND, Anchor, Body, Damper, Push, Scene, Spring, Torque
+from engines.engine import Choice, State
+from engines.mujoco.tree import Branch, Tree, coordinates, driven, spanning_tree, turned
+
+HEAVY = 1e15  # kg of a driven point: 1 N changes its velocity by 1e-15 m/s in a second
+SPHERE = 1.0  # kg m² of a particle, which has no hinge: MuJoCo wants a number, nothing uses it
+
+
+def mjcf(scene: Scene, start: State, choices: Iterable[Choice]) -> str:
+    """The scene and its start as text that MuJoCo compiles; choices become attributes.
+
+    A choice's name says where it stands: `option.integrator`, `connect.solref`, `pair.solimp`.
+    """
+    numbers = {choice.name: choice.value for choice in choices}
+    tree = spanning_tree(scene)
+    root = ET.Element("mujoco", model="textmech")
+    option = ET.SubElement(root, "option", gravity=_text(*scene.gravity, 0), **_of(numbers, "option"))
+    ET.SubElement(option, "flag", autoreset="disable")  # a reset must not look like a motion
+    world = ET.SubElement(root, "worldbody")
+    _world(world, scene)
+    _bodies(world, scene, tree)
+    if scene.contacts:
+        _contacts(root, scene, _of(numbers, "pair"))
+    if tree.loops:
+        _loops(root, tree, _of(numbers, "connect"))
+    _forces(root, scene)
+    _start(root, scene, tree, start)
+    ET.indent(root)
+    return ET.tostring(root, encoding="unicode") + "\n"
+
+
+def _of(numbers: dict[str, object], group: str) -> dict[str, str]:
+    return {
+        name.partition(".")[2]: value if isinstance(value, str) else _text(value)
+        for name, value in numbers.items()
+        if name.startswith(f"{group}.")
+    }
+
+
+def _text(*values: object) -> str:
+    """Numbers so that they come back bit for bit; lists separated by blanks."""
+    flat = [x for value in values for x in (value if isinstance(value, list | tuple) else [value])]
+    return " ".join(repr(float(x)) if isinstance(x, float) else str(x) for x in flat)
+
+
+def _world(world: ET.Element, scene: Scene) -> None:
+    if scene.contacts:
+        ET.SubElement(
+            world, "geom", name="floor", type="plane", size="0 0 1", zaxis="0 1 0",
+            contype="0", conaffinity="0",
+        )  # fmt: skip
+    ET.SubElement(world, "site", name=GROUND, pos="0 0 0")
+    for name, point in scene.points.items():
+        if not point.driven:
+            ET.SubElement(world, "site", name=f"{GROUND}.{name}", pos=_text(*point.at, 0))
+            continue
+        # A point that nothing can hold back moves at its constant velocity in every RK4 stage;
+        # a mocap body would stand still during a step, which costs three orders.
+        body = ET.SubElement(world, "body", name=f"{GROUND}.{name}", gravcomp="1")
+        _inertial(body, HEAVY, SPHERE)
+        for axis in ("x", "y"):
+            _joint(body, f"{GROUND}.{name}.{axis}", "slide", axis=_AXES[axis])
+        ET.SubElement(body, "site", name=f"{GROUND}.{name}", pos="0 0 0")
+
+
+_AXES = {"x": "1 0 0", "y": "0 1 0", "angle": "0 0 1"}
+
+
+def _joint(body: ET.Element, name: str, kind: str, **attributes: str) -> None:
+    ET.SubElement(body, "joint", name=name, type=kind, **attributes)
+
+
+def _inertial(body: ET.Element, mass: float, inertia: float) -> None:
+    # Only the moment about z plays in the plane; three equal ones are always a possible body.
+    ET.SubElement(
+        body, "inertial", pos="0 0 0", mass=_text(mass), diaginertia=_text(*[inertia] * 3)
+    )
+
+
+def _bodies(world: ET.Element, scene: Scene, tree: Tree) -> None:
+    elements = {GROUND: world}
+    for element in world.iter("body"):
+        elements[element.attrib["name"]] = element
+    for branch in tree.branches:
+        body = scene.bodies[branch.body]
+        element = ET.SubElement(elements[branch.parent], "body", name=body.name)
+        elements[body.name] = element
+        _hang(element, scene, branch)
+        inertia = SPHERE if body.inertia is None else body.inertia
+        _inertial(element, body.mass, inertia)
+        for name, at in body.points.items():
+            ET.SubElement(element, "site", name=f"{body.name}.{name}", pos=_text(*at, 0))
+        if body.name in {contact.body for contact in scene.contacts.values()}:
+            assert body.radius is not None  # the loader lets only disks touch the floor
+            ET.SubElement(
+                element, "geom", name=body.name, type="sphere", size=_text(body.radius),
+                contype="0", conaffinity="0",
+            )  # fmt: skip
+
+
+def _hang(element: ET.Element, scene: Scene, branch: Branch) -> None:
+    """Place a body's frame on its parent, with the joint between them."""
+    body, joint = scene.bodies[branch.body], branch.joint
+    if joint is None:
+        for name in ("x", "y", *(["angle"] if body.turns else [])):
+            kind = "hinge" if name == "angle" else "slide"
+            _joint(element, f"{body.name}.{name}", kind, axis=_AXES[name])
+        return
+    outer, inner = branch.ends()
+    held = 0.0 if joint.kind == "pin" or not body.turns else joint.angle
+    held = held if branch.forward else -held
+    at, own = _local(scene, outer), turned(_local(scene, inner), held)
+    element.set("pos", _text(at[0] - own[0], at[1] - own[1], 0))
+    if held:
+        element.set("quat", _text(math.cos(held / 2), 0, 0, math.sin(held / 2)))
+    if joint.kind == "pin" and body.turns:
+        _joint(
+            element, joint.name, "hinge", axis=_AXES["angle"], pos=_text(*_local(scene, inner), 0)
+        )
+    elif joint.kind == "slide":
+        # MuJoCo's axis stands in the child; `along` stands in the joint's first part.
+        along = turned(joint.along, -held) if branch.forward else turned(joint.along, math.pi)
+        _joint(element, joint.name, "slide", axis=_text(*along, 0))
+
+
+def _local(scene: Scene, anchor: Anchor) -> tuple[float, float]:
+    if anchor.body == GROUND:
+        point = scene.points[anchor.point]
+        return (0.0, 0.0) if point.driven else point.at
+    return scene.bodies[anchor.body].points[anchor.point]
+
+
+def _contacts(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> None:
+    contacts = ET.SubElement(root, "contact")
+    for contact in scene.contacts.values():
+        # A pair takes one coefficient; two geoms would take the larger of theirs.
+        ET.SubElement(
+            contacts, "pair", name=contact.name, geom1="floor", geom2=contact.body, condim="3",
+            friction=_text(contact.friction, contact.friction, 0, 0, 0), **attributes,
+        )  # fmt: skip
+
+
+def _loops(root: ET.Element, tree: Tree, attributes: dict[str, str]) -> None:
+    equality = ET.SubElement(root, "equality")
+    for joint in tree.loops:
+        ET.SubElement(
+            equality, "connect", name=joint.name, site1=str(joint.a), site2=str(joint.b),
+            **attributes,
+        )  # fmt: skip
+
+
+def _forces(root: ET.Element, scene: Scene) -> None:
+    lines = [f for f in scene.forces.values() if isinstance(f, Spring | Damper)]
+    if lines:
+        tendons = ET.SubElement(root, "tendon")
+        for force in lines:
+            spatial = ET.SubElement(tendons, "spatial", name=force.name)
+            if isinstance(force, Spring):
+                spatial.set("stiffness", _text(force.stiffness))
+                spatial.set("springlength", _text(force.rest_length))
+            else:
+                spatial.set("damping", _text(force.damping))
+            for end in (force.a, force.b):
+                ET.SubElement(spatial, "site", site=str(end))
+    signals = list(scene.signals())
+    if signals:
+        actuators = ET.SubElement(root, "actuator")
+        for force in signals:
+            _actuator(actuators, force)
+
+
+def _actuator(actuators: ET.Element, force: Push | Torque) -> None:
+    """Control 1 makes a constant, the integral of 1 a ramp; a sine's control is a callback."""
+    element = ET.SubElement(actuators, "general", name=force.name)
+    amplitude = force.signal.amplitude
+    if isinstance(force, Push):
+        element.set("site", str(force.at))
+        element.set("refsite", GROUND)  # the force keeps the ground's axes
+        element.set("gear", _text(*amplitude, 0, 0, 0, 0))
+    else:
+        element.set("site", f"{force.body}.{CENTER}")
+        element.set("gear", _text(0, 0, 0, 0, 0, *amplitude))
+    if force.signal.law == "ramp":
+        element.set("dyntype", "integrator")
+
+
+def _start(root: ET.Element, scene: Scene, tree: Tree, start: State) -> None:
+    """The start as a keyframe, in the order in which MuJoCo numbers joints: depth first."""
+    pairs: dict[str, list[tuple[float, float]]] = {}
+    for name in driven(scene):
+        point = scene.points[name.partition(".")[2]]
+        pairs[name] = list(zip(point.at, point.velocity, strict=True))
+    for branch in tree.branches:
+        pairs[branch.body] = coordinates(scene, branch, start)
+    flat = [
+        pair
+        for element in root.iter("body")  # document order is depth first
+        for pair in pairs[element.attrib["name"]]
+    ]
+    signals = list(scene.signals())
+    key = ET.SubElement(ET.SubElement(root, "keyframe"), "key", name="start")
+    key.set("qpos", _text(*(position for position, _ in flat)))
+    key.set("qvel", _text(*(rate for _, rate in flat)))
+    if signals:
+        key.set("ctrl", _text(*(0 if f.signal.law == "sine" else 1 for f in signals)))

@@ -1,0 +1,141 @@
+"""A scene's joints as a spanning tree, the pins that close loops, and joint coordinates.
+
+Slides and welds go into the tree first, so that what closes a loop is a pin wherever it can be:
+MuJoCo has `connect` for a pin, and nothing for a slide.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from cases.scene import GROUND, Anchor, Joint, Scene, Vector
+from engines.engine import State
+
+
+@dataclass(frozen=True)
+class Branch:
+    """How a body hangs on its parent: by a joint, or freely on the ground (joint None)."""
+
+    body: str
+    parent: str  # a body, `ground`, or a driven point such as `ground.hook`
+    joint: Joint | None
+
+    @property
+    def forward(self) -> bool:
+        """Whether the body is the joint's second part."""
+        return self.joint is None or self.joint.b.body == self.body
+
+    def ends(self) -> tuple[Anchor, Anchor]:
+        """The joint's points on the parent and on the body."""
+        assert self.joint is not None
+        a, b = self.joint.a, self.joint.b
+        return (a, b) if self.forward else (b, a)
+
+
+@dataclass(frozen=True)
+class Tree:
+    """Branches from the ground outward, and the joints that close loops."""
+
+    branches: tuple[Branch, ...]
+    loops: tuple[Joint, ...]
+
+    def subtree(self, body: str) -> set[str]:
+        """The body and all that hangs on it."""
+        held = {body}
+        for branch in self.branches:
+            if branch.parent in held:
+                held.add(branch.body)
+        return held
+
+
+def node(scene: Scene, anchor: Anchor) -> str:
+    """The tree's node of an anchor: a body, `ground`, or the driven point itself."""
+    if anchor.body == GROUND and scene.points[anchor.point].driven:
+        return str(anchor)
+    return anchor.body
+
+
+def spanning_tree(scene: Scene) -> Tree:
+    """Kruskal's tree over the joints, locked ones first, each kind in the scene's order."""
+    group = {name: name for name in (GROUND, *driven(scene), *scene.bodies)}
+
+    def root(name: str) -> str:
+        while group[name] != name:
+            name = group[name]
+        return name
+
+    kept: list[Joint] = []
+    loops: list[Joint] = []
+    for joint in sorted(scene.joints.values(), key=lambda j: j.kind == "pin"):
+        ends = sorted((root(node(scene, joint.a)), root(node(scene, joint.b))), key=_is_body)
+        if ends[0] == ends[1] or not _is_body(ends[1]):  # both fixed: closes through the ground
+            loops.append(joint)
+        else:
+            group[ends[1]] = ends[0]
+            kept.append(joint)
+    return Tree(tuple(_outward(scene, kept)), tuple(loops))
+
+
+def driven(scene: Scene) -> Iterator[str]:
+    """Nodes of the driven points that something hangs on."""
+    return (f"{GROUND}.{name}" for name, point in scene.points.items() if point.driven)
+
+
+def _is_body(name: str) -> bool:
+    return not name.startswith(GROUND)
+
+
+def _outward(scene: Scene, joints: list[Joint]) -> Iterator[Branch]:
+    reached = {GROUND, *driven(scene)}
+    waiting = list(scene.bodies)
+    while waiting:
+        branch = next(
+            (
+                Branch(body, parent, joint)
+                for joint in joints
+                for parent, body in (
+                    (node(scene, joint.a), node(scene, joint.b)),
+                    (node(scene, joint.b), node(scene, joint.a)),
+                )
+                if parent in reached and body in waiting
+            ),
+            None,
+        ) or Branch(waiting[0], GROUND, None)
+        yield branch
+        reached.add(branch.body)
+        waiting.remove(branch.body)
+
+
+def turned(vector: Vector, angle: float) -> Vector:
+    """The vector turned by an angle [rad]."""
+    cos, sin = math.cos(angle), math.sin(angle)
+    return (cos * vector[0] - sin * vector[1], sin * vector[0] + cos * vector[1])
+
+
+def coordinates(scene: Scene, branch: Branch, start: State) -> list[tuple[float, float]]:
+    """(position, rate) of the branch's joint coordinates at the start, in MuJoCo's order."""
+    x, y, angle, vx, vy, omega = start[branch.body]
+    turns = scene.bodies[branch.body].turns
+    if branch.joint is None:
+        return [(x, vx), (y, vy), *([(angle, omega)] if turns else [])]
+    if branch.joint.kind == "weld":
+        return []
+    if branch.joint.kind == "pin":
+        if not turns:
+            return []
+        parent = start.get(branch.parent, (0.0,) * 6)
+        return [(angle - parent[2], omega - parent[5])]
+    first, second = (_point(scene, end, start) for end in (branch.joint.a, branch.joint.b))
+    base = 0.0 if branch.joint.a.body == GROUND else start[branch.joint.a.body][2]
+    u = turned(branch.joint.along, base)
+    d = [after - before for before, after in zip(first, second, strict=True)]
+    return [(d[0] * u[0] + d[1] * u[1], d[2] * u[0] + d[3] * u[1])]
+
+
+def _point(scene: Scene, anchor: Anchor, start: State) -> tuple[float, float, float, float]:
+    if anchor.body == GROUND:
+        ground = scene.points[anchor.point]
+        return (*ground.at, *ground.velocity)
+    x, y, angle, vx, vy, omega = start[anchor.body]
+    dx, dy = turned(scene.bodies[anchor.body].points[anchor.point], angle)
+    return (x + dx, y + dy, vx - omega * dy, vy + omega * dx)

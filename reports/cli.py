@@ -1,0 +1,168 @@
+"""The command `textmech`: run, check, list, show, bench."""
+
+import sys
+from pathlib import Path
+
+import click
+
+import reports
+from cases.mistake import CaseError
+
+FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
+
+
+def main() -> None:
+    """The entry point: checks that the packages are ours before anything else."""
+    here = Path(__file__).resolve().parent
+    if Path(str(reports.__file__)).resolve().parent != here:
+        sys.exit(f"textmech: {reports.__file__} shadows textmech's own package in {here}")
+    try:
+        sys.exit(command(standalone_mode=False))  # an exit code, or None
+    except click.ClickException as error:
+        error.show()
+        sys.exit(BAD_INPUT)
+    except (click.Abort, KeyboardInterrupt):
+        click.echo("\ninterrupted: nothing was written", err=True)
+        sys.exit(INTERRUPTED)
+    except CaseError as error:
+        click.echo(str(error), err=True)
+        count = len(error.mistakes)
+        click.echo(f"{count} mistake{'s' if count > 1 else ''}; nothing was written", err=True)
+        sys.exit(BAD_INPUT)
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(package_name="textmech")
+def command() -> None:
+    """Measures physics engines against textbook mechanics.
+
+    A CASE is the name of a shipped case (`textmech list`), one of its variants
+    (`rolling_wheel.pushed`), or the path of a YAML file anywhere.
+
+    \b
+      textmech run                            all cases: regenerates reports/*.csv
+      textmech run bar_pendulum               one case: prints its rows, writes nothing
+      textmech run --settings mine.yaml       your own engine options as a further column
+      textmech check my_case.yaml             all mistakes of a file, without running it
+      textmech show bar_pendulum --engine mujoco.tuned > pendulum.xml
+
+    Exit codes: 0 as expected, 1 a verdict FAILS, 2 bad input.
+    """
+
+
+@command.command()
+@click.argument("cases", nargs=-1, metavar="[CASES]...")
+@click.option(
+    "--engine", "names", multiple=True, metavar="E", help="mujoco, pymunk, or e.g. mujoco.tuned."
+)
+@click.option(
+    "--settings",
+    multiple=True,
+    metavar="shipped|tuned|FILE",
+    help="Only this setting; a FILE of your own engine options is a further column.",
+)
+@click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default.")
+@click.option(
+    "--out",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Where to write the CSV files. A full run writes the committed reports by default, "
+    "a partial one nothing.",
+)
+@click.option(
+    "--keep",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Write the trajectories too, one CSV a case, reference and engines side by side.",
+)
+def run(
+    cases: tuple[str, ...],
+    names: tuple[str, ...],
+    settings: tuple[str, ...],
+    jobs: int | None,
+    out: Path | None,
+    keep: Path | None,
+) -> None:
+    """Compare engines with the reference and report the differences."""
+    from reports import pool, suite, terminal, write
+    from reports.selection import choose_cases, choose_engines
+
+    chosen = choose_cases(cases)
+    with terminal.progress() as progress:
+        report = suite.measure(
+            chosen,
+            choose_engines(names, settings),
+            jobs=jobs or pool.workers(),
+            progress=progress,
+        )
+    frames = write.tables(report, chosen)
+    if out is None and not (cases or names or settings):
+        out = write.HERE
+    if out is not None:
+        write.write(frames, out)
+    if keep is not None:
+        write.keep(report, keep)
+    terminal.show(frames, detailed=bool(cases), written=out)
+    if report.fails:
+        raise click.exceptions.Exit(FAILED)
+
+
+@command.command()
+@click.argument("files", nargs=-1, required=True, metavar="FILE...")
+def check(files: tuple[str, ...]) -> None:
+    """All mistakes of case files, without running an engine."""
+    from reference.assembly import assemble
+    from reports.selection import choose_cases
+
+    mistakes = []
+    for file in files:
+        try:
+            chosen = choose_cases([file])
+            for case in chosen:
+                assemble(case)
+            click.echo(f"{file}: {len(chosen)} case{'s' if len(chosen) > 1 else ''}, no mistakes")
+        except CaseError as error:
+            mistakes += error.mistakes
+    if mistakes:
+        raise CaseError(mistakes)
+
+
+@command.command("list")
+def list_() -> None:
+    """The shipped cases, with their sources and titles."""
+    from reports.selection import choose_cases
+
+    cases = choose_cases([])
+    width = max(len(case.name) for case in cases)
+    for case in cases:
+        click.echo(f"{case.name:{width}}  {case.title}\n{'':{width}}    {case.origin}")
+
+
+@command.command()
+@click.argument("case")
+@click.option(
+    "--engine", "name", required=True, metavar="E", help="mujoco, pymunk, or e.g. mujoco.shipped."
+)
+def show(case: str, name: str) -> None:
+    """The scene as the engine's own file or script, with the settings and their reasons."""
+    from reports.selection import choose_cases, choose_engines
+    from reports.show import script
+
+    chosen = choose_cases([case])
+    if len(chosen) > 1:
+        names = ", ".join(c.name for c in chosen)
+        raise click.UsageError(f"{case} has variants; show one of: {names}")
+    full = name if "." in name else f"{name}.tuned"
+    (engine,) = choose_engines([full], [])
+    click.echo(script(chosen[0], engine), nl=False)
+
+
+@command.command()
+def bench() -> None:
+    """What the adapters cost: ratios to the engines' bare loops, and to scipy's integrator."""
+    from reports.bench import table
+
+    for line in table():
+        click.echo(line)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,98 @@
+"""What a ladder of steps h, 2h, 4h, … says: order, limit for h → 0, verdict, usable step.
+
+The order is that of neighbouring differences u(2h) − u(h), never of errors: a model's error would
+hide it. The limit is Romberg's, with the exponents that the engine's setting declares.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from cases.trajectory import Array
+from reports import metric
+
+EXACT = "exact"
+TEXTBOOK = "converges to the textbook"
+ANOTHER = "converges to another value"
+UNSETTLED = "not settled"
+
+TEXTBOOK_WITHIN = 3.0  # uncertainties between limit and reference
+ANOTHER_BEYOND = 4.0
+OF_ALLOW = 0.1  # an uncertainty above this part of `allow` decides nothing
+
+
+@dataclass(frozen=True)
+class Convergence:
+    """One quantity on one ladder. Without a settled ladder there is no order."""
+
+    verdict: str
+    order: float | None
+    order_low: float | None
+    order_high: float | None
+    limit: float | None  # largest |limit − reference|
+    uncertainty: float | None
+    usable_step: float | None  # the largest rung from which on the error stays within `allow`
+
+
+def study(
+    ladder: Mapping[float, Array],
+    reference: Array,
+    *,
+    exponents: Sequence[int],
+    allow: float,
+    duration: float,
+) -> Convergence:
+    """Judges samples (N,) by step; the steps double from the smallest on."""
+    steps = sorted(ladder)
+    errors = {h: metric.error(ladder[h], reference).largest for h in steps}
+    usable = _usable(errors, allow)
+    floor = metric.floor(reference, duration / steps[0])
+    if errors[steps[0]] <= floor:
+        return Convergence(EXACT, None, None, None, errors[steps[0]], floor, usable)
+    if len(steps) < len(exponents) + 1:
+        return Convergence(UNSETTLED, None, None, None, None, None, usable)
+    limit, uncertainty = _romberg([ladder[h] for h in steps], exponents)
+    uncertainty = max(uncertainty, floor)
+    off = float(np.max(np.abs(limit - reference)))
+    if off <= TEXTBOOK_WITHIN * uncertainty and uncertainty <= OF_ALLOW * allow:
+        verdict = TEXTBOOK
+    elif off > ANOTHER_BEYOND * uncertainty:
+        verdict = ANOTHER
+    else:
+        return Convergence(UNSETTLED, None, None, None, off, uncertainty, usable)
+    orders = _orders([ladder[h] for h in steps], floor)
+    low, high = (min(orders), max(orders)) if orders else (None, None)
+    order = orders[0] if orders else None
+    return Convergence(verdict, order, low, high, off, uncertainty, usable)
+
+
+def _usable(errors: Mapping[float, float], allow: float) -> float | None:
+    usable = None
+    for h in sorted(errors):
+        if not errors[h] <= allow:
+            break
+        usable = h
+    return usable
+
+
+def _orders(rungs: Sequence[Array], floor: float) -> list[float]:
+    """log₂ of the ratios of neighbouring differences, the last three, finest first."""
+    d = [float(np.max(np.abs(b - a))) for a, b in zip(rungs, rungs[1:], strict=False)]
+    pairs = zip(d, d[1:], strict=False)
+    return [math.log2(coarse / fine) for fine, coarse in pairs if fine > floor][:3]
+
+
+def _romberg(rungs: Sequence[Array], exponents: Sequence[int]) -> tuple[Array, float]:
+    """The limit (N,) for h → 0, and the last minus the last-but-one column."""
+    column = list(rungs[: len(exponents) + 1])
+    before = column[0]
+    for p in exponents:
+        before = column[0]
+        weight = 2.0**p
+        column = [
+            (weight * fine - coarse) / (weight - 1)
+            for fine, coarse in zip(column, column[1:], strict=False)
+        ]
+    return column[0], float(np.max(np.abs(column[0] - before)))

@@ -1,0 +1,65 @@
+"""The rows of the reports: what is said about one quantity of one case in one engine."""
+
+from dataclasses import dataclass
+
+AGREES, BEYOND, DEVIATES, FAILS = "agrees", "beyond", "deviates as declared", "FAILS"
+DIVERGED, CRASHED, CHANGED = "diverged", "crashed", "changed since"
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """A row of tolerance.csv. A quantity's row, or the engine's `audit`."""
+
+    case: str
+    source: str
+    engine: str
+    version: str
+    setting: str
+    realised: str
+    protocol: str
+    quantity: str
+    unit: str
+    step: float | None
+    largest: float | None
+    rms: float | None
+    final: float | None
+    allowed: float | None
+    ratio: float | None
+    verdict: str
+    because: str
+
+
+@dataclass(frozen=True)
+class Rungs:
+    """A row of convergence.csv: one quantity on one ladder of steps."""
+
+    case: str
+    engine: str
+    version: str
+    setting: str
+    realised: str
+    ladder: str
+    quantity: str
+    unit: str
+    steps: str
+    errors: str
+    order: float | None
+    order_low: float | None
+    order_high: float | None
+    limit: float | None
+    uncertainty: float | None
+    usable_step: float | None
+    verdict: str
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """A row of reference.csv: one check of one reference."""
+
+    case: str
+    source: str
+    system: str
+    check: str
+    difference: float
+    bound: float
+    verdict: str

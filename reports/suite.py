@@ -1,0 +1,130 @@
+"""The one path: cases → references → trials → rows."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from cases.case import Case
+from cases.mistake import CaseError
+from engines.engine import Engine
+from reference.coverage import executed
+from reference.solve import Solution, solve
+from reports import pool
+from reports.compare import Outcome, compare, crashed
+from reports.row import FAILS, Certificate, Comparison, Rungs
+from reports.trial import Trial
+
+Progress = Callable[[str, int, int], None]
+"""What is being done, how much is done, out of how much."""
+
+COVERED = 3  # samples: enough to run every function of a case once
+
+
+@dataclass
+class Report:
+    """The rows of all reports, and the samples behind them."""
+
+    comparisons: list[Comparison] = field(default_factory=list)
+    rungs: list[Rungs] = field(default_factory=list)
+    certificates: list[Certificate] = field(default_factory=list)
+    equations: dict[str, set[str]] = field(default_factory=dict)  # case → executed equations
+    trials: list[tuple[Trial, Outcome]] = field(default_factory=list)
+
+    @property
+    def fails(self) -> bool:
+        """Whether a verdict FAILS, in a row or in a certificate."""
+        return any(row.verdict == FAILS for row in (*self.comparisons, *self.certificates))
+
+
+def measure(
+    cases: Sequence[Case], engines: Sequence[Engine], *, jobs: int, progress: Progress
+) -> Report:
+    """Solves every case once and runs every trial once, on `jobs` processes.
+
+    Raises CaseError with the mistakes of all cases that cannot be started.
+    """
+    report = Report()
+    solutions = _solutions(cases, jobs, progress, report)
+    trials = [
+        Trial(case, solutions[case.name].trajectory, engine, realised)
+        for case in cases
+        for engine in engines
+        for realised in engine.realisations(case.scene)
+    ]
+    outcomes = dict(_watched(compare, trials, jobs, "engines", progress))
+    for index, trial in enumerate(trials):
+        outcome = outcomes[index]
+        if isinstance(outcome, pool.Died):
+            outcome = crashed(trial, outcome.because)
+        outcome = _counted(outcome, solutions[trial.case.name])
+        report.comparisons += outcome.rows
+        report.rungs += outcome.rungs
+        report.trials.append((trial, outcome))
+    return report
+
+
+def _solutions(
+    cases: Sequence[Case], jobs: int, progress: Progress, report: Report
+) -> Mapping[str, Solution]:
+    solutions: dict[str, Solution] = {}
+    mistakes = []
+    found = dict(_watched(_solved, cases, jobs, "references", progress))
+    for index, case in enumerate(cases):
+        answer = found[index]
+        if isinstance(answer, CaseError):
+            mistakes += answer.mistakes
+        elif isinstance(answer, pool.Died):
+            raise RuntimeError(f"{case.name}: {answer.because}")
+        else:
+            solution, report.equations[case.name] = answer
+            solutions[case.name] = solution
+            report.certificates += _certificates(case, solution)
+    if mistakes:
+        raise CaseError(mistakes)
+    return solutions
+
+
+def _watched(
+    function: Callable, tasks: Sequence, jobs: int, what: str, progress: Progress
+) -> Iterator[tuple[int, object]]:
+    progress(what, 0, len(tasks))
+    for done, result in enumerate(pool.run(function, tasks, jobs=jobs), start=1):
+        progress(what, done, len(tasks))
+        yield result
+
+
+def _solved(case: Case) -> tuple[Solution, set[str]] | CaseError:
+    try:
+        solution = solve(case)
+    except CaseError as error:
+        return error
+    short = replace(case, samples=COVERED, duration=(COVERED - 1) * case.interval)
+    return solution, executed(lambda: solve(short))
+
+
+def _certificates(case: Case, solution: Solution) -> list[Certificate]:
+    return [
+        Certificate(
+            case=case.name,
+            source=str(case.origin),
+            system=solution.system,
+            check=check.name,
+            difference=check.difference,
+            bound=check.bound,
+            verdict="holds" if check.holds else FAILS,
+        )
+        for check in solution.checks
+    ]
+
+
+def _counted(outcome: Outcome, solution: Solution) -> Outcome:
+    """Against a reference that is not certified nothing can be judged."""
+    if solution.holds:
+        return outcome
+    broken = next(check for check in solution.checks if not check.holds)
+    because = (
+        f"the reference is not certified: {broken.name} differs by {broken.difference:.2e}, "
+        f"its bound is {broken.bound:.2e}"
+    )
+    return replace(
+        outcome, rows=[replace(row, verdict=FAILS, because=because) for row in outcome.rows]
+    )

@@ -1,0 +1,48 @@
+"""A trial: one engine, in one realisation, against the reference motion of one case."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from cases.case import Case
+from cases.observe import observe
+from cases.quantity import Quantity, table
+from cases.trajectory import Array, Trajectory
+from engines.engine import Engine, Realised, State
+from reports.ladder import judged_step
+
+
+@dataclass(frozen=True)
+class Trial:
+    """What is compared; the names are those of the engine and of the case."""
+
+    case: Case
+    reference: Trajectory
+    engine: Engine
+    realised: Realised
+
+    def wanted(self, quantity: str) -> Array:
+        """The reference's samples (N,)."""
+        return observe(self.case.scene, self.reference, quantity)
+
+    def quantity(self, name: str) -> Quantity:
+        """The quantity's unit and kind; the audit has none."""
+        return table(self.case.scene).get(name) or Quantity(name, "", "", "", "residual")
+
+    @cached_property
+    def step(self) -> float:
+        """The step at which the trial is judged."""
+        return judged_step(self.case, self.engine)
+
+    @cached_property
+    def protocol(self) -> str:
+        """What was done to start and readout, and a shortened step where there is one."""
+        base = self.engine.protocol(self.case.scene, self.start, self.step, self.realised)
+        own = self.engine.own_step
+        short = own is not None and abs(self.step - own) > 1e-9 * own
+        note = f"own step {own:g} s shortened to divide the interval" if short else ""
+        return "; ".join(part for part in (base, note) if part)
+
+    @property
+    def start(self) -> State:
+        """Row 0 of the reference: where every engine starts."""
+        return {name: tuple(rows[0].tolist()) for name, rows in self.reference.states.items()}  # type: ignore[misc]
