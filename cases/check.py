@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from cases.links import links
+from cases.links import links, twice
 from cases.number import Amount, NumberMistake, fitting
 from cases.parse import Finding, Parsed
 from cases.quantity import Quantity, nearest, table
@@ -20,7 +20,8 @@ def check(
 ) -> Iterator[Finding]:
     """Every mistake between the sound parts; `data` is the whole file as it was written."""
     yield from links(parsed, scene)
-    yield from _bounds(parsed, table(scene))
+    if not any(twice(scene)):
+        yield from _bounds(parsed, table(scene))
     if not parsed.lacks("duration") and not parsed.lacks("samples") and not parsed.lacks("step"):
         yield from sampling(parsed.file)
     yield from _parameters(parsed, data, systems)

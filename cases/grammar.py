@@ -91,7 +91,9 @@ FIXED = ("title", "source", "variants")  # what a variant cannot change
 
 def _overlay_schema(schema: dict[str, Any]) -> None:
     keys = [key for key in File.model_fields if key not in FIXED]
-    schema["additionalProperties"] = {"type": "object", "propertyNames": {"enum": keys}}
+    for pattern in schema["patternProperties"]:
+        overlay = {"type": "object", "propertyNames": {"enum": keys}}
+        schema["patternProperties"][pattern] = overlay
 
 
 class File(Part):

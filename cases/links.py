@@ -20,7 +20,8 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         yield ("scene", "incline"), "cannot stand beside `gravity: none`"
     if not spec.bodies and not parsed.lacks("scene"):
         yield ("scene", "bodies"), "should not be empty"
-    yield from _names(scene)
+    for name, section, before in twice(scene):
+        yield ("scene", section, name), f"{name!r} already names one of the {before}"
     yield from _points(parsed)
     for name, joint in scene.joints.items():
         yield from _line(parsed, scene, ("scene", "joints", name, joint.kind), joint.a, joint.b)
@@ -32,12 +33,13 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         yield from _placed(parsed, scene, key, getattr(parsed.file, key))
 
 
-def _names(scene: Scene) -> Iterator[Finding]:
+def twice(scene: Scene) -> Iterator[tuple[str, str, str]]:
+    """Names given twice: the name, the section that gives it again, the section before."""
     first: dict[str, str] = {}
     for section in NAMED:
         for name in getattr(scene, section):
             if name in first:
-                yield ("scene", section, name), f"{name!r} already names one of the {first[name]}"
+                yield name, section, first[name]
             first.setdefault(name, section)
 
 

@@ -21,6 +21,11 @@ class _Plain(GenerateJsonSchema):
     def default_schema(self, schema: core_schema.WithDefaultSchema) -> dict[str, Any]:
         return self.generate_inner(schema["schema"])
 
+    def dict_schema(self, schema: core_schema.DictSchema) -> dict[str, Any]:
+        """Names that do not fit the pattern are mistakes."""
+        made = super().dict_schema(schema)
+        return made | {"additionalProperties": False} if "patternProperties" in made else made
+
     def generate(self, schema: Any, mode: JsonSchemaMode = "validation") -> dict[str, Any]:
         return _without_titles(super().generate(schema, mode))
 

@@ -133,9 +133,6 @@ class Tree:
     def key(self, event: Any, events: Iterator[Any], path: Path) -> str:
         if isinstance(event, ScalarEvent):
             self.refuse_references(event, path)
-            if event.style is None and not isinstance(scalar(event.value), str):
-                what = f"the key {event.value!r} should be a word"
-                self.mistakes.append(self.at(event.start_mark, path, what))
             return event.value
         self.node(event, events, (*path, "?"))
         self.fatal.append(self.at(event.start_mark, path, "a key should be a word"))

@@ -1,0 +1,145 @@
+"""The shipped case files, and what becomes of the words of the language."""
+
+from dataclasses import fields
+from math import cos, pi, radians, sin
+from pathlib import Path
+
+import pytest
+
+from cases.case import Case, Deviation
+from cases.find import find, shipped
+from cases.load import load
+from cases.number import Names, amount, number
+from cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Joint, Push, Signal, Torque
+from reference.systems import SYSTEMS
+
+PARAMETERS = {
+    name: tuple(f.name for f in fields(system))  # type: ignore[arg-type]
+    for name, system in SYSTEMS.items()
+}
+
+
+def cases_of(name: str) -> list[Case]:
+    return load(*find([name]), systems=PARAMETERS)
+
+
+@pytest.mark.parametrize("name", shipped())
+def test_shipped(name: str) -> None:
+    for case in cases_of(name):
+        assert case.name.split(".")[0] == name
+        assert case.origin.equations
+        assert case.times[-1] == pytest.approx(case.duration, rel=1e-15)
+
+
+def test_four_bar() -> None:
+    (case,) = cases_of("four_bar")
+    assert case.name == "four_bar"
+    assert case.system == "four_bar"
+    assert case.parameters["crank0"] == radians(70)
+    assert str(case.origin) == "figure 2.3, (2.14), (2.60)"
+    scene = case.scene
+    assert list(scene.bodies) == ["crank", "coupler", "rocker"]
+    assert scene.gravity == (0.0, -STANDARD_GRAVITY)
+    assert scene.points == {"O": GroundPoint((0.0, 0.0)), "Q": GroundPoint((0.9, 0.0))}
+    assert scene.bodies["coupler"].points["end"] == (0.4, 0.0)
+    assert scene.joints["C"] == Joint("C", "pin", Anchor("coupler", "end"), Anchor("rocker", "end"))
+    assert case.initial["crank"].given == {"angle": radians(70)}
+    assert case.near["rocker"].given == {"angle": pytest.approx(radians(96), rel=1e-15)}
+    assert case.reach == {"mujoco": {"crank.angle": 1e-6}, "pymunk": {"crank.angle": 4e-5}}
+
+
+def test_variants() -> None:
+    pushed, downhill = cases_of("rolling_wheel")
+    assert (pushed.name, downhill.name) == ("rolling_wheel.pushed", "rolling_wheel.downhill")
+    assert (pushed.parameters["F"], downhill.parameters["F"]) == (2.5, 0.0)
+    assert pushed.scene.forces["hand"] == Push(
+        "hand", Anchor("wheel", "center"), Signal("constant", (2.5, 0.0))
+    )
+    assert downhill.scene.gravity == pytest.approx(
+        (STANDARD_GRAVITY * sin(pi / 9), -STANDARD_GRAVITY * cos(pi / 9)), rel=1e-15
+    )
+    assert downhill.initial["wheel"].given["omega"] == -1.6
+    assert downhill.scene.contacts["touch"].friction == 0.5
+    assert downhill.mistake(("parameters", "beta"), "steep").line == 33
+    assert downhill.mistake(("parameters", "m"), "heavy").line == 4
+
+
+def test_forces() -> None:
+    (crank,) = cases_of("slider_crank")
+    assert crank.system is None
+    assert crank.scene.forces["motor"] == Torque(
+        "motor", "crank", Signal("sine", (1.5,), 5.0, pi / 2)
+    )
+    (towed,) = cases_of("towed_pendulum")
+    assert towed.scene.points["hook"] == GroundPoint((0.4, 0.0), (0.3, 0.0))
+    assert towed.scene.forces["wind"] == Push(
+        "wind", Anchor("bob", "end"), Signal("ramp", (1.5, 0.0))
+    )
+
+
+EVERYTHING = """\
+title: Every word that no shipped case uses
+scene:
+  gravity: none
+  bodies:
+    plate: {rigid: {mass: 2.0, inertia: 0.5}, points: {P: [-0.1, 0.2]}}
+    box: {block: {mass: 300 g, width: 10 cm, height: 0.2}}
+  joints:
+    fast: {weld: [plate.P, box.center], angle: 0.5 turn}
+initial: {plate: {P: [1.0, 2], omega: 60 rpm}}
+duration: 1.0
+samples: 3
+step: {mujoco: 1.0e-3}
+allow: {plate.angle: 1 deg, fast.torque: unknown, box.x: 1.0e-3}
+deviates:
+  pymunk.tuned:
+    plate.angle: {limit: 2 deg, because: soft}
+    box.x: {by: [2 mm, 4 mm], because: softer}
+rests: true
+"""
+
+
+def test_other_words(tmp_path: Path) -> None:
+    path = tmp_path / "own.yaml"
+    path.write_text(EVERYTHING)
+    (case,) = load(path)
+    assert case.scene.gravity == (0.0, 0.0)
+    assert case.scene.bodies["plate"].inertia == 0.5
+    assert case.scene.bodies["box"].mass == pytest.approx(0.3, rel=1e-15)
+    assert case.scene.joints["fast"].angle == pytest.approx(pi, rel=1e-15)
+    assert case.initial["plate"].points == {"P": (1.0, 2.0)}
+    assert case.initial["plate"].given == {"omega": pytest.approx(2 * pi, rel=1e-15)}
+    assert case.allow == {"plate.angle": radians(1), "fast.torque": None, "box.x": 1e-3}
+    assert case.deviates["pymunk.tuned"] == {
+        "plate.angle": Deviation("soft", limit=pytest.approx(radians(2), rel=1e-15)),
+        "box.x": Deviation("softer", by=(0.002, 0.004)),
+    }
+    assert case.rests
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "value"),
+    [
+        ("30 deg", "rad", pi / 6),
+        ("-30 deg", "rad", -pi / 6),
+        ("30°", "rad", pi / 6),
+        ("20 rpm", "rad/s", 2 * pi / 3),
+        ("1.5 turn/s", "rad/s", 3 * pi),
+        ("80 cm", "m", 0.8),
+        ("36 km/h", "m/s", 10.0),
+        ("1.2 kN/m", "N/m", 1200.0),
+        ("3 N s/m", "N s/m", 3.0),
+        ("3 N*s/m", "N s/m", 3.0),
+        ("2 kg m^2", "kg m²", 2.0),
+        ("2 kg·m²", "kg m²", 2.0),
+        ("1e-3 J", "N m", 1e-3),
+        ("250 ms", "s", 0.25),
+        (3, "kg", 3.0),
+        ("l", "m", 0.8),
+        ("-l", "m", -0.8),
+    ],
+)
+def test_number(text: object, unit: str, value: float) -> None:
+    found = number(text, unit, Names({"l": amount("80 cm")}))
+    assert found is not None
+    assert found.value == pytest.approx(value, rel=1e-15)

@@ -1,0 +1,192 @@
+"""Every mistake a case file can have: its place, its field, and what is said about it."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from cases.find import find
+from cases.load import load
+from cases.mistake import CaseError
+
+SYSTEMS = {"pendulum": ("m", "l", "phi0"), "wheel": ("R",)}
+
+SOUND = """\
+title: A bar and a wheel
+source: {exercise: "2.3", equations: ["2.34"]}
+system: pendulum
+parameters: {m: 1.2, l: 0.8 m, phi0: 30 deg}
+drops_out: [m]
+scene:
+  points: {O: [0, 0]}
+  bodies:
+    bar: {bar: {mass: m, length: l}, points: {P: [0.1, 0]}}
+    wheel: {disk: {mass: 2.0, radius: 0.25}}
+    ball: {particle: {mass: 0.5}}
+  joints:
+    hinge: {pin: [ground.O, bar.start]}
+    guide: {slide: [ground.O, ball.center], along: [0, 2]}
+  contacts:
+    touch: {between: [wheel, ground.floor], friction: 0.5, ideal: rolling}
+  forces:
+    coil: {spring: [bar.end, wheel.center], stiffness: 40.0, rest_length: 0.2}
+    oil: {damper: [bar.end, wheel.center], damping: 0.1}
+    hand: {push: wheel.center, constant: [1.0, 0]}
+    motor: {torque: bar, sine: {amplitude: 1.0, angular_frequency: 20 rpm}}
+initial: {bar: {angle: phi0}, wheel: {x: 1.0}}
+near: {ball: {y: 0.1}}
+duration: 1.0
+samples: 26
+step: {mujoco: 1.0e-3, pymunk: 1.0e-4}
+allow: {bar.angle: 1.0e-2, bar.P.x: 1.0e-3, touch.slip: unknown}
+reach:
+  mujoco: {bar.angle: 1.0e-6}
+deviates:
+  pymunk.shipped: {bar.P.x: {limit: 2.0e-3, because: soft}}
+"""
+
+EACH = re.findall(
+    r"^- (.*)\n\+ (.*)\n(\d+:\d+): ([^:]*): (.*)$",
+    Path(__file__).with_name("mistakes.txt").read_text(encoding="utf-8"),
+    flags=re.MULTILINE,
+)
+
+
+def mistakes(tmp_path: Path, text: str | bytes) -> CaseError:
+    path = tmp_path / "case.yaml"
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    with pytest.raises(CaseError) as caught:
+        load(path, systems=SYSTEMS)
+    return caught.value
+
+
+def test_sound(tmp_path: Path) -> None:
+    path = tmp_path / "case.yaml"
+    path.write_text(SOUND)
+    assert [case.name for case in load(path, systems=SYSTEMS)] == ["case"]
+
+
+def test_table_is_read_whole() -> None:
+    table = Path(__file__).with_name("mistakes.txt").read_text(encoding="utf-8")
+    assert len(EACH) == table.count("\n- ") > 80
+
+
+@pytest.mark.parametrize(("old", "new", "place", "field", "what"), EACH)
+def test_each(tmp_path: Path, old: str, new: str, place: str, field: str, what: str) -> None:
+    old, new = old.replace(r"\n", "\n"), new.replace(r"\n", "\n")
+    assert SOUND.count(old) == 1
+    error = mistakes(tmp_path, SOUND.replace(old, new))
+    assert [(f"{m.line}:{m.column}", m.where, m.what) for m in error.mistakes] == [
+        (place, field, what)
+    ]
+
+
+def test_all_at_once(tmp_path: Path) -> None:
+    """A broken part hides no other, and drags nothing along: bar's own quantities are not named."""
+    text = SOUND.replace("bar: {bar: {mass: m", "bar: {bar: {mass: 0 kg")
+    text = text.replace("touch.slip: unknown", "touch.slp: unknown")
+    text = text.replace("[1.0, 0]", "[1.0]")
+    text = text.replace("slide: [ground.O, ball.center]", "slide: [ground.O, boll.center]")
+    text = text.replace("samples: 26", "samples: 27").replace("mujoco: 1.0e-3", "mujoco: 1 ms")
+    found = [(m.where, m.what) for m in mistakes(tmp_path, text).mistakes]
+    assert [where for where, _ in found] == [
+        "scene.bodies.bar.bar.mass",
+        "scene.joints.guide.slide.1",
+        "scene.forces.hand.constant",
+        "samples",
+        "allow.touch.slp",
+    ]
+
+
+def test_message_shows_the_line(tmp_path: Path) -> None:
+    error = mistakes(tmp_path, SOUND.replace("duration: 1.0", "duration: 0.8 m"))
+    assert str(error) == (
+        f"{tmp_path / 'case.yaml'}:24:1: duration: is '0.8 m', but s was expected\n"
+        "    duration: 0.8 m\n"
+        "    ^"
+    )
+
+
+def test_a_mistaken_parameter_is_named_once(tmp_path: Path) -> None:
+    error = mistakes(tmp_path, SOUND.replace("l: 0.8 m", "l: 0.8 mm m m q"))
+    assert [m.where for m in error.mistakes] == ["parameters.l"]
+
+
+VARIANTS = """variants:
+  heavy: {parameters: {m: 2.0}}
+  long: {parameters: {l: -1}, duration: 0}
+"""
+
+
+def test_variants(tmp_path: Path) -> None:
+    """An overlay's mistake is on its line; what it spoils elsewhere names it; the rest is once."""
+    text = SOUND.replace("radius: 0.25", "radius: 0")
+    found = mistakes(tmp_path, text + VARIANTS).mistakes
+    assert [(m.line, m.where, m.what) for m in found] == [
+        (9, "scene.bodies.bar.bar.length", "must be positive, is -1 (l) (variant 'long')"),
+        (10, "scene.bodies.wheel.disk.radius", "must be positive, is 0"),
+        (34, "duration", "must be positive, is 0 (variant 'long')"),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("variants", "field", "what"),
+    [
+        ("{a: {title: b}}", "variants.a.title", "unknown key 'title' in a variant"),
+        ("{a: 3}", "variants.a", "should be a map of keys, is the number 3"),
+        ("{a b: {}}", "variants.a b", "'a b' is not a name"),
+        ("[a]", "variants", "should be a map of names, is a list"),
+    ],
+)
+def test_no_variant(tmp_path: Path, variants: str, field: str, what: str) -> None:
+    (found,) = mistakes(tmp_path, f"{SOUND}variants: {variants}\n").mistakes
+    assert (found.line, found.where) == (32, field)
+    assert found.what.startswith(what)
+
+
+BILLION = "a: &a [1, 1]\nb: &b [*a, *a]\nc: &c [*b, *b]\nd: [*c, *c]\n"
+
+
+@pytest.mark.parametrize(
+    ("content", "what"),
+    [
+        (b"", "is empty"),
+        (b"# nothing\n", "is empty"),
+        (b"just text", "should be a map of keys"),
+        (b"- 1\n- 2\n", "should be a map of keys"),
+        (b"title: [1\n", "not YAML: "),
+        (b"title: '\n", "not YAML: "),
+        (b'title: "\\U99999999"\n', "not YAML: "),
+        (b"a: \x01\n", "not YAML: "),
+        (b"title: \xff\xfe\n", "is not UTF-8 text: line 1 has the byte 0xff"),
+        (b"title: x\n---\ntitle: y\n", "a second document"),
+        (b"title: " + b"x" * 1_000_000, "is larger than 200 kB"),
+        (b"x: " + b"[" * 10_000, "is nested deeper than 20 levels"),
+        (b"x: &x [*x]\n", "anchor '&x'"),
+        (b"a: 1\n<<: *a\n", "alias '*a'"),
+        (BILLION.encode(), "anchor '&a'"),
+        (b"!!python/object:os.system {a: b}\n", "tag 'tag:yaml.org,2002:python/object:os.system'"),
+        (b"? [a, b]\n: 1\n", "a key should be a word"),
+    ],
+)
+def test_no_case_at_all(tmp_path: Path, content: bytes, what: str) -> None:
+    assert mistakes(tmp_path, content).mistakes[0].what.startswith(what)
+
+
+def test_no_file(tmp_path: Path) -> None:
+    with pytest.raises(CaseError, match="is a directory; a case is one YAML file"):
+        load(tmp_path)
+    with pytest.raises(CaseError, match=r"nowhere\.yaml: no such file"):
+        load(tmp_path / "nowhere.yaml")
+
+
+def test_find(tmp_path: Path) -> None:
+    own = tmp_path / "own.yaml"
+    own.write_text(SOUND)
+    assert [path.name for path in find(["four_bar", str(own)])] == ["four_bar.yaml", "own.yaml"]
+    with pytest.raises(CaseError) as caught:
+        find(["four_bra", str(tmp_path), str(tmp_path / "for_bar.yaml")])
+    said = {m.file: m.what for m in caught.value.mistakes}
+    assert said["four_bra"] == "no such case; did you mean 'four_bar'?"
+    assert said[str(tmp_path)] == "is a directory; a case is one YAML file"
+    assert said[str(tmp_path / "for_bar.yaml")] == "no such file; did you mean 'four_bar'?"

@@ -1,0 +1,17 @@
+"""The JSON Schema that editors use is the grammar's."""
+
+import json
+
+from cases.grammar import File
+from cases.schema import SCHEMA, text
+
+
+def test_current() -> None:
+    assert SCHEMA.read_text(encoding="utf-8") == text(), "run `python -m cases.schema`"
+
+
+def test_says_every_key() -> None:
+    schema = json.loads(text())
+    assert set(schema["properties"]) == set(File.model_fields)
+    assert "null" not in text()
+    assert schema["additionalProperties"] is False

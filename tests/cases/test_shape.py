@@ -1,0 +1,61 @@
+"""Inertias and points of the shapes against sums over small pieces of the shape."""
+
+import numpy as np
+import pytest
+
+from cases import shape
+from cases.scene import Body
+from cases.trajectory import Array
+
+N = 2000  # pieces a side: a sum at midpoints is then off by 1/N² of itself or less
+
+
+def midpoints(length: float) -> Array:
+    return ((np.arange(N) + 0.5) / N - 0.5) * length
+
+
+def inertia(mass: float, x: Array, y: Array, weight: Array) -> float:
+    """Σ (x² + y²) dm about the centre of mass, which is checked to be the origin."""
+    dm = mass * weight / weight.sum()
+    assert abs((dm * x).sum()) < 1e-12
+    assert abs((dm * y).sum()) < 1e-12
+    return float((dm * (x**2 + y**2)).sum())
+
+
+def test_bar() -> None:
+    body = shape.bar(name="b", mass=1.2, length=0.8, points={"P": (0.1, 0.2)})
+    x = midpoints(0.8)
+    assert body.inertia == pytest.approx(inertia(1.2, x, 0 * x, np.ones(N)), rel=1e-6)
+    assert body.points == {
+        "center": (0.0, 0.0),
+        "start": (-0.4, 0.0),
+        "end": (0.4, 0.0),
+        "P": (0.1, 0.2),
+    }
+
+
+def test_disk() -> None:
+    body = shape.disk(name="d", mass=1.3, radius=0.25, points={})
+    x, y = np.meshgrid(midpoints(0.5), midpoints(0.5))
+    inside = (x**2 + y**2 < 0.25**2).astype(float)
+    assert body.inertia == pytest.approx(inertia(1.3, x, y, inside), rel=1e-4)  # a jagged rim
+    assert body.radius == 0.25
+
+
+def test_block() -> None:
+    body = shape.block(name="b", mass=2.0, width=0.3, height=0.1, points={})
+    x, y = np.meshgrid(midpoints(0.3), midpoints(0.1))
+    assert body.inertia == pytest.approx(inertia(2.0, x, y, np.ones_like(x)), rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("body", "turns"),
+    [
+        (shape.particle(name="p", mass=1.0), False),
+        (shape.rigid(name="r", mass=1.0, inertia=0.2, points={}), True),
+    ],
+)
+def test_given(body: Body, turns: bool) -> None:
+    assert body.turns == turns
+    assert body.points == {"center": (0.0, 0.0)}
+    assert body.inertia == (0.2 if turns else None)
