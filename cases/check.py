@@ -10,6 +10,8 @@ from cases.quantity import Quantity, nearest, table
 from cases.sampling import sampling
 from cases.scene import Scene
 
+_NO_USE = ("title", "source", "parameters", "drops_out")  # where a name is not a use of it
+
 
 def check(
     parsed: Parsed,
@@ -87,7 +89,7 @@ def _parameters(
         if name not in given:
             yield ("drops_out", i), f"unknown parameter {name!r}{nearest(name, given)}"
     if file.system is None:
-        used = _words({k: v for k, v in data.items() if k not in ("parameters", "drops_out")})
+        used = _words({k: v for k, v in data.items() if k not in _NO_USE})
         for name in file.parameters:
             if name not in used and f"-{name}" not in used:
                 yield ("parameters", name), "no one uses this parameter"

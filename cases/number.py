@@ -91,8 +91,9 @@ def amount(value: object) -> Amount:
         if not math.isfinite(value):
             raise NumberMistake(f"must be finite, is {value}")
         return Amount(float(value))
-    if isinstance(value, str) and (match := _QUANTITY.fullmatch(value[:60])):  # bounds the search
-        return _measured(float(match[1]), match[2], value)
+    short = isinstance(value, str) and len(value) <= 60  # so that no search is long
+    if short and (match := _QUANTITY.fullmatch(str(value))):
+        return _measured(float(match[1]), match[2], str(value))
     if isinstance(value, str) and re.fullmatch(_LITERAL, value):
         raise NumberMistake(f"should be a number, is {shown(value)}; remove the quotes")
     raise NumberMistake(f"should be a number, is {shown(value)}")

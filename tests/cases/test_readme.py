@@ -1,0 +1,57 @@
+"""cases/README.md says what the grammar and the table of quantities say."""
+
+import re
+from pathlib import Path
+
+from cases import grammar, shape
+from cases.body import Body
+from cases.force import Force
+from cases.grammar import File, Scene
+from cases.joint import Joint
+from cases.load import load
+from cases.number import amount
+from cases.quantity import table
+from cases.scene import Anchor, Contact, Spring
+from cases.scene import Joint as Connection
+from cases.scene import Scene as Resolved
+
+README = Path(grammar.__file__).with_name("README.md").read_text(encoding="utf-8")
+
+
+def test_example_loads(tmp_path: Path) -> None:
+    path = tmp_path / "example.yaml"
+    path.write_text(re.findall(r"```yaml\n(.*?)```", README, flags=re.DOTALL)[0])
+    assert [case.name for case in load(path)] == ["example.stiff", "example.soft"]
+
+
+def test_every_key_is_explained() -> None:
+    code = re.findall(r"```yaml\n(.*?)```|`([^`]+)`", README, flags=re.DOTALL)
+    said = set(re.findall(r"[a-z_]+", " ".join(block + word for block, word in code)))
+    models = [File, Scene, grammar.Source, grammar.Deviation, grammar.Initial]
+    for union in (Body, Joint, Force):
+        models += [model.__origin__ for model in union.__origin__.__args__]  # type: ignore[attr-defined]
+    for model in models:
+        assert set(model.model_fields) <= said, model
+
+
+def test_quantities() -> None:
+    a, b = Anchor("ground", "O"), Anchor("body", "point")
+    scene = Resolved(
+        gravity=(0.0, 0.0),
+        points={},
+        bodies={"body": shape.disk(name="body", mass=1, radius=1, points={"point": (0, 0)})},
+        joints={"joint": Connection("joint", "weld", a, b)},
+        contacts={"contact": Contact("contact", "body", 1.0, "rolling")},
+        forces={"line": Spring("line", a, b, 1.0, 1.0)},
+    )
+    rows = re.findall(r"^\| (`[a-z]+\..*?) \| (.*?) \|", README, flags=re.MULTILINE)
+    said = {name: unit for names, unit in rows for name in re.findall(r"`(.*?)`", names)}
+    known = {name: q.unit for name, q in table(scene).items() if ".center." not in name}
+    assert said == known
+
+
+def test_units() -> None:
+    sentence = re.search(r"Units: (.*?), with the prefixes n to G", README, flags=re.DOTALL)
+    assert sentence is not None
+    for unit in re.findall(r"[\w°]+", sentence[1]):
+        assert amount(f"1 {unit}").dimension is not None
