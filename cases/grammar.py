@@ -14,7 +14,7 @@ from cases.text import Place, Text, Word, equation, label
 from cases.words import wrong
 
 ENGINES = ("mujoco", "pymunk")
-WAYS = (*ENGINES, *(f"{engine}.law" for engine in ENGINES))
+WAYS = tuple(f"{engine}{way}" for engine in ENGINES for way in ("", ".law", ".limit"))
 SETTINGS = tuple(f"{engine}.{setting}" for engine in ENGINES for setting in ("shipped", "tuned"))
 
 BookPlace = Annotated[str, Place()]

@@ -1,0 +1,29 @@
+# Two commands do everything: `make reports` and `make test`. Both set up `.venv` themselves.
+VENV := .venv
+PYTHON ?= python3
+READY := $(VENV)/.ready
+
+.PHONY: reports test lint bench clean
+
+reports: $(READY)
+	$(VENV)/bin/textmech run
+
+test: $(READY)
+	$(VENV)/bin/pytest
+
+lint: $(READY)
+	$(VENV)/bin/ruff check .
+	$(VENV)/bin/ruff format --check .
+	$(VENV)/bin/pyright
+
+bench: $(READY)
+	$(VENV)/bin/textmech bench
+
+clean:
+	rm -rf $(VENV)
+
+$(READY): pyproject.toml reports/environment.txt
+	$(PYTHON) -m venv --clear $(VENV)
+	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check \
+		--constraint reports/environment.txt --editable '.[test]'
+	touch $@

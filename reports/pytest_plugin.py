@@ -1,0 +1,188 @@
+"""pytest items from case files: one for each case × engine × setting × quantity.
+
+Inert unless a case file is named on the command line, or `textmech_cases` in the configuration
+lists some. Everything heavy is imported only then.
+"""
+
+from collections.abc import Iterator
+from fnmatch import fnmatch
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+if TYPE_CHECKING:
+    from cases.case import Case
+    from reports.row import Certificate, Comparison
+    from reports.suite import Report
+
+_REPORT = pytest.StashKey["Report | Exception"]()
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addini("textmech_cases", "case files to compare engines on, as patterns", "args", [])
+    group = parser.getgroup("textmech", "comparing physics engines with textbook mechanics")
+    group.addoption(
+        "--textmech-engine",
+        dest="textmech_engine",
+        action="append",
+        default=[],
+        metavar="E",
+        help="only this engine: mujoco, pymunk, or e.g. mujoco.tuned (may be repeated)",
+    )
+    group.addoption(
+        "--textmech-case",
+        dest="textmech_case",
+        action="append",
+        default=[],
+        metavar="CASE",
+        help="only this case or variant (may be repeated)",
+    )
+
+
+def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
+    if file_path.suffix not in (".yaml", ".yml"):
+        return None
+    if parent.session.isinitpath(file_path) or _configured(file_path, parent.config):
+        return CaseFile.from_parent(parent, path=file_path)
+    return None
+
+
+def _configured(file: Path, config: pytest.Config) -> bool:
+    patterns = config.getini("textmech_cases")
+    return any(fnmatch(str(file), str(config.rootpath / pattern)) for pattern in patterns)
+
+
+class CaseFile(pytest.File):
+    """A case file: its mistakes, or the items of all its variants."""
+
+    def collect(self) -> Iterator[pytest.Item]:
+        from cases.load import load
+        from cases.mistake import CaseError
+        from reports.selection import HANDWRITTEN, choose_engines
+
+        try:
+            cases = load(self.path, systems=HANDWRITTEN)
+            engines = choose_engines(self.config.getoption("textmech_engine"), [])
+        except CaseError as error:
+            raise self.CollectError(str(error)) from None
+        wanted = self.config.getoption("textmech_case")
+        for case in cases:
+            if wanted and case.name not in wanted and self.path.stem not in wanted:
+                continue
+            name = f"{case.name}-reference"
+            yield CertificateItem.from_parent(self, name=name, case=case)
+            for engine in engines:
+                for realised in engine.realisations(case.scene):
+                    for quantity in ("audit", *case.allow):
+                        how = "" if realised == "native" else f".{realised}"
+                        yield ComparisonItem.from_parent(
+                            self,
+                            name=f"{case.name}-{engine.name}.{engine.setting}{how}-{quantity}",
+                            case=case,
+                            key=(case.name, engine.name, engine.setting, realised, quantity),
+                        )
+
+
+class CaseItem(pytest.Item):
+    """A row of the report, run together with all others that are collected."""
+
+    def __init__(self, *, case: "Case", **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.case = case
+
+    def report(self) -> "Report":
+        stash = self.session.stash
+        if _REPORT not in stash:
+            stash[_REPORT] = _measure(self.session, self.config)
+        found = stash[_REPORT]
+        if isinstance(found, Exception):
+            raise RowError(str(found))
+        return found
+
+    def place(self, *path: str) -> int:
+        """The line of the case file, from 1, where the row's claim stands."""
+        return max(self.case.mistake(path, "").line, 1)
+
+    def repr_failure(self, excinfo: Any, style: Any = None) -> str:
+        if isinstance(excinfo.value, RowError):
+            return str(excinfo.value)
+        return str(super().repr_failure(excinfo, style))
+
+
+class RowError(Exception):
+    """A row that FAILS, as it is to be read."""
+
+
+class CertificateItem(CaseItem):
+    """The reference's own certificate: every check of it."""
+
+    def runtest(self) -> None:
+        rows = [row for row in self.report().certificates if row.case == self.case.name]
+        assert rows, "no certificate was made"
+        broken = [row for row in rows if row.verdict == "FAILS"]
+        if broken:
+            raise RowError("\n".join(_certificate_text(row) for row in broken))
+
+    def reportinfo(self) -> tuple[Path, int, str]:
+        return self.path, self.place("title") - 1, self.name
+
+
+class ComparisonItem(CaseItem):
+    """One quantity in one engine. What is a finding and no failure shows as an expected one."""
+
+    def __init__(self, *, key: tuple[str, ...], **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.key = key
+
+    def runtest(self) -> None:
+        from reports.row import AGREES, DEVIATES, FAILS
+
+        row = next(row for row in self.report().comparisons if _key(row) == self.key)
+        if row.verdict == FAILS:
+            place = f"{self.path}:{self.place('allow', row.quantity)}"
+            raise RowError(f"{place}: {row.quantity}\n{_row_text(row)}")
+        if row.verdict not in (AGREES, DEVIATES):
+            pytest.xfail(_row_text(row))
+
+    def reportinfo(self) -> tuple[Path, int, str]:
+        return self.path, self.place("allow", self.key[-1]) - 1, self.name
+
+
+def _key(row: "Comparison") -> tuple[str, ...]:
+    return (row.case, row.engine, row.setting, row.realised, row.quantity)
+
+
+def _row_text(row: "Comparison") -> str:
+    from dataclasses import asdict
+
+    kept = {k: v for k, v in asdict(row).items() if v not in (None, "")}
+    return "\n".join(
+        f"  {name:9} {value:.3g}" if isinstance(value, float) else f"  {name:9} {value}"
+        for name, value in kept.items()
+    )
+
+
+def _certificate_text(row: "Certificate") -> str:
+    return (
+        f"{row.case}: the reference ({row.system}) is not certified: {row.check}: "
+        f"{row.difference:.2e} is above {row.bound:.2e}"
+    )
+
+
+def _measure(session: pytest.Session, config: pytest.Config) -> "Report | Exception":
+    """All collected rows, each simulation once, on all cores."""
+    from cases.mistake import CaseError
+    from reports import pool, suite
+    from reports.selection import choose_engines
+
+    items = [item for item in session.items if isinstance(item, CaseItem)]
+    cases = {item.case.name: item.case for item in items}
+    used = {item.key[1:3] for item in items if isinstance(item, ComparisonItem)}
+    engines = [e for e in choose_engines([], []) if (e.name, e.setting) in used]
+    try:
+        return suite.measure(
+            list(cases.values()), engines, jobs=pool.workers(), progress=lambda *_: None
+        )
+    except CaseError as error:
+        return error
