@@ -1,0 +1,147 @@
+"""pymunk behind the protocol of `engines.engine`."""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import pymunk
+
+from cases.scene import GROUND, Joint, Scene
+from cases.trajectory import Array, Trajectory
+from engines.engine import Choice, Realised, State
+from engines.pymunk import settings
+from engines.pymunk.measure import measured
+from engines.pymunk.run import placed, simulate, stepper
+from engines.pymunk.scene import build, holds_angle, turns
+from engines.pymunk.script import text
+
+
+@dataclass(frozen=True)
+class Pymunk:
+    """pymunk with one setting: shipped, tuned, or own (`options`: the user's)."""
+
+    setting: str
+    options: Mapping[str, Any] = field(default_factory=dict)
+    name: str = "pymunk"
+    version: str = pymunk.version
+
+    def __post_init__(self) -> None:
+        settings.own(self.options)
+
+    @property
+    def own_step(self) -> float | None:
+        """10 ms unless tuned or set by the user: pymunk has no step of its own."""
+        return None if self.setting == "tuned" else self.options.get("step", settings.SHIPPED_STEP)
+
+    def realisations(self, scene: Scene) -> tuple[Realised, ...]:
+        """Dampers also by their law: pymunk applies its own after the kick, a first order."""
+        law = self.setting == "tuned" and any(scene.dampers())
+        return ("native", "law") if law else ("native",)
+
+    def refuses(self, scene: Scene) -> str | None:
+        """What would abort the process, or what pymunk has no joint or no shape for."""
+        for body in scene.bodies.values():
+            inertia = 1.0 if body.inertia is None else body.inertia
+            if not (0 < body.mass < math.inf and 0 < inertia < math.inf):
+                return f"engine: pymunk takes only positive finite masses, {body.name} has none"
+        for part in (*scene.joints.values(), *scene.springs(), *scene.dampers()):
+            if part.a.body == part.b.body:
+                where = "the ground" if part.a.body == GROUND else part.a.body
+                return f"engine: {part.name} joins {where} to itself, on which pymunk aborts"
+        for joint in scene.joints.values():
+            if joint.kind != "pin" and (reason := _unbuildable(scene, joint)):
+                return reason
+        for contact in scene.contacts.values():
+            if scene.bodies[contact.body].radius is None:
+                return f"adapter: only a disk can touch the floor, {contact.body} is none"
+        return None
+
+    def withholds(self, scene: Scene, quantity: str) -> str | None:
+        """A constraint's impulse has no direction."""
+        part, _, what = quantity.rpartition(".")
+        if part in scene.joints and what in ("fx", "fy", "torque"):
+            return "engine: pymunk reports a joint's impulse as a magnitude only"
+        return None
+
+    def tied(self, scene: Scene) -> bool:
+        """Nothing in the recipe follows the step but the protocol itself."""
+        return False
+
+    def exponents(self, scene: Scene, realised: Realised, *, held: bool) -> tuple[int, ...]:
+        """Symplectic Euler 1, 2; the midpoint protocol 2, 3, but with pymunk's own damper 1, 2."""
+        damped = realised == "native" and any(damper.damping for damper in scene.dampers())
+        return (2, 3) if self.setting == "tuned" and not damped else (1, 2)
+
+    def protocol(self, scene: Scene, realised: Realised) -> str:
+        """The half-step shift, and how deep a wheel is started in the floor."""
+        numbers = self._numbers(scene, 1.0)
+        words = []
+        if numbers.get("time.midpoint"):
+            words.append("started h/2 back along the velocities, positions read h/2 ahead")
+        if numbers.get("start.seed"):
+            words.append(f"wheel started {numbers['start.seed']:g} m in the floor")
+        return "; ".join(words)
+
+    def choices(self, scene: Scene, step: float) -> list[Choice]:
+        """The setting's numbers as attributes of pymunk's Space and constraints."""
+        if self.setting == "tuned":
+            return settings.tuned(scene)
+        return settings.with_own(self.options, scene)
+
+    def _numbers(self, scene: Scene, step: float) -> dict[str, Any]:
+        return {choice.name: choice.value for choice in self.choices(scene, step)}
+
+    def script(self, scene: Scene, start: State, step: float) -> str:
+        """A Python script that needs only pymunk."""
+        return text(scene, start, step, self._numbers(scene, step))
+
+    def measure(self, scene: Scene, start: State) -> dict[str, float]:
+        """Physics as pymunk's objects hold it."""
+        return measured(build(scene, start, self._numbers(scene, 1.0), "native"))
+
+    def run(
+        self,
+        scene: Scene,
+        start: State,
+        times: Array,
+        step: float,
+        *,
+        tied_to: float,
+        realised: Realised,
+        reactions: tuple[str, ...],
+    ) -> Trajectory:
+        """The motion, by `space.step(h)` between samples."""
+        numbers = self._numbers(scene, tied_to)
+        world = placed(scene, start, step, numbers, realised)
+        readable = tuple(name for name in reactions if not self.withholds(scene, name))
+        return simulate(
+            world,
+            stepper(world, step, numbers, realised),
+            times,
+            step,
+            reactions=readable,
+            midpoint=bool(numbers.get("time.midpoint")),
+        )
+
+    def prepare(
+        self, scene: Scene, start: State, step: float, *, realised: Realised
+    ) -> Callable[[int], None]:
+        """pymunk's bare loop on the same world, with the same forces."""
+        numbers = self._numbers(scene, step)
+        return stepper(placed(scene, start, step, numbers, realised), step, numbers, realised)
+
+
+def _unbuildable(scene: Scene, joint: Joint) -> str | None:
+    """Of a slide or weld."""
+    if joint.a.body != GROUND and not turns(scene, joint.a):
+        return f"adapter: {joint.name} starts at a particle, which has no axes"
+    if joint.kind == "weld" or holds_angle(scene, joint) or not turns(scene, joint.a):
+        return None
+    (x, y), (ux, uy) = scene.bodies[joint.a.body].points[joint.a.point], joint.along
+    if abs(ux * y - uy * x) <= 1e-12 * math.hypot(x, y):
+        return None
+    return (
+        f"engine: pymunk's groove of {joint.name} holds a particle with a wrong force, unless "
+        f"it runs through the centre of {joint.a.body}"
+    )

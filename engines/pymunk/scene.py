@@ -1,0 +1,174 @@
+"""Scene and start state → a pymunk Space: construction only, nothing moves here.
+
+Masses and inertias are given to the bodies; shapes carry none, because pymunk's inertia of a
+segment with a radius is that of a box. Only what touches the floor has a shape.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from pymunk.body import Body
+from pymunk.constraints import Constraint, DampedSpring, GearJoint, GrooveJoint, PivotJoint
+from pymunk.shape_filter import ShapeFilter
+from pymunk.shapes import Circle, Segment
+from pymunk.space import Space
+
+from cases.scene import GROUND, Anchor, Joint, Scene, Spring, Vector
+from engines.engine import Realised, State
+
+# Half the length [m] of the floor and of a slide's groove, which pymunk wants finite: farther
+# than a case travels, and short enough that rounding (100 m × 1e-16) stays below every reach.
+FAR = 100.0
+FLOOR_FRICTION = 1.0  # pymunk multiplies the frictions of two shapes: the wheel carries all of µ
+_WHEELS = ShapeFilter(group=1)  # wheels touch the floor and not each other
+
+
+@dataclass(frozen=True)
+class World:
+    """The space and its parts by their names in the scene.
+
+    A joint's first constraint carries its force. driven: the driven points' bodies.
+    """
+
+    scene: Scene
+    space: Space
+    bodies: dict[str, Body] = field(default_factory=dict)
+    driven: dict[str, Body] = field(default_factory=dict)
+    joints: dict[str, tuple[Constraint, ...]] = field(default_factory=dict)
+    lines: dict[str, DampedSpring] = field(default_factory=dict)
+    wheels: dict[str, Circle] = field(default_factory=dict)
+
+    def body(self, anchor: Anchor) -> Body:
+        if anchor.body != GROUND:
+            return self.bodies[anchor.body]
+        return self.driven.get(anchor.point, self.space.static_body)
+
+    @property
+    def bounded(self) -> bool:
+        """Whether something in it is only FAR long."""
+        return bool(self.wheels) or any(j.kind == "slide" for j in self.scene.joints.values())
+
+    def wheel(self, contact: str) -> Body:
+        """The body that touches the floor."""
+        return self.bodies[self.scene.contacts[contact].body]
+
+    def local(self, anchor: Anchor) -> Vector:
+        """The anchor in its body's axes from its centre of mass."""
+        if anchor.body != GROUND:
+            return self.scene.bodies[anchor.body].points[anchor.point]
+        return (0.0, 0.0) if anchor.point in self.driven else self.scene.points[anchor.point].at
+
+
+def build(scene: Scene, start: State, numbers: Mapping[str, Any], realised: Realised) -> World:
+    """The scene at its start, with a setting's numbers; `law` leaves the dampers to a force."""
+    space = Space()
+    space.gravity = scene.gravity
+    world = World(scene, space)
+    _bodies(world, start)
+    _contacts(world)
+    _joints(world, start)
+    _lines(world, realised)
+    joints = [part for parts in world.joints.values() for part in parts]
+    for name, value in numbers.items():
+        owner, _, attribute = name.partition(".")
+        for part in {"space": [space], "constraint": joints}.get(owner, ()):
+            setattr(part, attribute, value)
+    return world
+
+
+def _bodies(world: World, start: State) -> None:
+    for body in world.scene.bodies.values():
+        part = Body(body.mass, math.inf if body.inertia is None else body.inertia)
+        x, y, angle, vx, vy, omega = start[body.name]
+        part.position, part.velocity = (x, y), (vx, vy)
+        part.angle, part.angular_velocity = (angle, omega) if body.turns else (0.0, 0.0)
+        world.bodies[body.name] = part
+    for name, point in world.scene.points.items():
+        if point.driven:
+            part = Body(body_type=Body.KINEMATIC)
+            part.position, part.velocity = point.at, point.velocity
+            world.driven[name] = part
+    world.space.add(*world.bodies.values(), *world.driven.values())
+
+
+def _contacts(world: World) -> None:
+    if not world.scene.contacts:
+        return
+    floor = Segment(world.space.static_body, (-FAR, 0.0), (FAR, 0.0), 0.0)
+    floor.friction = FLOOR_FRICTION
+    world.space.add(floor)
+    for contact in world.scene.contacts.values():
+        wheel = Circle(world.bodies[contact.body], world.scene.bodies[contact.body].radius or 0.0)
+        wheel.friction = contact.friction
+        wheel.filter = _WHEELS
+        world.wheels[contact.name] = wheel
+        world.space.add(wheel)
+
+
+def _joints(world: World, start: State) -> None:
+    """In the order of the case file: another order is another order of the solver's sweeps."""
+    for joint in world.scene.joints.values():
+        a, b = world.body(joint.a), world.body(joint.b)
+        if joint.kind == "slide":
+            parts: list[Constraint] = [GrooveJoint(a, b, *groove(world, joint))]
+        else:
+            parts = [PivotJoint(a, b, world.local(joint.a), world.local(joint.b))]
+        if joint.kind != "pin" and holds_angle(world.scene, joint):
+            parts.append(GearJoint(a, b, phase(joint, start), 1.0))
+        world.joints[joint.name] = tuple(parts)
+        world.space.add(*parts)
+
+
+def _lines(world: World, realised: Realised) -> None:
+    """Springs without damping, dampers without stiffness."""
+    dampers = world.scene.dampers() if realised == "native" else ()
+    for force in (*world.scene.springs(), *dampers):
+        a, b = world.body(force.a), world.body(force.b)
+        numbers = (
+            (force.rest_length, force.stiffness, 0.0)
+            if isinstance(force, Spring)
+            else (0.0, 0.0, force.damping)
+        )
+        world.lines[force.name] = DampedSpring(
+            a, b, world.local(force.a), world.local(force.b), *numbers
+        )
+        world.space.add(world.lines[force.name])
+
+
+def holds_angle(scene: Scene, joint: Joint) -> bool:
+    """Whether both parts have an angle and one of them can turn; a particle has none."""
+    bodies = [scene.bodies[p.body] for p in (joint.a, joint.b) if p.body != GROUND]
+    return all(body.turns for body in bodies)
+
+
+def turns(scene: Scene, anchor: Anchor) -> bool:
+    return anchor.body != GROUND and scene.bodies[anchor.body].turns
+
+
+def phase(joint: Joint, start: State) -> float:
+    """The held angle of b against a [rad], on the turn at which the start stands."""
+    first, second = (0.0 if p.body == GROUND else start[p.body][2] for p in (joint.a, joint.b))
+    return joint.angle + round((second - first - joint.angle) / math.tau) * math.tau
+
+
+def groove(world: World, joint: Joint) -> tuple[Vector, Vector, Vector]:
+    """A slide's groove on its first part (two ends), and the point of the second in it.
+
+    As the slide lets nothing turn, any parallel line holds the same. It runs through the centre
+    of a first part that turns, else of the second, and meets the other where it is nearest to
+    that one's centre: pymunk projects K⁻¹(v_bias − v) onto the groove's normal, and only there
+    is the normal a principal axis of K; elsewhere its solver stops at a wrong impulse.
+    """
+    (ax, ay), (ux, uy) = world.local(joint.a), joint.along
+    cos, sin = math.cos(joint.angle), math.sin(joint.angle)
+    bx, by = world.local(joint.b)
+    bx, by = cos * bx - sin * by, sin * bx + cos * by  # in the first part's axes
+    px, py, anchor = ax - bx, ay - by, (0.0, 0.0)
+    if turns(world.scene, joint.a):
+        offset = uy * px - ux * py  # from the second centre to the line, along n
+        nx, ny = -uy * offset, ux * offset
+        px, py, anchor = 0.0, 0.0, (cos * nx + sin * ny, cos * ny - sin * nx)
+    ends = (px - FAR * ux, py - FAR * uy), (px + FAR * ux, py + FAR * uy)
+    return *ends, anchor

@@ -1,0 +1,150 @@
+"""A scene as a stand-alone Python script, written from the very objects that would be stepped."""
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from pymunk.body import Body
+from pymunk.constraints import Constraint, DampedSpring, GearJoint, GrooveJoint, PivotJoint
+from pymunk.shapes import Segment
+
+from cases.scene import Push, Scene, Torque
+from engines.engine import State
+from engines.pymunk.scene import World, build
+
+_ARGUMENTS: dict[type[Constraint], tuple[str, ...]] = {
+    PivotJoint: ("anchor_a", "anchor_b"),
+    GrooveJoint: ("groove_a", "groove_b", "anchor_b"),
+    GearJoint: ("phase", "ratio"),
+    DampedSpring: ("anchor_a", "anchor_b", "rest_length", "stiffness", "damping"),
+}
+_SHIFT = """
+# pymunk drifts, then kicks: start h/2 back, so that forces act in the middle of a step.
+for body in bodies.values():
+    body.position -= h / 2 * body.velocity
+    body.angle -= h / 2 * body.angular_velocity"""
+
+
+def text(scene: Scene, start: State, step: float, numbers: Mapping[str, Any]) -> str:
+    """The script: builds the scene, runs one second, prints name x y angle vx vy omega."""
+    world = build(scene, start, numbers, "native")
+    midpoint, seed = numbers.get("time.midpoint"), numbers.get("start.seed")
+    lines = [
+        "import math",
+        "",
+        "import pymunk",
+        "",
+        f"h = {step!r}  # s",
+        f"steps = {max(1, round(1 / step))}",
+        "space = pymunk.Space()",
+        f"space.gravity = {_value(world.space.gravity)}",
+        *(f"{name} = {_value(x)}" for name, x in numbers.items() if name.startswith("space.")),
+        "ground = space.static_body",
+        "bodies = {}",
+        *_bodies(world),
+        *_floor(world),
+        *_constraints(world, numbers),
+    ]
+    if seed:
+        lines += ["", "# a circle that only touches the floor would fall freely for one step"]
+        lines += [
+            f"{_of(world, world.wheel(name))}.position -= (0.0, {seed!r})" for name in world.wheels
+        ]
+    lines += [_SHIFT] if midpoint else []
+    lines += _forces(world, bool(midpoint))
+    position, angle = (" + h / 2 * body.velocity", " + h / 2 * body.angular_velocity")
+    lines += [
+        "    space.step(h)",
+        "",
+        "for name, body in bodies.items():",
+        f"    x, y = body.position{position if midpoint else ''}",
+        f"    angle = body.angle{angle if midpoint else ''}",
+        "    print(name, x, y, angle, *body.velocity, body.angular_velocity)",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _value(value: Any) -> str:
+    """A number or vector as Python writes it."""
+    if isinstance(value, tuple):
+        return f"({', '.join(_value(float(x)) for x in value)})"
+    return "math.inf" if value == math.inf else repr(value)
+
+
+def _of(world: World, body: Body) -> str:
+    """How the script calls a body."""
+    names = {id(b): name for name, b in _all(world).items()}
+    return f"bodies[{names[id(body)]!r}]" if id(body) in names else "ground"
+
+
+def _all(world: World) -> dict[str, Body]:
+    """The bodies, and the driven points under names that no body has."""
+    return world.bodies | {f"ground.{name}": body for name, body in world.driven.items()}
+
+
+def _bodies(world: World) -> Iterator[str]:
+    for name, body in _all(world).items():
+        kind = "body_type=pymunk.Body.KINEMATIC"
+        if body.body_type == Body.DYNAMIC:
+            kind = f"{_value(body.mass)}, {_value(body.moment)}"
+        yield ""
+        yield f"bodies[{name!r}] = body = pymunk.Body({kind})"
+        for attribute in ("position", "angle", "velocity", "angular_velocity"):
+            yield f"body.{attribute} = {_value(getattr(body, attribute))}"
+        yield "space.add(body)"
+
+
+def _floor(world: World) -> Iterator[str]:
+    for shape in world.space.static_body.shapes:
+        assert isinstance(shape, Segment)
+        yield ""
+        yield f"floor = pymunk.Segment(ground, {_value(shape.a)}, {_value(shape.b)}, 0.0)"
+        yield f"floor.friction = {shape.friction!r}"
+        yield "space.add(floor)"
+    for name, wheel in world.wheels.items():
+        yield f"wheel = pymunk.Circle({_of(world, world.wheel(name))}, {wheel.radius!r})"
+        yield f"wheel.friction = {wheel.friction!r}  # pymunk takes the product of both"
+        yield f"wheel.filter = pymunk.ShapeFilter(group={wheel.filter.group})"
+        yield "space.add(wheel)"
+
+
+def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
+    named = world.joints | {name: (line,) for name, line in world.lines.items()}
+    for name, parts in named.items():
+        for part in parts:
+            yield ""
+            yield f"joint = pymunk.{type(part).__name__}(  # {name}"
+            yield f"    {_of(world, part.a)}, {_of(world, part.b)},"
+            arguments = (_value(getattr(part, key)) for key in _ARGUMENTS[type(part)])
+            yield f"    {', '.join(arguments)},"
+            yield ")"
+            for key, value in numbers.items():
+                if name in world.joints and key.startswith("constraint."):
+                    yield f"joint.{key.removeprefix('constraint.')} = {_value(value)}"
+            yield "space.add(joint)"
+
+
+def _forces(world: World, midpoint: bool) -> Iterator[str]:
+    """The loop's head, and what is given to bodies before each step."""
+    yield "\nfor n in range(steps):"
+    if any(world.scene.signals()):
+        yield f"    t = {'(n + 0.5) * h' if midpoint else 'n * h'}"
+    for force in world.scene.signals():
+        yield f"    # {force.name}"
+        if isinstance(force, Torque):
+            yield f"    {_of(world, world.bodies[force.body])}.torque += {_signal(force)[0]}"
+        else:
+            yield f"    body = {_of(world, world.body(force.at))}"
+            turn = "body.angle + h * body.angular_velocity" if midpoint else "body.angle"
+            lever = f"pymunk.Vec2d{_value(world.local(force.at))}.rotated({turn})"
+            yield f"    lever = {lever}"
+            pair = ", ".join(_signal(force))
+            yield f"    body.apply_force_at_world_point(({pair}), body.position + lever)"
+
+
+def _signal(force: Push | Torque) -> list[str]:
+    """The law in time, in the script's words."""
+    law = force.signal
+    sine = f" * math.sin({law.angular_frequency!r} * t + {law.phase!r})"
+    factor = {"constant": "", "ramp": " * t", "sine": sine}[law.law]
+    return [f"{amplitude!r}{factor}" for amplitude in law.amplitude]
