@@ -5,13 +5,13 @@ from dataclasses import replace
 from pathlib import Path as FilePath
 
 from cases.case import Case
-from cases.check import check
-from cases.document import read
+from cases.language.check import check
+from cases.language.document import read
+from cases.language.overlay import overlay
+from cases.language.parse import parse
+from cases.language.resolve import resolve_case, resolve_scene
+from cases.language.words import NO_VALUE
 from cases.mistake import CaseError, Mistake
-from cases.overlay import overlay
-from cases.parse import parse
-from cases.resolve import resolve_case, resolve_scene
-from cases.words import NO_VALUE
 
 Systems = Mapping[str, tuple[str, ...]]
 

@@ -8,8 +8,8 @@ import pytest
 
 from cases.case import Case, Deviation
 from cases.find import find, shipped
+from cases.language.number import Names, amount, number
 from cases.load import load
-from cases.number import Names, amount, number
 from cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Joint, Push, Signal, Torque
 from reference.systems import SYSTEMS
 

@@ -3,19 +3,20 @@
 import re
 from pathlib import Path
 
-from cases import grammar, shape
-from cases.body import Body
-from cases.force import Force
-from cases.grammar import File, Scene
-from cases.joint import Joint
+from cases import shape
+from cases.language import grammar
+from cases.language.body import Body
+from cases.language.force import Force
+from cases.language.grammar import File, Scene
+from cases.language.joint import Joint
+from cases.language.number import amount
 from cases.load import load
-from cases.number import amount
 from cases.quantity import table
 from cases.scene import Anchor, Contact, Spring
 from cases.scene import Joint as Connection
 from cases.scene import Scene as Resolved
 
-README = Path(grammar.__file__).with_name("README.md").read_text(encoding="utf-8")
+README = Path(shape.__file__).with_name("README.md").read_text(encoding="utf-8")
 
 
 def test_example_loads(tmp_path: Path) -> None:

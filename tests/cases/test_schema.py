@@ -2,12 +2,12 @@
 
 import json
 
-from cases.grammar import File
-from cases.schema import SCHEMA, text
+from cases.language.grammar import File
+from cases.language.schema import SCHEMA, text
 
 
 def test_current() -> None:
-    assert SCHEMA.read_text(encoding="utf-8") == text(), "run `python -m cases.schema`"
+    assert SCHEMA.read_text(encoding="utf-8") == text(), "run `python -m cases.language.schema`"
 
 
 def test_says_every_key() -> None:

@@ -5,10 +5,10 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Discriminator, Field, Tag
 
-from cases.field import In
-from cases.part import Angle, Pair, Part, Position, by_key
-from cases.text import Text, Word
-from cases.words import wrong
+from cases.language.field import In
+from cases.language.part import Angle, Pair, Part, Position, by_key
+from cases.language.text import Text, Word
+from cases.language.words import wrong
 
 Velocity = tuple[Annotated[float, In("m/s")], Annotated[float, In("m/s")]]
 

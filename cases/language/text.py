@@ -5,10 +5,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from cases.field import Plain
-from cases.number import Names, shown
+from cases.language.field import Plain
+from cases.language.number import Names, shown
+from cases.language.words import wrong
 from cases.quantity import RESERVED, nearest
-from cases.words import wrong
 
 IDENTIFIER = "[A-Za-z_][A-Za-z0-9_]*"
 

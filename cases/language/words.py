@@ -6,7 +6,7 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
-from cases.number import shown
+from cases.language.number import shown
 from cases.quantity import nearest
 
 NO_VALUE = "has no value"

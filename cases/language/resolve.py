@@ -3,12 +3,12 @@
 from collections.abc import Mapping
 from math import cos, sin
 
-from cases import body as bodies
-from cases import force as forces
-from cases import joint as joints
 from cases import scene, shape
 from cases.case import Case, Deviation, Origin, Placement
-from cases.grammar import File, Near
+from cases.language import body as bodies
+from cases.language import force as forces
+from cases.language import joint as joints
+from cases.language.grammar import File, Near
 from cases.mistake import Source
 from cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Scene, Signal
 

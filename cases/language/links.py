@@ -3,11 +3,11 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from cases.grammar import Near
+from cases.language.grammar import Near
+from cases.language.parse import NAMED, Finding, Parsed
+from cases.language.resolve import anchor
 from cases.mistake import Path
-from cases.parse import NAMED, Finding, Parsed
 from cases.quantity import nearest
-from cases.resolve import anchor
 from cases.scene import CENTER, FLOOR, GROUND, Anchor, Damper, Push, Scene, Spring, Torque
 
 _TAKEN = ("x", "y", "angle", "vx", "vy", "omega", "speed")  # `crank.x` is a quantity

@@ -4,10 +4,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
-from cases.document import Document
-from cases.grammar import OVERLAID
+from cases.language.document import Document
+from cases.language.grammar import OVERLAID
+from cases.language.number import shown
 from cases.mistake import Mistake, Path, Source
-from cases.number import shown
 from cases.quantity import nearest
 
 

@@ -4,14 +4,14 @@ from typing import Annotated, Any
 
 from pydantic import ConfigDict, Field
 
-from cases.body import Body
-from cases.field import Bound, In, Literal
-from cases.force import Force
-from cases.joint import Contact, GroundPoint, Joint
-from cases.number import Amount
-from cases.part import Angle, Name, Part, Position
-from cases.text import Place, Text, Word, equation, label
-from cases.words import wrong
+from cases.language.body import Body
+from cases.language.field import Bound, In, Literal
+from cases.language.force import Force
+from cases.language.joint import Contact, GroundPoint, Joint
+from cases.language.number import Amount
+from cases.language.part import Angle, Name, Part, Position
+from cases.language.text import Place, Text, Word, equation, label
+from cases.language.words import wrong
 
 ENGINES = ("mujoco", "pymunk")
 WAYS = tuple(f"{engine}{way}" for engine in ENGINES for way in ("", ".law", ".limit"))

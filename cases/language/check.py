@@ -3,11 +3,11 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from cases.links import links, twice
-from cases.number import Amount, NumberMistake, fitting
-from cases.parse import Finding, Parsed
+from cases.language.links import links, twice
+from cases.language.number import Amount, NumberMistake, fitting
+from cases.language.parse import Finding, Parsed
+from cases.language.sampling import sampling
 from cases.quantity import Quantity, nearest, table
-from cases.sampling import sampling
 from cases.scene import Scene
 
 _NO_USE = ("title", "source", "parameters", "drops_out")  # where a name is not a use of it

@@ -1,4 +1,4 @@
-"""The JSON Schema of a case file, for editors: `python -m cases.schema` writes it."""
+"""The JSON Schema of a case file, for editors: `python -m cases.language.schema` writes it."""
 
 import json
 from pathlib import Path
@@ -7,9 +7,9 @@ from typing import Any
 from pydantic.json_schema import GenerateJsonSchema, JsonSchemaMode
 from pydantic_core import core_schema
 
-from cases.grammar import File
+from cases.language.grammar import File
 
-SCHEMA = Path(__file__).with_name("case.schema.json")
+SCHEMA = Path(__file__).parents[1] / "case.schema.json"
 
 
 class _Plain(GenerateJsonSchema):
