@@ -93,14 +93,13 @@ def run(
             jobs=jobs or pool.workers(),
             progress=progress,
         )
-    frames = write.tables(report, chosen)
     if out is None and not (cases or names or settings):
         out = write.HERE
     if out is not None:
-        write.write(frames, out)
+        write.write(write.tables(report, chosen), out)
     if keep is not None:
         write.keep(report, keep)
-    terminal.show(frames, detailed=bool(cases), written=out)
+    terminal.show(report, detailed=bool(cases), written=out)
     if report.fails:
         raise click.exceptions.Exit(FAILED)
 

@@ -45,7 +45,9 @@ def compare(trial: Trial) -> Outcome:
 
 def crashed(trial: Trial, because: str) -> Outcome:
     """Rows of a run whose process died; with a user's own numbers that is a finding."""
-    word, why = (CRASHED, because) if trial.engine.setting == "own" else (FAILS, f"crashed: {because}")
+    word, why = (
+        (CRASHED, because) if trial.engine.setting == "own" else (FAILS, f"crashed: {because}")
+    )
     return Outcome([_row(trial, name, word, because=why) for name in trial.case.allow])
 
 
@@ -58,7 +60,8 @@ def _diverged(trial: Trial, names: Iterable[str], because: str) -> list[Comparis
 
 def _row(trial: Trial, name: str, word: str, **values: Any) -> Comparison:
     case, engine = trial.case, trial.engine
-    columns = dict.fromkeys(("step", "largest", "rms", "final", "ratio"))
+    columns: dict[str, Any] = dict.fromkeys(("step", "largest", "rms", "final", "ratio"))
+    columns |= {"because": "", "allowed": case.allow.get(name)} | values
     return Comparison(
         case=case.name,
         source=str(case.origin),
@@ -70,7 +73,7 @@ def _row(trial: Trial, name: str, word: str, **values: Any) -> Comparison:
         quantity=name,
         unit=trial.quantity(name).unit,
         verdict=word,
-        **(columns | {"because": "", "allowed": case.allow.get(name)} | values),
+        **columns,
     )
 
 

@@ -4,6 +4,7 @@ The order is that of neighbouring differences u(2h) − u(h), never of errors: a
 hide it. The limit is Romberg's, with the exponents that the engine's setting declares.
 """
 
+import itertools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -79,8 +80,8 @@ def _usable(errors: Mapping[float, float], allow: float) -> float | None:
 
 def _orders(rungs: Sequence[Array], floor: float) -> list[float]:
     """log₂ of the ratios of neighbouring differences, the last three, finest first."""
-    d = [float(np.max(np.abs(b - a))) for a, b in zip(rungs, rungs[1:], strict=False)]
-    pairs = zip(d, d[1:], strict=False)
+    d = [float(np.max(np.abs(b - a))) for a, b in itertools.pairwise(rungs)]
+    pairs = itertools.pairwise(d)
     return [math.log2(coarse / fine) for fine, coarse in pairs if fine > floor][:3]
 
 
@@ -92,7 +93,6 @@ def _romberg(rungs: Sequence[Array], exponents: Sequence[int]) -> tuple[Array, f
         before = column[0]
         weight = 2.0**p
         column = [
-            (weight * fine - coarse) / (weight - 1)
-            for fine, coarse in zip(column, column[1:], strict=False)
+            (weight * fine - coarse) / (weight - 1) for fine, coarse in itertools.pairwise(column)
         ]
     return column[0], float(np.max(np.abs(column[0] - before)))

@@ -53,6 +53,17 @@ def _configured(file: Path, config: pytest.Config) -> bool:
     return any(fnmatch(str(file), str(config.rootpath / pattern)) for pattern in patterns)
 
 
+def pytest_collection_finish(session: pytest.Session) -> None:
+    """A case that was asked for and is in no file must not look like a pass."""
+    wanted = session.config.getoption("textmech_case") or []
+    known = {
+        n for i in session.items if isinstance(i, CaseItem) for n in (i.case.name, i.path.stem)
+    }
+    for name in wanted:
+        if name not in known:
+            raise pytest.UsageError(f"no such case in the collected files: {name!r}")
+
+
 class CaseFile(pytest.File):
     """A case file: its mistakes, or the items of all its variants."""
 
@@ -63,7 +74,7 @@ class CaseFile(pytest.File):
 
         try:
             cases = load(self.path, systems=HANDWRITTEN)
-            engines = choose_engines(self.config.getoption("textmech_engine"), [])
+            engines = choose_engines(self.config.getoption("textmech_engine") or [], [])
         except CaseError as error:
             raise self.CollectError(str(error)) from None
         wanted = self.config.getoption("textmech_case")
@@ -137,13 +148,14 @@ class ComparisonItem(CaseItem):
 
     def runtest(self) -> None:
         from reports.row import AGREES, DEVIATES, FAILS
+        from reports.terminal import line
 
         row = next(row for row in self.report().comparisons if _key(row) == self.key)
         if row.verdict == FAILS:
             place = f"{self.path}:{self.place('allow', row.quantity)}"
             raise RowError(f"{place}: {row.quantity}\n{_row_text(row)}")
         if row.verdict not in (AGREES, DEVIATES):
-            pytest.xfail(_row_text(row))
+            pytest.xfail(line(row))
 
     def reportinfo(self) -> tuple[Path, int, str]:
         return self.path, self.place("allow", self.key[-1]) - 1, self.name

@@ -3,19 +3,21 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import engines
 from cases.case import Case
-from cases.document import read
 from cases.find import find, shipped
+from cases.language.document import read
 from cases.load import load
 from cases.mistake import CaseError, Mistake
 from cases.quantity import nearest
 from engines.engine import Engine
 from reference.systems import SYSTEMS
 
-HANDWRITTEN = {name: tuple(f.name for f in fields(system)) for name, system in SYSTEMS.items()}
+HANDWRITTEN = {
+    name: tuple(f.name for f in fields(cast(Any, system))) for name, system in SYSTEMS.items()
+}
 
 
 def choose_cases(words: Sequence[str]) -> list[Case]:

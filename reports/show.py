@@ -18,7 +18,7 @@ def script(case: Case, engine: Engine) -> str:
         f"{engine.name} {engine.version}, {engine.setting}, h = {step:g} s",
         *(f"{c.name} = {c.value}: {c.because}" for c in engine.choices(case.scene, step)),
     ]
-    protocol = engine.protocol(case.scene, "native")
+    protocol = engine.protocol(case.scene, start, step, "native")
     if protocol:
         head.append(f"protocol: {protocol}")
     opening, closing = engine.comment

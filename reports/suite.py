@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 from cases.case import Case
 from cases.mistake import CaseError
@@ -85,7 +86,7 @@ def _solutions(
 
 def _watched(
     function: Callable, tasks: Sequence, jobs: int, what: str, progress: Progress
-) -> Iterator[tuple[int, object]]:
+) -> Iterator[tuple[int, Any]]:
     progress(what, 0, len(tasks))
     for done, result in enumerate(pool.run(function, tasks, jobs=jobs), start=1):
         progress(what, done, len(tasks))

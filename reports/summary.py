@@ -1,55 +1,78 @@
 """The short table: one row a case, one column an engine's setting."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-import pandas as pd
-
-from reports.row import AGREES, FAILS
+from reports.row import AGREES, DEVIATES, FAILS, Comparison, Rungs
 
 
-def summary(tolerance: pd.DataFrame, convergence: pd.DataFrame) -> pd.DataFrame:
-    """How many quantities agree, the worst ratio to its tolerance, and the usable step.
+def summary(comparisons: Sequence[Comparison], rungs: Sequence[Rungs]) -> list[list[str]]:
+    """Lines of cells, the head first: does it agree, how far off at worst, the usable step.
 
     The usable step is the largest from which on *all* quantities stay within their tolerance.
     """
-    rows = tolerance[tolerance["quantity"] != "audit"]
-    columns = ["engine", "setting", "realised"]
-    table: dict[str, dict[str, str]] = {}
-    for (case, *key), group in rows.groupby(["case", *columns], sort=True):
-        steps = convergence[
-            (convergence["case"] == case) & (convergence[columns] == key).all(axis=1)
-        ]
-        name = ".".join(key[:2]) + ("" if key[2] == "native" else f" ({key[2]})")
-        table.setdefault(name, {})[case] = "; ".join(_cell(group, steps))
-    return pd.DataFrame(table).fillna("").rename_axis("case").reset_index()
+    columns = sorted({_column(row) for row in comparisons}, key=_by_engine)
+    lines = [["case", *columns]]
+    for case in sorted({row.case for row in comparisons}):
+        line = [case]
+        for column in columns:
+            rows = [r for r in comparisons if (r.case, _column(r)) == (case, column)]
+            ladder = [r for r in rungs if (r.case, _column(r)) == (case, column)]
+            line.append("; ".join(_cell([r for r in rows if r.quantity != "audit"], ladder)))
+        lines.append(line)
+    return lines
 
 
-def _cell(group: pd.DataFrame, steps: pd.DataFrame) -> Iterator[str]:
-    judged = group[~group["verdict"].str.startswith("refused")]
-    refused = len(group) - len(judged)
-    if judged.empty:
+def _column(row: Comparison | Rungs) -> str:
+    return f"{row.engine}.{row.setting}" + (
+        "" if row.realised == "native" else f" ({row.realised})"
+    )
+
+
+def _by_engine(column: str) -> tuple[str, int, str]:
+    """Engines by name; of each the shipped setting, the user's own, then the tuned one."""
+    engine, _, setting = column.partition(".")
+    place = {"shipped": 0, "own": 1}.get(setting, 2)
+    return engine, place, setting
+
+
+def _cell(rows: Sequence[Comparison], ladder: Sequence[Rungs]) -> Iterator[str]:
+    judged = [row for row in rows if not row.verdict.startswith("refused")]
+    if not rows:
+        return
+    if not judged:
         yield "refused"
         return
-    agrees = int((judged["verdict"] == AGREES).sum())
-    fails = int((judged["verdict"] == FAILS).sum())
+    off = [row for row in judged if row.verdict not in (AGREES, DEVIATES)]
+    fails = sum(row.verdict == FAILS for row in judged)
     if fails:
         yield f"{fails} FAIL"
-    if judged["ratio"].isna().all():
-        yield str(judged["verdict"].iloc[0])
-    elif agrees == len(judged):
-        yield "agrees"
+    if all(row.ratio is None for row in judged):
+        yield judged[0].verdict
+    elif off:
+        worst = max(off, key=lambda row: row.ratio or 0.0)
+        yield f"{len(off)} of {len(judged)} beyond"
+        yield f"{worst.quantity} ×{worst.ratio or 0.0:.2g}"
     else:
-        worst = judged.loc[judged["ratio"].idxmax()]
-        yield f"{len(judged) - agrees} of {len(judged)} beyond, {worst['quantity']} ×{worst['ratio']:.2g}"
-    usable = steps["usable_step"]
-    if len(usable) and not usable.isna().any():
-        yield f"h ≤ {usable.min():.1g}"
-    if refused:
-        yield f"{refused} not read"
+        yield "agrees"
+    steps = [row.usable_step for row in ladder]
+    known = [step for step in steps if step is not None]
+    if known and len(known) == len(steps):
+        yield f"h ≤ {min(known):.1g}"
+    if len(judged) < len(rows):
+        yield f"{len(rows) - len(judged)} not read"
 
 
-def markdown(table: pd.DataFrame) -> str:
-    """The table for the README."""
-    lines = ["| " + " | ".join(table.columns) + " |", "|" + "---|" * len(table.columns)]
-    lines += ["| " + " | ".join(str(x) for x in row) + " |" for row in table.itertuples(index=False)]
-    return "\n".join(lines) + "\n"
+def markdown(lines: Sequence[Sequence[str]]) -> str:
+    """The table as the README shows it."""
+    head, *body = lines
+    rule = ["---"] * len(head)
+    return "".join(f"| {' | '.join(line)} |\n" for line in (head, rule, *body))
+
+
+def aligned(lines: Sequence[Sequence[str]]) -> str:
+    """The table as the terminal shows it."""
+    widths = [max(len(line[i]) for line in lines) for i in range(len(lines[0]))]
+    return "\n".join(
+        "  ".join(f"{cell:{width}}" for cell, width in zip(line, widths, strict=True)).rstrip()
+        for line in lines
+    )

@@ -1,16 +1,17 @@
 """What a run shows on the terminal: progress while it works, a table at the end."""
 
 import sys
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from itertools import groupby
 from pathlib import Path
 
 import click
-import pandas as pd
 
-from reports.row import AGREES, FAILS
-from reports.suite import Progress
-from reports.summary import summary
+from reports.row import AGREES, FAILS, Comparison
+from reports.suite import Progress, Report
+from reports.summary import aligned, summary
 
 
 @contextmanager
@@ -24,66 +25,60 @@ def progress() -> Iterator[Progress]:
             bar = "#" * filled + "." * (30 - filled)
             click.echo(f"\r{what:12}[{bar}] {done}/{total}", nl=done == total, err=True)
         elif done == total:
-            click.echo(f"{what}: {total}", err=True)
+            click.echo(f"{what}: {total} done", err=True)
 
     try:
         yield show
     except BaseException:
         if terminal:
-            click.echo(err=True)
+            click.echo(err=True)  # the message that follows starts on a line of its own
         raise
 
 
-def show(frames: dict[str, pd.DataFrame], *, detailed: bool, written: Path | None) -> None:
-    """The rows of named cases, or the summary of all; then what fails, and where it was written."""
-    tolerance, convergence = frames["tolerance.csv"], frames["convergence.csv"]
+def show(report: Report, *, detailed: bool, written: Path | None) -> None:
+    """The rows of named cases, the summary, what fails, and where it was written."""
     if detailed:
-        _rows(tolerance)
+        _rows(report.comparisons)
     click.echo()
-    click.echo(_aligned(summary(tolerance, convergence)))
+    click.echo(aligned(summary(report.comparisons, report.rungs)))
     click.echo()
-    broken = frames["reference.csv"]
-    for row in broken[broken["verdict"] == FAILS].itertuples():
-        click.echo(f"FAILS: {row.case}: reference: {row.check}: {row.difference:.2e} > {row.bound:.1e}")
-    fails = tolerance[tolerance["verdict"] == FAILS]
-    for (case, because), rows in fails.groupby(["case", "because"], sort=False):
-        first = rows.iloc[0]
-        what = f"{first['engine']}.{first['setting']} {first['quantity']}"
-        more = f" and {len(rows) - 1} more rows" if len(rows) > 1 else ""
-        click.echo(f"FAILS: {case}: {what}{more}: {because}")
-    counts = tolerance["verdict"].str.split(":").str[0].value_counts()
-    click.echo(", ".join(f"{count} {word}" for word, count in counts.items()))
+    for check in report.certificates:
+        if check.verdict == FAILS:
+            numbers = f"{check.difference:.2e} is above {check.bound:.1e}"
+            click.echo(f"FAILS: {check.case}: the reference's {check.check}: {numbers}")
+    _fails([row for row in report.comparisons if row.verdict == FAILS])
+    counts = Counter(row.verdict.partition(":")[0] for row in report.comparisons)
+    click.echo(", ".join(f"{count} {word}" for word, count in counts.most_common()))
     if written is not None:
         click.echo(f"written to {written}")
 
 
-def _rows(tolerance: pd.DataFrame) -> None:
-    for (case, engine, setting, realised), rows in tolerance.groupby(
-        ["case", "engine", "setting", "realised"], sort=False
-    ):
-        first = rows.iloc[0]
-        how = "" if realised == "native" else f" ({realised})"
-        click.echo(f"\n{case} in {engine} {first['version']} {setting}{how}")
-        if first["protocol"]:
-            click.echo(f"  {first['protocol']}")
-        for row in rows.itertuples():
-            click.echo("  " + _line(row))
+def _fails(rows: Sequence[Comparison]) -> None:
+    """One line for each reason: a broken reference fails many rows for one."""
+    for (case, because), group in groupby(rows, key=lambda row: (row.case, row.because)):
+        first, *others = group
+        more = f" and {len(others)} more" if others else ""
+        what = f"{first.engine}.{first.setting} {first.quantity}"
+        click.echo(f"FAILS: {case}: {what}{more}: {because}")
 
 
-def _line(row) -> str:
-    if pd.isna(row.largest):
-        return f"{row.quantity:20} {row.verdict} {row.because}"
-    step = "" if pd.isna(row.step) else f"at h = {row.step:g} s"
-    number = f"{row.largest:9.2e} {row.unit:6} {step:18}"
-    allowed = "" if pd.isna(row.allowed) else f"allowed {row.allowed:.1e}"
+def _rows(comparisons: Sequence[Comparison]) -> None:
+    for _, rows in groupby(comparisons, key=lambda r: (r.case, r.engine, r.setting, r.realised)):
+        first, *others = rows
+        how = "" if first.realised == "native" else f" ({first.realised})"
+        click.echo(f"\n{first.case} in {first.engine} {first.version} {first.setting}{how}")
+        if first.protocol:
+            click.echo(f"  {first.protocol}")
+        for row in (first, *others):
+            click.echo("  " + line(row))
+
+
+def line(row: Comparison) -> str:
+    """A row in one line: how far off, at which step, what is allowed, and the verdict."""
     reason = f" ({row.because})" if row.because and row.verdict != AGREES else ""
+    if row.largest is None:
+        return f"{row.quantity:20} {row.verdict}{reason}"
+    step = "" if row.step is None else f"at h = {row.step:g} s"
+    allowed = "" if row.allowed is None else f"allowed {row.allowed:.1e}"
+    number = f"{row.largest:9.2e} {row.unit:6} {step:18}"
     return f"{row.quantity:20} {number} {allowed:16} {row.verdict}{reason}"
-
-
-def _aligned(table: pd.DataFrame) -> str:
-    rows = [list(table.columns), *[[str(x) for x in row] for row in table.itertuples(index=False)]]
-    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    return "\n".join(
-        "  ".join(f"{cell:{width}}" for cell, width in zip(row, widths, strict=True)).rstrip()
-        for row in rows
-    )

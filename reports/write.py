@@ -3,9 +3,10 @@
 import os
 import shutil
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, fields
 from pathlib import Path
+from typing import Any, TypeVar
 
 import numpy as np
 import pandas as pd
@@ -19,6 +20,8 @@ HERE = Path(__file__).parent
 KEYS = ("case", "engine", "setting", "realised", "ladder", "quantity", "check")
 NUMBERS = ".3g"  # three digits: more would be noise from one machine to the next
 
+Row = TypeVar("Row", Comparison, Rungs, Certificate)
+
 
 def tables(report: Report, cases: Sequence[Case]) -> dict[str, pd.DataFrame]:
     """Each report by its file name."""
@@ -30,14 +33,14 @@ def tables(report: Report, cases: Sequence[Case]) -> dict[str, pd.DataFrame]:
     }
 
 
-def _table(rows: Sequence, kind: type) -> pd.DataFrame:
+def _table(rows: Sequence[Any], kind: type) -> pd.DataFrame:
     columns = [column.name for column in fields(kind)]
     frame = pd.DataFrame([asdict(row) for row in rows], columns=columns)
     keys = [key for key in KEYS if key in columns]
     return frame.sort_values(keys, kind="stable", ignore_index=True)
 
 
-def write(frames: dict[str, pd.DataFrame], folder: Path) -> None:
+def write(frames: Mapping[str, pd.DataFrame], folder: Path) -> None:
     """Writes all files beside the old ones, then renames them: an interruption leaves the old.
 
     The last line of each file counts its rows, so that a cut file can be told.
@@ -46,7 +49,7 @@ def write(frames: dict[str, pd.DataFrame], folder: Path) -> None:
     new = Path(tempfile.mkdtemp(prefix=".writing-", dir=folder))
     try:
         for name, frame in frames.items():
-            text = rounded(frame).to_csv(index=False, lineterminator="\n")
+            text = _rounded(frame).to_csv(index=False, lineterminator="\n")
             (new / name).write_text(f"{text}# {len(frame)} rows\n", encoding="utf-8")
         for name in frames:
             os.replace(new / name, folder / name)
@@ -54,16 +57,25 @@ def write(frames: dict[str, pd.DataFrame], folder: Path) -> None:
         shutil.rmtree(new, ignore_errors=True)
 
 
-def read(path: Path) -> pd.DataFrame:
-    """A written report, as text. Raises ValueError if it was cut."""
-    *lines, footer = path.read_text(encoding="utf-8").splitlines()
+def read(path: Path, kind: type[Row]) -> list[Row]:
+    """The rows of a written report. Raises ValueError if the file was cut."""
+    footer = path.read_text(encoding="utf-8").splitlines()[-1]
     frame = pd.read_csv(path, dtype=str, comment="#", keep_default_na=False)
     if footer != f"# {len(frame)} rows":
-        raise ValueError(f"{path}: cut or changed by hand: it ends in {footer!r}")
-    return frame
+        raise ValueError(f"{path}: cut, or changed by hand: it ends in {footer!r}")
+    numbers = {column.name for column in fields(kind) if "float" in str(column.type)}
+    rows: list[Row] = []
+    for record in frame.to_dict("records"):
+        values: dict[str, Any] = {str(name): text for name, text in record.items()}
+        rows.append(kind(**values | {name: _number(values[name]) for name in numbers}))
+    return rows
 
 
-def rounded(frame: pd.DataFrame) -> pd.DataFrame:
+def _number(text: str) -> float | None:
+    return float(text) if text else None
+
+
+def _rounded(frame: pd.DataFrame) -> pd.DataFrame:
     """Numbers as text with three significant digits; what is not known is empty."""
     out = frame.copy()
     for name in out.select_dtypes(include=[np.number]).columns:
@@ -72,16 +84,18 @@ def rounded(frame: pd.DataFrame) -> pd.DataFrame:
 
 
 def keep(report: Report, folder: Path) -> None:
-    """One CSV a case: times, the reference, and every engine side by side, in full precision."""
+    """One CSV a case: times, and each quantity of the reference and of every engine, side by side.
+
+    In full precision: these files are for looking and plotting, and are not committed.
+    """
     folder.mkdir(parents=True, exist_ok=True)
-    columns: dict[str, dict[str, np.ndarray]] = {}
-    for trial, outcome in report.trials:
-        kept = columns.setdefault(trial.case.name, {"t": trial.case.times})
-        engine = f"{trial.engine.name}.{trial.engine.setting}.{trial.realised}"
-        for name in trial.case.allow:
-            kept[f"{name} reference"] = trial.wanted(name)
-            if name in outcome.samples:
-                kept[f"{name} {engine}"] = outcome.samples[name]
-    for case, kept in columns.items():
-        order = ["t", *sorted(set(kept) - {"t"}, key=lambda c: (c.split()[0], "reference" not in c))]
-        pd.DataFrame(kept)[order].to_csv(folder / f"{case}.csv", index=False)
+    for case in {trial.case.name: trial.case for trial, _ in report.trials}.values():
+        columns = {"t": case.times}
+        trials = [(t, outcome) for t, outcome in report.trials if t.case.name == case.name]
+        for name in case.allow:
+            columns[f"{name} reference"] = trials[0][0].wanted(name)
+            for trial, outcome in trials:
+                if name in outcome.samples:
+                    engine = f"{trial.engine.name}.{trial.engine.setting}.{trial.realised}"
+                    columns[f"{name} {engine}"] = outcome.samples[name]
+        pd.DataFrame(columns).to_csv(folder / f"{case.name}.csv", index=False)

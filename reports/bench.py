@@ -1,0 +1,120 @@
+"""What the adapters cost: each figure a ratio of two minima of ten, taken in turn in one run."""
+
+import time
+from collections.abc import Callable, Iterator
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+import engines
+from cases.case import Case
+from engines.engine import Engine, State
+from reference.assembly import assemble
+from reference.explicit import dormand_prince
+from reference.mechanism import Mechanism
+from reference.system import Array, System
+from reference.systems import SYSTEMS
+from reports.ladder import wanted_reactions
+from reports.selection import choose_cases
+
+Work = Callable[[], object]
+
+ROUNDS = 10  # the minimum of ten: what the machine can do when nobody disturbs it
+STEPS = 100  # a sample
+SAMPLES = 100
+TOLERANCES = (1e-8, 1e-9, 1e-10, 1e-11, 1e-12)  # around the error they are compared at
+ENOUGH = 1e-10  # the error at which the integrators are compared
+
+
+def table() -> Iterator[str]:
+    """The lines of the table, one measured after the other."""
+    yield f"{'stepping through the adapter':44} {'adapter':>9} {'bare loop':>9}  ratio"
+    for case in choose_cases([]):
+        for name in engines.NAMES:
+            for setting in engines.SETTINGS:
+                engine = engines.engine(name, setting)
+                ours, bare = _stepping(case, engine)
+                label = f"{case.name} in {name}.{setting}"
+                yield f"{label:44} {ours * 1e3:6.1f} ms {bare * 1e3:6.1f} ms  {ours / bare:.2f}"
+    yield ""
+    yield f"{'to an error of 1e-10':44} {'ours':>9} {'scipy':>9}  ratio"
+    ours, scipys = _integrators()
+    yield f"{'double pendulum':44} {ours * 1e3:6.1f} ms {scipys * 1e3:6.1f} ms  {ours / scipys:.2f}"
+
+
+def _stepping(case: Case, engine: Engine) -> tuple[float, float]:
+    """Seconds of the adapter's run and of the engine's bare loop, for the same steps."""
+    step = 1e-3 if engine.own_step is None else engine.own_step
+    times = np.arange(SAMPLES + 1, dtype=np.float64) * (STEPS * step)
+    mechanism = Mechanism(case.scene, assemble(case))
+    poses = mechanism.poses(0.0, *mechanism.start())
+    start: State = {name: tuple(float(x) for x in pose) for name, pose in poses.items()}  # type: ignore[misc]
+
+    def adapter() -> Work:
+        return lambda: engine.run(
+            case.scene,
+            start,
+            times,
+            step,
+            tied_to=step,
+            realised="native",
+            reactions=wanted_reactions(case.scene, case.allow),
+        )
+
+    def bare() -> Work:
+        loop = engine.prepare(case.scene, start, step, realised="native")
+        return lambda: loop(STEPS * SAMPLES)
+
+    ours, theirs = _fastest(adapter, bare)
+    return ours, theirs
+
+
+def _fastest(*setups: Callable[[], Work]) -> list[float]:
+    """The least seconds of each work, set up anew and taken in turn."""
+    least = [float("inf")] * len(setups)
+    for _ in range(ROUNDS):
+        for i, setup in enumerate(setups):
+            work = setup()
+            before = time.perf_counter()
+            work()
+            least[i] = min(least[i], time.perf_counter() - before)
+    return least
+
+
+def _integrators() -> tuple[float, float]:
+    """Seconds to 1e-10 on the double pendulum: our explicit integrator, and scipy's DOP853."""
+    (case,) = choose_cases(["double_pendulum"])
+    system = SYSTEMS["double_pendulum"](**case.parameters)
+    q, v = system.start()
+    y0 = np.concatenate([q, v])
+    truth = dormand_prince(_rates(system), case.times, y0, tolerance=1e-15).y
+    ours: list[tuple[float, float]] = []
+    theirs: list[tuple[float, float]] = []
+    for tolerance in TOLERANCES:
+        answers: dict[str, Array] = {}
+
+        def our_work(tolerance: float = tolerance) -> None:
+            answers["ours"] = dormand_prince(_rates(system), case.times, y0, tolerance=tolerance).y
+
+        def their_work(tolerance: float = tolerance) -> None:
+            answers["theirs"] = solve_ivp(
+                _rates(system), (0, case.duration), y0, "DOP853", case.times,
+                rtol=tolerance, atol=tolerance,
+            ).y.T  # fmt: skip
+
+        seconds = _fastest(lambda: our_work, lambda: their_work)
+        for found, name, t in zip((ours, theirs), ("ours", "theirs"), seconds, strict=True):
+            found.append((float(np.max(np.abs(answers[name] - truth))), t))
+    return _at(ENOUGH, ours), _at(ENOUGH, theirs)
+
+
+def _rates(system: System) -> Callable[[float, Array], Array]:
+    n = len(system.start()[0])
+    return lambda t, y: np.concatenate([y[n:], system.accelerations(t, y[:n], y[n:])])
+
+
+def _at(error: float, found: list[tuple[float, float]]) -> float:
+    """Seconds at which the error is reached, on the line through log error and log seconds."""
+    errors, seconds = np.log(np.array(found)).T
+    slope, offset = np.polyfit(errors, seconds, 1)
+    return float(np.exp(slope * np.log(error) + offset))
