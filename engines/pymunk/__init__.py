@@ -7,13 +7,13 @@ from typing import Any
 
 import pymunk
 
-from cases.scene import GROUND, Joint, Scene
+from cases.scene import GROUND, Scene
 from cases.trajectory import Array, Trajectory
 from engines.engine import Choice, Realised, State
 from engines.pymunk import settings
 from engines.pymunk.measure import measured
 from engines.pymunk.run import placed, simulate, stepper
-from engines.pymunk.scene import build, holds_angle, turns
+from engines.pymunk.scene import build, oblique
 from engines.pymunk.script import text
 
 
@@ -25,6 +25,7 @@ class Pymunk:
     options: Mapping[str, Any] = field(default_factory=dict)
     name: str = "pymunk"
     version: str = pymunk.version
+    comment: tuple[str, str] = ("# ", "")
 
     def __post_init__(self) -> None:
         settings.own(self.options)
@@ -50,8 +51,9 @@ class Pymunk:
                 where = "the ground" if part.a.body == GROUND else part.a.body
                 return f"engine: {part.name} joins {where} to itself, on which pymunk aborts"
         for joint in scene.joints.values():
-            if joint.kind != "pin" and (reason := _unbuildable(scene, joint)):
-                return reason
+            first = joint.a.body
+            if joint.kind != "pin" and first != GROUND and not scene.bodies[first].turns:
+                return f"adapter: {joint.name} starts at a particle, which has no axes"
         for contact in scene.contacts.values():
             if scene.bodies[contact.body].radius is None:
                 return f"adapter: only a disk can touch the floor, {contact.body} is none"
@@ -69,16 +71,17 @@ class Pymunk:
         return False
 
     def exponents(self, scene: Scene, realised: Realised, *, held: bool) -> tuple[int, ...]:
-        """Symplectic Euler 1, 2; the midpoint protocol 2, 3, but with pymunk's own damper 1, 2."""
+        """Symplectic Euler 1, 2; the midpoint protocol 2, 3, except where pymunk spoils it."""
         damped = realised == "native" and any(damper.damping for damper in scene.dampers())
-        return (2, 3) if self.setting == "tuned" and not damped else (1, 2)
+        spoilt = damped or any(oblique(scene, joint) for joint in scene.joints.values())
+        return (2, 3) if self.setting == "tuned" and not spoilt else (1, 2)
 
-    def protocol(self, scene: Scene, realised: Realised) -> str:
-        """The half-step shift, and how deep a wheel is started in the floor."""
-        numbers = self._numbers(scene, 1.0)
+    def protocol(self, scene: Scene, start: State, step: float, realised: Realised) -> str:
+        """The half step along the velocities, and how deep a wheel is started in the floor."""
+        numbers = self._numbers(scene, step)
         words = []
         if numbers.get("time.midpoint"):
-            words.append("started h/2 back along the velocities, positions read h/2 ahead")
+            words.append(f"started {step / 2:g} s back, positions read {step / 2:g} s ahead")
         if numbers.get("start.seed"):
             words.append(f"wheel started {numbers['start.seed']:g} m in the floor")
         return "; ".join(words)
@@ -130,18 +133,3 @@ class Pymunk:
         """pymunk's bare loop on the same world, with the same forces."""
         numbers = self._numbers(scene, step)
         return stepper(placed(scene, start, step, numbers, realised), step, numbers, realised)
-
-
-def _unbuildable(scene: Scene, joint: Joint) -> str | None:
-    """Of a slide or weld."""
-    if joint.a.body != GROUND and not turns(scene, joint.a):
-        return f"adapter: {joint.name} starts at a particle, which has no axes"
-    if joint.kind == "weld" or holds_angle(scene, joint) or not turns(scene, joint.a):
-        return None
-    (x, y), (ux, uy) = scene.bodies[joint.a.body].points[joint.a.point], joint.along
-    if abs(ux * y - uy * x) <= 1e-12 * math.hypot(x, y):
-        return None
-    return (
-        f"engine: pymunk's groove of {joint.name} holds a particle with a wrong force, unless "
-        f"it runs through the centre of {joint.a.body}"
-    )

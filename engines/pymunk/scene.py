@@ -159,16 +159,28 @@ def groove(world: World, joint: Joint) -> tuple[Vector, Vector, Vector]:
     As the slide lets nothing turn, any parallel line holds the same. It runs through the centre
     of a first part that turns, else of the second, and meets the other where it is nearest to
     that one's centre: pymunk projects K⁻¹(v_bias − v) onto the groove's normal, and only there
-    is the normal a principal axis of K; elsewhere its solver stops at a wrong impulse.
+    is the normal a principal axis of K; see `oblique` for what happens elsewhere.
     """
     (ax, ay), (ux, uy) = world.local(joint.a), joint.along
     cos, sin = math.cos(joint.angle), math.sin(joint.angle)
     bx, by = world.local(joint.b)
     bx, by = cos * bx - sin * by, sin * bx + cos * by  # in the first part's axes
     px, py, anchor = ax - bx, ay - by, (0.0, 0.0)
-    if turns(world.scene, joint.a):
+    if turns(world.scene, joint.a) and holds_angle(world.scene, joint):
         offset = uy * px - ux * py  # from the second centre to the line, along n
         nx, ny = -uy * offset, ux * offset
         px, py, anchor = 0.0, 0.0, (cos * nx + sin * ny, cos * ny - sin * nx)
     ends = (px - FAR * ux, py - FAR * uy), (px + FAR * ux, py + FAR * uy)
     return *ends, anchor
+
+
+def oblique(scene: Scene, joint: Joint) -> bool:
+    """Whether a groove has to lie where K is oblique to it: a particle beside a turning centre.
+
+    There the solver settles with the particle off the line by c h times its sliding speed: the
+    motion is of first order, and starts with a kick.
+    """
+    if joint.kind != "slide" or not turns(scene, joint.a) or holds_angle(scene, joint):
+        return False
+    (x, y), (ux, uy) = scene.bodies[joint.a.body].points[joint.a.point], joint.along
+    return abs(ux * y - uy * x) > 1e-12 * math.hypot(x, y)

@@ -16,7 +16,10 @@ ENDS = (Anchor("ground", "O"), Anchor("mass", "center"))
 @pytest.mark.parametrize("row", TABLE["signals"], ids=str)
 def test_signal(row: dict[str, Any]) -> None:
     signal = Signal(
-        row["law"], tuple(row["amplitude"]), row.get("angular_frequency", 0.0), row.get("phase", 0.0)
+        law=row["law"],
+        amplitude=tuple(row["amplitude"]),
+        angular_frequency=row.get("angular_frequency", 0.0),
+        phase=row.get("phase", 0.0),
     )
     assert value(signal, row["t"]) == pytest.approx(tuple(row["value"]), rel=1e-12, abs=1e-15)
 
