@@ -48,7 +48,7 @@ def tuned(scene: Scene) -> list[Choice]:
     """The best recipe; no number follows the step."""
     because = (
         "with error_bias = 0 a sweep short of convergence is unstable, the more the smaller the "
-        "step: measured, chains of n pins need n²/4, four-bar, rhombus and slider-crank 20"
+        "step; measured: chains of n pins need n²/4, loops of four and five pins settle with 30"
     )
     iterations = Choice("space.iterations", max(30, len(scene.joints) ** 2), because)
     return [c for c in (*_TUNED, iterations) if _matters(c.name, scene)]
