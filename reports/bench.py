@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -85,27 +86,25 @@ def _integrators() -> tuple[float, float]:
     """Seconds to 1e-10 on the double pendulum: our explicit integrator, and scipy's DOP853."""
     (case,) = choose_cases(["double_pendulum"])
     system = SYSTEMS["double_pendulum"](**case.parameters)
-    q, v = system.start()
-    y0 = np.concatenate([q, v])
-    truth = dormand_prince(_rates(system), case.times, y0, tolerance=1e-15).y
-    ours: list[tuple[float, float]] = []
-    theirs: list[tuple[float, float]] = []
-    for tolerance in TOLERANCES:
-        answers: dict[str, Array] = {}
+    y0 = np.concatenate(system.start())
+    rates = _rates(system)
 
-        def our_work(tolerance: float = tolerance) -> None:
-            answers["ours"] = dormand_prince(_rates(system), case.times, y0, tolerance=tolerance).y
+    def ours(tolerance: float) -> Array:
+        return dormand_prince(rates, case.times, y0, tolerance=tolerance).y
 
-        def their_work(tolerance: float = tolerance) -> None:
-            answers["theirs"] = solve_ivp(
-                _rates(system), (0, case.duration), y0, "DOP853", case.times,
-                rtol=tolerance, atol=tolerance,
-            ).y.T  # fmt: skip
+    def scipys(tolerance: float) -> Array:
+        span, options = (0.0, case.duration), {"rtol": tolerance, "atol": tolerance}
+        return solve_ivp(rates, span, y0, "DOP853", case.times, **options).y.T
 
-        seconds = _fastest(lambda: our_work, lambda: their_work)
-        for found, name, t in zip((ours, theirs), ("ours", "theirs"), seconds, strict=True):
-            found.append((float(np.max(np.abs(answers[name] - truth))), t))
-    return _at(ENOUGH, ours), _at(ENOUGH, theirs)
+    truth = ours(1e-15)
+    seconds = [
+        _fastest(lambda t=t: partial(ours, t), lambda t=t: partial(scipys, t)) for t in TOLERANCES
+    ]
+    errors = [
+        [float(np.max(np.abs(method(t) - truth))) for method in (ours, scipys)] for t in TOLERANCES
+    ]
+    found = np.array([errors, seconds])
+    return _at(ENOUGH, *found[:, :, 0]), _at(ENOUGH, *found[:, :, 1])
 
 
 def _rates(system: System) -> Callable[[float, Array], Array]:
@@ -113,8 +112,7 @@ def _rates(system: System) -> Callable[[float, Array], Array]:
     return lambda t, y: np.concatenate([y[n:], system.accelerations(t, y[:n], y[n:])])
 
 
-def _at(error: float, found: list[tuple[float, float]]) -> float:
+def _at(error: float, errors: Array, seconds: Array) -> float:
     """Seconds at which the error is reached, on the line through log error and log seconds."""
-    errors, seconds = np.log(np.array(found)).T
-    slope, offset = np.polyfit(errors, seconds, 1)
+    slope, offset = np.polyfit(np.log(errors), np.log(seconds), 1)
     return float(np.exp(slope * np.log(error) + offset))

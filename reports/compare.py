@@ -119,7 +119,7 @@ def _studies(
                 case.scene, trial.realised, held=ladder.name == "held"
             ),
             allow=case.allow[name] or float("inf"),
-            duration=case.duration,
+            floor=metric.floor(trial.size(name), case.duration / min(rungs)),
         )
         for ladder, rungs in runs.ladders.items()
         if rungs

@@ -21,6 +21,7 @@ UNSETTLED = "not settled"
 
 TEXTBOOK_WITHIN = 3.0  # uncertainties between limit and reference
 ANOTHER_BEYOND = 4.0
+FALLS = 0.7  # a halved step halves a difference of first order; noise keeps it
 OF_ALLOW = 0.1  # an uncertainty above this part of `allow` decides nothing
 
 
@@ -43,19 +44,22 @@ def study(
     *,
     exponents: Sequence[int],
     allow: float,
-    duration: float,
+    floor: float,
 ) -> Convergence:
-    """Judges samples (N,) by step; the steps double from the smallest on."""
+    """Judges samples (N,) by step; the steps double from the smallest on.
+
+    floor: the difference that rounding alone can make at the smallest step.
+    """
     steps = sorted(ladder)
     errors = {h: metric.error(ladder[h], reference).largest for h in steps}
     usable = _usable(errors, allow)
-    floor = metric.floor(reference, duration / steps[0])
     if errors[steps[0]] <= floor:
         return Convergence(EXACT, None, None, None, errors[steps[0]], floor, usable)
     if len(steps) < len(exponents) + 1:
         return Convergence(UNSETTLED, None, None, None, None, None, usable)
-    limit, uncertainty = _romberg([ladder[h] for h in steps], exponents)
-    uncertainty = max(uncertainty, floor)
+    rungs = [ladder[h] for h in steps]
+    limit, uncertainty = _romberg(rungs, exponents)
+    uncertainty = max(uncertainty, floor, _noise(rungs))
     off = float(np.max(np.abs(limit - reference)))
     if off <= TEXTBOOK_WITHIN * uncertainty and uncertainty <= OF_ALLOW * allow:
         verdict = TEXTBOOK
@@ -63,7 +67,7 @@ def study(
         verdict = ANOTHER
     else:
         return Convergence(UNSETTLED, None, None, None, off, uncertainty, usable)
-    orders = _orders([ladder[h] for h in steps], floor)
+    orders = [] if _noise(rungs) else _orders(rungs, floor)
     low, high = (min(orders), max(orders)) if orders else (None, None)
     order = orders[0] if orders else None
     return Convergence(verdict, order, low, high, off, uncertainty, usable)
@@ -83,6 +87,12 @@ def _orders(rungs: Sequence[Array], floor: float) -> list[float]:
     d = [float(np.max(np.abs(b - a))) for a, b in itertools.pairwise(rungs)]
     pairs = itertools.pairwise(d)
     return [math.log2(coarse / fine) for fine, coarse in pairs if fine > floor][:3]
+
+
+def _noise(rungs: Sequence[Array]) -> float:
+    """The finest difference, if it is no smaller than the next: then it is not the step's."""
+    fine, coarse = (float(np.max(np.abs(b - a))) for a, b in itertools.pairwise(rungs[:3]))
+    return fine if fine > FALLS * coarse else 0.0
 
 
 def _romberg(rungs: Sequence[Array], exponents: Sequence[int]) -> tuple[Array, float]:

@@ -24,6 +24,6 @@ def error(samples: Array, reference: Array) -> Error:
     return Error(float(np.max(d)), float(np.sqrt(np.mean(d * d))), float(d[-1]))
 
 
-def floor(reference: Array, steps: float) -> float:
-    """What rounding alone can make of a motion in so many steps: 2.2e-16 × size × steps."""
-    return ROUNDING * max(float(np.max(np.abs(reference))), ROUNDING) * steps
+def floor(size: float, steps: float) -> float:
+    """What rounding alone can make of a number of this size in so many steps."""
+    return ROUNDING * size * steps

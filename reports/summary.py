@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from reports.row import AGREES, DEVIATES, FAILS, Comparison, Rungs
+from reports.row import AGREES, FAILS, Comparison, Rungs
 
 
 def summary(comparisons: Sequence[Comparison], rungs: Sequence[Rungs]) -> list[list[str]]:
@@ -42,7 +42,7 @@ def _cell(rows: Sequence[Comparison], ladder: Sequence[Rungs]) -> Iterator[str]:
     if not judged:
         yield "refused"
         return
-    off = [row for row in judged if row.verdict not in (AGREES, DEVIATES)]
+    off = [row for row in judged if row.verdict != AGREES]
     fails = sum(row.verdict == FAILS for row in judged)
     if fails:
         yield f"{fails} FAIL"

@@ -3,10 +3,12 @@
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
 from cases.case import Case
 from cases.observe import observe
 from cases.quantity import Quantity, table
-from cases.trajectory import Array, Trajectory
+from cases.trajectory import VX, VY, Array, Trajectory, X, Y
 from engines.engine import Engine, Realised, State
 from reports.ladder import judged_step
 
@@ -27,6 +29,15 @@ class Trial:
     def quantity(self, name: str) -> Quantity:
         """The quantity's unit and kind; the audit has none."""
         return table(self.case.scene).get(name) or Quantity(name, "", "", "", "residual")
+
+    def size(self, name: str) -> float:
+        """How large the quantity is; a residual, meant to be zero, has the size of its motion."""
+        size = float(np.max(np.abs(self.wanted(name))))
+        if self.quantity(name).kind == "residual":
+            columns = [X, Y] if self.quantity(name).unit == "m" else [VX, VY]
+            states = np.concatenate(list(self.reference.states.values()))
+            size = max(size, float(np.max(np.abs(states[:, columns]))))
+        return size
 
     @cached_property
     def step(self) -> float:

@@ -27,9 +27,9 @@ def verdict(
         return _declared(engine, declared, largest, convergence)
     if engine.setting == "tuned":
         broken = _broken(trial, quantity, largest, convergence)
-        return (FAILS, f"{broken}; {cause(convergence)}") if broken else (AGREES, "")
+        return (FAILS, f"{broken}; {cause(convergence, allowed)}") if broken else (AGREES, "")
     if not largest <= allowed:
-        return BEYOND, cause(convergence)
+        return BEYOND, cause(convergence, allowed)
     return AGREES, ""
 
 
@@ -53,15 +53,18 @@ def _broken(trial: Trial, quantity: str, largest: float, convergence: Convergenc
     return ""
 
 
-def cause(convergence: Convergence) -> str:
+def cause(convergence: Convergence, allowed: float) -> str:
     """Why there is a difference, as far as the held ladder tells."""
+    usable = convergence.usable_step
+    enough = f"within from h = {usable:.3g} s on" if usable else "not within on this ladder"
+    limit = convergence.limit
     if convergence.verdict == TEXTBOOK:
         order = "" if convergence.order is None else f" with order {convergence.order:.1f}"
-        usable = convergence.usable_step
-        enough = f"within from h = {usable:.3g} s on" if usable else "not within on this ladder"
         return f"the step: it falls{order}, {enough}"
-    if convergence.verdict == ANOTHER:
-        return f"the model: {convergence.limit:.3g} remains for h → 0"
+    if convergence.verdict == ANOTHER and limit is not None:
+        if limit > allowed:
+            return f"the model: {limit:.3g} remains for h → 0"
+        return f"the step: {enough}; the model's own {limit:.3g} would be"
     if convergence.verdict == UNSETTLED:
         return "the ladder has not settled: neither step nor model can be named"
     return "rounding"

@@ -67,11 +67,12 @@ def read(path: Path, kind: type[Row]) -> list[Row]:
     rows: list[Row] = []
     for record in frame.to_dict("records"):
         values: dict[str, Any] = {str(name): text for name, text in record.items()}
-        rows.append(kind(**values | {name: _number(values[name]) for name in numbers}))
+        values |= {name: _number(values[name]) for name in numbers}
+        rows.append(kind(**values))
     return rows
 
 
-def _number(text: str) -> float | None:
+def _number(text: str) -> Any:
     return float(text) if text else None
 
 
