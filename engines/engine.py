@@ -20,21 +20,30 @@ class Diverged(RuntimeError):
 class Choice:
     """One number or option of a setting, as the engine spells it, with its reason."""
 
-    name: str
-    value: Any
-    because: str
+    @property
+    def name(self) -> str:
+        """`mujoco`, `pymunk`."""
+        ...
 
+    @property
+    def setting(self) -> str:
+        """`shipped`, `tuned`, or `own`."""
+        ...
 
-class Engine(Protocol):
-    """An engine with one setting (`mujoco.shipped`, `pymunk.tuned`, …)."""
+    @property
+    def version(self) -> str:
+        """The engine's version."""
+        ...
 
-    name: str
-    setting: str
-    version: str
-    comment: tuple[str, str]
-    """What opens and closes a line of comment in the engine's own files."""
-    own_step: float | None
-    """The step [s] a user gets who changes nothing; None: the case names the step."""
+    @property
+    def comment(self) -> tuple[str, str]:
+        """What opens and closes a line of comment in the engine's own files."""
+        ...
+
+    @property
+    def own_step(self) -> float | None:
+        """The step [s] a user gets who changes nothing; None: the case names the step."""
+        ...
 
     def realisations(self, scene: Scene) -> tuple[Realised, ...]:
         """In which ways the scene can be built; `native` always stands first."""

@@ -61,7 +61,7 @@ def _diverged(trial: Trial, names: Iterable[str], because: str) -> list[Comparis
 def _row(trial: Trial, name: str, word: str, **values: Any) -> Comparison:
     case, engine = trial.case, trial.engine
     columns: dict[str, Any] = dict.fromkeys(("step", "largest", "rms", "final", "ratio"))
-    columns |= {"because": "", "allowed": case.allow.get(name)} | values
+    columns |= {"protocol": "", "because": "", "allowed": case.allow.get(name)} | values
     return Comparison(
         case=case.name,
         source=str(case.origin),
@@ -69,7 +69,6 @@ def _row(trial: Trial, name: str, word: str, **values: Any) -> Comparison:
         version=engine.version,
         setting=engine.setting,
         realised=trial.realised,
-        protocol="" if word.startswith("refused") else trial.protocol,
         quantity=name,
         unit=trial.quantity(name).unit,
         verdict=word,
@@ -83,6 +82,7 @@ def _audit(trial: Trial) -> Comparison:
         trial,
         "audit",
         AGREES if worst <= EQUAL else FAILS,
+        protocol=trial.protocol,
         largest=worst,
         allowed=EQUAL,
         ratio=worst / EQUAL,
@@ -98,6 +98,7 @@ def _judged(trial: Trial, name: str, samples: Samples, held: Convergence) -> Com
         trial,
         name,
         word,
+        protocol=trial.protocol,
         step=trial.step,
         largest=error.largest,
         rms=error.rms,

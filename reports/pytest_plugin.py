@@ -103,13 +103,7 @@ class CaseItem(pytest.Item):
         self.case = case
 
     def report(self) -> "Report":
-        stash = self.session.stash
-        if _REPORT not in stash:
-            stash[_REPORT] = _measure(self.session, self.config)
-        found = stash[_REPORT]
-        if isinstance(found, Exception):
-            raise RowError(str(found))
-        return found
+        return measured(self.session)
 
     def place(self, *path: str) -> int:
         """The line of the case file, from 1, where the row's claim stands."""
@@ -136,7 +130,7 @@ class CertificateItem(CaseItem):
             raise RowError("\n".join(_certificate_text(row) for row in broken))
 
     def reportinfo(self) -> tuple[Path, int, str]:
-        return self.path, self.place("title") - 1, self.name
+        return self.path, self.place("title") - 1, f"case {self.name}"
 
 
 class ComparisonItem(CaseItem):
@@ -158,7 +152,7 @@ class ComparisonItem(CaseItem):
             pytest.xfail(line(row))
 
     def reportinfo(self) -> tuple[Path, int, str]:
-        return self.path, self.place("allow", self.key[-1]) - 1, self.name
+        return self.path, self.place("allow", self.key[-1]) - 1, f"case {self.name}"
 
 
 def _key(row: "Comparison") -> tuple[str, ...]:
@@ -182,8 +176,18 @@ def _certificate_text(row: "Certificate") -> str:
     )
 
 
-def _measure(session: pytest.Session, config: pytest.Config) -> "Report | Exception":
-    """All collected rows, each simulation once, on all cores."""
+def measured(session: pytest.Session) -> "Report":
+    """All rows that were collected, each simulation once in the session. Raises RowError."""
+    if _REPORT not in session.stash:
+        session.stash[_REPORT] = _measure(session)
+    found = session.stash[_REPORT]
+    if isinstance(found, Exception):
+        raise RowError(str(found))
+    return found
+
+
+def _measure(session: pytest.Session) -> "Report | Exception":
+    """Runs what is collected, on all cores."""
     from cases.mistake import CaseError
     from reports import pool, suite
     from reports.selection import choose_engines

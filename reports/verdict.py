@@ -19,10 +19,7 @@ def verdict(
     allowed = case.allow[quantity]
     declared = case.deviates.get(f"{engine.name}.{engine.setting}", {}).get(quantity)
     if allowed is None:
-        return (
-            FAILS,
-            f"its tolerance is unknown: {largest:.3g} was measured, a person must judge it",
-        )
+        return FAILS, f"its tolerance is unknown; {largest:.3g} was measured: type a number"
     if declared is not None:
         return _declared(engine, declared, largest, convergence)
     if engine.setting == "tuned":

@@ -1,0 +1,126 @@
+"""A case that needs no file, and an engine whose errors are known in advance."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from cases.case import Case
+from cases.load import load
+from cases.scene import Scene
+from cases.trajectory import Array, Trajectory
+from engines.engine import Choice, Diverged, Realised, State
+from reports.trial import Trial
+
+TEXT = """\
+title: A free body that moves at constant velocity
+source: {equations: ["2.23"]}
+scene:
+  gravity: none
+  bodies: {ball: {particle: {mass: 2.0}}}
+initial: {ball: {x: 0, y: 0, vx: 1, vy: 0}}
+duration: 1.0
+samples: 26
+step: {mujoco: 1.0e-3, pymunk: 1.0e-3}
+allow: {ball.x: 1.0e-2}
+"""
+
+
+@dataclass(frozen=True)
+class Fake:
+    """x(t) = t + model t + rate h^order t; diverges above `stable`."""
+
+    setting: str = "tuned"
+    name: str = "mujoco"
+    version: str = "4.0.0"
+    comment: tuple[str, str] = ("# ", "")
+    own_step: float | None = None
+    model: float = 0.0
+    rate: float = 1.0
+    order: int = 1
+    stable: float = 1.0
+    follows: bool = False
+    numbers: dict[str, float] = field(default_factory=dict)
+    refusal: str | None = None
+    before: Callable[[], None] = lambda: None
+
+    def realisations(self, scene: Scene) -> tuple[Realised, ...]:
+        return ("native",)
+
+    def refuses(self, scene: Scene) -> str | None:
+        return self.refusal
+
+    def withholds(self, scene: Scene, quantity: str) -> str | None:
+        return "engine: it is blind" if quantity.endswith("vy") else None
+
+    def tied(self, scene: Scene) -> bool:
+        return self.follows
+
+    def exponents(self, scene: Scene, realised: Realised, *, held: bool) -> tuple[int, ...]:
+        return (self.order, self.order + 1)
+
+    def protocol(self, scene: Scene, start: State, step: float, realised: Realised) -> str:
+        return ""
+
+    def choices(self, scene: Scene, step: float) -> list[Choice]:
+        return []
+
+    def script(self, scene: Scene, start: State, step: float) -> str:
+        return "pass\n"
+
+    def measure(self, scene: Scene, start: State) -> dict[str, float]:
+        return {"ball.mass": 2.0} | self.numbers
+
+    def run(
+        self,
+        scene: Scene,
+        start: State,
+        times: Array,
+        step: float,
+        *,
+        tied_to: float,
+        realised: Realised,
+        reactions: tuple[str, ...],
+    ) -> Trajectory:
+        self.before()
+        if step > self.stable:
+            raise Diverged("too large a step")
+        model = self.model * (tied_to / 1e-3 if self.follows else 1.0)
+        ball = np.zeros((len(times), 6))
+        ball[:, 0] = times * (1 + model + self.rate * step**self.order)
+        ball[:, 3] = 1.0
+        return Trajectory(times, {"ball": ball}, {})
+
+    def prepare(
+        self, scene: Scene, start: State, step: float, *, realised: Realised
+    ) -> Callable[[int], None]:
+        return lambda n: None
+
+
+@pytest.fixture(scope="session")
+def moving(tmp_path_factory: pytest.TempPathFactory) -> Case:
+    """The free body's case."""
+    return written(tmp_path_factory.mktemp("case"), TEXT)
+
+
+def written(folder: Path, text: str, name: str = "moving.yaml") -> Case:
+    file = folder / name
+    file.write_text(text, encoding="utf-8")
+    (case,) = load(file)
+    return case
+
+
+@pytest.fixture
+def trial(moving: Case) -> Callable[..., Trial]:
+    """A trial of a fake engine with the given properties, or of another case."""
+
+    def made(case: Case = moving, **properties: Any) -> Trial:
+        times = case.times
+        ball = np.zeros((len(times), 6))
+        ball[:, 0], ball[:, 3] = times, 1.0
+        return Trial(case, Trajectory(times, {"ball": ball}, {}), Fake(**properties), "native")
+
+    return made

@@ -1,0 +1,195 @@
+"""The command as a user meets it: what it prints, where, and its exit codes."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from reports import write
+
+NEW = """\
+title: A bar that hangs on a cart
+scene:
+  points: {O: [0, 0]}
+  bodies:
+    cart: {block: {mass: 2.0, width: 0.3, height: 0.1}}
+    rod: {bar: {mass: 0.5, length: 0.6}}
+  joints:
+    rail: {slide: [ground.O, cart.center], along: [1, 0]}
+    hinge: {pin: [cart.center, rod.start]}
+initial: {cart: {x: 0}, rod: {angle: -40 deg}}
+duration: 0.4
+samples: 6
+step: {mujoco: 1.0e-3, pymunk: 1.0e-3}
+allow: {cart.x: 1.0e-2, rod.angle: 1.0e-2}
+"""
+
+
+def textmech(*words: object, folder: Path | None = None) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "reports.cli", *map(str, words)],
+        capture_output=True,
+        text=True,
+        cwd=folder,
+        timeout=120,
+        check=False,
+    )
+
+
+@pytest.fixture
+def new(tmp_path: Path) -> Path:
+    file = tmp_path / "cart.yaml"
+    file.write_text(NEW, encoding="utf-8")
+    return file
+
+
+def reports() -> dict[str, bytes]:
+    return {file.name: file.read_bytes() for file in write.HERE.glob("*.csv")}
+
+
+def test_a_case_of_ones_own_runs_in_both_engines_and_writes_nothing(new: Path) -> None:
+    before = reports()
+    done = textmech("run", new, folder=new.parent)
+    assert done.returncode == 0, done.stderr
+    for engine in ("mujoco", "pymunk"):
+        for setting in ("shipped", "tuned"):
+            assert f"cart in {engine}" in done.stdout
+            assert f"{engine}.{setting}" in done.stdout
+    assert reports() == before
+    assert [file.name for file in new.parent.iterdir()] == ["cart.yaml"]
+
+
+def test_out_and_keep_write_where_they_are_told(new: Path, tmp_path: Path) -> None:
+    done = textmech(
+        "run", new, "--engine", "mujoco.tuned", "--out", "o", "--keep", "k", folder=tmp_path
+    )
+    assert done.returncode == 0, done.stderr
+    assert sorted(p.name for p in (tmp_path / "o").iterdir()) == [
+        "convergence.csv",
+        "coverage.csv",
+        "reference.csv",
+        "tolerance.csv",
+    ]
+    head, *rows = (tmp_path / "k" / "cart.csv").read_text().splitlines()
+    assert head.split(",")[:3] == ["t", "cart.x reference", "cart.x mujoco.tuned.native"]
+    assert len(rows) == 6
+
+
+def test_a_verdict_that_fails_is_exit_code_1_and_is_named(new: Path) -> None:
+    new.write_text(NEW.replace("rod.angle: 1.0e-2", "rod.angle: 1.0e-12"), encoding="utf-8")
+    done = textmech("run", new, "--engine", "mujoco.tuned")
+    assert done.returncode == 1
+    assert "FAILS: cart: mujoco.tuned rod.angle" in done.stdout
+
+
+def test_an_unknown_tolerance_is_never_written_but_said(new: Path) -> None:
+    new.write_text(NEW.replace("rod.angle: 1.0e-2", "rod.angle: unknown"), encoding="utf-8")
+    done = textmech("run", new, "--engine", "mujoco.tuned")
+    assert done.returncode == 1
+    assert "was measured: type a number" in done.stdout
+    assert "unknown" in new.read_text()
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["run", "bar_pendulm"], "did you mean 'bar_pendulum'?"),
+        (["run", "rolling_wheel.pushd"], "did you mean 'rolling_wheel.pushed'?"),
+        (["run", "--engine", "mojoco"], "did you mean 'mujoco'?"),
+        (["run", "--settings", "tunned"], "did you mean 'tuned'?"),
+        (["run", "--jobs", "0"], "--jobs"),
+        (["run", "nowhere.yaml"], "no such file"),
+        (["run", "."], "directory"),
+        (["check", "nowhere.yaml"], "no such file"),
+        (["show", "rolling_wheel", "--engine", "mujoco"], "rolling_wheel.pushed"),
+        (["show", "four_bar"], "--engine"),
+        (["rnu"], "No such command"),
+    ],
+)
+def test_bad_input_is_exit_code_2_and_says_what_would_be_right(
+    words: list[str], message: str
+) -> None:
+    before = reports()
+    done = textmech(*words)
+    assert done.returncode == 2
+    assert message in done.stderr
+    assert "Traceback" not in done.stderr
+    assert reports() == before
+
+
+def test_check_names_all_mistakes_of_all_files_with_their_places(new: Path) -> None:
+    text = NEW.replace("mass: 2.0", "mass: -2.0").replace("[cart.center, rod", "[carrt.center, rod")
+    new.write_text(text, encoding="utf-8")
+    other = new.with_name("other.yaml")
+    other.write_text(NEW.replace("rod: {angle: -40 deg}", "rod: {}"), encoding="utf-8")
+    done = textmech("check", new.name, other.name, folder=new.parent)
+    assert done.returncode == 2
+    assert "cart.yaml:5:20" in done.stderr
+    assert "did you mean 'cart" in done.stderr
+    assert "rod.angle" in done.stderr
+    assert "other.yaml" in done.stderr
+
+
+def test_check_of_sound_files(new: Path) -> None:
+    done = textmech("check", new)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "1 case, no mistakes" in done.stdout
+
+
+def test_own_settings_are_a_further_column(new: Path) -> None:
+    file = new.with_name("mine.yaml")
+    file.write_text("mujoco: {step: 4.0e-3, integrator: implicitfast}\n", encoding="utf-8")
+    done = textmech("run", new, "--engine", "mujoco", "--settings", file)
+    assert done.returncode == 0, done.stderr
+    assert [w for w in done.stdout.split() if w.startswith("mujoco.")] == [
+        "mujoco.shipped",
+        "mujoco.own",
+        "mujoco.tuned",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("mujoko: {step: 1.0e-3}\n", "did you mean 'mujoco'?"),
+        ("mujoco: {stepp: 1.0e-3}\n", "did you mean 'step'?"),
+        ("mujoco: {integrator: rk4}\n", "RK4"),
+        ("pymunk: {iterations: 0}\n", "iterations"),
+        ("pymunk: fast\n", "map"),
+        ("", "empty"),
+    ],
+)
+def test_bad_settings_are_exit_code_2(new: Path, text: str, message: str) -> None:
+    file = new.with_name("mine.yaml")
+    file.write_text(text, encoding="utf-8")
+    done = textmech("run", new, "--settings", file)
+    assert done.returncode == 2
+    assert message in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_list_names_every_case_with_its_source() -> None:
+    done = textmech("list")
+    assert done.returncode == 0
+    assert "four_bar" in done.stdout
+    assert "figure 2.3" in done.stdout
+
+
+@pytest.mark.parametrize("engine", ["mujoco", "mujoco.shipped", "pymunk", "pymunk.shipped"])
+def test_show_is_ready_to_paste(engine: str) -> None:
+    done = textmech("show", "double_pendulum", "--engine", engine)
+    assert done.returncode == 0, done.stderr
+    if engine.startswith("pymunk"):
+        compile(done.stdout, "shown", "exec")
+    else:
+        import mujoco
+
+        mujoco.MjModel.from_xml_string(done.stdout)  # pyright: ignore[reportAttributeAccessIssue]
+
+
+def test_the_number_of_workers_does_not_change_the_rows(new: Path, tmp_path: Path) -> None:
+    for jobs in ("1", "2"):
+        assert textmech("run", new, "--jobs", jobs, "--out", tmp_path / jobs).returncode == 0
+    for file in (tmp_path / "1").iterdir():
+        assert file.read_bytes() == (tmp_path / "2" / file.name).read_bytes()

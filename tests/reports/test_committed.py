@@ -1,0 +1,87 @@
+"""The committed reports are what the suite measures now, and the README shows them."""
+
+import pytest
+
+from reports import pool, readme, suite, write
+from reports.metric import ROUNDING
+from reports.pytest_plugin import CaseItem, measured
+from reports.row import Certificate, Comparison, Rungs
+from reports.selection import choose_cases, choose_engines
+from reports.suite import Report
+
+QUARTER = 0.25  # what another compiler or processor may change of a number above the floor
+# Below this part of a tolerance a number is rounding's, and differs between machines.
+FLOOR = 1e-6
+
+
+@pytest.fixture(scope="module")
+def report(request: pytest.FixtureRequest) -> Report:
+    """All rows; those of this session where it compares everything anyway."""
+    cases, engines = choose_cases([]), choose_engines([], [])
+    items = {item.name for item in request.session.items if isinstance(item, CaseItem)}
+    if all(f"{c.name}-{e.name}.{e.setting}-audit" in items for c in cases for e in engines):
+        return measured(request.session)
+    return suite.measure(cases, engines, jobs=pool.workers(), progress=lambda *_: None)
+
+
+def test_tolerances_are_current(report: Report) -> None:
+    committed = {key(row): row for row in write.read(write.HERE / "tolerance.csv", Comparison)}
+    assert {key(row) for row in report.comparisons} == set(committed)
+    for row in report.comparisons:
+        before = committed[key(row)]
+        assert (row.verdict, row.unit, row.protocol != "") == (
+            before.verdict,
+            before.unit,
+            before.protocol != "",
+        )
+        assert near(row.largest, before.largest, FLOOR * (row.allowed or 1.0)), key(row)
+
+
+def test_orders_and_limits_are_current(report: Report) -> None:
+    committed = {
+        (*key(row), row.ladder): row for row in write.read(write.HERE / "convergence.csv", Rungs)
+    }
+    assert {(*key(row), row.ladder) for row in report.rungs} == set(committed)
+    allowed = {key(row): row.allowed or 1.0 for row in report.comparisons}
+    for row in report.rungs:
+        before = committed[(*key(row), row.ladder)]
+        floor = FLOOR * allowed[key(row)]
+        if max(row.uncertainty or 0.0, before.uncertainty or 0.0) > floor:
+            assert row.verdict == before.verdict, key(row)
+        assert near(row.limit, before.limit, floor), key(row)
+
+
+def test_certificates_are_current(report: Report) -> None:
+    rows = write.read(write.HERE / "reference.csv", Certificate)
+    committed = {(row.case, row.check): row for row in rows}
+    assert {(row.case, row.check) for row in report.certificates} == set(committed)
+    for row in report.certificates:
+        before = committed[(row.case, row.check)]
+        assert (row.system, row.verdict) == (before.system, "holds")
+        assert row.bound == pytest.approx(before.bound, rel=QUARTER)  # the floor counts steps
+
+
+def test_coverage_is_current(report: Report) -> None:
+    now = write.tables(report, choose_cases([]))["coverage.csv"]
+    text = now.to_csv(index=False, lineterminator="\n") + f"# {len(now)} rows\n"
+    assert (write.HERE / "coverage.csv").read_text(encoding="utf-8") == text
+
+
+def test_every_equation_that_a_case_names_is_executed_by_it(report: Report) -> None:
+    for case in choose_cases([]):
+        missing = set(case.origin.equations) - report.equations[case.name]
+        assert not missing, f"{case.name} names {sorted(missing)} and never runs them"
+
+
+def test_the_readme_shows_the_reports() -> None:
+    assert readme.README.read_text(encoding="utf-8") == readme.current()
+
+
+def key(row: Comparison | Rungs) -> tuple[str, ...]:
+    return (row.case, row.engine, row.setting, row.realised, row.quantity)
+
+
+def near(now: float | None, before: float | None, floor: float) -> bool:
+    if now is None or before is None:
+        return now is before
+    return abs(now - before) <= QUARTER * max(abs(now), abs(before)) + max(floor, ROUNDING)

@@ -1,0 +1,145 @@
+"""Verdicts of trials whose errors are known in advance."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from cases.case import Case, Deviation
+from reports.compare import Outcome, compare, crashed
+from reports.row import AGREES, BEYOND, CHANGED, DEVIATES, DIVERGED, FAILS
+from reports.trial import Trial
+
+Make = Callable[..., Trial]
+
+
+def row(outcome: Outcome, quantity: str = "ball.x") -> Any:
+    return next(row for row in outcome.rows if row.quantity == quantity)
+
+
+def test_within_the_tolerance_agrees(trial: Make) -> None:
+    found = row(compare(trial(rate=1.0)))
+    assert found.verdict == AGREES
+    assert found.largest == pytest.approx(1e-3)
+    assert found.ratio == pytest.approx(0.1)
+
+
+def test_tuned_above_the_tolerance_fails_and_shipped_is_beyond(trial: Make) -> None:
+    tuned = row(compare(trial(rate=20.0)))
+    assert tuned.verdict == FAILS
+    assert "above allow" in tuned.because
+    shipped = row(compare(trial(rate=15.0, setting="shipped", own_step=1e-3)))
+    assert shipped.verdict == BEYOND
+    assert "the step: it falls with order 1.0, within from h = 0.0005 s on" in shipped.because
+
+
+def test_tuned_above_its_reach_fails(trial: Make, moving: Case) -> None:
+    case = replace(moving, reach={"mujoco": {"ball.x": 5e-4}})
+    found = row(compare(trial(case=case, rate=1.0)))
+    assert found.verdict == FAILS
+    assert "above reach 0.0005" in found.because
+
+
+def test_a_limit_above_its_reach_fails(trial: Make, moving: Case) -> None:
+    case = replace(moving, reach={"mujoco.limit": {"ball.x": 1e-9}})
+    assert row(compare(trial(case=case))).verdict == AGREES
+    found = row(compare(trial(case=case, model=1e-6)))
+    assert found.verdict == FAILS
+    assert "limit" in found.because
+
+
+def test_the_reach_of_a_law_is_not_asked_of_the_native_row(trial: Make, moving: Case) -> None:
+    case = replace(moving, reach={"mujoco.law": {"ball.x": 1e-9}})
+    assert row(compare(trial(case=case))).verdict == AGREES
+
+
+@pytest.mark.parametrize(
+    ("model", "word"), [(2.0e-2, DEVIATES), (2.4e-2, DEVIATES), (2.6e-2, FAILS), (0.0, FAILS)]
+)
+def test_a_declared_deviation_must_stay_what_it_is(
+    trial: Make, moving: Case, model: float, word: str
+) -> None:
+    declared = {"mujoco.shipped": {"ball.x": Deviation("soft", limit=2.0e-2)}}
+    case = replace(moving, deviates=declared)
+    found = row(compare(trial(case=case, setting="shipped", own_step=1e-3, model=model)))
+    assert found.verdict == word
+
+
+def test_an_interval_is_held_at_the_judged_step(trial: Make, moving: Case) -> None:
+    declared = {"mujoco.shipped": {"ball.x": Deviation("other law", by=(2e-2, 4e-2))}}
+    case = replace(moving, deviates=declared)
+    shipped = {"setting": "shipped", "own_step": 1e-3}
+    assert row(compare(trial(case=case, model=3e-2, **shipped))).verdict == DEVIATES
+    assert row(compare(trial(case=case, model=5e-2, **shipped))).verdict == FAILS
+
+
+def test_another_version_may_change_a_deviation(trial: Make, moving: Case) -> None:
+    declared = {"mujoco.shipped": {"ball.x": Deviation("soft", limit=2.0e-2)}}
+    made = trial(
+        case=replace(moving, deviates=declared), setting="shipped", own_step=1e-3, version="9.0"
+    )
+    assert row(compare(made)).verdict.startswith(CHANGED)
+
+
+def test_an_unknown_tolerance_fails_and_says_what_was_measured(trial: Make, moving: Case) -> None:
+    case = replace(moving, allow={"ball.x": None})
+    found = row(compare(trial(case=case)))
+    assert found.verdict == FAILS
+    assert "0.001 was measured" in found.because
+
+
+def test_a_refusal_is_a_row_for_each_quantity(trial: Make) -> None:
+    outcome = compare(trial(refusal="engine: it has no such thing"))
+    assert [r.verdict for r in outcome.rows] == ["refused: engine: it has no such thing"]
+
+
+def test_a_withheld_quantity_says_why_and_the_others_are_judged(trial: Make, moving: Case) -> None:
+    case = replace(moving, allow={"ball.x": 1e-2, "ball.vy": 1e-2})
+    outcome = compare(trial(case=case))
+    assert row(outcome, "ball.vy").verdict == "refused: engine: it is blind"
+    assert row(outcome).verdict == AGREES
+
+
+def test_a_diverged_run_says_so_and_only_tuned_fails(trial: Make) -> None:
+    assert row(compare(trial(stable=1e-4))).verdict == FAILS
+    shipped = row(compare(trial(stable=1e-4, setting="shipped", own_step=1e-3)))
+    assert (shipped.verdict, shipped.because) == (DIVERGED, "too large a step")
+
+
+def test_coarse_rungs_that_diverge_are_left_out(trial: Make) -> None:
+    outcome = compare(trial(stable=4.1e-3, order=2))
+    assert row(outcome).verdict == AGREES
+    assert outcome.rungs[0].steps == "0.001 0.002 0.004"
+
+
+def test_a_runaway_is_no_motion(trial: Make) -> None:
+    shipped = row(compare(trial(model=1e8, setting="shipped", own_step=1e-3)))
+    assert shipped.verdict == DIVERGED
+
+
+def test_both_ladders_only_where_a_number_follows_the_step(trial: Make) -> None:
+    assert {r.ladder for r in compare(trial()).rungs} == {"held"}
+    both = compare(trial(follows=True, model=1e-3)).rungs
+    assert {r.ladder: r.verdict for r in both} == {
+        "following": "converges to the textbook",
+        "held": "converges to another value",
+    }
+
+
+@pytest.mark.parametrize("number", [2.1, 2.0 + 1e-11, float("nan")])
+def test_the_audit_sees_other_physics(trial: Make, number: float) -> None:
+    assert row(compare(trial()), "audit").verdict == AGREES
+    found = row(compare(trial(numbers={"ball.mass": number})), "audit")
+    assert found.verdict == FAILS
+    assert "ball.mass" in found.because
+
+
+def test_a_crash_fails_but_for_a_users_own_numbers(trial: Make) -> None:
+    assert row(crashed(trial(), "the process died")).verdict == FAILS
+    assert row(crashed(trial(setting="own"), "the process died")).verdict == "crashed"
+
+
+def test_every_row_names_case_engine_and_version(trial: Make) -> None:
+    for found in compare(trial()).rows:
+        assert (found.case, found.engine, found.version) == ("moving", "mujoco", "4.0.0")

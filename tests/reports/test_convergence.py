@@ -1,0 +1,81 @@
+"""Ladders with known expansions: order, limit, verdict and usable step come out as put in."""
+
+import numpy as np
+import pytest
+
+from reports.convergence import ANOTHER, EXACT, TEXTBOOK, UNSETTLED, Convergence, study
+
+T = np.linspace(0.0, 1.0, 26)
+REFERENCE = np.sin(T)
+STEPS = [1e-3 * 2**k for k in range(5)]
+
+
+def ladder(*, p: int, c: float = 1.0, model: float = 0.0) -> dict[float, np.ndarray]:
+    return {h: REFERENCE + model * T + c * T * (h**p + h ** (p + 1)) for h in STEPS}
+
+
+def judge(rungs: dict[float, np.ndarray], *, p: int, allow: float = 1e-2) -> Convergence:
+    return study(rungs, REFERENCE, exponents=(p, p + 1), allow=allow, floor=1e-13)
+
+
+@pytest.mark.parametrize("p", [1, 2, 4])
+def test_the_order_and_the_textbook_come_out(p: int) -> None:
+    found = judge(ladder(p=p), p=p)
+    assert found.verdict == TEXTBOOK
+    assert found.order == pytest.approx(p, abs=0.05)
+    assert found.limit is not None
+    assert found.limit < 1e-11
+
+
+def test_a_difference_of_the_model_is_told_from_the_step() -> None:
+    found = judge(ladder(p=1, model=3e-3), p=1)
+    assert found.verdict == ANOTHER
+    assert found.limit == pytest.approx(3e-3, rel=1e-6)
+    assert found.order == pytest.approx(1.0, abs=0.05)
+
+
+def test_a_motion_at_the_rounding_floor_is_exact() -> None:
+    assert judge(dict.fromkeys(STEPS, REFERENCE + 1e-14), p=1).verdict == EXACT
+
+
+def test_noise_is_not_called_a_model() -> None:
+    rng = np.random.default_rng(1)
+    noisy = {h: REFERENCE + 1e-9 * rng.standard_normal(len(T)) for h in STEPS}
+    found = judge(noisy, p=2)
+    assert found.verdict != ANOTHER
+    assert found.order is None
+
+
+def test_the_wrong_exponents_do_not_settle_quietly() -> None:
+    """Romberg with exponents 2, 3 on a method of order 1 must not promise its tiny limit."""
+    found = judge(ladder(p=1), p=2)
+    assert found.limit is not None
+    assert found.limit > 1e-5
+
+
+def test_an_order_is_never_printed_for_an_unsettled_ladder() -> None:
+    wild = {h: REFERENCE + np.sin(1e4 * h) * T for h in STEPS}
+    found = judge(wild, p=1)
+    assert found.verdict == UNSETTLED
+    assert found.order is None
+
+
+def test_two_rungs_are_no_ladder() -> None:
+    short = {h: u for h, u in ladder(p=1).items() if h < 3e-3}
+    assert judge(short, p=1).verdict == UNSETTLED
+
+
+def test_an_uncertainty_near_the_tolerance_decides_nothing() -> None:
+    assert judge(ladder(p=1), p=1, allow=1e-6).verdict == UNSETTLED
+
+
+def test_the_usable_step_is_the_largest_from_which_on_all_are_within() -> None:
+    found = judge(ladder(p=1), p=1, allow=3e-3)
+    assert found.usable_step == pytest.approx(2e-3)
+    lucky = ladder(p=1)
+    lucky[STEPS[4]] = REFERENCE  # a coarse rung that happens to fit proves nothing
+    assert judge(lucky, p=1, allow=3e-3).usable_step == pytest.approx(2e-3)
+
+
+def test_no_usable_step_where_the_finest_is_not_within() -> None:
+    assert judge(ladder(p=1), p=1, allow=1e-4).usable_step is None

@@ -1,0 +1,75 @@
+"""The pytest plug-in, as it behaves in somebody else's project."""
+
+import pytest
+
+pytest_plugins = ["pytester"]
+
+CASE = """\
+title: A bar that swings
+scene:
+  points: {O: [0, 0]}
+  bodies: {rod: {bar: {mass: 0.5, length: 0.6}}}
+  joints: {hinge: {pin: [ground.O, rod.start]}}
+initial: {rod: {angle: -40 deg}}
+duration: 0.4
+samples: 6
+step: {mujoco: 1.0e-3, pymunk: 1.0e-3}
+allow: {rod.angle: 1.0e-2}
+"""
+
+
+@pytest.fixture
+def project(pytester: pytest.Pytester) -> pytest.Pytester:
+    pytester.makefile(".yaml", swing=CASE)
+    pytester.makepyfile("def test_own(): pass")
+    return pytester
+
+
+def test_it_is_inert_in_other_projects(project: pytest.Pytester) -> None:
+    project.runpytest_subprocess().assert_outcomes(passed=1)
+
+
+def test_other_projects_may_have_an_engine_option(project: pytest.Pytester) -> None:
+    project.makeconftest("def pytest_addoption(parser): parser.addoption('--engine')")
+    project.runpytest_subprocess("--engine", "x").assert_outcomes(passed=1)
+
+
+def test_a_named_file_is_compared(project: pytest.Pytester) -> None:
+    done = project.runpytest_subprocess("swing.yaml", "-v", "--textmech-engine", "mujoco.tuned")
+    done.assert_outcomes(passed=3)  # the reference, the audit, the angle
+    done.stdout.fnmatch_lines(["swing.yaml::swing-mujoco.tuned-rod.angle PASSED*"])
+
+
+def test_configured_files_are_compared(project: pytest.Pytester) -> None:
+    project.makeini("[pytest]\ntextmech_cases = sw*.yaml")
+    project.runpytest_subprocess("--textmech-engine", "mujoco.tuned").assert_outcomes(passed=4)
+
+
+def test_a_failure_prints_the_row_and_the_files_line(project: pytest.Pytester) -> None:
+    project.makefile(".yaml", swing=CASE.replace("rod.angle: 1.0e-2", "rod.angle: 1.0e-12"))
+    done = project.runpytest_subprocess("swing.yaml", "--textmech-engine", "mujoco.tuned")
+    done.assert_outcomes(passed=2, failed=1)
+    done.stdout.fnmatch_lines(["*swing.yaml:10: rod.angle", "*verdict*FAILS*"])
+    assert "Traceback" not in done.stdout.str()
+
+
+def test_a_finding_is_an_expected_failure_with_the_row_as_its_reason(
+    project: pytest.Pytester,
+) -> None:
+    project.makefile(".yaml", swing=CASE.replace("rod.angle: 1.0e-2", "rod.angle: 1.0e-6"))
+    done = project.runpytest_subprocess("swing.yaml", "-rx", "--textmech-engine", "mujoco.shipped")
+    done.assert_outcomes(passed=2, xfailed=1)
+    done.stdout.fnmatch_lines(["*rod.angle*allowed 1.0e-06*beyond*"])
+
+
+def test_mistakes_of_a_file_are_shown_as_they_are(project: pytest.Pytester) -> None:
+    project.makefile(".yaml", swing=CASE.replace("mass: 0.5", "mas: 0.5"))
+    done = project.runpytest_subprocess("swing.yaml")
+    done.assert_outcomes(errors=1)
+    done.stdout.fnmatch_lines(["*swing.yaml:4:*did you mean 'mass'?*"])
+
+
+def test_a_case_that_is_not_there_does_not_look_like_a_pass(project: pytest.Pytester) -> None:
+    done = project.runpytest_subprocess("swing.yaml", "--textmech-case", "swung")
+    assert done.ret == pytest.ExitCode.USAGE_ERROR
+    done.stderr.fnmatch_lines(["*no such case*swung*"])

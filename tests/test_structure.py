@@ -1,0 +1,72 @@
+"""House rules of the tree: imports form one, and no two answers share a derivation."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+PACKAGES = ("cases", "reference", "engines", "reports")
+MAY_IMPORT = {
+    "cases": {"cases"},
+    "reference": {"cases", "reference"},
+    "engines": {"cases", "engines"},
+    "reports": {"cases", "reference", "engines", "reports"},
+}
+FILES = [file for package in PACKAGES for file in sorted((ROOT / package).rglob("*.py"))]
+
+
+def imported(file: Path) -> set[str]:
+    """Full names of all that a file imports, also inside functions."""
+    names: set[str] = set()
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{file}: relative import"
+            assert node.module
+            names |= {node.module} | {f"{node.module}.{alias.name}" for alias in node.names}
+    return names
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: str(file.relative_to(ROOT)))
+def test_imports_flow_one_way(file: Path) -> None:
+    package = file.relative_to(ROOT).parts[0]
+    ours = {name.split(".")[0] for name in imported(file)} & set(PACKAGES)
+    assert ours <= MAY_IMPORT[package]
+
+
+def test_no_module_is_imported_in_a_circle() -> None:
+    modules = {
+        ".".join(file.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__"): file
+        for file in FILES
+    }
+    needs = {name: imported(file) & set(modules) - {name} for name, file in modules.items()}
+    while needs:
+        free = {name for name, needed in needs.items() if not needed & set(needs)}
+        assert free, f"a circle among {sorted(needs)}"
+        needs = {name: needed for name, needed in needs.items() if name not in free}
+
+
+def test_only_adapters_know_their_engine() -> None:
+    for file in FILES:
+        for engine in ("mujoco", "pymunk"):
+            if engine in imported(file):
+                assert file.is_relative_to(ROOT / "engines" / engine)
+
+
+def test_every_public_function_says_what_it_is() -> None:
+    bare = [
+        f"{file.relative_to(ROOT)}: {node.name}"
+        for file in FILES
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        if isinstance(node, ast.FunctionDef | ast.ClassDef)
+        and not node.name.startswith("_")
+        and node in top_level(file)
+        and not ast.get_docstring(node)
+    ]
+    assert not bare
+
+
+def top_level(file: Path) -> list[ast.stmt]:
+    return ast.parse(file.read_text(encoding="utf-8")).body

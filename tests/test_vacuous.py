@@ -1,0 +1,68 @@
+"""Nothing vacuous: every parameter matters to what a case observes, or is said to drop out."""
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cases.case import Case
+from cases.find import shipped
+from cases.load import load
+from cases.mistake import CaseError
+from cases.observe import observe
+from cases.trajectory import Array
+from reference.assembly import assemble
+from reference.explicit import dormand_prince
+from reference.mechanism import Mechanism
+from reference.motion import integrate, motion
+
+CHANGED = 1.05  # 5 %, or 0.05 where a parameter is zero
+STAYS = 1e-9  # of a quantity's size: a motion that does not depend on a parameter at all
+TOLERANCE = 1e-12  # of the integrator: far below STAYS
+
+PARAMETERS = [(file, name) for file in shipped().values() for name in load(file)[0].parameters]
+
+
+def samples(case: Case) -> Mapping[str, Array]:
+    """What the case observes, by the generated mechanism."""
+    mechanism = Mechanism(case.scene, assemble(case))
+    y = integrate(mechanism, case.times, dormand_prince, tolerance=TOLERANCE).y
+    trajectory = motion(mechanism, case.times, y, mechanism)
+    return {name: observe(case.scene, trajectory, name) for name in case.allow}
+
+
+def changed(file: Path, case: Case, name: str, folder: Path) -> Case:
+    """The same variant with one parameter changed by 5 %, through the file's own text."""
+    value = case.parameters[name] * CHANGED or CHANGED - 1
+    text = file.read_text(encoding="utf-8")
+    pattern = rf"(\bparameters: {{[^}}]*\b{name}: )[^,}}]+"
+    text = re.sub(pattern, rf"\g<1>{value!r}", text)
+    copy = folder / file.name
+    copy.write_text(text, encoding="utf-8")
+    return next(other for other in load(copy) if other.name == case.name)
+
+
+@pytest.mark.parametrize(
+    ("file", "name"), PARAMETERS, ids=[f"{file.stem}-{name}" for file, name in PARAMETERS]
+)
+def test_a_parameter_matters_or_drops_out(file: Path, name: str, tmp_path: Path) -> None:
+    ratios: list[float] = []
+    for case in load(file):
+        before = samples(case)
+        try:
+            after = samples(changed(file, case, name, tmp_path))
+        except CaseError:  # it cannot even start so: the parameter is bound to another
+            ratios.append(np.inf)
+            continue
+        if name in case.drops_out:
+            for quantity, values in before.items():
+                size = max(1e-3, float(np.max(np.abs(values))))
+                assert np.max(np.abs(after[quantity] - values)) <= STAYS * size, quantity
+            return
+        ratios += [
+            float(np.max(np.abs(after[quantity] - values))) / (case.allow[quantity] or np.inf)
+            for quantity, values in before.items()
+        ]
+    assert max(ratios) > 1, f"5 % of {name} stays within every tolerance"
