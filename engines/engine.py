@@ -20,6 +20,14 @@ class Diverged(RuntimeError):
 class Choice:
     """One number or option of a setting, as the engine spells it, with its reason."""
 
+    name: str
+    value: Any
+    because: str
+
+
+class Engine(Protocol):
+    """An engine with one setting (`mujoco.shipped`, `pymunk.tuned`, …)."""
+
     @property
     def name(self) -> str:
         """`mujoco`, `pymunk`."""

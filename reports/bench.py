@@ -93,8 +93,9 @@ def _integrators() -> tuple[float, float]:
         return dormand_prince(rates, case.times, y0, tolerance=tolerance).y
 
     def scipys(tolerance: float) -> Array:
-        span, options = (0.0, case.duration), {"rtol": tolerance, "atol": tolerance}
-        return solve_ivp(rates, span, y0, "DOP853", case.times, **options).y.T
+        span = (0.0, case.duration)
+        found = solve_ivp(rates, span, y0, "DOP853", case.times, rtol=tolerance, atol=tolerance)
+        return found.y.T
 
     truth = ours(1e-15)
     seconds = [
