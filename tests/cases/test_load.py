@@ -45,7 +45,12 @@ def test_four_bar() -> None:
     assert scene.joints["C"] == Joint("C", "pin", Anchor("coupler", "end"), Anchor("rocker", "end"))
     assert case.initial["crank"].given == {"angle": radians(70)}
     assert case.near["rocker"].given == {"angle": pytest.approx(radians(96), rel=1e-15)}
-    assert case.reach == {"mujoco": {"crank.angle": 1e-6}, "pymunk": {"crank.angle": 4e-5}}
+    assert case.reach == {
+        "mujoco": {"crank.angle": 1e-6},
+        "pymunk": {"crank.angle": 4e-5},
+        "pymunk.limit": {"crank.angle": 1e-8},
+    }
+    assert case.deviates["mujoco.shipped"]["crank.angle"].limit == 0.27
 
 
 def test_variants() -> None:
@@ -60,7 +65,8 @@ def test_variants() -> None:
     )
     assert downhill.initial["wheel"].given["omega"] == -1.6
     assert downhill.scene.contacts["touch"].friction == 0.5
-    assert downhill.mistake(("parameters", "beta"), "steep").line == 33
+    beta = downhill.mistake(("parameters", "beta"), "steep")
+    assert beta.text.strip() == "parameters: {beta: 20 deg}"  # the variant's, not line 4's
     assert downhill.mistake(("parameters", "m"), "heavy").line == 4
 
 
