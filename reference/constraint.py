@@ -1,16 +1,18 @@
-"""The constraints of planar joints and of rolling, in maximal coordinates.
+"""The constraints of planar joints in maximal coordinates, and the list of all of a scene.
 
 Each constraint writes its rows f_a (2.15), f_a q̇ᵃ = g, and the right side γ of f_a q̈ᵃ = γ,
 derived by hand from its residual f (2.14). With the rows as written, the multipliers are the
 force (and moment) of the first part on the second.
 """
 
+import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 from cases.scene import GROUND, Anchor, Joint, Scene, Vector
 from reference.coordinates import Coordinates, Point, trigonometry
+from reference.rolling import Roll, Touch
 
 Numbers = Sequence[Any]
 
@@ -18,8 +20,11 @@ Numbers = Sequence[Any]
 class Constraint(Protocol):
     """`size` rows; `part` is the joint or contact they belong to."""
 
-    part: str
-    size: int
+    @property
+    def part(self) -> str: ...
+
+    @property
+    def size(self) -> int: ...
 
     def f(self, t: Any, q: Numbers) -> list[Any]: ...
 
@@ -42,12 +47,12 @@ class Coincide:
 
     def f(self, t: Any, q: Numbers) -> list[Any]:
         """(2.14) f = r_B − r_A."""
-        a, b = (self.where.point(end, t, q, q) for end in (self.a, self.b))
+        a, b = self.where.point(self.a, t, q, q), self.where.point(self.b, t, q, q)
         return [b.r[0] - a.r[0], b.r[1] - a.r[1]]
 
     def fill(self, t: Any, q: Numbers, v: Numbers, rows: Any, g: Any, gamma: Any, at: int) -> None:
         """(2.15) ṙ_B − ṙ_A = 0; differentiated by (2.7): γ = ω_B² d_B − ω_A² d_A."""
-        a, b = (self.where.point(end, t, q, v) for end in (self.a, self.b))
+        a, b = self.where.point(self.a, t, q, v), self.where.point(self.b, t, q, v)
         for sign, p in ((1, b), (-1, a)):
             if p.xy is None:
                 g[at] -= sign * p.r_dot[0]
@@ -78,7 +83,7 @@ class Align:
     size: int = 1
 
     def _ends(self, t: Any, q: Numbers, v: Numbers) -> tuple[Point, Point, Vector, Vector]:
-        a, b = (self.where.point(end, t, q, v) for end in (self.a, self.b))
+        a, b = self.where.point(self.a, t, q, v), self.where.point(self.b, t, q, v)
         cos, sin = (1.0, 0.0) if a.phi is None else trigonometry(q[a.phi])
         u = (cos * self.along[0] - sin * self.along[1], sin * self.along[0] + cos * self.along[1])
         return a, b, u, (-u[1], u[0])
@@ -139,61 +144,14 @@ class Lock:
         return {f"{self.part}.torque": multipliers[0]}
 
 
-@dataclass(frozen=True)
-class Touch:
-    """A disk on the floor: y − R = 0, the second of (2.18)."""
-
-    part: str
-    xy: int
-    R: float
-    size: int = 1
-
-    def f(self, t: Any, q: Numbers) -> list[Any]:
-        """(2.18) y_c − R = 0."""
-        return [q[self.xy + 1] - self.R]
-
-    def fill(self, t: Any, q: Numbers, v: Numbers, rows: Any, g: Any, gamma: Any, at: int) -> None:
-        """(2.16) ẏ_c = 0."""
-        rows[at, self.xy + 1] = 1
-
-    def reactions(self, t: float, q: Numbers, multipliers: Numbers) -> dict[str, float]:
-        """(2.60) R_a = λ_b f_aᵇ: here λ is the normal force."""
-        return {f"{self.part}.normal": multipliers[0]}
-
-
-@dataclass(frozen=True)
-class Roll:
-    """Rolling on the floor: x + R φ = C₁ (φ counter-clockwise), the first of (2.17)."""
-
-    part: str
-    xy: int
-    phi: int
-    R: float
-    C1: float | None  # known once the start is
-    size: int = 1
-
-    def f(self, t: Any, q: Numbers) -> list[Any]:
-        """(2.17) x_c − R φ = C₁ with the book's clockwise φ."""
-        assert self.C1 is not None
-        return [q[self.xy] + self.R * q[self.phi] - self.C1]
-
-    def fill(self, t: Any, q: Numbers, v: Numbers, rows: Any, g: Any, gamma: Any, at: int) -> None:
-        """(2.16) ẋ_c = R φ̇ with the book's clockwise φ."""
-        rows[at, self.xy] = 1
-        rows[at, self.phi] = self.R
-
-    def reactions(self, t: float, q: Numbers, multipliers: Numbers) -> dict[str, float]:
-        """(2.60) R_a = λ_b f_aᵇ: here λ is the friction force."""
-        return {f"{self.part}.tangent": multipliers[0]}
-
-
 def constraints(
     scene: Scene, where: Coordinates, start: Sequence[float] | None = None
 ) -> list[Constraint]:
     """All constraints of a scene; without a start, rolling is known as a rate only."""
     found: list[Constraint] = []
     for joint in scene.joints.values():
-        found += _joint(joint, where)
+        parts = _joint(joint, where)
+        found += parts if start is None else [_started(part, start) for part in parts]
     for contact in scene.contacts.values():
         xy, phi = where.columns[contact.body]
         R = scene.bodies[contact.body].radius
@@ -202,6 +160,14 @@ def constraints(
         C1 = None if start is None else start[xy] + R * start[phi]
         found += [Touch(contact.name, xy, R), Roll(contact.name, xy, phi, R, C1)]
     return found
+
+
+def _started(part: Constraint, start: Sequence[float]) -> Constraint:
+    """A held angle on the turn at which the start stands: 370° is held as well as 10°."""
+    if not isinstance(part, Lock):
+        return part
+    turns = round(part.f(0.0, start)[0] / math.tau)
+    return replace(part, angle=part.angle + turns * math.tau)
 
 
 def _joint(joint: Joint, where: Coordinates) -> Iterator[Constraint]:

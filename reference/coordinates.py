@@ -5,13 +5,15 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from cases.scene import GROUND, Anchor, Scene
 
 
-@dataclass(frozen=True)
-class Point:
+class Point(NamedTuple):  # made at every evaluation: a frozen dataclass costs three times as much
     """(2.1) r = r_c + d, d = E x and (2.6) ṙ = ṙ_c + ω × d of a point; all ground axes."""
 
     r: tuple[Any, Any]
@@ -49,6 +51,11 @@ class Coordinates:
                 yield f"{body.name}.angle"
 
     @cached_property
+    def turning(self) -> NDArray[np.bool_]:
+        """Which coordinates are angles, (n,)."""
+        return np.array([name.endswith(".angle") for name in self.names])
+
+    @cached_property
     def masses(self) -> list[float]:
         """The diagonal of the mass matrix: m, m, J for each body."""
         return [
@@ -63,7 +70,8 @@ class Coordinates:
         if anchor.body == GROUND:
             ground = self.scene.points[anchor.point]
             u, w = ground.velocity
-            return Point((ground.at[0] + u * t, ground.at[1] + w * t), (u, w), (0, 0), 0, None, None)
+            r = (ground.at[0] + u * t, ground.at[1] + w * t)
+            return Point(r, (u, w), (0, 0), 0, None, None)
         xy, phi = self.columns[anchor.body]
         if phi is None:
             return Point((q[xy], q[xy + 1]), (v[xy], v[xy + 1]), (0, 0), 0, xy, None)

@@ -4,12 +4,20 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from scipy.linalg.lapack import dposv
 
-from cases.scene import Damper, Push, Scene, Signal, Spring
+from cases.scene import Push, Scene, Spring
+from reference.action import act, signal
 from reference.constraint import constraints
 from reference.coordinates import Coordinates
-from reference.force import damper, spring
 from reference.system import Array, Mass, Pose, System, Vector
+
+
+class SingularPose(ArithmeticError):
+    """Where the constraints depend on each other: no single reaction, no single motion."""
+
+    def __init__(self, part: str) -> None:
+        super().__init__(f"what {part} holds is held by the other joints already")
 
 
 class Mechanism(System):
@@ -26,7 +34,8 @@ class Mechanism(System):
         self._start = start
         self._M = np.array(self.where.masses)
         self._constraints = constraints(scene, self.where, start[0].tolist())
-        self._r = sum(c.size for c in self._constraints)
+        self._owners = [c.part for c in self._constraints for _ in range(c.size)]
+        self._r = len(self._owners)
         self._weight = np.zeros(len(self._M))
         for body in scene.bodies.values():
             xy, _ = self.where.columns[body.name]
@@ -47,22 +56,27 @@ class Mechanism(System):
         for c in self._constraints:
             found |= c.reactions(t, numbers, multipliers[at : at + c.size])
             at += c.size
+        for joint in self.scene.joints.values():
+            if joint.kind != "pin":  # a particle takes no moment
+                found.setdefault(f"{joint.name}.torque", 0.0)
         return found
 
     def _solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
         numbers, rates = q.tolist(), v.tolist()
-        Q = self._forces(t, numbers, rates)
+        Q = self._weight.copy()
+        for force in self.scene.forces.values():
+            act(force, self.where, t, numbers, rates, Q)
         rows, _, gamma = self._rows(t, numbers, rates, float)
         free = Q / self._M
         if not self._r:
             return free, np.zeros(0)
         by_mass = rows / self._M
-        multipliers = np.linalg.solve(by_mass @ rows.T, gamma - rows @ free)
+        _, multipliers, fails = dposv(by_mass @ rows.T, gamma - rows @ free)
+        if fails:  # not positive definite: the rows depend on each other
+            raise SingularPose(self._owners[fails - 1])
         return free + multipliers @ by_mass, multipliers
 
-    def _rows(
-        self, t: Any, q: Sequence[Any], v: Sequence[Any], dtype: type
-    ) -> tuple[Any, Any, Any]:
+    def _rows(self, t: Any, q: Sequence[Any], v: Sequence[Any], dtype: Any) -> tuple[Any, Any, Any]:
         rows = np.zeros((self._r, len(self._M)), dtype)
         g, gamma = np.zeros(self._r, dtype), np.zeros(self._r, dtype)
         at = 0
@@ -71,32 +85,23 @@ class Mechanism(System):
             at += c.size
         return rows, g, gamma
 
-    def _forces(self, t: float, q: Sequence[float], v: Sequence[float]) -> Array:
-        Q = self._weight.copy()
+    def terms(self, t: float, q: Array, v: Array) -> tuple[float, float]:
+        """The largest acceleration [m/s² or rad/s²] and power [W] that one force gives alone.
+
+        The power is that of a force along the velocity: a hanging bar that trembles by rounding
+        does so across its weight.
+        """
+        found = [self._weight]
         for force in self.scene.forces.values():
-            if isinstance(force, Spring | Damper):
-                a, b = (self.where.point(end, t, q, v) for end in (force.a, force.b))
-                d = (b.r[0] - a.r[0], b.r[1] - a.r[1])
-                if isinstance(force, Spring):
-                    F = spring(force.stiffness, force.rest_length, d)
-                else:
-                    d_dot = (b.r_dot[0] - a.r_dot[0], b.r_dot[1] - a.r_dot[1])
-                    F = damper(force.damping, d, d_dot)
-                ends = ((1, a), (-1, b))
-            elif isinstance(force, Push):
-                F = signal(force.signal, t)
-                ends = ((1, self.where.point(force.at, t, q, v)),)
-            else:
-                phi = self.where.columns[force.body][1]
-                Q[phi] += signal(force.signal, t)[0]
-                continue
-            for sign, p in ends:
-                if p.xy is not None:
-                    Q[p.xy] += sign * F[0]
-                    Q[p.xy + 1] += sign * F[1]
-                if p.phi is not None:
-                    Q[p.phi] += sign * (p.d[0] * F[1] - p.d[1] * F[0])
-        return Q
+            Q = np.zeros(len(self._M))
+            act(force, self.where, t, q.tolist(), v.tolist(), Q)
+            found.append(Q)
+        largest, turning = np.max(np.abs(found), axis=0), self.where.turning
+        powers = [
+            np.max(largest[kind], initial=0.0) * np.max(np.abs(v[kind]), initial=0.0)
+            for kind in (turning, ~turning)
+        ]
+        return float(np.max(largest / self._M)), float(np.max(powers))
 
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R_k, E_k: the coordinates themselves."""
@@ -132,9 +137,8 @@ class Mechanism(System):
         """(2.45) U = −Σ m g·r_c + Σ ½ c (λ − λ₀)² [J]."""
         energy = -np.sum(self._weight * q)
         for force in self.scene.springs():
-            energy = energy + 0.5 * force.stiffness * (
-                self._length(force, t, q) - force.rest_length
-            ) ** 2
+            stretch = self._length(force, t, q) - force.rest_length
+            energy = energy + 0.5 * force.stiffness * stretch**2
         return energy
 
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
@@ -178,11 +182,3 @@ class Mechanism(System):
     def g(self, t: Any, q: Vector) -> Vector:
         """(2.15) the right side f_aᵇ q̇ᵃ = gᵇ of driven points, (r,)."""
         return self._rows(t, q.tolist(), q.tolist(), np.result_type(q, t))[1]
-
-
-def signal(law: Signal, t: Any) -> tuple[Any, ...]:
-    """A push's components [N] or a torque [N m] at time t: A, A t or A sin(w t + phase)."""
-    if law.law == "constant":
-        return law.amplitude
-    size = t if law.law == "ramp" else np.sin(law.angular_frequency * t + law.phase)
-    return tuple(entry * size for entry in law.amplitude)

@@ -9,13 +9,16 @@ import numpy as np
 
 from cases.case import Case
 from cases.mistake import CaseError
-from cases.trajectory import Trajectory
+from cases.trajectory import Array, Trajectory
 from reference.assembly import assemble
 from reference.certificate import Check, certify
 from reference.explicit import dormand_prince
 from reference.mechanism import Mechanism
-from reference.motion import TOLERANCE, integrate, motion
+from reference.motion import TOLERANCE, Stuck, integrate, motion
+from reference.obstacle import refused
 from reference.systems import SYSTEMS
+
+ROUNDING = 1e-12  # of the normal force: a wheel that needs no friction rolls without any
 
 
 @dataclass(frozen=True)
@@ -38,30 +41,40 @@ def solve(case: Case) -> Solution:
     """
     generated = Mechanism(case.scene, assemble(case))
     system = SYSTEMS[case.system](**case.parameters) if case.system else generated
-    integration = integrate(system, case.times, dormand_prince, tolerance=TOLERANCE)
-    trajectory = motion(system, case.times, integration.y, generated)
-    _possible(case, trajectory)
-    checks = certify(case, system, generated, integration, trajectory)
+    try:
+        integration = integrate(system, case.times, dormand_prince, tolerance=TOLERANCE)
+        trajectory = motion(system, case.times, integration.y, generated)
+        _possible(case, trajectory)
+        checks = certify(case, system, generated, integration, trajectory)
+    except Stuck as stuck:
+        raise refused(case, generated, stuck) from stuck
     return Solution(trajectory, case.system or "generated", checks)
 
 
 def _possible(case: Case, trajectory: Trajectory) -> None:
-    """Rolling is only assumed: |λ_t| ≤ μ λ_n and λ_n > 0 at every sample, or the case is refused.
+    """Rolling is assumed: |λ_t| ≤ μ λ_n and λ_n > 0 at every sample, or the case is refused.
 
     Raises CaseError naming the first time at which it fails, and the μ that would be enough.
     """
     for contact in case.scene.contacts.values():
         normal = trajectory.reactions[f"{contact.name}.normal"]
         tangent = np.abs(trajectory.reactions[f"{contact.name}.tangent"])
-        fails = (normal <= 0) | (tangent > contact.friction * normal)
+        fails = (normal <= 0) | (tangent > (contact.friction + ROUNDING) * normal)
         if not np.any(fails):
             continue
-        t = trajectory.times[np.argmax(fails)]
-        if np.any(normal <= 0):
+        first = int(np.argmax(fails))
+        t = trajectory.times[first]
+        if normal[first] <= 0:
             what = f"the floor would have to pull at t = {t:.3g} s: the disk leaves it"
         else:
             what = (
                 f"rolling is not possible with friction {contact.friction:.3g}: at t = {t:.3g} s "
-                f"it would slip; rolling all the way needs {np.max(tangent / normal):.3g}"
+                f"it would slip; {_needed(normal, tangent)}"
             )
         raise CaseError([case.mistake(("scene", "contacts", contact.name, "ideal"), what)])
+
+
+def _needed(normal: Array, tangent: Array) -> str:
+    if np.any(normal <= 0):
+        return "later the disk would even leave the floor"
+    return f"rolling all the way needs {np.max(tangent / normal):.3g}"
