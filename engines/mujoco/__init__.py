@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Any
 
 import mujoco
@@ -9,12 +10,14 @@ import mujoco
 from cases.scene import Scene
 from cases.trajectory import Array, Trajectory
 from engines.engine import Choice, Realised, State
-from engines.mujoco import settings
-from engines.mujoco.readout import measured
-from engines.mujoco.run import load, signals, simulate
+from engines.mujoco import options, settings
+from engines.mujoco.control import signals
+from engines.mujoco.measure import measured
+from engines.mujoco.refuse import unbuildable, uncompilable
+from engines.mujoco.run import heard, load, simulate
 from engines.mujoco.scene import HEAVY, mjcf
 from engines.mujoco.settle import settle
-from engines.mujoco.tree import spanning_tree
+from engines.mujoco.tree import driven
 
 
 @dataclass(frozen=True)
@@ -28,7 +31,7 @@ class MuJoCo:
     comment: tuple[str, str] = ("<!-- ", " -->")
 
     def __post_init__(self) -> None:
-        settings.own(self.options)
+        options.check(self.options)
 
     @property
     def own_step(self) -> float | None:
@@ -40,21 +43,11 @@ class MuJoCo:
         return ("native",)
 
     def refuses(self, scene: Scene) -> str | None:
-        """Loops close by `connect`, which is a pin."""
-        for joint in spanning_tree(scene).loops:
-            if joint.kind != "pin":
-                return f"engine: MuJoCo has no constraint that closes a loop by the {joint.kind} {joint.name}"
-        for joint in scene.joints.values():
-            a = scene.bodies.get(joint.a.body)
-            if joint.kind != "pin" and a is not None and not a.turns:
-                return f"adapter: {joint.name} starts at a particle, which has no axes"
-        return None
+        """What MuJoCo has no element for, the adapter does not build, or the compiler refuses."""
+        return unbuildable(scene) or uncompilable(scene, self.choices(scene, 1e-3))
 
     def withholds(self, scene: Scene, quantity: str) -> str | None:
-        """MuJoCo gives moments about other points than the joint's; the adapter leaves them."""
-        part, _, what = quantity.rpartition(".")
-        if part in scene.joints and what == "torque":
-            return "adapter: the moment a joint holds is not read from MuJoCo"
+        """Nothing: a joint's force and moment and a contact's force can all be read."""
         return None
 
     def tied(self, scene: Scene) -> bool:
@@ -71,19 +64,15 @@ class MuJoCo:
     def protocol(self, scene: Scene, start: State, step: float, realised: Realised) -> str:
         """Driven points, and how deep a disk is started in the floor."""
         words = []
-        if any(point.driven for point in scene.points.values()):
+        if any(driven(scene)):
             words.append(f"driven points are masses of {HEAVY:g} kg")
-        depths = self._depths(scene, start, step, step)
+        depths = self._depths(scene, *self._loaded(scene, start, step, step))
         words += [f"{name} started {depth:.1e} m in the floor" for name, depth in depths.items()]
         return "; ".join(words)
 
-    def _depths(
-        self, scene: Scene, start: State, step: float, tied_to: float
-    ) -> dict[str, float]:
+    def _depths(self, scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, float]:
         """How deep each disk must start to be carried: MuJoCo's floor gives way to a weight."""
-        if self.setting != "tuned" or not scene.contacts:
-            return {}
-        return settle(scene, self._text(scene, start, step, tied_to))
+        return settle(scene, model, data) if self.setting == "tuned" and scene.contacts else {}
 
     def choices(self, scene: Scene, step: float) -> list[Choice]:
         """The setting's numbers as attributes of the MJCF file."""
@@ -93,15 +82,37 @@ class MuJoCo:
 
     def script(self, scene: Scene, start: State, step: float) -> str:
         """The MJCF file with its start as a keyframe."""
-        return self._settled(scene, start, step, step)
+        depths = self._depths(scene, *self._loaded(scene, start, step, step))
+        return self._text(scene, start, step, step, depths)
 
-    def _text(self, scene: Scene, start: State, step: float, tied_to: float) -> str:
+    def _text(
+        self,
+        scene: Scene,
+        start: State,
+        step: float,
+        tied_to: float,
+        depths: Mapping[str, float] = MappingProxyType({}),
+    ) -> str:
         timestep = Choice("option.timestep", step, "the case's step")
-        return mjcf(scene, start, [timestep, *self.choices(scene, tied_to)])
+        return mjcf(scene, start, [timestep, *self.choices(scene, tied_to)], depths)
+
+    def _loaded(
+        self, scene: Scene, start: State, step: float, tied_to: float
+    ) -> tuple[mujoco.MjModel, mujoco.MjData]:
+        return load(self._text(scene, start, step, tied_to))
+
+    def _settled(
+        self, scene: Scene, start: State, step: float, tied_to: float
+    ) -> tuple[mujoco.MjModel, mujoco.MjData]:
+        """As `script` would load it, compiled once."""
+        model, data = self._loaded(scene, start, step, tied_to)
+        for name, depth in self._depths(scene, model, data).items():
+            data.joint(f"{name}.y").qpos[0] -= depth
+        return model, data
 
     def measure(self, scene: Scene, start: State) -> dict[str, float]:
         """Physics as the compiled model holds it."""
-        return measured(scene, *load(self._text(scene, start, 1e-3, 1e-3)))
+        return measured(scene, *self._loaded(scene, start, 1e-3, 1e-3))
 
     def run(
         self,
@@ -115,22 +126,17 @@ class MuJoCo:
         reactions: tuple[str, ...],
     ) -> Trajectory:
         """The motion, stepped by `mj_step(model, data, n)` between samples."""
-        return simulate(scene, self._settled(scene, start, step, tied_to), times, reactions)
+        model, data = self._settled(scene, start, step, tied_to)
+        return simulate(scene, model, data, start, times, reactions)
 
     def prepare(
         self, scene: Scene, start: State, step: float, *, realised: Realised
     ) -> Callable[[int], None]:
         """MuJoCo's bare loop, with the same callbacks installed."""
-        model, data = load(self._settled(scene, start, step, step))
+        model, data = self._settled(scene, start, step, step)
 
         def steps(n: int) -> None:
-            with signals(scene):
+            with heard(), signals(scene):
                 mujoco.mj_step(model, data, n)
 
         return steps
-
-    def _settled(self, scene: Scene, start: State, step: float, tied_to: float) -> str:
-        moved = {name: list(state) for name, state in start.items()}
-        for name, depth in self._depths(scene, start, step, tied_to).items():
-            moved[name][1] -= depth
-        return self._text(scene, {k: tuple(s) for k, s in moved.items()}, step, tied_to)  # type: ignore[misc]

@@ -1,153 +1,129 @@
-"""What MuJoCo knows of a state, read from a second `MjData` so that the running one is untouched."""
+"""What MuJoCo knows of recorded states, read when the run is over and its `MjData` is free.
 
-from collections.abc import Callable
-from dataclasses import dataclass
+MuJoCo's arrays are copied sample by sample and turned into quantities for all samples at once:
+reading costs a few percent of the stepping.
+"""
+
+import math
+from collections.abc import Mapping
 
 import mujoco
 import numpy as np
 
-from cases.scene import GROUND, Anchor, Contact, Joint, Push, Scene
-from cases.trajectory import Array
-from engines.mujoco.tree import Branch, Tree, node, spanning_tree
+from cases.scene import Scene
+from cases.trajectory import ANGLE, Array, Trajectory
+from engines.engine import State
+from engines.mujoco.reaction import Contacts, joint_force
+from engines.mujoco.tree import Tree, built_as, spanning_tree
 
-Forward = Callable[[mujoco.MjModel, mujoco.MjData], None]
-
-
-@dataclass(frozen=True)
-class Readout:
-    """Names of the scene ↔ numbers of the model."""
-
-    scene: Scene
-    tree: Tree
-    model: mujoco.MjModel
-    probe: mujoco.MjData
-
-    @classmethod
-    def of(cls, scene: Scene, model: mujoco.MjModel) -> "Readout":
-        return cls(scene, spanning_tree(scene), model, mujoco.MjData(model))
-
-    def at(self, time: float, qpos: Array, qvel: Array, act: Array, ctrl: Array) -> None:
-        """Bring the probe to a state: positions, velocities, accelerations and forces."""
-        self.probe.time = time
-        self.probe.qpos, self.probe.qvel = qpos, qvel
-        self.probe.act, self.probe.ctrl = act, ctrl
-        mujoco.mj_forward(self.model, self.probe)
-        mujoco.mj_rnePostConstraint(self.model, self.probe)
-
-    def angle(self, body: str) -> float:
-        """The angle, unwound: the sum of the hinges below the body, and what slides hold."""
-        branches = {branch.body: branch for branch in self.tree.branches}
-        total, name = 0.0, body
-        while name in branches:
-            total += self._turn(branches[name])
-            name = branches[name].parent
-        return total
-
-    def _turn(self, branch: Branch) -> float:
-        joint, turns = branch.joint, self.scene.bodies[branch.body].turns
-        if not turns:
-            return 0.0
-        if joint is None:
-            return float(self.probe.joint(f"{branch.body}.angle").qpos[0])
-        if joint.kind == "pin":
-            return float(self.probe.joint(joint.name).qpos[0])
-        return joint.angle if branch.forward else -joint.angle
-
-    def state(self, body: str) -> tuple[float, float, float, float, float, float]:
-        """x, y, angle, vx, vy, omega of the centre of mass."""
-        number = self.model.body(body).id
-        velocity = np.zeros(6)  # angular, then linear, in world axes
-        mujoco.mj_objectVelocity(
-            self.model, self.probe, mujoco.mjtObj.mjOBJ_BODY, number, velocity, 0
-        )
-        x, y, _ = self.probe.xipos[number]
-        turns = self.scene.bodies[body].turns
-        angle, omega = (self.angle(body), velocity[2]) if turns else (0.0, 0.0)
-        return (x, y, angle, velocity[3], velocity[4], omega)
-
-    def reaction(self, quantity: str) -> float:
-        """`joint.fx|fy` of the first part on the second, or `contact.normal|tangent`."""
-        part, _, field = quantity.partition(".")
-        if part in self.scene.contacts:
-            tangent, normal = self._contact(self.scene.contacts[part])
-            return normal if field == "normal" else tangent
-        fx, fy = self._joint(self.scene.joints[part])
-        return {"fx": fx, "fy": fy, "force": float(np.hypot(fx, fy))}[field]
-
-    def _joint(self, joint: Joint) -> Array:
-        if joint in self.tree.loops:
-            rows = np.flatnonzero(
-                (self.probe.efc_type == mujoco.mjtConstraint.mjCNSTR_EQUALITY)
-                & (self.probe.efc_id == self.model.equality(joint.name).id)
-            )
-            return -self.probe.efc_force[rows[:2]]  # MuJoCo counts the force on the first part
-        branch = next(b for b in self.tree.branches if b.joint is joint)
-        # cfrc_int is what holds the subtree together with its parent: the joint's force, and
-        # what tendons and actuators do to the subtree from outside, since they act on joints.
-        held = self.probe.cfrc_int[self.model.body(branch.body).id][3:5].copy()
-        held -= self._other_forces(self.tree.subtree(branch.body))
-        return held if branch.forward else -held
-
-    def _other_forces(self, bodies: set[str]) -> Array:
-        total = np.zeros(2)
-        for force in (*self.scene.springs(), *self.scene.dampers()):
-            number = self.model.tendon(force.name).id
-            inside = [node(self.scene, end) in bodies for end in (force.a, force.b)]
-            if inside[0] == inside[1]:
-                continue
-            stretch = self.probe.ten_length[number] - self.model.tendon_lengthspring[number, 0]
-            tension = self.model.tendon_stiffness[number] * stretch
-            tension += self.model.tendon_damping[number] * self.probe.ten_velocity[number]
-            line = self._site(force.b) - self._site(force.a)
-            pull = tension * line / np.hypot(*line)
-            total += pull if inside[0] else -pull
-        for force in self.scene.signals():
-            if isinstance(force, Push) and force.at.body in bodies:
-                number = self.model.actuator(force.name).id
-                gear = self.model.actuator_gear[number, :2]
-                total += gear * self.probe.actuator_force[number]
-        return total
-
-    def _site(self, anchor: Anchor) -> Array:
-        return self.probe.site_xpos[self.model.site(str(anchor)).id][:2]
-
-    def _contact(self, contact: Contact) -> Array:
-        """The floor's force on the disk, x and y."""
-        total = np.zeros(3)
-        disk = self.model.geom(contact.body).id
-        for i in range(self.probe.ncon):
-            touch = self.probe.contact[i]
-            if disk in touch.geom:
-                force = np.zeros(6)
-                mujoco.mj_contactForce(self.model, self.probe, i, force)
-                world = touch.frame.reshape(3, 3).T @ force[:3]  # on the second geom
-                total += world if touch.geom[1] == disk else -world
-        return total[:2]
+_PLACES = ("xipos", "cvel", "subtree_com")
+_FORCES = ("cfrc_int", "site_xpos", "actuator_force", "efc_force")
 
 
-def measured(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, float]:
-    """The physics that MuJoCo holds, see `Engine.measure`."""
-    found = {"gravity.x": model.opt.gravity[0], "gravity.y": model.opt.gravity[1]}
-    for body in scene.bodies.values():
-        number = model.body(body.name).id
-        found[f"{body.name}.mass"] = model.body_mass[number]
-        if body.turns:
-            found[f"{body.name}.inertia"] = model.body_inertia[number, 2]
-    for contact in scene.contacts:
-        found[f"{contact}.friction"] = model.pair(contact).friction[0]
-    for spring in scene.springs():
-        number = model.tendon(spring.name).id
-        found[f"{spring.name}.stiffness"] = model.tendon_stiffness[number]
-        found[f"{spring.name}.rest_length"] = model.tendon_lengthspring[number, 0]
-    for damper in scene.dampers():
-        found[f"{damper.name}.damping"] = model.tendon_damping[model.tendon(damper.name).id]
-    if not any(point.driven for point in scene.points.values()):  # their mass drowns the rest
-        mujoco.mj_forward(model, data)
-        mujoco.mj_energyVel(model, data)
-        mujoco.mj_subtreeVel(model, data)
-        momentum = data.subtree_linvel[0] * model.body_subtreemass[0]
-        found["energy.kinetic"] = data.energy[1]
-        found["momentum.x"], found["momentum.y"] = momentum[0], momentum[1]
-    return {name: float(value) for name, value in found.items()}
+def read(
+    scene: Scene,
+    model: mujoco.MjModel,
+    data: mujoco.MjData,  # any of the model: it is moved through the record
+    start: State,
+    times: Array,
+    record: list[Array],
+    reactions: tuple[str, ...],
+) -> Trajectory:
+    """States of all bodies, and the wanted reactions, from positions, velocities and controls."""
+    tree = spanning_tree(scene)
+    contacts = Contacts(scene, model, len(times)) if scene.contacts and reactions else None
+    joints = [name for name in reactions if name.partition(".")[0] in scene.joints]
+    wanted = (*_PLACES, *(_FORCES if joints else ()))
+    seen = _seen(model, data, times, record, wanted, contacts, forces=bool(reactions))
+    found: dict[str, Array] = {}
+    for name in reactions:
+        part, _, field = name.partition(".")
+        if part in scene.joints:
+            forces = joint_force(scene, tree, model, seen, scene.joints[part])
+            found[name] = forces[("fx", "fy", "torque", "force").index(field)]
+        else:
+            assert contacts is not None
+            found[name] = contacts.forces[part][:, 1 if field == "normal" else 0]
+    states = {name: _states(scene, tree, model, name, record[0], seen) for name in scene.bodies}
+    for name, rows in states.items():  # a slide or weld holds 370 deg as well as 10 deg
+        turns = np.round((start[name][ANGLE] - rows[0, ANGLE]) / math.tau)
+        rows[:, ANGLE] += turns * math.tau
+    return Trajectory(times, states, found)
 
 
+def _seen(
+    model: mujoco.MjModel,
+    probe: mujoco.MjData,
+    times: Array,
+    record: list[Array],
+    wanted: tuple[str, ...],
+    contacts: Contacts | None,
+    *,
+    forces: bool,
+) -> Mapping[str, Array]:
+    """MuJoCo's own arrays at every sample, (N, …) each."""
+    mujoco.mj_resetData(model, probe)  # a run's last solution must not start the first sample's
+    targets = (probe.qpos, probe.qvel, probe.act, probe.ctrl)
+    sources: dict[str, Array] = {}
+    seen: dict[str, Array] = {}
+    for i, t in enumerate(times.tolist()):
+        probe.time = t
+        for target, kept in zip(targets, record, strict=True):
+            target[:] = kept[i]
+        if forces:
+            mujoco.mj_forward(model, probe)
+            mujoco.mj_rnePostConstraint(model, probe)
+        else:
+            mujoco.mj_kinematics(model, probe)
+            mujoco.mj_comPos(model, probe)
+            mujoco.mj_comVel(model, probe)
+        if not seen:
+            sources = {name: getattr(probe, name) for name in wanted if name != "efc_force"}
+            seen = {name: np.empty((len(times), *part.shape)) for name, part in sources.items()}
+            if "efc_force" in wanted:  # equalities come first, always the same ones
+                seen["efc_force"] = np.empty((len(times), probe.ne))
+        for name, part in sources.items():
+            seen[name][i] = part
+        if "efc_force" in seen and probe.ne:
+            seen["efc_force"][i] = probe.efc_force[: probe.ne]
+        if contacts is not None:
+            contacts.keep(i, probe)
+    return seen
+
+
+def _states(
+    scene: Scene,
+    tree: Tree,
+    model: mujoco.MjModel,
+    body: str,
+    qpos: Array,
+    seen: Mapping[str, Array],
+) -> Array:
+    """(N, 6): x, y, angle, vx, vy, omega of the centre of mass."""
+    number = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, body)
+    place, velocity = seen["xipos"][:, number, :2], seen["cvel"][:, number]
+    # MuJoCo counts velocities about the centre of mass of the whole tree.
+    arm = place - seen["subtree_com"][:, model.body_rootid[number], :2]
+    omega = velocity[:, 2]
+    vx, vy = velocity[:, 3] - omega * arm[:, 1], velocity[:, 4] + omega * arm[:, 0]
+    turns = scene.bodies[body].turns
+    angle = _angle(scene, tree, model, body, qpos) if turns else np.zeros(len(qpos))
+    return np.column_stack([place, angle, vx, vy, omega if turns else np.zeros(len(qpos))])
+
+
+def _angle(scene: Scene, tree: Tree, model: mujoco.MjModel, body: str, qpos: Array) -> Array:
+    """The angle, unwound: the sum of the hinges below the body, and what slides hold."""
+    branches = {branch.body: branch for branch in tree.branches}
+    total, name = np.zeros(len(qpos)), body
+    while name in branches:
+        branch = branches[name]
+        joint = branch.joint
+        if not scene.bodies[name].turns:
+            pass  # a particle turns with what carries it
+        elif joint is None or built_as(scene, joint) == "pin":
+            hinge = f"{name}.angle" if joint is None else joint.name
+            total += qpos[:, model.joint(hinge).qposadr[0]]
+        else:
+            total += joint.angle if branch.forward else -joint.angle
+        name = branch.parent
+    return total

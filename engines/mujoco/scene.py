@@ -5,26 +5,34 @@ springs and dampers are tendons, pushes and torques are actuators at sites.
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
 from xml.etree import ElementTree as ET
 
-from cases.scene import CENTER, GROUND, Anchor, Body, Damper, Push, Scene, Spring, Torque
+from cases.scene import CENTER, GROUND, Anchor, Damper, Push, Scene, Spring, Torque
 from engines.engine import Choice, State
-from engines.mujoco.tree import Branch, Tree, coordinates, driven, spanning_tree, turned
+from engines.mujoco.tree import Branch, Tree, built_as, coordinates, driven, spanning_tree, turned
 
 HEAVY = 1e15  # kg of a driven point: 1 N changes its velocity by 1e-15 m/s in a second
-SPHERE = 1.0  # kg m² of a particle, which has no hinge: MuJoCo wants a number, nothing uses it
+LEAST = 1e-15  # kg m² (mjMINVAL) of a particle: MuJoCo takes no less of a body with a joint
+FLOOR = f"{GROUND}.floor"  # no disk can be called that
 
 
-def mjcf(scene: Scene, start: State, choices: Iterable[Choice]) -> str:
+def mjcf(
+    scene: Scene,
+    start: State,
+    choices: Iterable[Choice],
+    depths: Mapping[str, float] = MappingProxyType({}),
+) -> str:
     """The scene and its start as text that MuJoCo compiles; choices become attributes.
 
     A choice's name says where it stands: `option.integrator`, `connect.solref`, `pair.solimp`.
+    depths: how deep [m] free bodies are started in the floor.
     """
     numbers = {choice.name: choice.value for choice in choices}
     tree = spanning_tree(scene)
     root = ET.Element("mujoco", model="textmech")
-    option = ET.SubElement(root, "option", gravity=_text(*scene.gravity, 0), **_of(numbers, "option"))
+    option = ET.SubElement(root, "option", _of(numbers, "option"), gravity=_text(*scene.gravity, 0))
     ET.SubElement(option, "flag", autoreset="disable")  # a reset must not look like a motion
     world = ET.SubElement(root, "worldbody")
     _world(world, scene)
@@ -34,7 +42,7 @@ def mjcf(scene: Scene, start: State, choices: Iterable[Choice]) -> str:
     if tree.loops:
         _loops(root, tree, _of(numbers, "connect"))
     _forces(root, scene)
-    _start(root, scene, tree, start)
+    _start(root, scene, tree, start, depths)
     ET.indent(root)
     return ET.tostring(root, encoding="unicode") + "\n"
 
@@ -56,7 +64,7 @@ def _text(*values: object) -> str:
 def _world(world: ET.Element, scene: Scene) -> None:
     if scene.contacts:
         ET.SubElement(
-            world, "geom", name="floor", type="plane", size="0 0 1", zaxis="0 1 0",
+            world, "geom", name=FLOOR, type="plane", size="0 0 1", zaxis="0 1 0",
             contype="0", conaffinity="0",
         )  # fmt: skip
     ET.SubElement(world, "site", name=GROUND, pos="0 0 0")
@@ -67,7 +75,7 @@ def _world(world: ET.Element, scene: Scene) -> None:
         # A point that nothing can hold back moves at its constant velocity in every RK4 stage;
         # a mocap body would stand still during a step, which costs three orders.
         body = ET.SubElement(world, "body", name=f"{GROUND}.{name}", gravcomp="1")
-        _inertial(body, HEAVY, SPHERE)
+        _inertial(body, HEAVY, LEAST)
         for axis in ("x", "y"):
             _joint(body, f"{GROUND}.{name}.{axis}", "slide", axis=_AXES[axis])
         ET.SubElement(body, "site", name=f"{GROUND}.{name}", pos="0 0 0")
@@ -77,7 +85,7 @@ _AXES = {"x": "1 0 0", "y": "0 1 0", "angle": "0 0 1"}
 
 
 def _joint(body: ET.Element, name: str, kind: str, **attributes: str) -> None:
-    ET.SubElement(body, "joint", name=name, type=kind, **attributes)
+    ET.SubElement(body, "joint", attributes, name=name, type=kind)
 
 
 def _inertial(body: ET.Element, mass: float, inertia: float) -> None:
@@ -96,8 +104,9 @@ def _bodies(world: ET.Element, scene: Scene, tree: Tree) -> None:
         element = ET.SubElement(elements[branch.parent], "body", name=body.name)
         elements[body.name] = element
         _hang(element, scene, branch)
-        inertia = SPHERE if body.inertia is None else body.inertia
-        _inertial(element, body.mass, inertia)
+        # A particle that is held rigidly must add nothing to the inertia of what carries it.
+        least = LEAST if element.find("joint") is not None else 0.0
+        _inertial(element, body.mass, least if body.inertia is None else body.inertia)
         for name, at in body.points.items():
             ET.SubElement(element, "site", name=f"{body.name}.{name}", pos=_text(*at, 0))
         if body.name in {contact.body for contact in scene.contacts.values()}:
@@ -117,17 +126,18 @@ def _hang(element: ET.Element, scene: Scene, branch: Branch) -> None:
             _joint(element, f"{body.name}.{name}", kind, axis=_AXES[name])
         return
     outer, inner = branch.ends()
-    held = 0.0 if joint.kind == "pin" or not body.turns else joint.angle
+    what = built_as(scene, joint)
+    held = 0.0 if what == "pin" or not body.turns else joint.angle
     held = held if branch.forward else -held
     at, own = _local(scene, outer), turned(_local(scene, inner), held)
     element.set("pos", _text(at[0] - own[0], at[1] - own[1], 0))
     if held:
         element.set("quat", _text(math.cos(held / 2), 0, 0, math.sin(held / 2)))
-    if joint.kind == "pin" and body.turns:
+    if what == "pin" and body.turns:
         _joint(
             element, joint.name, "hinge", axis=_AXES["angle"], pos=_text(*_local(scene, inner), 0)
         )
-    elif joint.kind == "slide":
+    elif what == "slide":
         # MuJoCo's axis stands in the child; `along` stands in the joint's first part.
         along = turned(joint.along, -held) if branch.forward else turned(joint.along, math.pi)
         _joint(element, joint.name, "slide", axis=_text(*along, 0))
@@ -145,8 +155,9 @@ def _contacts(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> Non
     for contact in scene.contacts.values():
         # A pair takes one coefficient; two geoms would take the larger of theirs.
         ET.SubElement(
-            contacts, "pair", name=contact.name, geom1="floor", geom2=contact.body, condim="3",
-            friction=_text(contact.friction, contact.friction, 0, 0, 0), **attributes,
+            contacts, "pair", attributes,
+            name=contact.name, geom1=FLOOR, geom2=contact.body, condim="3",
+            friction=_text(contact.friction, contact.friction, 0, 0, 0),
         )  # fmt: skip
 
 
@@ -154,8 +165,8 @@ def _loops(root: ET.Element, tree: Tree, attributes: dict[str, str]) -> None:
     equality = ET.SubElement(root, "equality")
     for joint in tree.loops:
         ET.SubElement(
-            equality, "connect", name=joint.name, site1=str(joint.a), site2=str(joint.b),
-            **attributes,
+            equality, "connect", attributes,
+            name=joint.name, site1=str(joint.a), site2=str(joint.b),
         )  # fmt: skip
 
 
@@ -194,14 +205,19 @@ def _actuator(actuators: ET.Element, force: Push | Torque) -> None:
         element.set("dyntype", "integrator")
 
 
-def _start(root: ET.Element, scene: Scene, tree: Tree, start: State) -> None:
+def _start(
+    root: ET.Element, scene: Scene, tree: Tree, start: State, depths: Mapping[str, float]
+) -> None:
     """The start as a keyframe, in the order in which MuJoCo numbers joints: depth first."""
     pairs: dict[str, list[tuple[float, float]]] = {}
     for name in driven(scene):
         point = scene.points[name.partition(".")[2]]
         pairs[name] = list(zip(point.at, point.velocity, strict=True))
     for branch in tree.branches:
-        pairs[branch.body] = coordinates(scene, branch, start)
+        pairs[branch.body] = coordinates(scene, tree, branch, start)
+    for name, depth in depths.items():
+        y, vy = pairs[name][1]
+        pairs[name][1] = (y - depth, vy)
     flat = [
         pair
         for element in root.iter("body")  # document order is depth first

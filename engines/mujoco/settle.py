@@ -8,34 +8,40 @@ import mujoco
 from scipy.optimize import brentq
 
 from cases.scene import Scene
-from engines.mujoco.run import load
+from engines.mujoco.control import signals
 from engines.mujoco.tree import spanning_tree
 
-DEEPEST = 1e-3  # of the radius: a floor softer than this carries nothing
 
+def settle(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, float]:
+    """Depth [m] of each disk that lies on the floor by itself; a joined one rests on its joints.
 
-def settle(scene: Scene, text: str) -> dict[str, float]:
-    """Depth [m] of each disk that lies on the floor by itself; a joined one rests on its joints."""
+    The data is at its start, and is so again afterwards.
+    """
     free = {branch.body for branch in spanning_tree(scene).branches if branch.joint is None}
-    model, data = load(text)
     depths = {}
-    for contact in scene.contacts.values():
-        body = scene.bodies[contact.body]
-        if body.name in free and body.radius is not None:
-            depths[body.name] = _depth(model, data, body.name, DEEPEST * body.radius)
+    with signals(scene):
+        for contact in scene.contacts.values():
+            body = scene.bodies[contact.body]
+            if body.name in free and body.radius is not None:
+                depths[body.name] = _depth(model, data, body.name, body.radius)
+    mujoco.mj_resetDataKeyframe(model, data, 0)  # the run must not inherit a warm start
     return depths
 
 
-def _depth(model: mujoco.MjModel, data: mujoco.MjData, body: str, deepest: float) -> float:
-    height = data.joint(f"{body}.y").qpos[0]
+def _depth(model: mujoco.MjModel, data: mujoco.MjData, body: str, radius: float) -> float:
+    place = data.joint(f"{body}.y")
+    height = float(place.qpos[0])
 
     def rise(depth: float) -> float:
-        data.joint(f"{body}.y").qpos[0] = height - depth
+        place.qpos[0] = height - depth
         mujoco.mj_forward(model, data)
-        return float(data.joint(f"{body}.y").qacc[0])
+        return float(place.qacc[0])
 
     # Depth 0 is no contact at all; the smallest number above it that y can hold is.
-    shallow = 4e-16 * max(abs(height), 1.0)
-    depth = brentq(rise, shallow, deepest, xtol=shallow) if rise(shallow) < 0 else 0.0
-    data.joint(f"{body}.y").qpos[0] = height
+    shallow = deep = 4e-16 * max(abs(height), 1.0)
+    while rise(deep) < 0 and deep < radius:
+        deep *= 10
+    carried = rise(shallow) < 0 < rise(deep)  # else it is lifted off, or pressed through the floor
+    depth = brentq(rise, shallow, deep, xtol=shallow) if carried else 0.0
+    place.qpos[0] = height
     return float(depth)

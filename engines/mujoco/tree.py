@@ -7,9 +7,12 @@ MuJoCo has `connect` for a pin, and nothing for a slide.
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Literal
 
 from cases.scene import GROUND, Anchor, Joint, Scene, Vector
 from engines.engine import State
+
+Kind = Literal["pin", "slide", "weld"]
 
 
 @dataclass(frozen=True)
@@ -47,6 +50,20 @@ class Tree:
                 held.add(branch.body)
         return held
 
+    def frame(self, scene: Scene, name: str) -> str:
+        """The body with which a node's axes turn: a particle's turn with what carries it."""
+        branches = {branch.body: branch for branch in self.branches}
+        while name in branches and not scene.bodies[name].turns:
+            name = branches[name].parent
+        return name if name in branches else GROUND
+
+
+def built_as(scene: Scene, joint: Joint) -> Kind:
+    """What the joint is here: welded to a particle, which has no angle to hold, it is a pin."""
+    ends = (joint.a.body, joint.b.body)
+    held = all(end == GROUND or scene.bodies[end].turns for end in ends)
+    return joint.kind if held or joint.kind == "slide" else "pin"
+
 
 def node(scene: Scene, anchor: Anchor) -> str:
     """The tree's node of an anchor: a body, `ground`, or the driven point itself."""
@@ -66,7 +83,7 @@ def spanning_tree(scene: Scene) -> Tree:
 
     kept: list[Joint] = []
     loops: list[Joint] = []
-    for joint in sorted(scene.joints.values(), key=lambda j: j.kind == "pin"):
+    for joint in sorted(scene.joints.values(), key=lambda j: built_as(scene, j) == "pin"):
         ends = sorted((root(node(scene, joint.a)), root(node(scene, joint.b))), key=_is_body)
         if ends[0] == ends[1] or not _is_body(ends[1]):  # both fixed: closes through the ground
             loops.append(joint)
@@ -77,12 +94,12 @@ def spanning_tree(scene: Scene) -> Tree:
 
 
 def driven(scene: Scene) -> Iterator[str]:
-    """Nodes of the driven points that something hangs on."""
+    """Nodes of the driven points."""
     return (f"{GROUND}.{name}" for name, point in scene.points.items() if point.driven)
 
 
 def _is_body(name: str) -> bool:
-    return not name.startswith(GROUND)
+    return name != GROUND and "." not in name
 
 
 def _outward(scene: Scene, joints: list[Joint]) -> Iterator[Branch]:
@@ -100,7 +117,7 @@ def _outward(scene: Scene, joints: list[Joint]) -> Iterator[Branch]:
                 if parent in reached and body in waiting
             ),
             None,
-        ) or Branch(waiting[0], GROUND, None)
+        ) or Branch(min(waiting, key=lambda name: not scene.bodies[name].turns), GROUND, None)
         yield branch
         reached.add(branch.body)
         waiting.remove(branch.body)
@@ -112,18 +129,21 @@ def turned(vector: Vector, angle: float) -> Vector:
     return (cos * vector[0] - sin * vector[1], sin * vector[0] + cos * vector[1])
 
 
-def coordinates(scene: Scene, branch: Branch, start: State) -> list[tuple[float, float]]:
+def coordinates(
+    scene: Scene, tree: Tree, branch: Branch, start: State
+) -> list[tuple[float, float]]:
     """(position, rate) of the branch's joint coordinates at the start, in MuJoCo's order."""
     x, y, angle, vx, vy, omega = start[branch.body]
     turns = scene.bodies[branch.body].turns
     if branch.joint is None:
         return [(x, vx), (y, vy), *([(angle, omega)] if turns else [])]
-    if branch.joint.kind == "weld":
+    held = built_as(scene, branch.joint)
+    if held == "weld":
         return []
-    if branch.joint.kind == "pin":
+    if held == "pin":
         if not turns:
             return []
-        parent = start.get(branch.parent, (0.0,) * 6)
+        parent = start.get(tree.frame(scene, branch.parent), (0.0,) * 6)
         return [(angle - parent[2], omega - parent[5])]
     first, second = (_point(scene, end, start) for end in (branch.joint.a, branch.joint.b))
     base = 0.0 if branch.joint.a.body == GROUND else start[branch.joint.a.body][2]

@@ -1,0 +1,51 @@
+"""Scenes that MuJoCo has no element for, the adapter does not build, or that do not compile."""
+
+from collections.abc import Iterable
+
+from cases.scene import GROUND, Joint, Scene
+from engines.engine import Choice
+from engines.mujoco.run import load
+from engines.mujoco.scene import mjcf
+from engines.mujoco.tree import Branch, Tree, built_as, spanning_tree
+
+
+def unbuildable(scene: Scene) -> str | None:
+    """The first joint or contact that has no counterpart."""
+    tree = spanning_tree(scene)
+    for joint in tree.loops:
+        if built_as(scene, joint) == "slide":
+            return f"engine: MuJoCo has no constraint that closes a loop by the slide {joint.name}"
+        if built_as(scene, joint) == "weld":
+            return f"adapter: {joint.name} closes a loop by a weld, loops are closed by pins only"
+    for branch in tree.branches:
+        if branch.joint is not None and branch.joint.kind == "slide":
+            reason = _slide(scene, tree, branch, branch.joint)
+            if reason is not None:
+                return reason
+    disks = [contact.body for contact in scene.contacts.values()]
+    for name, contact in scene.contacts.items():
+        if scene.bodies[contact.body].radius is None:
+            return f"adapter: only a disk can touch the floor, {contact.body} is none"
+        if disks.count(contact.body) > 1:
+            return f"adapter: {name} is not the only contact of {contact.body} with the floor"
+    return None
+
+
+def _slide(scene: Scene, tree: Tree, branch: Branch, joint: Joint) -> str | None:
+    turns = {name: body.turns for name, body in scene.bodies.items()}
+    if turns[branch.body] and not turns.get(branch.parent, True):
+        return f"adapter: {joint.name} would have to let {branch.body} both shift and turn"
+    particle = not turns.get(joint.a.body, True)
+    if particle and tree.frame(scene, branch.parent) != GROUND:
+        return f"adapter: {joint.name} starts at a particle, which has no axes"
+    return None
+
+
+def uncompilable(scene: Scene, choices: Iterable[Choice]) -> str | None:
+    """What MuJoCo's compiler says of the scene, whatever its start."""
+    anywhere = dict.fromkeys(scene.bodies, (0.0,) * 6)
+    try:
+        load(mjcf(scene, anywhere, choices))  # type: ignore[arg-type]
+    except ValueError as refusal:
+        return f"engine: MuJoCo does not take the scene: {' '.join(str(refusal).split())}"
+    return None

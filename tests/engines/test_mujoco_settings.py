@@ -1,0 +1,163 @@
+"""MuJoCo's settings: recipes, a user's own options, and what MuJoCo itself does not take."""
+
+import re
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree as ET
+
+import pytest
+
+from cases.scene import Anchor, Contact, GroundPoint, Joint, Scene
+from cases.shape import bar, disk
+from engines.engine import State
+from engines.mujoco import MuJoCo
+
+WHEEL = Scene(
+    (0.0, -9.8),
+    {"O": GroundPoint((0.0, 1.0)), "Q": GroundPoint((1.0, 1.0))},
+    {
+        "wheel": disk(name="wheel", mass=1.0, radius=0.2, points={}),
+        "rod": bar(name="rod", mass=1.0, length=1.0, points={}),
+        "other": bar(name="other", mass=1.0, length=1.0, points={}),
+    },
+    {
+        "A": Joint("A", "pin", Anchor("ground", "O"), Anchor("rod", "start")),
+        "B": Joint("B", "pin", Anchor("rod", "center"), Anchor("other", "center")),
+        "C": Joint("C", "pin", Anchor("other", "end"), Anchor("ground", "Q")),
+    },
+    {"touch": Contact("touch", "wheel", 0.5, "rolling")},
+    {},
+)
+START: State = {
+    "wheel": (0.0, 0.2, 0.0, 0.0, 0.0, 0.0),
+    "rod": (0.5, 1.0, 0.0, 0.0, 0.0, 0.0),
+    "other": (0.5, 1.0, 0.0, 0.0, 0.0, 0.0),
+}
+OPTIONS: dict[str, Any] = {
+    "integrator": "implicit",
+    "cone": "elliptic",
+    "jacobian": "sparse",
+    "solver": "CG",
+    "iterations": 51,
+    "ls_iterations": 21,
+    "noslip_iterations": 3,
+    "tolerance": 1e-9,
+    "ls_tolerance": 2e-3,
+    "noslip_tolerance": 3e-7,
+    "impratio": 7.0,
+    "solref": [0.03, 0.9],
+    "solimp": [0.8, 0.9, 0.002],
+}
+
+
+def attributes(options: dict[str, Any]) -> dict[str, set[str]]:
+    """Where each attribute of the model stands, with its value."""
+    root = ET.fromstring(MuJoCo("own", options).script(WHEEL, START, 1e-3))
+    found: dict[str, set[str]] = {}
+    for element in (*root.iter("option"), *root.iter("pair"), *root.iter("connect")):
+        for name, value in element.attrib.items():
+            found.setdefault(f"{element.tag}.{name}", set()).add(value)
+    return found
+
+
+@pytest.mark.parametrize("name", OPTIONS)
+def test_every_option_takes_effect(name: str) -> None:
+    value = OPTIONS[name]
+    text = " ".join(map(str, value)) if isinstance(value, list) else str(value)
+    before, after = attributes({}), attributes({name: value})
+    places = ("pair", "connect") if isinstance(value, list) else ("option",)
+    changed = {key for key in after if after[key] != before.get(key)}
+    assert changed == {f"{place}.{name}" for place in places}
+    assert all(after[key] == {text} for key in changed)
+
+
+def test_own_step() -> None:
+    assert MuJoCo("own", {"step": 5e-4}).own_step == 5e-4
+    assert MuJoCo("own").own_step == MuJoCo("shipped").own_step == 2e-3
+    assert MuJoCo("tuned").own_step is None
+
+
+def test_whole_numbers_may_be_written_as_reals() -> None:
+    assert attributes({"iterations": 50.0})["option.iterations"] == {"50"}
+
+
+BAD = [
+    ({"integratr": "RK4"}, "did you mean 'integrator'"),
+    ({1: 2}, "unknown option"),
+    ({"integrator": "implict"}, "did you mean 'implicit'"),
+    ({"cone": ["elliptic"]}, "pyramidal, elliptic"),
+    ({"iterations": -1}, "whole number"),
+    ({"iterations": 2.5}, "whole number"),
+    ({"iterations": 10**30}, "whole number"),
+    ({"iterations": float("inf")}, "whole number"),
+    ({"iterations": float("nan")}, "whole number"),
+    ({"iterations": True}, "whole number"),
+    ({"iterations": "50"}, "whole number"),
+    ({"tolerance": float("nan")}, "at least 0"),
+    ({"tolerance": 10**400}, "at least 0"),
+    ({"impratio": -1.0}, "at least 0"),
+    ({"step": 0}, "positive"),
+    ({"step": None}, "positive"),
+    ({"solref": [0.02]}, "list of 2"),
+    ({"solref": 0.02}, "list of 2"),
+    ({"solref": [True, 1.0]}, "list of 2"),
+    ({"solimp": [0.9, float("nan"), 0.1]}, "list of 3 or 5"),
+    ({"solimp": [0.9, 0.9]}, "list of 3 or 5"),
+]
+
+
+@pytest.mark.parametrize(("options", "what"), BAD, ids=str)
+def test_bad_options(options: dict[str, Any], what: str) -> None:
+    with pytest.raises(ValueError, match=re.escape(what)):
+        MuJoCo("own", options)
+
+
+def test_all_mistakes_at_once() -> None:
+    with pytest.raises(ValueError, match="unknown option") as caught:
+        MuJoCo("own", {"inpratio": 1.0, "cone": "round", "step": -1})
+    assert len(str(caught.value).splitlines()) == 3
+
+
+@pytest.mark.parametrize("options", [{"solref": [0.02, -1.0]}], ids=str)
+def test_what_mujoco_refuses_is_said(
+    options: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(ValueError, match="mujoco: "):
+        MuJoCo("own", options)
+    assert not list(tmp_path.iterdir())
+
+
+def test_tuned_numbers_follow_the_step_and_say_why() -> None:
+    tuned = MuJoCo("tuned")
+    for step in (1e-4, 8e-4):
+        numbers = {choice.name: choice.value for choice in tuned.choices(WHEEL, step)}
+        assert numbers["connect.solref"] == [4 * step, 1.0]
+        assert numbers["pair.solref"] == [2 * step, 1.0]
+    assert all(choice.because for choice in tuned.choices(WHEEL, 1e-4))
+    assert tuned.tied(WHEEL)
+    assert not MuJoCo("shipped").tied(WHEEL)
+
+
+def test_a_driven_points_mass_must_not_stop_the_solver() -> None:
+    hook = GroundPoint((1.0, 1.0), (0.1, 0.0))
+    towed = Scene(WHEEL.gravity, {**WHEEL.points, "Q": hook}, WHEEL.bodies, WHEEL.joints, {}, {})
+    for engine, tolerance in (
+        (MuJoCo("shipped"), 0.0),
+        (MuJoCo("tuned"), 0.0),
+        (MuJoCo("own", {"tolerance": 1e-6}), 1e-6),
+    ):
+        numbers = {choice.name: choice.value for choice in engine.choices(towed, 1e-3)}
+        assert numbers["option.tolerance"] == tolerance
+    names = [choice.name for choice in MuJoCo("shipped").choices(WHEEL, 1e-3)]
+    assert "option.tolerance" not in names
+
+
+def test_exponents() -> None:
+    pinned = Scene(WHEEL.gravity, WHEEL.points, WHEEL.bodies, WHEEL.joints, {}, {})
+    tuned, rk4 = MuJoCo("tuned"), MuJoCo("own", {"integrator": "RK4"})
+    assert tuned.exponents(pinned, "native", held=True) == (4, 5)
+    assert tuned.exponents(pinned, "native", held=False) == (2, 3)
+    assert tuned.exponents(WHEEL, "native", held=False) == (1, 2)
+    assert rk4.exponents(pinned, "native", held=False) == (4, 5)
+    assert MuJoCo("shipped").exponents(pinned, "native", held=True) == (1, 2)
