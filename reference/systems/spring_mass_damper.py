@@ -72,7 +72,7 @@ class SpringMassDamper(System):
         return self.c * (-q[0] - self.l0) ** 2 / 2 + self.m * G * q[0]
 
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
-        """(2.47) D = ½ d ẏ² [W]."""
+        """(2.46), (2.47) D = ½ d ẏ² [W], Q = −∂D/∂ẏ."""
         return self.d * v[0] ** 2 / 2
 
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
