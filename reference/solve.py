@@ -9,6 +9,8 @@ import numpy as np
 
 from cases.case import Case
 from cases.mistake import CaseError
+from cases.observe import observe
+from cases.quantity import table
 from cases.trajectory import Array, Trajectory
 from reference.assembly import assemble
 from reference.certificate import Check, certify
@@ -18,6 +20,7 @@ from reference.motion import TOLERANCE, Stuck, integrate, motion
 from reference.obstacle import refused
 from reference.systems import SYSTEMS
 
+STILL = 1e-9  # of a quantity's size: smaller changes are no motion
 ROUNDING = 1e-12  # of the normal force: a wheel that needs no friction rolls without any
 
 
@@ -45,6 +48,7 @@ def solve(case: Case) -> Solution:
         integration = integrate(system, case.times, dormand_prince, tolerance=TOLERANCE)
         trajectory = motion(system, case.times, integration.y, generated)
         _possible(case, trajectory)
+        _moving(case, trajectory)
         checks = certify(case, system, generated, integration, trajectory)
     except Stuck as stuck:
         raise refused(case, generated, stuck) from stuck
@@ -72,6 +76,26 @@ def _possible(case: Case, trajectory: Trajectory) -> None:
                 f"it would slip; {_needed(normal, tangent)}"
             )
         raise CaseError([case.mistake(("scene", "contacts", contact.name, "ideal"), what)])
+
+
+def _moving(case: Case, trajectory: Trajectory) -> None:
+    """A place or velocity that stays what it was proves nothing, unless the case says it rests.
+
+    Raises CaseError naming every observed one that never moves.
+    """
+    if case.rests:
+        return
+    mistakes = []
+    for name in case.allow:
+        kind = table(case.scene)[name].kind
+        samples = observe(case.scene, trajectory, name)
+        if kind in ("coordinate", "velocity") and np.ptp(samples) <= STILL * np.max(
+            np.abs(samples)
+        ):
+            what = f"never moves: it stays {samples[0]:.6g}, so nothing is compared; leave it out"
+            mistakes.append(case.mistake(("allow", name), f"{what}, or say `rests: true`"))
+    if mistakes:
+        raise CaseError(mistakes)
 
 
 def _needed(normal: Array, tangent: Array) -> str:

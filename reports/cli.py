@@ -108,7 +108,7 @@ def run(
 @click.argument("files", nargs=-1, required=True, metavar="FILE...")
 def check(files: tuple[str, ...]) -> None:
     """All mistakes of case files, without running an engine."""
-    from reference.assembly import assemble
+    from reference.solve import solve
     from reports.selection import choose_cases
 
     mistakes = []
@@ -116,7 +116,7 @@ def check(files: tuple[str, ...]) -> None:
         try:
             chosen = choose_cases([file])
             for case in chosen:
-                assemble(case)
+                solve(case)
             click.echo(f"{file}: {len(chosen)} case{'s' if len(chosen) > 1 else ''}, no mistakes")
         except CaseError as error:
             mistakes += error.mistakes
