@@ -21,7 +21,7 @@ def along(function: Callable[..., Any], at: tuple[Any, ...], direction: tuple[An
     result = np.asarray(function(*shifted))
     if not np.iscomplexobj(result):
         raise TypeError(f"{function} lost its complex step: its result is real")
-    return result.imag / EPS
+    return np.imag(result) / EPS
 
 
 def gradient(function: Callable[[Any], Any], at: Any) -> Any:

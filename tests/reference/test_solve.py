@@ -162,8 +162,15 @@ def test_a_rhombus_that_folds_flat_ends_the_motion() -> None:
 @pytest.mark.parametrize("name", AT_REST)
 def test_what_rests_is_certified(tmp_path: Path, name: str) -> None:
     """At rest only rounding moves: no check may be relative to that."""
-    solution = solve(scenes.typed(tmp_path, AT_REST[name]))
+    solution = solve(scenes.typed(tmp_path, f"rests: true\n{AT_REST[name]}"))
     assert [check for check in solution.checks if not check.holds] == []
+
+
+@pytest.mark.parametrize("name", AT_REST)
+def test_what_rests_has_to_say_so(tmp_path: Path, name: str) -> None:
+    with pytest.raises(CaseError, match="never moves: it stays") as caught:
+        solve(scenes.typed(tmp_path, AT_REST[name]))
+    assert all(mistake.where.startswith("allow.") for mistake in caught.value.mistakes)
 
 
 @pytest.mark.parametrize("kind", ["pin", "weld"])
