@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Literal
 
 import numpy as np
 
@@ -47,6 +48,14 @@ class Deviation:
 
 
 @dataclass(frozen=True)
+class Event:
+    """A named instant: when a quantity `stays zero`, `leaves zero`, or `falls to zero`."""
+
+    quantity: str
+    rule: Literal["stays zero", "leaves zero", "falls to zero"]
+
+
+@dataclass(frozen=True)
 class Case:
     """One variant of one case file, with every number resolved."""
 
@@ -66,6 +75,7 @@ class Case:
     reach: Mapping[str, Mapping[str, float]]
     deviates: Mapping[str, Mapping[str, Deviation]]
     rests: bool
+    events: Mapping[str, Event]
     source: Source  # the file, for messages
 
     @property

@@ -60,6 +60,31 @@ class Anchor:
 
 
 @dataclass(frozen=True)
+class Bounds:
+    """A friction force [N] against motion forward (along the slide) and backward."""
+
+    forward: float
+    backward: float
+
+
+@dataclass(frozen=True)
+class Smooth:
+    """The book's smooth law (2.95): the band Δ [m/s] and the sharpness A [s/m]."""
+
+    band: float
+    sharpness: float
+
+
+@dataclass(frozen=True)
+class DryFriction:
+    """(2.89) on a slide, along its line; `smooth` replaces the exact law by (2.95)."""
+
+    static: Bounds
+    kinetic: Bounds
+    smooth: Smooth | None = None
+
+
+@dataclass(frozen=True)
 class Joint:
     """A pin lets two bodies turn, a slide lets them shift along one line, a weld nothing.
 
@@ -73,16 +98,37 @@ class Joint:
     b: Anchor
     along: Vector = (1.0, 0.0)
     angle: float = 0.0
+    dry_friction: DryFriction | None = None
 
 
 @dataclass(frozen=True)
 class Contact:
-    """A disk on the floor y = 0. `ideal` is what the reference assumes, and checks."""
+    """A disk's rim, a particle or a point of a bar on the floor y = 0.
+
+    It opens, slides and sticks or rolls as friction says, and an impact goes by `restitution`.
+    `ideal: rolling` assumes that it only rolls; the reference checks that at every sample.
+    """
 
     name: str
-    body: str
-    friction: float
-    ideal: Literal["rolling"]
+    at: Anchor  # a disk is named by its centre and touches with its rim
+    static: float  # coefficient of friction; at least `kinetic`
+    kinetic: float
+    restitution: float = 0.0
+    ideal: Literal["rolling"] | None = None
+
+    @property
+    def body(self) -> str:
+        return self.at.body
+
+    @property
+    def friction(self) -> float:
+        """The one coefficient that engines know."""
+        return self.kinetic
+
+    @property
+    def switches(self) -> bool:
+        """Whether it may open, slide and stick, instead of only rolling."""
+        return self.ideal is None
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,13 @@ class Trajectory:
 
     times: (N,) s. states: body → (N, 6), the columns x, y, angle, vx, vy, omega of its centre
     of mass. reactions: quantity (`pin.fx`, `touch.normal`) → (N,), as the producer gives them.
+    record: every step of a motion that switches, from which event times are read. phase: in the
+    reference's record, the number of the smooth piece that a row belongs to; an event stands there
+    twice, as the last row of one piece and the first of the next.
     """
 
     times: Array
     states: Mapping[str, Array]
     reactions: Mapping[str, Array]
+    record: "Trajectory | None" = None
+    phase: NDArray[np.int64] | None = None

@@ -7,7 +7,8 @@ from typing import Any, Literal, Protocol
 from cases.scene import Scene
 from cases.trajectory import Array, Trajectory
 
-Realised = Literal["native", "law"]  # the engine's own force elements, or our force law
+Realised = Literal["native", "law", "driver"]
+"""The engine's own force elements; our force law in a callback; our driver around the step."""
 State = Mapping[str, tuple[float, float, float, float, float, float]]
 """body → x, y, angle, vx, vy, omega of its centre of mass."""
 
@@ -104,12 +105,14 @@ class Engine(Protocol):
         tied_to: float,
         realised: Realised,
         reactions: tuple[str, ...],
+        record: bool = False,
     ) -> Trajectory:
         """The motion at `times`, whole multiples of `step` from 0.
 
         tied_to: the step [s] which the recipe's tied numbers follow (the step itself, or the
         ladder's largest). reactions: the wanted `joint.fx|fy|force|torque` and
-        `contact.normal|tangent`; others are not computed. Raises Diverged.
+        `contact.normal|tangent`; others are not computed. record: keep the states of every step
+        too, from which event times are read. Raises Diverged.
         """
         ...
 

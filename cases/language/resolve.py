@@ -24,7 +24,14 @@ def resolve_scene(file: File) -> Scene:
         bodies={name: _body(name, b) for name, b in s.bodies.items()},
         joints={name: _joint(name, j) for name, j in s.joints.items()},
         contacts={
-            name: scene.Contact(name, c.between[0], c.friction, "rolling")
+            name: scene.Contact(
+                name,
+                scene.Anchor(c.between[0], scene.CENTER),
+                c.friction,
+                c.friction,
+                0.0,
+                "rolling",
+            )
             for name, c in s.contacts.items()
         },
         forces={name: _force(name, f) for name, f in s.forces.items()},
@@ -64,6 +71,7 @@ def resolve_case(name: str, file: File, scene: Scene, source: Source) -> Case:
             for setting, known in file.deviates.items()
         },
         rests=file.rests,
+        events={},
         source=source,
     )
 

@@ -30,7 +30,7 @@ SCENE = Scene(
         "pin": Joint("pin", "pin", Anchor("ground", "O"), Anchor("bar", "P")),
         "rail": Joint("rail", "slide", Anchor("bar", "P"), Anchor("wheel", "center"), (0.6, 0.8)),
     },
-    contacts={"touch": Contact("touch", "wheel", 0.5, "rolling")},
+    contacts={"touch": Contact("touch", Anchor("wheel", "center"), 0.5, 0.5, ideal="rolling")},
     forces={
         "coil": Spring("coil", Anchor("bar", "end"), Anchor("ground", "hook"), 40.0, 0.3),
         "oil": Damper("oil", Anchor("wheel", "center"), Anchor("bar", "start"), 3.0),

@@ -42,7 +42,9 @@ def test_quantities() -> None:
         points={},
         bodies={"body": shape.disk(name="body", mass=1, radius=1, points={"point": (0, 0)})},
         joints={"joint": Connection("joint", "weld", a, b)},
-        contacts={"contact": Contact("contact", "body", 1.0, "rolling")},
+        contacts={
+            "contact": Contact("contact", Anchor("body", "center"), 1.0, 1.0, ideal="rolling")
+        },
         forces={"line": Spring("line", a, b, 1.0, 1.0)},
     )
     rows = re.findall(r"^\| (`[a-z]+\..*?) \| (.*?) \|", README, flags=re.MULTILINE)

@@ -339,7 +339,10 @@ REFUSED = {
     ),
     "adapter: first is not the only contact of wheel": replace(
         still({"wheel": WHEEL}, []),
-        contacts={n: Contact(n, "wheel", 0.5, "rolling") for n in ("first", "second")},
+        contacts={
+            n: Contact(n, Anchor("wheel", "center"), 0.5, 0.5, ideal="rolling")
+            for n in ("first", "second")
+        },
     ),
 }
 
@@ -361,7 +364,10 @@ def test_odd_names(name: str) -> None:
     """A body, and a joint or contact beside it, may be called what MuJoCo's file also uses."""
     wheel = disk(name=name, mass=1.0, radius=0.3, points={})
     scene = still({name: wheel, "rod": ROD}, [pin("start_", f"{name}.center", "rod.start")])
-    scene = replace(scene, contacts={"touch": Contact("touch", name, 0.5, "rolling")})
+    scene = replace(
+        scene,
+        contacts={"touch": Contact("touch", Anchor(name, "center"), 0.5, 0.5, ideal="rolling")},
+    )
     begin = {name: (0.0, 0.3, 0.0, 0, 0, 0), "rod": (0.5, 0.3, 0.0, 0, 0, 0)}
     assert TUNED.refuses(scene) is None
     found = moved(scene, begin, np.linspace(0, 0.1, 3), 1e-3)
@@ -404,7 +410,7 @@ def test_the_floor_carries_a_disk_from_the_start() -> None:
     push = Push("push", Anchor("wheel", "center"), Signal("sine", (0.0, -30.0), 5.0, math.pi / 2))
     scene = replace(
         still({"wheel": WHEEL}, []),
-        contacts={"touch": Contact("touch", "wheel", 0.5, "rolling")},
+        contacts={"touch": Contact("touch", Anchor("wheel", "center"), 0.5, 0.5, ideal="rolling")},
         forces={"push": push},
     )
     begin = {"wheel": (0.0, 0.3, 0.0, 0.0, 0.0, 0.0)}

@@ -282,7 +282,9 @@ def rolling(seed: int, *, wheels: int) -> Build:
         name, radius = f"w{i}", build.number(0.3, 0.5)
         build.bodies[name] = disk(name=name, mass=build.number(4, 6), radius=radius, points={})
         build.poses[name] = (1.5 * i, radius, build.number(-3, 3))
-        build.contacts[f"touch{i}"] = Contact(f"touch{i}", name, 5.0, "rolling")
+        build.contacts[f"touch{i}"] = Contact(
+            f"touch{i}", Anchor(name, "center"), 5.0, 5.0, ideal="rolling"
+        )
         build.join("pin", *((name, build.body(("bar",))) if i else (build.body(("bar",)), name)))
     build.load()
     return build

@@ -25,7 +25,7 @@ WHEEL = Scene(
         "B": Joint("B", "pin", Anchor("rod", "center"), Anchor("other", "center")),
         "C": Joint("C", "pin", Anchor("other", "end"), Anchor("ground", "Q")),
     },
-    {"touch": Contact("touch", "wheel", 0.5, "rolling")},
+    {"touch": Contact("touch", Anchor("wheel", "center"), 0.5, 0.5, ideal="rolling")},
     {},
 )
 START: State = {

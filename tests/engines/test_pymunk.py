@@ -429,7 +429,7 @@ def test_refused_scenes() -> None:
     assert TUNED.exponents(beside, "native", held=True) == (1, 2)
     first = Joint("rail", "slide", Anchor("bead", "center"), Anchor("rod", "P"))
     assert "which has no axes" in str(TUNED.refuses(replace(beside, joints={"rail": first})))
-    touch = Contact("touch", "box", 0.5, "rolling")
+    touch = Contact("touch", Anchor("box", "center"), 0.5, 0.5, ideal="rolling")
     assert "only a disk" in str(TUNED.refuses(replace(scene, contacts={"touch": touch})))
     hollow = replace(scene, bodies={"rod": replace(scene.bodies["rod"], mass=math.inf)}, joints={})
     assert "positive finite masses" in str(TUNED.refuses(hollow))

@@ -160,7 +160,7 @@ def rolling(random: Random) -> Scene:
         points={},
         bodies={"b0": disk, "b1": bar},
         joints={"j1": joint(random, "j1", "pin", Anchor("b0", "P"), Anchor("b1", "start"))},
-        contacts={"touch": Contact("touch", "b0", 0.5, "rolling")},
+        contacts={"touch": Contact("touch", Anchor("b0", "center"), 0.5, 0.5, ideal="rolling")},
         forces={},
     )
 
