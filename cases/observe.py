@@ -82,29 +82,34 @@ def _joint(scene: Scene, trajectory: Trajectory, joint: Joint, field: str) -> Ar
         return np.hypot(
             trajectory.reactions[f"{joint.name}.fx"], trajectory.reactions[f"{joint.name}.fy"]
         )
-    if field != "gap":
+    if field not in ("gap", "slip"):
         raise KeyError(f"{joint.name}.{field}")
-    d = (point_states(scene, trajectory, joint.b) - point_states(scene, trajectory, joint.a))[:, :2]
+    d = point_states(scene, trajectory, joint.b) - point_states(scene, trajectory, joint.a)
     if joint.kind != "slide":
         return np.hypot(d[:, 0], d[:, 1])
-    turned = 0.0 if joint.a.body == GROUND else trajectory.states[joint.a.body][:, ANGLE]
-    cos, sin = np.cos(turned), np.sin(turned)
-    ux, uy = joint.along
-    return (cos * ux - sin * uy) * d[:, 1] - (sin * ux + cos * uy) * d[:, 0]
+    grounded = joint.a.body == GROUND
+    turned = 0.0 if grounded else trajectory.states[joint.a.body][:, ANGLE]
+    ux = np.cos(turned) * joint.along[0] - np.sin(turned) * joint.along[1]
+    uy = np.sin(turned) * joint.along[0] + np.cos(turned) * joint.along[1]
+    gap = ux * d[:, 1] - uy * d[:, 0]
+    if field == "gap":
+        return gap
+    turning = 0.0 if grounded else trajectory.states[joint.a.body][:, OMEGA]
+    return ux * d[:, 2] + uy * d[:, 3] + turning * gap  # d/dt (u · d): the line turns too
 
 
 def _contact(scene: Scene, trajectory: Trajectory, contact: Contact, field: str) -> Array:
-    s = trajectory.states[contact.body]
+    """The lowest point of a disk's rim, or the point that touches: its height and velocity."""
+    x, y, vx, _ = point_states(scene, trajectory, contact.at).T
     radius = scene.bodies[contact.body].radius
-    assert radius is not None  # the loader lets only disks touch the floor
-    if field == "slip":
-        return s[:, VX] + radius * s[:, OMEGA]
-    if field == "gap":
-        return s[:, Y] - radius
+    if radius is not None:
+        s = trajectory.states[contact.body]
+        x, y, vx = x + radius * s[:, ANGLE], y - radius, vx + radius * s[:, OMEGA]
     if field == "drift":
-        rolled = s[:, X] + radius * s[:, ANGLE]
-        return rolled - rolled[0]
-    raise KeyError(f"{contact.name}.{field}")
+        return x - x[0]
+    if field not in ("gap", "slip"):
+        raise KeyError(f"{contact.name}.{field}")
+    return y if field == "gap" else vx
 
 
 def _energy(scene: Scene, trajectory: Trajectory, field: str) -> Array:

@@ -3,14 +3,14 @@
 A quantity is written `part.field`: `crank.angle`, `crank.end.x`, `hinge.force`, `energy.total`.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Literal
 
 from cases.scene import Scene
 
-Kind = Literal["coordinate", "velocity", "force", "energy", "momentum", "residual"]
+Kind = Literal["coordinate", "velocity", "force", "energy", "momentum", "residual", "event"]
 
 _POINT: dict[str, tuple[str, Kind]] = {
     "x": ("m", "coordinate"),
@@ -30,12 +30,16 @@ _JOINT: dict[str, tuple[str, Kind]] = {
     "gap": ("m", "residual"),  # constraint drift
 }
 _LOCKED: dict[str, tuple[str, Kind]] = {"torque": ("N m", "force")}  # a slide or weld holds angles
+_RUBBING: dict[str, tuple[str, Kind]] = {
+    "friction": ("N", "force"),  # on the second part, along the slide
+    "slip": ("m/s", "residual"),  # of the second part along the slide; zero while it sticks
+}
 _CONTACT: dict[str, tuple[str, Kind]] = {
     "normal": ("N", "force"),
     "tangent": ("N", "force"),
-    "slip": ("m/s", "residual"),
-    "gap": ("m", "residual"),
-    "drift": ("m", "residual"),  # x + R angle against its start: (2.18)
+    "slip": ("m/s", "residual"),  # of the point that touches
+    "gap": ("m", "residual"),  # its height
+    "drift": ("m", "residual"),  # its x (of a disk x + R angle) against the start: (2.18)
 }
 _LINE: dict[str, tuple[str, Kind]] = {
     "length": ("m", "coordinate"),
@@ -51,6 +55,11 @@ _MOMENTUM: dict[str, tuple[str, Kind]] = {
     "y": ("kg m/s", "momentum"),
     "angular": ("kg m²/s", "momentum"),  # about the origin
 }
+_EVENT: dict[str, tuple[str, Kind]] = {
+    "time": ("s", "event"),
+    "count": ("1", "event"),  # how often it happens
+}
+EVENT_FIELDS = tuple(_EVENT)
 RESERVED = ("energy", "momentum", "ground")
 
 
@@ -72,11 +81,20 @@ def table(scene: Scene) -> dict[str, Quantity]:
         parts[body.name] = _POINT | (_TURNING if body.turns else {})
         parts |= {f"{body.name}.{point}": _POINT for point in body.points}
     for joint in scene.joints.values():
-        parts[joint.name] = _JOINT | ({} if joint.kind == "pin" else _LOCKED)
+        locked = {} if joint.kind == "pin" else _LOCKED
+        parts[joint.name] = _JOINT | locked | (_RUBBING if joint.dry_friction else {})
     parts |= dict.fromkeys(scene.contacts, _CONTACT)
     for line in (*scene.springs(), *scene.dampers()):
         parts[line.name] = _LINE
-    parts |= {"energy": _ENERGY, "momentum": _MOMENTUM}
+    return _named(parts | {"energy": _ENERGY, "momentum": _MOMENTUM})
+
+
+def event_quantities(events: Iterable[str]) -> dict[str, Quantity]:
+    """What can be bounded of each named event."""
+    return _named(dict.fromkeys(events, _EVENT))
+
+
+def _named(parts: Mapping[str, Mapping[str, tuple[str, Kind]]]) -> dict[str, Quantity]:
     return {
         f"{part}.{field}": Quantity(f"{part}.{field}", part, field, unit, kind)
         for part, fields in parts.items()

@@ -1,13 +1,13 @@
-"""What a case claims against what its scene has: quantities, samples, parameters, system."""
+"""What must fit together in a case: links, claims, samples, parameters, system."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from cases.language.claims import claims
 from cases.language.links import links, twice
-from cases.language.number import Amount, NumberMistake, fitting
 from cases.language.parse import Finding, Parsed
 from cases.language.sampling import sampling
-from cases.quantity import Quantity, nearest, table
+from cases.quantity import nearest
 from cases.scene import Scene
 
 _NO_USE = ("title", "source", "parameters", "drops_out")  # where a name is not a use of it
@@ -22,60 +22,11 @@ def check(
 ) -> Iterator[Finding]:
     """Every mistake between the sound parts; `data` is the whole file as it was written."""
     yield from links(parsed, scene)
-    if not any(twice(scene)):
-        yield from _bounds(parsed, table(scene))
+    if not any(twice(parsed, scene)):
+        yield from claims(parsed, scene)
     if not parsed.lacks("duration") and not parsed.lacks("samples") and not parsed.lacks("step"):
         yield from sampling(parsed.file)
     yield from _parameters(parsed, data, systems)
-
-
-def _bounds(parsed: Parsed, known: Mapping[str, Quantity]) -> Iterator[Finding]:
-    file = parsed.file
-    if ("allow",) in parsed.broken:
-        return
-    for name, bound in file.allow.items():
-        yield from _quantity(parsed, known, ("allow", name), bound)
-    for way, reached in file.reach.items():
-        for name, bound in reached.items():
-            path = ("reach", way, name)
-            yield from _allowed(parsed, known, path, bound)
-            allow = file.allow.get(name)
-            if allow is not None and bound.value > allow.value:
-                yield path, f"{bound.value:g} is above its `allow`, {allow.value:g}"
-    for setting, declared in file.deviates.items():
-        for name, deviation in declared.items():
-            path = ("deviates", setting, name)
-            allow = file.allow.get(name)
-            for size in (deviation.limit, *(deviation.by or ())):
-                if size is None:
-                    continue
-                yield from _allowed(parsed, known, path, size)
-                if allow is not None and size.value <= allow.value:
-                    yield path, f"{size.value:g} is not above its `allow`, {allow.value:g}"
-
-
-def _quantity(
-    parsed: Parsed, known: Mapping[str, Quantity], path: tuple[str, ...], bound: Amount | None
-) -> Iterator[Finding]:
-    name = path[-1]
-    if name not in known:
-        if not parsed.hides(name.split(".")[0]):
-            yield path, f"unknown quantity {name!r}{nearest(name, known)}"
-    elif bound is not None:
-        try:
-            fitting(bound, known[name].unit)
-        except NumberMistake as mistake:
-            yield path, str(mistake)
-
-
-def _allowed(
-    parsed: Parsed, known: Mapping[str, Quantity], path: tuple[str, ...], bound: Amount
-) -> Iterator[Finding]:
-    name = path[-1]
-    if name in parsed.file.allow or ("allow", name) in parsed.broken:
-        yield from _quantity(parsed, known, path, bound)
-    elif not parsed.hides(name.split(".")[0]):
-        yield path, f"{name!r} is not in `allow`{nearest(name, parsed.file.allow)}"
 
 
 def _parameters(

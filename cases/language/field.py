@@ -50,6 +50,7 @@ class In(Plain):
     unit: str
     above: float | None = None
     least: float | None = None
+    most: float | None = None
 
     def check(self, value: object, known: Names) -> float:
         found = number(value, self.unit, known)
@@ -60,6 +61,8 @@ class In(Plain):
             raise NumberMistake(f"must be positive, is {found.value:g}{by_name}")
         if self.least is not None and not found.value >= self.least:
             raise NumberMistake(f"must not be negative, is {found.value:g}{by_name}")
+        if self.most is not None and not found.value <= self.most:
+            raise NumberMistake(f"must be at most {self.most:g}, is {found.value:g}{by_name}")
         return found.value
 
     def schema(self) -> dict[str, Any]:
@@ -68,6 +71,8 @@ class In(Plain):
             literal["exclusiveMinimum"] = self.above
         if self.least is not None:
             literal["minimum"] = self.least
+        if self.most is not None:
+            literal["maximum"] = self.most
         unit = "" if self.unit == "1" else f" [{self.unit}]"
         return {"anyOf": [literal, {"type": "string"}], "description": NUMBER + unit}
 

@@ -5,6 +5,7 @@ from typing import Annotated, Any
 from pydantic import ConfigDict, Field
 
 from cases.language.body import Body
+from cases.language.event import Event, Quantity
 from cases.language.field import Bound, In, Literal
 from cases.language.force import Force
 from cases.language.joint import Contact, GroundPoint, Joint
@@ -14,11 +15,10 @@ from cases.language.text import Place, Text, Word, equation, label
 from cases.language.words import wrong
 
 ENGINES = ("mujoco", "pymunk")
-WAYS = tuple(f"{engine}{way}" for engine in ENGINES for way in ("", ".law", ".limit"))
+WAYS = tuple(f"{engine}{way}" for engine in ENGINES for way in ("", ".law", ".driver", ".limit"))
 SETTINGS = tuple(f"{engine}.{setting}" for engine in ENGINES for setting in ("shipped", "tuned"))
 
 BookPlace = Annotated[str, Place()]
-Quantity = Annotated[str, Text(description="part.field, as crank.angle")]
 Tolerance = Annotated[Amount, Bound()]
 
 
@@ -116,6 +116,9 @@ class File(Part):
     initial: dict[Name, Initial]
     near: dict[Name, Near] = Field(
         {}, description="a guess, where the constraints have more than one solution"
+    )
+    events: dict[Name, Event] = Field(
+        {}, description="named instants: when a quantity comes to zero or leaves it"
     )
     duration: Annotated[float, In("s", above=0)]
     samples: int = Field(ge=3, description="number of times at which anything is compared")

@@ -1,12 +1,13 @@
 """Points of the ground, joints and contacts as a case file writes them."""
 
 import math
-from typing import Annotated
+from typing import Annotated, Any
 
-from pydantic import AfterValidator, Discriminator, Field, Tag
+from pydantic import AfterValidator, Field, Tag, model_validator
 
 from cases.language.field import In
-from cases.language.part import Angle, Pair, Part, Position, by_key
+from cases.language.friction import DryFriction, Friction
+from cases.language.part import Angle, Pair, Part, Position, by_key, plain_or_map
 from cases.language.text import Text, Word
 from cases.language.words import wrong
 
@@ -18,13 +19,8 @@ class DrivenPoint(Part):
     velocity: Velocity
 
 
-def _is_driven(value: object) -> str:
-    return "<driven>" if isinstance(value, dict) else "<fixed>"
-
-
 GroundPoint = Annotated[
-    Annotated[Position, Tag("<fixed>")] | Annotated[DrivenPoint, Tag("<driven>")],
-    Discriminator(_is_driven),
+    Annotated[Position, Tag("<plain>")] | Annotated[DrivenPoint, Tag("<map>")], plain_or_map()
 ]
 
 
@@ -40,7 +36,16 @@ Direction = Annotated[
 ]
 
 
-class Pin(Part):
+class _NeverSlides(Part):
+    @model_validator(mode="before")
+    @classmethod
+    def _no_friction(cls, value: Any) -> Any:
+        if isinstance(value, dict) and "dry_friction" in value:
+            raise wrong("only a slide has `dry_friction`")
+        return value
+
+
+class Pin(_NeverSlides):
     pin: Pair
 
 
@@ -48,9 +53,10 @@ class Slide(Part):
     slide: Pair
     along: Direction = Field(description="in the axes of the first part")
     angle: Angle = 0.0
+    dry_friction: DryFriction | None = None
 
 
-class Weld(Part):
+class Weld(_NeverSlides):
     weld: Pair
     angle: Angle = 0.0
 
@@ -65,9 +71,16 @@ Joint = Annotated[
 
 class Contact(Part):
     between: tuple[Annotated[str, Text()], Annotated[str, Text()]] = Field(
-        description="a disk, then ground.floor"
+        description="a disk, a particle or a point of a bar, then ground.floor"
     )
-    friction: Annotated[float, In("1", least=0)]
-    ideal: Annotated[str, Word("ideal", ("rolling",))] = Field(
-        description="what the reference assumes, and checks at every sample"
+    friction: Friction
+    restitution: Annotated[float, In("1", least=0, most=1)] = Field(
+        0.0, description="speed after an impact over speed before it"
     )
+    ideal: Annotated[str, Word("ideal", ("rolling",))] | None = Field(
+        None, description="what the reference assumes, and checks at every sample"
+    )
+
+    def model_post_init(self, context: object) -> None:
+        if self.ideal is not None and "restitution" in self.model_fields_set:
+            raise wrong("`restitution` cannot stand beside `ideal: rolling`: it has no impacts")

@@ -6,6 +6,7 @@ from typing import Any
 from cases.language.grammar import Near
 from cases.language.parse import NAMED, Finding, Parsed
 from cases.language.resolve import anchor
+from cases.language.touch import touches
 from cases.mistake import Path
 from cases.quantity import nearest
 from cases.scene import CENTER, FLOOR, GROUND, Anchor, Damper, Push, Scene, Spring, Torque
@@ -20,27 +21,28 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         yield ("scene", "incline"), "cannot stand beside `gravity: none`"
     if not spec.bodies and not parsed.lacks("scene"):
         yield ("scene", "bodies"), "should not be empty"
-    for name, section, before in twice(scene):
-        yield ("scene", section, name), f"{name!r} already names one of the {before}"
+    for path, before in twice(parsed, scene):
+        yield path, f"{path[-1]!r} already names one of the {before}"
     yield from _points(parsed)
     for name, joint in scene.joints.items():
         yield from _line(parsed, scene, ("scene", "joints", name, joint.kind), joint.a, joint.b)
     for name, force in scene.forces.items():
         yield from _force(parsed, scene, ("scene", "forces", name), force)
-    for name, contact in spec.contacts.items():
-        yield from _contact(parsed, scene, ("scene", "contacts", name, "between"), contact.between)
+    yield from touches(parsed, scene)
     for key in ("initial", "near"):
         yield from _placed(parsed, scene, key, getattr(parsed.file, key))
 
 
-def twice(scene: Scene) -> Iterator[tuple[str, str, str]]:
-    """Names given twice: the name, the section that gives it again, the section before."""
-    first: dict[str, str] = {}
-    for section in NAMED:
-        for name in getattr(scene, section):
-            if name in first:
-                yield name, section, first[name]
-            first.setdefault(name, section)
+def twice(parsed: Parsed, scene: Scene) -> Iterator[tuple[Path, str]]:
+    """Names given twice: where the name stands again, and the section before."""
+    places: list[Path] = [("scene", s, name) for s in NAMED for name in getattr(scene, s)]
+    places += [("events", name) for name in parsed.file.events]  # `rolls.time` is a quantity
+    first: dict[str | int, str] = {}
+    for place in places:
+        *_, section, name = place
+        if name in first:
+            yield place, first[name]
+        first.setdefault(name, str(section))
 
 
 def _points(parsed: Parsed) -> Iterator[Finding]:
@@ -95,18 +97,6 @@ def _force(parsed: Parsed, scene: Scene, path: Path, force: Any) -> Iterator[Fin
             yield from _body(parsed, scene, (*path, "torque"), body)
             if body in scene.bodies and not scene.bodies[body].turns:
                 yield (*path, "torque"), f"{body!r} is a particle and cannot turn"
-
-
-def _contact(
-    parsed: Parsed, scene: Scene, path: Path, between: tuple[str, str]
-) -> Iterator[Finding]:
-    body, floor = between
-    yield from _body(parsed, scene, (*path, 0), body)
-    if body in scene.bodies and scene.bodies[body].shape != "disk":
-        shape = scene.bodies[body].shape
-        yield (*path, 0), f"{body!r} is a {shape}; only a disk can touch the floor so far"
-    if floor != f"{GROUND}.{FLOOR}":
-        yield (*path, 1), f"should be {GROUND}.{FLOOR}, is {floor!r}"
 
 
 def _placed(

@@ -14,7 +14,7 @@ Finding = tuple[Path, str]  # where, and what is wrong there
 
 # How much is cut out around a mistake: `scene.bodies.crank`, not the scene.
 _DEPTH = {"scene": 3, "parameters": 2, "initial": 2, "near": 2, "allow": 2, "reach": 3}
-_DEPTH |= {"deviates": 3}
+_DEPTH |= {"deviates": 3, "events": 2}
 
 # What stands in for a key that is missing or was cut out; `Parsed.broken` says so.
 _HOLLOW: dict[str, Any] = {
@@ -85,8 +85,8 @@ def parse(data: Mapping[str, Any]) -> Parsed:
 
 def _path(loc: tuple[str | int, ...]) -> Path:
     """pydantic's location without the names it gives to the branches of a choice."""
-    if len(loc) > 3 and loc[0] == "scene" and str(loc[3]).startswith("<"):
-        loc = (*loc[:3], *loc[4:])
+    if loc[0] == "scene":
+        loc = (*loc[:3], *(word for word in loc[3:] if not str(word).startswith("<")))
     return loc[:-1] if len(loc) > 1 and loc[-1] == "[key]" else loc
 
 

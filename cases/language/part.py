@@ -38,6 +38,11 @@ class Part(BaseModel):
             raise in_words(error, tuple(cls.model_fields)) from None
 
 
+def plain_or_map() -> Discriminator:
+    """Picks between a value tagged `<plain>` and a map of keys tagged `<map>`."""
+    return Discriminator(lambda value: "<map>" if isinstance(value, dict) else "<plain>")
+
+
 def by_key(kind: str, *words: str) -> Discriminator:
     """Picks the model by the one key that says what a part is, so that mistakes stay sharp."""
 

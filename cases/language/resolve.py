@@ -4,10 +4,11 @@ from collections.abc import Mapping
 from math import cos, sin
 
 from cases import scene, shape
-from cases.case import Case, Deviation, Origin, Placement
+from cases.case import Case, Deviation, Event, Origin, Placement
 from cases.language import body as bodies
 from cases.language import force as forces
 from cases.language import joint as joints
+from cases.language.friction import Coefficients, DryFriction, TwoWay, both_ways
 from cases.language.grammar import File, Near
 from cases.mistake import Source
 from cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Scene, Signal
@@ -23,17 +24,7 @@ def resolve_scene(file: File) -> Scene:
         points={name: _ground(p) for name, p in s.points.items()},
         bodies={name: _body(name, b) for name, b in s.bodies.items()},
         joints={name: _joint(name, j) for name, j in s.joints.items()},
-        contacts={
-            name: scene.Contact(
-                name,
-                scene.Anchor(c.between[0], scene.CENTER),
-                c.friction,
-                c.friction,
-                0.0,
-                "rolling",
-            )
-            for name, c in s.contacts.items()
-        },
+        contacts={name: _contact(name, c) for name, c in s.contacts.items()},
         forces={name: _force(name, f) for name, f in s.forces.items()},
     )
 
@@ -71,7 +62,11 @@ def resolve_case(name: str, file: File, scene: Scene, source: Source) -> Case:
             for setting, known in file.deviates.items()
         },
         rests=file.rests,
-        events={},
+        events={
+            event: Event(quantity, rule)  # type: ignore[arg-type]  # the grammar's word
+            for event, rules in file.events.items()
+            for quantity, rule in rules.items()
+        },
         source=source,
     )
 
@@ -115,10 +110,38 @@ def _joint(name: str, joint: joints.Joint) -> scene.Joint:
     match joint:
         case joints.Pin(pin=(a, b)):
             return scene.Joint(name, "pin", anchor(a), anchor(b))
-        case joints.Slide(slide=(a, b), along=along, angle=angle):
-            return scene.Joint(name, "slide", anchor(a), anchor(b), along, angle)
+        case joints.Slide(slide=(a, b), along=along, angle=angle, dry_friction=dry):
+            friction = None if dry is None else _dry_friction(dry)
+            return scene.Joint(name, "slide", anchor(a), anchor(b), along, angle, friction)
         case joints.Weld(weld=(a, b), angle=angle):
             return scene.Joint(name, "weld", anchor(a), anchor(b), angle=angle)
+
+
+def _dry_friction(dry: DryFriction) -> scene.DryFriction:
+    return scene.DryFriction(
+        static=_bounds(dry.kinetic if dry.static is None else dry.static),
+        kinetic=_bounds(dry.kinetic),
+        smooth=None if dry.smooth is None else scene.Smooth(dry.smooth.band, dry.smooth.sharpness),
+    )
+
+
+def _bounds(force: float | TwoWay) -> scene.Bounds:
+    both = both_ways(force)
+    return scene.Bounds(both.forward, both.backward)
+
+
+def _contact(name: str, contact: joints.Contact) -> scene.Contact:
+    body, _, point = contact.between[0].partition(".")
+    mu = contact.friction
+    static, kinetic = (mu.static, mu.kinetic) if isinstance(mu, Coefficients) else (mu, mu)
+    return scene.Contact(
+        name,
+        Anchor(body, point or scene.CENTER),
+        static,
+        kinetic,
+        contact.restitution,
+        contact.ideal,  # type: ignore[arg-type]  # the grammar's word
+    )
 
 
 def _force(name: str, force: forces.Force) -> scene.Force:

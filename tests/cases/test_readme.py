@@ -8,11 +8,14 @@ from cases.language import grammar
 from cases.language.body import Body
 from cases.language.force import Force
 from cases.language.grammar import File, Scene
+from cases.language.friction import Coefficients, DryFriction, Smooth, TwoWay
+from cases.language.joint import Contact as ContactSpec
 from cases.language.joint import Joint
 from cases.language.number import amount
 from cases.load import load
-from cases.quantity import table
-from cases.scene import Anchor, Contact, Spring
+from cases.quantity import event_quantities, table
+from cases.scene import Anchor, Bounds, Contact, Spring
+from cases.scene import DryFriction as Dry
 from cases.scene import Joint as Connection
 from cases.scene import Scene as Resolved
 
@@ -29,6 +32,7 @@ def test_every_key_is_explained() -> None:
     code = re.findall(r"```yaml\n(.*?)```|`([^`]+)`", README, flags=re.DOTALL)
     said = set(re.findall(r"[a-z_]+", " ".join(block + word for block, word in code)))
     models = [File, Scene, grammar.Source, grammar.Deviation, grammar.Initial]
+    models += [ContactSpec, Coefficients, DryFriction, Smooth, TwoWay]
     for union in (Body, Joint, Force):
         models += [model.__origin__ for model in union.__origin__.__args__]  # type: ignore[attr-defined]
     for model in models:
@@ -37,11 +41,12 @@ def test_every_key_is_explained() -> None:
 
 def test_quantities() -> None:
     a, b = Anchor("ground", "O"), Anchor("body", "point")
+    dry = Dry(Bounds(1.0, 1.0), Bounds(1.0, 1.0))
     scene = Resolved(
         gravity=(0.0, 0.0),
         points={},
         bodies={"body": shape.disk(name="body", mass=1, radius=1, points={"point": (0, 0)})},
-        joints={"joint": Connection("joint", "weld", a, b)},
+        joints={"joint": Connection("joint", "slide", a, b, dry_friction=dry)},
         contacts={
             "contact": Contact("contact", Anchor("body", "center"), 1.0, 1.0, ideal="rolling")
         },
@@ -49,7 +54,8 @@ def test_quantities() -> None:
     )
     rows = re.findall(r"^\| (`[a-z]+\..*?) \| (.*?) \|", README, flags=re.MULTILINE)
     said = {name: unit for names, unit in rows for name in re.findall(r"`(.*?)`", names)}
-    known = {name: q.unit for name, q in table(scene).items() if ".center." not in name}
+    quantities = table(scene) | event_quantities(["event"])
+    known = {name: q.unit for name, q in quantities.items() if ".center." not in name}
     assert said == known
 
 
