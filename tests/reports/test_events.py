@@ -1,0 +1,190 @@
+"""Event times of synthetic records whose events are known in advance."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from cases.case import Event
+from cases.scene import Body, Scene
+from cases.trajectory import VX, Array, Trajectory
+from reports import rests as reading
+from reports.events import engine_events, falls, reference_events
+from reports.rests import rests
+
+SCENE = Scene(
+    (0.0, 0.0), {}, {"box": Body("box", "particle", 1.0, None, {"center": (0.0, 0.0)})}, {}, {}, {}
+)
+H = 1e-3
+W = np.sqrt(2.0)
+Rests = list[tuple[float | None, float | None]]
+
+
+def braking(t: Array, stop: float = 0.61803) -> Array:
+    return np.clip(stop - t, 0.0, None)
+
+
+def slipping(t: Array) -> Array:
+    """The speed of Example 2.4 by its closed form: two slips, from 1.5 and 6.290544 s on."""
+    v = np.zeros_like(t)
+    for begins in (1.5, 6.290543662039866):
+        s = t - begins
+        slides = (s > 0) & (s < LASTS)
+        v[slides] = (2 * (1 - np.cos(W * s)) + 3 / W * np.sin(W * s))[slides]
+    return v
+
+
+LASTS = float(brentq(lambda s: 2 * (1 - np.cos(W * s)) + 3 / W * np.sin(W * s), 2.5, 4.0))
+
+
+def grid(duration: float, h: float = H) -> Array:
+    return np.arange(round(duration / h) + 1, dtype=np.float64) * h
+
+
+@pytest.mark.parametrize("h", [1e-4, 1e-3, 8e-3])
+def test_a_stop_is_where_the_motion_would_be_zero(h: float) -> None:
+    t = grid(1.0, h)
+    ((stop, start),) = rests(t, braking(t))
+    assert stop == pytest.approx(0.61803, abs=1e-12)
+    assert start is None
+
+
+def test_creep_is_no_motion_and_moves_no_time() -> None:
+    t = grid(1.0)
+    ((stop, _),) = rests(t, np.maximum(braking(t), 1e-3))
+    assert stop == pytest.approx(0.61803, abs=1e-12)
+
+
+@pytest.mark.parametrize("noise", [1e-9, 1e-6, 1e-4])
+def test_noise_makes_no_events_and_costs_its_own_size(noise: float) -> None:
+    t = grid(1.0)
+    u = braking(t) + noise * np.random.default_rng(3).standard_normal(len(t))
+    ((stop, _),) = rests(t, u)
+    assert stop == pytest.approx(0.61803, abs=30 * noise + 1e-12)
+
+
+@pytest.mark.parametrize("h", [1e-4, 1e-3, 5e-3])
+def test_two_stick_slip_cycles(h: float) -> None:
+    t = grid(10.0, h)
+    (none, first), (stuck, second), (end, never) = rests(t, slipping(t))
+    assert (none, never) == (None, None)
+    found = [first, stuck, second, end]
+    assert found == pytest.approx([1.5, 1.5 + LASTS, 6.290544, 6.290544 + LASTS], abs=2e-5)
+
+
+def test_a_line_in_place_of_the_curve_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    t = grid(10.0, 1e-4)
+    curved = rests(t, slipping(t))[0][1]
+    monkeypatch.setattr(reading, "DEGREE", 1)
+    line = rests(t, slipping(t))[0][1]
+    assert curved is not None
+    assert line is not None
+    assert abs(curved - 1.5) < 2e-6
+    assert abs(line - 1.5) > 5e-4
+
+
+def test_a_threshold_in_place_of_the_curve_would_be_seen() -> None:
+    t = grid(1.0)
+    below = t[np.argmax(braking(t) < 0.02 * 0.61803)]
+    assert abs(below - 0.61803) > 1e-2
+
+
+def test_a_corner_of_one_step_is_known_to_that_step() -> None:
+    t = grid(1.0)
+    ((stop, _),) = rests(t, np.where(t < 0.5, 1.0, 0.0))
+    assert stop == pytest.approx(0.5, abs=H)
+
+
+def test_what_only_passes_through_zero_does_not_rest() -> None:
+    t = grid(2.0)
+    assert rests(t, 1.0 - t) == []
+    assert rests(t, np.where(t < 1, 1 - t, 0.1 * (1 - t))) == []
+    assert rests(t, np.cos(4 * t)) == []
+
+
+def test_no_event_at_all() -> None:
+    t = grid(1.0)
+    assert rests(t, np.zeros_like(t)) == []
+    assert rests(t, 1 + t) == []
+    assert rests(t, t) == []  # it starts at rest and moves at once
+    assert len(falls(t, 1 + t)) == 0
+
+
+def test_a_stop_in_the_first_step_and_in_the_last() -> None:
+    t = grid(0.1)
+    ((stop, _),) = rests(t, braking(t, 0.4 * H))
+    assert stop == pytest.approx(0.4 * H, abs=H)
+    ((stop, _),) = rests(t, braking(t, 0.1 - 0.3 * H))
+    assert stop == pytest.approx(0.1 - 0.3 * H, abs=1e-9)
+    assert rests(t, braking(t, 0.1 + 0.3 * H)) == []
+
+
+def test_a_start_in_the_last_step() -> None:
+    t = grid(0.1)
+    ((stop, start),) = rests(t, np.clip(t - (0.1 - 0.4 * H), 0, None))
+    assert stop is None
+    assert start == pytest.approx(0.1, abs=H)
+
+
+def bouncing(t: Array, *, drop: float = 1.0, g: float = 9.80665) -> tuple[Array, Array]:
+    """Height above the floor after a drop, elastic, and the impacts."""
+    half = np.sqrt(2 * drop / g)
+    s = (t + half) % (2 * half) - half
+    return drop - g * s**2 / 2, np.arange(half, t[-1], 2 * half)
+
+
+@pytest.mark.parametrize("h", [1e-4, 1e-3, 8e-3])
+def test_falls_that_no_step_sees_at_zero(h: float) -> None:
+    t = grid(3.0, h)
+    height, impacts = bouncing(t)
+    assert np.min(height) >= 0
+    found = falls(t, height)
+    assert len(found) == len(impacts)
+    assert found == pytest.approx(impacts, abs=10 * h * h)
+
+
+def test_what_rests_on_the_floor_falls_once() -> None:
+    t = grid(1.0)
+    height = np.clip(1 - 2 * t, 0, None) + 1e-6 * np.random.default_rng(1).standard_normal(len(t))
+    assert falls(t, height) == pytest.approx([0.5], abs=H)
+
+
+def phased(*pieces: tuple[float, float, Callable[[Array], Array]]) -> Trajectory:
+    """A reference's record: rows and phase numbers of pieces (from, to, speed)."""
+    times = [np.linspace(a, b, 7) for a, b, _ in pieces]
+    states = np.zeros((7 * len(pieces), 6))
+    states[:, VX] = np.concatenate([u(t) for t, (_, _, u) in zip(times, pieces, strict=True)])
+    phase = np.repeat(np.arange(len(pieces)), 7)
+    return Trajectory(np.concatenate(times), {"box": states}, {}, phase=phase)
+
+
+@pytest.mark.parametrize(
+    ("rule", "times"),
+    [("stays zero", [1.0, 4.0]), ("leaves zero", [2.0]), ("falls to zero", [1.0])],
+)
+def test_the_reference_is_read_at_its_phases(rule: Any, times: list[float]) -> None:
+    record = phased(
+        (0.0, 1.0, lambda t: 1 - t),
+        (1.0, 2.0, lambda t: 1e-13 * np.sin(t)),
+        (2.0, 3.0, lambda t: 2 - t),
+        (3.0, 3.5, lambda t: t - 4),  # another phase that moves: no event
+        (3.5, 4.0, lambda t: t - 4),
+        (4.0, 4.0, lambda t: np.full_like(t, 0.5)),  # it lasts no time
+        (4.0, 5.0, np.zeros_like),
+    )
+    assert reference_events(SCENE, record, Event("box.vx", rule)) == pytest.approx(times)
+
+
+def test_an_engine_is_read_by_the_same_names() -> None:
+    t = grid(10.0)
+    states = np.zeros((len(t), 6))
+    states[:, VX] = slipping(t)
+    record = Trajectory(t, {"box": states}, {})
+    stops = engine_events(SCENE, record, Event("box.vx", "stays zero"))
+    slips = engine_events(SCENE, record, Event("box.vx", "leaves zero"))
+    assert stops == pytest.approx([4.790544, 9.581087], abs=2e-5)
+    assert slips == pytest.approx([1.5, 6.290544], abs=2e-5)
+    with pytest.raises(KeyError):
+        engine_events(SCENE, record, Event("box.nothing", "stays zero"))
