@@ -25,7 +25,7 @@ scene:
     ball: {particle: {mass: 0.5}}
   joints:
     hinge: {pin: [ground.O, bar.start]}
-    guide: {slide: [ground.O, ball.center], along: [0, 2]}
+    guide: {slide: [ground.O, ball.center], along: [0, 2], dry_friction: {static: 6, kinetic: 4}}
   contacts:
     touch: {between: [wheel, ground.floor], friction: 0.5, ideal: rolling}
   forces:
@@ -38,11 +38,12 @@ near: {ball: {y: 0.1}}
 duration: 1.0
 samples: 26
 step: {mujoco: 1.0e-3, pymunk: 1.0e-4}
-allow: {bar.angle: 1.0e-2, bar.P.x: 1.0e-3, touch.slip: unknown}
+allow: {bar.angle: 1.0e-2, bar.P.x: 1.0e-3, touch.slip: unknown, halt.time: 1.0e-3}
 reach:
   mujoco: {bar.angle: 1.0e-6}
 deviates:
   pymunk.shipped: {bar.P.x: {limit: 2.0e-3, because: soft}}
+events: {halt: {guide.slip: stays zero}, top: {ball.vy: falls to zero}}
 """
 
 EACH = re.findall(
@@ -125,7 +126,7 @@ def test_variants(tmp_path: Path) -> None:
     assert [(m.line, m.where, m.what) for m in found] == [
         (9, "scene.bodies.bar.bar.length", "must be positive, is -1 (l) (variant 'long')"),
         (10, "scene.bodies.wheel.disk.radius", "must be positive, is 0"),
-        (34, "duration", "must be positive, is 0 (variant 'long')"),
+        (35, "duration", "must be positive, is 0 (variant 'long')"),
     ]
 
 
@@ -140,7 +141,7 @@ def test_variants(tmp_path: Path) -> None:
 )
 def test_no_variant(tmp_path: Path, variants: str, field: str, what: str) -> None:
     (found,) = mistakes(tmp_path, f"{SOUND}variants: {variants}\n").mistakes
-    assert (found.line, found.where) == (32, field)
+    assert (found.line, found.where) == (33, field)
     assert found.what.startswith(what)
 
 

@@ -7,8 +7,8 @@ from cases import shape
 from cases.language import grammar
 from cases.language.body import Body
 from cases.language.force import Force
-from cases.language.grammar import File, Scene
 from cases.language.friction import Coefficients, DryFriction, Smooth, TwoWay
+from cases.language.grammar import File, Scene
 from cases.language.joint import Contact as ContactSpec
 from cases.language.joint import Joint
 from cases.language.number import amount
