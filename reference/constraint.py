@@ -82,7 +82,8 @@ class Align:
     where: Coordinates
     size: int = 1
 
-    def _ends(self, t: Any, q: Numbers, v: Numbers) -> tuple[Point, Point, Vector, Vector]:
+    def ends(self, t: Any, q: Numbers, v: Numbers) -> tuple[Point, Point, Vector, Vector]:
+        """The two points, u along the slide and n across it."""
         a, b = self.where.point(self.a, t, q, v), self.where.point(self.b, t, q, v)
         cos, sin = (1.0, 0.0) if a.phi is None else trigonometry(q[a.phi])
         u = (cos * self.along[0] - sin * self.along[1], sin * self.along[0] + cos * self.along[1])
@@ -90,12 +91,12 @@ class Align:
 
     def f(self, t: Any, q: Numbers) -> list[Any]:
         """(2.14) f = n·(r_B − r_A)."""
-        a, b, _, n = self._ends(t, q, q)
+        a, b, _, n = self.ends(t, q, q)
         return [n[0] * (b.r[0] - a.r[0]) + n[1] * (b.r[1] - a.r[1])]
 
     def fill(self, t: Any, q: Numbers, v: Numbers, rows: Any, g: Any, gamma: Any, at: int) -> None:
         """(2.15) n·Δ̇ − ω_A u·Δ = 0, Δ = r_B − r_A, since ṅ = −ω_A u; γ by (2.7)."""
-        a, b, u, n = self._ends(t, q, v)
+        a, b, u, n = self.ends(t, q, v)
         delta = (b.r[0] - a.r[0], b.r[1] - a.r[1])
         delta_dot = (b.r_dot[0] - a.r_dot[0], b.r_dot[1] - a.r_dot[1])
         for sign, p in ((1, b), (-1, a)):
@@ -114,7 +115,7 @@ class Align:
 
     def reactions(self, t: float, q: Numbers, multipliers: Numbers) -> dict[str, float]:
         """(2.60) R_a = λ_b f_aᵇ: a force λ n, across the slide."""
-        _, _, _, n = self._ends(t, q, q)
+        _, _, _, n = self.ends(t, q, q)
         return {f"{self.part}.fx": multipliers[0] * n[0], f"{self.part}.fy": multipliers[0] * n[1]}
 
 
@@ -147,12 +148,14 @@ class Lock:
 def constraints(
     scene: Scene, where: Coordinates, start: Sequence[float] | None = None
 ) -> list[Constraint]:
-    """All constraints of a scene; without a start, rolling is known as a rate only."""
+    """All constraints that always hold; without a start, rolling is known as a rate only."""
     found: list[Constraint] = []
     for joint in scene.joints.values():
         parts = _joint(joint, where)
         found += parts if start is None else [_started(part, start) for part in parts]
     for contact in scene.contacts.values():
+        if contact.switches:
+            continue  # what it holds, and when, is for its modes to say
         xy, phi = where.columns[contact.body]
         R = scene.bodies[contact.body].radius
         assert R is not None  # the loader lets only disks touch the floor

@@ -4,11 +4,12 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from scipy.linalg.lapack import dposv
+from scipy.linalg.lapack import dgesv, dposv
 
 from cases.scene import Push, Scene, Spring
 from reference.action import act, signal
-from reference.constraint import constraints
+from reference.constraint import Constraint, constraints
+from reference.contact import Drag, Rub, row
 from reference.coordinates import Coordinates
 from reference.system import Array, Mass, Pose, System, Vector
 
@@ -24,18 +25,31 @@ class Mechanism(System):
     """Newton's and Euler's equations of all bodies, held together by multipliers.
 
     q holds x, y, angle of each body in the scene's order (a particle has no angle).
+    `held` are constraints beside those of the joints, `drags` and `rubs` what slides with dry
+    friction: the mode of a scene that switches.
     """
 
-    def __init__(self, scene: Scene, start: tuple[Array, Array]) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        start: tuple[Array, Array],
+        *,
+        held: Sequence[Constraint] = (),
+        drags: Sequence[Drag] = (),
+        rubs: Sequence[Rub] = (),
+    ) -> None:
         self.scene = scene
         self.where = Coordinates(scene)
         self.coordinates = self.where.names
         self.masses = {b.name: Mass(b.mass, b.inertia) for b in scene.bodies.values()}
         self._start = start
         self._M = np.array(self.where.masses)
-        self._constraints = constraints(scene, self.where, start[0].tolist())
+        self._constraints = [*constraints(scene, self.where, start[0].tolist()), *held]
         self._owners = [c.part for c in self._constraints for _ in range(c.size)]
         self._r = len(self._owners)
+        self._drags = drags
+        places = np.cumsum([0, *(c.size for c in self._constraints)]).tolist()
+        self._rubs = [(places[self._constraints.index(rub.press)], rub) for rub in rubs]
         self._weight = np.zeros(len(self._M))
         for body in scene.bodies.values():
             xy, _ = self.where.columns[body.name]
@@ -52,10 +66,17 @@ class Mechanism(System):
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) R_a = λ_b f_aᵇ: the force of the first part on the second, by quantity."""
         multipliers = self._solve(t, q, v)[1].tolist()
-        at, found, numbers = 0, {}, q.tolist()
+        at, numbers = 0, q.tolist()
+        found: dict[str, float] = {}
+        for contact in self.scene.contacts.values():
+            found |= {f"{contact.name}.normal": 0.0, f"{contact.name}.tangent": 0.0}
         for c in self._constraints:
-            found |= c.reactions(t, numbers, multipliers[at : at + c.size])
+            _add(found, c.reactions(t, numbers, multipliers[at : at + c.size]))
             at += c.size
+        for drag in self._drags:
+            _add(found, drag.catch.reactions(t, numbers, [drag.force(t, q, v)]))
+        for at, rub in self._rubs:
+            _add(found, rub.grip.reactions(t, numbers, [rub.factor * multipliers[at]]))
         for joint in self.scene.joints.values():
             if joint.kind != "pin":  # a particle takes no moment
                 found.setdefault(f"{joint.name}.torque", 0.0)
@@ -66,13 +87,30 @@ class Mechanism(System):
         Q = self._weight.copy()
         for force in self.scene.forces.values():
             act(force, self.where, t, numbers, rates, Q)
+        for drag in self._drags:
+            Q += drag.force(t, q, v) * row(drag.catch, t, q, v)[0]
         rows, _, gamma = self._rows(t, numbers, rates, float)
         free = Q / self._M
         if not self._r:
             return free, np.zeros(0)
+        if self._rubs:
+            return self._rubbing(t, q, v, rows, gamma - rows @ free, free)
         by_mass = rows / self._M
         _, multipliers, fails = dposv(by_mass @ rows.T, gamma - rows @ free)
         if fails:  # not positive definite: the rows depend on each other
+            raise SingularPose(self._owners[fails - 1])
+        return free + multipliers @ by_mass, multipliers
+
+    def _rubbing(
+        self, t: float, q: Array, v: Array, rows: Array, right: Array, free: Array
+    ) -> tuple[Array, Array]:
+        """(2.60) with λ_t = factor λ_n (2.87): the force of a normal row leans against the slip."""
+        columns = rows.copy()
+        for at, rub in self._rubs:
+            columns[at] += rub.factor * row(rub.grip, t, q, v)[0]
+        by_mass = columns / self._M
+        _, _, multipliers, fails = dgesv(rows @ by_mass.T, right)
+        if fails:
             raise SingularPose(self._owners[fails - 1])
         return free + multipliers @ by_mass, multipliers
 
@@ -152,7 +190,7 @@ class Mechanism(System):
         return power
 
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
-        """(2.50) Q_a = Σ F·∂r/∂qᵃ of pushes and torques, (n,)."""
+        """(2.50) Q_a = Σ F·∂r/∂qᵃ of pushes, torques and dry friction, (n,)."""
         Q = np.zeros(len(q), np.result_type(q, v, t))
         for force in self.scene.signals():
             F = signal(force.signal, t)
@@ -164,6 +202,12 @@ class Mechanism(System):
                     Q[p.phi] += p.d[0] * F[1] - p.d[1] * F[0]
             else:
                 Q[self.where.columns[force.body][1]] += F[0]
+        for drag in self._drags:
+            Q += drag.force(t, q, v) * row(drag.catch, t, q, v)[0]
+        if self._rubs:
+            multipliers = self._solve(t, q, v)[1]
+            for at, rub in self._rubs:
+                Q += rub.factor * multipliers[at] * row(rub.grip, t, q, v)[0]
         return Q
 
     def _length(self, force: Spring, t: Any, q: Vector) -> Any:
@@ -182,3 +226,9 @@ class Mechanism(System):
     def g(self, t: Any, q: Vector) -> Vector:
         """(2.15) the right side f_aᵇ q̇ᵃ = gᵇ of driven points, (r,)."""
         return self._rows(t, q.tolist(), q.tolist(), np.result_type(q, t))[1]
+
+
+def _add(found: dict[str, float], more: Mapping[str, float]) -> None:
+    """A slide's force across it and its friction along it make one force."""
+    for name, value in more.items():
+        found[name] = found.get(name, 0.0) + value
