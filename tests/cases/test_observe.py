@@ -1,6 +1,7 @@
 """Derived quantities against formulas of this file's own: complex positions, finite differences."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,8 +11,18 @@ from scipy.integrate import simpson
 from cases import shape
 from cases.observe import observe
 from cases.quantity import table
-from cases.scene import Anchor, Contact, Damper, GroundPoint, Joint, Scene, Spring
-from cases.trajectory import Trajectory
+from cases.scene import (
+    Anchor,
+    Bounds,
+    Contact,
+    Damper,
+    DryFriction,
+    GroundPoint,
+    Joint,
+    Scene,
+    Spring,
+)
+from cases.trajectory import ANGLE, OMEGA, VX, Trajectory
 
 Array = Any  # samples (N,), real or complex: x + i y
 Motion = Callable[[Array], tuple[Array, Array]]  # centre and angle at time t
@@ -28,7 +39,14 @@ SCENE = Scene(
     },
     joints={
         "pin": Joint("pin", "pin", Anchor("ground", "O"), Anchor("bar", "P")),
-        "rail": Joint("rail", "slide", Anchor("bar", "P"), Anchor("wheel", "center"), (0.6, 0.8)),
+        "rail": Joint(
+            "rail",
+            "slide",
+            Anchor("bar", "P"),
+            Anchor("wheel", "center"),
+            (0.6, 0.8),
+            dry_friction=DryFriction(Bounds(6.0, 6.0), Bounds(3.0, 3.0)),
+        ),
     },
     contacts={"touch": Contact("touch", Anchor("wheel", "center"), 0.5, 0.5, ideal="rolling")},
     forces={
@@ -106,6 +124,13 @@ def test_joints() -> None:
     along = (0.6 + 0.8j) * np.exp(1j * bar(T)[1])
     apart = wheel(T)[0] - at(T, bar, 0.1 + 0.2j)
     same("rail.gap", (apart * along.conj()).imag)  # the part across the line, with its sign
+    same("rail.slip", rate(shifted, T))
+
+
+def shifted(t: Array) -> Array:
+    """How far the wheel's centre is along the line that is fixed in the bar."""
+    along = (0.6 + 0.8j) * np.exp(1j * bar(t)[1])
+    return ((wheel(t)[0] - at(t, bar, 0.1 + 0.2j)) * along.conj()).real
 
 
 def test_contact() -> None:
@@ -116,6 +141,29 @@ def test_contact() -> None:
     same("touch.gap", wheel(T)[0].imag - 0.25)
     same("touch.drift", np.array([rolled(t) for t in T]))
     same("touch.normal", 1.0 + T)
+
+
+def test_contacts_of_points() -> None:
+    """A bar's end and a particle touch with themselves: they have no rim and roll nothing off."""
+    ball = states(wheel)
+    ball[:, [ANGLE, OMEGA]] = 0.0
+    motion = Trajectory(T, {**MOTION.states, "ball": ball}, {"tip.normal": T})
+    scene = replace(
+        SCENE,
+        bodies={**SCENE.bodies, "ball": shape.particle(name="ball", mass=0.2)},
+        contacts={
+            "tip": Contact("tip", Anchor("bar", "end"), 0.5, 0.5),
+            "hit": Contact("hit", Anchor("ball", "center"), 0.5, 0.5),
+        },
+    )
+    for name, path in (("tip", at(T, bar, 0.4)), ("hit", wheel(T)[0])):
+        seen = {field: observe(scene, motion, f"{name}.{field}") for field in ("gap", "drift")}
+        np.testing.assert_allclose(seen["gap"], path.imag, rtol=1e-12)
+        np.testing.assert_allclose(seen["drift"], path.real - path.real[0], atol=1e-12)
+    slip = rate(lambda t: at(t, bar, 0.4).real, T)
+    np.testing.assert_allclose(observe(scene, motion, "tip.slip"), slip, rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(observe(scene, motion, "hit.slip"), ball[:, VX], rtol=1e-15)
+    np.testing.assert_array_equal(observe(scene, motion, "tip.normal"), T)
 
 
 def rolled(t: float) -> float:
@@ -173,6 +221,7 @@ def test_every_quantity_is_seen_or_refused() -> None:
             assert seen(name).shape == T.shape
         except KeyError:
             missing.append(name)
-    assert missing == ["rail.fx", "rail.fy", "rail.force", "rail.torque", "touch.tangent"]
+    fields = ("fx", "fy", "force", "torque", "friction")
+    assert missing == [*(f"rail.{field}" for field in fields), "touch.tangent"]
     with pytest.raises(KeyError):
         seen("bar.angel")
