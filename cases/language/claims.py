@@ -91,6 +91,8 @@ def _unknown(
         events = parsed.file.events
         hint = nearest(part, events) if events else "; the case has no `events`"
         yield path, f"{part!r} is no event{hint}"
+    elif field in ("friction", "slip") and f"{part}.torque" in known:  # a slide without it
+        yield path, f"{part!r} has no `dry_friction`, so no {name!r}"
     else:
         yield path, f"unknown quantity {name!r}{nearest(name, known)}"
 

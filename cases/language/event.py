@@ -2,8 +2,9 @@
 
 from typing import Annotated
 
-from pydantic import AfterValidator, Field
+from pydantic import BeforeValidator, Field
 
+from cases.language.number import shown
 from cases.language.text import Text, Word
 from cases.language.words import wrong
 
@@ -12,16 +13,15 @@ RULES = ("stays zero", "leaves zero", "falls to zero")
 Quantity = Annotated[str, Text(description="part.field, as crank.angle")]
 
 
-def _one(rules: dict[str, str]) -> dict[str, str]:
-    if len(rules) != 1:
-        raise wrong(
-            f"should be one quantity with its rule (`touch.slip: stays zero`), has {len(rules)}"
-        )
-    return rules
+def _one(value: object) -> object:
+    if isinstance(value, dict) and len(value) == 1:
+        return value
+    has = f"has {len(value)}" if isinstance(value, dict) else f"is {shown(value)}"
+    raise wrong(f"should be one quantity with its rule (`touch.slip: stays zero`), {has}")
 
 
 Event = Annotated[
     dict[Quantity, Annotated[str, Word("rule", RULES)]],
-    AfterValidator(_one),
+    BeforeValidator(_one),
     Field(json_schema_extra={"minProperties": 1, "maxProperties": 1}),
 ]
