@@ -17,6 +17,10 @@ def expected(scene: Scene, start: Trajectory) -> dict[str, float]:
             numbers[f"{body.name}.inertia"] = body.inertia
     for contact in scene.contacts.values():
         numbers[f"{contact.name}.friction"] = contact.friction
+    for joint in scene.joints.values():
+        if joint.dry_friction is not None:
+            numbers[f"{joint.name}.friction_forward"] = joint.dry_friction.kinetic.forward
+            numbers[f"{joint.name}.friction_backward"] = joint.dry_friction.kinetic.backward
     for spring in scene.springs():
         numbers[f"{spring.name}.stiffness"] = spring.stiffness
         numbers[f"{spring.name}.rest_length"] = spring.rest_length

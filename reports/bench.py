@@ -60,6 +60,7 @@ def _stepping(case: Case, engine: Engine) -> tuple[float, float]:
             tied_to=STEP,
             realised="native",
             reactions=wanted_reactions(case.scene, case.allow),
+            record=bool(case.events),
         )
 
     def bare() -> Work:

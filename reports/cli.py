@@ -109,6 +109,7 @@ def run(
 def check(files: tuple[str, ...]) -> None:
     """All mistakes of case files, without running an engine."""
     from reference.solve import solve
+    from reports.events import never
     from reports.selection import choose_cases
 
     mistakes = []
@@ -116,7 +117,7 @@ def check(files: tuple[str, ...]) -> None:
         try:
             chosen = choose_cases([file])
             for case in chosen:
-                solve(case)
+                mistakes += never(case, solve(case).trajectory)
             click.echo(f"{file}: {len(chosen)} case{'s' if len(chosen) > 1 else ''}, no mistakes")
         except CaseError as error:
             mistakes += error.mistakes

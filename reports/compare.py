@@ -2,16 +2,19 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Any
 
-from reports import metric
+from reports import instants, metric
 from reports.audit import EQUAL, audit
 from reports.convergence import Convergence, study
+from reports.fill import row, rungs
 from reports.ladder import Ladder
-from reports.row import AGREES, CRASHED, DIVERGED, FAILS, Comparison, Rungs
+from reports.row import AGREES, CRASHED, DIVERGED, FAILS, Comparison, Instant, Rungs
 from reports.simulate import Runs, Samples, simulate
-from reports.trial import Trial
+from reports.trial import Trial, judged_names
 from reports.verdict import verdict
+
+AWAY = 4  # of a ladder's largest steps: how far from an event a sample tells an order
+NOTHING_OF_ITS_OWN = "engine: it has nothing of its own for this; see the rows of laws and drivers"
 
 
 @dataclass(frozen=True)
@@ -21,26 +24,49 @@ class Outcome:
     rows: list[Comparison]
     rungs: list[Rungs] = field(default_factory=list)
     samples: Samples = field(default_factory=dict)
+    instants: list[Instant] = field(default_factory=list)
 
 
 def compare(trial: Trial) -> Outcome:
     """Runs the engine and judges every observed quantity."""
-    case, engine = trial.case, trial.engine
-    refusal = engine.refuses(case.scene)
+    names = judged_names(trial.case)
+    refusal = _refusal(trial)
     if refusal:
-        return Outcome([_row(trial, name, f"refused: {refusal}") for name in case.allow])
-    withheld = {name: engine.withholds(case.scene, name) for name in case.allow}
+        return Outcome([row(trial, name, f"refused: {refusal}") for name in names])
+    withheld = {name: _withheld(trial, name) for name in names}
     rows = [_audit(trial)]
-    rows += [_row(trial, name, f"refused: {why}") for name, why in withheld.items() if why]
-    names = tuple(name for name, why in withheld.items() if not why)
-    runs = simulate(trial, names)
+    rows += [row(trial, name, f"refused: {why}") for name, why in withheld.items() if why]
+    motion = tuple(n for n, why in withheld.items() if not why and not _of_event(trial, n))
+    events = tuple(n for n, why in withheld.items() if not why and _of_event(trial, n))
+    runs = simulate(trial, motion)
     if runs.judged is None:
-        return Outcome(rows + _diverged(trial, names, runs.lost))
-    studies = _studies(trial, runs, names)
+        return Outcome(rows + _diverged(trial, (*motion, *events), runs.lost))
+    studies = _studies(trial, runs, motion)
     held = {name: found for (_, name), found in studies.items()}  # the held ladder is the last
-    rows += [_judged(trial, name, runs.judged, held[name]) for name in names]
-    rungs = [_rungs(trial, ladder, runs, name, found) for (ladder, name), found in studies.items()]
-    return Outcome(rows, rungs, runs.judged)
+    rows += [_judged(trial, name, runs.judged, held[name]) for name in motion]
+    climbed = [_rungs(trial, ladder, runs, n, found) for (ladder, n), found in studies.items()]
+    told, ladders = instants.judge(trial, events, runs, runs.judged)
+    listed = instants.listed(trial, runs.judged)
+    return Outcome(rows + told, climbed + ladders, runs.judged, listed)
+
+
+def _refusal(trial: Trial) -> str | None:
+    scene = trial.case.scene
+    refusal = trial.engine.refuses(scene)
+    if refusal is None and trial.realised not in trial.engine.realisations(scene):
+        return NOTHING_OF_ITS_OWN
+    return refusal
+
+
+def _of_event(trial: Trial, name: str) -> bool:
+    return trial.quantity(name).kind == "event"
+
+
+def _withheld(trial: Trial, name: str) -> str | None:
+    """Why the engine does not tell the quantity, or that of the event."""
+    if _of_event(trial, name):
+        name = trial.case.events[name.rpartition(".")[0]].quantity
+    return trial.engine.withholds(trial.case.scene, name)
 
 
 def crashed(trial: Trial, because: str) -> Outcome:
@@ -48,37 +74,19 @@ def crashed(trial: Trial, because: str) -> Outcome:
     word, why = (
         (CRASHED, because) if trial.engine.setting == "own" else (FAILS, f"crashed: {because}")
     )
-    return Outcome([_row(trial, name, word, because=why) for name in trial.case.allow])
+    return Outcome([row(trial, name, word, because=why) for name in judged_names(trial.case)])
 
 
 def _diverged(trial: Trial, names: Iterable[str], because: str) -> list[Comparison]:
     word = DIVERGED
     if trial.engine.setting == "tuned":
         word, because = FAILS, f"{DIVERGED}: {because}"
-    return [_row(trial, name, word, because=because) for name in names]
-
-
-def _row(trial: Trial, name: str, word: str, **values: Any) -> Comparison:
-    case, engine = trial.case, trial.engine
-    columns: dict[str, Any] = dict.fromkeys(("step", "largest", "rms", "final", "ratio"))
-    columns |= {"protocol": "", "because": "", "allowed": case.allow.get(name)} | values
-    return Comparison(
-        case=case.name,
-        source=str(case.origin),
-        engine=engine.name,
-        version=engine.version,
-        setting=engine.setting,
-        realised=trial.realised,
-        quantity=name,
-        unit=trial.quantity(name).unit,
-        verdict=word,
-        **columns,
-    )
+    return [row(trial, name, word, because=because) for name in names]
 
 
 def _audit(trial: Trial) -> Comparison:
     worst, because = audit(trial)
-    return _row(
+    return row(
         trial,
         "audit",
         AGREES if worst <= EQUAL else FAILS,
@@ -93,8 +101,8 @@ def _audit(trial: Trial) -> Comparison:
 def _judged(trial: Trial, name: str, samples: Samples, held: Convergence) -> Comparison:
     error = metric.error(samples[name], trial.wanted(name))
     word, because = verdict(trial, name, error.largest, held)
-    allowed = trial.case.allow[name]
-    return _row(
+    allowed = trial.allowed(name)
+    return row(
         trial,
         name,
         word,
@@ -114,16 +122,17 @@ def _studies(
     case = trial.case
     return {
         (ladder, name): study(
-            {h: samples[name] for h, samples in rungs.items()},
+            {h: samples[name] for h, samples in climbed.items()},
             trial.wanted(name),
             exponents=trial.engine.exponents(
                 case.scene, trial.realised, held=ladder.name == "held"
             ),
-            allow=case.allow[name] or float("inf"),
-            floor=metric.floor(trial.size(name), case.duration / min(rungs)),
+            allow=trial.allowed(name) or float("inf"),
+            floor=metric.floor(trial.size(name), case.duration / min(climbed)),
+            away=trial.away(AWAY * max(climbed)),
         )
-        for ladder, rungs in runs.ladders.items()
-        if rungs
+        for ladder, climbed in runs.ladders.items()
+        if climbed
         for name in names
     }
 
@@ -133,22 +142,4 @@ def _rungs(trial: Trial, ladder: Ladder, runs: Runs, name: str, found: Convergen
         h: metric.error(samples[name], trial.wanted(name)).largest
         for h, samples in sorted(runs.ladders[ladder].items())
     }
-    return Rungs(
-        case=trial.case.name,
-        engine=trial.engine.name,
-        version=trial.engine.version,
-        setting=trial.engine.setting,
-        realised=trial.realised,
-        ladder=ladder.name,
-        quantity=name,
-        unit=trial.quantity(name).unit,
-        steps=" ".join(f"{h:.3g}" for h in errors),
-        errors=" ".join(f"{e:.2e}" for e in errors.values()),
-        order=found.order,
-        order_low=found.order_low,
-        order_high=found.order_high,
-        limit=found.limit,
-        uncertainty=found.uncertainty,
-        usable_step=found.usable_step,
-        verdict=found.verdict,
-    )
+    return rungs(trial, ladder, name, errors, found)

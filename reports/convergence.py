@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cases.trajectory import Array
 from reports import metric
@@ -18,10 +19,12 @@ EXACT = "exact"
 TEXTBOOK = "converges to the textbook"
 ANOTHER = "converges to another value"
 UNSETTLED = "not settled"
+INSTANTS = "instants"  # of events: they have errors and a usable step, and no order
 
 TEXTBOOK_WITHIN = 3.0  # uncertainties between limit and reference
 ANOTHER_BEYOND = 4.0
 FALLS = 0.7  # a halved step halves a difference of first order; noise keeps it
+FEWEST = 3  # samples away from events, or they say nothing of a motion
 OF_ALLOW = 0.1  # an uncertainty above this part of `allow` decides nothing
 
 
@@ -45,19 +48,23 @@ def study(
     exponents: Sequence[int],
     allow: float,
     floor: float,
+    away: NDArray[np.bool_] | None = None,
 ) -> Convergence:
     """Judges samples (N,) by step; the steps double from the smallest on.
 
-    floor: the difference that rounding alone can make at the smallest step.
+    floor: the difference that rounding alone can make at the smallest step. away: the samples that
+    are away from events, of which alone order and limit are taken: beside an event a sample is
+    before it on one rung and after it on the next.
     """
     steps = sorted(ladder)
     errors = {h: metric.error(ladder[h], reference).largest for h in steps}
     usable = _usable(errors, allow)
     if errors[steps[0]] <= floor:
         return Convergence(EXACT, None, None, None, errors[steps[0]], floor, usable)
-    if len(steps) < len(exponents) + 1:
+    keep = np.ones(len(reference), dtype=bool) if away is None else away
+    if len(steps) < len(exponents) + 1 or np.count_nonzero(keep) < FEWEST:
         return Convergence(UNSETTLED, None, None, None, None, None, usable)
-    rungs = [ladder[h] for h in steps]
+    rungs, reference = [ladder[h][keep] for h in steps], reference[keep]
     limit, uncertainty = _romberg(rungs, exponents)
     uncertainty = max(uncertainty, floor, _noise(rungs))
     off = float(np.max(np.abs(limit - reference)))
@@ -71,6 +78,11 @@ def study(
     low, high = (min(orders), max(orders)) if orders else (None, None)
     order = orders[0] if orders else None
     return Convergence(verdict, order, low, high, off, uncertainty, usable)
+
+
+def instants(errors: Mapping[float, float], allow: float) -> Convergence:
+    """What a ladder of events' errors by step says; inf where they happen more or less often."""
+    return Convergence(INSTANTS, None, None, None, None, None, _usable(errors, allow))
 
 
 def _usable(errors: Mapping[float, float], allow: float) -> float | None:

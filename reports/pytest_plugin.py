@@ -71,6 +71,7 @@ class CaseFile(pytest.File):
         from cases.load import load
         from cases.mistake import CaseError
         from reports.selection import HANDWRITTEN, choose_engines
+        from reports.trial import judged_names, realisations
 
         try:
             cases = load(self.path, systems=HANDWRITTEN)
@@ -84,8 +85,8 @@ class CaseFile(pytest.File):
             name = f"{case.name}-reference"
             yield CertificateItem.from_parent(self, name=name, case=case)
             for engine in engines:
-                for realised in engine.realisations(case.scene):
-                    for quantity in ("audit", *case.allow):
+                for realised in realisations(engine, case.scene):
+                    for quantity in ("audit", *judged_names(case)):
                         how = "" if realised == "native" else f".{realised}"
                         yield ComparisonItem.from_parent(
                             self,

@@ -23,7 +23,7 @@ TOUCHES = 0.5  # imaginary over real part: a curve that noise keeps just off zer
 def rests(times: Array, u: Array) -> list[tuple[float | None, float | None]]:
     """(stop, start) [s] of every rest of u (N,); None where the record begins or ends in it.
 
-        Where u passes through zero both curves meet, so a rest has to last longer than six steps; or
+    Where u passes through zero both curves meet, so a rest has to last longer than six steps; or
     until the end of the record. What starts within six steps rests at no time. What never exceeds
     4 % of the motion's largest value again counts as rest: an engine's creep is no other.
     """

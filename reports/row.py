@@ -53,6 +53,21 @@ class Rungs:
 
 
 @dataclass(frozen=True)
+class Instant:
+    """A row of events.csv: the k-th time of an event, in the reference or in an engine."""
+
+    case: str
+    engine: str  # `reference` for the reference, with neither version nor setting
+    version: str
+    setting: str
+    realised: str
+    event: str
+    k: int  # from 1
+    time: float  # s
+    difference: float | None  # to the reference's k-th; None where it has no k-th
+
+
+@dataclass(frozen=True)
 class Certificate:
     """A row of reference.csv: one check of one reference."""
 

@@ -1,13 +1,15 @@
 """All runs of a trial: each rung of each ladder once."""
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
 
 from cases.observe import observe
-from cases.trajectory import Array
+from cases.trajectory import Array, Trajectory
 from engines.engine import Diverged
+from reports.events import engine_events
 from reports.ladder import Ladder, ladders, wanted_reactions
 from reports.trial import Trial
 
@@ -18,7 +20,7 @@ Samples = Mapping[str, Array]
 
 @dataclass(frozen=True)
 class Runs:
-    """Samples by ladder and step; `lost` says why the judged step has none."""
+    """Samples by ladder and step, and `event.time`s; `lost` says why the judged step has none."""
 
     judged: Samples | None
     ladders: Mapping[Ladder, Mapping[float, Samples]]
@@ -43,7 +45,8 @@ def simulate(trial: Trial, names: tuple[str, ...]) -> Runs:
 
 
 def _run(trial: Trial, names: tuple[str, ...], step: float, tied_to: float) -> Samples:
-    scene = trial.case.scene
+    scene, events = trial.case.scene, trial.case.events
+    wanted = dict.fromkeys((*names, *(event.quantity for event in events.values())))
     trajectory = trial.engine.run(
         scene,
         trial.start,
@@ -51,11 +54,23 @@ def _run(trial: Trial, names: tuple[str, ...], step: float, tied_to: float) -> S
         step,
         tied_to=tied_to,
         realised=trial.realised,
-        reactions=wanted_reactions(scene, names),
+        reactions=wanted_reactions(scene, wanted),
+        record=bool(events),
     )
     samples = {name: observe(scene, trajectory, name) for name in names}
     for name, values in samples.items():
         size = max(1.0, float(np.max(np.abs(trial.wanted(name)))))
         if not np.all(np.abs(values) < RUNAWAY * size):
             raise Diverged(f"{name} reaches {np.max(np.abs(values)):.1g}")
-    return samples
+    return {**samples, **_events(trial, trajectory)}
+
+
+def _events(trial: Trial, trajectory: Trajectory) -> Samples:
+    """Times (K,) of every event that can be read from the engine's record, as `event.time`."""
+    found = {}
+    for name, event in trial.case.events.items():
+        if trajectory.record is not None:
+            with suppress(KeyError):  # a reaction that is not recorded at every step
+                times = engine_events(trial.case.scene, trajectory.record, event)
+                found[f"{name}.time"] = times
+    return found

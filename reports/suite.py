@@ -11,8 +11,10 @@ from reference.coverage import executed
 from reference.solve import Solution, solve
 from reports import pool
 from reports.compare import Outcome, compare, crashed
-from reports.row import FAILS, Certificate, Comparison, Rungs
-from reports.trial import Trial
+from reports.events import never
+from reports.instants import of_reference
+from reports.row import FAILS, Certificate, Comparison, Instant, Rungs
+from reports.trial import Trial, realisations
 
 Progress = Callable[[str, int, int], None]
 """What is being done, how much is done, out of how much."""
@@ -27,6 +29,7 @@ class Report:
     comparisons: list[Comparison] = field(default_factory=list)
     rungs: list[Rungs] = field(default_factory=list)
     certificates: list[Certificate] = field(default_factory=list)
+    instants: list[Instant] = field(default_factory=list)
     equations: dict[str, set[str]] = field(default_factory=dict)  # case → executed equations
     trials: list[tuple[Trial, Outcome]] = field(default_factory=list)
 
@@ -49,7 +52,7 @@ def measure(
         Trial(case, solutions[case.name].trajectory, engine, realised)
         for case in cases
         for engine in engines
-        for realised in engine.realisations(case.scene)
+        for realised in realisations(engine, case.scene)
     ]
     outcomes = dict(_watched(compare, trials, jobs, "engines", progress))
     for index, trial in enumerate(trials):
@@ -59,6 +62,7 @@ def measure(
         outcome = _counted(outcome, solutions[trial.case.name])
         report.comparisons += outcome.rows
         report.rungs += outcome.rungs
+        report.instants += outcome.instants
         report.trials.append((trial, outcome))
     return report
 
@@ -79,6 +83,7 @@ def _solutions(
             solution, report.equations[case.name] = answer
             solutions[case.name] = solution
             report.certificates += _certificates(case, solution)
+            report.instants += of_reference(case, solution.trajectory)
     if mistakes:
         raise CaseError(mistakes)
     return solutions
@@ -98,6 +103,9 @@ def _solved(case: Case) -> tuple[Solution, set[str]] | CaseError:
         solution = solve(case)
     except CaseError as error:
         return error
+    mistakes = never(case, solution.trajectory)
+    if mistakes:
+        return CaseError(mistakes)
     short = replace(case, samples=COVERED, duration=(COVERED - 1) * case.interval)
     return solution, executed(lambda: solve(short))
 

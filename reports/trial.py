@@ -4,13 +4,30 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cases.case import Case
 from cases.observe import observe
-from cases.quantity import Quantity, table
+from cases.quantity import Quantity, event_quantities, table
+from cases.scene import Scene
 from cases.trajectory import VX, VY, Array, Trajectory, X, Y
 from engines.engine import Engine, Realised, State
+from reports.events import reference_events
 from reports.ladder import judged_step
+
+SAME_COUNT = 0.5  # what counts may differ by where the case does not say: they are whole numbers
+
+
+def realisations(engine: Engine, scene: Scene) -> tuple[Realised, ...]:
+    """The ways in which a scene is tried: beside a law or driver always a native row or refusal."""
+    found = engine.realisations(scene)
+    return found if "native" in found else ("native", *found)
+
+
+def judged_names(case: Case) -> tuple[str, ...]:
+    """What is judged: what the case allows, and that every event happens as often."""
+    counts = (f"{event}.count" for event in case.events)
+    return (*case.allow, *(name for name in counts if name not in case.allow))
 
 
 @dataclass(frozen=True)
@@ -26,9 +43,34 @@ class Trial:
         """The reference's samples (N,)."""
         return observe(self.case.scene, self.reference, quantity)
 
+    @cached_property
+    def events(self) -> dict[str, Array]:
+        """The reference's times (K,) of every event of the case."""
+        record = self.reference.record
+        if record is None:
+            return {name: np.zeros(0) for name in self.case.events}
+        return {
+            name: reference_events(self.case.scene, record, event)
+            for name, event in self.case.events.items()
+        }
+
+    def away(self, distance: float) -> NDArray[np.bool_]:
+        """Which samples (N,) are at least `distance` [s] from where the reference switches."""
+        times, record = self.case.times, self.reference.record
+        if not self.case.events or record is None or record.phase is None:
+            return np.ones(len(times), dtype=bool)
+        switches = record.times[:-1][np.diff(record.phase) != 0]
+        gaps = np.abs(times[:, None] - switches[None, :])
+        return np.min(gaps, axis=1, initial=np.inf) >= distance
+
+    def allowed(self, name: str) -> float | None:
+        """What still counts as textbook mechanics; None: not known yet."""
+        return self.case.allow.get(name, SAME_COUNT)
+
     def quantity(self, name: str) -> Quantity:
         """The quantity's unit and kind; the audit has none."""
-        return table(self.case.scene).get(name) or Quantity(name, "", "", "", "residual")
+        known = table(self.case.scene) | event_quantities(self.case.events)
+        return known.get(name) or Quantity(name, "", "", "", "residual")
 
     def size(self, name: str) -> float:
         """How large the quantity is; a residual, meant to be zero, has the size of its motion."""

@@ -3,7 +3,7 @@
 from cases.case import Deviation
 from engines.engine import Engine
 from reports import pins
-from reports.convergence import ANOTHER, TEXTBOOK, UNSETTLED, Convergence
+from reports.convergence import ANOTHER, INSTANTS, TEXTBOOK, UNSETTLED, Convergence
 from reports.row import AGREES, BEYOND, CHANGED, DEVIATES, FAILS
 from reports.trial import Trial
 
@@ -12,28 +12,32 @@ CERTAIN = 10  # uncertainties that a declared limit must stand above
 
 
 def verdict(
-    trial: Trial, quantity: str, largest: float, convergence: Convergence
+    trial: Trial, quantity: str, largest: float, convergence: Convergence, why: str = ""
 ) -> tuple[str, str]:
-    """The verdict's word and its reason."""
+    """The verdict's word and its reason: `why`, or what the ladder tells."""
     case, engine = trial.case, trial.engine
-    allowed = case.allow[quantity]
+    allowed = trial.allowed(quantity)
     declared = case.deviates.get(f"{engine.name}.{engine.setting}", {}).get(quantity)
+    if trial.realised != "native":
+        declared = None  # what is declared is the engine's own model; a law or driver is ours
     if allowed is None:
         return FAILS, f"its tolerance is unknown; {largest:.3g} was measured: type a number"
     if declared is not None:
         return _declared(engine, declared, largest, convergence)
     if engine.setting == "tuned":
         broken = _broken(trial, quantity, largest, convergence)
-        return (FAILS, f"{broken}; {cause(convergence, allowed)}") if broken else (AGREES, "")
+        return (
+            (FAILS, f"{broken}; {why or cause(convergence, allowed)}") if broken else (AGREES, "")
+        )
     if not largest <= allowed:
-        return BEYOND, cause(convergence, allowed)
+        return BEYOND, why or cause(convergence, allowed)
     return AGREES, ""
 
 
 def _broken(trial: Trial, quantity: str, largest: float, convergence: Convergence) -> str:
     """Which bar of a tuned setting is not kept, or nothing."""
     engine, native = trial.engine.name, trial.realised == "native"
-    allowed = trial.case.allow[quantity]
+    allowed = trial.allowed(quantity)
     assert allowed is not None
     key = engine if native else f"{engine}.{trial.realised}"
     reach = trial.case.reach.get(key, {}).get(quantity)
@@ -62,6 +66,8 @@ def cause(convergence: Convergence, allowed: float) -> str:
         if limit > allowed:
             return f"the model: {limit:.3g} remains for h → 0"
         return f"the step: {enough}; the model's own {limit:.3g} would be"
+    if convergence.verdict == INSTANTS:
+        return f"instants of events: {enough}"
     if convergence.verdict == UNSETTLED:
         return "the ladder has not settled: neither step nor model can be named"
     return "rounding"

@@ -12,15 +12,17 @@ import numpy as np
 import pandas as pd
 
 from cases.case import Case
+from cases.quantity import table
 from reports.coverage import coverage
-from reports.row import Certificate, Comparison, Rungs
+from reports.row import Certificate, Comparison, Instant, Rungs
 from reports.suite import Report
 
 HERE = Path(__file__).parent
-KEYS = ("case", "engine", "setting", "realised", "ladder", "quantity", "check")
+KEYS = ("case", "engine", "setting", "realised", "ladder", "quantity", "check", "event", "k")
 NUMBERS = ".3g"  # three digits: more would be noise from one machine to the next
+TIMES = ".9g"  # of an event's time: its difference is a thousandth of a step
 
-Row = TypeVar("Row", Comparison, Rungs, Certificate)
+Row = TypeVar("Row", Comparison, Rungs, Certificate, Instant)
 
 
 def tables(report: Report, cases: Sequence[Case]) -> dict[str, pd.DataFrame]:
@@ -28,6 +30,7 @@ def tables(report: Report, cases: Sequence[Case]) -> dict[str, pd.DataFrame]:
     return {
         "tolerance.csv": _table(report.comparisons, Comparison),
         "convergence.csv": _table(report.rungs, Rungs),
+        "events.csv": _table(report.instants, Instant),
         "reference.csv": _table(report.certificates, Certificate),
         "coverage.csv": coverage(cases, report.equations),
     }
@@ -64,10 +67,12 @@ def read(path: Path, kind: type[Row]) -> list[Row]:
     if footer != f"# {len(frame)} rows":
         raise ValueError(f"{path}: cut, or changed by hand: it ends in {footer!r}")
     numbers = {column.name for column in fields(kind) if "float" in str(column.type)}
+    counts = {column.name for column in fields(kind) if column.type is int}
     rows: list[Row] = []
     for record in frame.to_dict("records"):
         values: dict[str, Any] = {str(name): text for name, text in record.items()}
         values |= {name: _number(values[name]) for name in numbers}
+        values |= {name: int(values[name]) for name in counts}
         rows.append(kind(**values))
     return rows
 
@@ -80,7 +85,8 @@ def _rounded(frame: pd.DataFrame) -> pd.DataFrame:
     """Numbers as text with three significant digits; what is not known is empty."""
     out = frame.copy()
     for name in out.select_dtypes(include=[np.number]).columns:
-        out[name] = ["" if pd.isna(x) else format(x, NUMBERS) for x in out[name]]
+        digits = TIMES if name in ("time", "k") else NUMBERS
+        out[name] = ["" if pd.isna(x) else format(x, digits) for x in out[name]]
     return out.fillna("")
 
 
@@ -93,7 +99,7 @@ def keep(report: Report, folder: Path) -> None:
     for case in {trial.case.name: trial.case for trial, _ in report.trials}.values():
         columns = {"t": case.times}
         trials = [(t, outcome) for t, outcome in report.trials if t.case.name == case.name]
-        for name in case.allow:
+        for name in (name for name in case.allow if name in table(case.scene)):
             columns[f"{name} reference"] = trials[0][0].wanted(name)
             for trial, outcome in trials:
                 if name in outcome.samples:

@@ -1,5 +1,6 @@
 """A case that needs no file, and an engine whose errors are known in advance."""
 
+import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -27,6 +28,17 @@ samples: 26
 step: {mujoco: 1.0e-3, pymunk: 1.0e-3}
 allow: {ball.x: 1.0e-2}
 """
+STOPS = (0.3, 0.7)  # s: the reference of a case with events slows down to rest twice
+STARTS = 0.5
+
+
+def speed(t: Array, *stops: float) -> Array:
+    """Two brakings, the second from STARTS on; more stops than two are another motion."""
+    v = np.clip(1 - t / stops[0], 0, None)
+    for i, stop in enumerate(stops[1:]):
+        starts = STARTS + 0.3 * i
+        v += np.where(t > starts, np.clip(1 - (t - starts) / (stop - starts), 0, None), 0)
+    return v
 
 
 @dataclass(frozen=True)
@@ -43,12 +55,15 @@ class Fake:
     order: int = 1
     stable: float = 1.0
     follows: bool = False
+    stops: tuple[float, ...] = ()  # of the record of every step
+    delay: float = 0.0  # of each stop, in steps
+    ways: tuple[Realised, ...] = ("native",)
     numbers: dict[str, float] = field(default_factory=dict)
     refusal: str | None = None
     before: Callable[[], None] = lambda: None
 
     def realisations(self, scene: Scene) -> tuple[Realised, ...]:
-        return ("native",)
+        return self.ways
 
     def refuses(self, scene: Scene) -> str | None:
         return self.refusal
@@ -84,6 +99,7 @@ class Fake:
         tied_to: float,
         realised: Realised,
         reactions: tuple[str, ...],
+        record: bool = False,
     ) -> Trajectory:
         self.before()
         if step > self.stable:
@@ -92,7 +108,14 @@ class Fake:
         ball = np.zeros((len(times), 6))
         ball[:, 0] = times * (1 + model + self.rate * step**self.order)
         ball[:, 3] = 1.0
-        return Trajectory(times, {"ball": ball}, {})
+        kept = self._record(times, step) if record and self.stops else None
+        return Trajectory(times, {"ball": ball}, {}, record=kept)
+
+    def _record(self, times: Array, step: float) -> Trajectory:
+        every = np.arange(round(times[-1] / step) + 1) * step
+        ball = np.zeros((len(every), 6))
+        ball[:, 3] = speed(every, *(stop + self.delay * step for stop in self.stops))
+        return Trajectory(every, {"ball": ball}, {})
 
     def prepare(
         self, scene: Scene, start: State, step: float, *, realised: Realised
@@ -113,6 +136,23 @@ def written(folder: Path, text: str, name: str = "moving.yaml") -> Case:
     return case
 
 
+@pytest.fixture(scope="session")
+def stopping(tmp_path_factory: pytest.TempPathFactory) -> Case:
+    """The same with an event that happens twice."""
+    text = TEXT.replace("allow: {", "events: {stops: {ball.vx: stays zero}}\nallow: {")
+    text = text.replace("ball.x: 1.0e-2", "ball.x: 1.0e-2, stops.time: 2.5e-3")
+    return written(tmp_path_factory.mktemp("case"), text)
+
+
+def phased() -> Trajectory:
+    """The reference's record: braking, rest, braking, rest."""
+    edges = (0.0, STOPS[0], STARTS, STOPS[1], 1.0)
+    times = [np.linspace(a, b, 5) for a, b in itertools.pairwise(edges)]
+    ball = np.zeros((20, 6))
+    ball[:5, 3] = ball[10:15, 3] = np.linspace(1, 0, 5)
+    return Trajectory(np.concatenate(times), {"ball": ball}, {}, phase=np.repeat(np.arange(4), 5))
+
+
 @pytest.fixture
 def trial(moving: Case) -> Callable[..., Trial]:
     """A trial of a fake engine with the given properties, or of another case."""
@@ -121,6 +161,9 @@ def trial(moving: Case) -> Callable[..., Trial]:
         times = case.times
         ball = np.zeros((len(times), 6))
         ball[:, 0], ball[:, 3] = times, 1.0
-        return Trial(case, Trajectory(times, {"ball": ball}, {}), Fake(**properties), "native")
+        kept = phased() if case.events else None
+        reference = Trajectory(times, {"ball": ball}, {}, record=kept)
+        way = properties.pop("realised", "native")
+        return Trial(case, reference, Fake(**properties), way)
 
     return made

@@ -68,6 +68,7 @@ def test_out_and_keep_write_where_they_are_told(new: Path, tmp_path: Path) -> No
     assert sorted(p.name for p in (tmp_path / "o").iterdir()) == [
         "convergence.csv",
         "coverage.csv",
+        "events.csv",
         "reference.csv",
         "tolerance.csv",
     ]

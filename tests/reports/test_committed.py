@@ -5,11 +5,12 @@ import pytest
 from reports import pool, readme, suite, write
 from reports.metric import ROUNDING
 from reports.pytest_plugin import CaseItem, measured
-from reports.row import Certificate, Comparison, Rungs
+from reports.row import Certificate, Comparison, Instant, Rungs
 from reports.selection import choose_cases, choose_engines
 from reports.suite import Report
 
 QUARTER = 0.25  # what another compiler or processor may change of a number above the floor
+AFTER_EVENTS = 2 / 3  # a factor of three: which step sees an event first may change
 # Below this part of a tolerance a number is rounding's, and differs between machines.
 FLOOR = 1e-6
 
@@ -27,14 +28,16 @@ def report(request: pytest.FixtureRequest) -> Report:
 def test_tolerances_are_current(report: Report) -> None:
     committed = {key(row): row for row in write.read(write.HERE / "tolerance.csv", Comparison)}
     assert {key(row) for row in report.comparisons} == set(committed)
+    switch = {case.name for case in choose_cases([]) if case.events}
     for row in report.comparisons:
         before = committed[key(row)]
+        spread = AFTER_EVENTS if row.case in switch else QUARTER
         assert (row.verdict, row.unit, row.protocol != "") == (
             before.verdict,
             before.unit,
             before.protocol != "",
         )
-        assert near(row.largest, before.largest, FLOOR * (row.allowed or 1.0)), key(row)
+        assert near(row.largest, before.largest, FLOOR * (row.allowed or 1.0), spread), key(row)
 
 
 def test_orders_and_limits_are_current(report: Report) -> None:
@@ -43,12 +46,23 @@ def test_orders_and_limits_are_current(report: Report) -> None:
     }
     assert {(*key(row), row.ladder) for row in report.rungs} == set(committed)
     allowed = {key(row): row.allowed or 1.0 for row in report.comparisons}
+    switch = {case.name for case in choose_cases([]) if case.events}
     for row in report.rungs:
         before = committed[(*key(row), row.ladder)]
         floor = FLOOR * allowed[key(row)]
+        spread = AFTER_EVENTS if row.case in switch else QUARTER
         if max(row.uncertainty or 0.0, before.uncertainty or 0.0) > floor:
             assert row.verdict == before.verdict, key(row)
-        assert near(row.limit, before.limit, floor), key(row)
+        assert near(row.limit, before.limit, floor, spread), key(row)
+
+
+def test_events_are_current(report: Report) -> None:
+    committed = {instant(row): row for row in write.read(write.HERE / "events.csv", Instant)}
+    assert {instant(row) for row in report.instants} == set(committed)
+    for row in report.instants:
+        before = committed[instant(row)]
+        off = max(abs(row.difference or 0.0), abs(before.difference or 0.0))
+        assert abs(row.time - before.time) <= AFTER_EVENTS * off + FLOOR, instant(row)
 
 
 def test_certificates_are_current(report: Report) -> None:
@@ -81,7 +95,11 @@ def key(row: Comparison | Rungs) -> tuple[str, ...]:
     return (row.case, row.engine, row.setting, row.realised, row.quantity)
 
 
-def near(now: float | None, before: float | None, floor: float) -> bool:
+def instant(row: Instant) -> tuple[str, ...]:
+    return (row.case, row.engine, row.setting, row.realised, row.event, str(row.k))
+
+
+def near(now: float | None, before: float | None, floor: float, spread: float = QUARTER) -> bool:
     if now is None or before is None:
         return now is before
-    return abs(now - before) <= QUARTER * max(abs(now), abs(before)) + max(floor, ROUNDING)
+    return abs(now - before) <= spread * max(abs(now), abs(before)) + max(floor, ROUNDING)

@@ -79,3 +79,19 @@ def test_the_usable_step_is_the_largest_from_which_on_all_are_within() -> None:
 
 def test_no_usable_step_where_the_finest_is_not_within() -> None:
     assert judge(ladder(p=1), p=1, allow=1e-4).usable_step is None
+
+
+def test_samples_beside_an_event_tell_no_order() -> None:
+    late = {h: u + np.where(np.abs(T - 0.5) < 0.03, h**0.3, 0.0) for h, u in ladder(p=1).items()}
+    assert judge(late, p=1).verdict != TEXTBOOK
+    away = np.abs(T - 0.5) >= 0.03
+    found = study(late, REFERENCE, exponents=(1, 2), allow=1e-2, floor=1e-13, away=away)
+    assert found.verdict == TEXTBOOK
+    assert found.order == pytest.approx(1.0, abs=0.05)
+    assert found.usable_step is None  # but what is allowed holds at every sample
+
+
+def test_too_few_samples_away_from_events_settle_nothing() -> None:
+    away = T > 0.95
+    found = study(ladder(p=1), REFERENCE, exponents=(1, 2), allow=1e-2, floor=1e-13, away=away)
+    assert found.verdict == UNSETTLED

@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from reports import write
-from reports.row import Comparison
+from reports.row import Comparison, Instant
 from reports.suite import Report
 
 ROW = Comparison(
@@ -26,7 +26,7 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     (row,) = write.read(tmp_path / "tolerance.csv", Comparison)
     assert (row.largest, row.rms, row.because) == (1.23e-9, None, ROW.because)
     assert sorted(p.name for p in tmp_path.iterdir()) == [
-        "convergence.csv", "coverage.csv", "reference.csv", "tolerance.csv",
+        "convergence.csv", "coverage.csv", "events.csv", "reference.csv", "tolerance.csv",
     ]  # fmt: skip
 
 
@@ -59,3 +59,19 @@ def test_an_interrupted_run_leaves_the_old_reports_whole(tmp_path: Path, monkeyp
     with pytest.raises(KeyboardInterrupt):
         write.write(frames(), tmp_path)
     assert {p.name: p.read_bytes() for p in tmp_path.iterdir()} == before
+
+
+def test_instants_are_sorted_counted_and_read_back(tmp_path: Path) -> None:
+    rows = [
+        Instant(
+            "a", "mujoco", "4.0.0", "tuned", "native", "slips", k, 1.5 * k, None if k > 9 else 0.0
+        )
+        for k in (10, 9)
+    ]
+    rows.append(Instant("a", "mujoco", "4.0.0", "tuned", "law", "slips", 1, 1.23456789e-3, 1e-9))
+    write.write(write.tables(Report(instants=rows), []), tmp_path)
+    assert (tmp_path / "events.csv").read_text().splitlines()[-1] == "# 3 rows"
+    found = write.read(tmp_path / "events.csv", Instant)
+    assert [(i.realised, i.k) for i in found] == [("law", 1), ("native", 9), ("native", 10)]
+    assert [i.difference for i in found] == [1e-9, 0.0, None]
+    assert found[0].time == 1.23456789e-3
