@@ -1,0 +1,166 @@
+"""Block on an incline with dry friction: it sticks, slides, brakes to rest or comes back (2.87).
+
+q = (x,), x down the slope of angle β.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from reference.mode import Guard, Switching
+from reference.system import Array, Cut, Load, Mass, Pose, System, Vector
+
+G = 9.80665  # m/s²
+
+
+@dataclass(frozen=True)
+class _Block(System):
+    """Sliding with v > 0 (σ = 1) or v < 0 (σ = −1), or sticking (σ = 0)."""
+
+    m: float
+    mu_k: float
+    beta: float
+    sigma: int
+
+    coordinates = ("x",)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "masses", {"block": Mass(self.m, None)})
+
+    def accelerations(self, t: float, q: Array, v: Array) -> Array:
+        """(2.87) ẍ = g (sin β − σ μ_k cos β); ẍ = 0 where it sticks [m/s²], (1,)."""
+        if self.sigma == 0:
+            return np.zeros(1)
+        slope = math.sin(self.beta) - self.sigma * self.mu_k * math.cos(self.beta)
+        return np.array([G * slope])
+
+    def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
+        """(2.89) F_N = m g cos β, F_fr = −σ μ_k F_N; −m g sin β where it sticks [N]."""
+        F_N = self.m * G * math.cos(self.beta)
+        stuck = -self.m * G * math.sin(self.beta)
+        tangent = -self.sigma * self.mu_k * F_N if self.sigma else stuck
+        return {"touch.tangent": tangent, "touch.normal": F_N}
+
+    def T(self, t: Any, q: Vector, v: Vector) -> Any:
+        """(2.53) T = ½ m ẋ² [J]."""
+        return self.m * v[0] ** 2 / 2
+
+    def U(self, t: Any, q: Vector) -> Any:
+        """(2.45) U = −m g x sin β [J]."""
+        return -self.m * G * q[0] * math.sin(self.beta)
+
+    def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
+        """(2.50) Q = −σ μ_k m g cos β, the friction of sliding [N], (1,)."""
+        return np.array([-self.sigma * self.mu_k * self.m * G * math.cos(self.beta)])
+
+    def f_a(self, t: Any, q: Vector) -> Vector:
+        """(2.15) ẋ = 0 where it sticks: λ is the friction force."""
+        return np.zeros((0, 1)) if self.sigma else np.ones((1, 1))
+
+    def g(self, t: Any, q: Vector) -> Vector:
+        """(2.15) the floor does not move."""
+        return np.zeros(len(self.f_a(t, q)))
+
+    def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
+        """(2.8) R₁ = (x, 0)."""
+        return {"block": (q[0], 0.0, 0.0, v[0], 0.0, 0.0)}
+
+    def loads(self, t: float, q: Array, v: Array) -> list[Load]:
+        """(2.81) weight in the axes of the slope, and the friction of sliding."""
+        at, weight = (float(q[0]), 0.0), self.m * G
+        down = (weight * math.sin(self.beta), -weight * math.cos(self.beta))
+        friction = self.mu_k * weight * math.cos(self.beta)
+        return [Load("block", at, down), Load("block", at, (-self.sigma * friction, 0.0))]
+
+    def cuts(self, t: float, q: Array) -> list[Cut]:
+        """The floor: its normal force always, its friction where the block sticks."""
+        at = (float(q[0]), 0.0)
+        if self.sigma == 0:
+            return [Cut(("touch.tangent", "touch.normal"), None, "block", at)]
+        return [Cut(("touch.normal",), None, "block", at, ((0.0, 1.0),))]
+
+
+@dataclass(frozen=True)
+class SlidingBlock(Switching):
+    """m [kg], static and kinetic friction, β, and the start v0 [m/s] down the slope."""
+
+    m: float
+    mu_s: float
+    mu_k: float
+    beta: float
+    v0: float
+
+    def __post_init__(self) -> None:
+        if not self.mu_s >= self.mu_k >= 0.0:
+            raise ValueError(f"0 ≤ μ_k ≤ μ_s is broken by μ_k = {self.mu_k}, μ_s = {self.mu_s}")
+        sigmas = {"down": 1, "up": -1, "sticks": 0}
+        modes = {name: _Block(self.m, self.mu_k, self.beta, s) for name, s in sigmas.items()}
+        object.__setattr__(self, "modes", modes)
+
+    def start(self) -> tuple[str, Array, Array]:
+        """At x = 0 with v0."""
+        mode = self._at_rest() if self.v0 == 0.0 else "down" if self.v0 > 0.0 else "up"
+        return mode, np.zeros(1), np.array([self.v0])
+
+    def _at_rest(self) -> str:
+        """(2.89) at v = 0 it sticks while |tan β| ≤ μ_s, else it slides down."""
+        if abs(math.sin(self.beta)) <= self.mu_s * math.cos(self.beta):
+            return "sticks"
+        return "down" if self.beta > 0.0 else "up"
+
+    def guards(self, mode: str) -> Sequence[Guard]:
+        """(2.89) `stops` where v = 0; too steep for that, it turns."""
+        if mode == "sticks":
+            return ()
+        sigma, after = (1.0 if mode == "down" else -1.0), self._at_rest()
+        return (
+            Guard(
+                "stops" if after == "sticks" else None,
+                lambda t, q, v: sigma * float(v[0]),
+                lambda t, q, v: (after, q, np.zeros(1)),
+            ),
+        )
+
+    def _phases(self) -> list[tuple[float, float]]:
+        """Acceleration [m/s²] of the start, and after v = 0, with the time from which it holds."""
+        mode, *state = self.start()
+        a, after = (
+            float(self.modes[name].accelerations(0.0, *state)[0])
+            for name in (mode, self._at_rest())
+        )
+        t0 = self._halt()
+        return [(0.0, a)] if t0 is None else [(0.0, a), (t0, after)]
+
+    def _halt(self) -> float | None:
+        """(2.87) v = 0 at t₀ = |v₀|/(g (μ_k cos β ∓ sin β)), − where it goes down."""
+        sigma = math.copysign(1.0, self.v0)
+        brake = G * (self.mu_k * math.cos(self.beta) - sigma * math.sin(self.beta))
+        return abs(self.v0) / brake if self.v0 and brake > 0.0 else None
+
+    def closed_form(self, t: float) -> tuple[Array, Array]:
+        """(2.87) x = v₀ t + ½ a t² until v = 0, and from rest with the next a after it."""
+        (_, a), *later = self._phases()
+        if not later or t <= later[0][0]:
+            return np.array([self.v0 * t + a * t**2 / 2]), np.array([self.v0 + a * t])
+        (t0, after), x0 = later[0], self.v0 * later[0][0] / 2
+        return np.array([x0 + after * (t - t0) ** 2 / 2]), np.array([after * (t - t0)])
+
+    def closed_events(self, until: float) -> list[tuple[str, float]]:
+        """(2.87) stops at t₀, if it sticks there."""
+        t0 = self._halt()
+        if t0 is None or t0 > until or self._at_rest() != "sticks":
+            return []
+        return [("stops", t0)]
+
+    def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
+        """(2.89) |F_fr| ≤ μ_s F_N where it sticks, F_N > 0."""
+        forces = self.modes[mode].reactions(t, q, v)
+        normal, tangent = forces["touch.normal"], forces["touch.tangent"]
+        if not normal > 0.0:
+            return f"the floor would have to pull: touch.normal = {normal:.3g} N"
+        if mode == "sticks" and abs(tangent) > self.mu_s * normal:
+            return f"sticking needs friction {abs(tangent) / normal:.4g}, there is {self.mu_s:.4g}"
+        return None
