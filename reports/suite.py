@@ -106,8 +106,15 @@ def _solved(case: Case) -> tuple[Solution, set[str]] | CaseError:
     mistakes = never(case, solution.trajectory)
     if mistakes:
         return CaseError(mistakes)
-    short = replace(case, samples=COVERED, duration=(COVERED - 1) * case.interval)
-    return solution, executed(lambda: solve(short))
+    return solution, executed(lambda: solve(_short(case)))
+
+
+def _short(case: Case) -> Case:
+    """Enough of the case to run all that it runs: an event may come at any time."""
+    if case.events:
+        return case
+    # What moves later may rest at first.
+    return replace(case, samples=COVERED, duration=(COVERED - 1) * case.interval, rests=True)
 
 
 def _certificates(case: Case, solution: Solution) -> list[Certificate]:
