@@ -12,11 +12,14 @@ from cases.trajectory import Array, Trajectory
 from engines.engine import Choice, Realised, State
 from engines.mujoco import options, settings
 from engines.mujoco.control import signals
+from engines.mujoco.friction import followed
 from engines.mujoco.measure import measured
 from engines.mujoco.refuse import unbuildable, uncompilable
 from engines.mujoco.run import heard, load, simulate
 from engines.mujoco.scene import HEAVY, mjcf
 from engines.mujoco.settle import settle
+from engines.mujoco.smooth import smooth
+from engines.mujoco.stepping import stepping
 from engines.mujoco.tree import driven
 
 
@@ -39,8 +42,11 @@ class MuJoCo:
         return None if self.setting == "tuned" else self.options.get("step", settings.SHIPPED_STEP)
 
     def realisations(self, scene: Scene) -> tuple[Realised, ...]:
-        """Springs, dampers, pushes and contacts are all MuJoCo's own elements."""
-        return ("native",)
+        """MuJoCo's own elements; dry friction, of which it knows one number, in other ways too."""
+        if not followed(scene):
+            return ("native",)
+        exact = any(j.dry_friction and not j.dry_friction.smooth for j in scene.joints.values())
+        return ("native", "law", "driver") if exact else ("native", "law")
 
     def refuses(self, scene: Scene) -> str | None:
         """What MuJoCo has no element for, the adapter does not build, or the compiler refuses."""
@@ -66,23 +72,31 @@ class MuJoCo:
         words = []
         if any(driven(scene)):
             words.append(f"driven points are masses of {HEAVY:g} kg")
-        depths = self._depths(scene, *self._loaded(scene, start, step, step))
+        if realised == "law":
+            words.append("dry friction by our law before every step")
+        if realised == "driver":
+            words.append("steps cut at the events of dry friction")
+        depths = self._depths(scene, start, *self._loaded(scene, start, step, step))
         words += [f"{name} started {depth:.1e} m in the floor" for name, depth in depths.items()]
         return "; ".join(words)
 
-    def _depths(self, scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, float]:
-        """How deep each disk must start to be carried: MuJoCo's floor gives way to a weight."""
-        return settle(scene, model, data) if self.setting == "tuned" and scene.contacts else {}
+    def _depths(
+        self, scene: Scene, start: State, model: mujoco.MjModel, data: mujoco.MjData
+    ) -> dict[str, float]:
+        """How deep a disk must start to be carried: MuJoCo's floor gives way to a weight."""
+        if self.setting != "tuned" or not scene.contacts:
+            return {}
+        return settle(scene, model, data, start)
 
-    def choices(self, scene: Scene, step: float) -> list[Choice]:
-        """The setting's numbers as attributes of the MJCF file."""
+    def choices(self, scene: Scene, step: float, start: State | None = None) -> list[Choice]:
+        """The setting's numbers as attributes of the MJCF file; what falls needs its own."""
         if self.setting == "tuned":
-            return settings.tuned(scene, step)
+            return settings.tuned(scene, step, start)
         return settings.with_own(self.options, scene, step)
 
     def script(self, scene: Scene, start: State, step: float) -> str:
         """The MJCF file with its start as a keyframe."""
-        depths = self._depths(scene, *self._loaded(scene, start, step, step))
+        depths = self._depths(scene, start, *self._loaded(scene, start, step, step))
         return self._text(scene, start, step, step, depths)
 
     def _text(
@@ -94,7 +108,7 @@ class MuJoCo:
         depths: Mapping[str, float] = MappingProxyType({}),
     ) -> str:
         timestep = Choice("option.timestep", step, "the case's step")
-        return mjcf(scene, start, [timestep, *self.choices(scene, tied_to)], depths)
+        return mjcf(scene, start, [timestep, *self.choices(scene, tied_to, start)], depths)
 
     def _loaded(
         self, scene: Scene, start: State, step: float, tied_to: float
@@ -106,7 +120,7 @@ class MuJoCo:
     ) -> tuple[mujoco.MjModel, mujoco.MjData]:
         """As `script` would load it, compiled once."""
         model, data = self._loaded(scene, start, step, tied_to)
-        for name, depth in self._depths(scene, model, data).items():
+        for name, depth in self._depths(scene, start, model, data).items():
             data.joint(f"{name}.y").qpos[0] -= depth
         return model, data
 
@@ -124,19 +138,24 @@ class MuJoCo:
         tied_to: float,
         realised: Realised,
         reactions: tuple[str, ...],
+        record: bool = False,
     ) -> Trajectory:
-        """The motion, stepped by `mj_step(model, data, n)` between samples."""
+        """The motion, stepped by `mj_step(model, data, n)` between samples or steps."""
         model, data = self._settled(scene, start, step, tied_to)
-        return simulate(scene, model, data, start, times, reactions)
+        return simulate(
+            scene, model, data, start, times, reactions, realised=realised, every=record
+        )
 
     def prepare(
         self, scene: Scene, start: State, step: float, *, realised: Realised
     ) -> Callable[[int], None]:
         """MuJoCo's bare loop, with the same callbacks installed."""
         model, data = self._settled(scene, start, step, step)
+        steps = stepping(scene, model, data, realised)
+        laws = smooth(scene, model) if realised == "law" else []
 
-        def steps(n: int) -> None:
-            with heard(), signals(scene):
-                mujoco.mj_step(model, data, n)
+        def take(n: int) -> None:
+            with heard(), signals(scene, laws):
+                steps.take(n)
 
-        return steps
+        return take

@@ -4,7 +4,7 @@ A control set between steps would be held during the step: first order, without 
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 
 import mujoco
@@ -14,9 +14,18 @@ from cases.scene import Scene
 Control = Callable[[mujoco.MjModel, mujoco.MjData], None]
 
 
-def signals(scene: Scene) -> AbstractContextManager[None]:
-    """The scene's sines, while they are wanted."""
-    return installed(_control(scene))
+def signals(scene: Scene, others: Sequence[Control] = ()) -> AbstractContextManager[None]:
+    """The scene's sines, and what else needs them set, while they are wanted."""
+    sines = _control(scene)
+    controls = [*([] if sines is None else [sines]), *others]
+    if len(controls) < 2:
+        return installed(controls[0] if controls else None)
+
+    def control(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        for each in controls:
+            each(model, data)
+
+    return installed(control)
 
 
 @contextmanager

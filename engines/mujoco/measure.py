@@ -16,6 +16,12 @@ def measured(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[s
             found[f"{body.name}.inertia"] = model.body_inertia[number, 2]
     for contact in scene.contacts:
         found[f"{contact}.friction"] = model.pair(contact).friction[0]
+    for joint in scene.joints.values():
+        dry = joint.dry_friction
+        if dry is not None and dry.kinetic.forward == dry.kinetic.backward:  # else a mean: neither
+            loss = model.dof_frictionloss[model.joint(joint.name).dofadr[0]]
+            found[f"{joint.name}.friction_forward"] = loss
+            found[f"{joint.name}.friction_backward"] = loss
     for spring in scene.springs():
         number = model.tendon(spring.name).id
         found[f"{spring.name}.stiffness"] = model.tendon_stiffness[number]

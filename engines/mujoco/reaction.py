@@ -67,7 +67,7 @@ class Contacts:
         self.model = model
         self.forces = {name: np.zeros((samples, 2)) for name in scene.contacts}
         self._of_disk = {
-            mujoco.mj_name2id(model, _OBJECT.mjOBJ_GEOM, contact.body): self.forces[contact.name]
+            mujoco.mj_name2id(model, _OBJECT.mjOBJ_GEOM, contact.name): self.forces[contact.name]
             for contact in scene.contacts.values()
         }
 

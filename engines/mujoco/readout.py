@@ -5,7 +5,7 @@ reading costs a few percent of the stepping.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import mujoco
 import numpy as np
@@ -13,6 +13,7 @@ import numpy as np
 from cases.scene import Scene
 from cases.trajectory import ANGLE, Array, Trajectory
 from engines.engine import State
+from engines.mujoco.frictions import Frictions
 from engines.mujoco.reaction import Contacts, joint_force
 from engines.mujoco.tree import Tree, built_as, spanning_tree
 
@@ -28,17 +29,22 @@ def read(
     times: Array,
     record: list[Array],
     reactions: tuple[str, ...],
+    recall: Callable[[int], None],  # what the run did to the model at a sample
 ) -> Trajectory:
     """States of all bodies, and the wanted reactions, from positions, velocities and controls."""
     tree = spanning_tree(scene)
     contacts = Contacts(scene, model, len(times)) if scene.contacts and reactions else None
     joints = [name for name in reactions if name.partition(".")[0] in scene.joints]
     wanted = (*_PLACES, *(_FORCES if joints else ()))
-    seen = _seen(model, data, times, record, wanted, contacts, forces=bool(reactions))
+    dry = Frictions(scene, model, len(times))
+    keepers = [dry] if contacts is None else [contacts, dry]
+    seen = _seen(model, data, times, record, wanted, keepers, recall, forces=bool(reactions))
     found: dict[str, Array] = {}
     for name in reactions:
         part, _, field = name.partition(".")
-        if part in scene.joints:
+        if field == "friction":
+            found[name] = dry.forces[part]
+        elif part in scene.joints:
             forces = joint_force(scene, tree, model, seen, scene.joints[part])
             found[name] = forces[("fx", "fy", "torque", "force").index(field)]
         else:
@@ -57,7 +63,8 @@ def _seen(
     times: Array,
     record: list[Array],
     wanted: tuple[str, ...],
-    contacts: Contacts | None,
+    keepers: Sequence[Contacts | Frictions],
+    recall: Callable[[int], None],
     *,
     forces: bool,
 ) -> Mapping[str, Array]:
@@ -71,6 +78,7 @@ def _seen(
         for target, kept in zip(targets, record, strict=True):
             target[:] = kept[i]
         if forces:
+            recall(i)
             mujoco.mj_forward(model, probe)
             mujoco.mj_rnePostConstraint(model, probe)
         else:
@@ -86,8 +94,8 @@ def _seen(
             seen[name][i] = part
         if "efc_force" in seen and probe.ne:
             seen["efc_force"][i] = probe.efc_force[: probe.ne]
-        if contacts is not None:
-            contacts.keep(i, probe)
+        for keeper in keepers if forces else ():
+            keeper.keep(i, probe)
     return seen
 
 

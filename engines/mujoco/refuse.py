@@ -4,6 +4,7 @@ from collections.abc import Iterable
 
 from cases.scene import GROUND, Joint, Scene
 from engines.engine import Choice
+from engines.mujoco.contact import LEAST_BOUNCE
 from engines.mujoco.run import load
 from engines.mujoco.scene import mjcf
 from engines.mujoco.tree import Branch, Tree, built_as, spanning_tree
@@ -22,12 +23,17 @@ def unbuildable(scene: Scene) -> str | None:
             reason = _slide(scene, tree, branch, branch.joint)
             if reason is not None:
                 return reason
-    disks = [contact.body for contact in scene.contacts.values()]
+    touching = [contact.at for contact in scene.contacts.values()]
     for name, contact in scene.contacts.items():
-        if scene.bodies[contact.body].radius is None:
-            return f"adapter: only a disk can touch the floor, {contact.body} is none"
-        if disks.count(contact.body) > 1:
-            return f"adapter: {name} is not the only contact of {contact.body} with the floor"
+        if touching.count(contact.at) > 1:
+            return f"adapter: {name} is not the only contact of {contact.at} with the floor"
+        if 0 < contact.restitution < LEAST_BOUNCE:
+            return (
+                f"engine: MuJoCo's floor is a spring and damper, and the damper that throws "
+                f"{contact.body} back with only {contact.restitution:g} of its speed is unstable"
+            )
+    if len({contact.restitution for contact in scene.contacts.values()}) > 1:
+        return "adapter: contacts that throw back differently would each need a recipe"
     return None
 
 

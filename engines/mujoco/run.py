@@ -8,9 +8,12 @@ import numpy as np
 
 from cases.scene import Scene
 from cases.trajectory import Array, Trajectory
-from engines.engine import Diverged, State
+from engines.engine import Diverged, Realised, State
 from engines.mujoco.control import installed, signals
 from engines.mujoco.readout import read
+from engines.mujoco.record import all_steps, recorded
+from engines.mujoco.smooth import smooth
+from engines.mujoco.stepping import Steps, stepping
 
 
 @contextmanager
@@ -44,24 +47,33 @@ def simulate(
     start: State,
     times: Array,
     reactions: tuple[str, ...],
+    *,
+    realised: Realised,
+    every: bool,
 ) -> Trajectory:
     """The motion at the times, whole multiples of the model's step from 0. Raises Diverged."""
-    with heard() as warnings, signals(scene):
-        record = _record(model, data, times)
-        _check(warnings, times, record)
-        trajectory = read(scene, model, data, start, times, record, reactions)
-        _check(warnings, times, record)
-    return trajectory
+    steps = stepping(scene, model, data, realised)
+    laws = smooth(scene, model) if realised == "law" else []
+    grid = all_steps(times, model.opt.timestep) if every else times
+    with heard() as warnings, signals(scene, laws):
+        record = _record(model, data, grid, steps)
+        _check(warnings, grid, record)
+        stride = (len(grid) - 1) // (len(times) - 1)
+        samples, steps.noted = [kept[::stride] for kept in record], steps.noted[::stride]
+        trajectory = read(scene, model, data, start, times, samples, reactions, steps.recall)
+        _check(warnings, times, samples)
+    return recorded(scene, model, trajectory, grid, record, start) if every else trajectory
 
 
-def _record(model: mujoco.MjModel, data: mujoco.MjData, times: Array) -> list[Array]:
+def _record(model: mujoco.MjModel, data: mujoco.MjData, times: Array, take: Steps) -> list[Array]:
     """Position, velocity, activation and control of every sample, (N, ·) each."""
     parts = (data.qpos, data.qvel, data.act, data.ctrl)  # views: fetching one costs 0.2 µs
     record = [np.empty((len(times), len(part))) for part in parts]
     steps = round((times[1] - times[0]) / model.opt.timestep)
     for i in range(len(times)):
         if i:
-            mujoco.mj_step(model, data, steps)
+            take.take(steps)
+        take.note()
         for kept, part in zip(record, parts, strict=True):
             kept[i] = part
     return record

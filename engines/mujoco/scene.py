@@ -9,13 +9,25 @@ from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from xml.etree import ElementTree as ET
 
-from cases.scene import CENTER, GROUND, Anchor, Damper, Push, Scene, Spring, Torque
+from cases.scene import (
+    CENTER,
+    GROUND,
+    Anchor,
+    Contact,
+    Damper,
+    DryFriction,
+    Push,
+    Scene,
+    Spring,
+    Torque,
+)
 from engines.engine import Choice, State
 from engines.mujoco.tree import Branch, Tree, built_as, coordinates, driven, spanning_tree, turned
 
 HEAVY = 1e15  # kg of a driven point: 1 N changes its velocity by 1e-15 m/s in a second
 LEAST = 1e-15  # kg m² (mjMINVAL) of a particle: MuJoCo takes no less of a body with a joint
-FLOOR = f"{GROUND}.floor"  # no disk can be called that
+FLOOR = f"{GROUND}.floor"  # no contact can be called that
+POINT = 1e-12  # m, radius of a point that touches: too small to be an arm or a gap
 
 
 def mjcf(
@@ -36,13 +48,13 @@ def mjcf(
     ET.SubElement(option, "flag", autoreset="disable")  # a reset must not look like a motion
     world = ET.SubElement(root, "worldbody")
     _world(world, scene)
-    _bodies(world, scene, tree)
+    _bodies(world, scene, tree, numbers)
     if scene.contacts:
         _contacts(root, scene, _of(numbers, "pair"))
     if tree.loops:
         _loops(root, tree, _of(numbers, "connect"))
     _forces(root, scene)
-    _start(root, scene, tree, start, depths)
+    _start(root, scene, tree, start, depths, out=_leaves_plane(scene, numbers))
     ET.indent(root)
     return ET.tostring(root, encoding="unicode") + "\n"
 
@@ -95,7 +107,8 @@ def _inertial(body: ET.Element, mass: float, inertia: float) -> None:
     )
 
 
-def _bodies(world: ET.Element, scene: Scene, tree: Tree) -> None:
+def _bodies(world: ET.Element, scene: Scene, tree: Tree, numbers: dict[str, object]) -> None:
+    out = _leaves_plane(scene, numbers)
     elements = {GROUND: world}
     for element in world.iter("body"):
         elements[element.attrib["name"]] = element
@@ -103,21 +116,36 @@ def _bodies(world: ET.Element, scene: Scene, tree: Tree) -> None:
         body = scene.bodies[branch.body]
         element = ET.SubElement(elements[branch.parent], "body", name=body.name)
         elements[body.name] = element
-        _hang(element, scene, branch)
+        _hang(element, scene, branch, _of(numbers, "slide"))
+        if branch.joint is None and out:
+            _joint(element, f"{body.name}.z", "slide", axis="0 0 1")
         # A particle that is held rigidly must add nothing to the inertia of what carries it.
         least = LEAST if element.find("joint") is not None else 0.0
         _inertial(element, body.mass, least if body.inertia is None else body.inertia)
         for name, at in body.points.items():
             ET.SubElement(element, "site", name=f"{body.name}.{name}", pos=_text(*at, 0))
-        if body.name in {contact.body for contact in scene.contacts.values()}:
-            assert body.radius is not None  # the loader lets only disks touch the floor
-            ET.SubElement(
-                element, "geom", name=body.name, type="sphere", size=_text(body.radius),
-                contype="0", conaffinity="0",
-            )  # fmt: skip
+        for contact in scene.contacts.values():
+            if contact.body == body.name:
+                _touching(element, scene, contact)
 
 
-def _hang(element: ET.Element, scene: Scene, branch: Branch) -> None:
+def _leaves_plane(scene: Scene, numbers: dict[str, object]) -> bool:
+    """Whether free bodies may move along z: nothing pushes them there, but without that freedom
+    MuJoCo's noslip solver silently does nothing."""
+    return bool(scene.contacts) and numbers.get("option.noslip_iterations", 0) != 0
+
+
+def _touching(element: ET.Element, scene: Scene, contact: Contact) -> None:
+    """A disk's rim, or a point."""
+    radius = scene.bodies[contact.body].radius
+    at = scene.bodies[contact.body].points[contact.at.point]
+    ET.SubElement(
+        element, "geom", name=contact.name, type="sphere", pos=_text(*at, 0),
+        size=_text(POINT if radius is None else radius), contype="0", conaffinity="0",
+    )  # fmt: skip
+
+
+def _hang(element: ET.Element, scene: Scene, branch: Branch, soft: dict[str, str]) -> None:
     """Place a body's frame on its parent, with the joint between them."""
     body, joint = scene.bodies[branch.body], branch.joint
     if joint is None:
@@ -129,21 +157,28 @@ def _hang(element: ET.Element, scene: Scene, branch: Branch) -> None:
     what = built_as(scene, joint)
     held = 0.0 if what == "pin" or not body.turns else joint.angle
     held = held if branch.forward else -held
-    at, own = _local(scene, outer), turned(_local(scene, inner), held)
+    at, own = local(scene, outer), turned(local(scene, inner), held)
     element.set("pos", _text(at[0] - own[0], at[1] - own[1], 0))
     if held:
         element.set("quat", _text(math.cos(held / 2), 0, 0, math.sin(held / 2)))
     if what == "pin" and body.turns:
         _joint(
-            element, joint.name, "hinge", axis=_AXES["angle"], pos=_text(*_local(scene, inner), 0)
+            element, joint.name, "hinge", axis=_AXES["angle"], pos=_text(*local(scene, inner), 0)
         )
     elif what == "slide":
         # MuJoCo's axis stands in the child; `along` stands in the joint's first part.
         along = turned(joint.along, -held) if branch.forward else turned(joint.along, math.pi)
-        _joint(element, joint.name, "slide", axis=_text(*along, 0))
+        friction = {} if joint.dry_friction is None else _friction(joint.dry_friction, soft)
+        _joint(element, joint.name, "slide", axis=_text(*along, 0), **friction)
 
 
-def _local(scene: Scene, anchor: Anchor) -> tuple[float, float]:
+def _friction(dry: DryFriction, soft: dict[str, str]) -> dict[str, str]:
+    """A joint has one number for both directions, moving and at rest."""
+    mean = (dry.kinetic.forward + dry.kinetic.backward) / 2
+    return {"frictionloss": _text(mean), **soft}
+
+
+def local(scene: Scene, anchor: Anchor) -> tuple[float, float]:
     if anchor.body == GROUND:
         point = scene.points[anchor.point]
         return (0.0, 0.0) if point.driven else point.at
@@ -156,7 +191,7 @@ def _contacts(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> Non
         # A pair takes one coefficient; two geoms would take the larger of theirs.
         ET.SubElement(
             contacts, "pair", attributes,
-            name=contact.name, geom1=FLOOR, geom2=contact.body, condim="3",
+            name=contact.name, geom1=FLOOR, geom2=contact.name, condim="3",
             friction=_text(contact.friction, contact.friction, 0, 0, 0),
         )  # fmt: skip
 
@@ -206,7 +241,13 @@ def _actuator(actuators: ET.Element, force: Push | Torque) -> None:
 
 
 def _start(
-    root: ET.Element, scene: Scene, tree: Tree, start: State, depths: Mapping[str, float]
+    root: ET.Element,
+    scene: Scene,
+    tree: Tree,
+    start: State,
+    depths: Mapping[str, float],
+    *,
+    out: bool,
 ) -> None:
     """The start as a keyframe, in the order in which MuJoCo numbers joints: depth first."""
     pairs: dict[str, list[tuple[float, float]]] = {}
@@ -215,6 +256,8 @@ def _start(
         pairs[name] = list(zip(point.at, point.velocity, strict=True))
     for branch in tree.branches:
         pairs[branch.body] = coordinates(scene, tree, branch, start)
+        if branch.joint is None and out:
+            pairs[branch.body].append((0.0, 0.0))
     for name, depth in depths.items():
         y, vy = pairs[name][1]
         pairs[name][1] = (y - depth, vy)

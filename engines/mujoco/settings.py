@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from cases.scene import Scene
-from engines.engine import Choice
+from engines.engine import Choice, State
+from engines.mujoco.contact import HARDEST, recipe
 from engines.mujoco.options import SOFT, as_written
 from engines.mujoco.tree import driven, spanning_tree
 
@@ -24,14 +25,14 @@ def shipped(scene: Scene, tied_to: float) -> list[Choice]:
     ]
     for group in _soft(scene):
         choices += [
-            Choice(f"{group}.solref", [0.02, 1.0], _DEFAULT),
-            Choice(f"{group}.solimp", [0.9, 0.95, 0.001, 0.5, 2.0], _DEFAULT),
+            Choice(_key(group, "solref"), [0.02, 1.0], _DEFAULT),
+            Choice(_key(group, "solimp"), [0.9, 0.95, 0.001, 0.5, 2.0], _DEFAULT),
         ]
     return choices
 
 
-def tuned(scene: Scene, tied_to: float) -> list[Choice]:
-    """The best recipe for the scene; soft constraints follow the step `tied_to`."""
+def tuned(scene: Scene, tied_to: float, start: State | None = None) -> list[Choice]:
+    """The best recipe for the scene and its start; soft constraints follow the step `tied_to`."""
     choices = [
         Choice("option.integrator", "RK4", "fourth order; every other integrator is of the first"),
         Choice("option.jacobian", "dense", "small scenes; keeps 4.0.0's sparse solver out"),
@@ -39,27 +40,35 @@ def tuned(scene: Scene, tied_to: float) -> list[Choice]:
     if _soft(scene):
         choices.append(Choice("option.tolerance", 1e-14, "near rounding; 0 is five times slower"))
     choices += _solver(scene)
-    for group in _soft(scene):
-        choices += [
-            Choice(f"{group}.solref", [_STIFF[group] * tied_to, 1.0], _BECAUSE[group]),
-            Choice(
-                f"{group}.solimp", [0.9999, 0.9999, 0.001], "the hardest MuJoCo takes: d = 0.9999"
-            ),
-        ]
+    for group in ("connect", "slide"):
+        if group in _soft(scene):
+            choices += [
+                Choice(_key(group, "solref"), [_STIFF[group] * tied_to, 1.0], _BECAUSE[group]),
+                Choice(
+                    _key(group, "solimp"),
+                    [HARDEST, HARDEST, 0.001],
+                    "the hardest MuJoCo takes: d = 0.9999",
+                ),
+            ]
+    if "slide" in _soft(scene):
+        choices.append(Choice("option.noslip_iterations", 5, "what sticks does not creep"))
     if scene.contacts:
-        choices += [
-            Choice("option.cone", "elliptic", "the pyramid's friction depends on the direction"),
-            Choice("option.impratio", 100.0, "less creep; from 1e4 on Newton stops early"),
-        ]
+        known = {choice.name for choice in choices}
+        choices += [c for c in recipe(scene, tied_to, start) if c.name not in known]
     return choices
 
 
 # The time constant of a soft constraint in steps.
-_STIFF = {"connect": 4, "pair": 2}
+_STIFF = {"connect": 4, "slide": 2}
 _BECAUSE = {
     "connect": "4 h: forces 20 times nearer than with 2 h, whose stages jerk at the pin; gap ∝ h²",
-    "pair": "the stiffest that stays stable: 2 h",
+    "slide": "the stiffest that stays stable: 2 h",
 }
+
+
+def _key(group: str, name: str) -> str:
+    """As MJCF spells it: a joint's own friction has names of its own."""
+    return f"slide.{name}friction" if group == "slide" else f"{group}.{name}"
 
 
 def _solver(scene: Scene) -> list[Choice]:
@@ -81,7 +90,8 @@ def ties(scene: Scene) -> bool:
 def _soft(scene: Scene) -> list[str]:
     """The groups of soft constraints in the scene."""
     loops = ["connect"] if spanning_tree(scene).loops else []
-    return loops + (["pair"] if scene.contacts else [])
+    dry = ["slide"] if any(joint.dry_friction for joint in scene.joints.values()) else []
+    return loops + dry + (["pair"] if scene.contacts else [])
 
 
 def with_own(options: Mapping[str, Any], scene: Scene, tied_to: float) -> list[Choice]:
@@ -90,7 +100,7 @@ def with_own(options: Mapping[str, Any], scene: Scene, tied_to: float) -> list[C
     choices = {choice.name: choice for choice in shipped(scene, tied_to)}
     for name, value in options.items():
         if name in SOFT:
-            named = [f"{group}.{name}" for group in _soft(scene)]
+            named = [_key(group, name) for group in _soft(scene)]
         else:
             named = [] if name == "step" else [f"option.{name}"]
         choices |= {key: Choice(key, as_written(name, value), because) for key in named}

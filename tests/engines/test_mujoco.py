@@ -105,7 +105,7 @@ WRONG: dict[str, tuple[str, Callable[[Scene], Scene]]] = {
     "friction": (
         "rolling_wheel.pushed",
         lambda s: replace(
-            s, contacts={n: replace(c, friction=1.05 * c.friction) for n, c in s.contacts.items()}
+            s, contacts={n: replace(c, kinetic=1.05 * c.kinetic) for n, c in s.contacts.items()}
         ),
     ),
     "gravity": (
