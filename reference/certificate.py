@@ -11,6 +11,7 @@ import numpy as np
 
 from cases.case import Case
 from cases.observe import observe
+from cases.quantity import table
 from cases.trajectory import Trajectory
 from reference.agreement import difference, reactions, relative, worst
 from reference.explicit import dormand_prince
@@ -71,9 +72,9 @@ def certify(
     if closed is not None:
         others["closed form"] = motion(system, times, closed, generated)
         checks.append(Check("closed form", difference(trajectory, others["closed form"]), own))
-    checks += _laws(system, generated, times, y)
+    checks += laws(system, generated, times, y, written=system is not generated)
     checks.append(Check("constraint drift", _drift(system, times, y), own))
-    checks.append(Check("share of the tolerances", _share(case, trajectory, others), SHARE))
+    checks.append(Check("share of the tolerances", share(case, trajectory, others), SHARE))
     return tuple(checks)
 
 
@@ -98,13 +99,14 @@ def closed_form(system: System, times: Array) -> Array | None:
     return np.array([np.concatenate(row) for row in rows if row is not None])
 
 
-def _laws(system: System, generated: Mechanism, times: Array, y: Array) -> Iterator[Check]:
+def laws(
+    system: System, generated: Mechanism, times: Array, y: Array, *, written: bool
+) -> Iterator[Check]:
     """The explicit accelerations against each formalism along the motion.
 
     Differences are relative to the largest term: of the accelerations and powers themselves, or of
     those that each force alone would give, since at rest the forces cancel but for rounding.
     """
-    written = system is not generated
     bound = len(system.f_a(0.0, y[0, : y.shape[1] // 2])) > 0
     sizes, powers, derived, balances, unbalanced, forces = [], [], [], [], [], []
     for t, q, v in instants(times, y):
@@ -131,8 +133,10 @@ def _laws(system: System, generated: Mechanism, times: Array, y: Array) -> Itera
 
 
 def _other_forces(cut_free: Mapping[str, float], written: Mapping[str, float]) -> float:
+    """Relative to the largest; friction that slides is an applied force, and no cut finds it."""
     size = worst(abs(force) for force in cut_free.values())
-    return worst(abs(cut_free[name] - force) for name, force in written.items()) / (size or 1.0)
+    shared = [name for name in written if name in cut_free]
+    return worst(abs(cut_free[name] - written[name]) for name in shared) / (size or 1.0)
 
 
 def _drift(system: System, times: Array, y: Array) -> float:
@@ -142,10 +146,13 @@ def _drift(system: System, times: Array, y: Array) -> float:
     return largest / (worst(np.abs(y[:, :n]).ravel()) or 1.0)
 
 
-def _share(case: Case, trajectory: Trajectory, others: dict[str, Trajectory]) -> float:
+def share(case: Case, trajectory: Trajectory, others: dict[str, Trajectory]) -> float:
     """The reference's own error against the smallest allow or reach of any quantity."""
     shares = []
+    known = table(case.scene)
     for name, allowed in case.allow.items():
+        if name not in known:
+            continue  # an event's: its times have a check of their own
         bars = [bars[name] for bars in case.reach.values() if name in bars]
         bars += [] if allowed is None else [allowed]
         own = observe(case.scene, trajectory, name)

@@ -1,4 +1,4 @@
-"""What contacts and slides with dry friction can do: open, slide either way, stick; and what ends it.
+"""What contacts and slides with dry friction can do: open, slide either way, stick.
 
 A mode of a scene names the state of each of them: `touch slides +, rail sticks`.
 """
@@ -13,7 +13,11 @@ from reference.coordinates import Coordinates
 from reference.friction import Dry, stiction
 
 State = Literal["open", "slides +", "slides -", "sticks"]
-REST: tuple[State, ...] = ("sticks", "slides +", "slides -")  # at slip 0, stiction first as in (2.89)
+REST: tuple[State, ...] = (
+    "sticks",
+    "slides +",
+    "slides -",
+)  # at slip 0, stiction first as in (2.89)
 
 
 def sign(state: State) -> int:
@@ -106,6 +110,11 @@ def exact(joint: Joint) -> bool:
 
 
 def switches(scene: Scene) -> bool:
-    """Whether the scene has more than one mode."""
+    """Whether its motion needs `follow`: more than one mode, or a smooth law that is stiff."""
     contacts = any(contact.switches for contact in scene.contacts.values())
-    return contacts or any(map(exact, scene.joints.values()))
+    return contacts or any(joint.dry_friction is not None for joint in scene.joints.values())
+
+
+def stiff(scene: Scene) -> bool:
+    """Whether a slide has the smooth law of friction."""
+    return any(joint.dry_friction and not exact(joint) for joint in scene.joints.values())

@@ -49,7 +49,9 @@ def impact(
 
     Raises NoImpact.
     """
-    choices = [("sticks", "slides +", "slides -", *(() if m.strikes else ("open",))) for m in meetings]
+    choices = [
+        ("sticks", "slides +", "slides -", *(() if m.strikes else ("open",))) for m in meetings
+    ]
     for states in itertools.product(*choices):
         found = _tried(M, joints, meetings, v, states)
         if found is not None:
@@ -67,9 +69,14 @@ def _tried(
     states: tuple[State, ...],
 ) -> Array | None:
     """q̇⁺ if the contacts do this, or None where that contradicts Coulomb's law."""
-    rows, columns, after, normals = [], [], [], []
+    rows: list[Array] = []
+    columns: list[Array] = []
+    after: list[float] = []
+    normals: list[int | None] = []  # where each contact's normal row stands
     for joint in joints:
-        rows.append(joint.f), columns.append(joint.f), after.append(joint.g)
+        rows.append(joint.f)
+        columns.append(joint.f)
+        after.append(joint.g)
     for meeting, state in zip(meetings, states, strict=True):
         if state == "open":
             normals.append(None)
@@ -80,10 +87,12 @@ def _tried(
         columns.append(meeting.normal.f + lean * meeting.tangent.f)
         after.append(meeting.after)
         if state == "sticks":
-            rows.append(meeting.tangent.f), columns.append(meeting.tangent.f), after.append(0.0)
+            rows.append(meeting.tangent.f)
+            columns.append(meeting.tangent.f)
+            after.append(0.0)
     f, by_mass = np.array(rows), np.array(columns) / M
     try:
-        impulse = np.linalg.solve(f @ by_mass.T, np.array(after) - f @ v)
+        impulse = np.asarray(np.linalg.solve(f @ by_mass.T, np.array(after) - f @ v), np.float64)
     except np.linalg.LinAlgError:
         return None
     v_after = v + impulse @ by_mass

@@ -61,11 +61,11 @@ class Mechanism(System):
 
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.60) M q̈ = Q + λ_b f_aᵇ with f_aᵇ q̈ᵃ = γᵇ, (n,)."""
-        return self._solve(t, q, v)[0]
+        return self.solve(t, q, v)[0]
 
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) R_a = λ_b f_aᵇ: the force of the first part on the second, by quantity."""
-        multipliers = self._solve(t, q, v)[1].tolist()
+        multipliers = self.solve(t, q, v)[1].tolist()
         at, numbers = 0, q.tolist()
         found: dict[str, float] = {}
         for contact in self.scene.contacts.values():
@@ -82,7 +82,8 @@ class Mechanism(System):
                 found.setdefault(f"{joint.name}.torque", 0.0)
         return found
 
-    def _solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
+    def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
+        """(2.60) q̈ (n,) and the multipliers (r,), those of `held` last."""
         numbers, rates = q.tolist(), v.tolist()
         Q = self._weight.copy()
         for force in self.scene.forces.values():
@@ -205,7 +206,7 @@ class Mechanism(System):
         for drag in self._drags:
             Q += drag.force(t, q, v) * row(drag.catch, t, q, v)[0]
         if self._rubs:
-            multipliers = self._solve(t, q, v)[1]
+            multipliers = self.solve(t, q, v)[1]
             for at, rub in self._rubs:
                 Q += rub.factor * multipliers[at] * row(rub.grip, t, q, v)[0]
         return Q

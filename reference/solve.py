@@ -3,7 +3,7 @@
 The motion is the hand-written system's where there is one, else the generated mechanism's.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,11 +14,18 @@ from cases.quantity import table
 from cases.trajectory import Array, Trajectory
 from reference.assembly import assemble
 from reference.certificate import Check, certify
+from reference.certificate_switching import certify_switching
+from reference.closure import Closure
+from reference.contact_modes import switches
+from reference.event import follow
 from reference.explicit import dormand_prince
 from reference.mechanism import Mechanism
 from reference.motion import TOLERANCE, Stuck, integrate, motion
 from reference.obstacle import refused
-from reference.systems import SYSTEMS
+from reference.switched import Motion, completed
+from reference.switching_mechanism import SwitchingMechanism
+from reference.switching_refusal import SWITCHING_FAILURES, switching_refused
+from reference.systems import SWITCHING, SYSTEMS
 
 STILL = 1e-9  # of a quantity's size: smaller changes are no motion
 ROUNDING = 1e-12  # of the normal force: a wheel that needs no friction rolls without any
@@ -42,6 +49,8 @@ def solve(case: Case) -> Solution:
 
     Raises CaseError where the case cannot be started or its idealisation does not hold.
     """
+    if switches(case.scene):
+        return _followed(case)
     generated = Mechanism(case.scene, assemble(case))
     system = SYSTEMS[case.system](**case.parameters) if case.system else generated
     try:
@@ -55,12 +64,41 @@ def solve(case: Case) -> Solution:
     return Solution(trajectory, case.system or "generated", checks)
 
 
+def _followed(case: Case) -> Solution:
+    """The motion of a scene that switches, from event to event."""
+    try:
+        generated = SwitchingMechanism(case.scene, assemble(case), Closure(case).size)
+        system = SWITCHING[case.system](**case.parameters) if case.system else generated
+        built = follow(generated, case.times)
+        followed = built if system is generated else follow(system, case.times)
+        trajectory = _with_record(case, Motion(system, followed), Motion(generated, built))
+        _possible(case, trajectory)
+        _moving(case, trajectory)
+        checks = certify_switching(
+            case, Motion(system, followed), Motion(generated, built), trajectory
+        )
+    except SWITCHING_FAILURES as failure:
+        raise switching_refused(case, failure) from failure
+    return Solution(trajectory, case.system or "generated", checks)
+
+
+def _with_record(case: Case, written: Motion, generated: Motion) -> Trajectory:
+    """The motion and its record, with the reactions that only the generated modes know."""
+    at_samples, recorded = written.trajectory(case.times), written.record(case.times)
+    if written.system is not generated.system:
+        at_samples = completed(at_samples, generated.trajectory(case.times))
+        recorded = completed(recorded, generated.record(case.times))
+    return replace(at_samples, record=recorded)
+
+
 def _possible(case: Case, trajectory: Trajectory) -> None:
     """Rolling is assumed: |λ_t| ≤ μ λ_n and λ_n > 0 at every sample, or the case is refused.
 
     Raises CaseError naming the first time at which it fails, and the μ that would be enough.
     """
     for contact in case.scene.contacts.values():
+        if contact.switches:
+            continue
         normal = trajectory.reactions[f"{contact.name}.normal"]
         tangent = np.abs(trajectory.reactions[f"{contact.name}.tangent"])
         fails = (normal <= 0) | (tangent > (contact.friction + ROUNDING) * normal)
@@ -86,8 +124,9 @@ def _moving(case: Case, trajectory: Trajectory) -> None:
     if case.rests:
         return
     mistakes = []
-    for name in case.allow:
-        kind = table(case.scene)[name].kind
+    known = table(case.scene)
+    for name in (name for name in case.allow if name in known):  # the rest are of events
+        kind = known[name].kind
         samples = observe(case.scene, trajectory, name)
         if kind in ("coordinate", "velocity") and np.ptp(samples) <= STILL * np.max(
             np.abs(samples)

@@ -11,10 +11,11 @@ import numpy as np
 
 from cases.scene import Scene
 from reference.contact import row
-from reference.contact_modes import REST, Element, State, Touching, elements, sign, sliding
+from reference.contact_modes import REST, Element, State, Touching, elements, sign, sliding, stiff
 from reference.impact import Meeting, NoImpact, Row, impact
 from reference.mechanism import Mechanism, SingularPose
 from reference.mode import Guard, Switching
+from reference.smooth_mechanism import SmoothMechanism
 from reference.system import Array
 
 CLOSED = 1e-9  # of the scene's size: a start this close to the floor stands on it
@@ -45,7 +46,11 @@ class SwitchingMechanism(Switching):
         self.scene, self.size = scene, size
         self.base = Mechanism(scene, start)
         self.elements: tuple[Element, ...] = tuple(elements(scene, self.base.where))
-        self.modes = _Modes(self, start)
+        self.built = _Modes(self, start)
+        self.modes = self.built
+        self.smooth = self.implicit = stiff(scene)
+        if self.smooth and self.elements:
+            raise BadStart(f"{self.elements[0].name} switches: no smooth law can stand beside it")
         self._M = np.array(self.base.where.masses)
         self._known: tuple[str, float, bytes, bytes] | None = None
         self._forces: dict[str, float] = {}
@@ -87,7 +92,7 @@ class SwitchingMechanism(Switching):
 
     def states(self, mode: str) -> tuple[State, ...]:
         """What each element does in a mode."""
-        return self.modes.states[mode]
+        return self.built.states[mode]
 
     # What ends a mode.
 
@@ -221,13 +226,13 @@ class SwitchingMechanism(Switching):
             for e, one, two in zip(self.elements, found[0], other, strict=True):
                 if (one == "open") != (two == "open") and not self._grazes(e, found[0], t, q, v):
                     raise self._painleve(e.name, "both staying on and leaving the floor", t)
-        return self.modes.name(found[0]), *self._projected(found[0], t, q, v)
+        return self.built.name(found[0]), *self._projected(found[0], t, q, v)
 
     def _agrees(
         self, states: tuple[State, ...], choices: Sequence[Choice], t: float, q: Array, v: Array
     ) -> bool:
         """Whether the forces are within the laws, and what may move moves the way it should."""
-        mode, small = self.modes.name(states), self._small(t, q, v)
+        mode, small = self.built.name(states), self._small(t, q, v)
         try:
             forces = self.forces(mode, t, q, v)
         except SingularPose as error:
@@ -242,14 +247,14 @@ class SwitchingMechanism(Switching):
                     return False
             if state == "sticks" and min(e.margins(forces)) < 0.0:
                 return False
-            if "sticks" in choice and (s := sign(state)):
-                if s * self._change(e.grip, mode, t, q, v) < -small:
-                    return False
+            s = sign(state) if "sticks" in choice else 0
+            if s and s * self._change(e.grip, mode, t, q, v) < -small:
+                return False
         return True
 
     def _grazes(self, e: Element, states: tuple[State, ...], t: float, q: Array, v: Array) -> bool:
         """Whether the floor neither pushes nor is left: both answers are the same motion."""
-        forces = self.forces(self.modes.name(states), t, q, v)
+        forces = self.forces(self.built.name(states), t, q, v)
         return abs(forces[f"{e.name}.normal"]) <= self._small(t, q, v) * float(np.max(self._M))
 
     def _change(self, part: object, mode: str, t: float, q: Array, v: Array) -> float:
@@ -264,8 +269,9 @@ class SwitchingMechanism(Switching):
         self, states: tuple[State, ...], t: float, q: Array, v: Array
     ) -> tuple[Array, Array]:
         """The nearest q (in M) on the floor and v that meets the rows: what sticks is at rest."""
-        mode = self.modes[self.modes.name(states)]
-        closed = [e.press for e, s in zip(self.elements, states, strict=True) if _is_closed(e, s)]
+        mode = self.modes[self.built.name(states)]
+        pairs = zip(self.elements, states, strict=True)
+        closed = [e.press for e, s in pairs if isinstance(e, Touching) and s != "open"]
         if closed:
             gaps = np.concatenate([self.base.f(t, q), [p.f(t, q.tolist())[0] for p in closed]])
             f = np.vstack([self.base.f_a(t, q), *(row(p, t, q, v)[0] for p in closed)])
@@ -328,6 +334,9 @@ class _Modes(Mapping[str, Mechanism]):
 
     def __getitem__(self, name: str) -> Mechanism:
         if name not in self.built:
+            if self.owner.smooth:
+                self.built[name] = SmoothMechanism(self.owner.scene, self.start)
+                return self.built[name]
             pairs = list(zip(self.owner.elements, self.states[name], strict=True))
             self.built[name] = Mechanism(
                 self.owner.scene,
@@ -351,10 +360,6 @@ def frictionless(element: Element) -> bool:
         return element.contact.static == 0.0
     static = element.friction.static
     return static.forward == static.backward == 0.0
-
-
-def _is_closed(element: Element, state: State) -> bool:
-    return isinstance(element, Touching) and state != "open"
 
 
 def _rate(part: object, t: float, q: Array, v: Array) -> float:

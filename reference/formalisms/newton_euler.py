@@ -28,7 +28,7 @@ def balance(
     loads = [abs(x) for load in system.loads(t, q, v) for x in (*load.force, load.moment)]
     terms = max([abs(change).max(), abs(reacting * unknown).max(initial=0.0), *loads])
     unbalanced = change - applied - reacting @ unknown
-    return float(abs(unbalanced).max() / terms), named(system, t, q, unknown)
+    return float(abs(unbalanced).max() / (terms or 1.0)), named(system, t, q, unknown)
 
 
 def accelerations(system: System, t: float, q: Array, v: Array) -> tuple[Array, dict[str, float]]:
