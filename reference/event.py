@@ -84,22 +84,25 @@ class _Walk:
     y: list[Array] = field(default_factory=list)
     modes: list[str] = field(default_factory=list)
     changes: list[Event] = field(default_factory=list)
+    spent: int | None = None  # the guard that has just fired, if its mode goes on
     fired: defaultdict[str, list[float]] = field(default_factory=lambda: defaultdict(list))
 
     def __post_init__(self) -> None:
         self.mode, q, v = self.switching.start()
         self.t, self.now = float(self.times[0]), np.concatenate([q, v]).astype(np.float64)
+        # An event on the last sample may be found just behind it.
+        self.stops = np.append(self.times, self.times[-1] + TOGETHER)
         self._keep(self.t)
 
     def lasts(self) -> bool:
-        """Whether there are samples left."""
-        return len(self.y) < len(self.times)
+        """Whether the end is still ahead."""
+        return self.t < self.stops[-1]
 
     def through_one_mode(self) -> None:
         """Steps until a guard of the mode falls or the samples end."""
         f = slope(self.switching.modes[self.mode])
         guards = self.switching.guards(self.mode)
-        probe = self._method(f)
+        probe, begins = self._method(f), True
         for step in march(self._method(f), self._stops(), self.now):
 
             def state(h: float, step: Step = step) -> Array:
@@ -107,10 +110,12 @@ class _Walk:
                     return step.y_next if h else step.y
                 return step.y + probe.attempt(step.t, step.y, h, np.abs(step.y))
 
-            found = first(guards, step.t, step.t_next - step.t, state)
+            spent = self.spent if begins else None
+            found = first(guards, step.t, step.t_next - step.t, state, begins=begins, spent=spent)
             if found is not None:
-                self._switch(found[0], step.t + found[1], state(found[1]))
+                self._switch(guards, found[0], step.t + found[1], state(found[1]))
                 return
+            begins = False
             self.t, self.now = step.t_next, step.y_next
             self._keep(self.t)
 
@@ -121,7 +126,7 @@ class _Walk:
 
     def _stops(self) -> Array:
         """Now and the samples to come, and times between them where steps must not be longer."""
-        stops = np.append(self.t, self.times[self.times > self.t])
+        stops = np.append(self.t, self.stops[self.stops > self.t])
         if self.switching.longest is None:
             return stops
         pieces = np.ceil(np.diff(stops) / self.switching.longest).astype(int)
@@ -131,16 +136,18 @@ class _Walk:
 
     def _keep(self, t: float) -> None:
         """A sample, if there is one at t."""
-        if self.lasts() and self.times[len(self.y)] <= t:
+        if len(self.y) < len(self.times) and self.times[len(self.y)] <= t:
             self.y.append(self.now)
             self.modes.append(self.mode)
 
-    def _switch(self, guard: Guard, t: float, before: Array) -> None:
+    def _switch(self, guards: Sequence[Guard], i: int, t: float, before: Array) -> None:
+        guard = guards[i]
         mode, q, v = guard.then(t, *np.split(before, 2))
+        self.spent = i if mode == self.mode else None
         after = np.concatenate([q, v])
-        k = 1 + sum(change.name == guard.event for change in self.changes)
+        self._refuse_zeno(name := guard.event or f"{self.mode} to {mode}", t)
+        k = len(self.fired[name])
         self.changes.append(Event(guard.event, k, t, self.mode, mode, before, after))
-        self._refuse_zeno(guard.event or f"{self.mode} to {mode}", t)
         self.t, self.mode, self.now = t, mode, after
         if t - self.times[len(self.y) - 1] <= TOGETHER:
             self.y[-1], self.modes[-1] = after, mode
@@ -182,55 +189,87 @@ def slope(system: System) -> Slope:
 
 
 def first(
-    guards: Sequence[Guard], t: float, h: float, state: Callable[[float], Array]
-) -> tuple[Guard, float] | None:
-    """The guard that falls first in a step of length h, and how far into it."""
+    guards: Sequence[Guard],
+    t: float,
+    h: float,
+    state: Callable[[float], Array],
+    *,
+    begins: bool,
+    spent: int | None,
+) -> tuple[int, float] | None:
+    """Which guard falls first in a step of length h, and how far into it.
+
+    begins: the mode does, with this step. spent: the guard that ended it just before.
+    """
     points = [0.0, *(part * h for part in INSIDE), h]
     states = [state(at) for at in points] if guards else []
     found = None
-    for guard in guards:
+    for i, guard in enumerate(guards):
 
         def g(at: float, y: Array | None = None, guard: Guard = guard) -> float:
             return guard.g(t + at, *np.split(state(at) if y is None else y, 2))
 
         values = [g(at, y) for at, y in zip(points, states, strict=True)]
-        at = crossing(g, points, values)
+        at = crossing(g, points, values, begins=begins, spent=i == spent)
         if at is not None and (found is None or at < found[1] - TOGETHER):
-            found = guard, at
+            found = i, at
     return found
 
 
-def crossing(g: Callable[[float], float], points: list[float], values: list[float]) -> float | None:
+def crossing(
+    g: Callable[[float], float],
+    points: list[float],
+    values: list[float],
+    *,
+    begins: bool,
+    spent: bool,
+) -> float | None:
     """The first zero that g falls through, of a function known at some points."""
-    if values[0] <= 0.0:
-        rise = next((i for i, value in enumerate(values) if value > 0.0), None)
-        if rise is None:
-            return _risen(g, points[-1]) if values[-1] < min(values[0], 0.0) else None
-        points, values = points[rise:], values[rise:]
-    fall = next((i for i, value in enumerate(values) if value <= 0.0), None)
+    rise = next((i for i, value in enumerate(values) if value > 0.0), None)
+    if rise is None:
+        if begins and values[-1] < values[0]:
+            return _begun(g, points[-1], spent)
+        top = _near(g, points, values, -1.0)
+        return None if top is None else _root(g, *top)
+    fall = next((i for i in range(rise, len(values)) if values[i] <= 0.0), None)
     if fall is not None:
         return _root(g, points[fall - 1], points[fall])
-    return _dip(g, points, values)
+    bottom = _near(g, points[rise:], values[rise:], 1.0)
+    return None if bottom is None else _root(g, *bottom)
 
 
-def _risen(g: Callable[[float], float], h: float) -> float:
-    """The zero after a rise too short for the points to see; the very beginning without one."""
+def _begun(g: Callable[[float], float], h: float, spent: bool) -> float | None:
+    """The zero after a rise too short for the points to see; without one, the very beginning."""
     for k in range(1, HALVINGS):
         if g(h / 2**k) > 0.0:
             return _root(g, h / 2**k, h / 2 ** (k - 1))
-    return 0.0
+    return None if spent else 0.0
 
 
-def _dip(g: Callable[[float], float], points: list[float], values: list[float]) -> float | None:
-    """The first zero of a dip between the points, if the values come near enough to zero."""
-    low = int(np.argmin(values))
-    if len(points) < 2 or values[low] > max(values) - values[low]:
+def _near(
+    g: Callable[[float], float], points: list[float], values: list[float], sign: float
+) -> tuple[float, float] | None:
+    """A dip below zero (sign 1) or a hump above it (−1) between the points: a bracket of its fall.
+
+    It is looked for where the values come as near to zero as they differ from each other.
+    """
+    sizes = [sign * value for value in values]
+    low = int(np.argmin(sizes))
+    if len(points) < 2 or sizes[low] > max(sizes) - sizes[low]:
         return None
     left, right = points[max(low - 1, 0)], points[min(low + 1, len(points) - 1)]
-    bottom = minimize_scalar(g, bounds=(left, right), method="bounded", options={"xatol": TOGETHER})
-    return _root(g, left, float(bottom.x)) if bottom.fun <= 0.0 else None
+    turn = minimize_scalar(
+        lambda at: sign * g(at), bounds=(left, right), method="bounded", options={"xatol": TOGETHER}
+    )
+    if sign > 0.0:
+        return (left, float(turn.x)) if turn.fun <= 0.0 else None
+    return (float(turn.x), right) if turn.fun < 0.0 else None
 
 
 def _root(g: Callable[[float], float], left: float, right: float) -> float:
-    """The zero between a positive value and one that is not."""
-    return float(brentq(g, left, right, xtol=ROOT, rtol=4 * np.finfo(float).eps))
+    """Just beyond the zero between a positive value and one that is not: g has fallen there."""
+    root = float(brentq(g, left, right, xtol=ROOT, rtol=4 * np.finfo(float).eps))
+    beyond = ROOT
+    while root < right and g(root) > 0.0:
+        root, beyond = min(root + beyond, right), 2 * beyond
+    return root

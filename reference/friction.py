@@ -32,7 +32,7 @@ class Dry:
     Fs_plus: float
 
     def __post_init__(self) -> None:
-        if not min(astuple(self)) >= 0.0:
+        if not all(force >= 0.0 for force in astuple(self)):
             raise ValueError(f"friction must not be negative: {self}")
         if self.F_minus > self.Fs_minus or self.F_plus > self.Fs_plus:
             raise ValueError(f"kinetic friction must not be above static friction: {self}")

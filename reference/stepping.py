@@ -39,7 +39,11 @@ def stepped(
 
 
 def arrest(series: Array, h: float) -> list[tuple[str, float]]:
-    """`slips` and `stops` with their times [s]: where v leaves zero and where it comes back."""
+    """`slips` and `stops` with their times [s]: where v leaves zero and where it comes back.
+
+    v = 0 at one single step is a turning point.
+    """
     moving = series[:, 1] != 0.0
+    moving[1:-1] |= moving[:-2] & moving[2:]
     turns = np.flatnonzero(moving[1:] != moving[:-1])
     return [("stops" if moving[k] else "slips", math.fsum((k, moving[k])) * h) for k in turns]
