@@ -6,7 +6,7 @@ the book's letters in `reference/`, here, and as a table of typed values in test
 
 import math
 
-from cases.scene import Damper, Signal, Spring
+from cases.scene import Damper, DryFriction, Signal, Smooth, Spring
 
 
 def value(signal: Signal, t: float) -> tuple[float, ...]:
@@ -23,3 +23,41 @@ def tension(force: Spring | Damper, length: float, rate: float) -> float:
     if isinstance(force, Spring):
         return force.stiffness * (length - force.rest_length)
     return force.damping * rate
+
+
+def dry_friction(friction: DryFriction, speed: float, applied: float) -> float:
+    """(2.89) On the second part, positive forward [N]; `applied` is all else along the slide.
+
+    At rest it holds up to the static bound, the bound included; beyond, it brakes as it will once
+    the part moves.
+    """
+    kinetic, static = friction.kinetic, friction.static
+    if speed > 0:
+        return -kinetic.forward
+    if speed < 0:
+        return kinetic.backward
+    if applied > static.forward:
+        return -kinetic.forward
+    if applied < -static.backward:
+        return kinetic.backward
+    return -applied
+
+
+def smooth_friction(
+    friction: DryFriction, speed: float, applied: float, *, smooth: Smooth
+) -> float:
+    """(2.95) The same with every switch blown up to tanh [N]; inside the band nothing rests."""
+    a = smooth.sharpness
+    kinetic, static = friction.kinetic, friction.static
+
+    def inside(low: float, high: float, x: float) -> float:
+        return (math.tanh(a * (x - low)) + math.tanh(a * (high - x))) / 2
+
+    def above(low: float, x: float) -> float:
+        return (1 + math.tanh(a * (x - low))) / 2
+
+    band = inside(-smooth.band, smooth.band, speed)
+    holding = band * inside(-static.backward, static.forward, applied)
+    forward = above(smooth.band, speed) + band * above(static.forward, applied)
+    backward = above(smooth.band, -speed) + band * above(static.backward, -applied)
+    return kinetic.backward * backward - kinetic.forward * forward - applied * holding

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import pymunk
@@ -12,6 +12,8 @@ from cases.trajectory import Array, Trajectory
 from engines.engine import Choice, Realised, State
 from engines.pymunk import settings
 from engines.pymunk.measure import measured
+from engines.pymunk.record import Record
+from engines.pymunk.rub import ruled
 from engines.pymunk.run import placed, simulate, stepper
 from engines.pymunk.scene import build, oblique
 from engines.pymunk.script import text
@@ -36,9 +38,12 @@ class Pymunk:
         return None if self.setting == "tuned" else self.options.get("step", settings.SHIPPED_STEP)
 
     def realisations(self, scene: Scene) -> tuple[Realised, ...]:
-        """Dampers also by their law: pymunk applies its own after the kick, a first order."""
-        law = self.setting == "tuned" and any(scene.dampers())
-        return ("native", "law") if law else ("native",)
+        """Dampers also by their law: pymunk applies its own after the kick, a first order.
+
+        Dry friction too: pymunk's has one bound, where the textbook's has up to four.
+        """
+        law = any(scene.dampers()) or ruled(scene)
+        return ("native", "law") if law and self.setting == "tuned" else ("native",)
 
     def refuses(self, scene: Scene) -> str | None:
         """What would abort the process, or what pymunk has no joint or no shape for."""
@@ -54,15 +59,12 @@ class Pymunk:
             first = joint.a.body
             if joint.kind != "pin" and first != GROUND and not scene.bodies[first].turns:
                 return f"adapter: {joint.name} starts at a particle, which has no axes"
-        for contact in scene.contacts.values():
-            if scene.bodies[contact.body].radius is None:
-                return f"adapter: only a disk can touch the floor, {contact.body} is none"
         return None
 
     def withholds(self, scene: Scene, quantity: str) -> str | None:
         """A constraint's impulse has no direction."""
         part, _, what = quantity.rpartition(".")
-        if part in scene.joints and what in ("fx", "fy", "torque"):
+        if part in scene.joints and what in ("fx", "fy", "torque", "friction"):
             return "engine: pymunk reports a joint's impulse as a magnitude only"
         return None
 
@@ -113,19 +115,18 @@ class Pymunk:
         tied_to: float,
         realised: Realised,
         reactions: tuple[str, ...],
+        record: bool = False,
     ) -> Trajectory:
         """The motion, by `space.step(h)` between samples."""
         numbers = self._numbers(scene, tied_to)
         world = placed(scene, start, step, numbers, realised)
         readable = tuple(name for name in reactions if not self.withholds(scene, name))
-        return simulate(
-            world,
-            stepper(world, step, numbers, realised),
-            times,
-            step,
-            reactions=readable,
-            midpoint=bool(numbers.get("time.midpoint")),
-        )
+        midpoint = bool(numbers.get("time.midpoint"))
+        steps = stepper(world, step, numbers, realised)
+        kept = Record(world, steps, step, midpoint) if record else None
+        run = kept.run if kept else steps
+        motion = simulate(world, run, times, step, reactions=readable, midpoint=midpoint)
+        return replace(motion, record=kept.trajectory()) if kept else motion
 
     def prepare(
         self, scene: Scene, start: State, step: float, *, realised: Realised

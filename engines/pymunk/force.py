@@ -10,14 +10,16 @@ from collections.abc import Callable
 
 from cases.scene import GROUND, Anchor, Damper, Push, Torque, Vector
 from engines.law import tension, value
+from engines.pymunk.rub import rubs
 from engines.pymunk.scene import World
+from engines.pymunk.touch import follower
 
 Apply = Callable[[float], None]  # at time t [s]
 Point = tuple[Vector, float, float, float, float]  # lever from the centre; x, y, vx, vy
 
 
-def forces(world: World, step: float, *, midpoint: bool, dampers: bool) -> list[Apply]:
-    """What has to be called before each step; dampers: whether their law is ours."""
+def forces(world: World, step: float, *, midpoint: bool, law: bool) -> list[Apply]:
+    """What has to be called before each step; law: whether dampers and friction are ours."""
     drift = step if midpoint else 0.0
     applied: list[Apply] = []
     for force in world.scene.signals():
@@ -25,9 +27,17 @@ def forces(world: World, step: float, *, midpoint: bool, dampers: bool) -> list[
             applied.append(_torque(world, force, drift / 2))
         else:
             applied.append(_push(world, force, drift))
-    if dampers:
+    if law:
         applied += [_damper(world, force, step) for force in world.scene.dampers()]
-    return applied
+        applied += rubs(world, step)
+    return applied + _followers(world, step)
+
+
+def _followers(world: World, step: float) -> list[Apply]:
+    scene = world.scene
+    contacts = scene.contacts.values()
+    found = [follower(c, scene.bodies[c.body], world.wheels[c.name], step) for c in contacts]
+    return [follow for follow in found if follow]
 
 
 def _torque(world: World, force: Torque, ahead: float) -> Apply:

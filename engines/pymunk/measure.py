@@ -17,6 +17,12 @@ def measured(world: World) -> dict[str, float]:
             found[f"{name}.inertia"] = body.moment
     for name, wheel in world.wheels.items():
         found[f"{name}.friction"] = wheel.friction * _floor(world).friction
+    for name, brake in world.brakes.items():
+        friction = world.scene.joints[name].dry_friction
+        assert friction is not None
+        if friction.kinetic.forward == friction.kinetic.backward:  # the engine holds one number
+            found[f"{name}.friction_forward"] = brake.max_force
+            found[f"{name}.friction_backward"] = brake.max_force
     for name, line in world.lines.items():
         if isinstance(world.scene.forces[name], Spring):
             found[f"{name}.stiffness"] = line.stiffness

@@ -20,6 +20,7 @@ from cases.trajectory import Array, Trajectory
 from engines.engine import Diverged, Realised, State
 from engines.pymunk.force import forces
 from engines.pymunk.scene import FAR, World, build
+from engines.pymunk.touch import closed, sink
 
 Steps = Callable[[int], None]
 
@@ -29,8 +30,8 @@ def placed(
 ) -> World:
     """The world where a setting starts it: wheels seeded, bodies half a step back."""
     world = build(scene, start, numbers, realised)
-    for contact in world.wheels:
-        world.wheel(contact).position -= (0.0, numbers.get("start.seed", 0.0))
+    for contact in closed(scene, start):
+        sink(scene.bodies[contact.body], world.wheels[contact.name], numbers.get("start.seed", 0.0))
     if numbers.get("time.midpoint"):
         for body in (*world.bodies.values(), *world.driven.values()):
             body.position -= step / 2 * body.velocity
@@ -42,7 +43,7 @@ def stepper(world: World, step: float, numbers: Mapping[str, Any], realised: Rea
     """A function that runs n steps, with the forces pymunk has to be told before each."""
     one = world.space.step
     applied = forces(
-        world, step, midpoint=bool(numbers.get("time.midpoint")), dampers=realised == "law"
+        world, step, midpoint=bool(numbers.get("time.midpoint")), law=realised == "law"
     )
     done = 0
 

@@ -11,25 +11,24 @@ from typing import Any
 
 from pymunk.body import Body
 from pymunk.constraints import Constraint, DampedSpring, GearJoint, GrooveJoint, PivotJoint
-from pymunk.shape_filter import ShapeFilter
 from pymunk.shapes import Circle, Segment
 from pymunk.space import Space
 
-from cases.scene import GROUND, Anchor, Joint, Scene, Spring, Vector
+from cases.scene import GROUND, Anchor, DryFriction, Joint, Scene, Spring, Vector
 from engines.engine import Realised, State
+from engines.pymunk import touch
 
 # Half the length [m] of the floor and of a slide's groove, which pymunk wants finite: farther
 # than a case travels, and short enough that rounding (100 m × 1e-16) stays below every reach.
 FAR = 100.0
-FLOOR_FRICTION = 1.0  # pymunk multiplies the frictions of two shapes: the wheel carries all of µ
-_WHEELS = ShapeFilter(group=1)  # wheels touch the floor and not each other
 
 
 @dataclass(frozen=True)
 class World:
     """The space and its parts by their names in the scene.
 
-    A joint's first constraint carries its force. driven: the driven points' bodies.
+    A joint's first constraint carries its force. driven: the driven points' bodies. brakes: the
+    friction joints of slides.
     """
 
     scene: Scene
@@ -37,6 +36,7 @@ class World:
     bodies: dict[str, Body] = field(default_factory=dict)
     driven: dict[str, Body] = field(default_factory=dict)
     joints: dict[str, tuple[Constraint, ...]] = field(default_factory=dict)
+    brakes: dict[str, GrooveJoint] = field(default_factory=dict)
     lines: dict[str, DampedSpring] = field(default_factory=dict)
     wheels: dict[str, Circle] = field(default_factory=dict)
 
@@ -97,14 +97,12 @@ def _contacts(world: World) -> None:
     if not world.scene.contacts:
         return
     floor = Segment(world.space.static_body, (-FAR, 0.0), (FAR, 0.0), 0.0)
-    floor.friction = FLOOR_FRICTION
+    floor.friction, floor.elasticity = touch.FLOOR_FRICTION, touch.FLOOR_ELASTICITY
     world.space.add(floor)
     for contact in world.scene.contacts.values():
-        wheel = Circle(world.bodies[contact.body], world.scene.bodies[contact.body].radius or 0.0)
-        wheel.friction = contact.friction
-        wheel.filter = _WHEELS
-        world.wheels[contact.name] = wheel
-        world.space.add(wheel)
+        part, body = world.scene.bodies[contact.body], world.bodies[contact.body]
+        world.wheels[contact.name] = touch.circle(contact, part, body)
+        world.space.add(world.wheels[contact.name])
 
 
 def _joints(world: World, start: State) -> None:
@@ -119,6 +117,28 @@ def _joints(world: World, start: State) -> None:
             parts.append(GearJoint(a, b, phase(joint, start), 1.0))
         world.joints[joint.name] = tuple(parts)
         world.space.add(*parts)
+        if joint.dry_friction:
+            world.brakes[joint.name] = _brake(world, joint, joint.dry_friction)
+            world.space.add(world.brakes[joint.name])
+
+
+def _brake(world: World, joint: Joint, friction: DryFriction) -> GrooveJoint:
+    """A friction joint: it stops the shift along the slide with no more than its force, and
+    corrects no position.
+
+    A groove across the slide, because a pivot would take part of the load that the slide holds;
+    through both centres, where pymunk solves it alone (see `groove`). What that shifts the force
+    sideways is a couple, which the slide takes.
+    """
+    (x, y), (ux, uy) = world.local(joint.a), joint.along
+    if turns(world.scene, joint.a):
+        x, y = 0.0, 0.0
+    ends = (x + FAR * uy, y - FAR * ux), (x - FAR * uy, y + FAR * ux)
+    brake = GrooveJoint(world.body(joint.a), world.body(joint.b), *ends, (0.0, 0.0))
+    brake.max_bias = 0.0
+    # the engine knows one force for both directions, and for rest and motion
+    brake.max_force = (friction.kinetic.forward + friction.kinetic.backward) / 2
+    return brake
 
 
 def _lines(world: World, realised: Realised) -> None:
