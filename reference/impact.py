@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reference.contact_modes import State, Touching, sign
+from reference.contact_modes import REST, State, Touching, sign
 from reference.system import Array
 
 CONE = 1e-12  # of the impulse: an impulse that needs all of the cone sticks
@@ -49,16 +49,18 @@ def impact(
 
     Raises NoImpact.
     """
-    choices = [
-        ("sticks", "slides +", "slides -", *(() if m.strikes else ("open",))) for m in meetings
-    ]
-    for states in itertools.product(*choices):
+    for states in itertools.product(*_choices(meetings)):
         found = _tried(M, joints, meetings, v, states)
         if found is not None:
             if M @ found**2 > (1 + GAIN) * (M @ v**2) and not any(row.g for row in joints):
                 raise NoImpact("the impact would create energy")
             return found, states
     raise NoImpact("no impulse satisfies the friction law")
+
+
+def _choices(meetings: Sequence[Meeting]) -> Sequence[tuple[State, ...]]:
+    """Sticking first; what only rests on the floor may also leave it."""
+    return [REST if m.strikes else (*REST, "open") for m in meetings]
 
 
 def _tried(

@@ -36,8 +36,10 @@ class Motion:
         """Every event twice, as the end of a phase and as the start of the next, and between.
 
         `follow` keeps samples and events only; what lies between is integrated once more, without
-        the search for events.
+        the search for events. A stiff motion without any has nothing between to show.
         """
+        if self.system.implicit and not self.followed.changes:
+            return replace(self.trajectory(times), phase=np.zeros(len(times), dtype=np.int64))
         rows = [row for phase in self._phases(times) for row in phase]
         numbers = [k for k, phase in enumerate(self._phases(times)) for _ in phase]
         return replace(_bodies(self.system, rows), phase=np.array(numbers, dtype=np.int64))

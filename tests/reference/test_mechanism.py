@@ -147,7 +147,7 @@ def without_coriolis(fill: Callable[..., None]) -> Callable[..., None]:
 
     def wrong(self: Any, t: Any, q: Any, v: Any, rows: Any, g: Any, gamma: Any, at: int) -> None:
         fill(self, t, q, v, rows, g, gamma, at)
-        a, b, u, _ = self._ends(t, q, v)
+        a, b, u, _ = self.ends(t, q, v)
         if a.phi is not None:
             gamma[at] -= 2 * a.omega * np.dot(u, np.subtract(b.r_dot, a.r_dot))
 
