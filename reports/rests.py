@@ -16,7 +16,7 @@ LOW, HIGH = 0.02, 0.04  # of the largest value
 WINDOW = 0.06  # of the largest value in the phase: the curve is laid through 2 % to 6 % of it
 STEPS = 6  # at least, in the curve; and the shortest rest: a shorter one is a passage
 DEGREE = 3
-CORNER = 0.5  # of the last value left after one step: no curve, it stopped in that step
+PLAUSIBLE = 4  # times the way to half of the last value: where the zero can be
 TOUCHES = 0.5  # imaginary over real part: a curve that noise keeps just off zero
 
 
@@ -80,18 +80,30 @@ def _zero(times: Array, u: Array, inner: int, edge: int) -> float:
     high = np.flatnonzero(np.abs(u[rows]) > WINDOW * np.max(np.abs(u[rows])))
     rows = rows[: max(STEPS, int(high[0]))]
     h = float(times[edge + away] - times[edge])  # negative where u starts
-    zero = _first_zero((times[rows] - times[edge]) / h, u[rows] / u[edge])
-    left = float(u[edge + away] / u[edge])
-    if left < CORNER and not 0 <= zero <= 1:
-        zero = 1 / (1 - min(left, 0.0))
-    return float(times[edge]) + h * zero
+    steps, values = (times[rows] - times[edge]) / h, u[rows] / u[edge]
+    half = _half(u[edge + away :: away] / u[edge])
+    for degree in (DEGREE, 1):
+        zero = _first_zero(steps, values, degree)
+        if half is None or half <= zero <= PLAUSIBLE * half:
+            return float(times[edge]) + h * zero
+    return float(times[edge]) + h * 2 * half  # a corner, or steps too uneven for any curve
 
 
-def _first_zero(steps: Array, u: Array) -> float:
+def _half(beyond: Array) -> float | None:
+    """After how many steps the values, from 1 on, are half of that; None if they never are."""
+    below = np.flatnonzero(beyond <= 0.5)
+    if not len(below):
+        return None
+    i = int(below[0])
+    before = float(beyond[i - 1]) if i else 1.0
+    return i + (before - 0.5) / (before - float(beyond[i]))
+
+
+def _first_zero(steps: Array, u: Array, degree: int) -> float:
     """The first zero beyond step 0 of the curve through u; inf if there is none."""
     if len(steps) == 1:
         return np.inf
     span = float(np.max(np.abs(steps)))
-    roots = np.roots(np.polyfit(steps / span, u, min(DEGREE, len(steps) - 1)))
+    roots = np.roots(np.polyfit(steps / span, u, min(degree, len(steps) - 1)))
     touches = np.abs(np.imag(roots)) <= np.real(roots) * TOUCHES
     return float(np.min(np.real(roots[touches]), initial=np.inf)) * span

@@ -97,6 +97,14 @@ def test_a_corner_of_one_step_is_known_to_that_step() -> None:
     assert stop == pytest.approx(0.5, abs=H)
 
 
+def test_steps_that_grip_now_and_then_stop_nearly_there() -> None:
+    """A shipped contact that hops: friction acts on every third step only, three times as much."""
+    t = grid(1.0)
+    ((stop, start),) = rests(t, braking(np.floor(t / (3 * H)) * 3 * H))
+    assert stop == pytest.approx(0.61803, abs=3 * H)
+    assert start is None
+
+
 def test_what_only_passes_through_zero_does_not_rest() -> None:
     t = grid(2.0)
     assert rests(t, 1.0 - t) == []
