@@ -1,0 +1,168 @@
+"""The modes of random scenes against the formalisms, and the impact law against its terms."""
+
+import math
+
+import numpy as np
+import pytest
+import scenes
+
+from cases import shape
+from cases.scene import Anchor, Bounds, Contact, DryFriction, Joint, Scene, Smooth
+from reference.contact import Drag, Rub, catch, touching
+from reference.contact_modes import elements
+from reference.event import follow
+from reference.formalisms import energy, lagrange
+from reference.mechanism import Mechanism
+from reference.smooth_mechanism import SmoothMechanism
+from reference.switching_mechanism import SwitchingMechanism
+from reference.system import Array
+
+LAW = 1e-9  # of the largest acceleration: random scenes lose up to four digits of 1e-13
+WELL = 100.0  # condition of the rows: beyond, rounding shows
+
+
+def lawful(mechanism: Mechanism, t: float, q: Array, v: Array) -> None:
+    """The explicit accelerations by (2.60) from the ingredients, and the power (2.51)."""
+    a = mechanism.accelerations(t, q, v)
+    size = float(np.max(np.abs(a))) + mechanism.terms(t, q, v)[0]
+    assert np.max(np.abs(lagrange.multipliers(mechanism, t, q, v)[0] - a)) < LAW * size
+    powers = np.abs(lagrange.momentum(mechanism, t, q, v) * a)
+    size = float(np.max(powers)) + mechanism.terms(t, q, v)[1]
+    assert abs(energy.power_balance(mechanism, t, q, v)) < LAW * size
+
+
+def with_slides(count: int, *, held: bool) -> list[tuple[Mechanism, np.random.Generator]]:
+    """Random mechanisms whose slides rest, or rub with 0.7 N, on parts that turn as well."""
+    found = []
+    for plain, random in scenes.mechanisms(400):
+        slides = [j for j in plain.scene.joints.values() if j.kind == "slide"]
+        if not slides:
+            continue
+        parts = [catch(joint, plain.where) for joint in slides]
+        drags = [] if held else [Drag(part, lambda t, q, v: -0.7) for part in parts]
+        made = Mechanism(plain.scene, plain.start(), held=parts if held else [], drags=drags)
+        n = len(made.coordinates)
+        if scenes.independent(made, random) and len(made.f_a(0.0, np.zeros(n))) < n:
+            found.append((made, random))
+        if len(found) == count:
+            break
+    return found
+
+
+@pytest.mark.parametrize("held", [True, False])
+def test_slides_at_rest_and_rubbing(held: bool) -> None:
+    for mechanism, random in with_slides(25, held=held):
+        t, q, v = scenes.state(random, mechanism)
+        if np.linalg.cond(mechanism.f_a(t, q)) < WELL:
+            lawful(mechanism, t, q, v)
+
+
+def rods() -> Scene:
+    """Two bars pinned together, a disk pinned to the second; all of them touch the floor."""
+    return Scene(
+        gravity=(1.0, -9.0),
+        points={},
+        bodies={
+            "one": shape.bar(name="one", mass=0.8, length=1.0, points={"P": (0.3, 0.1)}),
+            "two": shape.bar(name="two", mass=1.1, length=0.7, points={}),
+            "disk": shape.disk(name="disk", mass=0.5, radius=0.2, points={"Q": (0.1, 0.05)}),
+        },
+        joints={
+            "knee": Joint("knee", "pin", Anchor("one", "end"), Anchor("two", "start")),
+            "hub": Joint("hub", "pin", Anchor("two", "end"), Anchor("disk", "Q")),
+        },
+        contacts={
+            "P": Contact("P", Anchor("one", "P"), 0.4, 0.3),
+            "rim": Contact("rim", Anchor("disk", "center"), 0.6, 0.5),
+        },
+        forces={},
+    )
+
+
+@pytest.mark.parametrize("slipping", [(0, 0), (1, 0), (0, -1), (-1, 1)])
+def test_contacts_that_stick_roll_and_slide(slipping: tuple[int, int]) -> None:
+    scene, random = rods(), np.random.default_rng(seed=3)
+    plain = Mechanism(scene, (np.zeros(9), np.zeros(9)))
+    held, rubs = [], []
+    for contact, s in zip(scene.contacts.values(), slipping, strict=True):
+        press, grip = touching(contact, plain.where)
+        held += [press] if s else [press, grip]
+        rubs += [Rub(press, grip, -contact.kinetic * s)] if s else []
+    mechanism = Mechanism(scene, plain.start(), held=held, rubs=rubs)
+    for _ in range(20):
+        t, q, v = scenes.state(random, mechanism)
+        if np.linalg.cond(mechanism.f_a(t, q)) > WELL:
+            continue
+        lawful(mechanism, t, q, v)
+        forces = mechanism.reactions(t, q, v)
+        for contact, s in zip(scene.contacts.values(), slipping, strict=True):
+            if s:
+                normal = forces[f"{contact.name}.normal"]
+                assert forces[f"{contact.name}.tangent"] == -s * contact.kinetic * normal
+
+
+def guided(mass: float, smooth: Smooth | None) -> Scene:
+    """A particle on a slide of the ground, thrown along it."""
+    friction = DryFriction(Bounds(3.0, 4.0), Bounds(2.0, 2.5), smooth)
+    slide = Joint(
+        "rail",
+        "slide",
+        Anchor("ground", "O"),
+        Anchor("dot", "center"),
+        along=(0.6, 0.8),
+        dry_friction=friction,
+    )
+    return Scene(
+        gravity=(0.0, 0.0),
+        points=scenes.scene(np.random.default_rng(1)).points,
+        bodies={"dot": shape.particle(name="dot", mass=mass)},
+        joints={"rail": slide},
+        contacts={},
+        forces={},
+    )
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_a_slide_brakes_by_its_own_bound(way: float) -> None:
+    """(2.89) v₀ m / F₊ forward, v₀ m / F₋ backward; then it rests, by no force."""
+    q, v = np.array([0.1, -0.2]), way * np.array([0.6, 0.8])
+    system = SwitchingMechanism(guided(1.3, None), (q, v), 1.0)
+    followed = follow(system, np.linspace(0.0, 1.0, 11))
+    (stop,) = followed.changes
+    assert stop.time == pytest.approx(1.3 / (2.0 if way > 0 else 2.5), abs=1e-12)
+    assert stop.mode_after == "rail sticks"
+    forces = system.modes["rail sticks"].reactions(0.0, *np.split(followed.y[-1], 2))
+    assert forces["rail.friction"] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_smooth_friction_of_a_slide_by_the_formalisms() -> None:
+    """(2.95) outside the band is −F₊; the residual by superposition is the sum of the forces."""
+    law = Smooth(band=0.05, sharpness=100.0)
+    mechanism = SmoothMechanism(guided(1.3, law), (np.array([0.1, -0.2]), np.zeros(2)))
+    for speed in (-1.0, -0.05, 0.0, 0.02, 0.05, 1.0):
+        q, v = np.array([0.1, -0.2]), speed * np.array([0.6, 0.8])
+        a = mechanism.accelerations(0.0, q, v)
+        assert lagrange.multipliers(mechanism, 0.0, q, v)[0] == pytest.approx(a, abs=1e-12)
+    v = np.array([0.6, 0.8])
+    assert mechanism.accelerations(0.0, q, v) == pytest.approx(-2.0 / 1.3 * v, abs=1e-12)
+
+
+def test_every_element_is_found() -> None:
+    scene = rods()
+    plain = Mechanism(scene, (np.zeros(9), np.zeros(9)))
+    assert [e.name for e in elements(scene, plain.where)] == ["P", "rim"]
+
+
+def test_a_disk_that_lands_turning_rolls_or_slides_by_the_cone() -> None:
+    """Coulomb's impulse: it rolls if m |slip| / 3 ≤ μ m |v_n|, else v_x jumps by μ |v_n|."""
+    for mu, rolls in ((0.4, True), (0.1, False)):
+        disk = shape.disk(name="wheel", mass=1.3, radius=0.25, points={})
+        touch = Contact("touch", Anchor("wheel", "center"), mu, mu)
+        scene = Scene((0.0, -9.80665), {}, {"wheel": disk}, {}, {"touch": touch}, {})
+        start = np.array([0.0, 1.25, 0.0]), np.array([1.0, 0.0, 4.0])
+        followed = follow(SwitchingMechanism(scene, start, 0.25), np.linspace(0.0, 0.46, 3))
+        land = followed.changes[0]
+        v_n, slip = math.sqrt(2 * 9.80665), 1.0 + 0.25 * 4.0
+        jump = -slip / 3 if rolls else -mu * v_n
+        assert land.after[3] - land.before[3] == pytest.approx(jump, abs=1e-12)
+        assert land.mode_after == ("touch sticks" if rolls else "touch slides +")
