@@ -12,7 +12,7 @@ from cases.trajectory import Array, Trajectory
 from engines.engine import Choice, Realised, State
 from engines.mujoco import options, settings
 from engines.mujoco.control import signals
-from engines.mujoco.friction import followed
+from engines.mujoco.friction import followed, smooth_only
 from engines.mujoco.measure import measured
 from engines.mujoco.refuse import unbuildable, uncompilable
 from engines.mujoco.run import heard, load, simulate
@@ -45,8 +45,7 @@ class MuJoCo:
         """MuJoCo's own elements; dry friction, of which it knows one number, in other ways too."""
         if not followed(scene):
             return ("native",)
-        exact = any(j.dry_friction and not j.dry_friction.smooth for j in scene.joints.values())
-        return ("native", "law", "driver") if exact else ("native", "law")
+        return ("native", "law") if smooth_only(scene) else ("native", "law", "driver")
 
     def refuses(self, scene: Scene) -> str | None:
         """What MuJoCo has no element for, the adapter does not build, or the compiler refuses."""
@@ -61,11 +60,12 @@ class MuJoCo:
         return self.setting == "tuned" and settings.ties(scene)
 
     def exponents(self, scene: Scene, realised: Realised, *, held: bool) -> tuple[int, ...]:
-        """Euler and contacts 1, 2; RK4 4, 5; constraints that follow the step 2, 3."""
+        """Euler, contacts, corners of dry friction 1, 2; RK4 4, 5; constraints that follow 2, 3."""
         integrator = {c.name: c.value for c in self.choices(scene, 1e-3)}["option.integrator"]
-        if integrator != "RK4" or scene.contacts:
+        dry = any(joint.dry_friction for joint in scene.joints.values())
+        if integrator != "RK4" or scene.contacts or (dry and realised != "driver"):
             return (1, 2)
-        return (4, 5) if held or not self.tied(scene) else (2, 3)
+        return (4, 5) if held or dry or not self.tied(scene) else (2, 3)
 
     def protocol(self, scene: Scene, start: State, step: float, realised: Realised) -> str:
         """Driven points, and how deep a disk is started in the floor."""
@@ -73,7 +73,8 @@ class MuJoCo:
         if any(driven(scene)):
             words.append(f"driven points are masses of {HEAVY:g} kg")
         if realised == "law":
-            words.append("dry friction by our law before every step")
+            when = "stage" if smooth_only(scene) else "step"
+            words.append(f"dry friction by our law before every {when}")
         if realised == "driver":
             words.append("steps cut at the events of dry friction")
         depths = self._depths(scene, start, *self._loaded(scene, start, step, step))

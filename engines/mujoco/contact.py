@@ -24,7 +24,8 @@ def recipe(scene: Scene, tied_to: float, start: State | None) -> list[Choice]:
     bounce = max(contact.restitution for contact in scene.contacts.values())
     if bounce > 0 or (start is not None and falls(scene, start)):
         return _impact(bounce, tied_to)
-    return _sliding(tied_to)
+    bodies = [contact.body for contact in scene.contacts.values()]
+    return _sliding(tied_to, shared=len(set(bodies)) < len(bodies))
 
 
 def falls(scene: Scene, start: State) -> bool:
@@ -49,9 +50,11 @@ def _rolling(h: float) -> list[Choice]:
     ]
 
 
-def _sliding(h: float) -> list[Choice]:
+def _sliding(h: float, *, shared: bool) -> list[Choice]:
+    k, b = (0.1, 0.4) if shared else (0.25, 1.0)
+    why = "two contacts of a body act together: softer" if shared else "critically damped"
     return [
-        Choice("pair.solref", [-0.25 / h**2, -1 / h], "k = 1/4 h², b = 1/h: critically damped"),
+        Choice("pair.solref", [-k / h**2, -b / h], f"k = {k}/h², b = {b}/h: {why}"),
         Choice(
             "pair.solimp",
             [SOFTEST, SOFTEST, 0.001],
@@ -59,8 +62,8 @@ def _sliding(h: float) -> list[Choice]:
         ),
         Choice(
             "pair.solreffriction",
-            [-1.0, -SOFTEST / h],
-            "b = 1/h along the floor (times d, by which MuJoCo divides): slip ends within a step "
+            [-1.0, -b * SOFTEST / h],
+            f"b = {b}/h along the floor (times d, by which MuJoCo divides): slip ends in a step "
             "or two; RK4 is stable up to 2.8/h",
         ),
         _ELLIPTIC,

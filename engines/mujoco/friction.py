@@ -78,6 +78,12 @@ def followed(scene: Scene) -> bool:
     return len(dry) == 1 and not scene.contacts
 
 
+def smooth_only(scene: Scene) -> bool:
+    """Whether no slide ever sticks."""
+    dry = [joint.dry_friction for joint in scene.joints.values() if joint.dry_friction is not None]
+    return all(friction.smooth is not None for friction in dry)
+
+
 def bounded(slide: Slide) -> None:
     """Set the friction of the step to come by (2.89), averaged over a step that breaks loose."""
     model, data = slide.model, slide.data

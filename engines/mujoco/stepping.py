@@ -7,7 +7,7 @@ import mujoco
 
 from cases.scene import Scene
 from engines.engine import Realised
-from engines.mujoco.friction import Slide, bounded, driven_step, engage, slides
+from engines.mujoco.friction import Slide, bounded, driven_step, engage, slides, smooth_only
 
 
 @dataclass
@@ -34,8 +34,8 @@ class Steps:
 
 def stepping(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, realised: Realised) -> Steps:
     """Steps of the model's size; smooth friction is a callback and needs nothing here."""
-    exact = all(j.dry_friction is None or not j.dry_friction.smooth for j in scene.joints.values())
-    followed = slides(scene, model, data) if realised != "native" and exact else []
+    ours = realised != "native" and not smooth_only(scene)
+    followed = slides(scene, model, data) if ours else []
     step = float(model.opt.timestep)
 
     def native(n: int) -> None:

@@ -1,0 +1,38 @@
+"""MuJoCo's record of every step: the same states as the samples, and cheap."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cases.load import load
+from engines.mujoco import MuJoCo
+from engines.mujoco.record import all_steps
+from reference.assembly import assemble
+from reference.mechanism import Mechanism
+
+CASES = [
+    case
+    for path in sorted((Path(__file__).parents[2] / "cases").glob("*.yaml"))
+    for case in load(path)
+]
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+def test_record_holds_the_samples(case) -> None:  # type: ignore[no-untyped-def]
+    mechanism = Mechanism(case.scene, assemble(case))
+    start = mechanism.poses(0.0, *mechanism.start())
+    step = case.interval / 8
+    motion = MuJoCo("tuned").run(
+        case.scene, start, case.times[:5], step,
+        tied_to=step, realised="native", reactions=(), record=True,
+    )  # fmt: skip
+    assert motion.record is not None
+    assert motion.record.phase is not None
+    assert motion.record.times == pytest.approx(np.arange(33) * step, abs=1e-15)
+    for name, rows in motion.states.items():
+        assert motion.record.states[name][::8] == pytest.approx(rows, rel=1e-9, abs=1e-9)
+
+
+def test_times_are_products() -> None:
+    assert all_steps(np.array([0.0, 0.3]), 0.1).tolist() == [0.0, 0.1, 0.2, 0.1 * 3]
