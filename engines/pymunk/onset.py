@@ -37,7 +37,10 @@ def bound(
 def mean_friction(
     friction: DryFriction, speed: float, mass: float, applied: Applied, step: float
 ) -> float:
-    """The mean friction force [N] over the step, for what else acts in its middle or at its end."""
+    """The mean friction force [N] over the step, for what else acts in its middle or at its end.
+
+    A part that stops goes on, or stays, by the force in the middle of the step.
+    """
     middle = applied(step / 2)
     holding = max(friction.static.forward, friction.static.backward)
     if abs(speed) * mass <= AT_REST * holding * step:

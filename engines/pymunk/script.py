@@ -11,6 +11,7 @@ from pymunk.shapes import Segment
 from cases.scene import Push, Scene, Torque
 from engines.engine import State
 from engines.pymunk.scene import World, build
+from engines.pymunk.touch import ABOVE, closed
 
 _ARGUMENTS: dict[type[Constraint], tuple[str, ...]] = {
     PivotJoint: ("anchor_a", "anchor_b"),
@@ -46,12 +47,9 @@ def text(scene: Scene, start: State, step: float, numbers: Mapping[str, Any]) ->
         *_constraints(world, numbers),
     ]
     if seed:
-        lines += ["", "# a circle that only touches the floor would fall freely for one step"]
-        lines += [
-            f"{_of(world, world.wheel(name))}.position -= (0.0, {seed!r})" for name in world.wheels
-        ]
+        lines += _seeds(world, start, seed)
     lines += [_SHIFT] if midpoint else []
-    lines += _forces(world, bool(midpoint))
+    lines += [*_forces(world, bool(midpoint)), *_followers(world)]
     position, angle = (" + h / 2 * body.velocity", " + h / 2 * body.angular_velocity")
     lines += [
         "    space.step(h)",
@@ -62,6 +60,17 @@ def text(scene: Scene, start: State, step: float, numbers: Mapping[str, Any]) ->
         "    print(name, x, y, angle, *body.velocity, body.angular_velocity)",
     ]
     return "\n".join(lines) + "\n"
+
+
+def _seeds(world: World, start: State, seed: float) -> list[str]:
+    lines = ["", "# a circle that only touches the floor would fall freely for one step"]
+    for contact in closed(world.scene, start):
+        body, wheel = _of(world, world.wheel(contact.name)), world.wheels[contact.name]
+        if world.scene.bodies[contact.body].radius is not None:
+            lines.append(f"{body}.position -= (0.0, {seed!r})")
+        else:
+            lines.append(f"wheels[{contact.name!r}].unsafe_set_radius({wheel.radius + seed!r})")
+    return lines if len(lines) > 2 else []
 
 
 def _value(value: Any) -> str:
@@ -100,16 +109,24 @@ def _floor(world: World) -> Iterator[str]:
         yield ""
         yield f"floor = pymunk.Segment(ground, {_value(shape.a)}, {_value(shape.b)}, 0.0)"
         yield f"floor.friction = {shape.friction!r}"
+        if any(wheel.elasticity for wheel in world.wheels.values()):
+            yield f"floor.elasticity = {shape.elasticity!r}"
         yield "space.add(floor)"
+        yield "wheels = {}"
     for name, wheel in world.wheels.items():
-        yield f"wheel = pymunk.Circle({_of(world, world.wheel(name))}, {wheel.radius!r})"
+        size = f"{wheel.radius!r}, {_value(wheel.offset)}" if any(wheel.offset) else wheel.radius
+        yield f"wheels[{name!r}] = wheel = pymunk.Circle({_of(world, world.wheel(name))}, {size})"
         yield f"wheel.friction = {wheel.friction!r}  # pymunk takes the product of both"
+        if wheel.elasticity:
+            yield f"wheel.elasticity = {wheel.elasticity!r}  # of these too"
         yield f"wheel.filter = pymunk.ShapeFilter(group={wheel.filter.group})"
         yield "space.add(wheel)"
 
 
 def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
-    named = world.joints | {name: (line,) for name, line in world.lines.items()}
+    brakes = {name: (brake,) for name, brake in world.brakes.items()}
+    named = {name: (*parts, *brakes.get(name, ())) for name, parts in world.joints.items()}
+    named |= {name: (line,) for name, line in world.lines.items()}
     for name, parts in named.items():
         for part in parts:
             yield ""
@@ -118,6 +135,11 @@ def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
             arguments = (_value(getattr(part, key)) for key in _ARGUMENTS[type(part)])
             yield f"    {', '.join(arguments)},"
             yield ")"
+            if part in brakes.get(name, ()):
+                yield "joint.max_bias = 0.0  # a friction joint corrects no position"
+                yield f"joint.max_force = {part.max_force!r}"
+                yield "space.add(joint)"
+                continue
             for key, value in numbers.items():
                 if name in world.joints and key.startswith("constraint."):
                     yield f"joint.{key.removeprefix('constraint.')} = {_value(value)}"
@@ -140,6 +162,18 @@ def _forces(world: World, midpoint: bool) -> Iterator[str]:
             yield f"    lever = {lever}"
             pair = ", ".join(_signal(force))
             yield f"    body.apply_force_at_world_point(({pair}), body.position + lever)"
+
+
+def _followers(world: World) -> Iterator[str]:
+    """Keeps the circle of a turning body's point above it."""
+    for contact in world.scene.contacts.values():
+        part = world.scene.bodies[contact.body]
+        if part.radius is None and part.turns:
+            body = _of(world, world.wheel(contact.name))
+            yield f"    turned = {body}.angle + h * {body}.angular_velocity"
+            a, b = part.points[contact.at.point]
+            offset = f"({a!r} + {ABOVE} * math.sin(turned), {b!r} + {ABOVE} * math.cos(turned))"
+            yield f"    wheels[{contact.name!r}].unsafe_set_offset({offset})"
 
 
 def _signal(force: Push | Torque) -> list[str]:

@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from cases.scene import Anchor, Damper, Signal, Spring
-from engines.law import tension, value
+from cases.scene import Anchor, Bounds, Damper, DryFriction, Signal, Smooth, Spring
+from engines.law import dry_friction, smooth_friction, tension, value
 
 TABLE = json.loads((Path(__file__).parent / "law_table.json").read_text())
 ENDS = (Anchor("ground", "O"), Anchor("mass", "center"))
@@ -36,3 +36,17 @@ def test_damper_pulls_when_lengthening(row: dict[str, float]) -> None:
     damper = Damper("oil", *ENDS, row["damping"])
     for length in (0.1, 2.0):
         assert tension(damper, length, row["rate"]) == pytest.approx(row["tension"], rel=1e-12)
+
+
+FRICTION = DryFriction(static=Bounds(6.0, 2.0), kinetic=Bounds(3.0, 1.0))
+
+
+@pytest.mark.parametrize("row", TABLE["dry_friction"], ids=str)
+def test_dry_friction_holds_up_to_its_bound_and_brakes_beyond(row: dict[str, float]) -> None:
+    assert dry_friction(FRICTION, row["speed"], row["applied"]) == row["force"]
+
+
+@pytest.mark.parametrize("row", TABLE["smooth_friction"], ids=str)
+def test_smooth_friction(row: dict[str, float]) -> None:
+    force = smooth_friction(FRICTION, row["speed"], row["applied"], smooth=Smooth(5e-4, 1e5))
+    assert force == pytest.approx(row["force"], abs=1e-12)
