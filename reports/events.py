@@ -4,10 +4,12 @@ The reference knows its phases, and an event is the boundary of two. An engine o
 it creeps: it never rests. So no threshold is a time here; a threshold only tells what is near.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from itertools import pairwise
 
 import numpy as np
+from scipy.interpolate import BarycentricInterpolator
+from scipy.optimize import brentq
 
 from cases.case import Case, Event
 from cases.mistake import Mistake
@@ -17,6 +19,9 @@ from cases.trajectory import Array, Trajectory
 from reports.rests import LOW, rests
 
 STILL = 1e-9  # of the largest value: what the reference's own rounding leaves of a zero
+AROUND = (
+    8  # steps in a curve through a passage: of seventh degree, as the integrator's eighth order
+)
 
 
 def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
@@ -31,18 +36,37 @@ def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
     ]
     happens = _RULES[event.rule]
     times = [
-        record.times[before[-1]]
+        float(record.times[before[-1]])
         for before, after in pairwise(pieces)
         if happens(u[before], u[after], still)
     ]
-    return np.array(times, float)
+    if event.rule == "falls to zero":
+        times += [t for piece in pieces for t in _passages(record.times[piece], u[piece], still)]
+    return np.array(sorted(times), float)
 
 
 _RULES: Mapping[str, Callable[[Array, Array, float], bool]] = {
     "stays zero": lambda u, then, still: _leaves(u, still) and not _leaves(then, still),
     "leaves zero": lambda u, then, still: not _leaves(u, still) and _leaves(then, still),
-    "falls to zero": lambda u, then, still: bool(np.max(u) > still >= u[-1]),
+    "falls to zero": lambda u, then, still: _leaves(u, still) and _lands(u, still),
 }
+
+
+def _lands(u: Array, still: float) -> bool:
+    """Whether u ends at zero, and came to it from above."""
+    moving = u[np.abs(u) > still]
+    return bool(abs(u[-1]) <= still and moving[-1] > 0)
+
+
+def _passages(times: Array, u: Array, still: float) -> Iterator[float]:
+    """Where u passes zero from above within a smooth piece, as the top of a flight does."""
+    passed = u[1:] <= 0
+    passed[-1] &= u[-1] < -still  # what ends at zero is the boundary's
+    for i in np.flatnonzero((u[:-1] > still) & passed):
+        first = min(max(0, i - AROUND // 2 + 1), max(0, len(u) - AROUND))
+        rows = slice(first, first + AROUND)
+        curve = BarycentricInterpolator(times[rows], u[rows])
+        yield float(brentq(lambda t, u=curve: float(u(t)), times[i], times[i + 1], xtol=1e-14))
 
 
 def _leaves(u: Array, still: float) -> bool:

@@ -185,6 +185,18 @@ def test_the_reference_is_read_at_its_phases(rule: Any, times: list[float]) -> N
     assert reference_events(SCENE, record, Event("box.vx", rule)) == pytest.approx(times)
 
 
+def test_the_reference_passes_zero_within_a_phase_too() -> None:
+    record = phased((0.0, 2.0, lambda t: 1.1 - np.sin(t)), (2.0, 3.0, lambda t: np.cos(t - 1)))
+    (top,) = reference_events(SCENE, record, Event("box.vx", "falls to zero"))
+    assert top == pytest.approx(1 + np.pi / 2, abs=1e-8)  # by seven steps, a sixth of a second each
+    assert len(reference_events(SCENE, record, Event("box.vx", "stays zero"))) == 0
+
+
+def test_what_comes_to_zero_from_below_does_not_fall_to_it() -> None:
+    record = phased((0.0, 1.0, lambda t: t - 1), (1.0, 2.0, lambda t: -t), (2.0, 3.0, lambda t: -t))
+    assert len(reference_events(SCENE, record, Event("box.vx", "falls to zero"))) == 0
+
+
 def test_an_engine_is_read_by_the_same_names() -> None:
     t = grid(10.0)
     states = np.zeros((len(t), 6))
