@@ -90,7 +90,7 @@ class Mechanism(System):
             act(force, self.where, t, numbers, rates, Q)
         for drag in self._drags:
             Q += drag.force(t, q, v) * row(drag.catch, t, q, v)[0]
-        rows, _, gamma = self._rows(t, numbers, rates, float)
+        rows, _, gamma = self.rows(t, numbers, rates, float)
         free = Q / self._M
         if not self._r:
             return free, np.zeros(0)
@@ -115,7 +115,8 @@ class Mechanism(System):
             raise SingularPose(self._owners[fails - 1])
         return free + multipliers @ by_mass, multipliers
 
-    def _rows(self, t: Any, q: Sequence[Any], v: Sequence[Any], dtype: Any) -> tuple[Any, Any, Any]:
+    def rows(self, t: Any, q: Sequence[Any], v: Sequence[Any], dtype: Any) -> tuple[Any, Any, Any]:
+        """(2.15) f_a (r, n) and g (r,), and γ (r,) of f_a q̈ᵃ = γ."""
         rows = np.zeros((self._r, len(self._M)), dtype)
         g, gamma = np.zeros(self._r, dtype), np.zeros(self._r, dtype)
         at = 0
@@ -222,11 +223,11 @@ class Mechanism(System):
 
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) the rows f_aᵇ, (r, n)."""
-        return self._rows(t, q.tolist(), q.tolist(), np.result_type(q, t))[0]
+        return self.rows(t, q.tolist(), q.tolist(), np.result_type(q, t))[0]
 
     def g(self, t: Any, q: Vector) -> Vector:
         """(2.15) the right side f_aᵇ q̇ᵃ = gᵇ of driven points, (r,)."""
-        return self._rows(t, q.tolist(), q.tolist(), np.result_type(q, t))[1]
+        return self.rows(t, q.tolist(), q.tolist(), np.result_type(q, t))[1]
 
 
 def _add(found: dict[str, float], more: Mapping[str, float]) -> None:

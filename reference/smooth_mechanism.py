@@ -30,6 +30,7 @@ class SmoothMechanism(Mechanism):
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
         """(2.60) at rest along the slides, and with F_a + F_fr along them: q̈ and λ are sums."""
         a, multipliers = self._resting.solve(t, q, v)
+        a = self._still(t, q, v, a)
         r, along = len(self.f_a(t, q)), np.zeros(len(q))
         for k, part in enumerate(self._catches):
             f, g, _ = row(part, t, q, v)
@@ -40,6 +41,14 @@ class SmoothMechanism(Mechanism):
         by_mass = rows / self._M
         more = np.linalg.solve(by_mass @ rows.T, -rows @ free)
         return a + free + more @ by_mass, multipliers[:r] + more
+
+    def _still(self, t: float, q: Array, v: Array, a: Array) -> Array:
+        """f_a q̈ᵃ = γ without the rounding of forces that cancel: a block held at rest has q̈ = 0."""
+        rows, _, gamma = self._resting.rows(t, q.tolist(), v.tolist(), float)
+        held = rows.T @ np.linalg.solve(rows @ rows.T, gamma)
+        free = np.linalg.svd(rows)[2][len(rows) :]  # directions that the rows leave
+        weighed = free * self._M
+        return held + free.T @ np.linalg.solve(weighed @ free.T, weighed @ (a - held))
 
     def _friction(self, k: int) -> Callable[[float, Array, Array], float]:
         """(2.95) F_fr of the k-th slide; F_a is what would hold it at rest."""

@@ -7,7 +7,17 @@ import pytest
 import scenes
 
 from cases import shape
-from cases.scene import Anchor, Bounds, Contact, DryFriction, Joint, Scene, Smooth
+from cases.scene import (
+    Anchor,
+    Bounds,
+    Contact,
+    DryFriction,
+    GroundPoint,
+    Joint,
+    Scene,
+    Smooth,
+    Spring,
+)
 from reference.contact import Drag, Rub, catch, touching
 from reference.contact_modes import elements
 from reference.event import follow
@@ -16,6 +26,7 @@ from reference.mechanism import Mechanism
 from reference.smooth_mechanism import SmoothMechanism
 from reference.switching_mechanism import SwitchingMechanism
 from reference.system import Array
+from reference.systems.smooth_friction import SmoothDynamometer
 
 LAW = 1e-9  # of the largest acceleration: random scenes lose up to four digits of 1e-13
 WELL = 100.0  # condition of the rows: beyond, rounding shows
@@ -145,6 +156,24 @@ def test_smooth_friction_of_a_slide_by_the_formalisms() -> None:
         assert lagrange.multipliers(mechanism, 0.0, q, v)[0] == pytest.approx(a, abs=1e-12)
     v = np.array([0.6, 0.8])
     assert mechanism.accelerations(0.0, q, v) == pytest.approx(-2.0 / 1.3 * v, abs=1e-12)
+
+
+def test_smooth_friction_on_an_oblique_slide_of_odd_mass() -> None:
+    """Forces that cancel leave no rounding behind: from rest, steps would shrink to nothing."""
+    friction = DryFriction(Bounds(6.0, 6.0), Bounds(3.0, 3.0), Smooth(band=0.0005, sharpness=1e5))
+    ends = Anchor("ground", "O"), Anchor("dot", "center")
+    scene = Scene(
+        gravity=(0.0, 0.0),
+        points={"O": GroundPoint((0.0, 0.0)), "hook": GroundPoint((0.6, 0.8), (1.2, 1.6))},
+        bodies={"dot": shape.particle(name="dot", mass=1.3)},
+        joints={"rail": Joint("rail", "slide", *ends, along=(0.6, 0.8), dry_friction=friction)},
+        contacts={},
+        forces={"coil": Spring("coil", Anchor("ground", "hook"), ends[1], 2.0, 1.0)},
+    )
+    times = np.linspace(0.0, 5.0, 26)
+    y = follow(SwitchingMechanism(scene, (np.zeros(2), np.zeros(2)), 1.0), times).y
+    exact = follow(SmoothDynamometer(1.3, 2.0, 2.0, 3.0, 3.0, 6.0, 6.0, 5e-4, 1e5), times).y
+    assert y[:, :2] @ [0.6, 0.8] == pytest.approx(exact[:, 0], abs=1e-9)
 
 
 def test_every_element_is_found() -> None:
