@@ -11,6 +11,7 @@ from cases.scene import Scene
 from cases.trajectory import Array, Trajectory
 from engines.engine import Choice, Realised, State
 from engines.mujoco import options, settings
+from engines.mujoco.contact import falls
 from engines.mujoco.control import signals
 from engines.mujoco.friction import followed, smooth_only
 from engines.mujoco.measure import measured
@@ -77,6 +78,8 @@ class MuJoCo:
             words.append(f"dry friction by our law before every {when}")
         if realised == "driver":
             words.append("steps cut at the events of dry friction")
+        if self.setting == "tuned" and falls(scene, start):
+            words.append("starts above the floor: contacts are tuned for impacts")
         depths = self._depths(scene, start, *self._loaded(scene, start, step, step))
         words += [f"{name} started {depth:.1e} m in the floor" for name, depth in depths.items()]
         return "; ".join(words)

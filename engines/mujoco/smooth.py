@@ -5,7 +5,7 @@ import numpy as np
 
 from cases.scene import DryFriction, Scene
 from cases.trajectory import Array
-from engines import law
+from engines.law import smooth_friction
 from engines.mujoco.control import Control
 
 
@@ -30,7 +30,7 @@ def _friction(model: mujoco.MjModel, name: str, friction: DryFriction) -> Contro
         mujoco.mj_solveM(model, data, effort, unit)
         share = effort[0] / effort[0, dof]  # of each generalized force, along the slide
         acting = data.qfrc_passive - data.qfrc_bias + _actuated(model, data)
-        data.qfrc_applied[dof] = law.smooth_friction(
+        data.qfrc_applied[dof] = smooth_friction(
             friction, float(data.qvel[dof]), float(share @ acting), smooth=band
         )
 

@@ -7,7 +7,9 @@ import mujoco
 
 from cases.scene import Scene
 from engines.engine import Realised
-from engines.mujoco.friction import Slide, bounded, driven_step, engage, slides, smooth_only
+from engines.mujoco.bound import bounded
+from engines.mujoco.drive import driven_step, engage
+from engines.mujoco.friction import Slide, slides, smooth_only
 
 
 @dataclass

@@ -1,0 +1,82 @@
+"""Dry friction by a driver: a step is repeated until its end falls on the event.
+
+So every step is smooth: what sticks is held, what slides is pushed by a constant force.
+"""
+
+import mujoco
+import numpy as np
+
+from engines.mujoco.friction import Slide
+
+
+def driven_step(slides: list[Slide], step: float) -> None:
+    """One step, cut at every event in it."""
+    model, data = slides[0].model, slides[0].data
+    left = step
+    while left > _SHORTEST * step:
+        for slide in slides:
+            engage(slide)
+        taken = _until_event(model, data, slides, left)
+        left -= taken
+        for slide in slides:
+            if _passed(slide) > 0:
+                _switch(slide)
+    model.opt.timestep = step
+
+
+_SHORTEST = 1e-12  # of a step: what is left is rounding
+
+
+def engage(slide: Slide) -> None:
+    """Hold what sticks, push what slides."""
+    slide.model.dof_frictionloss[slide.dof] = 0.0 if slide.sense else slide.holds
+    pushed = -slide.sense * slide.brakes(slide.sense) if slide.sense else 0.0
+    slide.data.qfrc_applied[slide.dof] = pushed
+
+
+def _passed(slide: Slide) -> float:
+    """Positive when the event is over: the speed has changed its sign, the force its bound."""
+    if slide.sense:
+        return -slide.sense * slide.speed
+    mujoco.mj_forward(slide.model, slide.data)
+    applied, _ = slide.applied()
+    static = slide.friction.static
+    return max(applied - static.forward, -static.backward - applied)
+
+
+def _until_event(
+    model: mujoco.MjModel, data: mujoco.MjData, slides: list[Slide], longest: float
+) -> float:
+    """Step to the first event, or the longest way [s]; the event is just over."""
+    kept = np.empty(mujoco.mj_stateSize(model, _STATE))
+    mujoco.mj_getState(model, data, kept, _STATE)
+
+    def over(length: float) -> bool:
+        model.opt.timestep = length
+        mujoco.mj_step(model, data)
+        return max(_passed(slide) for slide in slides) > 0
+
+    if not over(longest):
+        return longest
+    low, high = 0.0, longest
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        mujoco.mj_setState(model, data, kept, _STATE)
+        low, high = (low, middle) if over(middle) else (middle, high)
+    mujoco.mj_setState(model, data, kept, _STATE)
+    over(high)
+    return high
+
+
+_STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
+_HALVINGS = 45  # 3e-14 of a step
+
+
+def _switch(slide: Slide) -> None:
+    """What has stopped rests, or goes on the way that the force points; what broke loose slides."""
+    if slide.sense:
+        slide.data.qvel[slide.dof] = 0.0
+        slide.data.qfrc_applied[slide.dof] = 0.0
+        mujoco.mj_forward(slide.model, slide.data)
+    applied, _ = slide.applied()
+    slide.sense = slide.starts(applied)
