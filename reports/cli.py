@@ -53,7 +53,11 @@ def command() -> None:
 @command.command()
 @click.argument("cases", nargs=-1, metavar="[CASES]...")
 @click.option(
-    "--engine", "names", multiple=True, metavar="E", help="mujoco, pymunk, or e.g. mujoco.tuned."
+    "--engine",
+    "names",
+    multiple=True,
+    metavar="E",
+    help="mujoco, pymunk, book, or e.g. mujoco.tuned.",
 )
 @click.option(
     "--settings",
@@ -83,7 +87,7 @@ def run(
 ) -> None:
     """Compare engines with the reference and report the differences."""
     from reports import pool, suite, terminal, write
-    from reports.selection import choose_cases, choose_engines
+    from reports.selection import choose_book, choose_cases, choose_engines
 
     chosen = choose_cases(cases)
     with terminal.progress() as progress:
@@ -92,6 +96,7 @@ def run(
             choose_engines(names, settings),
             jobs=jobs or pool.workers(),
             progress=progress,
+            book=choose_book(names, settings),
         )
     if out is None and not (cases or names or settings):
         out = write.HERE

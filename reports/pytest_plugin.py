@@ -70,12 +70,14 @@ class CaseFile(pytest.File):
     def collect(self) -> Iterator[pytest.Item]:
         from cases.load import load
         from cases.mistake import CaseError
-        from reports.selection import HANDWRITTEN, choose_engines
+        from reports.book import producers
+        from reports.selection import HANDWRITTEN, choose_book, choose_engines
         from reports.trial import judged_names, realisations
 
         try:
             cases = load(self.path, systems=HANDWRITTEN)
-            engines = choose_engines(self.config.getoption("textmech_engine") or [], [])
+            names = self.config.getoption("textmech_engine") or []
+            engines = choose_engines(names, [])
         except CaseError as error:
             raise self.CollectError(str(error)) from None
         wanted = self.config.getoption("textmech_case")
@@ -84,7 +86,7 @@ class CaseFile(pytest.File):
                 continue
             name = f"{case.name}-reference"
             yield CertificateItem.from_parent(self, name=name, case=case)
-            for engine in engines:
+            for engine in producers(case, engines, book=choose_book(names, [])):
                 for realised in realisations(engine, case.scene):
                     for quantity in ("audit", *judged_names(case)):
                         how = "" if realised == "native" else f".{realised}"
@@ -191,15 +193,20 @@ def _measure(session: pytest.Session) -> "Report | Exception":
     """Runs what is collected, on all cores."""
     from cases.mistake import CaseError
     from reports import pool, suite
-    from reports.selection import choose_engines
+    from reports.selection import BOOK, choose_engines
 
     items = [item for item in session.items if isinstance(item, CaseItem)]
     cases = {item.case.name: item.case for item in items}
     used = {item.key[1:3] for item in items if isinstance(item, ComparisonItem)}
     engines = [e for e in choose_engines([], []) if (e.name, e.setting) in used]
+    book = any(name == BOOK for name, _ in used)
     try:
         return suite.measure(
-            list(cases.values()), engines, jobs=pool.workers(), progress=lambda *_: None
+            list(cases.values()),
+            engines,
+            jobs=pool.workers(),
+            progress=lambda *_: None,
+            book=book,
         )
     except CaseError as error:
         return error

@@ -15,6 +15,7 @@ from cases.quantity import nearest
 from engines.engine import Engine
 from reference.systems import SWITCHING, SYSTEMS
 
+BOOK = "book"
 HANDWRITTEN = {
     name: tuple(f.name for f in fields(cast(Any, system)))
     for name, system in (SYSTEMS | SWITCHING).items()
@@ -74,8 +75,13 @@ def choose_engines(names: Sequence[str], settings: Sequence[str]) -> list[Engine
     return found
 
 
+def choose_book(names: Sequence[str], settings: Sequence[str]) -> bool:
+    """Whether the book's approximations are wanted: by name, or where nothing is named."""
+    return BOOK in names or not (names or settings)
+
+
 def _known(word: str) -> None:
-    known = [*engines.NAMES, *(f"{n}.{s}" for n in engines.NAMES for s in engines.SETTINGS)]
+    known = [BOOK, *engines.NAMES, *(f"{n}.{s}" for n in engines.NAMES for s in engines.SETTINGS)]
     if word not in known:
         raise CaseError([Mistake("--engine", 0, 0, word, f"no such engine{nearest(word, known)}")])
 

@@ -10,6 +10,7 @@ from engines.engine import Engine
 from reference.coverage import executed
 from reference.solve import Solution, solve
 from reports import pool
+from reports.book import producers
 from reports.compare import Outcome, compare, crashed
 from reports.events import never
 from reports.instants import of_reference
@@ -40,9 +41,16 @@ class Report:
 
 
 def measure(
-    cases: Sequence[Case], engines: Sequence[Engine], *, jobs: int, progress: Progress
+    cases: Sequence[Case],
+    engines: Sequence[Engine],
+    *,
+    jobs: int,
+    progress: Progress,
+    book: bool = True,
 ) -> Report:
     """Solves every case once and runs every trial once, on `jobs` processes.
+
+    book: whether the book's own approximations stand beside the engines.
 
     Raises CaseError with the mistakes of all cases that cannot be started.
     """
@@ -51,7 +59,7 @@ def measure(
     trials = [
         Trial(case, solutions[case.name].trajectory, engine, realised)
         for case in cases
-        for engine in engines
+        for engine in producers(case, engines, book=book)
         for realised in realisations(engine, case.scene)
     ]
     outcomes = dict(_watched(compare, trials, jobs, "engines", progress))

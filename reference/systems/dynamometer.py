@@ -13,7 +13,7 @@ import numpy as np
 
 from reference.friction import Dry
 from reference.mode import Guard, Switching
-from reference.stick_slip import guards, modes, possible
+from reference.stick_slip import Pull, guards, modes, possible
 from reference.system import Array, Vector
 
 
@@ -54,9 +54,16 @@ class Dynamometer(Switching):
     def __post_init__(self) -> None:
         if not self.u > 0.0:
             raise ValueError(f"the end of the spring moves with u > 0, not {self.u}")
-        object.__setattr__(self, "modes", modes(self.m, _Spring(self.c, self.u), self._dry()))
+        object.__setattr__(self, "modes", modes(self.m, self.pull, self.dry))
 
-    def _dry(self) -> Dry:
+    @property
+    def pull(self) -> Pull:
+        """What acts on the block but friction."""
+        return _Spring(self.c, self.u)
+
+    @property
+    def dry(self) -> Dry:
+        """The bounds of the friction [N]."""
         return Dry(self.F_minus, self.F_plus, self.Fs_minus, self.Fs_plus)
 
     def start(self) -> tuple[str, Array, Array]:
@@ -65,11 +72,11 @@ class Dynamometer(Switching):
 
     def guards(self, mode: str) -> Sequence[Guard]:
         """(2.89) `slips` and `stops`."""
-        return guards(_Spring(self.c, self.u), self._dry(), mode)
+        return guards(self.pull, self.dry, mode)
 
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.89) F_a within the static friction where it sticks."""
-        return possible(self.modes[mode], self._dry(), t, q, v) if mode == "stuck" else None
+        return possible(self.modes[mode], self.dry, t, q, v) if mode == "stuck" else None
 
     def spring(self, t: float, q: Array) -> tuple[float, float]:
         """(2.82) x₀ = u t [m] and the force c (x₀ − x₁) [N]: the two axes of fig 2.24."""

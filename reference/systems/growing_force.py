@@ -11,7 +11,7 @@ import numpy as np
 
 from reference.friction import Dry
 from reference.mode import Guard, Switching
-from reference.stick_slip import guards, modes, possible
+from reference.stick_slip import Pull, guards, modes, possible
 from reference.system import Array, Vector
 
 
@@ -50,9 +50,16 @@ class GrowingForce(Switching):
     def __post_init__(self) -> None:
         if not self.b > 0.0:
             raise ValueError(f"the force grows with b > 0, not {self.b}")
-        object.__setattr__(self, "modes", modes(self.m, _Ramp(self.b), self._dry()))
+        object.__setattr__(self, "modes", modes(self.m, self.pull, self.dry))
 
-    def _dry(self) -> Dry:
+    @property
+    def pull(self) -> Pull:
+        """What acts on the block but friction."""
+        return _Ramp(self.b)
+
+    @property
+    def dry(self) -> Dry:
+        """The bounds of the friction [N]."""
         return Dry(self.F_minus, self.F_plus, self.Fs_minus, self.Fs_plus)
 
     def start(self) -> tuple[str, Array, Array]:
@@ -61,11 +68,11 @@ class GrowingForce(Switching):
 
     def guards(self, mode: str) -> Sequence[Guard]:
         """(2.89) `slips` and `stops`."""
-        return guards(_Ramp(self.b), self._dry(), mode)
+        return guards(self.pull, self.dry, mode)
 
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.89) F_a within the static friction where it sticks."""
-        return possible(self.modes[mode], self._dry(), t, q, v) if mode == "stuck" else None
+        return possible(self.modes[mode], self.dry, t, q, v) if mode == "stuck" else None
 
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.97) m v = −½ b (t² − t_s²) + F₋ (t − t_s), b t_s = F_s₋, and its integral m x.
