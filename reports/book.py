@@ -1,4 +1,4 @@
-"""The book's own approximations of dry friction beside the engines, as `book.karnopp` and others."""
+"""The book's own approximations of dry friction beside the engines: `book.karnopp` and others."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
