@@ -16,7 +16,7 @@ from pymunk.space import Space
 
 from cases.scene import GROUND, Anchor, DryFriction, Joint, Scene, Spring, Vector
 from engines.engine import Realised, State
-from engines.pymunk import touch
+from engines.pymunk.touch import FLOOR_ELASTICITY, FLOOR_FRICTION, circle
 
 # Half the length [m] of the floor and of a slide's groove, which pymunk wants finite: farther
 # than a case travels, and short enough that rounding (100 m × 1e-16) stays below every reach.
@@ -97,11 +97,11 @@ def _contacts(world: World) -> None:
     if not world.scene.contacts:
         return
     floor = Segment(world.space.static_body, (-FAR, 0.0), (FAR, 0.0), 0.0)
-    floor.friction, floor.elasticity = touch.FLOOR_FRICTION, touch.FLOOR_ELASTICITY
+    floor.friction, floor.elasticity = FLOOR_FRICTION, FLOOR_ELASTICITY
     world.space.add(floor)
     for contact in world.scene.contacts.values():
         part, body = world.scene.bodies[contact.body], world.bodies[contact.body]
-        world.wheels[contact.name] = touch.circle(contact, part, body)
+        world.wheels[contact.name] = circle(contact, part, body)
         world.space.add(world.wheels[contact.name])
 
 

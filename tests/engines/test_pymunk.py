@@ -24,7 +24,7 @@ from cases.scene import Anchor, GroundPoint, Joint, Scene, Spring
 from cases.shape import bar, block, particle
 from cases.trajectory import ANGLE, Array, Trajectory, X, Y
 from engines.engine import Diverged, State
-from engines.pymunk import Pymunk, settings, touch
+from engines.pymunk import Pymunk, settings
 from engines.pymunk import scene as builder
 from reference.assembly import assemble
 from reference.explicit import dormand_prince
@@ -115,7 +115,7 @@ def heavier(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def other_rule_of_friction(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(touch, "FLOOR_FRICTION", 0.5)  # as if pymunk took the mean
+    monkeypatch.setattr(builder, "FLOOR_FRICTION", 0.5)  # as if pymunk took the mean
 
 
 @pytest.mark.parametrize(
