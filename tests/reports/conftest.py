@@ -29,6 +29,10 @@ allow: {ball.x: 1.0e-2}
 """
 
 
+def nothing() -> None:
+    """What an engine does before it runs; a function with a name crosses into a process."""
+
+
 @dataclass(frozen=True)
 class Fake:
     """x(t) = t + model t + rate h^order t; diverges above `stable`."""
@@ -45,7 +49,7 @@ class Fake:
     follows: bool = False
     numbers: dict[str, float] = field(default_factory=dict)
     refusal: str | None = None
-    before: Callable[[], None] = lambda: None
+    before: Callable[[], None] = nothing
 
     def realisations(self, scene: Scene) -> tuple[Realised, ...]:
         return ("native",)
