@@ -16,8 +16,16 @@ from engines.engine import State
 from engines.mujoco.reaction import Contacts, joint_force
 from engines.mujoco.tree import Tree, built_as, spanning_tree
 
+# A sample in MuJoCo's own order: time, qpos, qvel, act, ctrl. One call copies it out or in.
+STATE = int(
+    mujoco.mjtState.mjSTATE_TIME
+    | mujoco.mjtState.mjSTATE_QPOS
+    | mujoco.mjtState.mjSTATE_QVEL
+    | mujoco.mjtState.mjSTATE_ACT
+    | mujoco.mjtState.mjSTATE_CTRL
+)
 _PLACES = ("xipos", "cvel", "subtree_com")
-_FORCES = ("cfrc_int", "site_xpos", "actuator_force", "efc_force")
+_FORCES = ("cfrc_int", "site_xpos", "actuator_force")
 
 
 def read(
@@ -26,7 +34,7 @@ def read(
     data: mujoco.MjData,  # any of the model: it is moved through the record
     start: State,
     times: Array,
-    record: list[Array],
+    record: Array,  # a STATE a row
     reactions: tuple[str, ...],
 ) -> Trajectory:
     """States of all bodies, and the wanted reactions, from positions, velocities and controls."""
@@ -34,7 +42,7 @@ def read(
     contacts = Contacts(scene, model, len(times)) if scene.contacts and reactions else None
     joints = [name for name in reactions if name.partition(".")[0] in scene.joints]
     wanted = (*_PLACES, *(_FORCES if joints else ()))
-    seen = _seen(model, data, times, record, wanted, contacts, forces=bool(reactions))
+    seen = _seen(model, data, record, wanted, contacts, forces=bool(reactions))
     found: dict[str, Array] = {}
     for name in reactions:
         part, _, field = name.partition(".")
@@ -44,7 +52,8 @@ def read(
         else:
             assert contacts is not None
             found[name] = contacts.forces[part][:, 1 if field == "normal" else 0]
-    states = {name: _states(scene, tree, model, name, record[0], seen) for name in scene.bodies}
+    qpos = record[:, 1 : 1 + model.nq]
+    states = {name: _states(scene, tree, model, name, qpos, seen) for name in scene.bodies}
     for name, rows in states.items():  # a slide or weld holds 370 deg as well as 10 deg
         turns = np.round((start[name][ANGLE] - rows[0, ANGLE]) / math.tau)
         rows[:, ANGLE] += turns * math.tau
@@ -54,8 +63,7 @@ def read(
 def _seen(
     model: mujoco.MjModel,
     probe: mujoco.MjData,
-    times: Array,
-    record: list[Array],
+    record: Array,
     wanted: tuple[str, ...],
     contacts: Contacts | None,
     *,
@@ -63,13 +71,14 @@ def _seen(
 ) -> Mapping[str, Array]:
     """MuJoCo's own arrays at every sample, (N, …) each."""
     mujoco.mj_resetData(model, probe)  # a run's last solution must not start the first sample's
-    targets = (probe.qpos, probe.qvel, probe.act, probe.ctrl)
-    sources: dict[str, Array] = {}
-    seen: dict[str, Array] = {}
-    for i, t in enumerate(times.tolist()):
-        probe.time = t
-        for target, kept in zip(targets, record, strict=True):
-            target[:] = kept[i]
+    parts = {name: getattr(probe, name) for name in wanted}  # views, which follow the probe
+    seen: dict[str, Array] = {
+        name: np.empty((len(record), *part.shape)) for name, part in parts.items()
+    }
+    copies = [(seen[name], part) for name, part in parts.items() if part.size]
+    pulls = seen["efc_force"] = np.empty((len(record), 3 * model.neq))
+    for i, state in enumerate(record):
+        mujoco.mj_setState(model, probe, state, STATE)
         if forces:
             mujoco.mj_forward(model, probe)
             mujoco.mj_rnePostConstraint(model, probe)
@@ -77,15 +86,10 @@ def _seen(
             mujoco.mj_kinematics(model, probe)
             mujoco.mj_comPos(model, probe)
             mujoco.mj_comVel(model, probe)
-        if not seen:
-            sources = {name: getattr(probe, name) for name in wanted if name != "efc_force"}
-            seen = {name: np.empty((len(times), *part.shape)) for name, part in sources.items()}
-            if "efc_force" in wanted:  # equalities come first, always the same ones
-                seen["efc_force"] = np.empty((len(times), probe.ne))
-        for name, part in sources.items():
-            seen[name][i] = part
-        if "efc_force" in seen and probe.ne:
-            seen["efc_force"][i] = probe.efc_force[: probe.ne]
+        for kept, part in copies:
+            kept[i] = part
+        if forces and model.neq:  # no view: MuJoCo lays constraints out anew, equalities first
+            pulls[i] = probe.efc_force[: 3 * model.neq]
         if contacts is not None:
             contacts.keep(i, probe)
     return seen
