@@ -98,7 +98,8 @@ def _solved(case: Case) -> tuple[Solution, set[str]] | CaseError:
         solution = solve(case)
     except CaseError as error:
         return error
-    short = replace(case, samples=COVERED, duration=(COVERED - 1) * case.interval)
+    duration = (COVERED - 1) * case.interval  # in which what moves later may still rest
+    short = replace(case, samples=COVERED, duration=duration, rests=True)
     return solution, executed(lambda: solve(short))
 
 
