@@ -137,6 +137,16 @@ def test_check_of_sound_files(new: Path) -> None:
     assert "1 case, no mistakes" in done.stdout
 
 
+def test_two_files_of_one_name_are_refused(new: Path) -> None:
+    other = new.parent / "other" / new.name
+    other.parent.mkdir()
+    other.write_text(NEW.replace("samples: 6", "samples: 11"), encoding="utf-8")
+    done = textmech("run", new, other)
+    assert done.returncode == 2
+    assert "already has the name 'cart'" in done.stderr
+    assert textmech("check", new, new).returncode == 0
+
+
 def test_own_settings_are_a_further_column(new: Path) -> None:
     file = new.with_name("mine.yaml")
     file.write_text("mujoco: {step: 4.0e-3, integrator: implicitfast}\n", encoding="utf-8")
