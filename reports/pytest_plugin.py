@@ -54,11 +54,15 @@ def _configured(file: Path, config: pytest.Config) -> bool:
 
 
 def pytest_collection_finish(session: pytest.Session) -> None:
-    """A case that was asked for and is in no file must not look like a pass."""
+    """A case that was asked for and is in no file, or in two, must not look like a pass."""
     wanted = session.config.getoption("textmech_case") or []
-    known = {
-        n for i in session.items if isinstance(i, CaseItem) for n in (i.case.name, i.path.stem)
-    }
+    items = [item for item in session.items if isinstance(item, CaseItem)]
+    known = {name for item in items for name in (item.case.name, item.path.stem)}
+    files: dict[str, Path] = {}
+    for item in items:
+        other = files.setdefault(item.case.name, item.path)
+        if other != item.path:
+            raise pytest.UsageError(f"{other} and {item.path} have one name: rename one of them")
     for name in wanted:
         if name not in known:
             raise pytest.UsageError(f"no such case in the collected files: {name!r}")

@@ -32,7 +32,10 @@ def choose_cases(words: Sequence[str]) -> list[Case]:
     for word in words or shipped():
         try:
             for case in _cases(word):
-                cases[case.name] = case
+                other = Path(cases.setdefault(case.name, case).source.file)
+                if other.resolve() != Path(case.source.file).resolve():
+                    what = f"{other} already has the name {case.name!r}: rename one of the files"
+                    mistakes.append(Mistake(case.source.file, 0, 0, "", what))
         except CaseError as error:
             mistakes += error.mistakes
     if mistakes:

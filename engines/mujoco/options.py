@@ -54,7 +54,8 @@ def _number(name: str, value: Any) -> tuple[bool, str]:
     """Whether the value is right, and what it should be."""
     if name in SOFT:
         sizes = " or ".join(str(size) for size in SOFT[name])
-        right = isinstance(value, list) and len(value) in SOFT[name] and all(map(_finite, value))
+        right = isinstance(value, list | tuple) and len(value) in SOFT[name]
+        right = right and all(map(_finite, value))
         return right, f"a list of {sizes} finite numbers"
     if name in _WHOLE:
         right = _finite(value) and value == int(value) and 0 <= value <= _MOST
@@ -85,7 +86,7 @@ def _trial(options: Mapping[str, Any]) -> str:
 
     def text(name: str) -> str:
         value = as_written(name, options[name])
-        words = value if isinstance(value, list) else [value]
+        words = value if isinstance(value, list | tuple) else [value]
         return f'{"timestep" if name == "step" else name}="{" ".join(map(str, words))}"'
 
     option = " ".join(text(name) for name in options if name not in SOFT)

@@ -65,6 +65,7 @@ class Contacts:
 
     def __init__(self, scene: Scene, model: mujoco.MjModel, samples: int) -> None:
         self.model = model
+        self._force = np.empty(6)
         self.forces = {name: np.zeros((samples, 2)) for name in scene.contacts}
         self._of_disk = {
             mujoco.mj_name2id(model, _OBJECT.mjOBJ_GEOM, contact.name): self.forces[contact.name]
@@ -73,9 +74,8 @@ class Contacts:
 
     def keep(self, sample: int, data: mujoco.MjData) -> None:
         """Read the contacts of a state; a disk in the air feels no force."""
-        force = np.zeros(6)
         for i in range(data.ncon):
             touch = data.contact[i]  # the floor is the first geom: its number is the lowest
-            mujoco.mj_contactForce(self.model, data, i, force)
-            x, y, _ = force[:3] @ touch.frame.reshape(3, 3)  # on the second geom
-            self._of_disk[touch.geom2][sample] = x, y
+            mujoco.mj_contactForce(self.model, data, i, self._force)
+            on_disk = self._force[:3] @ touch.frame.reshape(3, 3)
+            self._of_disk[touch.geom2][sample] = on_disk[:2]

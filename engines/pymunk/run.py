@@ -4,16 +4,20 @@ Midpoint protocol: pymunk moves bodies by h v first and then changes v. Every bo
 h/2 back along its velocity, so that the engine's positions belong to tₙ − h/2 when its
 velocities belong to tₙ; positions are read h/2 ahead. Forces at positions then act at the
 middle of a step, which makes the method time-symmetric, and of second order.
+
+Reading must cost little beside a hundred steps: pymunk copies all bodies of a sample in one
+call, and what the copies mean is worked out for all samples when the run is over.
 """
 
-import math
 from collections.abc import Callable, Mapping
 from itertools import repeat
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+from pymunk.arbiter import Arbiter
+from pymunk.batch import BodyFields, Buffer, get_space_bodies
 from pymunk.body import Body
-from pymunk.vec2d import Vec2d
 
 from cases.scene import Scene
 from cases.trajectory import Array, Trajectory
@@ -23,6 +27,16 @@ from engines.pymunk.scene import FAR, World, build
 from engines.pymunk.touch import closed, sink
 
 Steps = Callable[[int], None]
+Counts = NDArray[np.int64]  # of steps
+
+_FIELDS = (
+    BodyFields.BODY_ID
+    | BodyFields.POSITION
+    | BodyFields.ANGLE
+    | BodyFields.VELOCITY
+    | BodyFields.ANGULAR_VELOCITY
+)
+_BUFFER = Buffer()  # one for all runs: pymunk never frees a buffer's memory
 
 
 def placed(
@@ -72,72 +86,89 @@ def simulate(
     reactions: tuple[str, ...],
     midpoint: bool,
 ) -> Trajectory:
-    """Runs from stop to stop; a stop reads the bodies, or what the last step's impulses were."""
-    samples = np.rint(times / step).astype(int).tolist()
-    if max(abs(times - np.multiply(samples, step))) > 1e-9 * max(times[-1], step):
+    """Runs from stop to stop; a stop copies the bodies, or what the last step's impulses were."""
+    samples: Counts = np.rint(times / step).astype(int)
+    if max(abs(times - samples * step)) > 1e-9 * max(times[-1], step):
         raise ValueError(f"pymunk: the samples are no whole multiples of the step {step:g} s")
-    weights = [_weights(sample, midpoint) for sample in samples] if reactions else []
-    wanted = {stop for weight in weights for stop in weight}
-    states, impulses = [], {}
-    known, now = set(samples), 0
+    stops, weights = _weights(samples, midpoint)
+    known, wanted = set(samples.tolist()), set(stops.ravel().tolist() if reactions else ())
+    impulses: list[list[float]] = []
+    _BUFFER.clear()
+    now = 0
     for stop in sorted(known | wanted):
         run(stop - now)
         now = stop
         if stop in known:
-            states.append(_state(world, stop * step))
+            get_space_bodies(world.space, _FIELDS, _BUFFER)  # behind the earlier samples
         if stop in wanted:
-            impulses[stop] = np.array(_impulses(world, reactions))
-    rows = np.array(states, float).reshape(len(states), -1, 6)
+            impulses.append(_impulses(world, reactions))
+    rows = _states(world, times)
     if midpoint:
         rows[:, :, :3] += step / 2 * rows[:, :, 3:]
-    acting = np.array([sum(w * impulses[n] for n, w in weight.items()) for weight in weights])
+    kept = np.reshape(impulses, (len(wanted), len(reactions)))
+    places = np.searchsorted(sorted(wanted), stops) if reactions else stops
     return Trajectory(
         times,
         {name: rows[:, i] for i, name in enumerate(world.bodies)},
-        {name: acting[:, i] / step for i, name in enumerate(reactions)},
+        {
+            name: np.sum(weights * kept[places, i], axis=1) / step
+            for i, name in enumerate(reactions)
+        },
     )
 
 
-def _weights(sample: int, midpoint: bool) -> dict[int, float]:
-    """Which steps' impulses give the force at a sample, and with what weight.
+def _weights(samples: Counts, midpoint: bool) -> tuple[Counts, Array]:
+    """Which steps' impulses give the force at each sample, and with what weights: (N, ·) each.
 
     The impulse of step n acts over its middle tₙ − h/2. Unless `midpoint`, it is read as what a
     user sees after the step. The first two steps settle the joints' gaps (5/8 and 11/8 of the
     force that holds a curved path), so the force at the start is extrapolated from the next two.
     """
     if not midpoint:
-        return {max(sample, 1): 1.0}
-    if sample == 0:
-        return {3: 3.5, 4: -2.5}  # at 5/2 h and 7/2 h
-    return {sample: 0.5, sample + 1: 0.5}
+        return np.maximum(samples, 1)[:, None], np.ones((len(samples), 1))
+    stops = np.column_stack([samples, samples + 1])
+    weights = np.full(stops.shape, 0.5)
+    stops[samples == 0], weights[samples == 0] = (3, 4), (3.5, -2.5)  # at 5/2 h and 7/2 h
+    return stops, weights
 
 
-def _state(world: World, t: float) -> list[float]:
-    """x, y, angle, vx, vy, omega of body after body, as pymunk has them."""
-    row: list[float] = []
-    for body in world.bodies.values():
-        row += (*body.position, body.angle, *body.velocity, body.angular_velocity)
-    if not math.isfinite(sum(row)):
-        raise Diverged(f"pymunk: not finite any more at t = {t:g} s")
-    if world.bounded and any(body.position.length > FAR for body in world.bodies.values()):
-        raise Diverged(f"pymunk: a body left the floor's or a groove's {FAR:g} m at t = {t:g} s")
-    return row
+def _states(world: World, times: Array) -> Array:
+    """(N, bodies, 6): x, y, angle, vx, vy, omega, as pymunk had them."""
+    ids = np.frombuffer(_BUFFER.int_buf(), np.uintp).reshape(len(times), -1)[0].tolist()
+    rows = np.frombuffer(_BUFFER.float_buf()).reshape(len(times), len(ids), 6)
+    rows = rows[:, [ids.index(body.id) for body in world.bodies.values()]]  # a copy
+    finite = np.isfinite(rows).all(axis=(1, 2))
+    outside = np.hypot(rows[:, :, 0], rows[:, :, 1]) > FAR
+    far = np.any(outside & world.bounded, axis=1)
+    if far.any() or not finite.all():
+        first = np.argmax(far | ~finite)
+        left = f"a body left the floor's or a groove's {FAR:g} m"
+        what = left if far[first] else "not finite any more"
+        raise Diverged(f"pymunk: {what} at t = {times[first]:g} s")
+    return rows
 
 
 def _impulses(world: World, reactions: tuple[str, ...]) -> list[float]:
     """Of the last step [N s], by quantity."""
-    row = []
+    row: list[float] = []
+    floor = {contact: _contact(world.wheel(contact)) for contact in world.wheels}
     for quantity in reactions:
         part, _, what = quantity.rpartition(".")
         if part in world.joints:
             row.append(world.joints[part][0].impulse)
         else:
-            row.append(_contact(world.wheel(part))[0 if what == "tangent" else 1])
+            row.append(floor[part][0 if what == "tangent" else 1])
     return row
 
 
-def _contact(wheel: Body) -> Vec2d:
-    """The floor's impulse on the wheel; zero where they do not touch."""
-    found: list[Vec2d] = []
-    wheel.each_arbiter(lambda arbiter: found.append(arbiter.total_impulse))
-    return sum(found, Vec2d(0.0, 0.0))
+def _contact(wheel: Body) -> list[float]:
+    """The floor's impulse on the wheel, x and y; zero where they do not touch."""
+    total = [0.0, 0.0]
+    wheel.each_arbiter(_add, total)
+    return total
+
+
+def _add(arbiter: Arbiter, total: list[float]) -> None:
+    x, y = arbiter.total_impulse
+    total[0] += x
+    total[1] += y

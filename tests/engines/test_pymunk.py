@@ -508,6 +508,11 @@ def test_bare_loop_is_the_same_motion(monkeypatch: pytest.MonkeyPatch) -> None:
     assert tuple(worlds[0].bodies["bob"].velocity) == tuple(run.states["bob"][-1, 3:5])
 
 
+def test_a_wheel_that_leaves_the_floor_diverges_at_the_first_sample_beyond() -> None:
+    with pytest.raises(Diverged, match=r"a body left the floor's .* at t = 10 s"):
+        moved("rolling_wheel.downhill", 0.01, engine=SHIPPED, times=np.linspace(0.0, 14.0, 8))
+
+
 def test_a_step_that_is_too_large_diverges() -> None:
     stiff = Spring("coil", Anchor("ground", "O"), Anchor("bead", "center"), 1e6, 0.5)
     scene = Scene(

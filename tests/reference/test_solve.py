@@ -46,6 +46,16 @@ scene:
 initial: {dot: {x: 0, y: START}}
 allow: {dot.y: 1.0e-2}
 """
+CART = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {cart: {block: {mass: 2, width: 0.3, height: 0.1}}, rod: {bar: {mass: 0.5, length: 0.6}}}
+  joints:
+    rail: {slide: [ground.O, cart.center], along: [1, 0]}
+    hinge: {pin: [cart.center, rod.start]}
+initial: {cart: {x: 0}, rod: {angle: -40 deg}}
+allow: {cart.x: 1.0e-3, cart.y: 1.0e-3, cart.vy: 1.0e-3}
+"""
 AT_REST = {
     "hanging bar": """\
 scene:
@@ -171,6 +181,13 @@ def test_what_rests_has_to_say_so(tmp_path: Path, name: str) -> None:
     with pytest.raises(CaseError, match="never moves: it stays") as caught:
         solve(scenes.typed(tmp_path, AT_REST[name]))
     assert all(mistake.where.startswith("allow.") for mistake in caught.value.mistakes)
+
+
+def test_a_place_that_is_held_only_trembles(tmp_path: Path) -> None:
+    """The cart's height is 0 but for rounding, and rounding is no motion."""
+    with pytest.raises(CaseError) as caught:
+        solve(scenes.typed(tmp_path, CART))
+    assert [mistake.where for mistake in caught.value.mistakes] == ["allow.cart.y", "allow.cart.vy"]
 
 
 @pytest.mark.parametrize("kind", ["pin", "weld"])

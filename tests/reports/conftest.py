@@ -41,6 +41,10 @@ def speed(t: Array, *stops: float) -> Array:
     return v
 
 
+def nothing() -> None:
+    """What an engine does before it runs; a function with a name crosses into a process."""
+
+
 @dataclass(frozen=True)
 class Fake:
     """x(t) = t + model t + rate h^order t; diverges above `stable`."""
@@ -60,7 +64,7 @@ class Fake:
     ways: tuple[Realised, ...] = ("native",)
     numbers: dict[str, float] = field(default_factory=dict)
     refusal: str | None = None
-    before: Callable[[], None] = lambda: None
+    before: Callable[[], None] = nothing
 
     def realisations(self, scene: Scene) -> tuple[Realised, ...]:
         return self.ways

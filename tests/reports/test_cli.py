@@ -138,6 +138,16 @@ def test_check_of_sound_files(new: Path) -> None:
     assert "1 case, no mistakes" in done.stdout
 
 
+def test_two_files_of_one_name_are_refused(new: Path) -> None:
+    other = new.parent / "other" / new.name
+    other.parent.mkdir()
+    other.write_text(NEW.replace("samples: 6", "samples: 11"), encoding="utf-8")
+    done = textmech("run", new, other)
+    assert done.returncode == 2
+    assert "already has the name 'cart'" in done.stderr
+    assert textmech("check", new, new).returncode == 0
+
+
 def test_own_settings_are_a_further_column(new: Path) -> None:
     file = new.with_name("mine.yaml")
     file.write_text("mujoco: {step: 4.0e-3, integrator: implicitfast}\n", encoding="utf-8")
@@ -148,6 +158,37 @@ def test_own_settings_are_a_further_column(new: Path) -> None:
         "mujoco.own",
         "mujoco.tuned",
     ]
+
+
+def test_the_own_settings_of_the_readme(new: Path) -> None:
+    readme = Path(write.HERE.parent / "README.md").read_text(encoding="utf-8")
+    own = next(block for block in readme.split("```") if block.startswith("yaml\nmujoco: {step"))
+    file = new.with_name("mine.yaml")
+    file.write_text(own.removeprefix("yaml"), encoding="utf-8")
+    done = textmech("run", new, "--settings", file)
+    assert done.returncode == 0, done.stderr
+    assert {"mujoco.own", "pymunk.own"} <= set(done.stdout.split())
+
+
+def test_what_moves_late_is_no_mistake(new: Path) -> None:
+    """Under a force that grows from zero nothing is to be seen in the first samples."""
+    new.write_text(
+        """\
+title: A slow start
+scene:
+  gravity: none
+  bodies: {dot: {particle: {mass: 1.0}}}
+  forces: {hand: {push: dot.center, ramp: [1.0e-2, 0]}}
+initial: {dot: {x: 1000, y: 0}}
+duration: 2.0
+samples: 51
+step: {mujoco: 1.0e-3, pymunk: 1.0e-3}
+allow: {dot.x: 1.0e-3}
+""",
+        encoding="utf-8",
+    )
+    done = textmech("run", new)
+    assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.parametrize(

@@ -73,3 +73,11 @@ def test_a_case_that_is_not_there_does_not_look_like_a_pass(project: pytest.Pyte
     done = project.runpytest_subprocess("swing.yaml", "--textmech-case", "swung")
     assert done.ret == pytest.ExitCode.USAGE_ERROR
     done.stderr.fnmatch_lines(["*no such case*swung*"])
+
+
+def test_two_files_of_one_name_do_not_share_their_rows(project: pytest.Pytester) -> None:
+    strict = project.mkdir("strict") / "swing.yaml"
+    strict.write_text(CASE.replace("rod.angle: 1.0e-2", "rod.angle: 1.0e-12"), encoding="utf-8")
+    done = project.runpytest_subprocess("strict/swing.yaml", "swing.yaml")
+    assert done.ret == pytest.ExitCode.USAGE_ERROR
+    done.stderr.fnmatch_lines(["*have one name*"])

@@ -1,0 +1,76 @@
+"""The whole path with engines that misbehave: what is lost is said, and the rest goes on."""
+
+import os
+import signal
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from cases.case import Case
+from cases.mistake import CaseError
+from engines.engine import Engine
+from reports import suite
+from reports.row import AGREES, DIVERGED, FAILS
+from reports.suite import Report
+from reports.trial import Trial
+
+Make = Callable[..., Trial]
+
+
+def die() -> None:
+    """As pymunk does on some bad numbers: the whole process goes, without an exception."""
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def stumble() -> None:
+    raise ZeroDivisionError("a bug of the adapter")
+
+
+def measure(cases: list[Case], engines: list[Engine]) -> Report:
+    return suite.measure(cases, engines, jobs=2, progress=lambda *_: None)
+
+
+def verdicts(report: Report) -> dict[tuple[str, str], Any]:
+    return {(r.setting, r.quantity): r for r in report.comparisons if r.quantity != "audit"}
+
+
+@pytest.mark.parametrize(("before", "words"), [(die, "died"), (stumble, "ZeroDivisionError")])
+def test_a_lost_run_is_a_row_and_the_others_are_whole(
+    trial: Make, moving: Case, before: Callable[[], None], words: str
+) -> None:
+    sound = trial(setting="tuned").engine
+    lost = trial(setting="shipped", own_step=1e-3, before=before).engine
+    found = verdicts(measure([moving], [lost, sound]))
+    assert found[("tuned", "ball.x")].verdict == AGREES
+    assert found[("shipped", "ball.x")].verdict == FAILS
+    assert words in found[("shipped", "ball.x")].because
+
+
+def test_a_diverged_run_is_a_row(trial: Make, moving: Case) -> None:
+    engine = trial(setting="shipped", own_step=1e-3, stable=1e-5).engine
+    report = measure([moving], [engine])
+    assert verdicts(report)[("shipped", "ball.x")].verdict == DIVERGED
+    assert not report.fails
+
+
+def test_all_cases_that_cannot_start_are_named_together(trial: Make, moving: Case) -> None:
+    broken = [
+        replace(moving, name=name, initial={}, source=replace(moving.source, file=f"{name}.yaml"))
+        for name in ("one", "two")
+    ]
+    with pytest.raises(CaseError) as caught:
+        measure([*broken, moving], [trial().engine])
+    assert {mistake.file for mistake in caught.value.mistakes} == {"one.yaml", "two.yaml"}
+
+
+def test_a_reference_that_is_not_certified_judges_nothing(
+    trial: Make, moving: Case, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("reference.certificate.OWN_ERROR", -1.0)  # nothing can keep that
+    monkeypatch.setattr("reference.certificate.ROUNDING", -1.0)
+    report = measure([moving], [trial().engine])
+    assert report.fails
+    assert {row.verdict for row in report.comparisons} == {FAILS}
+    assert all("not certified" in row.because for row in report.comparisons)
