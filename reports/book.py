@@ -41,8 +41,8 @@ class Book:
     own_step: float | None = STEP
 
     def realisations(self, scene: Scene) -> tuple[Realised, ...]:
-        """The law is all there is."""
-        return ("law",)
+        """The approximation is all there is."""
+        return ("native",)
 
     def refuses(self, scene: Scene) -> str | None:
         """It is only offered where it applies."""

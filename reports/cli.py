@@ -1,11 +1,11 @@
 """The command `textmech`: run, check, list, show, bench."""
 
+import signal
 import sys
 from pathlib import Path
 
 import click
 
-import reports
 from cases.mistake import CaseError
 
 FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
@@ -13,9 +13,7 @@ FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
 
 def main() -> None:
     """The entry point: checks that the packages are ours before anything else."""
-    here = Path(__file__).resolve().parent
-    if Path(str(reports.__file__)).resolve().parent != here:
-        sys.exit(f"textmech: {reports.__file__} shadows textmech's own package in {here}")
+    signal.signal(signal.SIGTERM, _end)  # as Ctrl-C does: else the workers stay behind
     try:
         sys.exit(command(standalone_mode=False))  # an exit code, or None
     except click.ClickException as error:
@@ -29,6 +27,10 @@ def main() -> None:
         count = len(error.mistakes)
         click.echo(f"{count} mistake{'s' if count > 1 else ''}; nothing was written", err=True)
         sys.exit(BAD_INPUT)
+
+
+def _end(*_: object) -> None:
+    raise KeyboardInterrupt
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -68,7 +70,7 @@ def command() -> None:
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default.")
 @click.option(
     "--out",
-    type=click.Path(file_okay=False, path_type=Path),
+    type=click.Path(file_okay=False, writable=True, path_type=Path),
     help="Where to write the CSV files. A full run writes the committed reports by default, "
     "a partial one nothing.",
 )
@@ -90,6 +92,9 @@ def run(
     from reports.selection import choose_book, choose_cases, choose_engines
 
     chosen = choose_cases(cases)
+    for folder in (out, keep):
+        if folder is not None:
+            _prepare(folder)  # before the work, not after it
     with terminal.progress() as progress:
         report = suite.measure(
             chosen,
@@ -107,6 +112,13 @@ def run(
     terminal.show(report, detailed=bool(cases), written=out)
     if report.fails:
         raise click.exceptions.Exit(FAILED)
+
+
+def _prepare(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise click.UsageError(f"cannot write to {folder}: {error.strerror}") from None
 
 
 @command.command()

@@ -23,7 +23,8 @@ def coverage(cases: Sequence[Case], executed: Mapping[str, set[str]]) -> pd.Data
         for number in range(1, count + 1):
             label = f"2.{number}"
             rows.append((kind, label, [c.name for c in cases if getattr(c.origin, kind) == label]))
+    # In brackets, or whoever reads the table takes 2.10 for the number 2.1.
     return pd.DataFrame(
-        [(kind, number, " ".join(sorted(names))) for kind, number, names in rows],
+        [(kind, f"({number})", " ".join(sorted(names))) for kind, number, names in rows],
         columns=["kind", "number", "cases"],
     )

@@ -1,6 +1,7 @@
 """Work in other processes, on all cores: a process that dies costs its own task only."""
 
 import os
+import signal
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
@@ -72,3 +73,4 @@ def _result(future: Future) -> Any:
 def _elsewhere() -> None:
     """Engines write logs into the current folder: let it not be the user's."""
     os.chdir(tempfile.gettempdir())
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)  # the parent's handler is not a worker's

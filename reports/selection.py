@@ -75,6 +75,9 @@ def choose_engines(names: Sequence[str], settings: Sequence[str]) -> list[Engine
     for file in files:
         own = read_settings(file)
         found += [e for name, e in own.items() if not names or name in names]
+    if not found and not choose_book(names, settings):
+        what = f"with --settings {', '.join(settings)} no engine is left"
+        raise CaseError([Mistake("--engine", 0, 0, ", ".join(names), what)])
     return found
 
 

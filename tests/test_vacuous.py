@@ -12,11 +12,17 @@ from cases.find import shipped
 from cases.load import load
 from cases.mistake import CaseError
 from cases.observe import observe
-from cases.trajectory import Array
+from cases.quantity import table
+from cases.trajectory import Array, Trajectory
 from reference.assembly import assemble
+from reference.closure import Closure
+from reference.contact_modes import switches
+from reference.event import follow
 from reference.explicit import dormand_prince
 from reference.mechanism import Mechanism
 from reference.motion import integrate, motion
+from reference.switched import Motion
+from reference.switching_mechanism import SwitchingMechanism
 
 CHANGED = 1.05  # 5 %, or 0.05 where a parameter is zero
 STAYS = 1e-9  # of a quantity's size: a motion that does not depend on a parameter at all
@@ -27,10 +33,20 @@ PARAMETERS = [(file, name) for file in shipped().values() for name in load(file)
 
 def samples(case: Case) -> Mapping[str, Array]:
     """What the case observes, by the generated mechanism."""
+    trajectory = switched(case) if switches(case.scene) else smooth(case)
+    known = table(case.scene)
+    return {name: observe(case.scene, trajectory, name) for name in case.allow if name in known}
+
+
+def smooth(case: Case) -> Trajectory:
     mechanism = Mechanism(case.scene, assemble(case))
     y = integrate(mechanism, case.times, dormand_prince, tolerance=TOLERANCE).y
-    trajectory = motion(mechanism, case.times, y, mechanism)
-    return {name: observe(case.scene, trajectory, name) for name in case.allow}
+    return motion(mechanism, case.times, y, mechanism)
+
+
+def switched(case: Case) -> Trajectory:
+    mechanism = SwitchingMechanism(case.scene, assemble(case), Closure(case).size)
+    return Motion(mechanism, follow(mechanism, case.times)).trajectory(case.times)
 
 
 def changed(file: Path, case: Case, name: str, folder: Path) -> Case:

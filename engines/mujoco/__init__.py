@@ -44,7 +44,7 @@ class MuJoCo:
 
     def realisations(self, scene: Scene) -> tuple[Realised, ...]:
         """MuJoCo's own elements; dry friction, of which it knows one number, in other ways too."""
-        if not followed(scene):
+        if self.setting != "tuned" or not followed(scene):
             return ("native",)
         return ("native", "law") if smooth_only(scene) else ("native", "law", "driver")
 

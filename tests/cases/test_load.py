@@ -11,11 +11,11 @@ from cases.find import find, shipped
 from cases.language.number import Names, amount, number
 from cases.load import load
 from cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Joint, Push, Signal, Torque
-from reference.systems import SYSTEMS
+from reference.systems import SWITCHING, SYSTEMS
 
 PARAMETERS = {
     name: tuple(f.name for f in fields(system))  # type: ignore[arg-type]
-    for name, system in SYSTEMS.items()
+    for name, system in (SYSTEMS | SWITCHING).items()
 }
 
 
