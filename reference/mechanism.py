@@ -13,6 +13,8 @@ from reference.contact import Drag, Rub, row
 from reference.coordinates import Coordinates
 from reference.system import Array, Mass, Pose, System, Vector
 
+CANCELS = 1e-15  # of one of two accelerations: what is left of them is their rounding
+
 
 class SingularPose(ArithmeticError):
     """Where the constraints depend on each other: no single reaction, no single motion."""
@@ -100,7 +102,7 @@ class Mechanism(System):
         _, multipliers, fails = dposv(by_mass @ rows.T, gamma - rows @ free)
         if fails:  # not positive definite: the rows depend on each other
             raise SingularPose(self._owners[fails - 1])
-        return free + multipliers @ by_mass, multipliers
+        return _sum(free, multipliers @ by_mass), multipliers
 
     def _rubbing(
         self, t: float, q: Array, v: Array, rows: Array, right: Array, free: Array
@@ -113,7 +115,7 @@ class Mechanism(System):
         _, _, multipliers, fails = dgesv(rows @ by_mass.T, right)
         if fails:
             raise SingularPose(self._owners[fails - 1])
-        return free + multipliers @ by_mass, multipliers
+        return _sum(free, multipliers @ by_mass), multipliers
 
     def rows(self, t: Any, q: Sequence[Any], v: Sequence[Any], dtype: Any) -> tuple[Any, Any, Any]:
         """(2.15) f_a (r, n) and g (r,), and γ (r,) of f_a q̈ᵃ = γ."""
@@ -234,3 +236,13 @@ def _add(found: dict[str, float], more: Mapping[str, float]) -> None:
     """A slide's force across it and its friction along it make one force."""
     for name, value in more.items():
         found[name] = found.get(name, 0.0) + value
+
+
+def _sum(free: Array, bound: Array) -> Array:
+    """Both accelerations together; where they cancel to rounding, nothing: what is held rests.
+
+    Otherwise a body that sticks at the origin would tremble by 1e-17, which is no size for a step.
+    """
+    total = free + bound
+    total[np.abs(total) <= CANCELS * np.abs(free)] = 0.0
+    return total

@@ -60,6 +60,8 @@ def test_another_profiler_is_put_back_even_after_an_error() -> None:
 
 
 def short(case: Case) -> Case:
+    if case.events:  # they may come at any time
+        return case
     return replace(case, samples=SAMPLES, duration=(SAMPLES - 1) * case.interval)
 
 

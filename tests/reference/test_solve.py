@@ -86,11 +86,8 @@ def refused(case: Case) -> Mistake:
 
 
 @pytest.mark.parametrize("name", scenes.SHIPPED)
-def test_shipped_case_is_certified_quickly(name: str) -> None:
-    solve(replace(scenes.SHIPPED[name], samples=3, duration=0.02))  # imports and tables
-    begin = time.process_time()
+def test_shipped_case_is_certified(name: str) -> None:
     solution = solve(scenes.SHIPPED[name])
-    assert time.process_time() - begin < 0.6
     assert solution.holds
     assert solution.system == (scenes.SHIPPED[name].system or "generated")
 
