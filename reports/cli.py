@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from cases.mistake import CaseError
+from cases.mistake import CaseError, Mistake
 
 FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
 
@@ -129,17 +129,32 @@ def check(files: tuple[str, ...]) -> None:
     from reports.events import never
     from reports.selection import choose_cases
 
-    mistakes = []
+    mistakes: list[Mistake] = []
+    failed = False
     for file in files:
         try:
             chosen = choose_cases([file])
-            for case in chosen:
-                mistakes += never(case, solve(case).trajectory)
-            click.echo(f"{file}: {len(chosen)} case{'s' if len(chosen) > 1 else ''}, no mistakes")
+            solutions = [solve(case) for case in chosen]
         except CaseError as error:
             mistakes += error.mistakes
+            continue
+        found = [
+            mistake
+            for case, solution in zip(chosen, solutions, strict=True)
+            for mistake in never(case, solution.trajectory)
+        ]
+        mistakes += found
+        if not found:
+            click.echo(f"{file}: {len(chosen)} case{'s' if len(chosen) > 1 else ''}, no mistakes")
+        broken = [check for solution in solutions for check in solution.checks if not check.holds]
+        for check in broken:
+            numbers = f"{check.difference:.2e} is above {check.bound:.1e}"
+            click.echo(f"{file}: FAILS: the reference's {check.name}: {numbers}")
+        failed = failed or bool(broken)
     if mistakes:
         raise CaseError(mistakes)
+    if failed:
+        raise click.exceptions.Exit(FAILED)
 
 
 @command.command("list")
