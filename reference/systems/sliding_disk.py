@@ -37,7 +37,7 @@ class _Disk(System):
         return self.m * self.R**2 / 2
 
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
-        """(2.87), (2.34) ẍ_c = g (sin β − σ μ cos β), R φ̈ = 2 σ μ g cos β; rolling: ẍ_c = R φ̈ = ⅔ g sin β.
+        """(2.87), (2.34) ẍ_c = g (sin β − σ μ cos β), R φ̈ = 2 σ μ g cos β; rolling R φ̈ = ⅔ g sin β.
 
         [m/s², m/s², rad/s²], (3,).
         """
