@@ -29,6 +29,7 @@ from reference.systems import SWITCHING, SYSTEMS
 
 STILL = 1e-9  # of the motion's size: smaller changes are no motion
 ALIKE = {"m": [X, Y], "m/s": [VX, VY], "rad": [ANGLE], "rad/s": [OMEGA]}  # columns of a state
+OPEN = 1e-9  # of the mechanism's size: nearer than that, a contact starts closed
 ROUNDING = 1e-12  # of the normal force: a wheel that needs no friction rolls without any
 
 
@@ -73,6 +74,7 @@ def _followed(case: Case) -> Solution:
         built = follow(generated, case.times)
         followed = built if system is generated else follow(system, case.times)
         trajectory = _with_record(case, Motion(system, followed), Motion(generated, built))
+        _placed(case, trajectory)
         _possible(case, trajectory)
         _moving(case, trajectory)
         checks = certify_switching(
@@ -81,6 +83,22 @@ def _followed(case: Case) -> Solution:
     except SWITCHING_FAILURES as failure:
         raise switching_refused(case, failure) from failure
     return Solution(trajectory, case.system or "generated", checks)
+
+
+def _placed(case: Case, trajectory: Trajectory) -> None:
+    """A contact that starts above the floor has to say so: more often it is a slip of the pen.
+
+    Raises CaseError unless an event of the case is about its gap.
+    """
+    said = {event.quantity for event in case.events.values()}
+    for name, contact in case.scene.contacts.items():
+        gap = float(observe(case.scene, trajectory, f"{name}.gap")[0])
+        if contact.switches and gap > OPEN * Closure(case).size and f"{name}.gap" not in said:
+            what = (
+                f"starts {gap:.3g} m above the floor; if it is meant to fall on it, name the "
+                f"event: events: {{lands: {{{name}.gap: falls to zero}}}}"
+            )
+            raise CaseError([case.mistake(("scene", "contacts", name), what)])
 
 
 def _with_record(case: Case, written: Motion, generated: Motion) -> Trajectory:

@@ -24,6 +24,7 @@ scene:
 initial: {{rod: {{start: [0, {y}], angle: 60 deg, vx: {vx}, vy: {vy}, omega: 0}}}}
 allow: {{rod.y: 1.0e-3, rod.angle: 1.0e-3}}
 """
+FALLS = "events: {lands: {tip.gap: falls to zero}}\n"
 
 
 def case(tmp_path: Path, name: str) -> Case:
@@ -41,6 +42,7 @@ def generated(tmp_path: Path, name: str) -> Solution:
 
 def rod(tmp_path: Path, **changed: float) -> Case:
     text = ROD.format(**{"mu": 0, "e": 0, "y": 0, "vx": 0, "vy": 0, **changed})
+    text += FALLS if changed.get("y", 0) > 0 else ""
     return scenes.typed(tmp_path, text, tail=sliding_scenes.tail(0.15, 16))
 
 
@@ -139,6 +141,15 @@ def test_painleve_is_refused(tmp_path: Path) -> None:
 
 def test_starts_that_are_refused(tmp_path: Path) -> None:
     assert "tip starts 3 mm in the floor" in refused(rod(tmp_path, y=-0.003)).what
+
+
+def test_a_contact_above_the_floor_has_to_say_so(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(globals(), "FALLS", "")
+    mistake = refused(rod(tmp_path, y=0.01))
+    assert mistake.where == "scene.contacts.tip"
+    assert "starts 0.01 m above the floor" in mistake.what
     assert "tip starts into the floor, with 1 m/s" in refused(rod(tmp_path, vy=-1)).what
     solve(rod(tmp_path, y=1e-10, mu=0.5))
 
