@@ -92,6 +92,20 @@ def test_shipped_case_is_certified(name: str) -> None:
     assert solution.system == (scenes.SHIPPED[name].system or "generated")
 
 
+@pytest.mark.parametrize(("part", "rolls"), [(0.99, False), (1.01, True)])
+def test_rolling_is_possible_just_above_what_it_needs(
+    tmp_path: Path, part: float, rolls: bool
+) -> None:
+    """A disk needs tan β / 3: Example 2.1; one per cent less is not enough."""
+    mu = part * np.tan(np.pi / 6) / 3
+    text = WHEEL.replace("BETA", "30 deg").replace("MU", repr(float(mu))).replace("UP", "0")
+    case = scenes.typed(tmp_path, text)
+    if rolls:
+        assert solve(case).holds
+    else:
+        assert "rolling is not possible" in refused(case).what
+
+
 def test_rolling_needs_enough_friction(tmp_path: Path) -> None:
     """A disk needs tan β / 3: Example 2.1."""
     text = WHEEL.replace("BETA", "30 deg").replace("MU", "0.1").replace("UP", "0")

@@ -95,3 +95,11 @@ def test_too_few_samples_away_from_events_settle_nothing() -> None:
     away = T > 0.95
     found = study(ladder(p=1), REFERENCE, exponents=(1, 2), allow=1e-2, floor=1e-13, away=away)
     assert found.verdict == UNSETTLED
+
+
+def test_a_finest_rung_that_is_no_number_leaves_no_usable_step() -> None:
+    broken = ladder(p=1)
+    broken[STEPS[0]] = REFERENCE * np.nan
+    found = judge(broken, p=1)
+    assert found.usable_step is None
+    assert found.verdict == UNSETTLED
