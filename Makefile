@@ -14,6 +14,7 @@ test: $(READY)
 lint: $(READY)
 	$(VENV)/bin/ruff check .
 	$(VENV)/bin/ruff format --check .
+	mkdir -p $(VENV)/typing && ln -sfn ../.. $(VENV)/typing/textmech
 	$(VENV)/bin/pyright
 
 bench: $(READY)

@@ -6,9 +6,9 @@ from typing import Literal
 
 import numpy as np
 
-from cases.mistake import Mistake, Source
-from cases.scene import Scene, Vector
-from cases.trajectory import Array
+from .mistake import Mistake, Source
+from .scene import Scene, Vector
+from .trajectory import Array
 
 
 @dataclass(frozen=True)

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from cases.mistake import CaseError, Mistake
-from cases.quantity import nearest
+from .mistake import CaseError, Mistake
+from .quantity import nearest
 
 
 def shipped() -> dict[str, Path]:

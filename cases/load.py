@@ -4,14 +4,14 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path as FilePath
 
-from cases.case import Case
-from cases.language.check import check
-from cases.language.document import read
-from cases.language.overlay import overlay
-from cases.language.parse import parse
-from cases.language.resolve import resolve_case, resolve_scene
-from cases.language.words import NO_VALUE
-from cases.mistake import CaseError, Mistake
+from .case import Case
+from .language.check import check
+from .language.document import read
+from .language.overlay import overlay
+from .language.parse import parse
+from .language.resolve import resolve_case, resolve_scene
+from .language.words import NO_VALUE
+from .mistake import CaseError, Mistake
 
 Systems = Mapping[str, tuple[str, ...]]
 

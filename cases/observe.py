@@ -6,9 +6,9 @@ itself (tests/cases/test_observe.py), because a mistake here would cancel in eve
 
 import numpy as np
 
-from cases.quantity import Quantity, table
-from cases.scene import GROUND, Anchor, Contact, Damper, Joint, Scene, Spring
-from cases.trajectory import ANGLE, OMEGA, VX, VY, Array, Trajectory, X, Y
+from .quantity import Quantity, table
+from .scene import GROUND, Anchor, Contact, Damper, Joint, Scene, Spring
+from .trajectory import ANGLE, OMEGA, VX, VY, Array, Trajectory, X, Y
 
 
 def observe(scene: Scene, trajectory: Trajectory, name: str) -> Array:

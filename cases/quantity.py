@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Literal
 
-from cases.scene import Scene
+from .scene import Scene
 
 Kind = Literal["coordinate", "velocity", "force", "energy", "momentum", "residual", "event"]
 

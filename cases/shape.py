@@ -6,7 +6,7 @@ integrals over the shape (tests/cases/test_shape.py). Hand-written systems carry
 
 from collections.abc import Mapping
 
-from cases.scene import CENTER, Body, Vector
+from .scene import CENTER, Body, Vector
 
 Points = Mapping[str, Vector]
 

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from engines.engine import Engine
+from .engine import Engine
 
 NAMES = ("mujoco", "pymunk")
 SETTINGS = ("shipped", "tuned")
@@ -15,11 +15,11 @@ def engine(name: str, setting: str, options: Mapping[str, Any] | None = None) ->
     Raises ValueError for options that the engine does not have.
     """
     if name == "mujoco":
-        from engines.mujoco import MuJoCo
+        from .mujoco import MuJoCo
 
         return MuJoCo(setting, options or {})
     if name == "pymunk":
-        from engines.pymunk import Pymunk
+        from .pymunk import Pymunk
 
         return Pymunk(setting, options or {})
     raise KeyError(name)

@@ -4,8 +4,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
-from cases.scene import Scene
-from cases.trajectory import Array, Trajectory
+from ..cases.scene import Scene
+from ..cases.trajectory import Array, Trajectory
 
 Realised = Literal["native", "law", "driver"]
 """The engine's own force elements; our force law in a callback; our driver around the step."""

@@ -6,7 +6,7 @@ the book's letters in `reference/`, here, and as a table of typed values in test
 
 import math
 
-from cases.scene import Damper, DryFriction, Signal, Smooth, Spring
+from ..cases.scene import Damper, DryFriction, Signal, Smooth, Spring
 
 
 def value(signal: Signal, t: float) -> tuple[float, ...]:

@@ -1,0 +1,1 @@
+"""The mechanics: hand-written systems, the generated mechanism, and what certifies them."""

@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from cases.scene import Damper, Force, Push, Signal, Spring, Torque
-from reference.coordinates import Coordinates, Point
-from reference.force import damper, spring
-from reference.system import Array
+from ..cases.scene import Damper, Force, Push, Signal, Spring, Torque
+from .coordinates import Coordinates, Point
+from .force import damper, spring
+from .system import Array
 
 Numbers = Sequence[Any]
 SHORT = 1e-9  # of the rest length: a motion that comes so close would not miss zero but by rounding

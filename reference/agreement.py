@@ -4,8 +4,8 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from cases.trajectory import Trajectory
-from reference.system import Array
+from ..cases.trajectory import Trajectory
+from .system import Array
 
 
 def worst(values: Iterable[float]) -> float:

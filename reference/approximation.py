@@ -4,15 +4,15 @@ from dataclasses import asdict, replace
 
 import numpy as np
 
-from cases.trajectory import VX, Trajectory, X
-from reference.book import Karnopp, boxcars
-from reference.event import follow
-from reference.mode import Switching
-from reference.switched import Motion
-from reference.system import Array
-from reference.systems.dynamometer import Dynamometer
-from reference.systems.growing_force import GrowingForce
-from reference.systems.smooth_friction import SmoothDynamometer, SmoothGrowingForce
+from ..cases.trajectory import VX, Trajectory, X
+from .book import Karnopp, boxcars
+from .event import follow
+from .mode import Switching
+from .switched import Motion
+from .system import Array
+from .systems.dynamometer import Dynamometer
+from .systems.growing_force import GrowingForce
+from .systems.smooth_friction import SmoothDynamometer, SmoothGrowingForce
 
 KINDS = ("karnopp", "boxcar", "smooth")
 DELTA = 5e-4  # m/s, the book's band in both examples

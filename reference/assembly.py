@@ -5,12 +5,12 @@ Positions by Newton's method from a guess, rates by linear algebra.
 
 import numpy as np
 
-from cases.case import Case
-from reference import refusal
-from reference.closure import Closure
-from reference.positions import RANK, positions, rank
-from reference.rates import rates
-from reference.system import Array
+from ..cases.case import Case
+from . import refusal
+from .closure import Closure
+from .positions import RANK, positions, rank
+from .rates import rates
+from .system import Array
 
 
 def assemble(case: Case) -> tuple[Array, Array]:

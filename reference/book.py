@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reference.friction import Dry, boxcar
-from reference.mode import Guard, Switching
-from reference.stepping import stepped
-from reference.stick_slip import Pull, guards, modes
-from reference.system import Array
+from .friction import Dry, boxcar
+from .mode import Guard, Switching
+from .stepping import stepped
+from .stick_slip import Pull, guards, modes
+from .system import Array
 
 
 @dataclass(frozen=True)

@@ -9,18 +9,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cases.case import Case
-from cases.observe import observe
-from cases.quantity import table
-from cases.trajectory import Trajectory
-from reference.agreement import difference, reactions, relative, worst
-from reference.explicit import dormand_prince
-from reference.formalisms import energy, lagrange, newton_euler
-from reference.implicit import radau
-from reference.integrator import Integration
-from reference.mechanism import Mechanism
-from reference.motion import TOLERANCE, instants, integrate, motion
-from reference.system import Array, System
+from ..cases.case import Case
+from ..cases.observe import observe
+from ..cases.quantity import table
+from ..cases.trajectory import Trajectory
+from .agreement import difference, reactions, relative, worst
+from .explicit import dormand_prince
+from .formalisms import energy, lagrange, newton_euler
+from .implicit import radau
+from .integrator import Integration
+from .mechanism import Mechanism
+from .motion import TOLERANCE, instants, integrate, motion
+from .system import Array, System
 
 OWN_ERROR = 1e-12  # of the motion's size: what is asked of a reference
 LAW = 1e-12  # of the largest term: the laws are algebra, only rounding may differ

@@ -5,15 +5,15 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cases.case import Case
-from cases.trajectory import Trajectory
-from reference.agreement import difference, reactions, relative, worst
-from reference.certificate import GENERATED, OWN_ERROR, SHARE, Check, laws, share
-from reference.event import Followed, follow
-from reference.mode import Switching
-from reference.switched import Motion
-from reference.switching_mechanism import SwitchingMechanism
-from reference.system import Array
+from ..cases.case import Case
+from ..cases.trajectory import Trajectory
+from .agreement import difference, reactions, relative, worst
+from .certificate import GENERATED, OWN_ERROR, SHARE, Check, laws, share
+from .event import Followed, follow
+from .mode import Switching
+from .switched import Motion
+from .switching_mechanism import SwitchingMechanism
+from .system import Array
 
 OWN_EVENTS = 1e-12  # s, against known functions
 GENERATED_EVENTS = 1e-10  # s, against the generated motion

@@ -8,12 +8,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from cases.case import Case, Placement
-from cases.scene import Anchor
-from reference.constraint import Constraint, Lock, constraints
-from reference.coordinates import Coordinates
-from reference.rolling import Roll
-from reference.system import Array
+from ..cases.case import Case, Placement
+from ..cases.scene import Anchor
+from .constraint import Constraint, Lock, constraints
+from .coordinates import Coordinates
+from .rolling import Roll
+from .system import Array
 
 POSITIONS = {"x": 0, "y": 1, "angle": 2}
 RATES = {"vx": 0, "vy": 1, "omega": 2}

@@ -10,9 +10,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
-from cases.scene import GROUND, Anchor, Joint, Scene, Vector
-from reference.coordinates import Coordinates, Point, trigonometry
-from reference.rolling import Roll, Touch
+from ..cases.scene import GROUND, Anchor, Joint, Scene, Vector
+from .coordinates import Coordinates, Point, trigonometry
+from .rolling import Roll, Touch
 
 Numbers = Sequence[Any]
 

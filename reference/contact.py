@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from cases.scene import Anchor, Contact, Joint
-from reference.constraint import Align, Constraint
-from reference.coordinates import Coordinates
+from ..cases.scene import Anchor, Contact, Joint
+from .constraint import Align, Constraint
+from .coordinates import Coordinates
 
 Numbers = Sequence[Any]
 

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from cases.scene import Contact, DryFriction, Joint, Scene
-from reference.contact import Catch, Drag, Grip, Press, Rub, catch, touching
-from reference.coordinates import Coordinates
-from reference.friction import Dry, stiction
+from ..cases.scene import Contact, DryFriction, Joint, Scene
+from .contact import Catch, Drag, Grip, Press, Rub, catch, touching
+from .coordinates import Coordinates
+from .friction import Dry, stiction
 
 State = Literal["open", "slides +", "slides -", "sticks"]
 REST: tuple[State, ...] = (

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from cases.scene import GROUND, Anchor, Scene
+from ..cases.scene import GROUND, Anchor, Scene
 
 
 class Point(NamedTuple):  # made at every evaluation: a frozen dataclass costs three times as much

@@ -11,12 +11,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
-from reference.explicit import DormandPrince
-from reference.implicit import Radau
-from reference.integrator import Method, Slope, Step, march
-from reference.mode import Guard, Switching
-from reference.radau import radau_table
-from reference.system import Array, System
+from .explicit import DormandPrince
+from .implicit import Radau
+from .integrator import Method, Slope, Step, march
+from .mode import Guard, Switching
+from .radau import radau_table
+from .system import Array, System
 
 TOLERANCE = 1e-15  # per step, as for smooth motions: as well as doubles can
 TOGETHER = 1e-12  # s: how well an event is located, so closer ones are one instant

@@ -9,8 +9,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from reference.dop853 import DOP853, STAGES, Table
-from reference.integrator import EPS, Integration, Slope, Vector, integrate
+from .dop853 import DOP853, STAGES, Table
+from .integrator import EPS, Integration, Slope, Vector, integrate
 
 
 class DormandPrince:

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from reference.system import Array
+from .system import Array
 
 
 def weight(m: float, g: ArrayLike) -> Array:

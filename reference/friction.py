@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from reference.system import Array
+from .system import Array
 
 Interval = Callable[[float, float, Any], Any]  # h(a, b, x): 1 between a and b, else 0
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reference.contact_modes import REST, State, Touching, sign
-from reference.system import Array
+from .contact_modes import REST, State, Touching, sign
+from .system import Array
 
 CONE = 1e-12  # of the impulse: an impulse that needs all of the cone sticks
 ROUNDING = 1e-12  # of the velocities

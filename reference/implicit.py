@@ -10,17 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg.lapack import dgetrf, dgetrs
 
-from reference.integrator import (
-    EPS,
-    Integration,
-    IntegrationError,
-    Slope,
-    Vector,
-    integrate,
-    rms,
-    sizes,
-)
-from reference.radau import Collocation, lagrange, radau_table
+from .integrator import EPS, Integration, IntegrationError, Slope, Vector, integrate, rms, sizes
+from .radau import Collocation, lagrange, radau_table
 
 Matrix = NDArray[np.float64]
 Jacobian = Callable[[float, Vector], Matrix]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from reference.system import Array
+from .system import Array
 
 
 def tensor(m: Array, x: Array) -> Array:

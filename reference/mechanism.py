@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 from scipy.linalg.lapack import dgesv, dposv
 
-from cases.scene import Push, Scene, Spring
-from reference.action import act, signal
-from reference.constraint import Constraint, constraints
-from reference.contact import Drag, Rub, row
-from reference.coordinates import Coordinates
-from reference.system import Array, Mass, Pose, System, Vector
+from ..cases.scene import Push, Scene, Spring
+from .action import act, signal
+from .constraint import Constraint, constraints
+from .contact import Drag, Rub, row
+from .coordinates import Coordinates
+from .system import Array, Mass, Pose, System, Vector
 
 CANCELS = 1e-15  # of one of two accelerations: what is left of them is their rounding
 

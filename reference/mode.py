@@ -7,7 +7,7 @@ same coordinates. What the modes idealise (rolling asks for enough friction) is 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from reference.system import Array, System
+from .system import Array, System
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from reference.system import Array
+from .system import Array
 
 
 def angular_momentum(m: float, J: Array, r: Array, v: Array, omega: Array) -> Array:

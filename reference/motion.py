@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 from numpy.linalg import LinAlgError
 
-from cases.trajectory import Trajectory
-from reference.integrator import Integration, IntegrationError
-from reference.mechanism import Mechanism
-from reference.system import Array, System
+from ..cases.trajectory import Trajectory
+from .integrator import Integration, IntegrationError
+from .mechanism import Mechanism
+from .system import Array, System
 
 Method = Callable[..., Integration]
 TOLERANCE = 1e-15  # per step; the integrators do not go below 4 ε, so: as well as doubles can

@@ -7,13 +7,13 @@ import math
 
 import numpy as np
 
-from cases.case import Case
-from cases.mistake import CaseError
-from reference.closure import Closure
-from reference.mechanism import Mechanism
-from reference.motion import Stuck
-from reference.positions import rank
-from reference.system import Array
+from ..cases.case import Case
+from ..cases.mistake import CaseError
+from .closure import Closure
+from .mechanism import Mechanism
+from .motion import Stuck
+from .positions import rank
+from .system import Array
 
 SHORT = 1e-3  # of the mechanism's size: steps give up well before the length is zero
 DEPENDENT = 1e-2  # singular values below this part of the largest: the same, for constraints

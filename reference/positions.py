@@ -5,9 +5,9 @@ from collections.abc import Collection, Iterator
 
 import numpy as np
 
-from reference import refusal
-from reference.closure import POSITIONS, Closure, held, placed
-from reference.system import Array
+from . import refusal
+from .closure import POSITIONS, Closure, held, placed
+from .system import Array
 
 CLOSED = 1e-12  # residual relative to the largest length; Newton reaches rounding or fails
 RANK = 1e-9  # singular values below this part of the largest count as zero

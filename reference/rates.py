@@ -4,11 +4,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cases.scene import GROUND, Scene
-from reference import refusal
-from reference.closure import RATES, Closure
-from reference.positions import CLOSED, RANK, rank, undetermined
-from reference.system import Array
+from ..cases.scene import GROUND, Scene
+from . import refusal
+from .closure import RATES, Closure
+from .positions import CLOSED, RANK, rank, undetermined
+from .system import Array
 
 
 def rates(closure: Closure, q: Array) -> Array:

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
-from cases.mistake import CaseError
-from reference.closure import Closure
-from reference.system import Array
+from ..cases.mistake import CaseError
+from .closure import Closure
+from .system import Array
 
 DEGREES = 180 / math.pi
 

@@ -5,11 +5,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from cases.scene import Joint, Scene, Smooth
-from reference.contact import Drag, catch, row
-from reference.friction import Dry, smooth
-from reference.mechanism import Mechanism
-from reference.system import Array
+from ..cases.scene import Joint, Scene, Smooth
+from .contact import Drag, catch, row
+from .friction import Dry, smooth
+from .mechanism import Mechanism
+from .system import Array
 
 
 class SmoothMechanism(Mechanism):

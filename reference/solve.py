@@ -7,25 +7,25 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cases.case import Case
-from cases.mistake import CaseError
-from cases.observe import observe
-from cases.quantity import table
-from cases.trajectory import ANGLE, OMEGA, VX, VY, Array, Trajectory, X, Y
-from reference.assembly import assemble
-from reference.certificate import Check, certify
-from reference.certificate_switching import certify_switching
-from reference.closure import Closure
-from reference.contact_modes import switches
-from reference.event import follow
-from reference.explicit import dormand_prince
-from reference.mechanism import Mechanism
-from reference.motion import TOLERANCE, Stuck, integrate, motion
-from reference.obstacle import refused
-from reference.switched import Motion, completed
-from reference.switching_mechanism import SwitchingMechanism
-from reference.switching_refusal import SWITCHING_FAILURES, switching_refused
-from reference.systems import SWITCHING, SYSTEMS
+from ..cases.case import Case
+from ..cases.mistake import CaseError
+from ..cases.observe import observe
+from ..cases.quantity import table
+from ..cases.trajectory import ANGLE, OMEGA, VX, VY, Array, Trajectory, X, Y
+from .assembly import assemble
+from .certificate import Check, certify
+from .certificate_switching import certify_switching
+from .closure import Closure
+from .contact_modes import switches
+from .event import follow
+from .explicit import dormand_prince
+from .mechanism import Mechanism
+from .motion import TOLERANCE, Stuck, integrate, motion
+from .obstacle import refused
+from .switched import Motion, completed
+from .switching_mechanism import SwitchingMechanism
+from .switching_refusal import SWITCHING_FAILURES, switching_refused
+from .systems import SWITCHING, SYSTEMS
 
 STILL = 1e-9  # of the motion's size: smaller changes are no motion
 ALIKE = {"m": [X, Y], "m/s": [VX, VY], "rad": [ANGLE], "rad/s": [OMEGA]}  # columns of a state

@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from reference.system import Array
+from .system import Array
 
 
 def stepped(

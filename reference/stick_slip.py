@@ -6,9 +6,9 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from reference.friction import Dry
-from reference.mode import Guard
-from reference.system import Array, Cut, Load, Mass, Pose, System, Vector
+from .friction import Dry
+from .mode import Guard
+from .system import Array, Cut, Load, Mass, Pose, System, Vector
 
 
 class Pull(Protocol):

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from cases.trajectory import Trajectory
-from reference.event import TOGETHER, TOLERANCE, Followed, slope
-from reference.explicit import dormand_prince
-from reference.implicit import radau
-from reference.mode import Switching
-from reference.system import Array
+from ..cases.trajectory import Trajectory
+from .event import TOGETHER, TOLERANCE, Followed, slope
+from .explicit import dormand_prince
+from .implicit import radau
+from .mode import Switching
+from .system import Array
 
 BETWEEN = (
     4  # rows a sample interval: an engine's event is read from rows, the reference's at phases

@@ -9,14 +9,14 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from cases.scene import Scene
-from reference.contact import row
-from reference.contact_modes import REST, Element, State, Touching, elements, sign, sliding, stiff
-from reference.impact import Meeting, NoImpact, Row, impact
-from reference.mechanism import Mechanism, SingularPose
-from reference.mode import Guard, Switching
-from reference.smooth_mechanism import SmoothMechanism
-from reference.system import Array
+from ..cases.scene import Scene
+from .contact import row
+from .contact_modes import REST, Element, State, Touching, elements, sign, sliding, stiff
+from .impact import Meeting, NoImpact, Row, impact
+from .mechanism import Mechanism, SingularPose
+from .mode import Guard, Switching
+from .smooth_mechanism import SmoothMechanism
+from .system import Array
 
 CLOSED = 1e-9  # of the scene's size: a start this close to the floor stands on it
 STILL = 1e-12  # of the largest rate: what a projection or an assembly leaves of a zero

@@ -1,10 +1,10 @@
 """Why a motion that switches is refused, at the place in the case that causes it."""
 
-from cases.case import Case
-from cases.mistake import CaseError
-from reference.event import ZenoError
-from reference.integrator import IntegrationError
-from reference.switching_mechanism import BadStart, Undetermined
+from ..cases.case import Case
+from ..cases.mistake import CaseError
+from .event import ZenoError
+from .integrator import IntegrationError
+from .switching_mechanism import BadStart, Undetermined
 
 SWITCHING_FAILURES = (BadStart, Undetermined, ZenoError, IntegrationError, ArithmeticError)
 

@@ -1,9 +1,9 @@
 """The equal-physics audit: an engine must hold the case's numbers before it takes a step."""
 
-from cases.observe import observe
-from cases.scene import Scene
-from cases.trajectory import Trajectory
-from reports.trial import Trial
+from ..cases.observe import observe
+from ..cases.scene import Scene
+from ..cases.trajectory import Trajectory
+from .trial import Trial
 
 EQUAL = 1e-12  # relative: both sides hold the same doubles, up to a product or a sum
 

@@ -11,16 +11,16 @@ from functools import partial
 import numpy as np
 from scipy.integrate import solve_ivp
 
-import engines
-from cases.case import Case
-from engines.engine import Engine, State
-from reference.assembly import assemble
-from reference.explicit import dormand_prince
-from reference.mechanism import Mechanism
-from reference.system import Array, System
-from reference.systems import SYSTEMS
-from reports.ladder import wanted_reactions
-from reports.selection import choose_cases
+from .. import engines
+from ..cases.case import Case
+from ..engines.engine import Engine, State
+from ..reference.assembly import assemble
+from ..reference.explicit import dormand_prince
+from ..reference.mechanism import Mechanism
+from ..reference.system import Array, System
+from ..reference.systems import SYSTEMS
+from .ladder import wanted_reactions
+from .selection import choose_cases
 
 Work = Callable[[], object]
 

@@ -3,14 +3,14 @@
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from cases.case import Case
-from cases.scene import Scene
-from cases.trajectory import Array, Trajectory
-from engines.engine import Choice, Engine, Realised, State
-from reference.approximation import DELTA, KINDS, A, Example, approximated
-from reference.systems import SWITCHING
-from reference.systems.dynamometer import Dynamometer
-from reference.systems.growing_force import GrowingForce
+from ..cases.case import Case
+from ..cases.scene import Scene
+from ..cases.trajectory import Array, Trajectory
+from ..engines.engine import Choice, Engine, Realised, State
+from ..reference.approximation import DELTA, KINDS, A, Example, approximated
+from ..reference.systems import SWITCHING
+from ..reference.systems.dynamometer import Dynamometer
+from ..reference.systems.growing_force import GrowingForce
 
 STEP = 1e-3  # s, of the boxcar form: the finest rung then takes 1/16 of it
 

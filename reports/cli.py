@@ -6,13 +6,13 @@ from pathlib import Path
 
 import click
 
-from cases.mistake import CaseError, Mistake
+from ..cases.mistake import CaseError, Mistake
 
 FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
 
 
 def main() -> None:
-    """The entry point: checks that the packages are ours before anything else."""
+    """The entry point."""
     signal.signal(signal.SIGTERM, _end)  # as Ctrl-C does: else the workers stay behind
     try:
         sys.exit(command(standalone_mode=False))  # an exit code, or None
@@ -71,8 +71,8 @@ def command() -> None:
 @click.option(
     "--out",
     type=click.Path(file_okay=False, writable=True, path_type=Path),
-    help="Where to write the CSV files. A full run writes the committed reports by default, "
-    "a partial one nothing.",
+    help="Where to write the CSV files. A full run writes the committed reports of a checkout by "
+    "default, and outside of one ./textmech-reports; a partial run writes nothing.",
 )
 @click.option(
     "--keep",
@@ -88,8 +88,8 @@ def run(
     keep: Path | None,
 ) -> None:
     """Compare engines with the reference and report the differences."""
-    from reports import pool, suite, terminal, write
-    from reports.selection import choose_book, choose_cases, choose_engines
+    from . import pool, suite, terminal, write
+    from .selection import choose_book, choose_cases, choose_engines
 
     chosen = choose_cases(cases)
     for folder in (out, keep):
@@ -104,7 +104,7 @@ def run(
             book=choose_book(names, settings),
         )
     if out is None and not (cases or names or settings):
-        out = write.HERE
+        out = write.by_default()
     if out is not None:
         write.write(write.tables(report, chosen), out)
     if keep is not None:
@@ -125,9 +125,9 @@ def _prepare(folder: Path) -> None:
 @click.argument("files", nargs=-1, required=True, metavar="FILE...")
 def check(files: tuple[str, ...]) -> None:
     """All mistakes of case files, without running an engine."""
-    from reference.solve import solve
-    from reports.events import never
-    from reports.selection import choose_cases
+    from ..reference.solve import solve
+    from .events import never
+    from .selection import choose_cases
 
     mistakes: list[Mistake] = []
     failed = False
@@ -160,7 +160,7 @@ def check(files: tuple[str, ...]) -> None:
 @command.command("list")
 def list_() -> None:
     """The shipped cases, with their sources and titles."""
-    from reports.selection import choose_cases
+    from .selection import choose_cases
 
     cases = choose_cases([])
     width = max(len(case.name) for case in cases)
@@ -175,8 +175,8 @@ def list_() -> None:
 )
 def show(case: str, name: str) -> None:
     """The scene as the engine's own file or script, with the settings and their reasons."""
-    from reports.selection import choose_cases, choose_engines
-    from reports.show import script
+    from .selection import choose_cases, choose_engines
+    from .show import script
 
     chosen = choose_cases([case])
     if len(chosen) > 1:
@@ -190,7 +190,7 @@ def show(case: str, name: str) -> None:
 @command.command()
 def bench() -> None:
     """What the adapters cost: ratios to the engines' bare loops, and to scipy's integrator."""
-    from reports.bench import table
+    from .bench import table
 
     for line in table():
         click.echo(line)

@@ -3,15 +3,15 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from reports import instants, metric
-from reports.audit import EQUAL, audit
-from reports.convergence import Convergence, study
-from reports.fill import row, rungs
-from reports.ladder import Ladder
-from reports.row import AGREES, CRASHED, DIVERGED, FAILS, Comparison, Instant, Rungs
-from reports.simulate import Runs, Samples, simulate
-from reports.trial import Trial, judged_names
-from reports.verdict import verdict
+from . import instants, metric
+from .audit import EQUAL, audit
+from .convergence import Convergence, study
+from .fill import row, rungs
+from .ladder import Ladder
+from .row import AGREES, CRASHED, DIVERGED, FAILS, Comparison, Instant, Rungs
+from .simulate import Runs, Samples, simulate
+from .trial import Trial, judged_names
+from .verdict import verdict
 
 AWAY = 4  # of a ladder's largest steps: how far from an event a sample tells an order
 NOTHING_OF_ITS_OWN = "engine: it has nothing of its own for this; see the rows of laws and drivers"

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cases.trajectory import Array
-from reports import metric
+from ..cases.trajectory import Array
+from . import metric
 
 EXACT = "exact"
 TEXTBOOK = "converges to the textbook"

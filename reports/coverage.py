@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 import pandas as pd
 
-from cases.case import Case
+from ..cases.case import Case
 
 EQUATIONS = 98  # (2.1) to (2.98)
 EXAMPLES, EXERCISES, FIGURES = 4, 6, 31

@@ -11,12 +11,12 @@ import numpy as np
 from scipy.interpolate import BarycentricInterpolator
 from scipy.optimize import brentq
 
-from cases.case import Case, Event
-from cases.mistake import Mistake
-from cases.observe import observe
-from cases.scene import Scene
-from cases.trajectory import Array, Trajectory
-from reports.rests import LOW, rests
+from ..cases.case import Case, Event
+from ..cases.mistake import Mistake
+from ..cases.observe import observe
+from ..cases.scene import Scene
+from ..cases.trajectory import Array, Trajectory
+from .rests import LOW, rests
 
 STILL = 1e-9  # of the largest value: what the reference's own rounding leaves of a zero
 AROUND = (

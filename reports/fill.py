@@ -3,10 +3,10 @@
 from collections.abc import Mapping
 from typing import Any
 
-from reports.convergence import Convergence
-from reports.ladder import Ladder
-from reports.row import Comparison, Rungs
-from reports.trial import Trial
+from .convergence import Convergence
+from .ladder import Ladder
+from .row import Comparison, Rungs
+from .trial import Trial
 
 
 def row(trial: Trial, name: str, word: str, **values: Any) -> Comparison:

@@ -4,17 +4,17 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from cases.case import Case
-from cases.trajectory import Array, Trajectory
-from reports import metric
-from reports.convergence import Convergence, instants
-from reports.events import reference_events
-from reports.fill import row, rungs
-from reports.ladder import Ladder
-from reports.row import Comparison, Instant, Rungs
-from reports.simulate import Runs, Samples
-from reports.trial import Trial
-from reports.verdict import verdict
+from ..cases.case import Case
+from ..cases.trajectory import Array, Trajectory
+from . import metric
+from .convergence import Convergence, instants
+from .events import reference_events
+from .fill import row, rungs
+from .ladder import Ladder
+from .row import Comparison, Instant, Rungs
+from .simulate import Runs, Samples
+from .trial import Trial
+from .verdict import verdict
 
 
 def judge(

@@ -3,9 +3,9 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from cases.case import Case
-from cases.scene import Scene
-from engines.engine import Engine
+from ..cases.case import Case
+from ..cases.scene import Scene
+from ..engines.engine import Engine
 
 COARSEST = 8e-3  # s: larger steps are of no use to anyone who controls a body
 RUNGS_DOWN = 5  # from an engine's own step: enough for Romberg and three orders

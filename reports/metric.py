@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cases.trajectory import Array
+from ..cases.trajectory import Array
 
 ROUNDING = 2.2e-16
 

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 if TYPE_CHECKING:
-    from cases.case import Case
-    from reports.row import Certificate, Comparison
-    from reports.suite import Report
+    from ..cases.case import Case
+    from .row import Certificate, Comparison
+    from .suite import Report
 
 _REPORT = pytest.StashKey["Report | Exception"]()
 
@@ -72,11 +72,11 @@ class CaseFile(pytest.File):
     """A case file: its mistakes, or the items of all its variants."""
 
     def collect(self) -> Iterator[pytest.Item]:
-        from cases.load import load
-        from cases.mistake import CaseError
-        from reports.book import producers
-        from reports.selection import HANDWRITTEN, choose_book, choose_engines
-        from reports.trial import judged_names, realisations
+        from ..cases.load import load
+        from ..cases.mistake import CaseError
+        from .book import producers
+        from .selection import HANDWRITTEN, choose_book, choose_engines
+        from .trial import judged_names, realisations
 
         try:
             cases = load(self.path, systems=HANDWRITTEN)
@@ -148,8 +148,8 @@ class ComparisonItem(CaseItem):
         self.key = key
 
     def runtest(self) -> None:
-        from reports.row import AGREES, DEVIATES, FAILS
-        from reports.terminal import line
+        from .row import AGREES, DEVIATES, FAILS
+        from .terminal import line
 
         row = next(row for row in self.report().comparisons if _key(row) == self.key)
         if row.verdict == FAILS:
@@ -195,9 +195,9 @@ def measured(session: pytest.Session) -> "Report":
 
 def _measure(session: pytest.Session) -> "Report | Exception":
     """Runs what is collected, on all cores."""
-    from cases.mistake import CaseError
-    from reports import pool, suite
-    from reports.selection import BOOK, choose_engines
+    from ..cases.mistake import CaseError
+    from . import pool, suite
+    from .selection import BOOK, choose_engines
 
     items = [item for item in session.items if isinstance(item, CaseItem)]
     cases = {item.case.name: item.case for item in items}

@@ -1,10 +1,13 @@
-"""The README's summary table, from the committed reports: `python -m reports.readme` writes it."""
+"""The README's summary table from the committed reports.
+
+`python -m textmech.reports.readme` writes it.
+"""
 
 from pathlib import Path
 
-from reports.row import Comparison, Rungs
-from reports.summary import markdown, summary
-from reports.write import HERE, read
+from .row import Comparison, Rungs
+from .summary import markdown, summary
+from .write import HERE, read
 
 README = Path(__file__).parents[1] / "README.md"
 OPENS, CLOSES = "from reports/*.csv -->\n", "<!-- /summary -->"

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cases.trajectory import Array
+from ..cases.trajectory import Array
 
 LOW, HIGH = 0.02, 0.04  # of the largest value
 WINDOW = 0.06  # of the largest value in the phase: the curve is laid through 2 % to 6 % of it

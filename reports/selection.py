@@ -5,15 +5,15 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any, cast
 
-import engines
-from cases.case import Case
-from cases.find import find, shipped
-from cases.language.document import read
-from cases.load import load
-from cases.mistake import CaseError, Mistake
-from cases.quantity import nearest
-from engines.engine import Engine
-from reference.systems import SWITCHING, SYSTEMS
+from .. import engines
+from ..cases.case import Case
+from ..cases.find import find, shipped
+from ..cases.language.document import read
+from ..cases.load import load
+from ..cases.mistake import CaseError, Mistake
+from ..cases.quantity import nearest
+from ..engines.engine import Engine
+from ..reference.systems import SWITCHING, SYSTEMS
 
 BOOK = "book"
 HANDWRITTEN = {

@@ -1,10 +1,10 @@
 """A case's scene as the engine's own file or script, ready to paste."""
 
-from cases.case import Case
-from engines.engine import Engine, State
-from reference.assembly import assemble
-from reference.mechanism import Mechanism
-from reports.ladder import judged_step
+from ..cases.case import Case
+from ..engines.engine import Engine, State
+from ..reference.assembly import assemble
+from ..reference.mechanism import Mechanism
+from .ladder import judged_step
 
 
 def script(case: Case, engine: Engine) -> str:

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cases.observe import observe
-from cases.trajectory import Array, Trajectory
-from engines.engine import Diverged
-from reports.events import engine_events
-from reports.ladder import Ladder, ladders, wanted_reactions
-from reports.trial import Trial
+from ..cases.observe import observe
+from ..cases.trajectory import Array, Trajectory
+from ..engines.engine import Diverged
+from .events import engine_events
+from .ladder import Ladder, ladders, wanted_reactions
+from .trial import Trial
 
 RUNAWAY = 1e6  # × the motion's size: finite, but no motion any more
 

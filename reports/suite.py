@@ -4,18 +4,18 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from cases.case import Case
-from cases.mistake import CaseError
-from engines.engine import Engine
-from reference.coverage import executed
-from reference.solve import Solution, solve
-from reports import pool
-from reports.book import producers
-from reports.compare import Outcome, compare, crashed
-from reports.events import never
-from reports.instants import of_reference
-from reports.row import FAILS, Certificate, Comparison, Instant, Rungs
-from reports.trial import Trial, realisations
+from ..cases.case import Case
+from ..cases.mistake import CaseError
+from ..engines.engine import Engine
+from ..reference.coverage import executed
+from ..reference.solve import Solution, solve
+from . import pool
+from .book import producers
+from .compare import Outcome, compare, crashed
+from .events import never
+from .instants import of_reference
+from .row import FAILS, Certificate, Comparison, Instant, Rungs
+from .trial import Trial, realisations
 
 Progress = Callable[[str, int, int], None]
 """What is being done, how much is done, out of how much."""

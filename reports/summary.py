@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from reports.row import AGREES, FAILS, Comparison, Rungs
+from .row import AGREES, FAILS, Comparison, Rungs
 
 
 def summary(comparisons: Sequence[Comparison], rungs: Sequence[Rungs]) -> list[list[str]]:

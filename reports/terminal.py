@@ -9,9 +9,9 @@ from pathlib import Path
 
 import click
 
-from reports.row import AGREES, FAILS, Comparison
-from reports.suite import Progress, Report
-from reports.summary import aligned, summary
+from .row import AGREES, FAILS, Comparison
+from .suite import Progress, Report
+from .summary import aligned, summary
 
 
 @contextmanager

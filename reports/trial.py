@@ -6,14 +6,14 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from cases.case import Case
-from cases.observe import observe
-from cases.quantity import Quantity, event_quantities, table
-from cases.scene import Scene
-from cases.trajectory import VX, VY, Array, Trajectory, X, Y
-from engines.engine import Engine, Realised, State
-from reports.events import reference_events
-from reports.ladder import judged_step
+from ..cases.case import Case
+from ..cases.observe import observe
+from ..cases.quantity import Quantity, event_quantities, table
+from ..cases.scene import Scene
+from ..cases.trajectory import VX, VY, Array, Trajectory, X, Y
+from ..engines.engine import Engine, Realised, State
+from .events import reference_events
+from .ladder import judged_step
 
 SAME_COUNT = 0.5  # what counts may differ by where the case does not say: they are whole numbers
 

@@ -1,11 +1,11 @@
 """From a difference and its convergence to a verdict and its cause."""
 
-from cases.case import Deviation
-from engines.engine import Engine
-from reports import pins
-from reports.convergence import ANOTHER, INSTANTS, TEXTBOOK, UNSETTLED, Convergence
-from reports.row import AGREES, BEYOND, CHANGED, DEVIATES, FAILS
-from reports.trial import Trial
+from ..cases.case import Deviation
+from ..engines.engine import Engine
+from . import pins
+from .convergence import ANOTHER, INSTANTS, TEXTBOOK, UNSETTLED, Convergence
+from .row import AGREES, BEYOND, CHANGED, DEVIATES, FAILS
+from .trial import Trial
 
 STAYS = 0.25  # of a declared deviation: what it may change and be the same one
 CERTAIN = 10  # uncertainties that a declared limit must stand above

@@ -11,18 +11,24 @@ from typing import Any, TypeVar
 import numpy as np
 import pandas as pd
 
-from cases.case import Case
-from cases.quantity import table
-from reports.coverage import coverage
-from reports.row import Certificate, Comparison, Instant, Rungs
-from reports.suite import Report
+from ..cases.case import Case
+from ..cases.quantity import table
+from .coverage import coverage
+from .row import Certificate, Comparison, Instant, Rungs
+from .suite import Report
 
 HERE = Path(__file__).parent
+ELSEWHERE = Path("textmech-reports")
 KEYS = ("case", "engine", "setting", "realised", "ladder", "quantity", "check", "event", "k")
 NUMBERS = ".3g"  # three digits: more would be noise from one machine to the next
 TIMES = ".9g"  # of an event's time: its difference is a thousandth of a step
 
 Row = TypeVar("Row", Comparison, Rungs, Certificate, Instant)
+
+
+def by_default() -> Path:
+    """Where a full run writes: the committed reports of a checkout, else the user's own folder."""
+    return HERE if (HERE.parent / "pyproject.toml").is_file() else ELSEWHERE
 
 
 def tables(report: Report, cases: Sequence[Case]) -> dict[str, pd.DataFrame]:

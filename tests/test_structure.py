@@ -1,6 +1,7 @@
 """House rules of the tree: imports form one, and no two answers share a derivation."""
 
 import ast
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -16,17 +17,34 @@ MAY_IMPORT = {
 FILES = [file for package in PACKAGES for file in sorted((ROOT / package).rglob("*.py"))]
 
 
+def module(file: Path) -> str:
+    """`cases.scene` of cases/scene.py, `engines.mujoco` of its __init__.py."""
+    parts = file.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts).removesuffix(".__init__")
+
+
 def imported(file: Path) -> set[str]:
-    """Full names of all that a file imports, also inside functions."""
+    """Full names of all that a file imports, also inside functions; ours without `textmech`."""
     names: set[str] = set()
     for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
-            assert node.level == 0, f"{file}: relative import"
-            assert node.module
-            names |= {node.module} | {f"{node.module}.{alias.name}" for alias in node.names}
+            base = absolute(file, node)
+            names |= {base} | {f"{base}.{alias.name}".removeprefix(".") for alias in node.names}
     return names
+
+
+def absolute(file: Path, node: ast.ImportFrom) -> str:
+    """What `from … import` names, seen from the folder of the four."""
+    if not node.level:
+        assert (node.module or "").split(".")[0] not in (*PACKAGES, "textmech"), (
+            f"{file}: what is ours is imported by its relative name"
+        )
+        return node.module or ""
+    package = [*file.relative_to(ROOT).parent.parts]
+    above = package[: len(package) - (node.level - 1)]
+    return ".".join([*above, *([node.module] if node.module else [])])
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: str(file.relative_to(ROOT)))
@@ -37,15 +55,32 @@ def test_imports_flow_one_way(file: Path) -> None:
 
 
 def test_no_module_is_imported_in_a_circle() -> None:
-    modules = {
-        ".".join(file.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__"): file
-        for file in FILES
-    }
+    modules = {module(file): file for file in FILES}
     needs = {name: imported(file) & set(modules) - {name} for name, file in modules.items()}
     while needs:
         free = {name for name, needed in needs.items() if not needed & set(needs)}
         assert free, f"a circle among {sorted(needs)}"
         needs = {name: needed for name, needed in needs.items() if name not in free}
+
+
+def test_everything_is_in_the_wheel() -> None:
+    """Each folder with modules is listed, and each kind of file that is read at run time."""
+    setup = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]
+    folders = {module(file.parent / "__init__.py") for file in FILES}
+    assert set(setup["packages"]) == {f"textmech.{folder}" for folder in folders}
+    data = {
+        file
+        for package in PACKAGES
+        for file in (ROOT / package).rglob("*")
+        if file.is_file() and file.suffix not in (".py", ".pyc")
+    }
+    shipped = {
+        file
+        for package, patterns in setup["package-data"].items()
+        for pattern in patterns
+        for file in (ROOT / package.removeprefix("textmech.").replace(".", "/")).glob(pattern)
+    }
+    assert data <= shipped, f"not in the wheel: {sorted(map(str, data - shipped))}"
 
 
 def test_only_adapters_know_their_engine() -> None:

@@ -7,22 +7,22 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cases.case import Case
-from cases.find import shipped
-from cases.load import load
-from cases.mistake import CaseError
-from cases.observe import observe
-from cases.quantity import table
-from cases.trajectory import Array, Trajectory
-from reference.assembly import assemble
-from reference.closure import Closure
-from reference.contact_modes import switches
-from reference.event import ZenoError, follow
-from reference.explicit import dormand_prince
-from reference.mechanism import Mechanism
-from reference.motion import integrate, motion
-from reference.switched import Motion
-from reference.switching_mechanism import SwitchingMechanism
+from textmech.cases.case import Case
+from textmech.cases.find import shipped
+from textmech.cases.load import load
+from textmech.cases.mistake import CaseError
+from textmech.cases.observe import observe
+from textmech.cases.quantity import table
+from textmech.cases.trajectory import Array, Trajectory
+from textmech.reference.assembly import assemble
+from textmech.reference.closure import Closure
+from textmech.reference.contact_modes import switches
+from textmech.reference.event import ZenoError, follow
+from textmech.reference.explicit import dormand_prince
+from textmech.reference.mechanism import Mechanism
+from textmech.reference.motion import integrate, motion
+from textmech.reference.switched import Motion
+from textmech.reference.switching_mechanism import SwitchingMechanism
 
 CHANGED = 1.05  # 5 %, or 0.05 where a parameter is zero
 STAYS = 0.1  # of a tolerance: what a parameter that drops out may move by 5 % of it

@@ -4,8 +4,8 @@ from typing import Annotated
 
 from pydantic import Field, Tag
 
-from cases.language.field import In
-from cases.language.part import Length, Mass, Name, Part, Position, by_key
+from .field import In
+from .part import Length, Mass, Name, Part, Position, by_key
 
 
 class Bar(Part):

@@ -3,12 +3,12 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from cases.language.claims import claims
-from cases.language.links import links, twice
-from cases.language.parse import Finding, Parsed
-from cases.language.sampling import sampling
-from cases.quantity import nearest
-from cases.scene import Scene
+from ..quantity import nearest
+from ..scene import Scene
+from .claims import claims
+from .links import links, twice
+from .parse import Finding, Parsed
+from .sampling import sampling
 
 _NO_USE = ("title", "source", "parameters", "drops_out")  # where a name is not a use of it
 

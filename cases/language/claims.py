@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator, Mapping
 
-from cases.language.number import Amount, NumberMistake, fitting
-from cases.language.parse import Finding, Parsed
-from cases.quantity import EVENT_FIELDS, Quantity, event_quantities, nearest, table
-from cases.scene import Scene
+from ..quantity import EVENT_FIELDS, Quantity, event_quantities, nearest, table
+from ..scene import Scene
+from .number import Amount, NumberMistake, fitting
+from .parse import Finding, Parsed
 
 
 def claims(parsed: Parsed, scene: Scene) -> Iterator[Finding]:

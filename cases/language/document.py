@@ -7,8 +7,8 @@ from typing import Any
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
 
-from cases.language.tree import Tree
-from cases.mistake import CaseError, Mistake, Source
+from ..mistake import CaseError, Mistake, Source
+from .tree import Tree
 
 LARGEST = 200_000  # bytes, read in 1.5 s; a case has 2000
 

@@ -4,9 +4,9 @@ from typing import Annotated
 
 from pydantic import BeforeValidator, Field
 
-from cases.language.number import shown
-from cases.language.text import Text, Word
-from cases.language.words import wrong
+from .number import shown
+from .text import Text, Word
+from .words import wrong
 
 RULES = ("stays zero", "leaves zero", "falls to zero")
 

@@ -10,8 +10,8 @@ from typing import Any
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
-from cases.language.number import Amount, Names, NumberMistake, amount, number
-from cases.language.words import wrong
+from .number import Amount, Names, NumberMistake, amount, number
+from .words import wrong
 
 LITERAL_OR_UNIT = "a number in SI, or a quantity with its unit as text (`30 deg`)"
 NUMBER = "a number in SI, a parameter's name, `-name`, or a quantity with its unit (`30 deg`)"

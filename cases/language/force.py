@@ -4,9 +4,9 @@ from typing import Annotated, ClassVar
 
 from pydantic import ConfigDict, Tag
 
-from cases.language.field import In
-from cases.language.part import Angle, Name, Pair, Part, Point, by_key
-from cases.language.words import wrong
+from .field import In
+from .part import Angle, Name, Pair, Part, Point, by_key
+from .words import wrong
 
 Frequency = Annotated[float, In("rad/s", above=0)]
 Newtons = tuple[Annotated[float, In("N")], Annotated[float, In("N")]]

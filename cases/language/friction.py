@@ -4,9 +4,9 @@ from typing import Annotated
 
 from pydantic import Field, Tag
 
-from cases.language.field import In
-from cases.language.part import Part, plain_or_map
-from cases.language.words import wrong
+from .field import In
+from .part import Part, plain_or_map
+from .words import wrong
 
 Coefficient = Annotated[float, In("1", least=0)]
 Newtons = Annotated[float, In("N", least=0)]

@@ -4,15 +4,15 @@ from typing import Annotated, Any
 
 from pydantic import ConfigDict, Field
 
-from cases.language.body import Body
-from cases.language.event import Event, Quantity
-from cases.language.field import Bound, In, Literal
-from cases.language.force import Force
-from cases.language.joint import Contact, GroundPoint, Joint
-from cases.language.number import Amount
-from cases.language.part import Angle, Name, Part, Position
-from cases.language.text import Place, Text, Word, equation, label
-from cases.language.words import wrong
+from .body import Body
+from .event import Event, Quantity
+from .field import Bound, In, Literal
+from .force import Force
+from .joint import Contact, GroundPoint, Joint
+from .number import Amount
+from .part import Angle, Name, Part, Position
+from .text import Place, Text, Word, equation, label
+from .words import wrong
 
 ENGINES = ("mujoco", "pymunk")
 WAYS = tuple(f"{engine}{way}" for engine in ENGINES for way in ("", ".law", ".driver", ".limit"))

@@ -5,11 +5,11 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field, Tag, model_validator
 
-from cases.language.field import In
-from cases.language.friction import DryFriction, Friction
-from cases.language.part import Angle, Pair, Part, Position, by_key, plain_or_map
-from cases.language.text import Text, Word
-from cases.language.words import wrong
+from .field import In
+from .friction import DryFriction, Friction
+from .part import Angle, Pair, Part, Position, by_key, plain_or_map
+from .text import Text, Word
+from .words import wrong
 
 Velocity = tuple[Annotated[float, In("m/s")], Annotated[float, In("m/s")]]
 

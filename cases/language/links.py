@@ -3,13 +3,13 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from cases.language.grammar import Near
-from cases.language.parse import NAMED, Finding, Parsed
-from cases.language.resolve import anchor
-from cases.language.touch import touches
-from cases.mistake import Path
-from cases.quantity import nearest
-from cases.scene import CENTER, FLOOR, GROUND, Anchor, Damper, Push, Scene, Spring, Torque
+from ..mistake import Path
+from ..quantity import nearest
+from ..scene import CENTER, FLOOR, GROUND, Anchor, Damper, Push, Scene, Spring, Torque
+from .grammar import Near
+from .parse import NAMED, Finding, Parsed
+from .resolve import anchor
+from .touch import touches
 
 _TAKEN = ("x", "y", "angle", "vx", "vy", "omega", "speed")  # `crank.x` is a quantity
 

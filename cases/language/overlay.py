@@ -4,11 +4,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
-from cases.language.document import Document
-from cases.language.grammar import OVERLAID
-from cases.language.number import shown
-from cases.mistake import Mistake, Path, Source
-from cases.quantity import nearest
+from ..mistake import Mistake, Path, Source
+from ..quantity import nearest
+from .document import Document
+from .grammar import OVERLAID
+from .number import shown
 
 
 def overlay(document: Document) -> tuple[dict[str, tuple[dict[str, Any], Source]], list[Mistake]]:

@@ -6,9 +6,9 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from cases.language.grammar import File
-from cases.language.number import names
-from cases.mistake import Path
+from ..mistake import Path
+from .grammar import File
+from .number import names
 
 Finding = tuple[Path, str]  # where, and what is wrong there
 

@@ -11,9 +11,9 @@ from pydantic import (
     model_validator,
 )
 
-from cases.language.field import In
-from cases.language.text import IDENTIFIER, Text, name, reference
-from cases.language.words import in_words
+from .field import In
+from .text import IDENTIFIER, Text, name, reference
+from .words import in_words
 
 Mass = Annotated[float, In("kg", above=0)]
 Length = Annotated[float, In("m", above=0)]

@@ -3,15 +3,15 @@
 from collections.abc import Mapping
 from math import cos, sin
 
-from cases import scene, shape
-from cases.case import Case, Deviation, Event, Origin, Placement
-from cases.language import body as bodies
-from cases.language import force as forces
-from cases.language import joint as joints
-from cases.language.friction import Coefficients, DryFriction, TwoWay, both_ways
-from cases.language.grammar import File, Near
-from cases.mistake import Source
-from cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Scene, Signal
+from .. import scene, shape
+from ..case import Case, Deviation, Event, Origin, Placement
+from ..mistake import Source
+from ..scene import STANDARD_GRAVITY, Anchor, GroundPoint, Scene, Signal
+from . import body as bodies
+from . import force as forces
+from . import joint as joints
+from .friction import Coefficients, DryFriction, TwoWay, both_ways
+from .grammar import File, Near
 
 _COORDINATES = ("x", "y", "angle", "vx", "vy", "omega")
 

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from math import isfinite, isnan
 
-from cases.language.grammar import File
-from cases.language.parse import Finding
+from .grammar import File
+from .parse import Finding
 
 _SEARCHED = 10_000  # counts of samples tried on each side
 

@@ -7,7 +7,7 @@ from typing import Any
 from pydantic.json_schema import GenerateJsonSchema, JsonSchemaMode
 from pydantic_core import core_schema
 
-from cases.language.grammar import File
+from .grammar import File
 
 SCHEMA = Path(__file__).parents[1] / "case.schema.json"
 

@@ -5,10 +5,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from cases.language.field import Plain
-from cases.language.number import Names, shown
-from cases.language.words import wrong
-from cases.quantity import RESERVED, nearest
+from ..quantity import RESERVED, nearest
+from .field import Plain
+from .number import Names, shown
+from .words import wrong
 
 IDENTIFIER = "[A-Za-z_][A-Za-z0-9_]*"
 

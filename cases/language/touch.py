@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator
 
-from cases.language.parse import Finding, Parsed
-from cases.quantity import nearest
-from cases.scene import CENTER, FLOOR, GROUND, Anchor, Body, Scene
+from ..quantity import nearest
+from ..scene import CENTER, FLOOR, GROUND, Anchor, Body, Scene
+from .parse import Finding, Parsed
 
 
 def touches(parsed: Parsed, scene: Scene) -> Iterator[Finding]:

@@ -21,8 +21,8 @@ from ruamel.yaml.events import (
     SequenceStartEvent,
 )
 
-from cases.language.words import NO_VALUE
-from cases.mistake import CaseError, Mistake, Path, Source
+from ..mistake import CaseError, Mistake, Path, Source
+from .words import NO_VALUE
 
 DEEPEST = 20  # levels; a case has 6
 

@@ -6,8 +6,8 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
-from cases.language.number import shown
-from cases.quantity import nearest
+from ..quantity import nearest
+from .number import shown
 
 NO_VALUE = "has no value"
 

@@ -7,21 +7,21 @@ from typing import Any
 
 import mujoco
 
-from cases.scene import Scene
-from cases.trajectory import Array, Trajectory
-from engines.engine import Choice, Realised, State
-from engines.mujoco import options, settings
-from engines.mujoco.contact import falls
-from engines.mujoco.control import signals
-from engines.mujoco.friction import followed, smooth_only
-from engines.mujoco.measure import measured
-from engines.mujoco.refuse import unbuildable, uncompilable
-from engines.mujoco.run import heard, load, simulate
-from engines.mujoco.scene import HEAVY, mjcf
-from engines.mujoco.settle import settle
-from engines.mujoco.smooth import smooth
-from engines.mujoco.stepping import stepping
-from engines.mujoco.tree import driven
+from ...cases.scene import Scene
+from ...cases.trajectory import Array, Trajectory
+from ..engine import Choice, Realised, State
+from . import options, settings
+from .contact import falls
+from .control import signals
+from .friction import followed, smooth_only
+from .measure import measured
+from .refuse import unbuildable, uncompilable
+from .run import heard, load, simulate
+from .scene import HEAVY, mjcf
+from .settle import settle
+from .smooth import smooth
+from .stepping import stepping
+from .tree import driven
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 import mujoco
 
-from engines.mujoco.friction import Slide
+from .friction import Slide
 
 
 def bounded(slide: Slide) -> None:

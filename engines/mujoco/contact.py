@@ -9,8 +9,8 @@ import math
 
 from scipy.optimize import brentq
 
-from cases.scene import Contact, Scene
-from engines.engine import Choice, State
+from ...cases.scene import Contact, Scene
+from ..engine import Choice, State
 
 HARDEST = 0.9999  # of d: MuJoCo clamps it
 SOFTEST = 1.01e-4  # of d: MuJoCo clamps it at 1e-4

@@ -9,7 +9,7 @@ from contextlib import AbstractContextManager, contextmanager
 
 import mujoco
 
-from cases.scene import Scene
+from ...cases.scene import Scene
 
 Control = Callable[[mujoco.MjModel, mujoco.MjData], None]
 

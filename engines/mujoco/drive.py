@@ -6,7 +6,7 @@ So every step is smooth: what sticks is held, what slides is pushed by a constan
 import mujoco
 import numpy as np
 
-from engines.mujoco.friction import Slide
+from .friction import Slide
 
 
 def driven_step(slides: list[Slide], step: float) -> None:

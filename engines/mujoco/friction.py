@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 import mujoco
 import numpy as np
 
-from cases.scene import DryFriction, Joint, Scene
-from cases.trajectory import Array
-from engines.law import dry_friction
+from ...cases.scene import DryFriction, Joint, Scene
+from ...cases.trajectory import Array
+from ..law import dry_friction
 
 
 @dataclass

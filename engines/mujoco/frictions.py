@@ -3,7 +3,7 @@
 import mujoco
 import numpy as np
 
-from cases.scene import Scene
+from ...cases.scene import Scene
 
 _FRICTION = int(mujoco.mjtConstraint.mjCNSTR_FRICTION_DOF)
 

@@ -2,8 +2,8 @@
 
 import mujoco
 
-from cases.scene import Scene
-from engines.mujoco.tree import driven
+from ...cases.scene import Scene
+from .tree import driven
 
 
 def measured(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, float]:

@@ -6,8 +6,8 @@ from typing import Any
 
 import mujoco
 
-from engines.mujoco.control import installed
-from engines.mujoco.run import heard
+from .control import installed
+from .run import heard
 
 _WORDS = {
     "integrator": ("Euler", "RK4", "implicit", "implicitfast", "discrete"),

@@ -10,11 +10,11 @@ from collections.abc import Callable
 import mujoco
 import numpy as np
 
-from cases.scene import GROUND, Scene
-from cases.trajectory import ANGLE, OMEGA, VX, VY, Array, X, Y
-from engines.engine import State
-from engines.mujoco.scene import local
-from engines.mujoco.tree import Branch, built_as, driven, spanning_tree, turned
+from ...cases.scene import GROUND, Scene
+from ...cases.trajectory import ANGLE, OMEGA, VX, VY, Array, X, Y
+from ..engine import State
+from .scene import local
+from .tree import Branch, built_as, driven, spanning_tree, turned
 
 Coordinate = Callable[[str], tuple[Array, Array]]
 

@@ -5,9 +5,9 @@ from collections.abc import Iterator, Mapping
 import mujoco
 import numpy as np
 
-from cases.scene import Anchor, Joint, Push, Scene, Torque
-from cases.trajectory import Array
-from engines.mujoco.tree import Tree
+from ...cases.scene import Anchor, Joint, Push, Scene, Torque
+from ...cases.trajectory import Array
+from .tree import Tree
 
 Seen = Mapping[str, Array]
 _OBJECT = mujoco.mjtObj

@@ -10,12 +10,12 @@ from collections.abc import Callable, Mapping, Sequence
 import mujoco
 import numpy as np
 
-from cases.scene import Scene
-from cases.trajectory import ANGLE, Array, Trajectory
-from engines.engine import State
-from engines.mujoco.frictions import Frictions
-from engines.mujoco.reaction import Contacts, joint_force
-from engines.mujoco.tree import Tree, built_as, spanning_tree
+from ...cases.scene import Scene
+from ...cases.trajectory import ANGLE, Array, Trajectory
+from ..engine import State
+from .frictions import Frictions
+from .reaction import Contacts, joint_force
+from .tree import Tree, built_as, spanning_tree
 
 _PLACES = ("xipos", "cvel", "subtree_com")
 _FORCES = ("cfrc_int", "site_xpos", "actuator_force", "efc_force")

@@ -6,10 +6,10 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 
-from cases.scene import Scene
-from cases.trajectory import Array, Trajectory
-from engines.engine import State
-from engines.mujoco.poses import poses
+from ...cases.scene import Scene
+from ...cases.trajectory import Array, Trajectory
+from ..engine import State
+from .poses import poses
 
 
 def all_steps(times: Array, step: float) -> Array:

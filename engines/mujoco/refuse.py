@@ -2,12 +2,12 @@
 
 from collections.abc import Iterable
 
-from cases.scene import GROUND, Joint, Scene
-from engines.engine import Choice
-from engines.mujoco.contact import LEAST_BOUNCE
-from engines.mujoco.run import load
-from engines.mujoco.scene import mjcf
-from engines.mujoco.tree import Branch, Tree, built_as, spanning_tree
+from ...cases.scene import GROUND, Joint, Scene
+from ..engine import Choice
+from .contact import LEAST_BOUNCE
+from .run import load
+from .scene import mjcf
+from .tree import Branch, Tree, built_as, spanning_tree
 
 
 def unbuildable(scene: Scene) -> str | None:

@@ -6,14 +6,14 @@ from contextlib import contextmanager
 import mujoco
 import numpy as np
 
-from cases.scene import Scene
-from cases.trajectory import Array, Trajectory
-from engines.engine import Diverged, Realised, State
-from engines.mujoco.control import installed, signals
-from engines.mujoco.readout import read
-from engines.mujoco.record import all_steps, recorded
-from engines.mujoco.smooth import smooth
-from engines.mujoco.stepping import Steps, stepping
+from ...cases.scene import Scene
+from ...cases.trajectory import Array, Trajectory
+from ..engine import Diverged, Realised, State
+from .control import installed, signals
+from .readout import read
+from .record import all_steps, recorded
+from .smooth import smooth
+from .stepping import Steps, stepping
 
 
 @contextmanager

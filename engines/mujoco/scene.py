@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from xml.etree import ElementTree as ET
 
-from cases.scene import (
+from ...cases.scene import (
     CENTER,
     GROUND,
     Anchor,
@@ -21,8 +21,8 @@ from cases.scene import (
     Spring,
     Torque,
 )
-from engines.engine import Choice, State
-from engines.mujoco.tree import Branch, Tree, built_as, coordinates, driven, spanning_tree, turned
+from ..engine import Choice, State
+from .tree import Branch, Tree, built_as, coordinates, driven, spanning_tree, turned
 
 HEAVY = 1e15  # kg of a driven point: 1 N changes its velocity by 1e-15 m/s in a second
 LEAST = 1e-15  # kg m² (mjMINVAL) of a particle: MuJoCo takes no less of a body with a joint

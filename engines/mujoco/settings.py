@@ -6,11 +6,11 @@ A recipe is a function of the scene and of the step its tied numbers follow.
 from collections.abc import Mapping
 from typing import Any
 
-from cases.scene import Scene
-from engines.engine import Choice, State
-from engines.mujoco.contact import HARDEST, recipe
-from engines.mujoco.options import SOFT, as_written
-from engines.mujoco.tree import driven, spanning_tree
+from ...cases.scene import Scene
+from ..engine import Choice, State
+from .contact import HARDEST, recipe
+from .options import SOFT, as_written
+from .tree import driven, spanning_tree
 
 SHIPPED_STEP = 2e-3  # s, the default of <option timestep>
 _DEFAULT = "MuJoCo's default"

@@ -7,11 +7,11 @@ that follows is an error of first order. So it is started where its normal accel
 import mujoco
 from scipy.optimize import brentq
 
-from cases.scene import CENTER, Scene
-from engines.engine import State
-from engines.mujoco.contact import CLOSED, height
-from engines.mujoco.control import signals
-from engines.mujoco.tree import spanning_tree
+from ...cases.scene import CENTER, Scene
+from ..engine import State
+from .contact import CLOSED, height
+from .control import signals
+from .tree import spanning_tree
 
 _DEEPEST = 1.0  # m, of a particle; a disk could be as deep as its radius
 

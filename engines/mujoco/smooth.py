@@ -3,10 +3,10 @@
 import mujoco
 import numpy as np
 
-from cases.scene import DryFriction, Scene
-from cases.trajectory import Array
-from engines.law import smooth_friction
-from engines.mujoco.control import Control
+from ...cases.scene import DryFriction, Scene
+from ...cases.trajectory import Array
+from ..law import smooth_friction
+from .control import Control
 
 
 def smooth(scene: Scene, model: mujoco.MjModel) -> list[Control]:

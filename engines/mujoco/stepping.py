@@ -5,11 +5,11 @@ from dataclasses import dataclass, field
 
 import mujoco
 
-from cases.scene import Scene
-from engines.engine import Realised
-from engines.mujoco.bound import bounded
-from engines.mujoco.drive import driven_step, engage
-from engines.mujoco.friction import Slide, slides, smooth_only
+from ...cases.scene import Scene
+from ..engine import Realised
+from .bound import bounded
+from .drive import driven_step, engage
+from .friction import Slide, slides, smooth_only
 
 
 @dataclass

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from cases.scene import GROUND, Anchor, Joint, Scene, Vector
-from engines.engine import State
+from ...cases.scene import GROUND, Anchor, Joint, Scene, Vector
+from ..engine import State
 
 Kind = Literal["pin", "slide", "weld"]
 

@@ -7,17 +7,17 @@ from typing import Any
 
 import pymunk
 
-from cases.scene import GROUND, Scene
-from cases.trajectory import Array, Trajectory
-from engines.engine import Choice, Realised, State
-from engines.pymunk import settings
-from engines.pymunk.measure import measured
-from engines.pymunk.record import Record
-from engines.pymunk.rub import ruled
-from engines.pymunk.run import placed, simulate, stepper
-from engines.pymunk.scene import build, oblique
-from engines.pymunk.script import text
-from engines.pymunk.touch import closed
+from ...cases.scene import GROUND, Scene
+from ...cases.trajectory import Array, Trajectory
+from ..engine import Choice, Realised, State
+from . import settings
+from .measure import measured
+from .record import Record
+from .rub import ruled
+from .run import placed, simulate, stepper
+from .scene import build, oblique
+from .script import text
+from .touch import closed
 
 
 @dataclass(frozen=True)

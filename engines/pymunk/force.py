@@ -8,11 +8,11 @@ know: the force at the present time and place.
 import math
 from collections.abc import Callable
 
-from cases.scene import GROUND, Anchor, Damper, Push, Torque, Vector
-from engines.law import tension, value
-from engines.pymunk.rub import rubs
-from engines.pymunk.scene import World
-from engines.pymunk.touch import follower
+from ...cases.scene import GROUND, Anchor, Damper, Push, Torque, Vector
+from ..law import tension, value
+from .rub import rubs
+from .scene import World
+from .touch import follower
 
 Apply = Callable[[float], None]  # at time t [s]
 Point = tuple[Vector, float, float, float, float]  # lever from the centre; x, y, vx, vy

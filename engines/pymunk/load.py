@@ -7,9 +7,9 @@ Only for bodies that turn with nothing else: what joints pass on is not in the s
 import math
 from collections.abc import Callable
 
-from cases.scene import Anchor, Damper, Push, Spring, Torque
-from engines.law import tension, value
-from engines.pymunk.scene import World
+from ...cases.scene import Anchor, Damper, Push, Spring, Torque
+from ..law import tension, value
+from .scene import World
 
 Load = Callable[[float, float], tuple[float, float, float]]
 """(t, ahead) → fx, fy [N] and torque [N m] about the centre of mass, at the time t + ahead [s];

@@ -3,8 +3,8 @@
 from pymunk.shapes import Shape
 from pymunk.vec2d import Vec2d
 
-from cases.scene import Spring
-from engines.pymunk.scene import World
+from ...cases.scene import Spring
+from .scene import World
 
 
 def measured(world: World) -> dict[str, float]:

@@ -7,8 +7,8 @@ whole step.
 
 from collections.abc import Callable
 
-from cases.scene import Bounds, DryFriction, Smooth
-from engines.law import dry_friction, smooth_friction
+from ...cases.scene import Bounds, DryFriction, Smooth
+from ..law import dry_friction, smooth_friction
 
 Applied = Callable[[float], float]
 """What else acts along the friction [N], so many seconds after the step's start."""

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from pymunk.batch import BodyFields, Buffer, get_space_bodies
 
-from cases.observe import observe
-from cases.trajectory import Array, Trajectory
-from engines.pymunk.run import Steps
-from engines.pymunk.scene import World
+from ...cases.observe import observe
+from ...cases.trajectory import Array, Trajectory
+from .run import Steps
+from .scene import World
 
 _STATE = BodyFields.POSITION | BodyFields.ANGLE | BodyFields.VELOCITY | BodyFields.ANGULAR_VELOCITY
 _BUFFER = Buffer()  # one for all runs: pymunk never frees a buffer's memory

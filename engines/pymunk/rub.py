@@ -8,10 +8,10 @@ nothing else joins or touches.
 from collections.abc import Callable
 from functools import partial
 
-from cases.scene import GROUND, Bounds, Contact, DryFriction, Joint, Scene
-from engines.pymunk.load import load
-from engines.pymunk.onset import bound, smooth_mean
-from engines.pymunk.scene import World
+from ...cases.scene import GROUND, Bounds, Contact, DryFriction, Joint, Scene
+from .load import load
+from .onset import bound, smooth_mean
+from .scene import World
 
 Rub = Callable[[float], None]  # before the step that starts at t [s]
 RESTING = 1e-9  # m/s: a part that neither falls nor rises; above rounding, below any impact

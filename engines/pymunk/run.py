@@ -19,12 +19,12 @@ from pymunk.arbiter import Arbiter
 from pymunk.batch import BodyFields, Buffer, get_space_bodies
 from pymunk.body import Body
 
-from cases.scene import Scene
-from cases.trajectory import Array, Trajectory
-from engines.engine import Diverged, Realised, State
-from engines.pymunk.force import forces
-from engines.pymunk.scene import FAR, World, build
-from engines.pymunk.touch import closed, sink
+from ...cases.scene import Scene
+from ...cases.trajectory import Array, Trajectory
+from ..engine import Diverged, Realised, State
+from .force import forces
+from .scene import FAR, World, build
+from .touch import closed, sink
 
 Steps = Callable[[int], None]
 Counts = NDArray[np.int64]  # of steps

@@ -8,10 +8,10 @@ from pymunk.body import Body
 from pymunk.constraints import Constraint, DampedSpring, GearJoint, GrooveJoint, PivotJoint
 from pymunk.shapes import Segment
 
-from cases.scene import Push, Scene, Torque
-from engines.engine import State
-from engines.pymunk.scene import World, build
-from engines.pymunk.touch import ABOVE, closed
+from ...cases.scene import Push, Scene, Torque
+from ..engine import State
+from .scene import World, build
+from .touch import ABOVE, closed
 
 _ARGUMENTS: dict[type[Constraint], tuple[str, ...]] = {
     PivotJoint: ("anchor_a", "anchor_b"),

@@ -12,8 +12,8 @@ from pymunk.body import Body
 from pymunk.constraints import GearJoint
 from pymunk.space import Space
 
-from cases.scene import Scene
-from engines.engine import Choice
+from ...cases.scene import Scene
+from ..engine import Choice
 
 SHIPPED_STEP = 0.01  # s; pymunk has no step of its own, and its examples use 1/50 to 1/100
 _DEFAULT = "pymunk's default"

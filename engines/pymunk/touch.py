@@ -13,9 +13,9 @@ from pymunk.body import Body
 from pymunk.shape_filter import ShapeFilter
 from pymunk.shapes import Circle
 
-from cases.scene import Body as Part
-from cases.scene import Contact, Scene, Vector
-from engines.engine import State
+from ...cases.scene import Body as Part
+from ...cases.scene import Contact, Scene, Vector
+from ..engine import State
 
 FLOOR_FRICTION = 1.0  # pymunk multiplies the frictions of two shapes: the circle carries all of µ
 FLOOR_ELASTICITY = 1.0  # likewise the restitution

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from reference.derivative import along
-from reference.formalisms.lagrange import derivative, gradient, momentum, multipliers
-from reference.system import Array, System
+from ..derivative import along
+from ..system import Array, System
+from .lagrange import derivative, gradient, momentum, multipliers
 
 
 def power_balance(system: System, t: float, q: Array, v: Array) -> float:

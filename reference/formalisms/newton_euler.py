@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from reference.derivative import along
-from reference.formalisms.lagrange import constraint_acceleration
-from reference.system import Array, Cut, System
+from ..derivative import along
+from ..system import Array, Cut, System
+from .lagrange import constraint_acceleration
 
 
 def balance(

@@ -4,21 +4,21 @@ Each carries its own inertias and its own g and states its own start, so that an
 the generated motion or with an engine is not an agreement of one line of code with itself.
 """
 
-from reference.mode import Switching
-from reference.system import System
-from reference.systems.anisotropic_drift import AnisotropicDrift
-from reference.systems.bar_pendulum import BarPendulum
-from reference.systems.bouncing_disk import BouncingDisk
-from reference.systems.double_pendulum import DoublePendulum
-from reference.systems.dynamometer import Dynamometer
-from reference.systems.four_bar import FourBar
-from reference.systems.growing_force import GrowingForce
-from reference.systems.rhombus import Rhombus
-from reference.systems.rolling_wheel import RollingWheel
-from reference.systems.sliding_block import SlidingBlock
-from reference.systems.sliding_disk import SlidingDisk
-from reference.systems.smooth_friction import SmoothDynamometer, SmoothGrowingForce
-from reference.systems.spring_mass_damper import SpringMassDamper
+from ..mode import Switching
+from ..system import System
+from .anisotropic_drift import AnisotropicDrift
+from .bar_pendulum import BarPendulum
+from .bouncing_disk import BouncingDisk
+from .double_pendulum import DoublePendulum
+from .dynamometer import Dynamometer
+from .four_bar import FourBar
+from .growing_force import GrowingForce
+from .rhombus import Rhombus
+from .rolling_wheel import RollingWheel
+from .sliding_block import SlidingBlock
+from .sliding_disk import SlidingDisk
+from .smooth_friction import SmoothDynamometer, SmoothGrowingForce
+from .spring_mass_damper import SpringMassDamper
 
 SYSTEMS: dict[str, type[System]] = {
     "bar_pendulum": BarPendulum,

@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from reference.friction import Dry
-from reference.mode import Guard, Switching
-from reference.stick_slip import guards, modes, possible
-from reference.system import Array, Vector
+from ..friction import Dry
+from ..mode import Guard, Switching
+from ..stick_slip import guards, modes, possible
+from ..system import Array, Vector
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from reference.system import Array, Cut, Load, Mass, Pose, System, Vector
+from ..system import Array, Cut, Load, Mass, Pose, System, Vector
 
 G = 9.80665  # m/s²
 

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from reference.mode import Guard, Switching
-from reference.system import Array, Cut, Load, Mass, Pose, System, Vector
+from ..mode import Guard, Switching
+from ..system import Array, Cut, Load, Mass, Pose, System, Vector
 
 G = 9.80665  # m/s²
 

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from reference.friction import Dry, smooth
-from reference.mode import Switching
-from reference.system import Array, Cut, Load, Mass, Pose, System, Vector
+from ..friction import Dry, smooth
+from ..mode import Switching
+from ..system import Array, Cut, Load, Mass, Pose, System, Vector
 
 
 def _half(y: float) -> float:

@@ -4,9 +4,9 @@ import random
 import re
 from pathlib import Path
 
-from cases.find import shipped
-from cases.load import load
-from cases.mistake import CaseError
+from textmech.cases.find import shipped
+from textmech.cases.load import load
+from textmech.cases.mistake import CaseError
 
 _JUNK = ["", "null", "[]", "{}", "-1", ".nan", "1e999", "x y", "&a 1", "*a", "!!set", "'", "0 m"]
 

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from cases.case import Case, Deviation
-from cases.find import find, shipped
-from cases.language.number import Names, amount, number
-from cases.load import load
-from cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Joint, Push, Signal, Torque
-from reference.systems import SWITCHING, SYSTEMS
+from textmech.cases.case import Case, Deviation
+from textmech.cases.find import find, shipped
+from textmech.cases.language.number import Names, amount, number
+from textmech.cases.load import load
+from textmech.cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Joint, Push, Signal, Torque
+from textmech.reference.systems import SWITCHING, SYSTEMS
 
 PARAMETERS = {
     name: tuple(f.name for f in fields(system))  # type: ignore[arg-type]

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from cases.find import find
-from cases.load import load
-from cases.mistake import CaseError
+from textmech.cases.find import find
+from textmech.cases.load import load
+from textmech.cases.mistake import CaseError
 
 SYSTEMS = {"pendulum": ("m", "l", "phi0"), "wheel": ("R",)}
 

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from scipy.integrate import simpson
 
-from cases import shape
-from cases.observe import observe
-from cases.quantity import table
-from cases.scene import (
+from textmech.cases import shape
+from textmech.cases.observe import observe
+from textmech.cases.quantity import table
+from textmech.cases.scene import (
     Anchor,
     Bounds,
     Contact,
@@ -22,7 +22,7 @@ from cases.scene import (
     Scene,
     Spring,
 )
-from cases.trajectory import ANGLE, OMEGA, VX, Trajectory
+from textmech.cases.trajectory import ANGLE, OMEGA, VX, Trajectory
 
 Array = Any  # samples (N,), real or complex: x + i y
 Motion = Callable[[Array], tuple[Array, Array]]  # centre and angle at time t

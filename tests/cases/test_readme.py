@@ -3,21 +3,21 @@
 import re
 from pathlib import Path
 
-from cases import shape
-from cases.language import grammar
-from cases.language.body import Body
-from cases.language.force import Force
-from cases.language.friction import Coefficients, DryFriction, Smooth, TwoWay
-from cases.language.grammar import File, Scene
-from cases.language.joint import Contact as ContactSpec
-from cases.language.joint import Joint
-from cases.language.number import amount
-from cases.load import load
-from cases.quantity import event_quantities, table
-from cases.scene import Anchor, Bounds, Contact, Spring
-from cases.scene import DryFriction as Dry
-from cases.scene import Joint as Connection
-from cases.scene import Scene as Resolved
+from textmech.cases import shape
+from textmech.cases.language import grammar
+from textmech.cases.language.body import Body
+from textmech.cases.language.force import Force
+from textmech.cases.language.friction import Coefficients, DryFriction, Smooth, TwoWay
+from textmech.cases.language.grammar import File, Scene
+from textmech.cases.language.joint import Contact as ContactSpec
+from textmech.cases.language.joint import Joint
+from textmech.cases.language.number import amount
+from textmech.cases.load import load
+from textmech.cases.quantity import event_quantities, table
+from textmech.cases.scene import Anchor, Bounds, Contact, Spring
+from textmech.cases.scene import DryFriction as Dry
+from textmech.cases.scene import Joint as Connection
+from textmech.cases.scene import Scene as Resolved
 
 README = Path(shape.__file__).with_name("README.md").read_text(encoding="utf-8")
 

@@ -2,8 +2,8 @@
 
 import json
 
-from cases.language.grammar import File
-from cases.language.schema import SCHEMA, text
+from textmech.cases.language.grammar import File
+from textmech.cases.language.schema import SCHEMA, text
 
 
 def test_current() -> None:

@@ -4,11 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from cases.case import Case, Event
-from cases.load import load
-from cases.mistake import CaseError
-from cases.quantity import event_quantities
-from cases.scene import Anchor, Bounds, Contact, DryFriction, Smooth
+from textmech.cases.case import Case, Event
+from textmech.cases.load import load
+from textmech.cases.mistake import CaseError
+from textmech.cases.quantity import event_quantities
+from textmech.cases.scene import Anchor, Bounds, Contact, DryFriction, Smooth
 
 BACKSPIN = """\
 title: Disk thrown up an incline with backspin slides, then rolls

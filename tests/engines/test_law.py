@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from cases.scene import Anchor, Bounds, Damper, DryFriction, Signal, Smooth, Spring
-from engines.law import dry_friction, smooth_friction, tension, value
+from textmech.cases.scene import Anchor, Bounds, Damper, DryFriction, Signal, Smooth, Spring
+from textmech.engines.law import dry_friction, smooth_friction, tension, value
 
 TABLE = json.loads((Path(__file__).parent / "law_table.json").read_text())
 ENDS = (Anchor("ground", "O"), Anchor("mass", "center"))

@@ -15,9 +15,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from cases.case import Case
-from cases.load import load
-from cases.scene import (
+from textmech.cases.case import Case
+from textmech.cases.load import load
+from textmech.cases.scene import (
     Anchor,
     Body,
     Contact,
@@ -29,15 +29,15 @@ from cases.scene import (
     Signal,
     Spring,
 )
-from cases.shape import bar, block, disk, particle, rigid
-from cases.trajectory import ANGLE, Array, Trajectory, X
-from engines.engine import Diverged, State
-from engines.mujoco import MuJoCo, control
-from engines.mujoco import scene as builder
-from engines.mujoco.tree import spanning_tree
-from reference.assembly import assemble
-from reference.mechanism import Mechanism
-from reports.audit import EQUAL, expected
+from textmech.cases.shape import bar, block, disk, particle, rigid
+from textmech.cases.trajectory import ANGLE, Array, Trajectory, X
+from textmech.engines.engine import Diverged, State
+from textmech.engines.mujoco import MuJoCo, control
+from textmech.engines.mujoco import scene as builder
+from textmech.engines.mujoco.tree import spanning_tree
+from textmech.reference.assembly import assemble
+from textmech.reference.mechanism import Mechanism
+from textmech.reports.audit import EQUAL, expected
 
 CASES = sorted((Path(__file__).parents[2] / "cases").glob("*.yaml"))
 TUNED, SHIPPED = MuJoCo("tuned"), MuJoCo("shipped")
@@ -135,7 +135,8 @@ def test_audit_sees(what: str, monkeypatch: pytest.MonkeyPatch) -> None:
     name, change = WRONG[what]
     built = builder.mjcf
     monkeypatch.setattr(
-        "engines.mujoco.mjcf", lambda scene, *rest, **more: built(change(scene), *rest, **more)
+        "textmech.engines.mujoco.mjcf",
+        lambda scene, *rest, **more: built(change(scene), *rest, **more),
     )
     assert (
         worst(case(name).scene, start(case(name))) > 1e-3
@@ -278,7 +279,7 @@ def test_other_warnings_are_diverged_too(tmp_path: Path, monkeypatch: pytest.Mon
     def mixed(*given: Any) -> str:  # MuJoCo says so in the first step, and takes another pair
         return built(*given).replace('solref="0.02 1.0"', 'solref="0.02 -1.0"')
 
-    monkeypatch.setattr("engines.mujoco.mjcf", mixed)
+    monkeypatch.setattr("textmech.engines.mujoco.mjcf", mixed)
     c = case("four_bar")
     with pytest.raises(Diverged, match=r"MuJoCo warns: .*solref"):
         moved(c.scene, start(c), c.times[:3], 2e-3, SHIPPED)

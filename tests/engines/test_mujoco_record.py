@@ -5,11 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cases.load import load
-from engines.mujoco import MuJoCo
-from engines.mujoco.record import all_steps
-from reference.assembly import assemble
-from reference.mechanism import Mechanism
+from textmech.cases.load import load
+from textmech.engines.mujoco import MuJoCo
+from textmech.engines.mujoco.record import all_steps
+from textmech.reference.assembly import assemble
+from textmech.reference.mechanism import Mechanism
 
 CASES = [
     case

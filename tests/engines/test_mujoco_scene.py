@@ -10,8 +10,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import pytest
 
-from cases.quantity import table
-from cases.scene import (
+from textmech.cases.quantity import table
+from textmech.cases.scene import (
     CENTER,
     GROUND,
     Anchor,
@@ -27,13 +27,13 @@ from cases.scene import (
     Spring,
     Torque,
 )
-from cases.shape import bar, block, disk, particle, rigid
-from cases.trajectory import Array, Trajectory
-from engines.mujoco import MuJoCo
-from engines.mujoco.tree import spanning_tree
-from reference.explicit import dormand_prince
-from reference.mechanism import Mechanism
-from reference.motion import integrate, motion
+from textmech.cases.shape import bar, block, disk, particle, rigid
+from textmech.cases.trajectory import Array, Trajectory
+from textmech.engines.mujoco import MuJoCo
+from textmech.engines.mujoco.tree import spanning_tree
+from textmech.reference.explicit import dormand_prince
+from textmech.reference.mechanism import Mechanism
+from textmech.reference.motion import integrate, motion
 
 TUNED = MuJoCo("tuned")
 GRAVITY = (0.8, -9.7)  # not along an axis, so that no component can hide

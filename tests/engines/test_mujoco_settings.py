@@ -7,10 +7,10 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from cases.scene import Anchor, Contact, GroundPoint, Joint, Scene
-from cases.shape import bar, disk
-from engines.engine import State
-from engines.mujoco import MuJoCo
+from textmech.cases.scene import Anchor, Contact, GroundPoint, Joint, Scene
+from textmech.cases.shape import bar, disk
+from textmech.engines.engine import State
+from textmech.engines.mujoco import MuJoCo
 
 WHEEL = Scene(
     (0.0, -9.8),

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from cases.observe import observe
-from cases.scene import (
+from textmech.cases.observe import observe
+from textmech.cases.scene import (
     Anchor,
     Body,
     Bounds,
@@ -22,11 +22,11 @@ from cases.scene import (
     Smooth,
     Spring,
 )
-from cases.shape import bar, disk, particle
-from cases.trajectory import OMEGA, VX, VY, Array, Trajectory, X, Y
-from engines.engine import Realised
-from engines.mujoco import MuJoCo
-from engines.mujoco.contact import damping_ratio
+from textmech.cases.shape import bar, disk, particle
+from textmech.cases.trajectory import OMEGA, VX, VY, Array, Trajectory, X, Y
+from textmech.engines.engine import Realised
+from textmech.engines.mujoco import MuJoCo
+from textmech.engines.mujoco.contact import damping_ratio
 
 TUNED = MuJoCo("tuned")
 G, H, R = 9.80665, 1e-4, 0.3
@@ -101,7 +101,7 @@ def test_block_stops_and_does_not_creep(slope: float, v0: float) -> None:
 def test_noslip_needs_the_way_out_of_the_plane(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = floor(BLOCK, touching("block", 0.4), slope=math.radians(15))
     still = abs(every(run(scene, REST, 0.2), "block")[-1, VX])
-    monkeypatch.setattr("engines.mujoco.scene._leaves_plane", lambda scene, numbers: False)
+    monkeypatch.setattr("textmech.engines.mujoco.scene._leaves_plane", lambda scene, numbers: False)
     creeping = abs(every(run(scene, REST, 0.2), "block")[-1, VX])
     assert still <= 1e-15 < 1e-9 <= creeping
 

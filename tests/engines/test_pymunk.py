@@ -17,19 +17,19 @@ from pymunk.constraints import PivotJoint
 from pymunk.space import Space
 from scipy.special import ellipj, ellipk
 
-from cases.case import Case
-from cases.load import load
-from cases.observe import observe
-from cases.scene import Anchor, GroundPoint, Joint, Scene, Spring
-from cases.shape import bar, block, particle
-from cases.trajectory import ANGLE, Array, Trajectory, X, Y
-from engines.engine import Diverged, State
-from engines.pymunk import Pymunk, settings
-from engines.pymunk import scene as builder
-from reference.assembly import assemble
-from reference.explicit import dormand_prince
-from reference.mechanism import Mechanism
-from reference.motion import integrate, motion
+from textmech.cases.case import Case
+from textmech.cases.load import load
+from textmech.cases.observe import observe
+from textmech.cases.scene import Anchor, GroundPoint, Joint, Scene, Spring
+from textmech.cases.shape import bar, block, particle
+from textmech.cases.trajectory import ANGLE, Array, Trajectory, X, Y
+from textmech.engines.engine import Diverged, State
+from textmech.engines.pymunk import Pymunk, settings
+from textmech.engines.pymunk import scene as builder
+from textmech.reference.assembly import assemble
+from textmech.reference.explicit import dormand_prince
+from textmech.reference.mechanism import Mechanism
+from textmech.reference.motion import integrate, motion
 
 CASES = Path(__file__).parents[2] / "cases"
 SHIPPED, TUNED = Pymunk("shipped"), Pymunk("tuned")
@@ -497,7 +497,7 @@ def test_bare_loop_is_the_same_motion(monkeypatch: pytest.MonkeyPatch) -> None:
         worlds.append(builder.build(*arguments))
         return worlds[-1]
 
-    monkeypatch.setattr("engines.pymunk.run.build", kept)
+    monkeypatch.setattr("textmech.engines.pymunk.run.build", kept)
     steps = TUNED.prepare(
         case("towed_pendulum").scene, start("towed_pendulum"), 1e-3, realised="native"
     )

@@ -12,8 +12,8 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from cases.observe import observe
-from cases.scene import (
+from textmech.cases.observe import observe
+from textmech.cases.scene import (
     Anchor,
     Body,
     Bounds,
@@ -28,11 +28,11 @@ from cases.scene import (
     Smooth,
     Spring,
 )
-from cases.shape import bar, disk, particle
-from cases.trajectory import ANGLE, OMEGA, VX, Array, Trajectory, X, Y
-from engines.engine import Realised, State
-from engines.law import smooth_friction
-from engines.pymunk import Pymunk, onset, settings
+from textmech.cases.shape import bar, disk, particle
+from textmech.cases.trajectory import ANGLE, OMEGA, VX, Array, Trajectory, X, Y
+from textmech.engines.engine import Realised, State
+from textmech.engines.law import smooth_friction
+from textmech.engines.pymunk import Pymunk, onset, settings
 
 SHIPPED, TUNED = Pymunk("shipped"), Pymunk("tuned")
 G, STEP = 9.80665, 1e-4

@@ -5,8 +5,8 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from reference.system import Array, System
-from reference.systems import SYSTEMS
+from textmech.reference.system import Array, System
+from textmech.reference.systems import SYSTEMS
 
 PARAMETERS: dict[str, dict[str, float]] = {
     "rolling_wheel": {

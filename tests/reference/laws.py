@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from examples import MULTIPLIERS, STARTS
 
-from reference.derivative import along
-from reference.formalisms import energy, lagrange, newton_euler
-from reference.system import Array, System
+from textmech.reference.derivative import along
+from textmech.reference.formalisms import energy, lagrange, newton_euler
+from textmech.reference.system import Array, System
 
 States = Iterable[tuple[float, Array, Array]]
 Law = Callable[[System, str, States], float]

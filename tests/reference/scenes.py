@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
-import cases
-from cases import shape
-from cases.case import Case
-from cases.load import load
-from cases.scene import (
+from textmech import cases
+from textmech.cases import shape
+from textmech.cases.case import Case
+from textmech.cases.load import load
+from textmech.cases.scene import (
     GROUND,
     Anchor,
     Body,
@@ -25,9 +25,9 @@ from cases.scene import (
     Spring,
     Torque,
 )
-from reference.mechanism import Mechanism
-from reference.solve import Solution, solve
-from reference.system import Array
+from textmech.reference.mechanism import Mechanism
+from textmech.reference.solve import Solution, solve
+from textmech.reference.system import Array
 
 Random = np.random.Generator
 

@@ -5,9 +5,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from reference.mode import Switching
-from reference.system import Array
-from reference.systems import SWITCHING
+from textmech.reference.mode import Switching
+from textmech.reference.system import Array
+from textmech.reference.systems import SWITCHING
 
 BOOK = {"F_minus": 3.0, "F_plus": 3.0, "Fs_minus": 6.0, "Fs_plus": 6.0}
 SMOOTH = {"Delta": 5e-4, "A": 1e5}

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 import scenes
 
-from cases.mistake import CaseError, Mistake
-from reference.assembly import assemble
-from reference.mechanism import Mechanism
-from reference.system import Array
+from textmech.cases.mistake import CaseError, Mistake
+from textmech.reference.assembly import assemble
+from textmech.reference.mechanism import Mechanism
+from textmech.reference.system import Array
 
 FOUR_BAR = """\
 scene:

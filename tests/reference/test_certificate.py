@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 import scenes
 
-from cases.case import Case
-from reference import certificate, systems
-from reference.agreement import difference, relative, worst
-from reference.assembly import assemble
-from reference.certificate import Check, certify
-from reference.explicit import dormand_prince
-from reference.mechanism import Mechanism
-from reference.motion import TOLERANCE, integrate, motion
-from reference.system import Array, Load, System
-from reference.systems.bar_pendulum import BarPendulum
-from reference.systems.spring_mass_damper import SpringMassDamper
+from textmech.cases.case import Case
+from textmech.reference import certificate, systems
+from textmech.reference.agreement import difference, relative, worst
+from textmech.reference.assembly import assemble
+from textmech.reference.certificate import Check, certify
+from textmech.reference.explicit import dormand_prince
+from textmech.reference.mechanism import Mechanism
+from textmech.reference.motion import TOLERANCE, integrate, motion
+from textmech.reference.system import Array, Load, System
+from textmech.reference.systems.bar_pendulum import BarPendulum
+from textmech.reference.systems.spring_mass_damper import SpringMassDamper
 
 IMPLICIT, START, GENERATED = "implicit integrator", "start as assembled", "generated motion"
 REACTIONS, CLOSED = "generated reactions", "closed form"

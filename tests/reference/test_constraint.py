@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 import scenes
 
-from cases.scene import GROUND, Anchor, GroundPoint, Joint, Scene
-from reference.constraint import Constraint, constraints
-from reference.coordinates import Coordinates
-from reference.derivative import along
-from reference.mechanism import Mechanism
-from reference.system import Array
+from textmech.cases.scene import GROUND, Anchor, GroundPoint, Joint, Scene
+from textmech.reference.constraint import Constraint, constraints
+from textmech.reference.coordinates import Coordinates
+from textmech.reference.derivative import along
+from textmech.reference.mechanism import Mechanism
+from textmech.reference.system import Array
 
 ENDS = {
     "bodies": (Anchor("bar", "P"), Anchor("block", "Q")),

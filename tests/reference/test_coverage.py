@@ -6,11 +6,11 @@ from dataclasses import replace
 import pytest
 import scenes
 
-from cases.case import Case
-from reference import momentum
-from reference.coverage import equations, executed
-from reference.force import spring
-from reference.solve import solve
+from textmech.cases.case import Case
+from textmech.reference import momentum
+from textmech.reference.coverage import equations, executed
+from textmech.reference.force import spring
+from textmech.reference.solve import solve
 
 SAMPLES = 3  # as the reports do it: enough to run every function once
 

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from reference import event
-from reference.event import TOGETHER, ZenoError, accumulation, follow
-from reference.mode import Guard, Switching
-from reference.system import Array, System
-from reference.systems.bouncing_disk import BouncingDisk
+from textmech.reference import event
+from textmech.reference.event import TOGETHER, ZenoError, accumulation, follow
+from textmech.reference.mode import Guard, Switching
+from textmech.reference.system import Array, System
+from textmech.reference.systems.bouncing_disk import BouncingDisk
 
 
 class Oscillator(System):

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from reference.friction import (
+from textmech.reference.friction import (
     Dry,
     H,
     boxcar,

@@ -5,16 +5,16 @@ from pathlib import Path
 
 import pytest
 
-import reference.systems
+from textmech.reference import systems
 
 SYSTEMS = sorted(
-    path for path in Path(next(iter(reference.systems.__path__))).glob("*.py")
+    path for path in Path(next(iter(systems.__path__))).glob("*.py")
     if path.name != "__init__.py"
 )  # fmt: skip
 ALLOWED = {
     *("numpy", "scipy.special", "math", "dataclasses", "typing", "collections.abc"),
     # The shape of an answer, and the book's laws of friction: no mechanics of a scene.
-    *("reference.system", "reference.mode", "reference.friction", "reference.stick_slip"),
+    *("..system", "..mode", "..friction", "..stick_slip"),
 }
 
 
@@ -41,9 +41,10 @@ def test_every_system_is_seen():
 @pytest.mark.parametrize(
     "line",
     [
-        "import cases", "from cases.shape import bar", "from reference.inertia import disk",
-        "from reference.formalisms import lagrange", "from reference import mechanism",
-        "from . import four_bar", "from .bar_pendulum import G", "def f():\n    import cases.scene",
+        "import textmech.cases", "from ...cases.shape import bar", "from ..inertia import disk",
+        "from ..formalisms import lagrange", "from .. import mechanism",
+        "from . import four_bar", "from .bar_pendulum import G",
+        "def f():\n    from ...cases import scene",
     ],
 )  # fmt: skip
 def test_forbidden_import_is_seen(line: str):

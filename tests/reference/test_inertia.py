@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from reference.inertia import bar, disk, rotated, steiner, tensor
-from reference.system import Array
+from textmech.reference.inertia import bar, disk, rotated, steiner, tensor
+from textmech.reference.system import Array
 
 
 def points_of_bar(m: float, l: float) -> tuple[Array, Array]:

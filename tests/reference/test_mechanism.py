@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 import scenes
 
-from cases.scene import GROUND, Anchor, Body, Joint, Scene, Spring
-from reference import mechanism as module
-from reference.action import NoDirection, pulls
-from reference.constraint import Align, Coincide
-from reference.formalisms import energy, lagrange
-from reference.mechanism import Mechanism
-from reference.system import Array
+from textmech.cases.scene import GROUND, Anchor, Body, Joint, Scene, Spring
+from textmech.reference import mechanism as module
+from textmech.reference.action import NoDirection, pulls
+from textmech.reference.constraint import Align, Coincide
+from textmech.reference.formalisms import energy, lagrange
+from textmech.reference.mechanism import Mechanism
+from textmech.reference.system import Array
 
 EXACT = 1e-12  # of the largest term
 COUNT = 60  # random scenes: every kind of body, joint and force comes ten times and more

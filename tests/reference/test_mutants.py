@@ -13,7 +13,7 @@ import pytest
 from examples import PARAMETERS, example, states
 from laws import Law
 
-from reference.system import Load, System
+from textmech.reference.system import Load, System
 
 # Which law sees a parameter that is 5 % off in the explicit accelerations and reactions only.
 # Where a mass drops out of the motion, the reactions tell.

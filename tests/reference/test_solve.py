@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 import scenes
 
-from cases.case import Case
-from cases.mistake import CaseError, Mistake
-from reference.solve import solve
+from textmech.cases.case import Case
+from textmech.cases.mistake import CaseError, Mistake
+from textmech.reference.solve import solve
 
 WHEEL = """\
 scene:

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from switching_examples import example
 
-from reference.book import Karnopp, boxcars
-from reference.event import follow
-from reference.friction import Dry, stiction
-from reference.stepping import arrest, stepped
-from reference.system import Array
+from textmech.reference.book import Karnopp, boxcars
+from textmech.reference.event import follow
+from textmech.reference.friction import Dry, stiction
+from textmech.reference.stepping import arrest, stepped
+from textmech.reference.system import Array
 
 Law = Callable[[Dry, float, float], float]
 BOOK = Dry(3.0, 3.0, 6.0, 6.0)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import scenes
 
-from cases import shape
-from cases.scene import (
+from textmech.cases import shape
+from textmech.cases.scene import (
     Anchor,
     Bounds,
     Contact,
@@ -18,15 +18,15 @@ from cases.scene import (
     Smooth,
     Spring,
 )
-from reference.contact import Drag, Rub, catch, touching
-from reference.contact_modes import elements
-from reference.event import follow
-from reference.formalisms import energy, lagrange
-from reference.mechanism import Mechanism
-from reference.smooth_mechanism import SmoothMechanism
-from reference.switching_mechanism import SwitchingMechanism
-from reference.system import Array
-from reference.systems.smooth_friction import SmoothDynamometer
+from textmech.reference.contact import Drag, Rub, catch, touching
+from textmech.reference.contact_modes import elements
+from textmech.reference.event import follow
+from textmech.reference.formalisms import energy, lagrange
+from textmech.reference.mechanism import Mechanism
+from textmech.reference.smooth_mechanism import SmoothMechanism
+from textmech.reference.switching_mechanism import SwitchingMechanism
+from textmech.reference.system import Array
+from textmech.reference.systems.smooth_friction import SmoothDynamometer
 
 LAW = 1e-9  # of the largest acceleration: random scenes lose up to four digits of 1e-13
 WELL = 100.0  # condition of the rows: beyond, rounding shows

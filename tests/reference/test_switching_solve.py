@@ -9,12 +9,12 @@ import pytest
 import scenes
 import sliding_scenes
 
-from cases.case import Case
-from cases.mistake import CaseError, Mistake
-from reference import contact_modes, impact, switching_mechanism
-from reference.contact import Rub
-from reference.contact_modes import State, Touching, sign
-from reference.solve import Solution, solve
+from textmech.cases.case import Case
+from textmech.cases.mistake import CaseError, Mistake
+from textmech.reference import contact_modes, impact, switching_mechanism
+from textmech.reference.contact import Rub
+from textmech.reference.contact_modes import State, Touching, sign
+from textmech.reference.solve import Solution, solve
 
 G = 9.80665
 ROD = """\

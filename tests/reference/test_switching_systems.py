@@ -12,14 +12,14 @@ import pytest
 from scipy.integrate import solve_ivp
 from switching_examples import PARAMETERS, example, states
 
-from reference.event import ZenoError, follow, slope
-from reference.formalisms import lagrange, newton_euler
-from reference.friction import Dry, smooth
-from reference.implicit import radau
-from reference.mode import Guard, Switching
-from reference.system import Array, System
-from reference.systems import SWITCHING
-from reference.systems.dynamometer import Dynamometer
+from textmech.reference.event import ZenoError, follow, slope
+from textmech.reference.formalisms import lagrange, newton_euler
+from textmech.reference.friction import Dry, smooth
+from textmech.reference.implicit import radau
+from textmech.reference.mode import Guard, Switching
+from textmech.reference.system import Array, System
+from textmech.reference.systems import SWITCHING
+from textmech.reference.systems.dynamometer import Dynamometer
 
 MODES = [(name, mode) for name in PARAMETERS for mode in example(name).modes]
 LOCATED = 1e-12  # s

@@ -11,10 +11,10 @@ import pytest
 from examples import PARAMETERS, example, states
 from scipy.special import ellipj
 
-from reference.derivative import along
-from reference.formalisms import lagrange, newton_euler
-from reference.systems import SYSTEMS
-from reference.systems.bar_pendulum import jacobi
+from textmech.reference.derivative import along
+from textmech.reference.formalisms import lagrange, newton_euler
+from textmech.reference.systems import SYSTEMS
+from textmech.reference.systems.bar_pendulum import jacobi
 
 VARIANTS = {
     "resting": ("rolling_wheel", {"beta": 0.0, "F": 0.0}),

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from cases.case import Case
-from cases.load import load
-from cases.scene import Scene
-from cases.trajectory import Array, Trajectory
-from engines.engine import Choice, Diverged, Realised, State
-from reports.trial import Trial
+from textmech.cases.case import Case
+from textmech.cases.load import load
+from textmech.cases.scene import Scene
+from textmech.cases.trajectory import Array, Trajectory
+from textmech.engines.engine import Choice, Diverged, Realised, State
+from textmech.reports.trial import Trial
 
 TEXT = """\
 title: A free body that moves at constant velocity

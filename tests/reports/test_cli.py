@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from reports import write
+from textmech.reports import write
 
 NEW = """\
 title: A bar that hangs on a cart
@@ -28,7 +28,7 @@ allow: {cart.x: 1.0e-2, rod.angle: 1.0e-2}
 
 def textmech(*words: object, folder: Path | None = None) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        [sys.executable, "-m", "reports.cli", *map(str, words)],
+        [sys.executable, "-m", "textmech.reports.cli", *map(str, words)],
         capture_output=True,
         text=True,
         cwd=folder,

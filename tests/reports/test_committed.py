@@ -2,12 +2,12 @@
 
 import pytest
 
-from reports import pool, readme, suite, write
-from reports.metric import ROUNDING
-from reports.pytest_plugin import CaseItem, measured
-from reports.row import Certificate, Comparison, Instant, Rungs
-from reports.selection import choose_cases, choose_engines
-from reports.suite import Report
+from textmech.reports import pool, readme, suite, write
+from textmech.reports.metric import ROUNDING
+from textmech.reports.pytest_plugin import CaseItem, measured
+from textmech.reports.row import Certificate, Comparison, Instant, Rungs
+from textmech.reports.selection import choose_cases, choose_engines
+from textmech.reports.suite import Report
 
 QUARTER = 0.25  # what another compiler or processor may change of a number above the floor
 AFTER_EVENTS = 2 / 3  # a factor of three: which step sees an event first may change

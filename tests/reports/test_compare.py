@@ -7,15 +7,24 @@ from typing import Any
 import numpy as np
 import pytest
 
-from cases.case import Case, Deviation, Event
-from cases.scene import Anchor, Body, Bounds, Contact, DryFriction, GroundPoint, Joint, Scene
-from cases.trajectory import Trajectory
-from reports.audit import expected
-from reports.compare import Outcome, compare, crashed
-from reports.convergence import INSTANTS
-from reports.events import never
-from reports.row import AGREES, BEYOND, CHANGED, DEVIATES, DIVERGED, FAILS
-from reports.trial import Trial, realisations
+from textmech.cases.case import Case, Deviation, Event
+from textmech.cases.scene import (
+    Anchor,
+    Body,
+    Bounds,
+    Contact,
+    DryFriction,
+    GroundPoint,
+    Joint,
+    Scene,
+)
+from textmech.cases.trajectory import Trajectory
+from textmech.reports.audit import expected
+from textmech.reports.compare import Outcome, compare, crashed
+from textmech.reports.convergence import INSTANTS
+from textmech.reports.events import never
+from textmech.reports.row import AGREES, BEYOND, CHANGED, DEVIATES, DIVERGED, FAILS
+from textmech.reports.trial import Trial, realisations
 
 Make = Callable[..., Trial]
 STOPS = (0.3, 0.7)  # s: the reference's

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from cases.case import Event
-from cases.scene import Body, Scene
-from cases.trajectory import VX, Array, Trajectory
-from reports import rests as reading
-from reports.events import engine_events, falls, reference_events
-from reports.rests import rests
+from textmech.cases.case import Event
+from textmech.cases.scene import Body, Scene
+from textmech.cases.trajectory import VX, Array, Trajectory
+from textmech.reports import rests as reading
+from textmech.reports.events import engine_events, falls, reference_events
+from textmech.reports.rests import rests
 
 SCENE = Scene(
     (0.0, 0.0), {}, {"box": Body("box", "particle", 1.0, None, {"center": (0.0, 0.0)})}, {}, {}, {}

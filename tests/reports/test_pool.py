@@ -5,7 +5,7 @@ import signal
 
 import pytest
 
-from reports import pool
+from textmech.reports import pool
 
 
 def work(task: int) -> int:

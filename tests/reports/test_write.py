@@ -5,9 +5,9 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from reports import write
-from reports.row import Comparison, Instant
-from reports.suite import Report
+from textmech.reports import write
+from textmech.reports.row import Comparison, Instant
+from textmech.reports.suite import Report
 
 ROW = Comparison(
     case="b", source="(2.1)", engine="mujoco", version="4.0.0", setting="tuned",

@@ -1,0 +1,128 @@
+"""The wheel in somebody else's environment, beside a project whose packages have our names."""
+
+import os
+import shutil
+import subprocess
+import sys
+import sysconfig
+import venv
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+OURS = ("cases", "reference", "engines", "reports")
+NAMES = {"textmech", "__editable__"}  # what an installed suite leaves beside other packages
+
+CASE = """\
+title: A bar that swings
+scene:
+  points: {O: [0, 0]}
+  bodies: {rod: {bar: {mass: 0.5, length: 0.6}}}
+  joints: {hinge: {pin: [ground.O, rod.start]}}
+initial: {rod: {angle: -40 deg}}
+duration: 0.4
+samples: 6
+step: {mujoco: 1.0e-3, pymunk: 1.0e-3}
+allow: {rod.angle: 1.0e-2}
+"""
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Built from a copy: setuptools keeps what it built once, and would pack removed files."""
+    copy, out = tmp_path_factory.mktemp("source") / "textmech", tmp_path_factory.mktemp("wheel")
+    copy.mkdir()
+    for name in (*OURS, "pyproject.toml", "README.md", "LICENSE"):
+        if (ROOT / name).is_dir():
+            shutil.copytree(ROOT / name, copy / name, ignore=shutil.ignore_patterns("__pycache__"))
+        else:
+            shutil.copy(ROOT / name, copy / name)
+    run(sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--no-build-isolation",
+        "--disable-pip-version-check", "--wheel-dir", out, copy, cwd=copy)  # fmt: skip
+    (file,) = out.glob("textmech-*.whl")
+    return file
+
+
+@pytest.fixture(scope="module")
+def python(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A fresh environment: the wheel, and the packages it needs as links to those of this one."""
+    folder = tmp_path_factory.mktemp("environment")
+    venv.create(folder / "venv", with_pip=False, symlinks=True)
+    python = folder / "venv" / "bin" / "python"
+    site = Path(run(python, "-c", "import site; print(site.getsitepackages()[0])").stdout.strip())
+    for package in Path(sysconfig.get_path("purelib")).iterdir():
+        if not any(name in package.name for name in NAMES):
+            (site / package.name).symlink_to(package)
+    run(sys.executable, "-m", "pip", "--python", python, "install", "--quiet", "--no-deps",
+        "--disable-pip-version-check", wheel)  # fmt: skip
+    return python
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    """A project of a stranger with packages of the same four names, and tests that use them."""
+    for name in OURS:
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "__init__.py").write_text(f"MINE = {name!r}\n", encoding="utf-8")
+    uses = "\n".join(f"    import {name}\n    assert {name}.MINE == {name!r}" for name in OURS)
+    (tmp_path / "test_mine.py").write_text(f"def test_mine():\n{uses}\n", encoding="utf-8")
+    (tmp_path / "swing.yaml").write_text(CASE, encoding="utf-8")
+    return tmp_path
+
+
+def run(*words: object, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+    """As a user does, whose shell knows nothing of this checkout."""
+    clean = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "PYTEST"))}
+    done = subprocess.run(
+        [*map(str, words)], capture_output=True, text=True, cwd=cwd, env=clean, check=False
+    )
+    assert done.returncode == 0, f"{done.stdout}\n{done.stderr}"
+    return done
+
+
+def test_the_wheel_holds_one_package_and_its_data(wheel: Path) -> None:
+    names = zipfile.ZipFile(wheel).namelist()
+    assert {name.split("/")[0].split("-")[0] for name in names} == {"textmech"}
+    for folder, pattern in (("cases", "*.yaml"), ("cases", "*.json"), ("reports", "*.csv")):
+        files = [file.name for file in (ROOT / folder).glob(pattern)]
+        assert files
+        assert {f"textmech/{folder}/{file}" for file in files} <= set(names)
+
+
+def test_a_strangers_tests_run_as_before(python: Path, project: Path) -> None:
+    assert "1 passed" in run(python, "-m", "pytest", "-q", cwd=project).stdout
+
+
+def test_a_case_is_tested_beside_them(python: Path, project: Path) -> None:
+    done = run(python, "-m", "pytest", "-v", "test_mine.py", "swing.yaml", cwd=project).stdout
+    assert "test_mine.py::test_mine PASSED" in done
+    for engine in ("mujoco", "pymunk"):
+        assert f"swing.yaml::swing-{engine}.tuned-rod.angle PASSED" in done
+
+
+def test_the_command_runs_beside_them(python: Path, project: Path) -> None:
+    done = run(python.parent / "textmech", "run", "swing.yaml", cwd=project)
+    assert "swing in mujoco" in done.stdout
+    assert "swing in pymunk" in done.stdout
+    assert "bar_pendulum" in run(python.parent / "textmech", "list", cwd=project).stdout
+
+
+def test_a_full_run_would_write_where_the_user_stands(python: Path, project: Path) -> None:
+    asked = "from textmech.reports import write; print(write.by_default())"
+    assert run(python, "-c", asked, cwd=project).stdout == "textmech-reports\n"
+
+
+def test_the_plug_in_imports_nothing_of_ours_until_a_case_is_collected(
+    python: Path, project: Path
+) -> None:
+    (project / "conftest.py").write_text(
+        "import sys\n"
+        "def pytest_unconfigure():\n"
+        "    ours = sorted(name for name in sys.modules if name.startswith('textmech.'))\n"
+        "    print('imported:', *ours)\n",
+        encoding="utf-8",
+    )
+    done = run(python, "-m", "pytest", "-q", "-s", "test_mine.py", cwd=project)
+    assert "imported: textmech.reports textmech.reports.pytest_plugin\n" in done.stdout
