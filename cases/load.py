@@ -5,12 +5,12 @@ from dataclasses import replace
 from pathlib import Path as FilePath
 
 from .case import Case
-from .language.check import check
-from .language.document import read
-from .language.overlay import overlay
+from .language.check.check import check
+from .language.grammar.words import NO_VALUE
 from .language.parse import parse
+from .language.read.document import read
+from .language.read.overlay import overlay
 from .language.resolve import resolve_case, resolve_scene
-from .language.words import NO_VALUE
 from .mistake import CaseError, Mistake
 
 Systems = Mapping[str, tuple[str, ...]]

@@ -9,10 +9,10 @@ import numpy as np
 
 from ..cases.case import Case
 from ..cases.mistake import CaseError
-from .closure import Closure
-from .mechanism import Mechanism
-from .motion import Stuck
-from .positions import rank
+from .generated.mechanism import Mechanism
+from .motion.smooth import Stuck
+from .start.closure import Closure
+from .start.positions import rank
 from .system import Array
 
 SHORT = 1e-3  # of the mechanism's size: steps give up well before the length is zero

@@ -12,18 +12,18 @@ from ..cases.mistake import CaseError
 from ..cases.observe import observe
 from ..cases.quantity import table
 from ..cases.trajectory import ANGLE, OMEGA, VX, VY, Array, Trajectory, X, Y
-from .assembly import assemble
-from .certificate import Check, certify
-from .certificate_switching import certify_switching
-from .closure import Closure
-from .contact_modes import switches
-from .event import follow
-from .explicit import dormand_prince
-from .mechanism import Mechanism
-from .motion import TOLERANCE, Stuck, integrate, motion
+from .certificate.certificate_switching import certify_switching
+from .certificate.certify import Check, certify
+from .generated.choosing import SwitchingMechanism
+from .generated.element import switches
+from .generated.mechanism import Mechanism
+from .integrators.explicit import dormand_prince
+from .motion.follow import follow
+from .motion.record import Motion, completed
+from .motion.smooth import TOLERANCE, Stuck, integrate, motion
 from .obstacle import refused
-from .switched import Motion, completed
-from .switching_mechanism import SwitchingMechanism
+from .start.assembly import assemble
+from .start.closure import Closure
 from .switching_refusal import SWITCHING_FAILURES, switching_refused
 from .systems import SWITCHING, SYSTEMS
 

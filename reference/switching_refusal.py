@@ -2,9 +2,9 @@
 
 from ..cases.case import Case
 from ..cases.mistake import CaseError
-from .event import ZenoError
-from .integrator import IntegrationError
-from .switching_mechanism import BadStart, Undetermined
+from .generated.choosing import BadStart, Undetermined
+from .integrators.march import IntegrationError
+from .motion.follow import ZenoError
 
 SWITCHING_FAILURES = (BadStart, Undetermined, ZenoError, IntegrationError, ArithmeticError)
 

@@ -88,8 +88,9 @@ def run(
     keep: Path | None,
 ) -> None:
     """Compare engines with the reference and report the differences."""
-    from . import pool, suite, terminal, write
+    from . import pool, suite, write
     from .selection import choose_book, choose_cases, choose_engines
+    from .show import terminal
 
     chosen = choose_cases(cases)
     for folder in (out, keep):
@@ -126,7 +127,7 @@ def _prepare(folder: Path) -> None:
 def check(files: tuple[str, ...]) -> None:
     """All mistakes of case files, without running an engine."""
     from ..reference.solve import solve
-    from .events import never
+    from .events.times import never
     from .selection import choose_cases
 
     mistakes: list[Mistake] = []
@@ -176,7 +177,7 @@ def list_() -> None:
 def show(case: str, name: str) -> None:
     """The scene as the engine's own file or script, with the settings and their reasons."""
     from .selection import choose_cases, choose_engines
-    from .show import script
+    from .show.script import script
 
     chosen = choose_cases([case])
     if len(chosen) > 1:
@@ -190,7 +191,7 @@ def show(case: str, name: str) -> None:
 @command.command()
 def bench() -> None:
     """What the adapters cost: ratios to the engines' bare loops, and to scipy's integrator."""
-    from .bench import table
+    from .show.bench import table
 
     for line in table():
         click.echo(line)

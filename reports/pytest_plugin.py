@@ -74,9 +74,9 @@ class CaseFile(pytest.File):
     def collect(self) -> Iterator[pytest.Item]:
         from ..cases.load import load
         from ..cases.mistake import CaseError
-        from .book import producers
         from .selection import HANDWRITTEN, choose_book, choose_engines
-        from .trial import judged_names, realisations
+        from .trial.book import producers
+        from .trial.trial import judged_names, realisations
 
         try:
             cases = load(self.path, systems=HANDWRITTEN)
@@ -149,7 +149,7 @@ class ComparisonItem(CaseItem):
 
     def runtest(self) -> None:
         from .row import AGREES, DEVIATES, FAILS
-        from .terminal import line
+        from .show.terminal import line
 
         row = next(row for row in self.report().comparisons if _key(row) == self.key)
         if row.verdict == FAILS:

@@ -8,7 +8,7 @@ from typing import Any, cast
 from .. import engines
 from ..cases.case import Case
 from ..cases.find import find, shipped
-from ..cases.language.document import read
+from ..cases.language.read.document import read
 from ..cases.load import load
 from ..cases.mistake import CaseError, Mistake
 from ..cases.quantity import nearest

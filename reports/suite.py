@@ -7,15 +7,15 @@ from typing import Any
 from ..cases.case import Case
 from ..cases.mistake import CaseError
 from ..engines.engine import Engine
-from ..reference.coverage import executed
+from ..reference.certificate.coverage import executed
 from ..reference.solve import Solution, solve
 from . import pool
-from .book import producers
-from .compare import Outcome, compare, crashed
-from .events import never
-from .instants import of_reference
+from .events.times import never
+from .judge.compare import Outcome, compare, crashed
+from .judge.instants import of_reference
 from .row import FAILS, Certificate, Comparison, Instant, Rungs
-from .trial import Trial, realisations
+from .trial.book import producers
+from .trial.trial import Trial, realisations
 
 Progress = Callable[[str, int, int], None]
 """What is being done, how much is done, out of how much."""

@@ -14,15 +14,15 @@ from textmech.cases.mistake import CaseError
 from textmech.cases.observe import observe
 from textmech.cases.quantity import table
 from textmech.cases.trajectory import Array, Trajectory
-from textmech.reference.assembly import assemble
-from textmech.reference.closure import Closure
-from textmech.reference.contact_modes import switches
-from textmech.reference.event import ZenoError, follow
-from textmech.reference.explicit import dormand_prince
-from textmech.reference.mechanism import Mechanism
-from textmech.reference.motion import integrate, motion
-from textmech.reference.switched import Motion
-from textmech.reference.switching_mechanism import SwitchingMechanism
+from textmech.reference.generated.choosing import SwitchingMechanism
+from textmech.reference.generated.element import switches
+from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.integrators.explicit import dormand_prince
+from textmech.reference.motion.follow import ZenoError, follow
+from textmech.reference.motion.record import Motion
+from textmech.reference.motion.smooth import integrate, motion
+from textmech.reference.start.assembly import assemble
+from textmech.reference.start.closure import Closure
 
 CHANGED = 1.05  # 5 %, or 0.05 where a parameter is zero
 STAYS = 0.1  # of a tolerance: what a parameter that drops out may move by 5 % of it

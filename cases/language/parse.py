@@ -7,8 +7,8 @@ from typing import Any
 from pydantic import ValidationError
 
 from ..mistake import Path
-from .grammar import File
-from .number import names
+from .grammar.file import File
+from .grammar.number import names
 
 Finding = tuple[Path, str]  # where, and what is wrong there
 

@@ -7,11 +7,11 @@ from .. import scene, shape
 from ..case import Case, Deviation, Event, Origin, Placement
 from ..mistake import Source
 from ..scene import STANDARD_GRAVITY, Anchor, GroundPoint, Scene, Signal
-from . import body as bodies
-from . import force as forces
-from . import joint as joints
-from .friction import Coefficients, DryFriction, TwoWay, both_ways
-from .grammar import File, Near
+from .grammar import body as bodies
+from .grammar import force as forces
+from .grammar import joint as joints
+from .grammar.file import File, Near
+from .grammar.friction import Coefficients, DryFriction, TwoWay, both_ways
 
 _COORDINATES = ("x", "y", "angle", "vx", "vy", "omega")
 

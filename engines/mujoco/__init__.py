@@ -12,15 +12,15 @@ from ...cases.trajectory import Array, Trajectory
 from ..engine import Choice, Realised, State
 from . import options, settings
 from .contact import falls
-from .control import signals
-from .friction import followed, smooth_only
-from .measure import measured
+from .law.friction import followed, smooth_only
+from .law.settle import settle
+from .law.signal import signals
+from .law.smooth import smooth
+from .law.stepping import stepping
+from .read.measure import measured
 from .refuse import unbuildable, uncompilable
 from .run import heard, load, simulate
 from .scene import HEAVY, mjcf
-from .settle import settle
-from .smooth import smooth
-from .stepping import stepping
 from .tree import driven
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import mujoco
 
-from .control import installed
+from .law.signal import installed
 from .run import heard
 
 _WORDS = {

@@ -9,11 +9,11 @@ import numpy as np
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ..engine import Diverged, Realised, State
-from .control import installed, signals
-from .readout import read
-from .record import all_steps, recorded
-from .smooth import smooth
-from .stepping import Steps, stepping
+from .law.signal import installed, signals
+from .law.smooth import smooth
+from .law.stepping import Steps, stepping
+from .read.readout import read
+from .read.record import all_steps, recorded
 
 
 @contextmanager

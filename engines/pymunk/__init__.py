@@ -11,13 +11,13 @@ from ...cases.scene import GROUND, Scene
 from ...cases.trajectory import Array, Trajectory
 from ..engine import Choice, Realised, State
 from . import settings
-from .measure import measured
-from .record import Record
-from .rub import ruled
+from .contact import closed
+from .law.friction import ruled
+from .read.measure import measured
+from .read.record import Record
 from .run import placed, simulate, stepper
 from .scene import build, oblique
 from .script import text
-from .touch import closed
 
 
 @dataclass(frozen=True)

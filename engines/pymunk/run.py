@@ -22,9 +22,9 @@ from pymunk.body import Body
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ..engine import Diverged, Realised, State
-from .force import forces
+from .contact import closed, sink
+from .law.force import forces
 from .scene import FAR, World, build
-from .touch import closed, sink
 
 Steps = Callable[[int], None]
 Counts = NDArray[np.int64]  # of steps

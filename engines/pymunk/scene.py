@@ -16,7 +16,7 @@ from pymunk.space import Space
 
 from ...cases.scene import GROUND, Anchor, DryFriction, Joint, Scene, Spring, Vector
 from ..engine import Realised, State
-from .touch import FLOOR_ELASTICITY, FLOOR_FRICTION, circle
+from .contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle
 
 # Half the length [m] of the floor and of a slide's groove, which pymunk wants finite: farther
 # than a case travels, and short enough that rounding (100 m × 1e-16) stays below every reach.

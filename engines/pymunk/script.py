@@ -10,8 +10,8 @@ from pymunk.shapes import Segment
 
 from ...cases.scene import Push, Scene, Torque
 from ..engine import State
+from .contact import ABOVE, closed
 from .scene import World, build
-from .touch import ABOVE, closed
 
 _ARGUMENTS: dict[type[Constraint], tuple[str, ...]] = {
     PivotJoint: ("anchor_a", "anchor_b"),

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ..derivative import along
 from ..system import Array, System
+from .derivative import along
 from .lagrange import derivative, gradient, momentum, multipliers
 
 

@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from ..derivative import along
 from ..system import Array, System
+from .derivative import along
 
 
 def multipliers(system: System, t: float, q: Array, v: Array) -> tuple[Array, Array]:

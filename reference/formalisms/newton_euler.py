@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ..derivative import along
 from ..system import Array, Cut, System
+from .derivative import along
 from .lagrange import constraint_acceleration
 
 

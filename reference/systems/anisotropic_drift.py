@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from ..friction import Dry
+from ..laws.friction import Dry
 from ..mode import Guard, Switching
-from ..stick_slip import guards, modes, possible
 from ..system import Array, Vector
+from .stick_slip import guards, modes, possible
 
 
 @dataclass(frozen=True)

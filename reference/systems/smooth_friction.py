@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..friction import Dry, smooth
+from ..laws.friction import Dry, smooth
 from ..mode import Switching
 from ..system import Array, Cut, Load, Mass, Pose, System, Vector
 

@@ -4,14 +4,14 @@ import re
 from pathlib import Path
 
 from textmech.cases import shape
-from textmech.cases.language import grammar
-from textmech.cases.language.body import Body
-from textmech.cases.language.force import Force
-from textmech.cases.language.friction import Coefficients, DryFriction, Smooth, TwoWay
-from textmech.cases.language.grammar import File, Scene
-from textmech.cases.language.joint import Contact as ContactSpec
-from textmech.cases.language.joint import Joint
-from textmech.cases.language.number import amount
+from textmech.cases.language.grammar import file as grammar
+from textmech.cases.language.grammar.body import Body
+from textmech.cases.language.grammar.file import File, Scene
+from textmech.cases.language.grammar.force import Force
+from textmech.cases.language.grammar.friction import Coefficients, DryFriction, Smooth, TwoWay
+from textmech.cases.language.grammar.joint import Contact as ContactSpec
+from textmech.cases.language.grammar.joint import Joint
+from textmech.cases.language.grammar.number import amount
 from textmech.cases.load import load
 from textmech.cases.quantity import event_quantities, table
 from textmech.cases.scene import Anchor, Bounds, Contact, Spring

@@ -2,12 +2,14 @@
 
 import json
 
-from textmech.cases.language.grammar import File
-from textmech.cases.language.schema import SCHEMA, text
+from textmech.cases.language.grammar.file import File
+from textmech.cases.language.grammar.schema import SCHEMA, text
 
 
 def test_current() -> None:
-    assert SCHEMA.read_text(encoding="utf-8") == text(), "run `python -m cases.language.schema`"
+    assert SCHEMA.read_text(encoding="utf-8") == text(), (
+        "run `python -m textmech.cases.language.grammar.schema`"
+    )
 
 
 def test_says_every_key() -> None:

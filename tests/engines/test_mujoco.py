@@ -32,12 +32,13 @@ from textmech.cases.scene import (
 from textmech.cases.shape import bar, block, disk, particle, rigid
 from textmech.cases.trajectory import ANGLE, Array, Trajectory, X
 from textmech.engines.engine import Diverged, State
-from textmech.engines.mujoco import MuJoCo, control
+from textmech.engines.mujoco import MuJoCo
 from textmech.engines.mujoco import scene as builder
+from textmech.engines.mujoco.law import signal as control
 from textmech.engines.mujoco.tree import spanning_tree
-from textmech.reference.assembly import assemble
-from textmech.reference.mechanism import Mechanism
-from textmech.reports.audit import EQUAL, expected
+from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.start.assembly import assemble
+from textmech.reports.trial.audit import EQUAL, expected
 
 CASES = sorted((Path(__file__).parents[2] / "cases").glob("*.yaml"))
 TUNED, SHIPPED = MuJoCo("tuned"), MuJoCo("shipped")

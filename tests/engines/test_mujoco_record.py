@@ -7,9 +7,9 @@ import pytest
 
 from textmech.cases.load import load
 from textmech.engines.mujoco import MuJoCo
-from textmech.engines.mujoco.record import all_steps
-from textmech.reference.assembly import assemble
-from textmech.reference.mechanism import Mechanism
+from textmech.engines.mujoco.read.record import all_steps
+from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.start.assembly import assemble
 
 CASES = [
     case

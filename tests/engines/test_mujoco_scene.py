@@ -31,9 +31,9 @@ from textmech.cases.shape import bar, block, disk, particle, rigid
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.mujoco import MuJoCo
 from textmech.engines.mujoco.tree import spanning_tree
-from textmech.reference.explicit import dormand_prince
-from textmech.reference.mechanism import Mechanism
-from textmech.reference.motion import integrate, motion
+from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.integrators.explicit import dormand_prince
+from textmech.reference.motion.smooth import integrate, motion
 
 TUNED = MuJoCo("tuned")
 GRAVITY = (0.8, -9.7)  # not along an axis, so that no component can hide

@@ -26,10 +26,10 @@ from textmech.cases.trajectory import ANGLE, Array, Trajectory, X, Y
 from textmech.engines.engine import Diverged, State
 from textmech.engines.pymunk import Pymunk, settings
 from textmech.engines.pymunk import scene as builder
-from textmech.reference.assembly import assemble
-from textmech.reference.explicit import dormand_prince
-from textmech.reference.mechanism import Mechanism
-from textmech.reference.motion import integrate, motion
+from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.integrators.explicit import dormand_prince
+from textmech.reference.motion.smooth import integrate, motion
+from textmech.reference.start.assembly import assemble
 
 CASES = Path(__file__).parents[2] / "cases"
 SHIPPED, TUNED = Pymunk("shipped"), Pymunk("tuned")

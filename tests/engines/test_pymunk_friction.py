@@ -32,7 +32,8 @@ from textmech.cases.shape import bar, disk, particle
 from textmech.cases.trajectory import ANGLE, OMEGA, VX, Array, Trajectory, X, Y
 from textmech.engines.engine import Realised, State
 from textmech.engines.law import smooth_friction
-from textmech.engines.pymunk import Pymunk, onset, settings
+from textmech.engines.pymunk import Pymunk, settings
+from textmech.engines.pymunk.law import breakaway as onset
 
 SHIPPED, TUNED = Pymunk("shipped"), Pymunk("tuned")
 G, STEP = 9.80665, 1e-4

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from examples import MULTIPLIERS, STARTS
 
-from textmech.reference.derivative import along
 from textmech.reference.formalisms import energy, lagrange, newton_euler
+from textmech.reference.formalisms.derivative import along
 from textmech.reference.system import Array, System
 
 States = Iterable[tuple[float, Array, Array]]

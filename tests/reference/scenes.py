@@ -25,7 +25,7 @@ from textmech.cases.scene import (
     Spring,
     Torque,
 )
-from textmech.reference.mechanism import Mechanism
+from textmech.reference.generated.mechanism import Mechanism
 from textmech.reference.solve import Solution, solve
 from textmech.reference.system import Array
 

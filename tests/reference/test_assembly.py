@@ -8,8 +8,8 @@ import pytest
 import scenes
 
 from textmech.cases.mistake import CaseError, Mistake
-from textmech.reference.assembly import assemble
-from textmech.reference.mechanism import Mechanism
+from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.start.assembly import assemble
 from textmech.reference.system import Array
 
 FOUR_BAR = """\

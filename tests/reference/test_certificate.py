@@ -8,13 +8,14 @@ import pytest
 import scenes
 
 from textmech.cases.case import Case
-from textmech.reference import certificate, systems
-from textmech.reference.agreement import difference, relative, worst
-from textmech.reference.assembly import assemble
-from textmech.reference.certificate import Check, certify
-from textmech.reference.explicit import dormand_prince
-from textmech.reference.mechanism import Mechanism
-from textmech.reference.motion import TOLERANCE, integrate, motion
+from textmech.reference import systems
+from textmech.reference.certificate import certify as certificate
+from textmech.reference.certificate.agreement import difference, relative, worst
+from textmech.reference.certificate.certify import Check, certify
+from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.integrators.explicit import dormand_prince
+from textmech.reference.motion.smooth import TOLERANCE, integrate, motion
+from textmech.reference.start.assembly import assemble
 from textmech.reference.system import Array, Load, System
 from textmech.reference.systems.bar_pendulum import BarPendulum
 from textmech.reference.systems.spring_mass_damper import SpringMassDamper

@@ -5,10 +5,10 @@ import pytest
 import scenes
 
 from textmech.cases.scene import GROUND, Anchor, GroundPoint, Joint, Scene
-from textmech.reference.constraint import Constraint, constraints
-from textmech.reference.coordinates import Coordinates
-from textmech.reference.derivative import along
-from textmech.reference.mechanism import Mechanism
+from textmech.reference.formalisms.derivative import along
+from textmech.reference.generated.constraint import Constraint, constraints
+from textmech.reference.generated.coordinates import Coordinates
+from textmech.reference.generated.mechanism import Mechanism
 from textmech.reference.system import Array
 
 ENDS = {

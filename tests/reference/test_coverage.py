@@ -7,9 +7,9 @@ import pytest
 import scenes
 
 from textmech.cases.case import Case
-from textmech.reference import momentum
-from textmech.reference.coverage import equations, executed
-from textmech.reference.force import spring
+from textmech.reference.certificate.coverage import equations, executed
+from textmech.reference.laws import momentum
+from textmech.reference.laws.force import spring
 from textmech.reference.solve import solve
 
 SAMPLES = 3  # as the reports do it: enough to run every function once

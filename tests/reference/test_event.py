@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from textmech.reference import event
-from textmech.reference.event import TOGETHER, ZenoError, accumulation, follow
 from textmech.reference.mode import Guard, Switching
+from textmech.reference.motion import follow as event
+from textmech.reference.motion.follow import TOGETHER, ZenoError, accumulation, follow
 from textmech.reference.system import Array, System
 from textmech.reference.systems.bouncing_disk import BouncingDisk
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from textmech.reference.force import damper, spring, weight
+from textmech.reference.laws.force import damper, spring, weight
 
 
 def test_weight_points_along_gravity():

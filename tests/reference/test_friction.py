@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from textmech.reference.friction import (
+from textmech.reference.laws.friction import (
     Dry,
     H,
     boxcar,

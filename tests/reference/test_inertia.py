@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from textmech.reference.inertia import bar, disk, rotated, steiner, tensor
+from textmech.reference.laws.inertia import bar, disk, rotated, steiner, tensor
 from textmech.reference.system import Array
 
 

@@ -11,11 +11,15 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.special import ellipj, ellipk
 
-from textmech.reference.dop853 import DOP853, STAGES
-from textmech.reference.explicit import DormandPrince, dormand_prince, dormand_prince_step
-from textmech.reference.implicit import radau, radau_step
-from textmech.reference.integrator import IntegrationError, Slope, Vector, march
-from textmech.reference.radau import Collocation, radau_table
+from textmech.reference.integrators.dop853 import DOP853, STAGES
+from textmech.reference.integrators.explicit import (
+    DormandPrince,
+    dormand_prince,
+    dormand_prince_step,
+)
+from textmech.reference.integrators.implicit import radau, radau_step
+from textmech.reference.integrators.march import IntegrationError, Slope, Vector, march
+from textmech.reference.integrators.radau import Collocation, radau_table
 
 Solution = Callable[[float], Vector]
 BOTH = pytest.mark.parametrize("method", [dormand_prince, radau])

@@ -9,11 +9,11 @@ import pytest
 import scenes
 
 from textmech.cases.scene import GROUND, Anchor, Body, Joint, Scene, Spring
-from textmech.reference import mechanism as module
-from textmech.reference.action import NoDirection, pulls
-from textmech.reference.constraint import Align, Coincide
 from textmech.reference.formalisms import energy, lagrange
-from textmech.reference.mechanism import Mechanism
+from textmech.reference.generated import mechanism as module
+from textmech.reference.generated.action import NoDirection, pulls
+from textmech.reference.generated.constraint import Align, Coincide
+from textmech.reference.generated.mechanism import Mechanism
 from textmech.reference.system import Array
 
 EXACT = 1e-12  # of the largest term

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from textmech.reference.inertia import tensor
-from textmech.reference.momentum import angular_momentum, moment_change, spin_rate
+from textmech.reference.laws.inertia import tensor
+from textmech.reference.laws.momentum import angular_momentum, moment_change, spin_rate
 
 RANDOM = np.random.default_rng(4)
 MASSES = RANDOM.uniform(0.1, 1.0, 12)

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from switching_examples import example
 
-from textmech.reference.book import Karnopp, boxcars
-from textmech.reference.event import follow
-from textmech.reference.friction import Dry, stiction
-from textmech.reference.stepping import arrest, stepped
+from textmech.reference.approximations.karnopp import Karnopp, boxcars
+from textmech.reference.approximations.stepping import arrest, stepped
+from textmech.reference.laws.friction import Dry, stiction
+from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array
 
 Law = Callable[[Dry, float, float], float]

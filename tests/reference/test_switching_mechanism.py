@@ -18,13 +18,13 @@ from textmech.cases.scene import (
     Smooth,
     Spring,
 )
-from textmech.reference.contact import Drag, Rub, catch, touching
-from textmech.reference.contact_modes import elements
-from textmech.reference.event import follow
 from textmech.reference.formalisms import energy, lagrange
-from textmech.reference.mechanism import Mechanism
-from textmech.reference.smooth_mechanism import SmoothMechanism
-from textmech.reference.switching_mechanism import SwitchingMechanism
+from textmech.reference.generated.choosing import SwitchingMechanism
+from textmech.reference.generated.contact import Drag, Rub, catch, touching
+from textmech.reference.generated.element import elements
+from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.generated.smooth import SmoothMechanism
+from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array
 from textmech.reference.systems.smooth_friction import SmoothDynamometer
 

@@ -11,9 +11,11 @@ import sliding_scenes
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError, Mistake
-from textmech.reference import contact_modes, impact, switching_mechanism
-from textmech.reference.contact import Rub
-from textmech.reference.contact_modes import State, Touching, sign
+from textmech.reference.generated import choosing as switching_mechanism
+from textmech.reference.generated import element as contact_modes
+from textmech.reference.generated import impact
+from textmech.reference.generated.contact import Rub
+from textmech.reference.generated.element import State, Touching, sign
 from textmech.reference.solve import Solution, solve
 
 G = 9.80665

@@ -12,11 +12,11 @@ import pytest
 from scipy.integrate import solve_ivp
 from switching_examples import PARAMETERS, example, states
 
-from textmech.reference.event import ZenoError, follow, slope
 from textmech.reference.formalisms import lagrange, newton_euler
-from textmech.reference.friction import Dry, smooth
-from textmech.reference.implicit import radau
+from textmech.reference.integrators.implicit import radau
+from textmech.reference.laws.friction import Dry, smooth
 from textmech.reference.mode import Guard, Switching
+from textmech.reference.motion.follow import ZenoError, follow, slope
 from textmech.reference.system import Array, System
 from textmech.reference.systems import SWITCHING
 from textmech.reference.systems.dynamometer import Dynamometer

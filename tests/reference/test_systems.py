@@ -11,8 +11,8 @@ import pytest
 from examples import PARAMETERS, example, states
 from scipy.special import ellipj
 
-from textmech.reference.derivative import along
 from textmech.reference.formalisms import lagrange, newton_euler
+from textmech.reference.formalisms.derivative import along
 from textmech.reference.systems import SYSTEMS
 from textmech.reference.systems.bar_pendulum import jacobi
 

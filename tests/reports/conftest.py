@@ -14,7 +14,7 @@ from textmech.cases.load import load
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Choice, Diverged, Realised, State
-from textmech.reports.trial import Trial
+from textmech.reports.trial.trial import Trial
 
 TEXT = """\
 title: A free body that moves at constant velocity

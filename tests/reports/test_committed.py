@@ -2,11 +2,12 @@
 
 import pytest
 
-from textmech.reports import pool, readme, suite, write
-from textmech.reports.metric import ROUNDING
+from textmech.reports import pool, suite, write
+from textmech.reports.judge.metric import ROUNDING
 from textmech.reports.pytest_plugin import CaseItem, measured
 from textmech.reports.row import Certificate, Comparison, Instant, Rungs
 from textmech.reports.selection import choose_cases, choose_engines
+from textmech.reports.show import readme
 from textmech.reports.suite import Report
 
 QUARTER = 0.25  # what another compiler or processor may change of a number above the floor

@@ -19,12 +19,12 @@ from textmech.cases.scene import (
     Scene,
 )
 from textmech.cases.trajectory import Trajectory
-from textmech.reports.audit import expected
-from textmech.reports.compare import Outcome, compare, crashed
-from textmech.reports.convergence import INSTANTS
-from textmech.reports.events import never
+from textmech.reports.events.times import never
+from textmech.reports.judge.compare import Outcome, compare, crashed
+from textmech.reports.judge.convergence import INSTANTS
 from textmech.reports.row import AGREES, BEYOND, CHANGED, DEVIATES, DIVERGED, FAILS
-from textmech.reports.trial import Trial, realisations
+from textmech.reports.trial.audit import expected
+from textmech.reports.trial.trial import Trial, realisations
 
 Make = Callable[..., Trial]
 STOPS = (0.3, 0.7)  # s: the reference's

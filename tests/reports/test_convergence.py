@@ -3,7 +3,14 @@
 import numpy as np
 import pytest
 
-from textmech.reports.convergence import ANOTHER, EXACT, TEXTBOOK, UNSETTLED, Convergence, study
+from textmech.reports.judge.convergence import (
+    ANOTHER,
+    EXACT,
+    TEXTBOOK,
+    UNSETTLED,
+    Convergence,
+    study,
+)
 
 T = np.linspace(0.0, 1.0, 26)
 REFERENCE = np.sin(T)

@@ -1,0 +1,1 @@
+"""What must fit together between the sound parts of a file."""

@@ -1,0 +1,66 @@
+"""What must fit together in a case: links, claims, samples, parameters, system."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from ...quantity import nearest
+from ...scene import Scene
+from ..parse import Finding, Parsed
+from .claims import claims
+from .links import links, twice
+from .sampling import sampling
+
+_NO_USE = ("title", "source", "parameters", "drops_out")  # where a name is not a use of it
+
+
+def check(
+    parsed: Parsed,
+    scene: Scene,
+    *,
+    data: Mapping[str, Any],
+    systems: Mapping[str, tuple[str, ...]] | None,
+) -> Iterator[Finding]:
+    """Every mistake between the sound parts; `data` is the whole file as it was written."""
+    yield from links(parsed, scene)
+    if not any(twice(parsed, scene)):
+        yield from claims(parsed, scene)
+    if not parsed.lacks("duration") and not parsed.lacks("samples") and not parsed.lacks("step"):
+        yield from sampling(parsed.file)
+    yield from _parameters(parsed, data, systems)
+
+
+def _parameters(
+    parsed: Parsed, data: Mapping[str, Any], systems: Mapping[str, tuple[str, ...]] | None
+) -> Iterator[Finding]:
+    file = parsed.file
+    if ("parameters",) in parsed.broken:
+        return
+    given = [*file.parameters, *(str(p[1]) for p in parsed.broken if p[0] == "parameters")]
+    for i, name in enumerate(file.drops_out):
+        if name not in given:
+            yield ("drops_out", i), f"unknown parameter {name!r}{nearest(name, given)}"
+    if file.system is None:
+        used = _words({k: v for k, v in data.items() if k not in _NO_USE})
+        for name in file.parameters:
+            if name not in used and f"-{name}" not in used:
+                yield ("parameters", name), "no one uses this parameter"
+    elif systems is not None and file.system not in systems:
+        yield ("system",), f"unknown system {file.system!r}{nearest(file.system, systems)}"
+    elif systems is not None:
+        needed = systems[file.system]
+        for name in needed:
+            if name not in given:
+                yield ("parameters",), f"system {file.system!r} needs the parameter {name!r}"
+        for name in file.parameters:
+            if name not in needed:
+                what = f"system {file.system!r} has no parameter {name!r}{nearest(name, needed)}"
+                yield ("parameters", name), what
+
+
+def _words(data: object) -> set[str]:
+    """Every text that stands as a value."""
+    if isinstance(data, dict):
+        return set().union(*map(_words, data.values()))
+    if isinstance(data, tuple):
+        return set().union(*map(_words, data))
+    return {data} if isinstance(data, str) else set()

@@ -1,0 +1,104 @@
+"""Bounds and events against the quantities that the scene has."""
+
+from collections.abc import Iterator, Mapping
+
+from ...quantity import EVENT_FIELDS, Quantity, event_quantities, nearest, table
+from ...scene import Scene
+from ..grammar.number import Amount, NumberMistake, fitting
+from ..parse import Finding, Parsed
+
+
+def claims(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
+    """Mistakes in `events`, `allow`, `reach` and `deviates`."""
+    seen = table(scene)
+    yield from _events(parsed, scene, seen)
+    yield from _bounds(parsed, seen | event_quantities(parsed.file.events))
+
+
+def _events(parsed: Parsed, scene: Scene, seen: Mapping[str, Quantity]) -> Iterator[Finding]:
+    for event, rules in parsed.file.events.items():
+        for name in rules:
+            path = ("events", event, name)
+            if name not in seen:
+                yield from _unknown(parsed, seen, path)
+            elif not _marks(scene, seen[name]):
+                what = "its zero marks no event; take a place, a velocity, a slip or a force"
+                yield path, what
+
+
+def _marks(scene: Scene, quantity: Quantity) -> bool:
+    """Whether something happens at its zero: of an energy that is arbitrary, drift is numerical."""
+    drift = quantity.field == "drift" or (quantity.field == "gap" and quantity.part in scene.joints)
+    return quantity.kind not in ("energy", "momentum") and not drift
+
+
+def _bounds(parsed: Parsed, known: Mapping[str, Quantity]) -> Iterator[Finding]:
+    file = parsed.file
+    if ("allow",) in parsed.broken:
+        return
+    for name, bound in file.allow.items():
+        yield from _quantity(parsed, known, ("allow", name), bound)
+    for way, reached in file.reach.items():
+        for name, bound in reached.items():
+            path = ("reach", way, name)
+            yield from _allowed(parsed, known, path, bound)
+            allow = file.allow.get(name)
+            if allow is not None and bound.value > allow.value:
+                yield path, f"{bound.value:g} is above its `allow`, {allow.value:g}"
+    for setting, declared in file.deviates.items():
+        for name, deviation in declared.items():
+            path = ("deviates", setting, name)
+            allow = file.allow.get(name)
+            for size in (deviation.limit, *(deviation.by or ())):
+                if size is None:
+                    continue
+                yield from _allowed(parsed, known, path, size)
+                if allow is not None and size.value <= allow.value:
+                    yield path, f"{size.value:g} is not above its `allow`, {allow.value:g}"
+
+
+def _quantity(
+    parsed: Parsed, known: Mapping[str, Quantity], path: tuple[str, ...], bound: Amount | None
+) -> Iterator[Finding]:
+    name = path[-1]
+    if name not in known:
+        yield from _unknown(parsed, known, path)
+    elif bound is not None:
+        try:
+            fitting(bound, known[name].unit)
+        except NumberMistake as mistake:
+            yield path, str(mistake)
+
+
+def _allowed(
+    parsed: Parsed, known: Mapping[str, Quantity], path: tuple[str, ...], bound: Amount
+) -> Iterator[Finding]:
+    name = path[-1]
+    if name in parsed.file.allow or ("allow", name) in parsed.broken:
+        yield from _quantity(parsed, known, path, bound)
+    elif not _hidden(parsed, name):
+        yield path, f"{name!r} is not in `allow`{nearest(name, parsed.file.allow)}"
+
+
+def _unknown(
+    parsed: Parsed, known: Mapping[str, Quantity], path: tuple[str, ...]
+) -> Iterator[Finding]:
+    name = path[-1]
+    part, _, field = name.rpartition(".")
+    if _hidden(parsed, name):
+        return
+    if field in EVENT_FIELDS and path[0] != "events":
+        events = parsed.file.events
+        hint = nearest(part, events) if events else "; the case has no `events`"
+        yield path, f"{part!r} is no event{hint}"
+    elif field in ("friction", "slip") and f"{part}.torque" in known:  # a slide without it
+        yield path, f"{part!r} has no `dry_friction`, so no {name!r}"
+    else:
+        yield path, f"unknown quantity {name!r}{nearest(name, known)}"
+
+
+def _hidden(parsed: Parsed, name: str) -> bool:
+    """Whether the part or event that the quantity is of may be there, but is unsound."""
+    part, field = name.split(".")[0], name.split(".")[-1]
+    unsound = not parsed.broken.isdisjoint({("events",), ("events", part)})
+    return parsed.hides(part) or (field in EVENT_FIELDS and unsound)

@@ -1,0 +1,1 @@
+"""Which words may stand in a case file, and what each must be."""

@@ -1,0 +1,156 @@
+"""Numbers of a case: a literal, a parameter's name, `-name`, or a quantity with its unit."""
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from typing import Any
+
+from ...quantity import nearest
+
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_LITERAL = r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?"
+_TERM = r"(?:[A-Za-zµμ°]{1,12}(?:(?:\^|\*\*)-?[1-4]|[²³⁴])?)"
+_QUANTITY = re.compile(rf"({_LITERAL})\s*({_TERM}(?:\s*[ */·]\s*{_TERM}){{0,5}})")
+
+# The units a case can use. The angle is a dimension of its own here (to pint's own table it is
+# none), so that an angle is no friction coefficient, and 2 Hz, which could mean 2 or 4π rad/s,
+# is no angular frequency.
+_UNITS = """
+nano- = 1e-9 = n-
+micro- = 1e-6 = µ- = μ-
+milli- = 1e-3 = m-
+centi- = 1e-2 = c-
+kilo- = 1e3 = k-
+mega- = 1e6 = M-
+giga- = 1e9 = G-
+meter = [length] = m = metre
+kilogram = [mass] = kg
+second = [time] = s
+radian = [angle] = rad
+gram = 1e-3 kilogram = g
+minute = 60 second = min
+hour = 3600 second = h
+degree = 3.141592653589793 / 180 radian = deg = °
+revolution = 360 degree = rev = turn
+rpm = revolution / minute
+hertz = 1 / second = Hz
+newton = kilogram * meter / second**2 = N
+joule = newton * meter = J
+watt = joule / second = W
+"""
+_KNOWN = ("m", "mm", "cm", "kg", "g", "s", "ms", "rad", "deg", "rpm", "N", "kN", "J", "W")
+
+
+class NumberMistake(ValueError):
+    """What is wrong with a number, in words."""
+
+
+@dataclass(frozen=True)
+class Amount:
+    """A value in SI. `dimension` is None for a plain literal, which fits every field."""
+
+    value: float
+    dimension: str | None = None
+    text: str = ""
+
+
+@dataclass(frozen=True)
+class Names:
+    """The parameters that numbers may name; None is one that is itself mistaken."""
+
+    amounts: Mapping[str, Amount | None] = field(default_factory=dict)
+
+
+def shown(value: object) -> str:
+    """A value of the file as a message shows it: `text 'abc'`, `the number 3`, `a map`."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f"text {value if len(value) <= 40 else value[:40] + '…'!r}"
+    if isinstance(value, int | float):
+        return f"the number {value}"
+    return "a map" if isinstance(value, dict) else "a list"
+
+
+def names(parameters: object) -> Names:
+    """The amounts of a file's parameters; their mistakes are found by the grammar."""
+    amounts: dict[str, Amount | None] = {}
+    for name, value in parameters.items() if isinstance(parameters, dict) else ():
+        try:
+            amounts[name] = amount(value)
+        except NumberMistake:
+            amounts[name] = None
+    return Names(amounts)
+
+
+def amount(value: object) -> Amount:
+    """A literal or a quantity with its unit, in SI."""
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        if not math.isfinite(value):
+            raise NumberMistake(f"must be finite, is {value}")
+        return Amount(float(value))
+    short = isinstance(value, str) and len(value) <= 60  # so that no search is long
+    if short and (match := _QUANTITY.fullmatch(str(value))):
+        return _measured(float(match[1]), match[2], str(value))
+    if isinstance(value, str) and re.fullmatch(_LITERAL, value):
+        raise NumberMistake(f"should be a number, is {shown(value)}; remove the quotes")
+    raise NumberMistake(f"should be a number, is {shown(value)}")
+
+
+def number(value: object, unit: str | None, known: Names) -> Amount | None:
+    """Any number of the language, in SI; None where it names a mistaken parameter."""
+    if not isinstance(value, str) or not _NAME.fullmatch(name := value.removeprefix("-")):
+        return fitting(amount(value), unit)
+    if not known.amounts:
+        raise NumberMistake(f"should be a number, is {shown(value)}")
+    if name not in known.amounts:
+        raise NumberMistake(f"unknown parameter {name!r}{nearest(name, known.amounts)}")
+    found = known.amounts[name]
+    if found is None:
+        return None
+    sign = -1.0 if value.startswith("-") else 1.0
+    text = f"{value} = {found.text or f'{sign * found.value:g}'}"
+    return fitting(Amount(sign * found.value, found.dimension, text), unit)
+
+
+def fitting(found: Amount, unit: str | None) -> Amount:
+    """The amount, if it can be measured in `unit` (None: in anything)."""
+    if unit is None or found.dimension is None or found.dimension == _dimension(unit):
+        return found
+    if unit == "1":
+        raise NumberMistake(f"is {found.text!r}, but a plain number was expected")
+    raise NumberMistake(f"is {found.text!r}, but {unit} was expected")
+
+
+def _measured(value: float, unit: str, text: str) -> Amount:
+    converted = _quantity(value, unit)
+    if not math.isfinite(converted.magnitude):
+        raise NumberMistake(f"must be finite, is {text!r}")
+    return Amount(float(converted.magnitude), str(converted.dimensionality), text)
+
+
+@cache
+def _dimension(unit: str) -> str:
+    return str(_quantity(1.0, unit).dimensionality) if unit != "1" else "dimensionless"
+
+
+def _quantity(value: float, unit: str) -> Any:
+    try:
+        registry = _registry()
+        return registry.Quantity(value, registry.parse_units(unit)).to_base_units()
+    except AttributeError:  # pint's UndefinedUnitError, without importing pint for its name
+        words = re.findall(r"[A-Za-zµμ°]+", unit)
+        hint = nearest(words[0], _KNOWN) if len(words) == 1 else ""
+        raise NumberMistake(f"unknown unit {unit!r}{hint}") from None
+
+
+@cache
+def _registry() -> Any:
+    """pint, imported only when a unit is met."""
+    import pint
+
+    registry = pint.UnitRegistry(None)  # type: ignore[arg-type]  # no table of its own
+    registry.load_definitions(_UNITS.strip().splitlines())
+    return registry

@@ -1,0 +1,55 @@
+"""The JSON Schema of a case file, for editors.
+
+`python -m textmech.cases.language.grammar.schema` writes it.
+"""
+
+import json
+from pathlib import Path
+from typing import Any
+
+from pydantic.json_schema import GenerateJsonSchema, JsonSchemaMode
+from pydantic_core import core_schema
+
+from .file import File
+
+SCHEMA = Path(__file__).parents[2] / "case.schema.json"
+
+
+class _Plain(GenerateJsonSchema):
+    """Without the nulls of absent keys, which a case file cannot write, and without titles."""
+
+    def nullable_schema(self, schema: core_schema.NullableSchema) -> dict[str, Any]:
+        return self.generate_inner(schema["schema"])
+
+    def default_schema(self, schema: core_schema.WithDefaultSchema) -> dict[str, Any]:
+        return self.generate_inner(schema["schema"])
+
+    def dict_schema(self, schema: core_schema.DictSchema) -> dict[str, Any]:
+        """Names that do not fit the pattern are mistakes."""
+        made = super().dict_schema(schema)
+        return made | {"additionalProperties": False} if "patternProperties" in made else made
+
+    def generate(self, schema: Any, mode: JsonSchemaMode = "validation") -> dict[str, Any]:
+        return _without_titles(super().generate(schema, mode))
+
+
+def text() -> str:
+    """The schema as it stands in cases/case.schema.json."""
+    head = {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "textmech case"}
+    schema = File.model_json_schema(schema_generator=_Plain)
+    return json.dumps(head | schema, indent=1, ensure_ascii=False) + "\n"
+
+
+def _without_titles(schema: Any) -> Any:
+    """`title` is a key of a case too: only the text that pydantic puts there is dropped."""
+    if isinstance(schema, dict):
+        return {
+            key: _without_titles(value)
+            for key, value in schema.items()
+            if not (key == "title" and isinstance(value, str))
+        }
+    return [_without_titles(v) for v in schema] if isinstance(schema, list) else schema
+
+
+if __name__ == "__main__":
+    SCHEMA.write_text(text(), encoding="utf-8")

@@ -1,0 +1,61 @@
+"""A YAML file as plain data with the place of every key, and the mistakes of its form."""
+
+from dataclasses import dataclass
+from pathlib import Path as FilePath
+from typing import Any
+
+from ruamel.yaml import YAML
+from ruamel.yaml.error import YAMLError
+
+from ...mistake import CaseError, Mistake, Source
+from .tree import Tree
+
+LARGEST = 200_000  # bytes, read in 1.5 s; a case has 2000
+
+
+@dataclass
+class Document:
+    """The data of one file. `mistakes` are those that leave the rest readable."""
+
+    source: Source
+    data: dict[str, Any]
+    mistakes: list[Mistake]
+
+
+def read(path: FilePath) -> Document:
+    """The file's data, or CaseError where nothing sensible can be read from it."""
+    text = _text(path)
+    lines = tuple(text.splitlines())
+    tree = Tree(str(path), lines)
+    try:
+        data = tree.document(YAML(typ="safe", pure=True).parse(text))
+    except YAMLError as error:
+        raise CaseError([tree.unreadable(error)]) from None
+    except (ValueError, OverflowError) as error:  # ruamel on an escape such as "\U99999999"
+        raise CaseError([tree.at(None, (), f"not YAML: {error}")]) from None
+    if tree.fatal:
+        raise CaseError(tree.fatal)
+    assert isinstance(data, dict)  # anything else is fatal
+    return Document(Source(str(path), lines, tree.places), data, tree.mistakes)
+
+
+def _text(path: FilePath) -> str:
+    def refuse(what: str) -> CaseError:
+        return CaseError([Mistake(str(path), 0, 0, "", what)])
+
+    if path.is_dir():
+        raise refuse("is a directory; a case is one YAML file")
+    try:
+        with path.open("rb") as file:
+            content = file.read(LARGEST + 1)
+    except FileNotFoundError:
+        raise refuse("no such file") from None
+    except (OSError, ValueError) as error:  # ValueError: a zero byte in the name
+        raise refuse(f"cannot be read: {getattr(error, 'strerror', None) or error}") from None
+    if len(content) > LARGEST:
+        raise refuse(f"is larger than {LARGEST // 1000} kB, too large for a case")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line, byte = content.count(b"\n", 0, error.start) + 1, content[error.start]
+        raise refuse(f"is not UTF-8 text: line {line} has the byte {byte:#x}") from None

@@ -1,0 +1,60 @@
+"""Variants: the file once more, each time overlaid by a few changed keys."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+from ...mistake import Mistake, Path, Source
+from ...quantity import nearest
+from ..grammar.file import OVERLAID
+from ..grammar.number import shown
+from .document import Document
+
+
+def overlay(document: Document) -> tuple[dict[str, tuple[dict[str, Any], Source]], list[Mistake]]:
+    """Data and places of each variant by its name ("" where the file has none)."""
+    base = {key: value for key, value in document.data.items() if key != "variants"}
+    given = document.data.get("variants", {})
+    source = document.source
+    if not isinstance(given, dict):
+        what = f"should be a map of names, is {shown(given)}"
+        return {"": (base, source)}, [] if given is None else [source.mistake(("variants",), what)]
+    if not given:
+        return {"": (base, source)}, []
+    variants: dict[str, tuple[dict[str, Any], Source]] = {}
+    mistakes: list[Mistake] = []
+    for name, changes in given.items():
+        path: Path = ("variants", name)
+        wrong = [source.mistake((*path, *where), what) for where, what in _mistakes(name, changes)]
+        if wrong:
+            mistakes += wrong
+        else:
+            variants[name] = (_merged(base, changes), _places(source, path))
+    return variants or {"": (base, source)}, mistakes
+
+
+def _mistakes(name: str, changes: object) -> Iterator[tuple[Path, str]]:
+    if not name.isidentifier():
+        yield (), f"{name!r} is not a name: letters, digits and _, not starting with a digit"
+    if not isinstance(changes, dict):
+        yield (), f"should be a map of keys, is {shown(changes)}"
+        return
+    for key in changes:
+        if key not in OVERLAID:
+            yield (key,), f"unknown key {key!r} in a variant{nearest(key, OVERLAID)}"
+
+
+def _merged(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+    merged = dict(base)
+    for key, value in changes.items():
+        old = base.get(key)
+        both = isinstance(old, dict) and isinstance(value, dict)
+        merged[key] = _merged(old, value) if both else value  # type: ignore[arg-type]
+    return merged
+
+
+def _places(source: Source, path: Path) -> Source:
+    """Places of the merged data: a changed key is where the variant writes it."""
+    depth = len(path)
+    changed = {p[depth:]: at for p, at in source.places.items() if p[:depth] == path}
+    return replace(source, places={**source.places, **changed})

@@ -1,0 +1,83 @@
+"""Dry friction on a slide that MuJoCo's one number cannot say: which way it slides, and when.
+
+MuJoCo's `frictionloss` holds a joint with up to that force, and brakes it with just that force.
+`bound` sets it before every step (the law); `drive` cuts the steps at the events (the driver).
+"""
+
+from dataclasses import dataclass, field
+
+import mujoco
+import numpy as np
+
+from ....cases.scene import DryFriction, Joint, Scene
+from ....cases.trajectory import Array
+from ...law import dry_friction
+
+
+@dataclass
+class Slide:
+    """One slide with dry friction: 0 while it sticks, else the sign of its speed."""
+
+    model: mujoco.MjModel
+    data: mujoco.MjData
+    joint: Joint
+    sense: int = 0
+    before: float | None = None  # the applied force [N] at the step before
+    effort: Array = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.dof = int(self.model.joint(self.joint.name).dofadr[0])
+        self.unit = np.zeros((1, self.model.nv))
+        self.unit[0, self.dof] = 1.0
+        self.effort = np.zeros((1, self.model.nv))
+        self.sense = int(np.sign(self.data.qvel[self.dof]))
+
+    @property
+    def friction(self) -> DryFriction:
+        assert self.joint.dry_friction is not None
+        return self.joint.dry_friction
+
+    @property
+    def speed(self) -> float:
+        return float(self.data.qvel[self.dof])
+
+    @property
+    def holds(self) -> float:
+        """More than what it has to hold at rest [N]."""
+        return 2 * max(self.friction.static.forward, self.friction.static.backward)
+
+    def brakes(self, sense: int) -> float:
+        """The size of the friction force [N] that slides this way."""
+        return abs(dry_friction(self.friction, sense, 0.0))
+
+    def starts(self, applied: float) -> int:
+        """In which sense a force starts it from rest."""
+        force = dry_friction(self.friction, 0.0, applied)
+        return 0 if force == -applied else -int(np.sign(force))
+
+    def applied(self) -> tuple[float, float]:
+        """Force along the slide [N] that would hold it at rest, and the mass [kg] it moves.
+
+        Of the state that MuJoCo was last asked for.
+        """
+        mujoco.mj_solveM(self.model, self.data, self.effort, self.unit)
+        mass = 1.0 / self.effort[0, self.dof]
+        pushed = self.data.qfrc_applied[self.dof]  # our friction
+        return float(mass * self.data.qacc_smooth[self.dof] - pushed), float(mass)
+
+
+def slides(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> list[Slide]:
+    """The slides of the scene with dry friction."""
+    return [Slide(model, data, j) for j in scene.joints.values() if j.dry_friction is not None]
+
+
+def followed(scene: Scene) -> bool:
+    """Whether friction can be told from outside: one slide, and no other force that gives way."""
+    dry = [joint for joint in scene.joints.values() if joint.dry_friction is not None]
+    return len(dry) == 1 and not scene.contacts
+
+
+def smooth_only(scene: Scene) -> bool:
+    """Whether no slide ever sticks."""
+    dry = [joint.dry_friction for joint in scene.joints.values() if joint.dry_friction is not None]
+    return all(friction.smooth is not None for friction in dry)

@@ -1,0 +1,56 @@
+"""Sines as controls of their actuators, set by MuJoCo's callback at every RK4 stage.
+
+A control set between steps would be held during the step: first order, without a warning.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
+
+import mujoco
+
+from ....cases.scene import Scene
+
+Control = Callable[[mujoco.MjModel, mujoco.MjData], None]
+
+
+def signals(scene: Scene, others: Sequence[Control] = ()) -> AbstractContextManager[None]:
+    """The scene's sines, and what else needs them set, while they are wanted."""
+    sines = _control(scene)
+    controls = [*([] if sines is None else [sines]), *others]
+    if len(controls) < 2:
+        return installed(controls[0] if controls else None)
+
+    def control(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        for each in controls:
+            each(model, data)
+
+    return installed(control)
+
+
+@contextmanager
+def installed(control: Control | None) -> Iterator[None]:
+    """A callback is one for the whole process, compiling included: whose it was gets it back."""
+    before = mujoco.get_mjcb_control()
+    mujoco.set_mjcb_control(control)
+    try:
+        yield
+    finally:
+        mujoco.set_mjcb_control(before)
+
+
+def _control(scene: Scene) -> Control | None:
+    sines = [
+        (i, force.signal.angular_frequency, force.signal.phase)
+        for i, force in enumerate(scene.signals())
+        if force.signal.law == "sine"
+    ]
+    if not sines:
+        return None
+
+    def control(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        t, controls = data.time, data.ctrl
+        for i, frequency, phase in sines:
+            controls[i] = math.sin(frequency * t + phase)
+
+    return control

@@ -1,0 +1,57 @@
+"""How steps are taken: by MuJoCo alone, with our law before each, or by our driver."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import mujoco
+
+from ....cases.scene import Scene
+from ...engine import Realised
+from .driver import driven_step, engage
+from .friction import Slide, slides, smooth_only
+from .stiction import bounded
+
+
+@dataclass
+class Steps:
+    """Takes steps, and notes for every sample which slides stick."""
+
+    model: mujoco.MjModel
+    data: mujoco.MjData
+    slides: list[Slide]
+    take: Callable[[int], None]
+    noted: list[tuple[int, ...]] = field(default_factory=list)
+
+    def note(self) -> None:
+        """Remember the senses of the slides."""
+        if self.slides:
+            self.noted.append(tuple(slide.sense for slide in self.slides))
+
+    def recall(self, sample: int) -> None:
+        """Friction as it was at a sample, for reading forces."""
+        for slide, sense in zip(self.slides, self.noted[sample] if self.noted else (), strict=True):
+            slide.sense = sense
+            engage(slide)
+
+
+def stepping(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, realised: Realised) -> Steps:
+    """Steps of the model's size; smooth friction is a callback and needs nothing here."""
+    ours = realised != "native" and not smooth_only(scene)
+    followed = slides(scene, model, data) if ours else []
+    step = float(model.opt.timestep)
+
+    def native(n: int) -> None:
+        mujoco.mj_step(model, data, n)
+
+    def by_law(n: int) -> None:
+        for _ in range(n):
+            for slide in followed:
+                bounded(slide)
+            mujoco.mj_step(model, data)
+
+    def by_driver(n: int) -> None:
+        for _ in range(n):
+            driven_step(followed, step)
+
+    ways = {"law": by_law, "driver": by_driver}
+    return Steps(model, data, followed, ways[realised] if followed else native)

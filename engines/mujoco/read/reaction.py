@@ -1,0 +1,81 @@
+"""Forces of joints and contacts from MuJoCo's arrays, for all samples at once."""
+
+from collections.abc import Iterator, Mapping
+
+import mujoco
+import numpy as np
+
+from ....cases.scene import Anchor, Joint, Push, Scene, Torque
+from ....cases.trajectory import Array
+from ..tree import Tree
+
+Seen = Mapping[str, Array]
+_OBJECT = mujoco.mjtObj
+
+
+def joint_force(
+    scene: Scene, tree: Tree, model: mujoco.MjModel, seen: Seen, joint: Joint
+) -> tuple[Array, Array, Array, Array]:
+    """fx, fy and torque (about the second point) of the first part on the second; the size."""
+    if joint in tree.loops:
+        first = 3 * mujoco.mj_name2id(model, _OBJECT.mjOBJ_EQUALITY, joint.name)  # x, y, z each
+        fx, fy = -seen["efc_force"][:, first : first + 2].T  # MuJoCo counts the first part's
+        return fx, fy, np.zeros_like(fx), np.hypot(fx, fy)
+    branch = next(b for b in tree.branches if b.joint is joint)
+    body = mujoco.mj_name2id(model, _OBJECT.mjOBJ_BODY, branch.body)
+    at = _site(model, seen, joint.b)
+    # cfrc_int is what holds the subtree together with its parent: the joint's force, and what
+    # actuators do to the subtree, which MuJoCo counts as done through the joints. Tendons it
+    # counts as forces on bodies, from 3.14 on.
+    held = seen["cfrc_int"][:, body]
+    force = held[:, 3:5].copy()
+    center = seen["subtree_com"][:, model.body_rootid[body], :2]
+    moment = held[:, 2] + _cross(center - at, force)
+    for outer, place, torque in _others(scene, tree.subtree(branch.body), model, seen):
+        force -= outer
+        moment -= _cross(place - at, outer) + torque
+    sign = 1.0 if branch.forward else -1.0
+    return sign * force[:, 0], sign * force[:, 1], sign * moment, np.hypot(*force.T)
+
+
+def _others(
+    scene: Scene, bodies: set[str], model: mujoco.MjModel, seen: Seen
+) -> Iterator[tuple[Array, Array, Array]]:
+    """Forces (N, 2), where they act, and torques (N,) of pushes and torques on the bodies."""
+    for force in scene.signals():
+        number = mujoco.mj_name2id(model, _OBJECT.mjOBJ_ACTUATOR, force.name)
+        size = seen["actuator_force"][:, number]
+        gear = model.actuator_gear[number]
+        if isinstance(force, Push) and force.at.body in bodies:
+            yield size[:, None] * gear[:2], _site(model, seen, force.at), np.zeros(len(size))
+        elif isinstance(force, Torque) and force.body in bodies:
+            yield np.zeros((len(size), 2)), np.zeros((len(size), 2)), size * gear[5]
+
+
+def _site(model: mujoco.MjModel, seen: Seen, anchor: Anchor) -> Array:
+    return seen["site_xpos"][:, mujoco.mj_name2id(model, _OBJECT.mjOBJ_SITE, str(anchor)), :2]
+
+
+def _cross(a: Array, b: Array) -> Array:
+    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+
+
+class Contacts:
+    """The floor's force on each disk, x and y: (N, 2) by the contact's name."""
+
+    def __init__(self, scene: Scene, model: mujoco.MjModel, samples: int) -> None:
+        self.model = model
+        self._force = np.empty(6)
+        self.forces = {name: np.zeros((samples, 2)) for name in scene.contacts}
+        self._of_disk = {
+            mujoco.mj_name2id(model, _OBJECT.mjOBJ_GEOM, contact.name): self.forces[contact.name]
+            for contact in scene.contacts.values()
+        }
+
+    def keep(self, sample: int, data: mujoco.MjData) -> None:
+        """Read the contacts of a state; a disk in the air feels no force."""
+        for i in range(data.ncon):
+            touch = data.contact[i]  # the floor is the first geom: its number is the lowest
+            mujoco.mj_contactForce(self.model, data, i, self._force)
+            on_disk = self._force[:3] @ touch.frame.reshape(3, 3)
+            self._of_disk[touch.geom2][sample] = on_disk[:2]

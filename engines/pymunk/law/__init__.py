@@ -1,0 +1,1 @@
+"""What pymunk is told before each step: force laws and signals."""

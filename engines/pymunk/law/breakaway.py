@@ -1,0 +1,125 @@
+"""What a dry friction law (2.89) gives on the average over one step.
+
+pymunk takes one force for the whole step. A part that stops or breaks loose within the step feels
+several; with their mean its velocity at the end of the step is right to h², and no event costs a
+whole step.
+"""
+
+from collections.abc import Callable
+
+from ....cases.scene import Bounds, DryFriction, Smooth
+from ...law import dry_friction, smooth_friction
+
+Applied = Callable[[float], float]
+"""What else acts along the friction [N], so many seconds after the step's start."""
+AT_REST = 1e-9
+"""Below this share of what friction can stop in one step a speed is the solver's rounding."""
+
+
+def bound(
+    friction: DryFriction, speed: float, mass: float, applied: Applied, step: float
+) -> tuple[float, float]:
+    """What friction may do in the step at most, and what must push in its place [N].
+
+    pymunk uses as much of the bound as would stop the part: with the static bound where the law
+    holds it, and the law's mean where it brakes. Only in a step that turns back without a rest
+    may the mean push on, which no bound can.
+    """
+    force = mean_friction(friction, speed, mass, applied, step)
+    stopping = -(applied(step / 2) + mass * speed / step)
+    static = friction.static.forward if stopping < 0 else friction.static.backward
+    if abs(force - stopping) <= AT_REST * static:
+        return static, 0.0
+    within = 0 <= force <= stopping or stopping <= force <= 0
+    return (abs(force), 0.0) if within else (0.0, force)
+
+
+def mean_friction(
+    friction: DryFriction, speed: float, mass: float, applied: Applied, step: float
+) -> float:
+    """The mean friction force [N] over the step, for what else acts in its middle or at its end.
+
+    A part that stops goes on, or stays, by the force in the middle of the step.
+    """
+    middle = applied(step / 2)
+    holding = max(friction.static.forward, friction.static.backward)
+    if abs(speed) * mass <= AT_REST * holding * step:
+        return _from_rest(friction, middle, applied(step))
+    braking = dry_friction(friction, speed, middle)
+    after = speed + (middle + braking) * step / mass
+    if after * speed > 0:
+        return braking
+    moving = mass * speed / (-(middle + braking) * step)  # the share of the step before it stops
+    beyond = dry_friction(friction, 0.0, middle)
+    if beyond == -middle:
+        return -middle - mass * speed / step  # it stops and stays
+    return moving * braking + (1 - moving) * beyond
+
+
+def _from_rest(friction: DryFriction, middle: float, end: float) -> float:
+    """What else acts grows from 2 middle − end to `end`; it slips from where it passes the bound.
+
+    Over the slipping share s of the step the mean of the force left over is
+    s (static − kinetic) + s² |end − middle|.
+    """
+    if dry_friction(friction, 0.0, end) == -end:
+        return -middle
+    static, kinetic = _ahead(friction, end)
+    grown = abs(end - middle)  # in half a step
+    slipping = (abs(end) - static) / (2 * grown) if grown else 1.0
+    if slipping >= 1:  # beyond the bound from the start
+        return dry_friction(friction, 0.0, end)
+    left = slipping * (static - kinetic) + slipping**2 * grown
+    return -middle + (left if end > 0 else -left)
+
+
+def _ahead(friction: DryFriction, applied: float) -> tuple[float, float]:
+    """Static and kinetic bound [N] of the direction in which it is pushed."""
+    bounds: tuple[Bounds, Bounds] = (friction.static, friction.kinetic)
+    static, kinetic = (b.forward if applied > 0 else b.backward for b in bounds)
+    return static, kinetic
+
+
+def smooth_mean(
+    friction: DryFriction,
+    smooth: Smooth,
+    speed: float,
+    mass: float,
+    applied: float,
+    step: float,
+) -> float:
+    """(2.95) by the implicit midpoint rule [N]: explicitly, A F h / m = 30 is unstable.
+
+    The solution of m (v − v₀) = h (F_a + F_fr((v₀ + v)/2, F_a)) nearest to the present speed.
+    """
+
+    def force(mean: float) -> float:
+        return smooth_friction(friction, mean, applied, smooth=smooth)
+
+    def left(mean: float) -> float:
+        return 2 * mass * (mean - speed) - step * (applied + force(mean))
+
+    return force(_root(left, speed, slope=2 * mass, close=1e-9 * smooth.band))
+
+
+def _root(left: Callable[[float], float], near: float, *, slope: float, close: float) -> float:
+    """A zero of `left`, which is negative far below and positive far above, beside `near`.
+
+    Illinois' regula falsi needs no derivative and never leaves the bracket; the bracket ends a
+    little beyond where `left` would be zero if it only had that slope.
+    """
+    here = left(near)
+    reach = -1.001 * here / slope
+    far = near + reach
+    while (there := left(far)) * here > 0:
+        near, here, reach = far, there, 2 * reach
+        far += reach
+    while here and there and abs(far - near) > close:
+        middle = (near * there - far * here) / (there - here)
+        now = left(middle)
+        if now * there < 0:
+            near, here = far, there
+        else:
+            here /= 2
+        far, there = middle, now
+    return near if not here else far

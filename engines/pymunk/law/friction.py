@@ -1,0 +1,119 @@
+"""Dry friction by its law (2.89), (2.95): ours, told to pymunk's friction before every step.
+
+pymunk knows one bound of friction. The law sets it to the mean force of the coming step, and
+pymunk holds with it, or brakes. `ruled` says where the law is known beforehand: on a part that
+nothing else joins or touches.
+"""
+
+from collections.abc import Callable
+from functools import partial
+
+from ....cases.scene import GROUND, Bounds, Contact, DryFriction, Joint, Scene
+from ..scene import World
+from .breakaway import bound, smooth_mean
+from .load import load
+
+Rub = Callable[[float], None]  # before the step that starts at t [s]
+RESTING = 1e-9  # m/s: a part that neither falls nor rises; above rounding, below any impact
+
+
+def ruled(scene: Scene) -> bool:
+    """Whether there is dry friction with more than pymunk's one bound, and its law is known."""
+    slides = [j for j in scene.joints.values() if j.dry_friction]
+    contacts = [c for c in scene.contacts.values() if _two_bounds(c)]
+    alone = all(j.a.body == GROUND and _only(scene, j.b.body) for j in slides) and all(
+        _only(scene, c.body) and _simple(scene, c) for c in contacts
+    )
+    return bool(slides or contacts) and alone
+
+
+def rubs(world: World, step: float) -> list[Rub]:
+    """What has to be called before each step where friction goes by its law."""
+    found: list[Rub] = []
+    for joint in world.scene.joints.values():
+        if joint.dry_friction:
+            found.append(_slide(world, joint, joint.dry_friction, step))
+    for contact in world.scene.contacts.values():
+        if _two_bounds(contact):
+            found.append(_contact(world, contact, step))
+    return found
+
+
+def _two_bounds(contact: Contact) -> bool:
+    return contact.switches and contact.static != contact.kinetic
+
+
+def _only(scene: Scene, body: str) -> bool:
+    """Whether one joint or contact is all that holds the body."""
+    joints = [j for j in scene.joints.values() if body in (j.a.body, j.b.body)]
+    return len(joints) + sum(c.body == body for c in scene.contacts.values()) == 1
+
+
+def _simple(scene: Scene, contact: Contact) -> bool:
+    """Where normal force and friction do not feel each other: a disk or a particle."""
+    body = scene.bodies[contact.body]
+    return body.radius is not None or not body.turns
+
+
+def _slide(world: World, joint: Joint, friction: DryFriction, step: float) -> Rub:
+    body, brake = world.bodies[joint.b.body], world.brakes[joint.name]
+    acting, (ux, uy) = load(world, joint.b.body, step), joint.along
+    carried = world.scene.points[joint.a.point].velocity  # of a driven rail
+    smooth = friction.smooth
+
+    def along(t: float, ahead: float) -> float:
+        fx, fy, _ = acting(t, ahead)
+        return ux * fx + uy * fy
+
+    def speed() -> float:
+        vx, vy = body.velocity
+        return ux * (vx - carried[0]) + uy * (vy - carried[1])
+
+    def push(force: float) -> None:
+        if force:
+            body.apply_force_at_world_point((ux * force, uy * force), body.position)
+
+    def exact(t: float) -> None:
+        applied = partial(along, t)
+        brake.max_force, force = bound(friction, speed(), body.mass, applied, step)
+        push(force)
+
+    def blurred(t: float) -> None:
+        assert smooth is not None
+        middle, v = along(t, step / 2), speed()
+        force = smooth_mean(friction, smooth, v, body.mass, middle, step)
+        brake.max_force = 0.0  # nothing rests: a force, not a bound
+        push(force)
+
+    return blurred if smooth else exact
+
+
+def _contact(world: World, contact: Contact, step: float) -> Rub:
+    """By the slip of the point that touches, and the mass that resists it there."""
+    part = world.scene.bodies[contact.body]
+    body, shape = world.bodies[contact.body], world.wheels[contact.name]
+    acting = load(world, contact.body, step)
+    radius = part.radius or 0.0
+    turn = radius / part.inertia if part.inertia else 0.0  # slip per angular impulse
+    mass = 1 / (1 / part.mass + radius * turn)
+
+    def along(t: float, ahead: float) -> float:
+        fx, _, torque = acting(t, ahead)
+        return mass * (fx / part.mass + turn * torque)
+
+    def exact(t: float) -> None:
+        shape.friction = contact.kinetic
+        (vx, vy), normal = body.velocity, -acting(t, step / 2)[1]
+        if abs(vy) > RESTING or normal <= 0:
+            return  # in flight, or in an impact, which is no place to rest
+        slip = vx + radius * body.angular_velocity
+        both = DryFriction(
+            Bounds(contact.static * normal, contact.static * normal),
+            Bounds(contact.kinetic * normal, contact.kinetic * normal),
+        )
+        limit, push = bound(both, slip, mass, partial(along, t), step)
+        shape.friction = limit / normal
+        if push:
+            body.apply_force_at_world_point((push, 0.0), body.position - (0.0, radius))
+
+    return exact

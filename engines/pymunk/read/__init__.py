@@ -1,0 +1,1 @@
+"""What pymunk tells: physics before a step, and every step of a run."""

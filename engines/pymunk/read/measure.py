@@ -1,0 +1,43 @@
+"""Physics read back from pymunk's own objects, for the equal-physics audit."""
+
+from pymunk.shapes import Shape
+from pymunk.vec2d import Vec2d
+
+from ....cases.scene import Spring
+from ..scene import World
+
+
+def measured(world: World) -> dict[str, float]:
+    """Masses, inertias, friction, springs, gravity, energy and momentum of the present state."""
+    x, y = world.space.gravity
+    found = {"gravity.x": x, "gravity.y": y}
+    for name, body in world.bodies.items():
+        found[f"{name}.mass"] = body.mass
+        if world.scene.bodies[name].turns:
+            found[f"{name}.inertia"] = body.moment
+    for name, wheel in world.wheels.items():
+        found[f"{name}.friction"] = wheel.friction * _floor(world).friction
+    for name, brake in world.brakes.items():
+        friction = world.scene.joints[name].dry_friction
+        assert friction is not None
+        if friction.kinetic.forward == friction.kinetic.backward:  # the engine holds one number
+            found[f"{name}.friction_forward"] = brake.max_force
+            found[f"{name}.friction_backward"] = brake.max_force
+    for name, line in world.lines.items():
+        if isinstance(world.scene.forces[name], Spring):
+            found[f"{name}.stiffness"] = line.stiffness
+            found[f"{name}.rest_length"] = line.rest_length
+        else:
+            found[f"{name}.damping"] = line.damping
+    bodies = world.bodies.values()
+    # pymunk's kinetic_energy is m v² + J ω², twice the textbook's
+    found["energy.kinetic"] = sum(body.kinetic_energy for body in bodies) / 2
+    momenta = [body.mass * body.velocity for body in bodies]
+    total = sum(momenta, Vec2d(0.0, 0.0))
+    return found | {"momentum.x": total.x, "momentum.y": total.y}
+
+
+def _floor(world: World) -> Shape:
+    """The only shape of the static body."""
+    (floor,) = world.space.static_body.shapes
+    return floor

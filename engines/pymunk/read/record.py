@@ -1,0 +1,76 @@
+"""Every step of a run, from which event times are read.
+
+It must cost little beside the step itself: pymunk copies all bodies in one call, one copy after
+the other, and what the copies mean is worked out when the run is over.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from pymunk.batch import BodyFields, Buffer, get_space_bodies
+
+from ....cases.observe import observe
+from ....cases.trajectory import Array, Trajectory
+from ..run import Steps
+from ..scene import World
+
+_STATE = BodyFields.POSITION | BodyFields.ANGLE | BodyFields.VELOCITY | BodyFields.ANGULAR_VELOCITY
+_BUFFER = Buffer()  # one for all runs: pymunk never frees a buffer's memory
+
+
+@dataclass(frozen=True)
+class Record:
+    """Steps that are recorded; `trajectory` is what they were."""
+
+    world: World
+    steps: Steps
+    step: float
+    midpoint: bool
+
+    def __post_init__(self) -> None:
+        _BUFFER.clear()
+        get_space_bodies(self.world.space, _STATE, _BUFFER)
+
+    def run(self, n: int) -> None:
+        """Takes n steps, and keeps the states after each."""
+        space, one, buffer = self.world.space, self.steps, _BUFFER
+        for _ in range(n):
+            one(1)
+            get_space_bodies(space, _STATE, buffer)
+
+    def trajectory(self) -> Trajectory:
+        """A row for the start and for each step, and one in the middle of a step that bounces.
+
+        One phase, as an engine knows of none.
+        """
+        order = Buffer()
+        get_space_bodies(self.world.space, BodyFields.BODY_ID, order)
+        numbers = np.frombuffer(order.int_buf(), np.uintp).tolist()
+        rows = np.frombuffer(_BUFFER.float_buf()).reshape(-1, len(numbers), 6).copy()
+        rows = rows[:, [numbers.index(body.id) for body in self.world.bodies.values()]]
+        times = np.arange(len(rows), dtype=np.float64) * self.step
+        if self.midpoint:
+            rows, times = self._ahead(rows, times)
+        return self._named(rows, times)
+
+    def _ahead(self, rows: Array, times: Array) -> tuple[Array, Array]:
+        """Positions at the times of the velocities, half a step ahead.
+
+        Where a body bounces, it is in the floor only in the middle of the step: both rows around
+        it stand above. There the middle is kept too, with the velocities before the impact.
+        """
+        middle = rows[1:].copy()
+        middle[:, :, 3:] = rows[:-1, :, 3:]
+        rows[:, :, :3] += self.step / 2 * rows[:, :, 3:]
+        lost = np.zeros(len(middle), bool)
+        for contact in self.world.wheels:
+            gap = observe(self.world.scene, self._named(rows, times), f"{contact}.gap")
+            dip = observe(self.world.scene, self._named(middle, times[1:]), f"{contact}.gap")
+            lost |= (dip <= 0) & (gap[:-1] > 0) & (gap[1:] > 0)
+        after = np.flatnonzero(lost) + 1
+        rows = np.insert(rows, after, middle[lost], axis=0)
+        return rows, np.insert(times, after, times[after] - self.step / 2)
+
+    def _named(self, rows: Array, times: Array) -> Trajectory:
+        states = {name: rows[:, i] for i, name in enumerate(self.world.bodies)}
+        return Trajectory(times, states, {}, phase=np.zeros(len(rows), np.int64))

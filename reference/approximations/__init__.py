@@ -1,0 +1,1 @@
+"""The book's approximations of dry friction as producers of motions."""

@@ -1,0 +1,41 @@
+"""How far two motions of the same bodies are apart, relative to their size."""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from ...cases.trajectory import Trajectory
+from ..system import Array
+
+
+def worst(values: Iterable[float]) -> float:
+    """The largest, 0 of none; NaN if there is one, where `max` may lose it."""
+    return float(np.max([0.0, *values]))
+
+
+def relative(a: Array, b: Array, *, least: float = 0.0) -> float:
+    """max |a − b| relative to max |a|, or to `least` if that is larger; absolute if both are 0."""
+    return worst(np.abs(a - b).ravel()) / (max(worst(np.abs(a).ravel()), least) or 1.0)
+
+
+def difference(one: Trajectory, other: Trajectory) -> float:
+    """Largest difference of places, angles, velocities and rates, each relative to its size.
+
+    A mechanism at rest moves by rounding only, so sizes are not taken below what would carry it
+    through its own size, or 1 rad, in the duration.
+    """
+    a = np.concatenate(list(one.states.values()))
+    b = np.concatenate(list(other.states.values()))
+    duration = float(one.times[-1] - one.times[0])
+    size = worst(np.abs(a[:, [0, 1]]).ravel())
+    groups = {(0, 1): 0.0, (2,): 1.0, (3, 4): size / duration, (5,): 1.0 / duration}
+    return worst(relative(a[:, [*g]], b[:, [*g]], least=least) for g, least in groups.items())
+
+
+def reactions(one: Trajectory, other: Trajectory) -> float:
+    """Largest difference of the reactions that both know, relative to the largest of them."""
+    shared = [name for name in one.reactions if name in other.reactions]
+    if not shared:
+        return 0.0
+    a, b = (np.array([t.reactions[name] for name in shared]) for t in (one, other))
+    return relative(a, b)

@@ -1,0 +1,1 @@
+"""The mechanism of any scene, in maximal coordinates with multipliers."""

@@ -1,0 +1,96 @@
+"""Maximal coordinates: where each body's x, y and angle stand in q, and its points' kinematics."""
+
+import cmath
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...cases.scene import GROUND, Anchor, Scene
+
+
+class Point(NamedTuple):  # made at every evaluation: a frozen dataclass costs three times as much
+    """(2.1) r = r_c + d, d = E x and (2.6) ṙ = ṙ_c + ω × d of a point; all ground axes."""
+
+    r: tuple[Any, Any]
+    r_dot: tuple[Any, Any]
+    d: tuple[Any, Any]  # from the centre of mass to the point
+    omega: Any
+    xy: int | None  # where the body's x stands in q; y follows; None on the ground
+    phi: int | None  # where its angle stands; None for the ground and for particles
+
+
+@dataclass(frozen=True)
+class Coordinates:
+    """q = (x, y, angle) of each body in the scene's order; a particle has no angle."""
+
+    scene: Scene
+
+    @cached_property
+    def columns(self) -> dict[str, tuple[int, int | None]]:
+        """body → (index of x, index of the angle or None)."""
+        at, columns = 0, {}
+        for body in self.scene.bodies.values():
+            columns[body.name] = (at, at + 2 if body.turns else None)
+            at += 3 if body.turns else 2
+        return columns
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """The coordinate at each place of q, as a quantity: `crank.x`, `crank.angle`."""
+        return tuple(self._names())
+
+    def _names(self) -> Iterator[str]:
+        for body in self.scene.bodies.values():
+            yield from (f"{body.name}.x", f"{body.name}.y")
+            if body.turns:
+                yield f"{body.name}.angle"
+
+    @cached_property
+    def turning(self) -> NDArray[np.bool_]:
+        """Which coordinates are angles, (n,)."""
+        return np.array([name.endswith(".angle") for name in self.names])
+
+    @cached_property
+    def masses(self) -> list[float]:
+        """The diagonal of the mass matrix: m, m, J for each body."""
+        return [
+            entry
+            for body in self.scene.bodies.values()
+            for entry in (body.mass, body.mass, body.inertia)
+            if entry is not None
+        ]
+
+    def point(self, anchor: Anchor, t: Any, q: Sequence[Any], v: Sequence[Any]) -> Point:
+        """(2.1) r = r_c + d and (2.6) ṙ = ṙ_c + ω × d, for q and v as lists of numbers."""
+        if anchor.body == GROUND:
+            ground = self.scene.points[anchor.point]
+            u, w = ground.velocity
+            r = (ground.at[0] + u * t, ground.at[1] + w * t)
+            return Point(r, (u, w), (0, 0), 0, None, None)
+        xy, phi = self.columns[anchor.body]
+        if phi is None:
+            return Point((q[xy], q[xy + 1]), (v[xy], v[xy + 1]), (0, 0), 0, xy, None)
+        a, b = self.scene.bodies[anchor.body].points[anchor.point]
+        cos, sin = trigonometry(q[phi])
+        dx, dy = cos * a - sin * b, sin * a + cos * b
+        omega = v[phi]
+        return Point(
+            (q[xy] + dx, q[xy + 1] + dy),
+            (v[xy] - omega * dy, v[xy + 1] + omega * dx),
+            (dx, dy),
+            omega,
+            xy,
+            phi,
+        )
+
+
+def trigonometry(angle: Any) -> tuple[Any, Any]:
+    """cos and sin of a float, or of a complex number while a derivative is taken."""
+    if isinstance(angle, complex):
+        return cmath.cos(angle), cmath.sin(angle)
+    return math.cos(angle), math.sin(angle)

@@ -1,0 +1,117 @@
+"""Impacts on the floor: velocities that jump while the places stay.
+
+(2.60) integrated over the instant: M (q̇⁺ − q̇⁻) = Λ_b f_aᵇ. Joints and sticking contacts hold, the
+floor gives back the part `restitution` of the normal velocity, and friction is an impulse of
+Coulomb's law (2.87): within the cone it stops the slip, else it is μ times the normal impulse.
+"""
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..system import Array
+from .element import REST, State, Touching, sign
+
+CONE = 1e-12  # of the impulse: an impulse that needs all of the cone sticks
+ROUNDING = 1e-12  # of the velocities
+GAIN = 1e-9  # of the kinetic energy: more is no rounding
+
+
+class NoImpact(ArithmeticError):
+    """Where Coulomb's law and the restitution have no answer, or one that creates energy."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """f_a (n,) and g of (2.15)."""
+
+    f: Array
+    g: float
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """A closed contact in the instant: its rows, and the normal velocity after it."""
+
+    element: Touching
+    normal: Row
+    tangent: Row
+    after: float
+    strikes: bool
+
+
+def impact(
+    M: Array, joints: Sequence[Row], meetings: Sequence[Meeting], v: Array
+) -> tuple[Array, tuple[State, ...]]:
+    """q̇⁺ (n,) and what each of the contacts does after it.
+
+    Raises NoImpact.
+    """
+    for states in itertools.product(*_choices(meetings)):
+        found = _tried(M, joints, meetings, v, states)
+        if found is not None:
+            if M @ found**2 > (1 + GAIN) * (M @ v**2) and not any(row.g for row in joints):
+                raise NoImpact("the impact would create energy")
+            return found, states
+    raise NoImpact("no impulse satisfies the friction law")
+
+
+def _choices(meetings: Sequence[Meeting]) -> Sequence[tuple[State, ...]]:
+    """Sticking first; what only rests on the floor may also leave it."""
+    return [REST if m.strikes else (*REST, "open") for m in meetings]
+
+
+def _tried(
+    M: Array,
+    joints: Sequence[Row],
+    meetings: Sequence[Meeting],
+    v: Array,
+    states: tuple[State, ...],
+) -> Array | None:
+    """q̇⁺ if the contacts do this, or None where that contradicts Coulomb's law."""
+    rows: list[Array] = []
+    columns: list[Array] = []
+    after: list[float] = []
+    normals: list[int | None] = []  # where each contact's normal row stands
+    for joint in joints:
+        rows.append(joint.f)
+        columns.append(joint.f)
+        after.append(joint.g)
+    for meeting, state in zip(meetings, states, strict=True):
+        if state == "open":
+            normals.append(None)
+            continue
+        normals.append(len(rows))
+        lean = -meeting.element.contact.kinetic * sign(state)
+        rows.append(meeting.normal.f)
+        columns.append(meeting.normal.f + lean * meeting.tangent.f)
+        after.append(meeting.after)
+        if state == "sticks":
+            rows.append(meeting.tangent.f)
+            columns.append(meeting.tangent.f)
+            after.append(0.0)
+    f, by_mass = np.array(rows), np.array(columns) / M
+    try:
+        impulse = np.asarray(np.linalg.solve(f @ by_mass.T, np.array(after) - f @ v), np.float64)
+    except np.linalg.LinAlgError:
+        return None
+    v_after = v + impulse @ by_mass
+    small = ROUNDING * float(np.max(np.abs(v)))
+    for meeting, state, at in zip(meetings, states, normals, strict=True):
+        if at is None:
+            if meeting.normal.f @ v_after < -small:
+                return None
+        elif not _lawful(meeting, state, impulse[at : at + 2], v_after, small):
+            return None
+    return v_after
+
+
+def _lawful(meeting: Meeting, state: State, impulse: Array, v: Array, small: float) -> bool:
+    """(2.87) for impulses: the floor pushes, within the cone or against the slip."""
+    if impulse[0] < 0.0:
+        return False
+    if state == "sticks":
+        return bool(abs(impulse[1]) <= (1 + CONE) * meeting.element.contact.kinetic * impulse[0])
+    return bool(sign(state) * (meeting.tangent.f @ v) >= -small)

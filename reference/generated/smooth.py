@@ -1,0 +1,94 @@
+"""A mechanism whose slides have the smooth law of dry friction (2.95): one mode, and stiff."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from ...cases.scene import Joint, Scene, Smooth
+from ..laws.friction import Dry, smooth
+from ..system import Array
+from .contact import Drag, catch, row
+from .mechanism import Mechanism
+
+
+class SmoothMechanism(Mechanism):
+    """The mechanism at rest along its slides, moved by what (2.95) leaves of the active forces.
+
+    Within the bands friction cancels the active force. In doubles their difference would be noise
+    larger than what the motion out of the band grows from, so it is never formed.
+    """
+
+    def __init__(self, scene: Scene, start: tuple[Array, Array]) -> None:
+        where = Mechanism(scene, start).where
+        self._slides = [joint for joint in scene.joints.values() if joint.dry_friction]
+        self._catches = [catch(joint, where) for joint in self._slides]
+        self._resting = Mechanism(scene, start, held=self._catches)
+        drags = [Drag(part, self._friction(k)) for k, part in enumerate(self._catches)]
+        super().__init__(scene, start, drags=drags)
+
+    def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
+        """(2.60) at rest along the slides, and with F_a + F_fr along them: q̈ and λ are sums."""
+        a, multipliers = self._resting.solve(t, q, v)
+        a = self._still(t, q, v, a)
+        r, along = len(self.f_a(t, q)), np.zeros(len(q))
+        for k, part in enumerate(self._catches):
+            f, g, _ = row(part, t, q, v)
+            along += _left(self._slides[k], float(f @ v) - g, -float(multipliers[r + k])) * f
+        rows, free = self.f_a(t, q), along / self._M
+        if not r:
+            return a + free, multipliers[:0]
+        by_mass = rows / self._M
+        more = np.linalg.solve(by_mass @ rows.T, -rows @ free)
+        return a + free + more @ by_mass, multipliers[:r] + more
+
+    def _still(self, t: float, q: Array, v: Array, a: Array) -> Array:
+        """f_a q̈ᵃ = γ without the rounding of forces that cancel: a block held at rest has q̈ = 0."""
+        rows, _, gamma = self._resting.rows(t, q.tolist(), v.tolist(), float)
+        held = rows.T @ np.linalg.solve(rows @ rows.T, gamma)
+        free = np.linalg.svd(rows)[2][len(rows) :]  # directions that the rows leave
+        weighed = free * self._M
+        return held + free.T @ np.linalg.solve(weighed @ free.T, weighed @ (a - held))
+
+    def _friction(self, k: int) -> Callable[[float, Array, Array], float]:
+        """(2.95) F_fr of the k-th slide; F_a is what would hold it at rest."""
+
+        def force(t: float, q: Array, v: Array) -> float:
+            multipliers = self._resting.solve(t, q, v)[1]
+            F_a = -float(multipliers[len(multipliers) - len(self._catches) + k])
+            f, g, _ = row(self._catches[k], t, q, v)
+            dry, law = _dry(self._slides[k])
+            return float(smooth(dry, law.band, law.sharpness, float(f @ v) - g, F_a))
+
+        return force
+
+
+def _dry(joint: Joint) -> tuple[Dry, Smooth]:
+    friction = joint.dry_friction
+    assert friction is not None
+    assert friction.smooth is not None
+    kinetic, static = friction.kinetic, friction.static
+    dry = Dry(kinetic.backward, kinetic.forward, static.backward, static.forward)
+    return dry, friction.smooth
+
+
+def _left(joint: Joint, v: float, F_a: float) -> float:
+    """(2.95) F_a + F_fr = F_a (1 − h_v h_F) + F₋ {…} − F₊ {…} [N], h = 1 − below − above."""
+    dry, law = _dry(joint)
+    slower, faster = _outside(law.sharpness, v, law.band, law.band)
+    weaker, stronger = _outside(law.sharpness, F_a, dry.Fs_minus, dry.Fs_plus)
+    inside = 1.0 - slower - faster
+    free = slower + faster + inside * (weaker + stronger)
+    backward, forward = slower + inside * weaker, faster + inside * stronger
+    return F_a * free + dry.F_minus * backward - dry.F_plus * forward
+
+
+def _outside(A: float, x: float, low: float, high: float) -> tuple[float, float]:
+    """(2.96) ½ (1 − tanh A (x + low)) and ½ (1 + tanh A (x − high)), however small."""
+    return _logistic(-2 * A * (x + low)), _logistic(2 * A * (x - high))
+
+
+def _logistic(z: float) -> float:
+    """1 / (1 + e^{−z}) = ½ (1 + tanh ½ z), without overflow."""
+    small = math.exp(-abs(z))
+    return (small if z < 0 else 1.0) / (1.0 + small)

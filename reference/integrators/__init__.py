@@ -1,0 +1,1 @@
+"""Our integrators: one explicit, one implicit, and the step control they share."""

@@ -1,0 +1,1 @@
+"""The chapter's laws by themselves: inertia, momentum, forces, friction. No scene."""

@@ -1,0 +1,34 @@
+"""The start of a scene: what the case gives, and what the constraints make of it.
+
+Positions by Newton's method from a guess, rates by linear algebra.
+"""
+
+import numpy as np
+
+from ...cases.case import Case
+from ..system import Array
+from . import refusal
+from .closure import Closure
+from .positions import RANK, positions, rank
+from .rates import rates
+
+
+def assemble(case: Case) -> tuple[Array, Array]:
+    """q (n,) and v (n,) at t = 0 in maximal coordinates.
+
+    Raises CaseError if the constraints are not independent, the mechanism cannot be assembled
+    or can be in two ways, or a coordinate or rate stays undetermined.
+    """
+    closure = Closure(case)
+    q = positions(closure)
+    _independent(closure, q)
+    return q, rates(closure, q)
+
+
+def _independent(closure: Closure, q: Array) -> None:
+    """Refuses the first joint or contact whose constraints only repeat what others hold."""
+    held = np.zeros((0, closure.n))
+    for c in closure.parts:
+        held = np.vstack([held, closure.rows([c], q)])
+        if rank(held, RANK) < len(held):
+            raise refusal.dependent(closure, c.part)

@@ -1,0 +1,165 @@
+"""The positions at the start: Newton's method from a guess, and the search for a second way."""
+
+import math
+from collections.abc import Collection, Iterator
+
+import numpy as np
+
+from ..system import Array
+from . import refusal
+from .closure import POSITIONS, Closure, held, placed
+
+CLOSED = 1e-12  # residual relative to the largest length; Newton reaches rounding or fails
+RANK = 1e-9  # singular values below this part of the largest count as zero
+DEAD = 1e-5  # and below this, a rounding of 1e-16 already moves the start by more than 1e-11
+SEEDS = 200  # starts from which other assemblies are looked for
+SAME = 1e-6  # solutions nearer than this (in sizes and rad) are the same one
+NEAR = 0.5  # rad or sizes: a solution this close to `near` is the one that was meant
+FULL_TURN = 1e-9  # rad: −180° within rounding is written 180°
+
+
+def positions(closure: Closure) -> Array:
+    """q (n,) that closes all joints.
+
+    Raises CaseError if there is none, more than one to choose from, or a coordinate is left open.
+    """
+    wanted = _Near(closure)
+    q, gap = _newton(closure, wanted.guess())
+    nearest = gap, q
+    closed = CLOSED * closure.rounding
+    found = [q] if gap < closed else []
+    if found:
+        _determined(closure, q)
+        if wanted.given and wanted.distance(q) < NEAR:
+            return q
+    for guess in _seeds(closure):
+        q, gap = _newton(closure, guess)
+        nearest = min(nearest, (gap, q), key=lambda pair: pair[0])
+        if gap < closed and all(_apart(closure, q, other) > SAME for other in found):
+            found.append(q)
+    if not found:
+        raise refusal.cannot_close(closure, nearest[1])
+    found.sort(key=wanted.distance)  # all 0 without `near`
+    ways = [q for q in found if wanted.distance(q) < wanted.distance(found[0]) + SAME]
+    _determined(closure, ways[0])
+    if len(ways) > 1:
+        raise refusal.several_ways(closure, ways)
+    return ways[0]
+
+
+class _Near:
+    """The guess that the case gives, and how far a solution is from it."""
+
+    def __init__(self, closure: Closure) -> None:
+        self.closure = closure
+        self.numbers = closure.numbers(closure.case.near, POSITIONS)
+        self.points = placed(closure.case.near)
+        self.given = bool(self.numbers or self.points)
+
+    def guess(self) -> Array:
+        q = np.zeros(self.closure.n)
+        for i, value in (self.numbers | self.closure.given).items():
+            q[i] = value
+        return _laid_out(self.closure, q, keep=self.numbers.keys())
+
+    def distance(self, q: Array) -> float:
+        """In rad and sizes; 0 if nothing is said."""
+        c = self.closure
+        apart = [_turned(c, i, q[i] - value) / c.units[i] for i, value in self.numbers.items()]
+        for anchor, at in self.points:
+            p = c.where.point(anchor, 0.0, q.tolist(), q.tolist())
+            apart += [(p.r[0] - at[0]) / c.size, (p.r[1] - at[1]) / c.size]
+        return max(map(abs, apart), default=0.0)
+
+
+def _seeds(closure: Closure) -> Iterator[Array]:
+    """Guesses with the free angles anywhere; without free angles the equations are linear."""
+    angles = [i for i in closure.free if closure.turning[i]]
+    q = np.zeros(closure.n)
+    q[list(closure.given)] = list(closure.given.values())
+    rng = np.random.default_rng(seed=1)  # any: the same starts in every run
+    for _ in range(SEEDS if angles else 0):
+        q[angles] = rng.uniform(-math.pi, math.pi, len(angles))
+        yield _laid_out(closure, q)
+
+
+def _laid_out(closure: Closure, guess: Array, keep: Collection[int] = ()) -> Array:
+    """The guess with the places that fit its angles best: that much is linear."""
+    columns = [i for i in closure.free if not closure.turning[i] and i not in keep]
+    q = guess.copy()
+    residual, jacobian = closure.equations(q)
+    change = np.linalg.lstsq(jacobian[:, columns], residual, rcond=None)[0]
+    q[columns] -= change * closure.size
+    return q
+
+
+def _newton(closure: Closure, guess: Array) -> tuple[Array, float]:
+    """The root near the guess, and the residual that is left, in sizes or rad."""
+    q, free = guess.copy(), closure.free
+    for _ in range(50):  # quadratic: more only where nothing closes
+        residual, jacobian = closure.equations(q)
+        gap = float(np.max(np.abs(residual), initial=0.0))
+        if gap < 1e-3 * CLOSED * closure.rounding or not len(free):
+            break
+        change = np.linalg.lstsq(jacobian[:, free], residual, rcond=RANK)[0]
+        largest = float(np.max(np.abs(change)))
+        if largest < 1e-15:
+            break
+        q[free] -= closure.units[free] * change * min(1.0, 1.0 / largest)
+    residual, _ = closure.equations(q)
+    return _wrapped(closure, q), float(np.max(np.abs(residual), initial=0.0))
+
+
+def _wrapped(closure: Closure, q: Array) -> Array:
+    """Angles that nobody gave, brought into (−π, π] or next to their guess; held ones follow."""
+    near = closure.numbers(closure.case.near, POSITIONS)
+    known = dict(closure.given)
+    for i in closure.free[closure.turning[closure.free]].tolist():
+        if i not in known:
+            base = near.get(i, 0.0)
+            turned = math.remainder(q[i] - base, math.tau)
+            known[i] = base + (turned if turned > FULL_TURN - math.pi else turned + math.tau)
+            known = held(closure.locks, known)
+    q = q.copy()
+    q[list(known)] = list(known.values())
+    return q
+
+
+def _apart(closure: Closure, a: Array, b: Array) -> float:
+    """The largest difference of two solutions, in sizes and rad."""
+    return max(
+        abs(_turned(closure, i, x)) / closure.units[i] for i, x in enumerate((a - b).tolist())
+    )
+
+
+def _turned(closure: Closure, column: int, difference: float) -> float:
+    return math.remainder(difference, math.tau) if closure.turning[column] else difference
+
+
+def _determined(closure: Closure, q: Array) -> None:
+    """Refuses what leaves coordinates open: for good, or at a dead centre."""
+    free = closure.free
+    names = [closure.where.names[i] for i in free]
+    jacobian = closure.equations(q)[1][:, free]
+    if loose := undetermined(jacobian, names, RANK):
+        raise refusal.open_ended(closure, loose, rank(jacobian, RANK))
+    if loose := undetermined(jacobian, names, DEAD):
+        raise refusal.dead_centre(closure, loose)
+
+
+def rank(jacobian: Array, below: float) -> int:
+    """The number of singular values that are not zero."""
+    if not jacobian.size:
+        return 0
+    s = np.linalg.svd(jacobian, compute_uv=False)
+    return int(np.sum(s > below * s[0]))
+
+
+def undetermined(jacobian: Array, names: list[str], below: float) -> list[str]:
+    """Those of the unknowns that linear equations leave open."""
+    if not jacobian.size:
+        return names
+    _, s, vt = np.linalg.svd(jacobian)
+    kept = int(np.sum(s > below * s[0]))
+    open_ = np.max(np.abs(vt[kept:]), axis=0, initial=0.0) > SAME
+    return [name for name, is_open in zip(names, open_, strict=True) if is_open]

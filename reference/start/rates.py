@@ -1,0 +1,67 @@
+"""The rates at the start: what is given, and what the constraints make of it."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ...cases.scene import GROUND, Scene
+from ..system import Array
+from . import refusal
+from .closure import RATES, Closure
+from .positions import CLOSED, RANK, rank, undetermined
+
+
+def rates(closure: Closure, q: Array) -> Array:
+    """v (n,) with f_a q̇ᵃ = g (2.15); zero where that satisfies the constraints of a mechanism.
+
+    Raises CaseError if the given rates violate a constraint or leave a rate open.
+    """
+    given = closure.numbers(closure.case.initial, RATES)
+    v = np.zeros(closure.n)
+    v[list(given)] = list(given.values())
+    for bodies in mechanisms(closure.case.scene):
+        columns = [i for i, name in enumerate(closure.where.names) if name.split(".")[0] in bodies]
+        v[columns] = _of_one(closure, q, v, columns, free=[i for i in columns if i not in given])
+    return v
+
+
+def _of_one(closure: Closure, q: Array, v: Array, columns: list[int], free: list[int]) -> Array:
+    rows, g = closure.linear(closure.parts, q)
+    owners = [c for c in closure.parts for _ in range(c.size)]
+    mine = np.any(rows[:, columns] != 0.0, axis=1)
+    rows, g = rows[mine], g[mine]
+    owners = [owner for owner, is_mine in zip(owners, mine, strict=True) if is_mine]
+    scaled = v / closure.units  # in sizes and rad per second
+    if not _open(rows, g, scaled)[1]:
+        return v[columns]
+    scaled[free] += np.linalg.lstsq(rows[:, free], g - rows @ scaled, rcond=RANK)[0]
+    residual, violated = _open(rows, g, scaled)
+    if violated:
+        worst = owners[int(np.argmax(np.abs(residual)))]
+        raise refusal.rates_violate(closure, worst.part)
+    names = [_as_rate(closure.where.names[i]) for i in free]
+    if loose := undetermined(rows[:, free], names, RANK):
+        raise refusal.open_ended(closure, loose, rank(rows[:, free], RANK), among=len(free))
+    return (scaled * closure.units)[columns]
+
+
+def _open(rows: Array, g: Array, v: Array) -> tuple[Array, bool]:
+    """What is left of (2.15), and whether that is more than rounding."""
+    residual = rows @ v - g
+    scale = max(np.max(np.abs(rows * v), initial=0.0), np.max(np.abs(g), initial=0.0))
+    return residual, bool(np.max(np.abs(residual), initial=0.0) > CLOSED * scale)
+
+
+def mechanisms(scene: Scene) -> Iterator[set[str]]:
+    """The bodies that joints hold together; what only shares the ground moves by itself."""
+    groups = [{name} for name in scene.bodies]
+    for joint in scene.joints.values():
+        ends = {joint.a.body, joint.b.body} - {GROUND}
+        touched = [group for group in groups if group & ends]
+        groups = [group for group in groups if not group & ends] + [set().union(*touched)]
+    yield from groups
+
+
+def _as_rate(name: str) -> str:
+    body, _, field = name.rpartition(".")
+    return f"{body}.{({'x': 'vx', 'y': 'vy', 'angle': 'omega'})[field]}"

@@ -1,0 +1,140 @@
+"""A block on a line with dry friction, (2.88) with (2.89): it slides to and fro, or it sticks."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+
+from ..laws.friction import Dry
+from ..mode import Guard
+from ..system import Array, Cut, Load, Mass, Pose, System, Vector
+
+
+class Pull(Protocol):
+    """What acts on the block but friction, written three times over."""
+
+    def F_a(self, t: float, x: float) -> float:
+        """(2.88) F_a [N], the sum."""
+        ...
+
+    def U(self, t: Any, q: Vector) -> Any:
+        """(2.45) Potential energy [J] of what has one."""
+        ...
+
+    def Q4(self, t: Any) -> Any:
+        """(2.50) The rest [N]."""
+        ...
+
+    def forces(self, t: float, x: float) -> list[float]:
+        """(2.23) One by one [N], along x."""
+        ...
+
+
+@dataclass(frozen=True)
+class Line(System):
+    """A block m [kg] that slides against the friction force F_fr [N], or sticks if that is None."""
+
+    m: float
+    pull: Pull
+    F_fr: float | None
+
+    coordinates = ("x",)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "masses", {"block": Mass(self.m, None)})
+
+    def accelerations(self, t: float, q: Array, v: Array) -> Array:
+        """(2.88) m v̇ = F_a + F_fr; v̇ = 0 where it sticks [m/s²], (1,)."""
+        if self.F_fr is None:
+            return np.zeros(1)
+        return np.array([(self.pull.F_a(t, float(q[0])) + self.F_fr) / self.m])
+
+    def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
+        """(2.89) F_fr, −F_a where it sticks [N]: the guide's force on the block; nothing else."""
+        F_fr = -self.pull.F_a(t, float(q[0])) if self.F_fr is None else self.F_fr
+        return {"guide.fx": F_fr, "guide.fy": 0.0}
+
+    def T(self, t: Any, q: Vector, v: Vector) -> Any:
+        """(2.53) T = ½ m ẋ² [J]."""
+        return self.m * v[0] ** 2 / 2
+
+    def U(self, t: Any, q: Vector) -> Any:
+        """(2.45) of the pull [J]."""
+        return self.pull.U(t, q)
+
+    def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
+        """(2.50) of the pull and the friction of sliding [N], (1,)."""
+        return np.array([self.pull.Q4(t) + (self.F_fr or 0.0)])
+
+    def f_a(self, t: Any, q: Vector) -> Vector:
+        """(2.15) ẋ = 0 where it sticks: λ is the friction force."""
+        return np.ones((1, 1)) if self.F_fr is None else np.zeros((0, 1))
+
+    def g(self, t: Any, q: Vector) -> Vector:
+        """(2.15) the guide does not move."""
+        return np.zeros(len(self.f_a(t, q)))
+
+    def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
+        """(2.8) R₁ = (x, 0)."""
+        return {"block": (q[0], 0.0, 0.0, v[0], 0.0, 0.0)}
+
+    def loads(self, t: float, q: Array, v: Array) -> list[Load]:
+        """The forces of the pull and the friction of sliding."""
+        x = float(q[0])
+        forces = [*self.pull.forces(t, x), self.F_fr or 0.0]
+        return [Load("block", (x, 0.0), (force, 0.0)) for force in forces]
+
+    def cuts(self, t: float, q: Array) -> list[Cut]:
+        """The guide: across it always, along it where the block sticks."""
+        at = (float(q[0]), 0.0)
+        if self.F_fr is None:
+            return [Cut(("guide.fx", "guide.fy"), None, "block", at)]
+        return [Cut(("guide.fy",), None, "block", at, ((0.0, 1.0),))]
+
+
+def modes(m: float, pull: Pull, dry: Dry) -> Mapping[str, System]:
+    """(2.89) The modes: `backward` with F₋, `forward` with −F₊, and `stuck`."""
+    forces = {"backward": dry.F_minus, "forward": -dry.F_plus, "stuck": None}
+    return {mode: Line(m, pull, F_fr) for mode, F_fr in forces.items()}
+
+
+def guards(
+    pull: Pull, dry: Dry, mode: str, *, Delta: float = 0.0, keeps_v: bool = False
+) -> tuple[Guard, ...]:
+    """(2.89) `slips` where F_a leaves −F_s₋ ≤ F_a ≤ F_s₊, `stops` where v = 0 finds it inside.
+
+    v = 0 with F_a outside is a mere turning point. With Δ > 0 it is (2.91): |v| ≤ Δ for v = 0, and
+    a body that sticks keeps the v it came with, or is set to rest.
+    """
+
+    def F_a(t: float, q: Array) -> float:
+        return pull.F_a(t, float(q[0]))
+
+    def to(mode: str) -> Callable[[float, Array, Array], tuple[str, Array, Array]]:
+        return lambda t, q, v: (mode, q, v if keeps_v else np.zeros(1))
+
+    if mode == "stuck":
+        return (
+            Guard("slips", lambda t, q, v: F_a(t, q) + dry.Fs_minus, to("backward")),
+            Guard("slips", lambda t, q, v: dry.Fs_plus - F_a(t, q), to("forward")),
+        )
+    sign, other = (1.0, "backward") if mode == "forward" else (-1.0, "forward")
+    against = dry.Fs_minus if mode == "forward" else dry.Fs_plus
+
+    def halts(t: float, q: Array, v: Array) -> float:
+        force = F_a(t, q)
+        return max(sign * float(v[0]) - Delta, -dry.Fs_minus - force, force - dry.Fs_plus)
+
+    def turns(t: float, q: Array, v: Array) -> float:
+        return max(sign * float(v[0]) - Delta, sign * F_a(t, q) + against)
+
+    return Guard("stops", halts, to("stuck")), Guard(None, turns, to(other))
+
+
+def possible(system: System, dry: Dry, t: float, q: Array, v: Array) -> str | None:
+    """(2.89) Why `stuck` cannot be: −F_s₋ ≤ F_a ≤ F_s₊ is broken."""
+    F_a = -system.reactions(t, q, v)["guide.fx"]
+    if dry.sticks(F_a):
+        return None
+    return f"sticking against {F_a:.6g} N, allowed are {-dry.Fs_minus:.6g} to {dry.Fs_plus:.6g} N"

@@ -1,0 +1,1 @@
+"""When events happen, read from records."""

@@ -1,0 +1,122 @@
+"""When the events of a case happen: one reading of the reference, one of every engine.
+
+The reference knows its phases, and an event is the boundary of two. An engine only has steps, and
+it creeps: it never rests. So no threshold is a time here; a threshold only tells what is near.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from itertools import pairwise
+
+import numpy as np
+from scipy.interpolate import BarycentricInterpolator
+from scipy.optimize import brentq
+
+from ...cases.case import Case, Event
+from ...cases.mistake import Mistake
+from ...cases.observe import observe
+from ...cases.scene import Scene
+from ...cases.trajectory import Array, Trajectory
+from .rests import LOW, rests
+
+STILL = 1e-9  # of the largest value: what the reference's own rounding leaves of a zero
+AROUND = (
+    8  # steps in a curve through a passage: of seventh degree, as the integrator's eighth order
+)
+
+
+def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
+    """Times (K,) [s] of the event, from the boundaries of the reference's phases."""
+    assert record.phase is not None  # the reference's record has it
+    u = observe(scene, record, event.quantity)
+    still = STILL * float(np.max(np.abs(u)))
+    pieces = [
+        piece
+        for piece in np.split(np.arange(len(u)), np.flatnonzero(np.diff(record.phase)) + 1)
+        if record.times[piece[-1]] > record.times[piece[0]]  # what lasts no time is no phase
+    ]
+    happens = _RULES[event.rule]
+    times = [
+        float(record.times[before[-1]])
+        for before, after in pairwise(pieces)
+        if happens(u[before], u[after], still)
+    ]
+    if event.rule == "falls to zero":
+        times += [t for piece in pieces for t in _passages(record.times[piece], u[piece], still)]
+    return np.array(sorted(times), float)
+
+
+_RULES: Mapping[str, Callable[[Array, Array, float], bool]] = {
+    "stays zero": lambda u, then, still: _leaves(u, still) and not _leaves(then, still),
+    "leaves zero": lambda u, then, still: not _leaves(u, still) and _leaves(then, still),
+    "falls to zero": lambda u, then, still: _leaves(u, still) and _lands(u, still),
+}
+
+
+def _lands(u: Array, still: float) -> bool:
+    """Whether u ends at zero, and came to it from above."""
+    moving = u[np.abs(u) > still]
+    return bool(abs(u[-1]) <= still and moving[-1] > 0)
+
+
+def _passages(times: Array, u: Array, still: float) -> Iterator[float]:
+    """Where u passes zero from above within a smooth piece, as the top of a flight does."""
+    passed = u[1:] <= 0
+    passed[-1] &= u[-1] < -still  # what ends at zero is the boundary's
+    for i in np.flatnonzero((u[:-1] > still) & passed):
+        first = min(max(0, i - AROUND // 2 + 1), max(0, len(u) - AROUND))
+        rows = slice(first, first + AROUND)
+        curve = BarycentricInterpolator(times[rows], u[rows])
+        yield float(brentq(lambda t, u=curve: float(u(t)), times[i], times[i + 1], xtol=1e-14))
+
+
+def _leaves(u: Array, still: float) -> bool:
+    return bool(np.max(np.abs(u)) > still)
+
+
+def engine_events(scene: Scene, record: Trajectory, event: Event) -> Array:
+    """Times (K,) [s] of the event, from every step of an engine.
+
+    Raises KeyError where the record does not hold the quantity.
+    """
+    u = observe(scene, record, event.quantity)
+    if event.rule == "falls to zero":
+        return falls(record.times, u)
+    found = rests(record.times, u)
+    times = [stop if event.rule == "stays zero" else start for stop, start in found]
+    return np.array([t for t in times if t is not None], float)
+
+
+def falls(times: Array, u: Array) -> Array:
+    """When u (N,) falls to zero: the zero of the line through the two steps around it.
+
+    An impact may turn u back before any step sees it at zero: then it is the zero of the line
+    through the last two falling steps, if that lies within the next and u then rises. Between two
+    falls u has to exceed 2 % of its largest value: what rests on zero trembles around it.
+    """
+    before, now, after, then = u[:-3], u[1:-2], u[2:-1], u[3:]
+    turned = (2 * now <= before) & (now > 0) & (after > 0) & (then > after)
+    through = (u[:-1] > 0) & (u[1:] <= 0)
+    seen = {int(i): _zero(times, u, int(i)) for i in np.flatnonzero(through)}
+    seen |= {int(i) + 1: _zero(times, u, int(i)) for i in np.flatnonzero(turned)}
+    high = np.cumsum(u > LOW * np.max(np.abs(u)))  # how many steps so far are far from zero
+    found, before_it = [], 0
+    for i, t in sorted(seen.items()):
+        if high[i] > before_it:
+            found.append(t)
+            before_it = high[i]
+    return np.array(found, float)
+
+
+def _zero(times: Array, u: Array, i: int) -> float:
+    """Of the line through steps i and i + 1."""
+    return float(times[i] + (times[i + 1] - times[i]) * u[i] / (u[i] - u[i + 1]))
+
+
+def never(case: Case, reference: Trajectory) -> list[Mistake]:
+    """A mistake for every event of the case that the reference does not know."""
+    record = reference.record
+    return [
+        case.mistake(("events", name), f"never happens in {case.duration:g} s: nothing is compared")
+        for name, event in case.events.items()
+        if record is None or not len(reference_events(case.scene, record, event))
+    ]

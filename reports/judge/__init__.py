@@ -1,0 +1,1 @@
+"""Rows: errors, convergence, verdicts and their causes."""

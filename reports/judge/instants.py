@@ -1,0 +1,125 @@
+"""The events of a trial: rows for their times and counts, and the list of all instants."""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from ...cases.case import Case
+from ...cases.trajectory import Array, Trajectory
+from ..events.times import reference_events
+from ..row import Comparison, Instant, Rungs
+from ..trial.ladder import Ladder
+from ..trial.simulate import Runs, Samples
+from ..trial.trial import Trial
+from . import metric
+from .convergence import Convergence, instants
+from .fill import row, rungs
+from .verdict import verdict
+
+
+def judge(
+    trial: Trial, names: tuple[str, ...], runs: Runs, judged: Samples
+) -> tuple[list[Comparison], list[Rungs]]:
+    """Rows of tolerance.csv and convergence.csv for the names `event.time` and `event.count`."""
+    rows: list[Comparison] = []
+    ladders: list[Rungs] = []
+    for name in names:
+        event, _, field = name.rpartition(".")
+        if f"{event}.time" not in judged:
+            why = "refused: adapter: its quantity is not kept for every step"
+            rows.append(row(trial, name, why))
+        elif field == "count":
+            rows.append(_count(trial, event, judged[f"{event}.time"]))
+        else:
+            climbed = dict(_climbed(trial, name, runs))
+            held = list(climbed.values())[-1]  # the held ladder is the last
+            rows.append(_time(trial, event, judged[name], held[1]))
+            ladders += [rungs(trial, ladder, name, *found) for ladder, found in climbed.items()]
+    return rows, ladders
+
+
+def _count(trial: Trial, event: str, found: Array) -> Comparison:
+    """Whether the event happens as often as in the reference."""
+    name, wanted = f"{event}.count", len(trial.events[event])
+    off = float(abs(wanted - len(found)))
+    why = f"reference {wanted}, engine {len(found)}"
+    word, because = verdict(trial, name, off, instants({trial.step: off}, 0.0), why)
+    return _measured(trial, name, word, because, largest=off)
+
+
+def _time(trial: Trial, event: str, found: Array, held: Convergence) -> Comparison:
+    """The times in their order, as many as both have; another count is the other row's matter."""
+    name, wanted = f"{event}.time", trial.events[event]
+    both = min(len(wanted), len(found))
+    if not both:
+        return row(trial, name, "refused: engine: it never happens there")
+    error = metric.error(found[:both], wanted[:both])
+    word, because = verdict(trial, name, error.largest, held)
+    return _measured(
+        trial, name, word, because, largest=error.largest, rms=error.rms, final=error.final
+    )
+
+
+def _measured(
+    trial: Trial, name: str, word: str, because: str, *, largest: float, **values: float
+) -> Comparison:
+    allowed = trial.allowed(name)
+    return row(
+        trial,
+        name,
+        word,
+        protocol=trial.protocol,
+        step=trial.step,
+        largest=largest,
+        ratio=None if allowed is None else largest / allowed,
+        because=because,
+        **values,
+    )
+
+
+def _climbed(
+    trial: Trial, name: str, runs: Runs
+) -> Iterator[tuple[Ladder, tuple[Mapping[float, float], Convergence]]]:
+    """Each ladder with the errors by step, inf where the count is another one."""
+    wanted = trial.events[name.rpartition(".")[0]]
+    for ladder, climbed in runs.ladders.items():
+        errors = {
+            h: metric.error(samples[name], wanted).largest
+            if len(samples[name]) == len(wanted)
+            else np.inf
+            for h, samples in sorted(climbed.items())
+        }
+        if errors and len(wanted):
+            yield ladder, (errors, instants(errors, trial.allowed(name) or np.inf))
+
+
+def listed(trial: Trial, samples: Samples) -> list[Instant]:
+    """Every event of the engine at the judged step."""
+    return [
+        Instant(
+            case=trial.case.name,
+            engine=trial.engine.name,
+            version=trial.engine.version,
+            setting=trial.engine.setting,
+            realised=trial.realised,
+            event=event,
+            k=k,
+            time=t,
+            difference=t - wanted[k - 1] if k <= len(wanted) else None,
+        )
+        for event, wanted in ((name, times.tolist()) for name, times in trial.events.items())
+        for k, t in enumerate(samples.get(f"{event}.time", np.zeros(0)).tolist(), start=1)
+    ]
+
+
+def of_reference(case: Case, reference: Trajectory) -> list[Instant]:
+    """Every event of the reference."""
+    if reference.record is None:
+        return []
+    return [
+        Instant(case.name, "reference", "", "", "", name, k, t, None)
+        for name, event in case.events.items()
+        for k, t in enumerate(
+            reference_events(case.scene, reference.record, event).tolist(), start=1
+        )
+    ]

@@ -1,0 +1,98 @@
+"""From a difference and its convergence to a verdict and its cause."""
+
+from ...cases.case import Deviation
+from ...engines.engine import Engine
+from .. import pins
+from ..row import AGREES, BEYOND, CHANGED, DEVIATES, FAILS
+from ..trial.trial import Trial
+from .convergence import ANOTHER, INSTANTS, TEXTBOOK, UNSETTLED, Convergence
+
+STAYS = 0.25  # of a declared deviation: what it may change and be the same one
+CERTAIN = 10  # uncertainties that a declared limit must stand above
+
+
+def verdict(
+    trial: Trial, quantity: str, largest: float, convergence: Convergence, why: str = ""
+) -> tuple[str, str]:
+    """The verdict's word and its reason: `why`, or what the ladder tells."""
+    case, engine = trial.case, trial.engine
+    allowed = trial.allowed(quantity)
+    declared = case.deviates.get(f"{engine.name}.{engine.setting}", {}).get(quantity)
+    if trial.realised != "native":
+        declared = None  # what is declared is the engine's own model; a law or driver is ours
+    if allowed is None:
+        return FAILS, f"its tolerance is unknown; {largest:.3g} was measured: type a number"
+    if declared is not None:
+        return _declared(engine, declared, largest, convergence)
+    if engine.setting == "tuned":
+        broken = _broken(trial, quantity, largest, convergence)
+        return (
+            (FAILS, f"{broken}; {why or cause(convergence, allowed)}") if broken else (AGREES, "")
+        )
+    if not largest <= allowed:
+        return BEYOND, why or cause(convergence, allowed)
+    return AGREES, ""
+
+
+def _broken(trial: Trial, quantity: str, largest: float, convergence: Convergence) -> str:
+    """Which bar of a tuned setting is not kept, or nothing."""
+    engine, native = trial.engine.name, trial.realised == "native"
+    allowed = trial.allowed(quantity)
+    assert allowed is not None
+    key = engine if native else f"{engine}.{trial.realised}"
+    reach = trial.case.reach.get(key, {}).get(quantity)
+    limit = trial.case.reach.get(f"{engine}.limit", {}).get(quantity)
+    if not largest <= allowed:
+        return f"{largest:.3g} is above allow {allowed:.3g}"
+    if reach is not None and not largest <= reach:
+        return f"{largest:.3g} is above reach {reach:.3g}"
+    if limit is not None and native:
+        if convergence.limit is None:
+            return f"no limit for h → 0 to hold against {limit:.3g}"
+        if not convergence.limit <= limit:
+            return f"its limit {convergence.limit:.3g} for h → 0 is above reach {limit:.3g}"
+    return ""
+
+
+def cause(convergence: Convergence, allowed: float) -> str:
+    """Why there is a difference, as far as the held ladder tells."""
+    usable = convergence.usable_step
+    enough = f"within from h = {usable:.3g} s on" if usable else "not within on this ladder"
+    limit = convergence.limit
+    if convergence.verdict == TEXTBOOK:
+        order = "" if convergence.order is None else f" with order {convergence.order:.1f}"
+        return f"the step: it falls{order}, {enough}"
+    if convergence.verdict == ANOTHER and limit is not None:
+        if limit > allowed:
+            return f"the model: {limit:.3g} remains for h → 0"
+        return f"the step: {enough}; the model's own {limit:.3g} would be"
+    if convergence.verdict == INSTANTS:
+        return f"instants of events: {enough}"
+    if convergence.verdict == UNSETTLED:
+        return "the ladder has not settled: neither step nor model can be named"
+    return "rounding"
+
+
+def _declared(
+    engine: Engine, declared: Deviation, largest: float, convergence: Convergence
+) -> tuple[str, str]:
+    if declared.by is not None:
+        low, high = declared.by
+        same, measured = low <= largest <= high, largest
+    else:
+        assert declared.limit is not None
+        limit, uncertainty = convergence.limit, convergence.uncertainty
+        measured = largest if limit is None else limit
+        same = (
+            convergence.verdict == ANOTHER
+            and limit is not None
+            and uncertainty is not None
+            and abs(limit - declared.limit) <= STAYS * declared.limit
+            and limit >= CERTAIN * uncertainty
+        )
+    if same:
+        return DEVIATES, declared.because
+    judged = pins.version(engine.name)
+    if judged not in (None, engine.version):
+        return f"{CHANGED} {judged}", f"declared otherwise, now {measured:.3g}"
+    return FAILS, f"the declared deviation is gone or another: {measured:.3g} ({declared.because})"

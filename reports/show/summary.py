@@ -1,0 +1,78 @@
+"""The short table: one row a case, one column an engine's setting."""
+
+from collections.abc import Iterator, Sequence
+
+from ..row import AGREES, FAILS, Comparison, Rungs
+
+
+def summary(comparisons: Sequence[Comparison], rungs: Sequence[Rungs]) -> list[list[str]]:
+    """Lines of cells, the head first: does it agree, how far off at worst, the usable step.
+
+    The usable step is the largest from which on *all* quantities stay within their tolerance.
+    """
+    columns = sorted({_column(row) for row in comparisons}, key=_by_engine)
+    lines = [["case", *columns]]
+    for case in sorted({row.case for row in comparisons}):
+        line = [case]
+        for column in columns:
+            rows = [r for r in comparisons if (r.case, _column(r)) == (case, column)]
+            ladder = [r for r in rungs if (r.case, _column(r)) == (case, column)]
+            line.append("; ".join(_cell([r for r in rows if r.quantity != "audit"], ladder)))
+        lines.append(line)
+    return lines
+
+
+def _column(row: Comparison | Rungs) -> str:
+    return f"{row.engine}.{row.setting}" + (
+        "" if row.realised == "native" else f" ({row.realised})"
+    )
+
+
+def _by_engine(column: str) -> tuple[str, int, str]:
+    """Engines by name; of each the shipped setting, the user's own, then the tuned one."""
+    engine, _, setting = column.partition(".")
+    place = {"shipped": 0, "own": 1}.get(setting, 2)
+    return engine, place, setting
+
+
+def _cell(rows: Sequence[Comparison], ladder: Sequence[Rungs]) -> Iterator[str]:
+    judged = [row for row in rows if not row.verdict.startswith("refused")]
+    if not rows:
+        return
+    if not judged:
+        yield "refused"
+        return
+    off = [row for row in judged if row.verdict != AGREES]
+    fails = sum(row.verdict == FAILS for row in judged)
+    if fails:
+        yield f"{fails} FAIL"
+    if all(row.ratio is None for row in judged):
+        yield judged[0].verdict
+    elif off:
+        worst = max(off, key=lambda row: row.ratio or 0.0)
+        yield f"{len(off)} of {len(judged)} beyond"
+        yield f"{worst.quantity} ×{worst.ratio or 0.0:.2g}"
+    else:
+        yield "agrees"
+    steps = [row.usable_step for row in ladder]
+    known = [step for step in steps if step is not None]
+    if known and len(known) == len(steps):
+        yield f"h ≤ {min(known):.1g}"
+    if len(judged) < len(rows):
+        yield f"{len(rows) - len(judged)} not read"
+
+
+def markdown(lines: Sequence[Sequence[str]]) -> str:
+    """The table as the README shows it."""
+    head, *body = lines
+    rule = ["---"] * len(head)
+    return "".join(f"| {' | '.join(line)} |\n" for line in (head, rule, *body))
+
+
+def aligned(lines: Sequence[Sequence[str]]) -> str:
+    """The table as the terminal shows it."""
+    widths = [max(len(line[i]) for line in lines) for i in range(len(lines[0]))]
+    return "\n".join(
+        "  ".join(f"{cell:{width}}" for cell, width in zip(line, widths, strict=True)).rstrip()
+        for line in lines
+    )

@@ -1,0 +1,84 @@
+"""What a run shows on the terminal: progress while it works, a table at the end."""
+
+import sys
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from itertools import groupby
+from pathlib import Path
+
+import click
+
+from ..row import AGREES, FAILS, Comparison
+from ..suite import Progress, Report
+from .summary import aligned, summary
+
+
+@contextmanager
+def progress() -> Iterator[Progress]:
+    """A bar for each phase on the error stream; plain lines where that is no terminal."""
+    terminal = sys.stderr.isatty()
+
+    def show(what: str, done: int, total: int) -> None:
+        if terminal:
+            filled = 30 * done // max(total, 1)
+            bar = "#" * filled + "." * (30 - filled)
+            click.echo(f"\r{what:12}[{bar}] {done}/{total}", nl=done == total, err=True)
+        elif done == total:
+            click.echo(f"{what}: {total} done", err=True)
+
+    try:
+        yield show
+    except BaseException:
+        if terminal:
+            click.echo(err=True)  # the message that follows starts on a line of its own
+        raise
+
+
+def show(report: Report, *, detailed: bool, written: Path | None) -> None:
+    """The rows of named cases, the summary, what fails, and where it was written."""
+    if detailed:
+        _rows(report.comparisons)
+    click.echo()
+    click.echo(aligned(summary(report.comparisons, report.rungs)))
+    click.echo()
+    for check in report.certificates:
+        if check.verdict == FAILS:
+            numbers = f"{check.difference:.2e} is above {check.bound:.1e}"
+            click.echo(f"FAILS: {check.case}: the reference's {check.check}: {numbers}")
+    _fails([row for row in report.comparisons if row.verdict == FAILS])
+    counts = Counter(row.verdict.partition(":")[0] for row in report.comparisons)
+    click.echo(", ".join(f"{count} {word}" for word, count in counts.most_common()))
+    if written is not None:
+        click.echo(f"written to {written}")
+
+
+def _fails(rows: Sequence[Comparison]) -> None:
+    """One line for each reason: a broken reference fails many rows for one."""
+    for (case, because), group in groupby(rows, key=lambda row: (row.case, row.because)):
+        first, *others = group
+        more = f" and {len(others)} more" if others else ""
+        what = f"{first.engine}.{first.setting} {first.quantity}"
+        click.echo(f"FAILS: {case}: {what}{more}: {because}")
+
+
+def _rows(comparisons: Sequence[Comparison]) -> None:
+    for _, rows in groupby(comparisons, key=lambda r: (r.case, r.engine, r.setting, r.realised)):
+        first, *others = rows
+        how = "" if first.realised == "native" else f" ({first.realised})"
+        click.echo(f"\n{first.case} in {first.engine} {first.version} {first.setting}{how}")
+        if first.protocol:
+            click.echo(f"  {first.protocol}")
+        for row in (first, *others):
+            click.echo("  " + line(row))
+
+
+def line(row: Comparison) -> str:
+    """A row in one line: how far off, at which step, what is allowed, and the verdict."""
+    reason = f" ({row.because})" if row.because and row.verdict != AGREES else ""
+    if row.largest is None:
+        return f"{row.quantity:20} {row.verdict}{reason}"
+    step = "" if row.step is None else f"at h = {row.step:g} s"
+    allowed = "" if row.allowed is None else f"allowed {row.allowed:.1e}"
+    number = f"{row.largest:9.2e} {row.unit:6} {step:18}"
+    return f"{row.quantity:20} {number} {allowed:16} {row.verdict}{reason}"

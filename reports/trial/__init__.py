@@ -1,0 +1,1 @@
+"""One engine against one reference: its steps, its runs, its audit."""

@@ -1,0 +1,63 @@
+"""Which steps an engine is run with: the judged one, and the rungs of its ladders."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from ...cases.case import Case
+from ...cases.scene import Scene
+from ...engines.engine import Engine
+
+COARSEST = 8e-3  # s: larger steps are of no use to anyone who controls a body
+RUNGS_DOWN = 5  # from an engine's own step: enough for Romberg and three orders
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """`following`: tied numbers follow each step. `held`: they stay at the largest rung's."""
+
+    name: str
+    steps: tuple[float, ...]  # smallest first, doubling
+
+    def tied_to(self, step: float) -> float:
+        return step if self.name == "following" else self.steps[-1]
+
+
+def judged_step(case: Case, engine: Engine) -> float:
+    """The case's step, or the engine's own, shortened where it does not divide the interval."""
+    if engine.own_step is None:
+        return case.step[engine.name]
+    return case.interval / _whole(case.interval / engine.own_step)
+
+
+def _whole(ratio: float) -> int:
+    """Rounded up, but not for a ratio that is whole up to rounding."""
+    return max(1, -int(-(ratio - 1e-9) // 1))
+
+
+def ladders(case: Case, engine: Engine) -> Iterator[Ladder]:
+    """The engine's ladders for the case, the judged step's first."""
+    h = judged_step(case, engine)
+    if engine.own_step is not None:
+        yield Ladder("held", tuple(h / 2**k for k in reversed(range(RUNGS_DOWN))))
+        return
+    steps = tuple(_upward(h, case.interval))
+    if engine.tied(case.scene):
+        yield Ladder("following", steps)
+    yield Ladder("held", steps)
+
+
+def _upward(h: float, interval: float) -> Iterator[float]:
+    per_sample = round(interval / h)
+    yield h
+    while per_sample % 2 == 0 and 2 * h <= COARSEST:
+        h, per_sample = 2 * h, per_sample // 2
+        yield h
+
+
+def wanted_reactions(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
+    """Which of the quantities are reactions, that only the producer can give."""
+    parts = {*scene.joints, *scene.contacts}
+    fields = ("fx", "fy", "force", "torque", "friction", "normal", "tangent")
+    return tuple(
+        name for name in names if name.split(".")[0] in parts and name.split(".")[-1] in fields
+    )

@@ -1,0 +1,76 @@
+"""All runs of a trial: each rung of each ladder once."""
+
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...cases.observe import observe
+from ...cases.trajectory import Array, Trajectory
+from ...engines.engine import Diverged
+from ..events.times import engine_events
+from .ladder import Ladder, ladders, wanted_reactions
+from .trial import Trial
+
+RUNAWAY = 1e6  # × the motion's size: finite, but no motion any more
+
+Samples = Mapping[str, Array]
+
+
+@dataclass(frozen=True)
+class Runs:
+    """Samples by ladder and step, and `event.time`s; `lost` says why the judged step has none."""
+
+    judged: Samples | None
+    ladders: Mapping[Ladder, Mapping[float, Samples]]
+    lost: str = ""
+
+
+def simulate(trial: Trial, names: tuple[str, ...]) -> Runs:
+    """Runs the engine from the reference's first row. Rungs that diverge are left out."""
+    climbed: dict[Ladder, dict[float, Samples]] = {}
+    lost = ""
+    for ladder in ladders(trial.case, trial.engine):
+        climbed[ladder] = {}
+        for h in reversed(ladder.steps):
+            try:
+                climbed[ladder][h] = _run(trial, names, h, ladder.tied_to(h))
+            except Diverged as gone:
+                climbed[ladder].clear()  # what is coarser than a rung that diverged is no ladder
+                if h == trial.step:
+                    lost = str(gone)
+    judged = next(iter(climbed.values())).get(trial.step)
+    return Runs(judged, climbed, lost)
+
+
+def _run(trial: Trial, names: tuple[str, ...], step: float, tied_to: float) -> Samples:
+    scene, events = trial.case.scene, trial.case.events
+    wanted = dict.fromkeys((*names, *(event.quantity for event in events.values())))
+    trajectory = trial.engine.run(
+        scene,
+        trial.start,
+        trial.case.times,
+        step,
+        tied_to=tied_to,
+        realised=trial.realised,
+        reactions=wanted_reactions(scene, wanted),
+        record=bool(events),
+    )
+    samples = {name: observe(scene, trajectory, name) for name in names}
+    for name, values in samples.items():
+        size = max(1.0, float(np.max(np.abs(trial.wanted(name)))))
+        if not np.all(np.abs(values) < RUNAWAY * size):
+            raise Diverged(f"{name} reaches {np.max(np.abs(values)):.1g}")
+    return {**samples, **_events(trial, trajectory)}
+
+
+def _events(trial: Trial, trajectory: Trajectory) -> Samples:
+    """Times (K,) of every event that can be read from the engine's record, as `event.time`."""
+    found = {}
+    for name, event in trial.case.events.items():
+        if trajectory.record is not None:
+            with suppress(KeyError):  # a reaction that is not recorded at every step
+                times = engine_events(trial.case.scene, trajectory.record, event)
+                found[f"{name}.time"] = times
+    return found

@@ -1,0 +1,101 @@
+"""A trial: one engine, in one realisation, against the reference motion of one case."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...cases.case import Case
+from ...cases.observe import observe
+from ...cases.quantity import Quantity, event_quantities, table
+from ...cases.scene import Scene
+from ...cases.trajectory import VX, VY, Array, Trajectory, X, Y
+from ...engines.engine import Engine, Realised, State
+from ..events.times import reference_events
+from .ladder import judged_step
+
+SAME_COUNT = 0.5  # what counts may differ by where the case does not say: they are whole numbers
+
+
+def realisations(engine: Engine, scene: Scene) -> tuple[Realised, ...]:
+    """The ways in which a scene is tried: beside a law or driver always a native row or refusal."""
+    found = engine.realisations(scene)
+    return found if "native" in found else ("native", *found)
+
+
+def judged_names(case: Case) -> tuple[str, ...]:
+    """What is judged: what the case allows, and that every event happens as often."""
+    counts = (f"{event}.count" for event in case.events)
+    return (*case.allow, *(name for name in counts if name not in case.allow))
+
+
+@dataclass(frozen=True)
+class Trial:
+    """What is compared; the names are those of the engine and of the case."""
+
+    case: Case
+    reference: Trajectory
+    engine: Engine
+    realised: Realised
+
+    def wanted(self, quantity: str) -> Array:
+        """The reference's samples (N,)."""
+        return observe(self.case.scene, self.reference, quantity)
+
+    @cached_property
+    def events(self) -> dict[str, Array]:
+        """The reference's times (K,) of every event of the case."""
+        record = self.reference.record
+        if record is None:
+            return {name: np.zeros(0) for name in self.case.events}
+        return {
+            name: reference_events(self.case.scene, record, event)
+            for name, event in self.case.events.items()
+        }
+
+    def away(self, distance: float) -> NDArray[np.bool_]:
+        """Which samples (N,) are at least `distance` [s] from where the reference switches."""
+        times, record = self.case.times, self.reference.record
+        if not self.case.events or record is None or record.phase is None:
+            return np.ones(len(times), dtype=bool)
+        switches = record.times[:-1][np.diff(record.phase) != 0]
+        gaps = np.abs(times[:, None] - switches[None, :])
+        return np.min(gaps, axis=1, initial=np.inf) >= distance
+
+    def allowed(self, name: str) -> float | None:
+        """What still counts as textbook mechanics; None: not known yet."""
+        return self.case.allow.get(name, SAME_COUNT)
+
+    def quantity(self, name: str) -> Quantity:
+        """The quantity's unit and kind; the audit has none."""
+        known = table(self.case.scene) | event_quantities(self.case.events)
+        return known.get(name) or Quantity(name, "", "", "", "residual")
+
+    def size(self, name: str) -> float:
+        """How large the quantity is; a residual, meant to be zero, has the size of its motion."""
+        size = float(np.max(np.abs(self.wanted(name))))
+        if self.quantity(name).kind == "residual":
+            columns = [X, Y] if self.quantity(name).unit == "m" else [VX, VY]
+            states = np.concatenate(list(self.reference.states.values()))
+            size = max(size, float(np.max(np.abs(states[:, columns]))))
+        return size
+
+    @cached_property
+    def step(self) -> float:
+        """The step at which the trial is judged."""
+        return judged_step(self.case, self.engine)
+
+    @cached_property
+    def protocol(self) -> str:
+        """What was done to start and readout, and a shortened step where there is one."""
+        base = self.engine.protocol(self.case.scene, self.start, self.step, self.realised)
+        own = self.engine.own_step
+        short = own is not None and abs(self.step - own) > 1e-9 * own
+        note = f"own step {own:g} s shortened to divide the interval" if short else ""
+        return "; ".join(part for part in (base, note) if part)
+
+    @property
+    def start(self) -> State:
+        """Row 0 of the reference: where every engine starts."""
+        return {name: tuple(rows[0].tolist()) for name, rows in self.reference.states.items()}  # type: ignore[misc]
