@@ -1,11 +1,13 @@
-"""What every textbook system answers: its explicit accelerations and its ingredients.
+"""What is followed: a system of modes, and the guards that lead from one to the next.
 
-The explicit accelerations are derived by hand; the ingredients (T, U, D, Q₄, constraints, free
-bodies) let the chapter's formalisms derive them again, without sharing a line of algebra.
-All ingredients must accept complex arguments: derivatives are taken by the complex step.
+A mode answers with its explicit accelerations, derived by hand, and with its ingredients (T, U, D,
+Q₄, constraints, free bodies), from which the chapter's formalisms derive them again without sharing
+a line of algebra. Ingredients must accept complex arguments: derivatives are taken by the complex
+step. A system is one mode, or several with the same coordinates: a disk that slides obeys other
+equations than one that rolls.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,6 +17,8 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Vector = NDArray[Any]  # real, or complex while a derivative is taken
 Pose = tuple[Any, Any, Any, Any, Any, Any]  # x, y, angle, vx, vy, omega of a centre of mass
+
+MOVING = "moving"  # the mode of a system that has only one
 
 
 @dataclass(frozen=True)
@@ -51,14 +55,15 @@ class Cut:
     moment: bool = False
 
 
-class System:
-    """Defaults for a system with n coordinates q, rates v = q̇ and r constraints."""
+class Mode:
+    """Defaults for a mechanism with n coordinates q, rates v = q̇ and r constraints."""
 
     coordinates: tuple[str, ...]
     masses: Mapping[str, Mass]
+    stiff: bool = False  # whether an explicit integrator would creep
 
     def start(self) -> tuple[Array, Array]:
-        """q (n,) and v (n,) at t = 0."""
+        """q (n,) and v (n,) at t = 0, of a mode that is a whole system (`Only`)."""
         raise NotImplementedError
 
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
@@ -74,7 +79,7 @@ class System:
         return {}
 
     def closed_form(self, t: float) -> tuple[Array, Array] | None:
-        """q and v at time t by known functions, where there are any."""
+        """q and v at time t by known functions, of a mode that is a whole system."""
         return None
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
@@ -112,3 +117,61 @@ class System:
     def cuts(self, t: float, q: Array) -> list[Cut]:
         """Where the bodies are cut free, for (2.23) and (2.27)."""
         raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class Guard:
+    """Where g(t, q, v) falls through zero the mode ends, and `then` gives the next and its state.
+
+    event is the name of what happens there, or None for a change that nobody observes. A guard at
+    zero when its mode begins has to rise first; if it falls at once, the mode ends at once.
+    """
+
+    event: str | None
+    g: Callable[[float, Array, Array], float]
+    then: Callable[[float, Array, Array], tuple[str, Array, Array]]
+
+
+class System:
+    """Defaults for a system of several modes, all with the same coordinates and bodies."""
+
+    modes: Mapping[str, Mode]
+    longest: float | None = None  # no step [s] is longer: a guard may know more of time than q does
+
+    def start(self) -> tuple[str, Array, Array]:
+        """The mode at t = 0, q (n,) and v (n,)."""
+        raise NotImplementedError
+
+    def guards(self, mode: str) -> Sequence[Guard]:
+        """What ends the mode; of guards that fall together, the first."""
+        return ()
+
+    def closed_form(self, t: float) -> tuple[Array, Array] | None:
+        """q and v at time t by known functions, where there are any."""
+        return None
+
+    def closed_events(self, until: float) -> list[tuple[str, float]] | None:
+        """Names and times [s] of the events up to `until` by known functions, None if unknown."""
+        return None
+
+    def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
+        """Why the mode cannot be at this state: friction, contact, tipping. None if it can."""
+        return None
+
+
+@dataclass(frozen=True)
+class Only(System):
+    """A smooth system: one mode, which states its own start, and nothing that ends it."""
+
+    mode: Mode
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "modes", {MOVING: self.mode})
+
+    def start(self) -> tuple[str, Array, Array]:
+        """As the mode states it."""
+        return MOVING, *self.mode.start()
+
+    def closed_form(self, t: float) -> tuple[Array, Array] | None:
+        """As the mode knows it."""
+        return self.mode.closed_form(t)

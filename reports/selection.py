@@ -13,12 +13,11 @@ from ..cases.load import load
 from ..cases.mistake import CaseError, Mistake
 from ..cases.quantity import nearest
 from ..engines.engine import Engine
-from ..reference.systems import SWITCHING, SYSTEMS
+from ..reference.systems import SYSTEMS
 
 BOOK = "book"
 HANDWRITTEN = {
-    name: tuple(f.name for f in fields(cast(Any, system)))
-    for name, system in (SYSTEMS | SWITCHING).items()
+    name: tuple(f.name for f in fields(cast(Any, system))) for name, system in SYSTEMS.items()
 }
 
 

@@ -7,7 +7,6 @@ from typing import Any
 from ..cases.case import Case
 from ..cases.mistake import CaseError
 from ..engines.engine import Engine
-from ..reference.certificate.coverage import executed
 from ..reference.solve import Solution, solve
 from . import pool
 from .events.times import never
@@ -19,8 +18,6 @@ from .trial.trial import Trial, realisations
 
 Progress = Callable[[str, int, int], None]
 """What is being done, how much is done, out of how much."""
-
-COVERED = 3  # samples: enough to run every function of a case once
 
 
 @dataclass
@@ -88,10 +85,10 @@ def _solutions(
         elif isinstance(answer, pool.Died):
             raise RuntimeError(f"{case.name}: {answer.because}")
         else:
-            solution, report.equations[case.name] = answer
-            solutions[case.name] = solution
-            report.certificates += _certificates(case, solution)
-            report.instants += of_reference(case, solution.trajectory)
+            solutions[case.name] = answer
+            report.equations[case.name] = set(answer.equations)
+            report.certificates += _certificates(case, answer)
+            report.instants += of_reference(case, answer.trajectory)
     if mistakes:
         raise CaseError(mistakes)
     return solutions
@@ -106,7 +103,7 @@ def _watched(
         yield result
 
 
-def _solved(case: Case) -> tuple[Solution, set[str]] | CaseError:
+def _solved(case: Case) -> Solution | CaseError:
     try:
         solution = solve(case)
     except CaseError as error:
@@ -114,15 +111,7 @@ def _solved(case: Case) -> tuple[Solution, set[str]] | CaseError:
     mistakes = never(case, solution.trajectory)
     if mistakes:
         return CaseError(mistakes)
-    return solution, executed(lambda: solve(_short(case)))
-
-
-def _short(case: Case) -> Case:
-    """Enough of the case to run all that it runs: an event may come at any time."""
-    if case.events:
-        return case
-    # What moves later may rest at first.
-    return replace(case, samples=COVERED, duration=(COVERED - 1) * case.interval, rests=True)
+    return solution
 
 
 def _certificates(case: Case, solution: Solution) -> list[Certificate]:

@@ -1,14 +1,14 @@
 """The book's approximations of Examples 2.3 and 2.4 as motions, like those of an engine."""
 
+from collections.abc import Callable
 from dataclasses import asdict, replace
 
 import numpy as np
 
 from ...cases.trajectory import VX, Trajectory, X
-from ..mode import Switching
+from ..motion.bodies import Motion
 from ..motion.follow import follow
-from ..motion.record import Motion
-from ..system import Array
+from ..system import Array, Mode, Only, System
 from ..systems.dynamometer import Dynamometer
 from ..systems.growing_force import GrowingForce
 from ..systems.smooth_friction import SmoothDynamometer, SmoothGrowingForce
@@ -19,7 +19,10 @@ DELTA = 5e-4  # m/s, the book's band in both examples
 A = 1e5  # s/m, and its sharpness
 
 Example = GrowingForce | Dynamometer
-_SMOOTH: dict[type, type] = {GrowingForce: SmoothGrowingForce, Dynamometer: SmoothDynamometer}
+_SMOOTH: dict[type, Callable[..., Mode]] = {
+    GrowingForce: SmoothGrowingForce,
+    Dynamometer: SmoothDynamometer,
+}
 
 
 def approximated(kind: str, system: Example, times: Array, step: float) -> Trajectory:
@@ -30,11 +33,11 @@ def approximated(kind: str, system: Example, times: Array, step: float) -> Traje
     if kind == "boxcar":
         return _stepped(system, times, step)
     if kind == "karnopp":
-        other: Switching = Karnopp(system.m, system.pull, system.dry, DELTA, literal=True)
+        other: System = Karnopp(system.m, system.pull, system.dry, DELTA, literal=True)
     else:
-        other = _SMOOTH[type(system)](**asdict(system), Delta=DELTA, A=A)
-    motion = Motion(other, follow(other, times))
-    return replace(motion.trajectory(times), record=motion.record(times))
+        other = Only(_SMOOTH[type(system)](**asdict(system), Delta=DELTA, A=A))
+    motion = Motion(other, follow(other, times, every=True))
+    return replace(motion.trajectory(times), record=motion.record(forces=False))
 
 
 def _stepped(system: Example, times: Array, step: float) -> Trajectory:

@@ -9,14 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..laws.friction import Dry, boxcar
-from ..mode import Guard, Switching
-from ..system import Array
+from ..system import Array, Guard, System
 from ..systems.stick_slip import Pull, guards, modes
 from .stepping import stepped
 
 
 @dataclass(frozen=True)
-class Karnopp(Switching):
+class Karnopp(System):
     """A block m [kg] at rest at x = 0, with the band |v| ≤ Δ [m/s] in place of v = 0.
 
     Taken literally it keeps in the band the v with which it sticks; by Karnopp's own rule v := 0.

@@ -1,11 +1,25 @@
 """How far two motions of the same bodies are apart, relative to their size."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from ...cases.trajectory import Trajectory
 from ..system import Array
+
+
+@dataclass(frozen=True)
+class Check:
+    """One comparison: `difference` relative to the size, and the bound it must keep."""
+
+    name: str
+    difference: float
+    bound: float
+
+    @property
+    def holds(self) -> bool:
+        return bool(self.difference <= self.bound)  # false for NaN
 
 
 def worst(values: Iterable[float]) -> float:
@@ -24,8 +38,7 @@ def difference(one: Trajectory, other: Trajectory) -> float:
     A mechanism at rest moves by rounding only, so sizes are not taken below what would carry it
     through its own size, or 1 rad, in the duration.
     """
-    a = np.concatenate(list(one.states.values()))
-    b = np.concatenate(list(other.states.values()))
+    a, b = (np.concatenate([motion.states[name] for name in one.states]) for motion in (one, other))
     duration = float(one.times[-1] - one.times[0])
     size = worst(np.abs(a[:, [0, 1]]).ravel())
     groups = {(0, 1): 0.0, (2,): 1.0, (3, 4): size / duration, (5,): 1.0 / duration}
@@ -39,3 +52,10 @@ def reactions(one: Trajectory, other: Trajectory) -> float:
         return 0.0
     a, b = (np.array([t.reactions[name] for name in shared]) for t in (one, other))
     return relative(a, b)
+
+
+def times_apart(one: Sequence[float], other: Sequence[float]) -> float:
+    """The largest difference [s] of times in their order; infinite if their counts differ."""
+    if len(one) != len(other):
+        return float("inf")
+    return worst(abs(a - b) for a, b in zip(one, other, strict=True))

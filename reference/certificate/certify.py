@@ -1,11 +1,10 @@
 """What the reference says of its own error: every answer that shares no algebra, compared.
 
-Bounds are relative to the size of what is compared. They are 1e-12, or the rounding floor
-2.2e-16 × steps where that is larger: a motion of many steps cannot be known better.
+Bounds are relative to the size of what is compared.
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import replace
 
 import numpy as np
 
@@ -13,140 +12,142 @@ from ...cases.case import Case
 from ...cases.observe import observe
 from ...cases.quantity import table
 from ...cases.trajectory import Trajectory
-from ..formalisms import energy, lagrange, newton_euler
-from ..generated.mechanism import Mechanism
-from ..integrators.explicit import dormand_prince
-from ..integrators.implicit import radau
-from ..integrators.march import Integration
-from ..motion.smooth import TOLERANCE, instants, integrate, motion
-from ..system import Array, System
-from .agreement import difference, reactions, relative, worst
+from ..coverage import look
+from ..generated.choosing import SwitchingMechanism
+from ..integrators.implicit import Radau
+from ..integrators.march import Method, Slope
+from ..integrators.radau import radau_table
+from ..motion.bodies import Motion
+from ..motion.follow import TOLERANCE, Followed, either, follow
+from ..system import Array, Mode, System
+from .agreement import Check, difference, reactions, relative, times_apart, worst
+from .laws import laws
 
 OWN_ERROR = 1e-12  # of the motion's size: what is asked of a reference
-LAW = 1e-12  # of the largest term: the laws are algebra, only rounding may differ
+ROUNDING = 2.2e-16  # a step: a motion of many steps cannot be known better
+SWITCHED = 1e-11  # of the motion's size: an event is known to 1e-12 s, and what follows with it
+STIFF = 1e-9  # of the motion's size: what two tolerances of a stiff integrator agree to
 GENERATED = 1e-9  # hand-written against generated motion
-ROUNDING = 2.2e-16
+OWN_EVENTS = 1e-12  # s, against known functions
+OTHER_EVENTS = 1e-10  # s, against another motion
+COARSER = 1e-13  # tolerance of the second answer where there is only one stiff integrator
 STAGES = 7  # Radau IIA of order 13: five stages need twice the time at this tolerance
 QUARTERS = 4  # steps a sample at least: longer ones, of order 13, lose up to two digits here
 SHARE = 0.01  # of the smallest tolerance: what the reference's own error may take
 
 
-@dataclass(frozen=True)
-class Check:
-    """One comparison: `difference` relative to the size, and the bound it must keep."""
-
-    name: str
-    difference: float
-    bound: float
-
-    @property
-    def holds(self) -> bool:
-        return bool(self.difference <= self.bound)  # false for NaN
-
-
 def certify(
-    case: Case,
-    system: System,
-    generated: Mechanism,
-    integration: Integration,
-    trajectory: Trajectory,
+    case: Case, written: Motion, built: Motion, generated: SwitchingMechanism, motion: Trajectory
 ) -> tuple[Check, ...]:
-    """All checks that apply to the case."""
-    y, times = integration.y, case.times
-    floor = ROUNDING * integration.steps
-    own = max(OWN_ERROR, floor)
-    implicit = motion(system, times, _implicit(system, times), generated)
-    others = {"implicit integrator": implicit}
-    checks = [Check("implicit integrator", difference(trajectory, implicit), own)]
+    """All checks that apply to the case.
+
+    written: the answer, and `motion` its bodies; built: the generated mechanism's. They are one
+    where there is no hand-written system.
+    """
+    look()
+    times, system, followed = case.times, written.system, written.followed
+    own, (name, other) = _own(system, followed), _second(system, times)
+    others = {name: Motion(system, other, written.beside).trajectory(times)}
+    checks = [Check(name, difference(motion, others[name]), own)]
+    if followed.changes or other.changes:
+        checks.append(Check(f"{name}: events", _apart(followed, other), OTHER_EVENTS))
     if system is not generated:
-        checks.append(Check("start as assembled", _start(system, generated), OWN_ERROR))
-        other = integrate(generated, times, dormand_prince, tolerance=TOLERANCE)
-        others["generated"] = motion(generated, times, other.y, generated)
-        checks.append(
-            Check("generated motion", difference(trajectory, others["generated"]), GENERATED)
-        )
-        checks.append(
-            Check("generated reactions", reactions(trajectory, others["generated"]), GENERATED)
-        )
-    closed = closed_form(system, times)
-    if closed is not None:
-        others["closed form"] = motion(system, times, closed, generated)
-        checks.append(Check("closed form", difference(trajectory, others["closed form"]), own))
-    checks += laws(system, generated, times, y, written=system is not generated)
-    checks.append(Check("constraint drift", _drift(system, times, y), own))
-    checks.append(Check("share of the tolerances", share(case, trajectory, others), SHARE))
-    return tuple(checks)
+        others["generated"] = built.trajectory(times)
+        checks += [
+            Check("start as assembled", _start(system, generated), OWN_ERROR),
+            Check("generated motion", difference(motion, others["generated"]), GENERATED),
+            Check("generated reactions", reactions(motion, others["generated"]), GENERATED),
+        ]
+        if followed.changes or built.followed.changes:
+            checks.append(Check("generated events", _apart(followed, built.followed), OTHER_EVENTS))
+    if (closed := _closed_form(system, times)) is not None:
+        others["closed form"] = written.trajectory(times, closed)
+        checks.append(Check("closed form", difference(motion, others["closed form"]), own))
+    events = system.closed_events(float(times[-1]))
+    if events is not None and (events or followed.events):
+        checks.append(Check("closed events", _known(followed, events), OWN_EVENTS))
+    checks += laws(written, generated, times)
+    checks += _drift(system, times, followed, own)
+    if len(system.modes) > 1 or any(system.guards(mode) for mode in followed.phases):
+        checks.append(Check("modes possible", _impossible(system, times, followed), 0.0))
+    return (*checks, Check("share of the tolerances", share(case, motion, others), SHARE))
 
 
-def _implicit(system: System, times: Array) -> Array:
-    """y (N, 2n) by the implicit integrator."""
+def _own(system: System, followed: Followed) -> float:
+    """What two integrators of the same equations may differ by."""
+    if any(system.modes[mode].stiff for mode in followed.phases):
+        return STIFF
+    return SWITCHED if followed.changes else max(OWN_ERROR, ROUNDING * followed.steps)
+
+
+def _second(system: System, times: Array) -> tuple[str, Followed]:
+    """The motion by another integrator, or where it is stiff, by another tolerance."""
     finer = np.linspace(times[0], times[-1], (len(times) - 1) * QUARTERS + 1)
-    return integrate(system, finer, radau, tolerance=TOLERANCE, stages=STAGES).y[::QUARTERS]
+    found = follow(system, finer, by=_other)
+    other = replace(found, y=found.y[::QUARTERS], phase=found.phase[::QUARTERS])
+    stiff = any(system.modes[mode].stiff for mode in other.phases)
+    return "another tolerance" if stiff else "implicit integrator", other
 
 
-def _start(system: System, generated: Mechanism) -> float:
+def _other(mode: Mode, f: Slope, n: int) -> Method:
+    if mode.stiff:
+        return either(mode, f, n, tolerance=COARSER)
+    return Radau(f, TOLERANCE, radau_table(STAGES))
+
+
+def _apart(one: Followed, other: Followed) -> float:
+    """The largest difference [s] of the times at which modes change; infinite if counts differ."""
+    return times_apart([c.time for c in one.changes], [c.time for c in other.changes])
+
+
+def _known(followed: Followed, events: list[tuple[str, float]]) -> float:
+    """The largest distance [s] from the events by known functions, by name and order."""
+    names = {name for name, _ in events} | {event.name for event in followed.changes if event.name}
+    return worst(
+        times_apart(
+            [event.time for event in followed.events if event.name == name],
+            [t for known, t in events if known == name],
+        )
+        for name in names
+    )
+
+
+def _start(system: System, generated: SwitchingMechanism) -> float:
     """A hand-written system states its own start: it must be the case's."""
-    q, v = generated.place(system.poses(0.0, *system.start()))
-    q0, v0 = generated.start()
+    mode, *state = system.start()
+    q, v = generated.base.place(system.modes[mode].poses(0.0, *state))
+    _, q0, v0 = generated.start()
     return worst([relative(q0, q), relative(v0, v)])
 
 
-def closed_form(system: System, times: Array) -> Array | None:
+def _closed_form(system: System, times: Array) -> Array | None:
     """y (N, 2n) by known functions, or None."""
+    look()
     rows = [system.closed_form(t) for t in times.tolist()]
     if any(row is None for row in rows):
         return None
     return np.array([np.concatenate(row) for row in rows if row is not None])
 
 
-def laws(
-    system: System, generated: Mechanism, times: Array, y: Array, *, written: bool
-) -> Iterator[Check]:
-    """The explicit accelerations against each formalism along the motion.
-
-    Differences are relative to the largest term: of the accelerations and powers themselves, or of
-    those that each force alone would give, since at rest the forces cancel but for rounding.
-    """
-    bound = len(system.f_a(0.0, y[0, : y.shape[1] // 2])) > 0
-    sizes, powers, derived, balances, unbalanced, forces = [], [], [], [], [], []
-    for t, q, v in instants(times, y):
-        a = system.accelerations(t, q, v)
-        alone = generated.terms(t, *generated.place(system.poses(t, q, v)))
-        sizes += [worst(np.abs(a)), alone[0]]
-        powers += [float(np.sum(np.abs(lagrange.momentum(system, t, q, v) * a))), alone[1]]
-        if bound:
-            derived.append(worst(np.abs(lagrange.multipliers(system, t, q, v)[0] - a)))
-        else:
-            derived.append(worst(np.abs(lagrange.accelerations(system, t, q, v) - a)))
-        balances.append(abs(energy.power_balance(system, t, q, v)))
-        if written:
-            residual, cut_free = newton_euler.balance(system, t, q, v, a)
-            unbalanced.append(residual)
-            forces.append(_other_forces(cut_free, system.reactions(t, q, v)))
-    size, power = worst(sizes) or 1.0, worst(powers) or 1.0
-    by = "Lagrange with multipliers (2.60)" if bound else "Lagrange (2.44)"
-    yield Check(f"accelerations by {by}", worst(derived) / size, LAW)
-    yield Check("power balance (2.51)", worst(balances) / power, LAW)
-    if written:
-        yield Check("Newton-Euler balance (2.23), (2.27)", worst(unbalanced), LAW)
-        yield Check("reactions by Newton-Euler", worst(forces), LAW)
+def _drift(system: System, times: Array, followed: Followed, bound: float) -> Iterator[Check]:
+    """Residual of (2.14) along the motion, where there is one, relative to the coordinates."""
+    look()
+    samples = list(zip(times.tolist(), followed.modes, followed.y, strict=True))
+    found = [system.modes[mode].f(t, np.split(y, 2)[0]) for t, mode, y in samples]
+    if any(len(residual) for residual in found):
+        size = worst(np.abs(followed.y[:, : followed.y.shape[1] // 2]).ravel()) or 1.0
+        largest = worst(worst(np.abs(residual)) for residual in found)
+        yield Check("constraint drift", largest / size, bound)
 
 
-def _other_forces(cut_free: Mapping[str, float], written: Mapping[str, float]) -> float:
-    """Relative to the largest; friction that slides is an applied force, and no cut finds it."""
-    size = worst(abs(force) for force in cut_free.values())
-    shared = [name for name in written if name in cut_free]
-    return worst(abs(cut_free[name] - written[name]) for name in shared) / (size or 1.0)
+def _impossible(system: System, times: Array, followed: Followed) -> int:
+    """At how many samples the mode contradicts friction, contact or the direction of sliding."""
+    look()
+    rows = zip(times.tolist(), followed.modes, followed.y, strict=True)
+    return sum(system.possible(mode, t, *np.split(y, 2)) is not None for t, mode, y in rows)
 
 
-def _drift(system: System, times: Array, y: Array) -> float:
-    """Residual of (2.14) along the motion, relative to the size of the coordinates."""
-    largest = worst(worst(np.abs(system.f(t, q))) for t, q, _ in instants(times, y))
-    n = y.shape[1] // 2
-    return largest / (worst(np.abs(y[:, :n]).ravel()) or 1.0)
-
-
-def share(case: Case, trajectory: Trajectory, others: dict[str, Trajectory]) -> float:
+def share(case: Case, motion: Trajectory, others: Mapping[str, Trajectory]) -> float:
     """The reference's own error against the smallest allow or reach of any quantity."""
     shares = []
     known = table(case.scene)
@@ -155,7 +156,7 @@ def share(case: Case, trajectory: Trajectory, others: dict[str, Trajectory]) -> 
             continue  # an event's: its times have a check of their own
         bars = [bars[name] for bars in case.reach.values() if name in bars]
         bars += [] if allowed is None else [allowed]
-        own = observe(case.scene, trajectory, name)
+        own = observe(case.scene, motion, name)
         error = worst(
             worst(np.abs(own - observe(case.scene, other, name))) for other in others.values()
         )

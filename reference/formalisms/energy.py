@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from ..system import Array, System
+from ..system import Array, Mode
 from .derivative import along
 from .lagrange import derivative, gradient, momentum, multipliers
 
 
-def power_balance(system: System, t: float, q: Array, v: Array) -> float:
+def power_balance(system: Mode, t: float, q: Array, v: Array) -> float:
     """(2.51) d/dt (q̇ᵃ ∂T/∂q̇ᵃ − T + U) − (Q_a q̇ᵃ + λ_b gᵇ + ∂(U − T)/∂t) [W]: must be 0.
 
     The bracket is T + U where T is quadratic in q̇; Q are the forces of classes 2 and 4, and the

@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 
-from ..system import Array, System
+from ..system import Array, Mode
 from .derivative import along
 
 
-def multipliers(system: System, t: float, q: Array, v: Array) -> tuple[Array, Array]:
+def multipliers(system: Mode, t: float, q: Array, v: Array) -> tuple[Array, Array]:
     """(2.60) d/dt ∂T/∂q̇ᵃ − ∂T/∂qᵃ = Q_a + λ_b f_aᵇ with f_a q̇ᵃ = g: q̈ (n,), λ (r,).
 
     The constraint is differentiated once: f_a q̈ᵃ = ġ − ḟ_a q̇ᵃ. Without constraints it is (2.44).
@@ -22,7 +22,7 @@ def multipliers(system: System, t: float, q: Array, v: Array) -> tuple[Array, Ar
     return solution[:n], solution[n:]
 
 
-def accelerations(system: System, t: float, q: Array, v: Array) -> Array:
+def accelerations(system: Mode, t: float, q: Array, v: Array) -> Array:
     """(2.44) d/dt ∂T/∂q̇ᵃ − ∂T/∂qᵃ = Q_a: q̈ (n,). Raises ValueError if there are constraints."""
     if len(system.f_a(t, q)):
         raise ValueError("the coordinates are constrained: use multipliers (2.60)")
@@ -30,18 +30,18 @@ def accelerations(system: System, t: float, q: Array, v: Array) -> Array:
     return q_ddot
 
 
-def momentum(system: System, t: Any, q: Any, v: Any) -> Any:
+def momentum(system: Mode, t: Any, q: Any, v: Any) -> Any:
     """p_a = ∂T/∂q̇ᵃ (n,): the central difference is exact, because T is quadratic in q̇."""
     return np.array([(system.T(t, q, v + e) - system.T(t, q, v - e)) / 2 for e in np.eye(len(v))])
 
 
-def mass_matrix(system: System, t: float, q: Array) -> Array:
+def mass_matrix(system: Mode, t: float, q: Array) -> Array:
     """M_ab (n, n) of T = ½ M_ab q̇ᵃ q̇ᵇ + …, by polarisation: column b is p(e_b) − p(0)."""
     still = momentum(system, t, q, np.zeros(len(q)))
     return np.stack([momentum(system, t, q, e) - still for e in np.eye(len(q))], axis=1)
 
 
-def forces(system: System, t: float, q: Array, v: Array) -> Array:
+def forces(system: Mode, t: float, q: Array, v: Array) -> Array:
     """Q_a + ∂T/∂qᵃ − (d/dt ∂T/∂q̇ᵃ at q̈ = 0), (n,), Q_a from (2.45), (2.46) and (2.50)."""
     drift = derivative(lambda t, q: momentum(system, t, q, v), (t, q), (1.0, v))
     conservative = gradient(lambda q: system.T(t, q, v) - system.U(t, q), q)
@@ -49,7 +49,7 @@ def forces(system: System, t: float, q: Array, v: Array) -> Array:
     return conservative - dissipative + np.asarray(system.Q4(t, q, v), dtype=np.float64) - drift
 
 
-def constraint_acceleration(system: System, t: float, q: Array, v: Array) -> Array:
+def constraint_acceleration(system: Mode, t: float, q: Array, v: Array) -> Array:
     """ġ − ḟ_a q̇ᵃ (r,): what f_a q̈ᵃ must be."""
     return derivative(lambda t, q: system.g(t, q) - system.f_a(t, q) @ v, (t, q), (1.0, v))
 

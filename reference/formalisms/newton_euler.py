@@ -8,14 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from ..system import Array, Cut, System
+from ..system import Array, Cut, Mode
 from .derivative import along
 from .lagrange import constraint_acceleration
 
 
-def balance(
-    system: System, t: float, q: Array, v: Array, a: Array
-) -> tuple[float, dict[str, float]]:
+def balance(system: Mode, t: float, q: Array, v: Array, a: Array) -> tuple[float, dict[str, float]]:
     """(2.23) m r̈_c = F, (2.27) J ω̇ = M_c at the accelerations a (n,), reactions by least squares.
 
     Answers the largest force [N] or moment [N m] that stays unbalanced, relative to the largest
@@ -31,7 +29,7 @@ def balance(
     return float(abs(unbalanced).max() / (terms or 1.0)), named(system, t, q, unknown)
 
 
-def accelerations(system: System, t: float, q: Array, v: Array) -> tuple[Array, dict[str, float]]:
+def accelerations(system: Mode, t: float, q: Array, v: Array) -> tuple[Array, dict[str, float]]:
     """(2.23) m r̈_c = F, (2.27) J ω̇ = M_c, solved for q̈ (n,) and the reactions together.
 
     The body accelerations are affine in q̈. Where coordinates are bound by f_a q̇ᵃ = g, the
@@ -54,7 +52,7 @@ def accelerations(system: System, t: float, q: Array, v: Array) -> tuple[Array, 
     return unknown[:n], named(system, t, q, unknown[n:])
 
 
-def inertia_forces(system: System, t: float, q: Array, v: Array, a: Array) -> Array:
+def inertia_forces(system: Mode, t: float, q: Array, v: Array, a: Array) -> Array:
     """m r̈_c (2 rows a body) and J ω̇ (1 row, not for particles), by differentiating `poses`."""
     names = list(system.masses)
 
@@ -70,7 +68,7 @@ def inertia_forces(system: System, t: float, q: Array, v: Array, a: Array) -> Ar
     return np.array(rows)
 
 
-def load_forces(system: System, t: float, q: Array, v: Array) -> Array:
+def load_forces(system: Mode, t: float, q: Array, v: Array) -> Array:
     """F and M_c of the applied forces, in the rows of `inertia_forces`."""
     total: dict[str, Array] = {name: np.zeros(3) for name in system.masses}
     centres = _centres(system, t, q, v)
@@ -79,7 +77,7 @@ def load_forces(system: System, t: float, q: Array, v: Array) -> Array:
     return _rows(system, total)
 
 
-def reaction_columns(system: System, t: float, q: Array, v: Array) -> Array:
+def reaction_columns(system: Mode, t: float, q: Array, v: Array) -> Array:
     """F and M_c of a unit of each unknown reaction, one column each: + on body b, − on body a."""
     centres = _centres(system, t, q, v)
     columns = []
@@ -112,18 +110,18 @@ def least_squares(matrix: Array, right: Array) -> Array:
     return solution
 
 
-def named(system: System, t: float, q: Array, values: Array) -> dict[str, float]:
+def named(system: Mode, t: float, q: Array, values: Array) -> dict[str, float]:
     """Reactions by quantity, in the order of the cuts."""
     cuts: list[Cut] = system.cuts(t, q)
     names = [name for cut in cuts for name in cut.names]
     return dict(zip(names, values.tolist(), strict=True))
 
 
-def _centres(system: System, t: float, q: Array, v: Array) -> dict[str, tuple[float, float]]:
+def _centres(system: Mode, t: float, q: Array, v: Array) -> dict[str, tuple[float, float]]:
     return {name: (pose[0], pose[1]) for name, pose in system.poses(t, q, v).items()}
 
 
-def _rows(system: System, wrenches: dict[str, Array]) -> Array:
+def _rows(system: Mode, wrenches: dict[str, Array]) -> Array:
     """Stacked as in `inertia_forces`: a particle has no row of moments."""
     masses = system.masses.items()
     return np.concatenate([wrenches[name][: 2 if mass.J is None else 3] for name, mass in masses])

@@ -1,19 +1,20 @@
 """Any planar scene whose contacts open, slide and stick, or whose slides have dry friction.
 
-Each mode is a `Mechanism` with the rows that hold then; modes are built when they are first met.
+Each mode is a `Mechanism` with the rows that hold then; modes are built when they are first met,
+and a scene in which nothing switches has one.
 """
 
 import itertools
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
 from ...cases.scene import Scene
-from ..mode import Guard, Switching
-from ..system import Array
+from ..system import MOVING, Array, Guard, System
 from .contact import row
-from .element import REST, Element, State, Touching, elements, sign, sliding, stiff
+from .element import REST, Element, Smoothed, State, elements, sign, sliding
 from .impact import Meeting, NoImpact, Row, impact
 from .mechanism import Mechanism, SingularPose
 from .smooth import SmoothMechanism
@@ -39,7 +40,7 @@ class BadStart(Exception):
     """A contact that starts where no contact can."""
 
 
-class SwitchingMechanism(Switching):
+class SwitchingMechanism(System):
     """The scene as modes and guards; `size` [m] is what its gaps are small against."""
 
     def __init__(self, scene: Scene, start: tuple[Array, Array], size: float) -> None:
@@ -48,9 +49,6 @@ class SwitchingMechanism(Switching):
         self.elements: tuple[Element, ...] = tuple(elements(scene, self.base.where))
         self.built = _Modes(self, start)
         self.modes = self.built
-        self.smooth = self.implicit = stiff(scene)
-        if self.smooth and self.elements:
-            raise BadStart(f"{self.elements[0].name} switches: no smooth law can stand beside it")
         self._M = np.array(self.base.where.masses)
         self._known: tuple[str, float, bytes, bytes] | None = None
         self._forces: dict[str, float] = {}
@@ -64,31 +62,36 @@ class SwitchingMechanism(Switching):
         Raises BadStart for a contact inside the floor or on its way into it.
         """
         q, v = self.base.start()
+        if all(e.only for e in self.elements):  # nothing to choose, and nothing to bring to rest
+            return self.built.name(tuple(e.only for e in self.elements if e.only)), q, v
         choices = [self._at_start(e, q, v) for e in self.elements]
         return self._settled(choices, 0.0, q, v)
 
     def _at_start(self, element: Element, q: Array, v: Array) -> Choice:
+        if element.only:
+            return (element.only,)
         still = STILL * (float(np.max(np.abs(v))) or 1.0)
-        if isinstance(element, Touching):
-            gap = element.press.f(0.0, q.tolist())[0]
+        if element.normal is not None:
+            gap = element.normal.f(0.0, q.tolist())[0]
             if gap > CLOSED * self.size:
                 return ("open",)
             if gap < -CLOSED * self.size:
                 raise BadStart(f"{element.name} starts {-gap * 1e3:.3g} mm in the floor")
-            rate = _rate(element.press, 0.0, q, v)
+            rate = _rate(element.normal, 0.0, q, v)
             if rate < -still:
                 raise BadStart(f"{element.name} starts into the floor, with {-rate:.3g} m/s")
             if rate > still:
                 return ("open",)
-        slip = _rate(element.grip, 0.0, q, v)
+        slip = _rate(element.tangent, 0.0, q, v)
         return self._closed(element, slip if abs(slip) > still else 0.0)
 
     def _closed(self, element: Element, slip: float) -> Choice:
         """What a contact on the floor or a slide may do at this slip."""
-        opens: Choice = ("open",) if isinstance(element, Touching) else ()
-        if frictionless(element):
-            return ("slides +", *opens)
-        return (*((sliding(slip),) if slip else REST), *opens)
+        if element.only:
+            return (element.only,)
+        if element.frictionless:
+            return ("slides +", *_opening(element))
+        return (*((sliding(slip),) if slip else REST), *_opening(element))
 
     def states(self, mode: str) -> tuple[State, ...]:
         """What each element does in a mode."""
@@ -105,17 +108,19 @@ class SwitchingMechanism(Switching):
 
     def _guards(self, mode: str, i: int, state: State) -> Iterator[Guard]:
         e = self.elements[i]
-        if isinstance(e, Touching):
+        if e.only:
+            return
+        if (normal := e.normal) is not None:
             if state == "open":
-                gap = lambda t, q, v: e.press.f(t, q.tolist())[0]  # noqa: E731
+                gap = lambda t, q, v: normal.f(t, q.tolist())[0]  # noqa: E731
                 yield Guard(f"{e.name} lands", gap, self._lands(mode, i))
                 return
-            normal = lambda t, q, v: self.forces(mode, t, q, v)[f"{e.name}.normal"]  # noqa: E731
-            yield Guard(f"{e.name} opens", normal, self._opens(mode, i))
-        if frictionless(e):
+            push = lambda t, q, v: self.forces(mode, t, q, v)[f"{e.name}.normal"]  # noqa: E731
+            yield Guard(f"{e.name} opens", push, self._opens(mode, i))
+        if e.frictionless:
             return
         if s := sign(state):
-            slip = lambda t, q, v: s * _rate(e.grip, t, q, v)  # noqa: E731
+            slip = lambda t, q, v: s * _rate(e.tangent, t, q, v)  # noqa: E731
             yield Guard(f"{e.name} stops", slip, self._to(mode, i, REST))
             return
         for k, way in enumerate(("slides +", "slides -")):
@@ -138,8 +143,7 @@ class SwitchingMechanism(Switching):
 
         def then(t: float, q: Array, v: Array) -> After:
             choices = self._staying(mode)
-            opens: Choice = ("open",) if isinstance(self.elements[i], Touching) else ()
-            choices[i] = (*choice, *opens) if choice == REST else choice
+            choices[i] = (*choice, *_opening(self.elements[i])) if choice == REST else choice
             return self._settled(choices, t, q, v)
 
         return then
@@ -151,8 +155,8 @@ class SwitchingMechanism(Switching):
             choices, e = self._staying(mode), self.elements[i]
             choices[i] = ("open",)
             after = self._settled(choices, t, q, v)
-            assert isinstance(e, Touching)
-            rises = self._change(e.press, after[0], t, q, v)
+            assert e.normal is not None
+            rises = self._change(e.normal, after[0], t, q, v)
             if rises < -self._small(t, q, v):
                 raise self._painleve(e.name, "neither staying nor leaving the floor", t)
             return after
@@ -171,7 +175,7 @@ class SwitchingMechanism(Switching):
                 raise Undetermined(self.elements[i].name, str(error), t) from error
             choices = [self._closed(e, self._slip(e, t, q, v)) for e in self.elements]
             for k, e in enumerate(self.elements):
-                if isinstance(e, Touching) and k not in touching:
+                if e.normal is not None and k not in touching:
                     choices[k] = ("open",)
             for k, m, state in zip(touching, met, states, strict=True):
                 leaves = state == "open" or m.after > 0.0
@@ -180,8 +184,8 @@ class SwitchingMechanism(Switching):
 
         return then
 
-    def _landed(self, element: Touching, state: State) -> Choice:
-        if frictionless(element) or state == "sticks":
+    def _landed(self, element: Element, state: State) -> Choice:
+        if element.frictionless or state == "sticks":
             return self._closed(element, 0.0)
         return (state, "open")
 
@@ -191,23 +195,24 @@ class SwitchingMechanism(Switching):
         """The contacts that are closed or strike, and their rows."""
         touching, met = [], []
         for k, (e, state) in enumerate(zip(self.elements, self.states(mode), strict=True)):
-            if isinstance(e, Touching) and (k == i or state != "open"):
-                normal, tangent = (Row(*row(part, t, q, v)[:2]) for part in (e.press, e.grip))
-                after = -e.contact.restitution * float(normal.f @ v) if k == i else 0.0
+            if e.normal is not None and (k == i or state != "open"):
+                normal, tangent = (Row(*row(part, t, q, v)[:2]) for part in (e.normal, e.tangent))
+                after = -e.restitution * float(normal.f @ v) if k == i else 0.0
                 touching.append(k)
                 met.append(Meeting(e, normal, tangent, after, k == i))
         return touching, met
 
     def _slip(self, e: Element, t: float, q: Array, v: Array) -> float:
-        slip = _rate(e.grip, t, q, v)
+        slip = _rate(e.tangent, t, q, v)
         return slip if abs(slip) > STILL * float(np.max(np.abs(v))) else 0.0
 
     def _staying(self, mode: str) -> list[Choice]:
         """What the elements may do that nothing happens to."""
         found: list[Choice] = []
         for e, state in zip(self.elements, self.states(mode), strict=True):
-            opens: Choice = ("open",) if isinstance(e, Touching) and state != "open" else ()
-            found.append((*(REST if state == "sticks" else (state,)), *opens))
+            opens = _opening(e) if state != "open" else ()
+            rests = state == "sticks" and not e.only
+            found.append((*(REST if rests else (state,)), *opens))
         return found
 
     def _settled(self, choices: Sequence[Choice], t: float, q: Array, v: Array) -> After:
@@ -238,9 +243,9 @@ class SwitchingMechanism(Switching):
         except SingularPose as error:
             raise Undetermined(self._rubbing(choices), str(error), t) from error
         for e, state, choice in zip(self.elements, states, choices, strict=True):
-            if isinstance(e, Touching):
+            if e.normal is not None:
                 if state == "open":
-                    if len(choice) > 1 and self._change(e.press, mode, t, q, v) < -small:
+                    if len(choice) > 1 and self._change(e.normal, mode, t, q, v) < -small:
                         return False
                     continue
                 if forces[f"{e.name}.normal"] < -small * float(np.max(self._M)):
@@ -248,7 +253,7 @@ class SwitchingMechanism(Switching):
             if state == "sticks" and min(e.margins(forces)) < 0.0:
                 return False
             s = sign(state) if "sticks" in choice else 0
-            if s and s * self._change(e.grip, mode, t, q, v) < -small:
+            if s and s * self._change(e.tangent, mode, t, q, v) < -small:
                 return False
         return True
 
@@ -271,7 +276,7 @@ class SwitchingMechanism(Switching):
         """The nearest q (in M) on the floor and v that meets the rows: what sticks is at rest."""
         mode = self.modes[self.built.name(states)]
         pairs = zip(self.elements, states, strict=True)
-        closed = [e.press for e, s in pairs if isinstance(e, Touching) and s != "open"]
+        closed = [e.normal for e, s in pairs if e.normal is not None and s != "open"]
         if closed:
             gaps = np.concatenate([self.base.f(t, q), [p.f(t, q.tolist())[0] for p in closed]])
             f = np.vstack([self.base.f_a(t, q), *(row(p, t, q, v)[0] for p in closed)])
@@ -303,16 +308,16 @@ class SwitchingMechanism(Switching):
         force = 1e-9 * (max(map(abs, forces.values())) or 1.0)
         rate = 1e-9 * (float(np.max(np.abs(v))) or 1.0)
         for e, state in zip(self.elements, self.states(mode), strict=True):
-            if isinstance(e, Touching):
+            if e.normal is not None:
                 if state == "open":
-                    if e.press.f(t, q.tolist())[0] < -CLOSED * self.size:
+                    if e.normal.f(t, q.tolist())[0] < -CLOSED * self.size:
                         return f"{e.name} is in the floor"
                     continue
                 if forces[f"{e.name}.normal"] < -force:
                     return f"the floor would have to pull at {e.name}"
             if state == "sticks" and min(e.margins(forces)) < -force:
                 return f"{e.name} would have to slip"
-            if (s := sign(state)) and not frictionless(e) and s * _rate(e.grip, t, q, v) < -rate:
+            if (s := sign(state)) and not e.frictionless and s * _rate(e.tangent, t, q, v) < -rate:
                 return f"{e.name} slides the other way"
         return None
 
@@ -328,23 +333,24 @@ class _Modes(Mapping[str, Mechanism]):
     def name(self, states: tuple[State, ...]) -> str:
         """`touch slides +, rail sticks`."""
         pairs = zip(self.owner.elements, states, strict=True)
-        name = ", ".join(f"{e.name} {state}" for e, state in pairs)
+        name = ", ".join(f"{e.name} {state}" for e, state in pairs) or MOVING
         self.states[name] = states
         return name
 
     def __getitem__(self, name: str) -> Mechanism:
         if name not in self.built:
-            if self.owner.smooth:
-                self.built[name] = SmoothMechanism(self.owner.scene, self.start)
-                return self.built[name]
             pairs = list(zip(self.owner.elements, self.states[name], strict=True))
-            self.built[name] = Mechanism(
-                self.owner.scene,
-                self.start,
-                held=[part for e, s in pairs for part in e.held(s)],
-                drags=[drag for e, s in pairs for drag in e.drags(s)],
-                rubs=[rub for e, s in pairs for rub in e.rubs(s)],
-            )
+            smooth = [e for e, _ in pairs if isinstance(e, Smoothed)]
+            parts: dict[str, Any] = {
+                "held": [part for e, s in pairs for part in e.held(s)],
+                "drags": [drag for e, s in pairs for drag in e.drags(s)],
+                "rubs": [rub for e, s in pairs for rub in e.rubs(s)],
+            }
+            if smooth:
+                built = SmoothMechanism(self.owner.scene, self.start, smooth, **parts)
+            else:
+                built = Mechanism(self.owner.scene, self.start, **parts)
+            self.built[name] = built
         return self.built[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -354,12 +360,9 @@ class _Modes(Mapping[str, Mechanism]):
         return len(self.built)
 
 
-def frictionless(element: Element) -> bool:
-    """Whether there is nothing to stick by: then it slides, whichever way."""
-    if isinstance(element, Touching):
-        return element.contact.static == 0.0
-    static = element.friction.static
-    return static.forward == static.backward == 0.0
+def _opening(element: Element) -> Choice:
+    """What a contact on the floor may also do: leave it."""
+    return () if element.normal is None else ("open",)
 
 
 def _rate(part: object, t: float, q: Array, v: Array) -> float:

@@ -119,8 +119,8 @@ class Catch:
 class Rub:
     """A contact that slides: λ_t = factor λ_n, by (2.87) factor = −μ sign(slip)."""
 
-    press: Press
-    grip: Grip
+    press: Constraint
+    grip: Constraint
     factor: float
 
 
@@ -128,7 +128,7 @@ class Rub:
 class Drag:
     """A slide that moves: a friction force [N] on the second part, along +u."""
 
-    catch: Catch
+    catch: Constraint
     force: Callable[[float, Any, Any], float]
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...cases.scene import GROUND, Anchor, Scene
+from ..system import Pose
 
 
 class Point(NamedTuple):  # made at every evaluation: a frozen dataclass costs three times as much
@@ -64,6 +65,20 @@ class Coordinates:
             for entry in (body.mass, body.mass, body.inertia)
             if entry is not None
         ]
+
+    def poses(self, q: Any, v: Any) -> dict[str, Pose]:
+        """(2.8) R_k, E_k of each body: its entries of q and v (n,), a particle's angle being 0."""
+        return {
+            name: (
+                q[xy],
+                q[xy + 1],
+                0.0 if phi is None else q[phi],
+                v[xy],
+                v[xy + 1],
+                0.0 if phi is None else v[phi],
+            )
+            for name, (xy, phi) in self.columns.items()
+        }
 
     def point(self, anchor: Anchor, t: Any, q: Sequence[Any], v: Sequence[Any]) -> Point:
         """(2.1) r = r_c + d and (2.6) ṙ = ṙ_c + ω × d, for q and v as lists of numbers."""

@@ -1,18 +1,29 @@
 """What contacts and slides with dry friction can do: open, slide either way, stick.
 
-A mode of a scene names the state of each of them: `touch slides +, rail sticks`.
+| element       | state    | what holds                      | what ends it, falling to zero      |
+| contact       | open     | nothing                         | gap: lands                         |
+| contact       | slides ± | y = R, λ_t = ∓μ λ_n             | λ_n: opens; slip: stops            |
+| contact       | sticks   | y = R, no slip                  | λ_n: opens; μ_s λ_n ± λ_t: slips   |
+| slide         | slides ± | a force ∓F along it             | slip: stops                        |
+| slide         | sticks   | no slip                         | F_s ± F_a: slips                   |
+| ideal, smooth | its only | it rolls; the smooth law (2.95) | nothing                            |
+
+A mode of a scene names the state
+of each element: `touch slides +, rail sticks`.
 """
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from ...cases.scene import Contact, DryFriction, Joint, Scene
+from ...cases.scene import DryFriction, Scene
 from ..laws.friction import Dry, stiction
-from .contact import Catch, Drag, Grip, Press, Rub, catch, touching
+from .constraint import Constraint
+from .contact import Drag, Rub, catch, touching
 from .coordinates import Coordinates
 
-State = Literal["open", "slides +", "slides -", "sticks"]
+State = Literal["open", "slides +", "slides -", "sticks", "slides"]
 REST: tuple[State, ...] = (
     "sticks",
     "slides +",
@@ -30,91 +41,126 @@ def sliding(direction: float) -> State:
     return "slides +" if direction > 0 else "slides -"
 
 
-@dataclass(frozen=True)
-class Touching:
-    """A contact that switches."""
+@dataclass(frozen=True, kw_only=True)
+class Element:
+    """Something that has states; by itself, one that is never left.
+
+    tangent: the row along which it slips. normal: the row that a contact gives up when it opens.
+    """
 
     name: str
-    contact: Contact
-    press: Press
-    grip: Grip
+    tangent: Constraint
+    normal: Constraint | None = None
+    only: State | None = None  # its one state
+    frictionless: bool = False  # nothing to stick by: then it slides, whichever way
+    kinetic: float = 0.0  # coefficient of a contact that slides
+    restitution: float = 0.0
 
-    def held(self, state: State) -> list[Press | Grip]:
+    def held(self, state: State) -> list[Constraint]:
         """The constraints of the state."""
-        return {"open": [], "sticks": [self.press, self.grip]}.get(state, [self.press])
+        return []
+
+    def rubs(self, state: State) -> list[Rub]:
+        """Friction in proportion to a normal force."""
+        return []
+
+    def drags(self, state: State) -> list[Drag]:
+        """Friction forces of their own."""
+        return []
+
+    def margins(self, forces: Mapping[str, float]) -> tuple[float, float]:
+        """Force [N] that is left until it breaks loose to + and to −: negative where it does."""
+        return math.inf, math.inf
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rolling(Element):
+    """A disk that only rolls; its rows always hold, and stand among those of the joints."""
+
+    only: State | None = "sticks"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Smoothed(Element):
+    """A slide with the smooth law of dry friction (2.95), which never sticks."""
+
+    friction: DryFriction
+    only: State | None = "slides"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Touching(Element):
+    """A contact that opens, slides and sticks; `static` is its coefficient of stiction."""
+
+    static: float
+
+    def held(self, state: State) -> list[Constraint]:
+        """Nothing, the floor, or the floor and no slip."""
+        assert self.normal is not None
+        return {"open": [], "sticks": [self.normal, self.tangent]}.get(state, [self.normal])
 
     def rubs(self, state: State) -> list[Rub]:
         """(2.87) F = −μ F_N sign(v)."""
         s = sign(state)
-        return [Rub(self.press, self.grip, -self.contact.kinetic * s)] if s else []
+        assert self.normal is not None
+        return [Rub(self.normal, self.tangent, -self.kinetic * s)] if s else []
 
-    def drags(self, state: State) -> list[Drag]:
-        return []
-
-    def margins(self, forces: dict[str, float]) -> tuple[float, float]:
+    def margins(self, forces: Mapping[str, float]) -> tuple[float, float]:
         """(2.89) μ_s F_N ± F_fr [N]: negative where it breaks loose to + and to −."""
-        bound = self.contact.static * forces[f"{self.name}.normal"]
+        bound = self.static * forces[f"{self.name}.normal"]
         tangent = forces[f"{self.name}.tangent"]
         return bound + tangent, bound - tangent
 
 
-@dataclass(frozen=True)
-class Sliding:
+@dataclass(frozen=True, kw_only=True)
+class Sliding(Element):
     """A slide with exact dry friction."""
 
-    name: str
     friction: DryFriction
-    grip: Catch
 
     @property
     def dry(self) -> Dry:
         kinetic, static = self.friction.kinetic, self.friction.static
         return Dry(kinetic.backward, kinetic.forward, static.backward, static.forward)
 
-    def held(self, state: State) -> list[Catch]:
-        """The constraint of the state."""
-        return [self.grip] if state == "sticks" else []
-
-    def rubs(self, state: State) -> list[Rub]:
-        return []
+    def held(self, state: State) -> list[Constraint]:
+        """Nothing, or no slip."""
+        return [self.tangent] if state == "sticks" else []
 
     def drags(self, state: State) -> list[Drag]:
         """(2.89) −F₊ forward, F₋ backward."""
         s = sign(state)
         force = stiction(self.dry, float(s), 0.0) if s else 0.0
-        return [Drag(self.grip, lambda t, q, v: force)] if s else []
+        return [Drag(self.tangent, lambda t, q, v: force)] if s else []
 
-    def margins(self, forces: dict[str, float]) -> tuple[float, float]:
+    def margins(self, forces: Mapping[str, float]) -> tuple[float, float]:
         """(2.89) F_s₊ − F_a and F_s₋ + F_a [N], F_a = −F_fr: negative where it breaks loose."""
         F_a = -forces[f"{self.name}.friction"]
         return self.friction.static.forward - F_a, self.friction.static.backward + F_a
 
 
-Element = Touching | Sliding
-
-
 def elements(scene: Scene, where: Coordinates) -> Iterator[Element]:
-    """All that switches, in the order of the scene."""
+    """All that has states, in the order of the scene."""
     for contact in scene.contacts.values():
-        if contact.switches:
-            yield Touching(contact.name, contact, *touching(contact, where))
+        normal, tangent = touching(contact, where)
+        if contact.ideal == "rolling":
+            yield Rolling(name=contact.name, tangent=tangent)
+        else:
+            yield Touching(
+                name=contact.name,
+                normal=normal,
+                tangent=tangent,
+                static=contact.static,
+                kinetic=contact.kinetic,
+                restitution=contact.restitution,
+                frictionless=contact.static == 0.0,
+            )
     for joint in scene.joints.values():
-        if exact(joint):
-            assert joint.dry_friction is not None
-            yield Sliding(joint.name, joint.dry_friction, catch(joint, where))
-
-
-def exact(joint: Joint) -> bool:
-    """Whether its dry friction switches, instead of being smooth."""
-    return joint.dry_friction is not None and joint.dry_friction.smooth is None
-
-
-def switches(scene: Scene) -> bool:
-    """Whether its motion needs `follow`: more than one mode, or a smooth law that is stiff."""
-    contacts = any(contact.switches for contact in scene.contacts.values())
-    return contacts or any(joint.dry_friction is not None for joint in scene.joints.values())
-
-
-def stiff(scene: Scene) -> bool:
-    """Whether a slide has the smooth law of friction."""
-    return any(joint.dry_friction and not exact(joint) for joint in scene.joints.values())
+        if (dry := joint.dry_friction) is None:
+            continue
+        tangent = catch(joint, where)
+        if dry.smooth is not None:
+            yield Smoothed(name=joint.name, tangent=tangent, friction=dry)
+        else:
+            loose = dry.static.forward == dry.static.backward == 0.0
+            yield Sliding(name=joint.name, tangent=tangent, friction=dry, frictionless=loose)

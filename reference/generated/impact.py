@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..system import Array
-from .element import REST, State, Touching, sign
+from .element import REST, Element, State, sign
 
 CONE = 1e-12  # of the impulse: an impulse that needs all of the cone sticks
 ROUNDING = 1e-12  # of the velocities
@@ -35,7 +35,7 @@ class Row:
 class Meeting:
     """A closed contact in the instant: its rows, and the normal velocity after it."""
 
-    element: Touching
+    element: Element
     normal: Row
     tangent: Row
     after: float
@@ -84,7 +84,7 @@ def _tried(
             normals.append(None)
             continue
         normals.append(len(rows))
-        lean = -meeting.element.contact.kinetic * sign(state)
+        lean = -meeting.element.kinetic * sign(state)
         rows.append(meeting.normal.f)
         columns.append(meeting.normal.f + lean * meeting.tangent.f)
         after.append(meeting.after)
@@ -113,5 +113,5 @@ def _lawful(meeting: Meeting, state: State, impulse: Array, v: Array, small: flo
     if impulse[0] < 0.0:
         return False
     if state == "sticks":
-        return bool(abs(impulse[1]) <= (1 + CONE) * meeting.element.contact.kinetic * impulse[0])
+        return bool(abs(impulse[1]) <= (1 + CONE) * meeting.element.kinetic * impulse[0])
     return bool(sign(state) * (meeting.tangent.f @ v) >= -small)

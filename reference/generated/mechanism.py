@@ -1,4 +1,4 @@
-"""Any planar scene as a System, in maximal coordinates with multipliers (2.60)."""
+"""Any planar scene as a Mode, in maximal coordinates with multipliers (2.60)."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -7,7 +7,7 @@ import numpy as np
 from scipy.linalg.lapack import dgesv, dposv
 
 from ...cases.scene import Push, Scene, Spring
-from ..system import Array, Mass, Pose, System, Vector
+from ..system import Array, Mass, Mode, Pose, Vector
 from .action import act, signal
 from .constraint import Constraint, constraints
 from .contact import Drag, Rub, row
@@ -23,7 +23,7 @@ class SingularPose(ArithmeticError):
         super().__init__(f"what {part} holds is held by the other joints already")
 
 
-class Mechanism(System):
+class Mechanism(Mode):
     """Newton's and Euler's equations of all bodies, held together by multipliers.
 
     q holds x, y, angle of each body in the scene's order (a particle has no angle).
@@ -108,14 +108,20 @@ class Mechanism(System):
         self, t: float, q: Array, v: Array, rows: Array, right: Array, free: Array
     ) -> tuple[Array, Array]:
         """(2.60) with λ_t = factor λ_n (2.87): the force of a normal row leans against the slip."""
-        columns = rows.copy()
-        for at, rub in self._rubs:
-            columns[at] += rub.factor * row(rub.grip, t, q, v)[0]
-        by_mass = columns / self._M
+        by_mass = self.columns(t, q, v, rows) / self._M
         _, _, multipliers, fails = dgesv(rows @ by_mass.T, right)
         if fails:
             raise SingularPose(self._owners[fails - 1])
         return _sum(free, multipliers @ by_mass), multipliers
+
+    def columns(self, t: float, q: Array, v: Array, rows: Array) -> Array:
+        """What a unit of each multiplier exerts, (r, n): its row, and what rubs with it (2.87)."""
+        if not self._rubs:
+            return rows
+        columns = rows.copy()
+        for at, rub in self._rubs:
+            columns[at] += rub.factor * row(rub.grip, t, q, v)[0]
+        return columns
 
     def rows(self, t: Any, q: Sequence[Any], v: Sequence[Any], dtype: Any) -> tuple[Any, Any, Any]:
         """(2.15) f_a (r, n) and g (r,), and γ (r,) of f_a q̈ᵃ = γ."""
@@ -147,17 +153,7 @@ class Mechanism(System):
 
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R_k, E_k: the coordinates themselves."""
-        return {
-            name: (
-                q[xy],
-                q[xy + 1],
-                0.0 if phi is None else q[phi],
-                v[xy],
-                v[xy + 1],
-                0.0 if phi is None else v[phi],
-            )
-            for name, (xy, phi) in self.where.columns.items()
-        }
+        return self.where.poses(q, v)
 
     def place(self, poses: Mapping[str, Pose]) -> tuple[Array, Array]:
         """q and v of given poses: how another system's motion is read in these coordinates."""

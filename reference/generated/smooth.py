@@ -1,14 +1,16 @@
 """A mechanism whose slides have the smooth law of dry friction (2.95): one mode, and stiff."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from ...cases.scene import Joint, Scene, Smooth
+from ...cases.scene import DryFriction, Scene, Smooth
 from ..laws.friction import Dry, smooth
 from ..system import Array
-from .contact import Drag, catch, row
+from .constraint import Constraint
+from .contact import Drag, Rub, row
+from .element import Smoothed
 from .mechanism import Mechanism
 
 
@@ -19,13 +21,24 @@ class SmoothMechanism(Mechanism):
     larger than what the motion out of the band grows from, so it is never formed.
     """
 
-    def __init__(self, scene: Scene, start: tuple[Array, Array]) -> None:
-        where = Mechanism(scene, start).where
-        self._slides = [joint for joint in scene.joints.values() if joint.dry_friction]
-        self._catches = [catch(joint, where) for joint in self._slides]
-        self._resting = Mechanism(scene, start, held=self._catches)
-        drags = [Drag(part, self._friction(k)) for k, part in enumerate(self._catches)]
-        super().__init__(scene, start, drags=drags)
+    stiff = True
+
+    def __init__(
+        self,
+        scene: Scene,
+        start: tuple[Array, Array],
+        slides: Sequence[Smoothed],
+        *,
+        held: Sequence[Constraint] = (),
+        drags: Sequence[Drag] = (),
+        rubs: Sequence[Rub] = (),
+    ) -> None:
+        self._slides = slides
+        self._catches = [slide.tangent for slide in slides]
+        resting = [*held, *self._catches]
+        self._resting = Mechanism(scene, start, held=resting, drags=drags, rubs=rubs)
+        smooth = [Drag(part, self._friction(k)) for k, part in enumerate(self._catches)]
+        super().__init__(scene, start, held=held, drags=[*drags, *smooth], rubs=rubs)
 
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
         """(2.60) at rest along the slides, and with F_a + F_fr along them: q̈ and λ are sums."""
@@ -34,12 +47,13 @@ class SmoothMechanism(Mechanism):
         r, along = len(self.f_a(t, q)), np.zeros(len(q))
         for k, part in enumerate(self._catches):
             f, g, _ = row(part, t, q, v)
-            along += _left(self._slides[k], float(f @ v) - g, -float(multipliers[r + k])) * f
+            F_a = -float(multipliers[r + k])
+            along += _left(self._slides[k].friction, float(f @ v) - g, F_a) * f
         rows, free = self.f_a(t, q), along / self._M
         if not r:
             return a + free, multipliers[:0]
-        by_mass = rows / self._M
-        more = np.linalg.solve(by_mass @ rows.T, -rows @ free)
+        by_mass = self.columns(t, q, v, rows) / self._M
+        more = np.linalg.solve(rows @ by_mass.T, -rows @ free)
         return a + free + more @ by_mass, multipliers[:r] + more
 
     def _still(self, t: float, q: Array, v: Array, a: Array) -> Array:
@@ -57,24 +71,22 @@ class SmoothMechanism(Mechanism):
             multipliers = self._resting.solve(t, q, v)[1]
             F_a = -float(multipliers[len(multipliers) - len(self._catches) + k])
             f, g, _ = row(self._catches[k], t, q, v)
-            dry, law = _dry(self._slides[k])
+            dry, law = _dry(self._slides[k].friction)
             return float(smooth(dry, law.band, law.sharpness, float(f @ v) - g, F_a))
 
         return force
 
 
-def _dry(joint: Joint) -> tuple[Dry, Smooth]:
-    friction = joint.dry_friction
-    assert friction is not None
+def _dry(friction: DryFriction) -> tuple[Dry, Smooth]:
     assert friction.smooth is not None
     kinetic, static = friction.kinetic, friction.static
     dry = Dry(kinetic.backward, kinetic.forward, static.backward, static.forward)
     return dry, friction.smooth
 
 
-def _left(joint: Joint, v: float, F_a: float) -> float:
+def _left(friction: DryFriction, v: float, F_a: float) -> float:
     """(2.95) F_a + F_fr = F_a (1 − h_v h_F) + F₋ {…} − F₊ {…} [N], h = 1 − below − above."""
-    dry, law = _dry(joint)
+    dry, law = _dry(friction)
     slower, faster = _outside(law.sharpness, v, law.band, law.band)
     weaker, stronger = _outside(law.sharpness, F_a, dry.Fs_minus, dry.Fs_plus)
     inside = 1.0 - slower - faster

@@ -6,7 +6,8 @@ Positions by Newton's method from a guess, rates by linear algebra.
 import numpy as np
 
 from ...cases.case import Case
-from ..system import Array
+from ..generated.coordinates import Coordinates
+from ..system import Array, Pose
 from . import refusal
 from .closure import Closure
 from .positions import RANK, positions, rank
@@ -23,6 +24,11 @@ def assemble(case: Case) -> tuple[Array, Array]:
     q = positions(closure)
     _independent(closure, q)
     return q, rates(closure, q)
+
+
+def start_poses(case: Case) -> dict[str, Pose]:
+    """x, y, angle, vx, vy, omega of each body at t = 0. Raises CaseError as `assemble` does."""
+    return Coordinates(case.scene).poses(*assemble(case))
 
 
 def _independent(closure: Closure, q: Array) -> None:

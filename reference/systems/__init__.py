@@ -4,8 +4,9 @@ Each carries its own inertias and its own g and states its own start, so that an
 the generated motion or with an engine is not an agreement of one line of code with itself.
 """
 
-from ..mode import Switching
-from ..system import System
+from collections.abc import Mapping
+
+from ..system import Mode, Only, System
 from .anisotropic_drift import AnisotropicDrift
 from .bar_pendulum import BarPendulum
 from .bouncing_disk import BouncingDisk
@@ -20,22 +21,28 @@ from .sliding_disk import SlidingDisk
 from .smooth_friction import SmoothDynamometer, SmoothGrowingForce
 from .spring_mass_damper import SpringMassDamper
 
-SYSTEMS: dict[str, type[System]] = {
+SYSTEMS: dict[str, type[Mode] | type[System]] = {
+    "anisotropic_drift": AnisotropicDrift,
     "bar_pendulum": BarPendulum,
+    "bouncing_disk": BouncingDisk,
     "double_pendulum": DoublePendulum,
+    "dynamometer": Dynamometer,
     "four_bar": FourBar,
+    "growing_force": GrowingForce,
     "rhombus": Rhombus,
     "rolling_wheel": RollingWheel,
-    "spring_mass_damper": SpringMassDamper,
-}
-
-SWITCHING: dict[str, type[Switching]] = {
-    "anisotropic_drift": AnisotropicDrift,
-    "bouncing_disk": BouncingDisk,
-    "dynamometer": Dynamometer,
-    "growing_force": GrowingForce,
     "sliding_block": SlidingBlock,
     "sliding_disk": SlidingDisk,
     "smooth_dynamometer": SmoothDynamometer,
     "smooth_growing_force": SmoothGrowingForce,
+    "spring_mass_damper": SpringMassDamper,
 }
+
+
+def written(name: str, parameters: Mapping[str, float]) -> System:
+    """The hand-written system of this name; a smooth one is its only mode.
+
+    Raises KeyError for an unknown name, TypeError for other parameters than the system's.
+    """
+    found = SYSTEMS[name](**parameters)
+    return Only(found) if isinstance(found, Mode) else found

@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..laws.friction import Dry
-from ..mode import Guard, Switching
-from ..system import Array, Vector
+from ..system import Array, Guard, System, Vector
 from .stick_slip import guards, modes, possible
 
 
@@ -39,7 +38,7 @@ class _Shake:
 
 
 @dataclass(frozen=True)
-class AnisotropicDrift(Switching):
+class AnisotropicDrift(System):
     """m [kg], A [N], w [rad/s], sliding friction F and static friction Fs [N] to −x and to +x."""
 
     m: float

@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from ..system import Array, Cut, Load, Mass, Pose, System, Vector
+from ..system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 G = 9.80665  # m/s²
 
 
 @dataclass(frozen=True)
-class BarPendulum(System):
+class BarPendulum(Mode):
     """Bar of mass m [kg] and length l [m], released from rest at phi0 [rad]."""
 
     m: float

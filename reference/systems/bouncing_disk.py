@@ -10,14 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from ..mode import Guard, Switching
-from ..system import Array, Cut, Load, Mass, Pose, System, Vector
+from ..system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 
 G = 9.80665  # m/s²
 
 
 @dataclass(frozen=True)
-class _Disk(System):
+class _Disk(Mode):
     """In flight, or at rest on the floor."""
 
     m: float
@@ -74,7 +73,7 @@ class _Disk(System):
 
 
 @dataclass(frozen=True)
-class BouncingDisk(Switching):
+class BouncingDisk(System):
     """m [kg], R [m], restitution 0 ≤ e ≤ 1, dropped with its centre at y0 > R [m]."""
 
     m: float

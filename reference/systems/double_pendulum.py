@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from ..system import Array, Cut, Load, Mass, Pose, System, Vector
+from ..system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 G = 9.80665  # m/s²
 
 
 @dataclass(frozen=True)
-class DoublePendulum(System):
+class DoublePendulum(Mode):
     """Bars m1, l1 and m2, l2 [kg, m], released from rest at the angles a0, b0 [rad]."""
 
     m1: float

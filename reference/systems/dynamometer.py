@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..laws.friction import Dry
-from ..mode import Guard, Switching
-from ..system import Array, Vector
+from ..system import Array, Guard, System, Vector
 from .stick_slip import Pull, guards, modes, possible
 
 
@@ -40,7 +39,7 @@ class _Spring:
 
 
 @dataclass(frozen=True)
-class Dynamometer(Switching):
+class Dynamometer(System):
     """m [kg], c [N/m], end moved with u > 0 [m/s], frictions F and static Fs [N] to −x and +x."""
 
     m: float

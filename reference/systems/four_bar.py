@@ -10,13 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from ..system import Array, Cut, Load, Mass, Pose, System, Vector
+from ..system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 G = 9.80665  # m/s²
 
 
 @dataclass(frozen=True)
-class FourBar(System):
+class FourBar(Mode):
     """Mass m [kg] of each bar; lengths a, b, c and base d [m]; crank0 [rad] at the start."""
 
     m: float

@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..laws.friction import Dry
-from ..mode import Guard, Switching
-from ..system import Array, Vector
+from ..system import Array, Guard, System, Vector
 from .stick_slip import Pull, guards, modes, possible
 
 
@@ -37,7 +36,7 @@ class _Ramp:
 
 
 @dataclass(frozen=True)
-class GrowingForce(Switching):
+class GrowingForce(System):
     """m [kg], b > 0 [N/s], sliding friction F and static friction Fs [N], to −x and to +x."""
 
     m: float

@@ -11,13 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from ..system import Array, Cut, Load, Mass, Pose, System, Vector
+from ..system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 G = 9.80665  # m/s²
 
 
 @dataclass(frozen=True)
-class Rhombus(System):
+class Rhombus(Mode):
     """Bars m, l [kg, m]; spring c [N/m], l0 [m]; at rest at left0, right0 [rad]."""
 
     m: float

@@ -10,13 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from ..system import Array, Cut, Load, Mass, Pose, System, Vector
+from ..system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 G = 9.80665  # m/s²
 
 
 @dataclass(frozen=True)
-class RollingWheel(System):
+class RollingWheel(Mode):
     """Thin disk [kg, m] with a force F [N] at its centre; v0 = R w0 or it would not roll."""
 
     m: float

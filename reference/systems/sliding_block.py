@@ -10,14 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from ..mode import Guard, Switching
-from ..system import Array, Cut, Load, Mass, Pose, System, Vector
+from ..system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 
 G = 9.80665  # m/s²
 
 
 @dataclass(frozen=True)
-class _Block(System):
+class _Block(Mode):
     """Sliding with v > 0 (σ = 1) or v < 0 (σ = −1), or sticking (σ = 0)."""
 
     m: float
@@ -84,7 +83,7 @@ class _Block(System):
 
 
 @dataclass(frozen=True)
-class SlidingBlock(Switching):
+class SlidingBlock(System):
     """m [kg], static and kinetic friction, β, and the start v0 [m/s] down the slope."""
 
     m: float

@@ -11,14 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from ..mode import Guard, Switching
-from ..system import Array, Cut, Load, Mass, Pose, System, Vector
+from ..system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 
 G = 9.80665  # m/s²
 
 
 @dataclass(frozen=True)
-class _Disk(System):
+class _Disk(Mode):
     """Slipping to +x (σ = 1) or −x (σ = −1), or rolling (σ = 0)."""
 
     m: float
@@ -100,7 +99,7 @@ class _Disk(System):
 
 
 @dataclass(frozen=True)
-class SlidingDisk(Switching):
+class SlidingDisk(System):
     """m [kg], R [m], μ, β; thrown up the slope with v0 [m/s], turning clockwise with w0 [rad/s]."""
 
     m: float

@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..laws.friction import Dry, smooth
-from ..mode import Switching
-from ..system import Array, Cut, Load, Mass, Pose, System, Vector
+from ..system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 
 def _half(y: float) -> float:
@@ -21,21 +20,35 @@ def _half(y: float) -> float:
     return (small if y > 0.0 else 1.0) / (1 + small)
 
 
-@dataclass(frozen=True)
-class _Block(System):
+class _Block(Mode):
     """m [kg], c [N/m], r [N/s], the bounds of the friction [N], Δ [m/s] and A of (2.95)."""
 
     m: float
     c: float
-    r: float
-    dry: Dry
+    F_minus: float
+    F_plus: float
+    Fs_minus: float
+    Fs_plus: float
     Delta: float
     A: float
+    dry: Dry
 
     coordinates = ("x",)
+    stiff = True
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "masses", {"block": Mass(self.m, None)})
+        dry = Dry(self.F_minus, self.F_plus, self.Fs_minus, self.Fs_plus)
+        object.__setattr__(self, "dry", dry)
+
+    @property
+    def r(self) -> float:
+        """How fast the active force grows [N/s]."""
+        raise NotImplementedError
+
+    def start(self) -> tuple[Array, Array]:
+        """At rest at x = 0."""
+        return np.zeros(1), np.zeros(1)
 
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.95) m v̇ = F_a (p + n + h (P + N)) + F₋ (p + h P) − F₊ (n + h N) [m/s²], (1,).
@@ -92,22 +105,8 @@ class _Block(System):
         return [Cut(("guide.fy",), None, "block", (float(q[0]), 0.0), ((0.0, 1.0),))]
 
 
-class _Smooth(Switching):
-    """One stiff mode and no guards."""
-
-    implicit = True
-
-    def start(self) -> tuple[str, Array, Array]:
-        """At rest at x = 0."""
-        return "moving", np.zeros(1), np.zeros(1)
-
-    def closed_events(self, until: float) -> list[tuple[str, float]]:
-        """Nothing happens: v passes through its band without a corner."""
-        return []
-
-
 @dataclass(frozen=True)
-class SmoothGrowingForce(_Smooth):
+class SmoothGrowingForce(_Block):
     """Example 2.3: m [kg], b [N/s], frictions [N], Δ [m/s] and A of (2.95)."""
 
     m: float
@@ -119,14 +118,16 @@ class SmoothGrowingForce(_Smooth):
     Delta: float
     A: float
 
-    def __post_init__(self) -> None:
-        dry = Dry(self.F_minus, self.F_plus, self.Fs_minus, self.Fs_plus)
-        block = _Block(self.m, 0.0, -self.b, dry, self.Delta, self.A)
-        object.__setattr__(self, "modes", {"moving": block})
+    c = 0.0
+
+    @property
+    def r(self) -> float:
+        """(2.97) F_a = −b t."""
+        return -self.b
 
 
 @dataclass(frozen=True)
-class SmoothDynamometer(_Smooth):
+class SmoothDynamometer(_Block):
     """Example 2.4: m [kg], c [N/m], u [m/s], frictions [N], Δ [m/s] and A of (2.95)."""
 
     m: float
@@ -139,7 +140,7 @@ class SmoothDynamometer(_Smooth):
     Delta: float
     A: float
 
-    def __post_init__(self) -> None:
-        dry = Dry(self.F_minus, self.F_plus, self.Fs_minus, self.Fs_plus)
-        block = _Block(self.m, self.c, self.c * self.u, dry, self.Delta, self.A)
-        object.__setattr__(self, "modes", {"moving": block})
+    @property
+    def r(self) -> float:
+        """(2.98) F_a = c (u t − x)."""
+        return self.c * self.u

@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from ..system import Array, Cut, Load, Mass, Pose, System, Vector
+from ..system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 G = 9.80665  # m/s²
 
 
 @dataclass(frozen=True)
-class SpringMassDamper(System):
+class SpringMassDamper(Mode):
     """m [kg] on a spring c [N/m], rest length l0 [m], and a damper d [N s/m], from y0 [m]."""
 
     m: float

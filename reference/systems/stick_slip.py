@@ -7,8 +7,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from ..laws.friction import Dry
-from ..mode import Guard
-from ..system import Array, Cut, Load, Mass, Pose, System, Vector
+from ..system import Array, Cut, Guard, Load, Mass, Mode, Pose, Vector
 
 
 class Pull(Protocol):
@@ -32,7 +31,7 @@ class Pull(Protocol):
 
 
 @dataclass(frozen=True)
-class Line(System):
+class Line(Mode):
     """A block m [kg] that slides against the friction force F_fr [N], or sticks if that is None."""
 
     m: float
@@ -93,7 +92,7 @@ class Line(System):
         return [Cut(("guide.fy",), None, "block", at, ((0.0, 1.0),))]
 
 
-def modes(m: float, pull: Pull, dry: Dry) -> Mapping[str, System]:
+def modes(m: float, pull: Pull, dry: Dry) -> Mapping[str, Mode]:
     """(2.89) The modes: `backward` with F₋, `forward` with −F₊, and `stuck`."""
     forces = {"backward": dry.F_minus, "forward": -dry.F_plus, "stuck": None}
     return {mode: Line(m, pull, F_fr) for mode, F_fr in forces.items()}
@@ -132,7 +131,7 @@ def guards(
     return Guard("stops", halts, to("stuck")), Guard(None, turns, to(other))
 
 
-def possible(system: System, dry: Dry, t: float, q: Array, v: Array) -> str | None:
+def possible(system: Mode, dry: Dry, t: float, q: Array, v: Array) -> str | None:
     """(2.89) Why `stuck` cannot be: −F_s₋ ≤ F_a ≤ F_s₊ is broken."""
     F_a = -system.reactions(t, q, v)["guide.fx"]
     if dry.sticks(F_a):

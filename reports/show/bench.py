@@ -17,8 +17,8 @@ from ...engines.engine import Engine, State
 from ...reference.generated.mechanism import Mechanism
 from ...reference.integrators.explicit import dormand_prince
 from ...reference.start.assembly import assemble
-from ...reference.system import Array, System
-from ...reference.systems import SYSTEMS
+from ...reference.system import Array, Mode
+from ...reference.systems.double_pendulum import DoublePendulum
 from ..selection import choose_cases
 from ..trial.ladder import wanted_reactions
 
@@ -103,7 +103,7 @@ def _fastest(*setups: Callable[[], Work]) -> list[float]:
 def _integrators() -> tuple[float, float]:
     """Seconds to 1e-10 on the double pendulum: our explicit integrator, and scipy's DOP853."""
     (case,) = choose_cases(["double_pendulum"])
-    system = SYSTEMS["double_pendulum"](**case.parameters)
+    system = DoublePendulum(**case.parameters)
     y0 = np.concatenate(system.start())
     rates = _rates(system)
 
@@ -126,7 +126,7 @@ def _integrators() -> tuple[float, float]:
     return _at(ENOUGH, *found[:, :, 0]), _at(ENOUGH, *found[:, :, 1])
 
 
-def _rates(system: System) -> Callable[[float, Array], Array]:
+def _rates(system: Mode) -> Callable[[float, Array], Array]:
     n = len(system.start()[0])
     return lambda t, y: np.concatenate([y[n:], system.accelerations(t, y[:n], y[n:])])
 

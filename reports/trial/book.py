@@ -8,7 +8,7 @@ from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ...engines.engine import Choice, Engine, Realised, State
 from ...reference.approximations.approximation import DELTA, KINDS, A, Example, approximated
-from ...reference.systems import SWITCHING
+from ...reference.systems import SYSTEMS
 from ...reference.systems.dynamometer import Dynamometer
 from ...reference.systems.growing_force import GrowingForce
 
@@ -17,9 +17,9 @@ STEP = 1e-3  # s, of the boxcar form: the finest rung then takes 1/16 of it
 
 def approximations(case: Case) -> Iterator["Book"]:
     """One producer for each of (2.91), (2.94), (2.95), where the case is Example 2.3 or 2.4."""
-    if case.system is None or case.system not in SWITCHING:
+    if case.system is None:
         return
-    system = SWITCHING[case.system](**case.parameters)
+    system = SYSTEMS[case.system](**case.parameters)
     if isinstance(system, GrowingForce | Dynamometer):
         yield from (Book(kind, system) for kind in KINDS)
 

@@ -11,11 +11,11 @@ from textmech.cases.find import find, shipped
 from textmech.cases.language.grammar.number import Names, amount, number
 from textmech.cases.load import load
 from textmech.cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Joint, Push, Signal, Torque
-from textmech.reference.systems import SWITCHING, SYSTEMS
+from textmech.reference.systems import SYSTEMS
 
 PARAMETERS = {
     name: tuple(f.name for f in fields(system))  # type: ignore[arg-type]
-    for name, system in (SYSTEMS | SWITCHING).items()
+    for name, system in SYSTEMS.items()
 }
 
 

@@ -6,6 +6,7 @@ onto the constraints. Whatever is wrong in an orientation, a sign or an order sh
 
 import math
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -32,8 +33,9 @@ from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.mujoco import MuJoCo
 from textmech.engines.mujoco.tree import spanning_tree
 from textmech.reference.generated.mechanism import Mechanism
-from textmech.reference.integrators.explicit import dormand_prince
-from textmech.reference.motion.smooth import integrate, motion
+from textmech.reference.motion.bodies import Motion
+from textmech.reference.motion.follow import either, follow
+from textmech.reference.system import Only
 
 TUNED = MuJoCo("tuned")
 GRAVITY = (0.8, -9.7)  # not along an axis, so that no component can hide
@@ -224,7 +226,8 @@ def wanted(scene: Scene) -> tuple[str, ...]:
 def both(build: Build, step: float = STEP) -> tuple[Trajectory, Trajectory]:
     """The mechanism's motion and MuJoCo's, with all reactions."""
     found = mechanism(build)
-    y = integrate(found, TIMES, dormand_prince, tolerance=SPECIFIC).y
+    alone = Only(found)
+    followed = follow(alone, TIMES, by=partial(either, tolerance=SPECIFIC))
     start = found.poses(0.0, *found.start())
     assert TUNED.refuses(build.scene) is None
     moved = TUNED.run(
@@ -236,7 +239,7 @@ def both(build: Build, step: float = STEP) -> tuple[Trajectory, Trajectory]:
         realised="native",
         reactions=wanted(build.scene),
     )
-    return motion(found, TIMES, y, found), moved
+    return Motion(alone, followed).trajectory(TIMES), moved
 
 
 def off(a: Array, b: Array) -> float:

@@ -27,9 +27,10 @@ from textmech.engines.engine import Diverged, State
 from textmech.engines.pymunk import Pymunk, settings
 from textmech.engines.pymunk import scene as builder
 from textmech.reference.generated.mechanism import Mechanism
-from textmech.reference.integrators.explicit import dormand_prince
-from textmech.reference.motion.smooth import integrate, motion
+from textmech.reference.motion.bodies import Motion
+from textmech.reference.motion.follow import follow
 from textmech.reference.start.assembly import assemble
+from textmech.reference.system import Only
 
 CASES = Path(__file__).parents[2] / "cases"
 SHIPPED, TUNED = Pymunk("shipped"), Pymunk("tuned")
@@ -247,8 +248,8 @@ def reference(scene: Scene, poses: State, times: Array) -> Trajectory:
         x, y, angle, vx, vy, omega = poses[body.name]
         q += [x, y, angle] if body.turns else [x, y]
         v += [vx, vy, omega] if body.turns else [vx, vy]
-    mechanism = Mechanism(scene, (np.array(q), np.array(v)))
-    return motion(mechanism, times, integrate(mechanism, times, dormand_prince).y, mechanism)
+    alone = Only(Mechanism(scene, (np.array(q), np.array(v))))
+    return Motion(alone, follow(alone, times)).trajectory(times)
 
 
 def test_driven_point_push_and_forces_in_time() -> None:

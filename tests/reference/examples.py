@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from textmech.reference.system import Array, System
+from textmech.reference.system import Array, Mode
 from textmech.reference.systems import SYSTEMS
 
 PARAMETERS: dict[str, dict[str, float]] = {
@@ -55,9 +55,11 @@ MULTIPLIERS = {
 }
 
 
-def example(name: str, **changed: float) -> System:
+def example(name: str, **changed: float) -> Mode:
     """The system of the case, with some of its parameters changed."""
-    return SYSTEMS[name](**{**PARAMETERS[name], **changed})
+    found = SYSTEMS[name](**{**PARAMETERS[name], **changed})
+    assert isinstance(found, Mode)
+    return found
 
 
 def states(name: str, count: int = 50, seed: int = 1) -> Iterator[tuple[float, Array, Array]]:

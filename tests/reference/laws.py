@@ -11,10 +11,10 @@ from examples import MULTIPLIERS, STARTS
 
 from textmech.reference.formalisms import energy, lagrange, newton_euler
 from textmech.reference.formalisms.derivative import along
-from textmech.reference.system import Array, System
+from textmech.reference.system import Array, Mode
 
 States = Iterable[tuple[float, Array, Array]]
-Law = Callable[[System, str, States], float]
+Law = Callable[[Mode, str, States], float]
 
 
 def difference(a: Any, b: Any, scale: float = 0.0) -> float:
@@ -23,7 +23,7 @@ def difference(a: Any, b: Any, scale: float = 0.0) -> float:
     return float(abs(a - b).max() / max(abs(a).max(), abs(b).max(), scale, 1e-300))
 
 
-def equations(system: System, name: str, states: States) -> float:
+def equations(system: Mode, name: str, states: States) -> float:
     """Explicit accelerations = (2.60), and (2.44) where there are no constraints."""
     worst = 0.0
     for t, q, v in states:
@@ -34,7 +34,7 @@ def equations(system: System, name: str, states: States) -> float:
     return worst
 
 
-def multipliers(system: System, name: str, states: States) -> float:
+def multipliers(system: Mode, name: str, states: States) -> float:
     """Hand-written reactions = λ of (2.60)."""
     worst = 0.0
     for t, q, v in states:
@@ -45,7 +45,7 @@ def multipliers(system: System, name: str, states: States) -> float:
     return worst
 
 
-def free_cut(system: System, name: str, states: States) -> float:
+def free_cut(system: Mode, name: str, states: States) -> float:
     """Explicit accelerations = (2.23), (2.27) solved for q̈, and balance the free-cut bodies."""
     worst = 0.0
     for t, q, v in states:
@@ -56,7 +56,7 @@ def free_cut(system: System, name: str, states: States) -> float:
     return worst
 
 
-def reactions(system: System, name: str, states: States) -> float:
+def reactions(system: Mode, name: str, states: States) -> float:
     """Hand-written reactions = those of (2.23), (2.27), solved for and balanced."""
     worst = 0.0
     for t, q, v in states:
@@ -70,7 +70,7 @@ def reactions(system: System, name: str, states: States) -> float:
     return worst
 
 
-def power(system: System, name: str, states: States) -> float:
+def power(system: Mode, name: str, states: States) -> float:
     """(2.51) The power balance, relative to its largest term."""
     worst = 0.0
     for t, q, v in states:
@@ -86,7 +86,7 @@ def power(system: System, name: str, states: States) -> float:
     return worst
 
 
-def rates_of_poses(system: System, name: str, states: States) -> float:
+def rates_of_poses(system: Mode, name: str, states: States) -> float:
     """(2.6) Velocities of `poses` = time derivatives of its positions, body by body."""
     worst = 0.0
     for t, q, v in states:
@@ -98,7 +98,7 @@ def rates_of_poses(system: System, name: str, states: States) -> float:
     return worst
 
 
-def koenig(system: System, name: str, states: States) -> float:
+def koenig(system: Mode, name: str, states: States) -> float:
     """(2.54) T = Σ ½ m ṙ_c² + ½ J ω² of the poses."""
     worst = 0.0
     for t, q, v in states:
@@ -110,7 +110,7 @@ def koenig(system: System, name: str, states: States) -> float:
     return worst
 
 
-def constraints(system: System, name: str, states: States) -> float:
+def constraints(system: Mode, name: str, states: States) -> float:
     """(2.14) f = 0 in the states and f_a = ∂f/∂q, so that f_a q̇ᵃ = g."""
     worst = 0.0
     for t, q, v in states:
@@ -122,7 +122,7 @@ def constraints(system: System, name: str, states: States) -> float:
     return worst
 
 
-def start(system: System, name: str, states: States) -> float:
+def start(system: Mode, name: str, states: States) -> float:
     """Start as the case says: poses beyond their margin, constraints and their rates."""
     q, v = system.start()
     poses = system.poses(0.0, q, v)
@@ -131,7 +131,7 @@ def start(system: System, name: str, states: States) -> float:
     return float(max(0.0, *beyond, *open_))
 
 
-def closed_form(system: System, name: str, states: States) -> float:
+def closed_form(system: Mode, name: str, states: States) -> float:
     """Closed form: the start at t = 0; its v is q̇ and q̈ = `accelerations`, by differences."""
     known = _closed(system, 0.0)
     worst = max(difference(known[i], system.start()[i], 1.0) for i in range(2))
@@ -143,7 +143,7 @@ def closed_form(system: System, name: str, states: States) -> float:
     return worst
 
 
-def _closed(system: System, t: float) -> tuple[Array, Array]:
+def _closed(system: Mode, t: float) -> tuple[Array, Array]:
     known = system.closed_form(t)
     assert known is not None
     return known

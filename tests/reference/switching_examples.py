@@ -5,9 +5,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from textmech.reference.mode import Switching
-from textmech.reference.system import Array
-from textmech.reference.systems import SWITCHING
+from textmech.reference.system import Array, System
+from textmech.reference.systems import written
 
 BOOK = {"F_minus": 3.0, "F_plus": 3.0, "Fs_minus": 6.0, "Fs_plus": 6.0}
 SMOOTH = {"Delta": 5e-4, "A": 1e5}
@@ -30,9 +29,9 @@ PARAMETERS: dict[str, dict[str, float]] = {
 }  # fmt: skip
 
 
-def example(name: str, **changed: float) -> Switching:
+def example(name: str, **changed: float) -> System:
     """The system of the case, with some of its parameters changed."""
-    return SWITCHING[name](**{**PARAMETERS[name], **changed})
+    return written(name, {**PARAMETERS[name], **changed})
 
 
 def states(name: str, mode: str, count: int = 50) -> Iterator[tuple[float, Array, Array]]:

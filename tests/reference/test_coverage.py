@@ -1,18 +1,14 @@
 """Which equations count as used: those whose function runs."""
 
 import sys
-from dataclasses import replace
+from collections.abc import Callable
 
 import pytest
 import scenes
 
-from textmech.cases.case import Case
-from textmech.reference.certificate.coverage import equations, executed
+from textmech.reference.coverage import CALLS, equations, look, noting
 from textmech.reference.laws import momentum
 from textmech.reference.laws.force import spring
-from textmech.reference.solve import solve
-
-SAMPLES = 3  # as the reports do it: enough to run every function once
 
 
 @pytest.mark.parametrize(
@@ -36,37 +32,51 @@ def test_equations_that_open_a_docstring(docstring: str | None, numbers: list[st
     assert equations(docstring) == numbers
 
 
-def test_only_what_runs_is_executed() -> None:
-    assert executed(lambda: spring(1.0, 0.5, (1.0, 0.0))) == {"2.82"}
-    assert executed(lambda: None) == set()
+def noted(work: Callable[[], object]) -> set[str]:
+    with noting() as found:
+        work()
+    return found
+
+
+def test_only_what_runs_is_noted() -> None:
+    assert noted(lambda: spring(1.0, 0.5, (1.0, 0.0))) == {"2.82"}
+    assert noted(lambda: None) == set()
 
 
 def test_naming_a_function_is_not_running_it() -> None:
-    assert executed(lambda: momentum.spin_rate) == set()
+    assert noted(lambda: momentum.spin_rate) == set()
 
 
 def test_what_is_not_of_the_reference_does_not_count() -> None:
     def elsewhere() -> None:
         """(2.99) A docstring in a test."""
 
-    assert executed(elsewhere) == set()
+    assert noted(elsewhere) == set()
 
 
 def test_another_profiler_is_put_back_even_after_an_error() -> None:
     before = sys.getprofile()
     with pytest.raises(ZeroDivisionError):
-        executed(lambda: 1 / 0)
+        noted(lambda: 1 / 0)
     assert sys.getprofile() is before
 
 
-def short(case: Case) -> Case:
-    if case.events:  # they may come at any time
-        return case
-    return replace(case, samples=SAMPLES, duration=(SAMPLES - 1) * case.interval)
+def test_a_watch_ends_and_starts_anew() -> None:
+    def long() -> None:
+        for _ in range(CALLS + 1):
+            equations(None)
+        spring(1.0, 0.5, (1.0, 0.0))
+
+    def looking() -> None:
+        long()
+        look()
+        spring(1.0, 0.5, (1.0, 0.0))
+
+    assert noted(long) == set()
+    assert noted(looking) == {"2.82"}
 
 
 @pytest.mark.parametrize("name", scenes.SHIPPED)
 def test_claimed_equations_are_executed(name: str) -> None:
-    case = scenes.SHIPPED[name]
-    missing = set(case.origin.equations) - executed(lambda: solve(short(case)))
+    missing = set(scenes.SHIPPED[name].origin.equations) - scenes.solved(name).equations
     assert not missing, f"{name} claims {sorted(missing)}, which nothing in its solution executes"

@@ -7,14 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from textmech.reference.mode import Guard, Switching
 from textmech.reference.motion import follow as event
-from textmech.reference.motion.follow import TOGETHER, ZenoError, accumulation, follow
-from textmech.reference.system import Array, System
+from textmech.reference.motion.crossing import TOGETHER
+from textmech.reference.motion.follow import follow
+from textmech.reference.motion.zeno import ZenoError, accumulation
+from textmech.reference.system import Array, Guard, Mode, System
 from textmech.reference.systems.bouncing_disk import BouncingDisk
 
 
-class Oscillator(System):
+class Oscillator(Mode):
     """q̈ = −q."""
 
     coordinates = ("x",)
@@ -23,7 +24,7 @@ class Oscillator(System):
         return -q
 
 
-class Still(System):
+class Still(Mode):
     """Nothing moves."""
 
     coordinates = ("x",)
@@ -36,11 +37,11 @@ Plain = Callable[[float, float, float], float]
 
 
 @dataclass
-class Watched(Switching):
+class Watched(System):
     """x = cos t (or rest at 1) with guards that change nothing, but may end in another mode."""
 
     watched: Sequence[tuple[str | None, Plain]]
-    system: System
+    system: Mode
     after: str = "on"
 
     def __post_init__(self) -> None:
@@ -168,7 +169,7 @@ def test_more_events_than_anyone_wants_end_with_a_message(monkeypatch: pytest.Mo
         follow(beats, np.array([0.0, 7.0]))
 
 
-class Chatter(Switching):
+class Chatter(System):
     """Two modes, each of which is to end at once."""
 
     def __init__(self) -> None:

@@ -13,7 +13,7 @@ import pytest
 from examples import PARAMETERS, example, states
 from laws import Law
 
-from textmech.reference.system import Load, System
+from textmech.reference.system import Load, Mode
 
 # Which law sees a parameter that is 5 % off in the explicit accelerations and reactions only.
 # Where a mass drops out of the motion, the reactions tell.
@@ -51,13 +51,13 @@ AT_THE_START: dict[str, dict[str, Law]] = {
 DROPS_OUT = {("rolling_wheel", "mu")}  # rolling needs enough friction, not a certain friction
 
 
-def mutant(system: System, **methods: Callable[..., Any]) -> System:
+def mutant(system: Mode, **methods: Callable[..., Any]) -> Mode:
     """The same system with some of its methods replaced."""
     cls = type(system)
     return type(f"Mutant{cls.__name__}", (cls,), methods)(**asdict(system))  # type: ignore[call-overload]
 
 
-def explicit_of(other: System) -> dict[str, Callable[..., Any]]:
+def explicit_of(other: Mode) -> dict[str, Callable[..., Any]]:
     """The explicit accelerations and reactions of another system."""
     return {
         "accelerations": lambda self, t, q, v: other.accelerations(t, q, v),
@@ -65,11 +65,11 @@ def explicit_of(other: System) -> dict[str, Callable[..., Any]]:
     }
 
 
-def module_of(system: System) -> ModuleType:
+def module_of(system: Mode) -> ModuleType:
     return importlib.import_module(type(system).__module__)
 
 
-def assert_seen(law: Law, name: str, system: System) -> None:
+def assert_seen(law: Law, name: str, system: Mode) -> None:
     assert not laws.broken(law, law(example(name), name, states(name))), "sound, and yet refused"
     assert laws.broken(law, law(system, name, states(name)))
 
@@ -118,7 +118,7 @@ def test_parameter_that_drops_out(parameter: str):
 def test_sign_of_gravity(name: str):
     system = example(name)
 
-    def accelerations(self: System, t: float, q: Any, v: Any) -> Any:
+    def accelerations(self: Mode, t: float, q: Any, v: Any) -> Any:
         with mock.patch.object(module_of(system), "G", -9.80665):
             return system.accelerations(t, q, v)
 
@@ -205,7 +205,7 @@ def test_reaction_with_the_parts_exchanged():
     """`elbow.fx` is the force of the first part on the second, not of the second on the first."""
     system = example("double_pendulum")
 
-    def reactions(self: System, t: float, q: Any, v: Any) -> dict[str, float]:
+    def reactions(self: Mode, t: float, q: Any, v: Any) -> dict[str, float]:
         known = system.reactions(t, q, v)
         return known | {"elbow.fx": -known["elbow.fx"]}
 
@@ -215,7 +215,7 @@ def test_reaction_with_the_parts_exchanged():
 def test_spring_that_pulls_at_one_knee_only():
     system = example("rhombus")
 
-    def loads(self: System, t: float, q: Any, v: Any) -> list[Load]:
+    def loads(self: Mode, t: float, q: Any, v: Any) -> list[Load]:
         return system.loads(t, q, v)[:-1]
 
     assert_seen(laws.free_cut, "rhombus", mutant(system, loads=loads))

@@ -25,7 +25,7 @@ from textmech.reference.generated.element import elements
 from textmech.reference.generated.mechanism import Mechanism
 from textmech.reference.generated.smooth import SmoothMechanism
 from textmech.reference.motion.follow import follow
-from textmech.reference.system import Array
+from textmech.reference.system import Array, Only
 from textmech.reference.systems.smooth_friction import SmoothDynamometer
 
 LAW = 1e-9  # of the largest acceleration: random scenes lose up to four digits of 1e-13
@@ -149,7 +149,10 @@ def test_a_slide_brakes_by_its_own_bound(way: float) -> None:
 def test_smooth_friction_of_a_slide_by_the_formalisms() -> None:
     """(2.95) outside the band is −F₊; the residual by superposition is the sum of the forces."""
     law = Smooth(band=0.05, sharpness=100.0)
-    mechanism = SmoothMechanism(guided(1.3, law), (np.array([0.1, -0.2]), np.zeros(2)))
+    start = np.array([0.1, -0.2]), np.zeros(2)
+    system = SwitchingMechanism(guided(1.3, law), start, 1.0)
+    mechanism = system.modes[system.start()[0]]
+    assert isinstance(mechanism, SmoothMechanism)
     for speed in (-1.0, -0.05, 0.0, 0.02, 0.05, 1.0):
         q, v = np.array([0.1, -0.2]), speed * np.array([0.6, 0.8])
         a = mechanism.accelerations(0.0, q, v)
@@ -172,7 +175,8 @@ def test_smooth_friction_on_an_oblique_slide_of_odd_mass() -> None:
     )
     times = np.linspace(0.0, 5.0, 26)
     y = follow(SwitchingMechanism(scene, (np.zeros(2), np.zeros(2)), 1.0), times).y
-    exact = follow(SmoothDynamometer(1.3, 2.0, 2.0, 3.0, 3.0, 6.0, 6.0, 5e-4, 1e5), times).y
+    block = SmoothDynamometer(1.3, 2.0, 2.0, 3.0, 3.0, 6.0, 6.0, 5e-4, 1e5)
+    exact = follow(Only(block), times).y
     assert y[:, :2] @ [0.6, 0.8] == pytest.approx(exact[:, 0], abs=1e-9)
 
 

@@ -9,16 +9,18 @@ import laws
 import mpmath
 import numpy as np
 import pytest
+from examples import PARAMETERS as SMOOTH
 from scipy.integrate import solve_ivp
 from switching_examples import PARAMETERS, example, states
 
 from textmech.reference.formalisms import lagrange, newton_euler
 from textmech.reference.integrators.implicit import radau
 from textmech.reference.laws.friction import Dry, smooth
-from textmech.reference.mode import Guard, Switching
-from textmech.reference.motion.follow import ZenoError, follow, slope
-from textmech.reference.system import Array, System
-from textmech.reference.systems import SWITCHING
+from textmech.reference.motion.follow import follow
+from textmech.reference.motion.stuck import slope
+from textmech.reference.motion.zeno import ZenoError
+from textmech.reference.system import Array, Guard, Mode, System
+from textmech.reference.systems import SYSTEMS
 from textmech.reference.systems.dynamometer import Dynamometer
 
 MODES = [(name, mode) for name in PARAMETERS for mode in example(name).modes]
@@ -51,7 +53,7 @@ def duration(name: str) -> float:
     return DURATION.get(name, 10.0)
 
 
-def event_errors(known: Switching, system: Switching, until: float) -> list[float]:
+def event_errors(known: System, system: System, until: float) -> list[float]:
     """Distances [s] of the events of one system from the closed ones of another; inf if others."""
     closed = known.closed_events(until)
     assert closed is not None
@@ -62,7 +64,7 @@ def event_errors(known: Switching, system: Switching, until: float) -> list[floa
 
 
 def test_every_system_is_tested():
-    assert set(SWITCHING) == set(PARAMETERS)
+    assert set(SYSTEMS) == set(PARAMETERS) | set(SMOOTH)
 
 
 @pytest.mark.parametrize(("name", "mode"), MODES)
@@ -198,7 +200,7 @@ def test_drift_against_roots_to_thirty_digits():
 @pytest.mark.parametrize("name", ["smooth_dynamometer", "smooth_growing_force"])
 def test_smooth_law_by_stiff_integrators(name: str):
     system, times = example(name), np.linspace(0.0, 10.0, 51)
-    assert system.implicit
+    assert system.modes["moving"].stiff
     found = follow(system, times)
     assert found.events == ()
     f = slope(system.modes["moving"])
@@ -271,14 +273,14 @@ def test_impossible_parameters_are_refused(name: str, changed: dict[str, float],
         example(name, **changed)
 
 
-def mutant(system: Switching, **methods: Callable[..., Any]) -> Switching:
+def mutant(system: System, **methods: Callable[..., Any]) -> System:
     """The same system with some of its methods replaced."""
     cls = type(system)
     known = {key: getattr(system, key) for key in PARAMETERS_OF[cls]}
     return type(f"Mutant{cls.__name__}", (cls,), methods)(**known)
 
 
-PARAMETERS_OF = {SWITCHING[name]: list(PARAMETERS[name]) for name in PARAMETERS}
+PARAMETERS_OF = {SYSTEMS[name]: list(PARAMETERS[name]) for name in PARAMETERS}
 
 
 @pytest.mark.parametrize("name", ["sliding_disk", "sliding_block", "dynamometer"])
@@ -286,7 +288,7 @@ def test_threshold_in_place_of_the_event_is_seen(name: str):
     """`stays zero` within 1e-6 m/s instead of g = 0."""
     system = example(name)
 
-    def guards(self: Switching, mode: str) -> Sequence[Guard]:
+    def guards(self: System, mode: str) -> Sequence[Guard]:
         return [replace(g, g=lambda t, q, v, g=g: g.g(t, q, v) - 1e-6) for g in system.guards(mode)]
 
     assert max(event_errors(system, system, duration(name))) <= LOCATED
@@ -299,7 +301,7 @@ def test_missing_stick_mode_is_seen(name: str):
     system = example(name)
     other = {"up": "down", "down": "up", "forward": "backward", "backward": "forward"}
 
-    def guards(self: Switching, mode: str) -> Sequence[Guard]:
+    def guards(self: System, mode: str) -> Sequence[Guard]:
         def on(t: float, q: Array, v: Array) -> tuple[str, Array, Array]:
             return other[mode], q, np.zeros(1)
 
@@ -334,7 +336,7 @@ def test_sign_of_friction_in_one_mode_is_seen_by_the_laws(name: str, mode: str):
     system = example(name).modes[mode]
     wrong = replace(system, sigma=-1)  # type: ignore[type-var, call-arg]
 
-    def accelerations(self: System, t: float, q: Array, v: Array) -> Array:
+    def accelerations(self: Mode, t: float, q: Array, v: Array) -> Array:
         return wrong.accelerations(t, q, v)
 
     planted = type("Mixed", (type(system),), {"accelerations": accelerations})(**vars_of(system))

@@ -8,6 +8,7 @@ import laws
 import mpmath
 import numpy as np
 import pytest
+import switching_examples
 from examples import PARAMETERS, example, states
 from scipy.special import ellipj
 
@@ -28,7 +29,7 @@ _RATIOS = ("cd", "sd", "nd")  # Glaisher's cn/dn, sn/dn, 1/dn
 
 
 def test_every_system_is_tested():
-    assert set(SYSTEMS) == set(PARAMETERS)
+    assert set(SYSTEMS) == set(PARAMETERS) | set(switching_examples.PARAMETERS)
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,74 @@
+"""Which numbered equations a case really uses: those whose function runs, not those it claims.
+
+A function stands for the equations that open its docstring: `(2.44) d/dt ∂T/∂q̇ − …`. They are
+noted while the case is solved. Watching every call would double its time, so a watch lasts for so
+many calls, and starts anew wherever something else begins: a phase, an event, a law.
+"""
+
+import re
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import CodeType, FrameType
+from typing import Any
+
+HERE = str(Path(__file__).parent)
+CALLS = 5000  # of one watch: a dozen evaluations of any mode, with its guards
+_OPENING = re.compile(r"\s*(?:\(2\.\d+\)(?:[-–](?:\(2\.\d+\))?)?(?:,| and)?\s*)+")
+_NUMBER = re.compile(r"2\.\d+")
+
+
+def equations(docstring: str | None) -> list[str]:
+    """The equations a docstring opens with: "(2.23), (2.27) …" → ["2.23", "2.27"]."""
+    opening = _OPENING.match(docstring or "")
+    return _NUMBER.findall(opening.group()) if opening else []
+
+
+class _Watch:
+    """The functions seen so far, and how many calls are still looked at."""
+
+    def __init__(self) -> None:
+        self.codes: set[CodeType] = set()
+        self.left = 0
+
+    def start(self) -> None:
+        self.left = CALLS
+        sys.setprofile(self.note)
+
+    def note(self, frame: FrameType, event: str, _: Any) -> None:
+        if event == "call":
+            self.codes.add(frame.f_code)
+            self.left -= 1
+            if self.left < 0:
+                sys.setprofile(None)
+
+    def equations(self) -> Iterator[str]:
+        for code in self.codes:
+            if code.co_filename.startswith(HERE) and code.co_consts:
+                text = code.co_consts[0]
+                yield from equations(text if isinstance(text, str) else None)
+
+
+_watches: list[_Watch] = []
+
+
+def look() -> None:
+    """Something else begins: whoever notes equations looks again."""
+    if _watches:
+        _watches[-1].start()
+
+
+@contextmanager
+def noting() -> Iterator[set[str]]:
+    """The equations of the functions of `reference` that run inside, filled in at the end."""
+    found: set[str] = set()
+    before, watch = sys.getprofile(), _Watch()
+    _watches.append(watch)
+    watch.start()
+    try:
+        yield found
+    finally:
+        _watches.pop()
+        sys.setprofile(before)
+        found.update(watch.equations())

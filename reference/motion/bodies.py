@@ -1,0 +1,62 @@
+"""From a system's motion to the states of its bodies and to the forces between them."""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ...cases.trajectory import Trajectory
+from ..system import Array, Pose, System
+from .follow import Followed, Row
+from .stuck import Stuck
+
+Beside = Callable[[int, float, Mapping[str, Pose]], Mapping[str, float]]
+"""(number of the phase, t, poses) → reactions that somebody else derives for the same motion."""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A system, how it moved, and who derives the reactions that it does not know itself."""
+
+    system: System
+    followed: Followed
+    beside: Beside = lambda phase, t, poses: {}
+
+    def trajectory(self, times: Array, y: Array | None = None) -> Trajectory:
+        """The samples; of another motion y (N, 2n) through the same phases, if given.
+
+        Raises Stuck at a sample where reactions are not determined.
+        """
+        y = self.followed.y if y is None else y
+        phases = self.followed.phase.tolist()
+        return self._bodies(zip(times.tolist(), phases, y, strict=True), forces=True)
+
+    def record(self, *, forces: bool) -> Trajectory:
+        """The rows that were kept on the way, with reactions or without."""
+        phase = np.array([row[1] for row in self.followed.rows], dtype=np.int64)
+        return replace(self._bodies(self.followed.rows, forces=forces), phase=phase)
+
+    def _bodies(self, rows: Iterable[Row], *, forces: bool) -> Trajectory:
+        times: list[float] = []
+        states: dict[str, list[Any]] = {}
+        reactions: list[Mapping[str, float]] = []
+        for t, phase, y in rows:
+            q, v = np.split(y, 2)
+            mode = self.system.modes[self.followed.phases[phase]]
+            poses = mode.poses(t, q, v)
+            times.append(t)
+            for name, pose in poses.items():
+                states.setdefault(name, []).append(pose)
+            if forces:
+                try:
+                    found = {**self.beside(phase, t, poses), **mode.reactions(t, q, v)}
+                except ArithmeticError as error:
+                    raise Stuck(str(error), mode, t, y) from error
+                reactions.append(found)
+        names = dict.fromkeys(name for found in reactions for name in found)
+        return Trajectory(
+            np.array(times),
+            {name: np.array(poses, float) for name, poses in states.items()},
+            {name: np.array([found.get(name, 0.0) for found in reactions]) for name in names},
+        )

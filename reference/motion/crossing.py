@@ -1,0 +1,107 @@
+"""Where in a step a guard falls through zero.
+
+No interpolation: the state within a step is that of a shorter one, and the root-finder repeats it
+until it ends on the zero.
+"""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from scipy.optimize import brentq, minimize_scalar
+
+from ..system import Array, Guard
+
+TOGETHER = 1e-12  # s: how well an event is located, so closer ones are one instant
+ROOT = 1e-15  # s: what the root-finder is asked for, to keep the promise above
+INSIDE = (0.25, 0.5, 0.75)  # of a step: a guard turns no faster than the motion, at most once
+HALVINGS = 40  # of a step, in search of the rise of a guard that begins at zero: to 1e-12 of it
+
+State = Callable[[float], Array]
+"""h → y (2n,) after a step of that length."""
+
+
+def first(
+    guards: Sequence[Guard],
+    t: float,
+    points: list[float],
+    states: Sequence[Array],
+    state: State,
+    *,
+    begins: bool,
+    spent: int | None,
+) -> tuple[int, float] | None:
+    """Which guard falls first in the step from t, and how far into it.
+
+    points: 0, some times inside the step, and its length; states: y at each of them. begins: the
+    mode does, with this step. spent: the guard that ended it just before.
+    """
+    found = None
+    for i, guard in enumerate(guards):
+
+        def g(at: float, y: Array | None = None, guard: Guard = guard) -> float:
+            return guard.g(t + at, *np.split(state(at) if y is None else y, 2))
+
+        values = [g(at, y) for at, y in zip(points, states, strict=True)]
+        at = crossing(g, points, values, begins=begins, spent=i == spent)
+        if at is not None and (found is None or at < found[1] - TOGETHER):
+            found = i, at
+    return found
+
+
+def crossing(
+    g: Callable[[float], float],
+    points: list[float],
+    values: list[float],
+    *,
+    begins: bool,
+    spent: bool,
+) -> float | None:
+    """The first zero that g falls through, of a function known at some points."""
+    rise = next((i for i, value in enumerate(values) if value > 0.0), None)
+    if rise is None:
+        if begins and values[-1] < values[0]:
+            return _begun(g, points[-1], spent)
+        top = _near(g, points, values, -1.0)
+        return None if top is None else _root(g, *top)
+    fall = next((i for i in range(rise, len(values)) if values[i] <= 0.0), None)
+    if fall is not None:
+        return _root(g, points[fall - 1], points[fall])
+    bottom = _near(g, points[rise:], values[rise:], 1.0)
+    return None if bottom is None else _root(g, *bottom)
+
+
+def _begun(g: Callable[[float], float], h: float, spent: bool) -> float | None:
+    """The zero after a rise too short for the points to see; without one, the very beginning."""
+    for k in range(1, HALVINGS):
+        if g(h / 2**k) > 0.0:
+            return _root(g, h / 2**k, h / 2 ** (k - 1))
+    return None if spent else 0.0
+
+
+def _near(
+    g: Callable[[float], float], points: list[float], values: list[float], sign: float
+) -> tuple[float, float] | None:
+    """A dip below zero (sign 1) or a hump above it (−1) between the points: a bracket of its fall.
+
+    It is looked for where the values come as near to zero as they differ from each other.
+    """
+    sizes = [sign * value for value in values]
+    low = int(np.argmin(sizes))
+    if len(points) < 2 or sizes[low] > max(sizes) - sizes[low]:
+        return None
+    left, right = points[max(low - 1, 0)], points[min(low + 1, len(points) - 1)]
+    turn = minimize_scalar(
+        lambda at: sign * g(at), bounds=(left, right), method="bounded", options={"xatol": TOGETHER}
+    )
+    if sign > 0.0:
+        return (left, float(turn.x)) if turn.fun <= 0.0 else None
+    return (float(turn.x), right) if turn.fun < 0.0 else None
+
+
+def _root(g: Callable[[float], float], left: float, right: float) -> float:
+    """Just beyond the zero between a positive value and one that is not: g has fallen there."""
+    root = float(brentq(g, left, right, xtol=ROOT, rtol=4 * np.finfo(float).eps))
+    beyond = ROOT
+    while root < right and g(root) > 0.0:
+        root, beyond = min(root + beyond, right), 2 * beyond
+    return root

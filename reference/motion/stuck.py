@@ -1,0 +1,52 @@
+"""Where a motion ends before its time: the steps shrink, or the equations cannot be solved."""
+
+import numpy as np
+
+from ..integrators.march import IntegrationError, Slope, Vector
+from ..system import Array, Mode
+
+WATCHED = 6000  # evaluations, 500 explicit steps: enough to recover from any first step
+CRAWL = 1e-6  # of the duration in that many: at this pace the motion takes 5e8 steps
+
+
+class Stuck(Exception):
+    """A motion that cannot be followed beyond `time`; q and v are about where it was then."""
+
+    def __init__(self, reason: str, mode: Mode, time: float, y: Array) -> None:
+        super().__init__(reason)
+        self.mode, self.time = mode, time
+        self.q, self.v = np.split(y, 2)
+
+
+def slope(mode: Mode) -> Slope:
+    """ẏ = (v, q̈(t, q, v)) of y = (q, v)."""
+
+    def f(t: float, y: Vector) -> Vector:
+        n = len(y) // 2
+        y_dot = np.empty_like(y)
+        y_dot[:n] = y[n:]
+        y_dot[n:] = mode.accelerations(t, y[:n], y[n:])
+        return y_dot
+
+    return f
+
+
+class Watched:
+    """A mode's ẏ(t, y), which remembers where it was and sees when steps no longer get anywhere.
+
+    Towards a singular pose the integrators take ever shorter steps and would never end.
+    """
+
+    def __init__(self, mode: Mode, duration: float, y: Array) -> None:
+        self.slope, self.duration, self.y = slope(mode), duration, y
+        self.calls, self.farthest, self.mark = 0, -np.inf, -np.inf
+
+    def __call__(self, t: float, y: Vector) -> Vector:
+        self.y = y
+        self.calls += 1
+        self.farthest = max(self.farthest, t)
+        if self.calls % WATCHED == 0:
+            if self.farthest - self.mark < CRAWL * self.duration:
+                raise IntegrationError("the steps shrink to nothing", t)
+            self.mark, self.farthest = self.farthest, -np.inf
+        return self.slope(t, y)

@@ -1,0 +1,36 @@
+"""Events without end in a finite time, as of a ball that bounces ever lower."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+MOST = 10_000  # events
+SEEN = 6  # firings of one name from which an accumulation is judged: five distances
+NEAR = 1e-5  # of the duration: an accumulation point this close ends the motion
+
+
+class ZenoError(RuntimeError):
+    """Events without end in a finite time; `time` is how far it got, `event` what happens."""
+
+    def __init__(self, event: str, time: float, reason: str) -> None:
+        super().__init__(f"'{event}' {reason} at t = {time!r}")
+        self.event, self.time = event, time
+
+
+def accumulation(instants: Sequence[float]) -> float | None:
+    """Where the last instants, if their distances shrink geometrically, pile up; else None."""
+    instants = instants[-SEEN:]
+    distances = np.diff(instants)
+    if len(distances) < SEEN - 1:
+        return None
+    if not distances.any():
+        return instants[-1]
+    if not distances.all():
+        return None
+    ratio = float(np.max(distances[1:] / distances[:-1]))
+    return instants[-1] + float(distances[-1]) * ratio / (1.0 - ratio) if ratio < 1.0 else None
+
+
+def ends_here(limit: float, t: float, begin: float, end: float) -> bool:
+    """Whether an accumulation at `limit` ends the motion that stands at t, before its end."""
+    return limit <= end and limit - t <= NEAR * (end - begin)

@@ -1,0 +1,96 @@
+"""What a case takes for granted and only its motion can tell: that it rolls, moves, and lands."""
+
+from collections.abc import Collection, Iterator
+
+import numpy as np
+
+from ..cases.case import Case
+from ..cases.mistake import CaseError, Mistake
+from ..cases.observe import observe
+from ..cases.quantity import table
+from ..cases.trajectory import ANGLE, OMEGA, VX, VY, Array, Trajectory, X, Y
+from .start.closure import Closure
+
+STILL = 1e-9  # of the motion's size: smaller changes are no motion
+ALIKE = {"m": [X, Y], "m/s": [VX, VY], "rad": [ANGLE], "rad/s": [OMEGA]}  # columns of a state
+OPEN = 1e-9  # of the mechanism's size: nearer than that, a contact starts closed
+ROUNDING = 1e-12  # of the normal force: a wheel that needs no friction rolls without any
+
+
+def check_premises(case: Case, motion: Trajectory, happened: Collection[str | None]) -> None:
+    """Raises CaseError with what the motion contradicts: the first kind of mistake there is.
+
+    happened: the names of the changes of mode, as `touch lands`.
+    """
+    for mistakes in (
+        _unsaid(case, motion, happened),
+        _slipping(case, motion),
+        _still(case, motion),
+    ):
+        if found := list(mistakes):
+            raise CaseError(found)
+
+
+def _unsaid(case: Case, motion: Trajectory, happened: Collection[str | None]) -> Iterator[Mistake]:
+    """A contact that starts above the floor and lands has to say so: often it is a slip of the pen.
+
+    One that has not landed by the end is no mistake: there is nothing to say yet.
+    """
+    said = {event.quantity for event in case.events.values()}
+    size = Closure(case).size
+    for name, contact in case.scene.contacts.items():
+        gap = float(observe(case.scene, motion, f"{name}.gap")[0])
+        lands = contact.ideal is None and f"{name} lands" in happened
+        if lands and gap > OPEN * size and f"{name}.gap" not in said:
+            what = (
+                f"starts {gap:.3g} m above the floor; if it is meant to fall on it, name the "
+                f"event: events: {{lands: {{{name}.gap: falls to zero}}}}"
+            )
+            yield case.mistake(("scene", "contacts", name), what)
+
+
+def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
+    """Rolling is assumed: |λ_t| ≤ μ λ_n and λ_n > 0 at every sample.
+
+    Names the first time at which it fails, and the μ that would be enough.
+    """
+    for contact in case.scene.contacts.values():
+        if contact.ideal is None:
+            continue
+        normal = motion.reactions[f"{contact.name}.normal"]
+        tangent = np.abs(motion.reactions[f"{contact.name}.tangent"])
+        fails = (normal <= 0) | (tangent > (contact.friction + ROUNDING) * normal)
+        if not np.any(fails):
+            continue
+        first = int(np.argmax(fails))
+        t = motion.times[first]
+        if normal[first] <= 0:
+            what = f"the floor would have to pull at t = {t:.3g} s: the disk leaves it"
+        else:
+            what = (
+                f"rolling is not possible with friction {contact.friction:.3g}: at t = {t:.3g} s "
+                f"it would slip; {_needed(normal, tangent)}"
+            )
+        yield case.mistake(("scene", "contacts", contact.name, "ideal"), what)
+
+
+def _needed(normal: Array, tangent: Array) -> str:
+    if np.any(normal <= 0):
+        return "later the disk would even leave the floor"
+    return f"rolling all the way needs {np.max(tangent / normal):.3g}"
+
+
+def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:
+    """A place or velocity that stays what it was proves nothing, unless the case says it rests."""
+    known = table(case.scene)
+    states = np.concatenate(list(motion.states.values()))
+    for name in (name for name in case.allow if name in known):  # the rest are of events
+        quantity = known[name]
+        if case.rests or quantity.kind not in ("coordinate", "velocity"):
+            continue
+        samples = observe(case.scene, motion, name)
+        # a place held at 0 trembles by rounding, which is small only beside the other bodies'
+        size = max(np.max(np.abs(samples)), np.max(np.abs(states[:, ALIKE[quantity.unit]])))
+        if np.ptp(samples) <= STILL * size:
+            what = f"never moves: it stays {samples[0]:.6g}, so nothing is compared; leave it out"
+            yield case.mistake(("allow", name), f"{what}, or say `rests: true`")

@@ -1,0 +1,73 @@
+"""Why a motion is refused, as a mistake at the place in the case that causes it.
+
+What stops a motion (a line without direction, constraints that come to depend on each other) is
+asked only after the integrators have failed, to say why.
+"""
+
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import numpy as np
+
+from ..cases.case import Case
+from ..cases.mistake import CaseError, Mistake
+from .generated.choosing import BadStart, SwitchingMechanism, Undetermined
+from .motion.stuck import Stuck
+from .motion.zeno import ZenoError
+from .start.closure import Closure
+from .start.positions import rank
+from .system import Array
+
+SHORT = 1e-3  # of the mechanism's size: steps give up well before the length is zero
+DEPENDENT = 1e-2  # singular values below this part of the largest: the same, for constraints
+
+
+@contextmanager
+def refusals(case: Case, generated: SwitchingMechanism) -> Iterator[None]:
+    """Turns what stops the motion into CaseError."""
+    try:
+        yield
+    except (BadStart, Undetermined, ZenoError, Stuck) as failure:
+        raise CaseError([_mistake(case, generated, failure)]) from failure
+
+
+def _mistake(case: Case, generated: SwitchingMechanism, failure: Exception) -> Mistake:
+    match failure:
+        case BadStart():
+            return case.mistake(("initial",), str(failure))
+        case Undetermined(part=part) if part in case.scene.contacts:
+            return case.mistake(("scene", "contacts", part, "friction"), str(failure))
+        case Undetermined(part=part):
+            return case.mistake(("scene", "joints", part, "dry_friction"), str(failure))
+        case ZenoError(event=event, time=time):
+            why = f"{event!r} happens thousands of times or without end (a Zeno sequence)"
+        case Stuck(time=time):
+            q, _ = generated.base.place(failure.mode.poses(time, failure.q, failure.v))
+            why = _line(case, generated, time, q) or _constraint(case, q) or str(failure)
+        case _:
+            raise failure
+    what = f"the motion cannot be followed beyond t = {time:.4g} s: {why}"
+    return case.mistake(("duration",), what)
+
+
+def _line(case: Case, generated: SwitchingMechanism, t: float, q: Array) -> str | None:
+    size, where = Closure(case).size, generated.base.where
+    for force in (*case.scene.springs(), *case.scene.dampers()):
+        a, b = (where.point(end, t, q.tolist(), q.tolist()) for end in (force.a, force.b))
+        if math.hypot(b.r[0] - a.r[0], b.r[1] - a.r[1]) < SHORT * size:
+            return f"{force.name} has no length there, and so no direction"
+    return None
+
+
+def _constraint(case: Case, q: Array) -> str | None:
+    closure = Closure(case)
+    rows = np.zeros((0, closure.n))
+    for c in closure.parts:
+        rows = np.vstack([rows, closure.rows([c], q)])
+        if rank(rows, DEPENDENT) < len(rows):
+            return (
+                f"in this position what {c.part} holds is held by the others already, so that "
+                "neither its reaction nor the way on is determined"
+            )
+    return None
