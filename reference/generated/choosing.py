@@ -12,6 +12,7 @@ import numpy as np
 from ...cases.scene import Scene
 from ..mode import Guard, Switching
 from ..system import Array
+from .constraint import Constraint
 from .contact import row
 from .element import REST, Element, State, Touching, elements, sign, sliding, stiff
 from .impact import Meeting, NoImpact, Row, impact
@@ -70,17 +71,17 @@ class SwitchingMechanism(Switching):
     def _at_start(self, element: Element, q: Array, v: Array) -> Choice:
         still = STILL * (float(np.max(np.abs(v))) or 1.0)
         if isinstance(element, Touching):
-            gap = element.press.f(0.0, q.tolist())[0]
+            gap = element.normal.f(0.0, q.tolist())[0]
             if gap > CLOSED * self.size:
                 return ("open",)
             if gap < -CLOSED * self.size:
                 raise BadStart(f"{element.name} starts {-gap * 1e3:.3g} mm in the floor")
-            rate = _rate(element.press, 0.0, q, v)
+            rate = _rate(element.normal, 0.0, q, v)
             if rate < -still:
                 raise BadStart(f"{element.name} starts into the floor, with {-rate:.3g} m/s")
             if rate > still:
                 return ("open",)
-        slip = _rate(element.grip, 0.0, q, v)
+        slip = _rate(element.tangent, 0.0, q, v)
         return self._closed(element, slip if abs(slip) > still else 0.0)
 
     def _closed(self, element: Element, slip: float) -> Choice:
@@ -107,7 +108,7 @@ class SwitchingMechanism(Switching):
         e = self.elements[i]
         if isinstance(e, Touching):
             if state == "open":
-                gap = lambda t, q, v: e.press.f(t, q.tolist())[0]  # noqa: E731
+                gap = lambda t, q, v: e.normal.f(t, q.tolist())[0]  # noqa: E731
                 yield Guard(f"{e.name} lands", gap, self._lands(mode, i))
                 return
             normal = lambda t, q, v: self.forces(mode, t, q, v)[f"{e.name}.normal"]  # noqa: E731
@@ -115,7 +116,7 @@ class SwitchingMechanism(Switching):
         if frictionless(e):
             return
         if s := sign(state):
-            slip = lambda t, q, v: s * _rate(e.grip, t, q, v)  # noqa: E731
+            slip = lambda t, q, v: s * _rate(e.tangent, t, q, v)  # noqa: E731
             yield Guard(f"{e.name} stops", slip, self._to(mode, i, REST))
             return
         for k, way in enumerate(("slides +", "slides -")):
@@ -152,7 +153,7 @@ class SwitchingMechanism(Switching):
             choices[i] = ("open",)
             after = self._settled(choices, t, q, v)
             assert isinstance(e, Touching)
-            rises = self._change(e.press, after[0], t, q, v)
+            rises = self._change(e.normal, after[0], t, q, v)
             if rises < -self._small(t, q, v):
                 raise self._painleve(e.name, "neither staying nor leaving the floor", t)
             return after
@@ -192,14 +193,14 @@ class SwitchingMechanism(Switching):
         touching, met = [], []
         for k, (e, state) in enumerate(zip(self.elements, self.states(mode), strict=True)):
             if isinstance(e, Touching) and (k == i or state != "open"):
-                normal, tangent = (Row(*row(part, t, q, v)[:2]) for part in (e.press, e.grip))
+                normal, tangent = (Row(*row(part, t, q, v)[:2]) for part in (e.normal, e.tangent))
                 after = -e.contact.restitution * float(normal.f @ v) if k == i else 0.0
                 touching.append(k)
                 met.append(Meeting(e, normal, tangent, after, k == i))
         return touching, met
 
     def _slip(self, e: Element, t: float, q: Array, v: Array) -> float:
-        slip = _rate(e.grip, t, q, v)
+        slip = _rate(e.tangent, t, q, v)
         return slip if abs(slip) > STILL * float(np.max(np.abs(v))) else 0.0
 
     def _staying(self, mode: str) -> list[Choice]:
@@ -240,7 +241,7 @@ class SwitchingMechanism(Switching):
         for e, state, choice in zip(self.elements, states, choices, strict=True):
             if isinstance(e, Touching):
                 if state == "open":
-                    if len(choice) > 1 and self._change(e.press, mode, t, q, v) < -small:
+                    if len(choice) > 1 and self._change(e.normal, mode, t, q, v) < -small:
                         return False
                     continue
                 if forces[f"{e.name}.normal"] < -small * float(np.max(self._M)):
@@ -248,7 +249,7 @@ class SwitchingMechanism(Switching):
             if state == "sticks" and min(e.margins(forces)) < 0.0:
                 return False
             s = sign(state) if "sticks" in choice else 0
-            if s and s * self._change(e.grip, mode, t, q, v) < -small:
+            if s and s * self._change(e.tangent, mode, t, q, v) < -small:
                 return False
         return True
 
@@ -257,9 +258,9 @@ class SwitchingMechanism(Switching):
         forces = self.forces(self.built.name(states), t, q, v)
         return abs(forces[f"{e.name}.normal"]) <= self._small(t, q, v) * float(np.max(self._M))
 
-    def _change(self, part: object, mode: str, t: float, q: Array, v: Array) -> float:
+    def _change(self, part: Constraint, mode: str, t: float, q: Array, v: Array) -> float:
         """f_a q̈ᵃ − γ: how the rate of a row changes in a mode [m/s²]."""
-        f, _, gamma = row(part, t, q, v)  # type: ignore[arg-type]
+        f, _, gamma = row(part, t, q, v)
         return float(f @ self.modes[mode].accelerations(t, q, v)) - gamma
 
     def _small(self, t: float, q: Array, v: Array) -> float:
@@ -271,7 +272,7 @@ class SwitchingMechanism(Switching):
         """The nearest q (in M) on the floor and v that meets the rows: what sticks is at rest."""
         mode = self.modes[self.built.name(states)]
         pairs = zip(self.elements, states, strict=True)
-        closed = [e.press for e, s in pairs if isinstance(e, Touching) and s != "open"]
+        closed = [e.normal for e, s in pairs if isinstance(e, Touching) and s != "open"]
         if closed:
             gaps = np.concatenate([self.base.f(t, q), [p.f(t, q.tolist())[0] for p in closed]])
             f = np.vstack([self.base.f_a(t, q), *(row(p, t, q, v)[0] for p in closed)])
@@ -305,14 +306,14 @@ class SwitchingMechanism(Switching):
         for e, state in zip(self.elements, self.states(mode), strict=True):
             if isinstance(e, Touching):
                 if state == "open":
-                    if e.press.f(t, q.tolist())[0] < -CLOSED * self.size:
+                    if e.normal.f(t, q.tolist())[0] < -CLOSED * self.size:
                         return f"{e.name} is in the floor"
                     continue
                 if forces[f"{e.name}.normal"] < -force:
                     return f"the floor would have to pull at {e.name}"
             if state == "sticks" and min(e.margins(forces)) < -force:
                 return f"{e.name} would have to slip"
-            if (s := sign(state)) and not frictionless(e) and s * _rate(e.grip, t, q, v) < -rate:
+            if (s := sign(state)) and not frictionless(e) and s * _rate(e.tangent, t, q, v) < -rate:
                 return f"{e.name} slides the other way"
         return None
 
@@ -362,7 +363,7 @@ def frictionless(element: Element) -> bool:
     return static.forward == static.backward == 0.0
 
 
-def _rate(part: object, t: float, q: Array, v: Array) -> float:
+def _rate(part: Constraint, t: float, q: Array, v: Array) -> float:
     """f_a q̇ᵃ − g (2.15) of one row [m/s]."""
-    f, g, _ = row(part, t, q, v)  # type: ignore[arg-type]
+    f, g, _ = row(part, t, q, v)
     return float(f @ v) - g

@@ -9,7 +9,8 @@ from typing import Literal
 
 from ...cases.scene import Contact, DryFriction, Joint, Scene
 from ..laws.friction import Dry, stiction
-from .contact import Catch, Drag, Grip, Press, Rub, catch, touching
+from .constraint import Constraint
+from .contact import Drag, Rub, at_rest, normal, tangent
 from .coordinates import Coordinates
 
 State = Literal["open", "slides +", "slides -", "sticks"]
@@ -36,17 +37,17 @@ class Touching:
 
     name: str
     contact: Contact
-    press: Press
-    grip: Grip
+    normal: Constraint
+    tangent: Constraint
 
-    def held(self, state: State) -> list[Press | Grip]:
+    def held(self, state: State) -> list[Constraint]:
         """The constraints of the state."""
-        return {"open": [], "sticks": [self.press, self.grip]}.get(state, [self.press])
+        return {"open": [], "sticks": [self.normal, self.tangent]}.get(state, [self.normal])
 
     def rubs(self, state: State) -> list[Rub]:
         """(2.87) F = −μ F_N sign(v)."""
         s = sign(state)
-        return [Rub(self.press, self.grip, -self.contact.kinetic * s)] if s else []
+        return [Rub(self.normal, self.tangent, -self.contact.kinetic * s)] if s else []
 
     def drags(self, state: State) -> list[Drag]:
         return []
@@ -64,16 +65,16 @@ class Sliding:
 
     name: str
     friction: DryFriction
-    grip: Catch
+    tangent: Constraint  # that holds it at rest along its line
 
     @property
     def dry(self) -> Dry:
         kinetic, static = self.friction.kinetic, self.friction.static
         return Dry(kinetic.backward, kinetic.forward, static.backward, static.forward)
 
-    def held(self, state: State) -> list[Catch]:
+    def held(self, state: State) -> list[Constraint]:
         """The constraint of the state."""
-        return [self.grip] if state == "sticks" else []
+        return [self.tangent] if state == "sticks" else []
 
     def rubs(self, state: State) -> list[Rub]:
         return []
@@ -82,7 +83,7 @@ class Sliding:
         """(2.89) −F₊ forward, F₋ backward."""
         s = sign(state)
         force = stiction(self.dry, float(s), 0.0) if s else 0.0
-        return [Drag(self.grip, lambda t, q, v: force)] if s else []
+        return [Drag(self.tangent, lambda t, q, v: force)] if s else []
 
     def margins(self, forces: dict[str, float]) -> tuple[float, float]:
         """(2.89) F_s₊ − F_a and F_s₋ + F_a [N], F_a = −F_fr: negative where it breaks loose."""
@@ -97,11 +98,11 @@ def elements(scene: Scene, where: Coordinates) -> Iterator[Element]:
     """All that switches, in the order of the scene."""
     for contact in scene.contacts.values():
         if contact.switches:
-            yield Touching(contact.name, contact, *touching(contact, where))
+            yield Touching(contact.name, contact, normal(contact, where), tangent(contact, where))
     for joint in scene.joints.values():
         if exact(joint):
             assert joint.dry_friction is not None
-            yield Sliding(joint.name, joint.dry_friction, catch(joint, where))
+            yield Sliding(joint.name, joint.dry_friction, at_rest(joint, where))
 
 
 def exact(joint: Joint) -> bool:

@@ -8,7 +8,7 @@ import numpy as np
 from ...cases.scene import Joint, Scene, Smooth
 from ..laws.friction import Dry, smooth
 from ..system import Array
-from .contact import Drag, catch, row
+from .contact import Drag, at_rest, row
 from .mechanism import Mechanism
 
 
@@ -22,9 +22,9 @@ class SmoothMechanism(Mechanism):
     def __init__(self, scene: Scene, start: tuple[Array, Array]) -> None:
         where = Mechanism(scene, start).where
         self._slides = [joint for joint in scene.joints.values() if joint.dry_friction]
-        self._catches = [catch(joint, where) for joint in self._slides]
-        self._resting = Mechanism(scene, start, held=self._catches)
-        drags = [Drag(part, self._friction(k)) for k, part in enumerate(self._catches)]
+        self._rests = [at_rest(joint, where) for joint in self._slides]
+        self._resting = Mechanism(scene, start, held=self._rests)
+        drags = [Drag(part, self._friction(k)) for k, part in enumerate(self._rests)]
         super().__init__(scene, start, drags=drags)
 
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
@@ -32,7 +32,7 @@ class SmoothMechanism(Mechanism):
         a, multipliers = self._resting.solve(t, q, v)
         a = self._still(t, q, v, a)
         r, along = len(self.f_a(t, q)), np.zeros(len(q))
-        for k, part in enumerate(self._catches):
+        for k, part in enumerate(self._rests):
             f, g, _ = row(part, t, q, v)
             along += _left(self._slides[k], float(f @ v) - g, -float(multipliers[r + k])) * f
         rows, free = self.f_a(t, q), along / self._M
@@ -55,8 +55,8 @@ class SmoothMechanism(Mechanism):
 
         def force(t: float, q: Array, v: Array) -> float:
             multipliers = self._resting.solve(t, q, v)[1]
-            F_a = -float(multipliers[len(multipliers) - len(self._catches) + k])
-            f, g, _ = row(self._catches[k], t, q, v)
+            F_a = -float(multipliers[len(multipliers) - len(self._rests) + k])
+            f, g, _ = row(self._rests[k], t, q, v)
             dry, law = _dry(self._slides[k])
             return float(smooth(dry, law.band, law.sharpness, float(f @ v) - g, F_a))
 

@@ -174,7 +174,7 @@ def failing(tmp_path: Path, name: str) -> set[str]:
 def _rubs(coefficient: Callable[[Touching], float]) -> Callable[[Touching, State], list[Rub]]:
     def rubs(self: Touching, state: State) -> list[Rub]:
         s = sign(state)
-        return [Rub(self.press, self.grip, coefficient(self) * s)] if s else []
+        return [Rub(self.normal, self.tangent, coefficient(self) * s)] if s else []
 
     return rubs
 
