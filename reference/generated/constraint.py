@@ -10,7 +10,7 @@ from functools import cached_property
 from typing import Any
 
 from ...cases.scene import Anchor
-from .coordinates import Coordinates, Fixed, moved
+from .coordinates import Attached, Coordinates, moved
 from .rows import Term
 
 Numbers = Sequence[Any]
@@ -77,5 +77,5 @@ class Constraint:
         return found
 
     @cached_property
-    def _ends(self) -> list[Fixed]:
-        return [self.where.fixed[end.body, end.point] for end in self.ends]
+    def _ends(self) -> list[Attached]:
+        return [self.where.attached[end.body, end.point] for end in self.ends]

@@ -27,8 +27,8 @@ class Point(NamedTuple):  # made at every evaluation: a frozen dataclass costs t
     phi: int | None  # where its angle stands; None for the ground and for particles
 
 
-class Fixed(NamedTuple):
-    """A point in the axes of its body, from the centre of mass; or how one of the ground moves."""
+class Attached(NamedTuple):
+    """A point on its body, in body axes from the centre of mass; or one of the ground."""
 
     xy: int | None
     phi: int | None
@@ -78,26 +78,26 @@ class Coordinates:
         ]
 
     @cached_property
-    def fixed(self) -> dict[tuple[str, str], Fixed]:
-        """Where each point is on its body, by the names of both."""
+    def attached(self) -> dict[tuple[str, str], Attached]:
+        """Each point on its body, by the names of body and point."""
         ground = {
-            (GROUND, name): Fixed(None, None, point.at, point.velocity)
+            (GROUND, name): Attached(None, None, point.at, point.velocity)
             for name, point in self.scene.points.items()
         }
         return ground | {
-            (body.name, name): Fixed(*self.columns[body.name], at if any(at) else None)
+            (body.name, name): Attached(*self.columns[body.name], at if any(at) else None)
             for body in self.scene.bodies.values()
             for name, at in body.points.items()
         }
 
     def point(self, anchor: Anchor, t: Any, q: Sequence[Any], v: Sequence[Any]) -> Point:
         """Where a named point is, and how it moves."""
-        return moved(self.fixed[anchor.body, anchor.point], t, q, v)
+        return moved(self.attached[anchor.body, anchor.point], t, q, v)
 
 
-def moved(fixed: Fixed, t: Any, q: Sequence[Any], v: Sequence[Any]) -> Point:
+def moved(point: Attached, t: Any, q: Sequence[Any], v: Sequence[Any]) -> Point:
     """(2.1) r = r_c + d and (2.6) ṙ = ṙ_c + ω × d, for q and v as lists of numbers."""
-    xy, phi, at, velocity = fixed
+    xy, phi, at, velocity = point
     if xy is None:
         (x, y), (u, w) = at or ORIGIN, velocity
         return Point((x + u * t, y + w * t), velocity, ORIGIN, 0.0, 0.0, None, None)

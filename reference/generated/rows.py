@@ -46,14 +46,14 @@ class Along:
 
 @dataclass(frozen=True)
 class Turning:
-    """The turn of a body about an axis: in the plane a number, ω times it [rad/s]."""
+    """The turn of a body about an axis, in the plane a number: ω times it [rad/s]."""
 
     p: int
     axis: float = 1.0  # about +z; with a radius R the term is the velocity R ω [m/s]
     angular = True
 
     def place(self, ends: Ends) -> Any:
-        """φ times the axis, counter-clockwise [rad]."""
+        """φ times the axis [rad], or R φ [m]."""
         return self.axis * ends[self.p].angle
 
     def direction(self, ends: Ends) -> Direction:
@@ -61,7 +61,7 @@ class Turning:
         return 0.0, 0.0
 
     def add(self, ends: Ends, row: list[Any]) -> None:
-        """(2.15) ω = φ̇: f = 1 in the angle's column, γ = 0; what has no angle does not turn."""
+        """(2.15) ω = φ̇: f = the axis, at φ; γ = 0; what has no angle does not turn."""
         phi = ends[self.p].phi
         if phi is not None:
             row[phi] += self.axis
@@ -87,10 +87,10 @@ class Line:
         return cos * self.u[0] - sin * self.u[1], sin * self.u[0] + cos * self.u[1]
 
     def add(self, ends: Ends, row: list[Any]) -> None:
-        """(2.15) u·Δ̇ + u̇·Δ: the difference of both points along u, and since u̇ = ω_a × u, u × Δ.
+        """(2.15) u·Δ̇ + u̇·Δ: f of b less that of a as `Along` u, and u × Δ at φ_a: u̇ = ω_a × u.
 
-        Differentiated again, ω̇_a (u × Δ) apart: 2 u̇·Δ̇ = 2 ω_a (u × Δ̇), and −ω_a² u·Δ from
-        ω_a × u̇ = −ω_a² u. So γ has −2 ω_a (u × Δ̇) + ω_a² u·Δ beside what the two points leave.
+        Differentiated again that is u·Δ̈ + 2 u̇·Δ̇ + ü·Δ, with u̇·Δ̇ = ω_a (u × Δ̇) and
+        ü = ω̇_a × u − ω_a² u: γ has −2 ω_a (u × Δ̇) + ω_a² u·Δ beside what a and b have by `Along`.
         """
         a, b, u = ends[self.a], ends[self.b], self.direction(ends)
         _add(b, u, row)
@@ -104,12 +104,12 @@ class Line:
         row[GAMMA] += a.omega * a.omega * (u[0] * x + u[1] * y)
 
 
+Term = Along | Turning | Line
+
+
 def opposite(u: Direction) -> Direction:
     """−u."""
     return -u[0], -u[1]
-
-
-Term = Along | Turning | Line
 
 
 def _add(p: Point, u: Direction, row: list[Any]) -> None:

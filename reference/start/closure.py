@@ -75,7 +75,7 @@ class Closure:
     def _locks(self, part: Constraint) -> Iterator[Lock]:
         for angle, angular in zip(part.held or (), part.angular, strict=part.holonomic):
             if angular:
-                a, b = (self.where.fixed[end.body, end.point].phi for end in part.ends)
+                a, b = (self.where.attached[end.body, end.point].phi for end in part.ends)
                 yield Lock(a, b, angle)
 
     def rows(self, parts: Sequence[Constraint], q: Array) -> Array:

@@ -141,6 +141,26 @@ def test_residuals_of_floor_and_rolling() -> None:
 
 
 @pytest.mark.parametrize("name", KINDS)
+def test_what_a_joint_leaves_free_and_holds(name: str) -> None:
+    """(2.14) r_B − r_A, of a slide its part across; φ_B − φ_A − angle, but of a pin."""
+    scene = made(name)
+    joint, where = scene.joints["j"], Coordinates(scene)
+    for t, q, _ in states(scene):
+        a, b = (where.point(end, t, q.tolist(), q.tolist()) for end in (joint.a, joint.b))
+        phi_a, phi_b = (0.0 if p.phi is None else q[p.phi] for p in (a, b))
+        x, y = np.subtract(b.r, a.r)
+        turn = phi_a + np.arctan2(joint.along[1], joint.along[0])
+        expected = [y * np.cos(turn) - x * np.sin(turn)] if joint.kind == "slide" else [x, y]
+        if joint.kind != "pin" and "particle" not in name:
+            expected.append(phi_b - phi_a - joint.angle)
+        (c,) = constraints(scene, where)
+        np.testing.assert_allclose(c.f(t, q.tolist()), expected, atol=EXACT)
+        if joint.kind == "slide":
+            shift = x * np.cos(turn) + y * np.sin(turn)
+            np.testing.assert_allclose(at_rest(joint, where).places(t, q.tolist()), shift)
+
+
+@pytest.mark.parametrize("name", KINDS)
 def test_the_reaction_is_the_force_of_the_first_part_on_the_second(name: str) -> None:
     """(2.23), (2.27) m r̈_c = m g + F and J ω̇ = d × F + M of the part that can tell."""
     scene = made(name)

@@ -30,7 +30,7 @@ WHERE = Coordinates(
     )
 )
 BAR, BLOCK, DOT = Anchor("bar", "P"), Anchor("block", "Q"), Anchor("dot", "center")
-GIVEN = Anchor(GROUND, "hook")
+END, GIVEN = Anchor("bar", "end"), Anchor(GROUND, "hook")
 U = (0.6, -0.8)
 
 
@@ -58,6 +58,9 @@ def test_along(state: tuple[float, Array, Array]) -> None:
     d, u = E(q[2]) @ P, np.array(U)
     expected = [*u, u @ S @ d, 0, 0, 0, 0, 0, 0, v[2] ** 2 * u @ d]
     np.testing.assert_allclose(row(Along(0, U), (BAR,), t, q, v), expected, atol=EXACT)
+    d = E(q[2]) @ [0.45, 0.0]
+    expected = [*u, u @ S @ d, 0, 0, 0, 0, 0, 0, v[2] ** 2 * u @ d]
+    np.testing.assert_allclose(row(Along(0, U), (END,), t, q, v), expected, atol=EXACT)
     np.testing.assert_array_equal(row(Along(0, U), (DOT,), t, q, v), [0, 0, 0, 0, 0, 0, *U, 0, 0])
     fixed = np.zeros(10)
     fixed[G] = -u @ HOOK_DOT
