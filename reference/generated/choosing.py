@@ -13,6 +13,7 @@ import numpy as np
 
 from ...cases.scene import Scene
 from ..system import MOVING, Array, Guard, System
+from .constraint import Constraint
 from .contact import row
 from .element import REST, Element, Smoothed, State, elements, sign, sliding
 from .impact import Meeting, NoImpact, Row, impact
@@ -262,9 +263,9 @@ class SwitchingMechanism(System):
         forces = self.forces(self.built.name(states), t, q, v)
         return abs(forces[f"{e.name}.normal"]) <= self._small(t, q, v) * float(np.max(self._M))
 
-    def _change(self, part: object, mode: str, t: float, q: Array, v: Array) -> float:
+    def _change(self, part: Constraint, mode: str, t: float, q: Array, v: Array) -> float:
         """f_a q̈ᵃ − γ: how the rate of a row changes in a mode [m/s²]."""
-        f, _, gamma = row(part, t, q, v)  # type: ignore[arg-type]
+        f, _, gamma = row(part, t, q, v)
         return float(f @ self.modes[mode].accelerations(t, q, v)) - gamma
 
     def _small(self, t: float, q: Array, v: Array) -> float:
@@ -365,7 +366,7 @@ def _opening(element: Element) -> Choice:
     return () if element.normal is None else ("open",)
 
 
-def _rate(part: object, t: float, q: Array, v: Array) -> float:
+def _rate(part: Constraint, t: float, q: Array, v: Array) -> float:
     """f_a q̇ᵃ − g (2.15) of one row [m/s]."""
-    f, g, _ = row(part, t, q, v)  # type: ignore[arg-type]
+    f, g, _ = row(part, t, q, v)
     return float(f @ v) - g

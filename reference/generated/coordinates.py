@@ -10,8 +10,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...cases.scene import GROUND, Anchor, Scene
+from ...cases.scene import GROUND, Anchor, Scene, Vector
 from ..system import Pose
+
+ORIGIN = (0.0, 0.0)
 
 
 class Point(NamedTuple):  # made at every evaluation: a frozen dataclass costs three times as much
@@ -21,8 +23,18 @@ class Point(NamedTuple):  # made at every evaluation: a frozen dataclass costs t
     r_dot: tuple[Any, Any]
     d: tuple[Any, Any]  # from the centre of mass to the point
     omega: Any
+    angle: Any
     xy: int | None  # where the body's x stands in q; y follows; None on the ground
     phi: int | None  # where its angle stands; None for the ground and for particles
+
+
+class Attached(NamedTuple):
+    """A point on its body, in body axes from the centre of mass; or one of the ground."""
+
+    xy: int | None
+    phi: int | None
+    at: Vector | None  # None: a particle, or the centre of mass itself
+    velocity: Vector = (0.0, 0.0)  # of a point of the ground
 
 
 @dataclass(frozen=True)
@@ -80,28 +92,47 @@ class Coordinates:
             for name, (xy, phi) in self.columns.items()
         }
 
+    @cached_property
+    def attached(self) -> dict[tuple[str, str], Attached]:
+        """Each point on its body, by the names of body and point."""
+        ground = {
+            (GROUND, name): Attached(None, None, point.at, point.velocity)
+            for name, point in self.scene.points.items()
+        }
+        return ground | {
+            (body.name, name): Attached(*self.columns[body.name], at if any(at) else None)
+            for body in self.scene.bodies.values()
+            for name, at in body.points.items()
+        }
+
     def point(self, anchor: Anchor, t: Any, q: Sequence[Any], v: Sequence[Any]) -> Point:
-        """(2.1) r = r_c + d and (2.6) ṙ = ṙ_c + ω × d, for q and v as lists of numbers."""
-        if anchor.body == GROUND:
-            ground = self.scene.points[anchor.point]
-            u, w = ground.velocity
-            r = (ground.at[0] + u * t, ground.at[1] + w * t)
-            return Point(r, (u, w), (0, 0), 0, None, None)
-        xy, phi = self.columns[anchor.body]
-        if phi is None:
-            return Point((q[xy], q[xy + 1]), (v[xy], v[xy + 1]), (0, 0), 0, xy, None)
-        a, b = self.scene.bodies[anchor.body].points[anchor.point]
-        cos, sin = trigonometry(q[phi])
-        dx, dy = cos * a - sin * b, sin * a + cos * b
-        omega = v[phi]
-        return Point(
-            (q[xy] + dx, q[xy + 1] + dy),
-            (v[xy] - omega * dy, v[xy + 1] + omega * dx),
-            (dx, dy),
-            omega,
-            xy,
-            phi,
-        )
+        """Where a named point is, and how it moves."""
+        return moved(self.attached[anchor.body, anchor.point], t, q, v)
+
+
+def moved(point: Attached, t: Any, q: Sequence[Any], v: Sequence[Any]) -> Point:
+    """(2.1) r = r_c + d and (2.6) ṙ = ṙ_c + ω × d, for q and v as lists of numbers."""
+    xy, phi, at, velocity = point
+    if xy is None:
+        (x, y), (u, w) = at or ORIGIN, velocity
+        return Point((x + u * t, y + w * t), velocity, ORIGIN, 0.0, 0.0, None, None)
+    r, r_dot = (q[xy], q[xy + 1]), (v[xy], v[xy + 1])
+    if phi is None:
+        return Point(r, r_dot, ORIGIN, 0.0, 0.0, xy, None)
+    angle, omega = q[phi], v[phi]
+    if at is None:
+        return Point(r, r_dot, ORIGIN, omega, angle, xy, phi)
+    cos, sin = trigonometry(angle)
+    dx, dy = cos * at[0] - sin * at[1], sin * at[0] + cos * at[1]
+    return Point(
+        (r[0] + dx, r[1] + dy),
+        (r_dot[0] - omega * dy, r_dot[1] + omega * dx),
+        (dx, dy),
+        omega,
+        angle,
+        xy,
+        phi,
+    )
 
 
 def trigonometry(angle: Any) -> tuple[Any, Any]:

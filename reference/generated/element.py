@@ -20,7 +20,7 @@ from typing import Literal
 from ...cases.scene import DryFriction, Scene
 from ..laws.friction import Dry, stiction
 from .constraint import Constraint
-from .contact import Drag, Rub, catch, touching
+from .contact import Drag, Rub, at_rest, normal, tangent
 from .coordinates import Coordinates
 
 State = Literal["open", "slides +", "slides -", "sticks", "slides"]
@@ -142,14 +142,13 @@ class Sliding(Element):
 def elements(scene: Scene, where: Coordinates) -> Iterator[Element]:
     """All that has states, in the order of the scene."""
     for contact in scene.contacts.values():
-        normal, tangent = touching(contact, where)
         if contact.ideal == "rolling":
-            yield Rolling(name=contact.name, tangent=tangent)
+            yield Rolling(name=contact.name, tangent=tangent(contact, where))
         else:
             yield Touching(
                 name=contact.name,
-                normal=normal,
-                tangent=tangent,
+                normal=normal(contact, where),
+                tangent=tangent(contact, where),
                 static=contact.static,
                 kinetic=contact.kinetic,
                 restitution=contact.restitution,
@@ -158,9 +157,9 @@ def elements(scene: Scene, where: Coordinates) -> Iterator[Element]:
     for joint in scene.joints.values():
         if (dry := joint.dry_friction) is None:
             continue
-        tangent = catch(joint, where)
+        along = at_rest(joint, where)
         if dry.smooth is not None:
-            yield Smoothed(name=joint.name, tangent=tangent, friction=dry)
+            yield Smoothed(name=joint.name, tangent=along, friction=dry)
         else:
             loose = dry.static.forward == dry.static.backward == 0.0
-            yield Sliding(name=joint.name, tangent=tangent, friction=dry, frictionless=loose)
+            yield Sliding(name=joint.name, tangent=along, friction=dry, frictionless=loose)

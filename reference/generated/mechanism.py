@@ -1,6 +1,7 @@
 """Any planar scene as a Mode, in maximal coordinates with multipliers (2.60)."""
 
 from collections.abc import Mapping, Sequence
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -9,9 +10,11 @@ from scipy.linalg.lapack import dgesv, dposv
 from ...cases.scene import Push, Scene, Spring
 from ..system import Array, Mass, Mode, Pose, Vector
 from .action import act, signal
-from .constraint import Constraint, constraints
+from .constraint import Constraint
 from .contact import Drag, Rub, row
 from .coordinates import Coordinates
+from .permanent import constraints
+from .rows import GAMMA, G
 
 CANCELS = 1e-15  # of one of two accelerations: what is left of them is their rounding
 
@@ -51,7 +54,7 @@ class Mechanism(Mode):
         self._r = len(self._owners)
         self._drags = drags
         places = np.cumsum([0, *(c.size for c in self._constraints)]).tolist()
-        self._rubs = [(places[self._constraints.index(rub.press)], rub) for rub in rubs]
+        self._rubs = [(places[self._constraints.index(rub.normal)], rub) for rub in rubs]
         self._weight = np.zeros(len(self._M))
         for body in scene.bodies.values():
             xy, _ = self.where.columns[body.name]
@@ -76,9 +79,9 @@ class Mechanism(Mode):
             _add(found, c.reactions(t, numbers, multipliers[at : at + c.size]))
             at += c.size
         for drag in self._drags:
-            _add(found, drag.catch.reactions(t, numbers, [drag.force(t, q, v)]))
+            _add(found, drag.along.reactions(t, numbers, [drag.force(t, q, v)]))
         for at, rub in self._rubs:
-            _add(found, rub.grip.reactions(t, numbers, [rub.factor * multipliers[at]]))
+            _add(found, rub.tangent.reactions(t, numbers, [rub.factor * multipliers[at]]))
         for joint in self.scene.joints.values():
             if joint.kind != "pin":  # a particle takes no moment
                 found.setdefault(f"{joint.name}.torque", 0.0)
@@ -91,7 +94,7 @@ class Mechanism(Mode):
         for force in self.scene.forces.values():
             act(force, self.where, t, numbers, rates, Q)
         for drag in self._drags:
-            Q += drag.force(t, q, v) * row(drag.catch, t, q, v)[0]
+            Q += drag.force(t, q, v) * row(drag.along, t, q, v)[0]
         rows, _, gamma = self.rows(t, numbers, rates, float)
         free = Q / self._M
         if not self._r:
@@ -120,18 +123,16 @@ class Mechanism(Mode):
             return rows
         columns = rows.copy()
         for at, rub in self._rubs:
-            columns[at] += rub.factor * row(rub.grip, t, q, v)[0]
+            columns[at] += rub.factor * row(rub.tangent, t, q, v)[0]
         return columns
 
     def rows(self, t: Any, q: Sequence[Any], v: Sequence[Any], dtype: Any) -> tuple[Any, Any, Any]:
         """(2.15) f_a (r, n) and g (r,), and γ (r,) of f_a q̈ᵃ = γ."""
-        rows = np.zeros((self._r, len(self._M)), dtype)
-        g, gamma = np.zeros(self._r, dtype), np.zeros(self._r, dtype)
-        at = 0
-        for c in self._constraints:
-            c.fill(t, q, v, rows, g, gamma, at)
-            at += c.size
-        return rows, g, gamma
+        rows = [row for c in self._constraints for row in c.numbers(t, q, v)]
+        columns = len(self._M) + 2
+        numbers = np.fromiter(chain.from_iterable(rows), dtype, self._r * columns)
+        numbers = numbers.reshape(self._r, columns)
+        return numbers[:, :G], numbers[:, G], numbers[:, GAMMA]
 
     def terms(self, t: float, q: Array, v: Array) -> tuple[float, float]:
         """The largest acceleration [m/s² or rad/s²] and power [W] that one force gives alone.
@@ -203,11 +204,11 @@ class Mechanism(Mode):
             else:
                 Q[self.where.columns[force.body][1]] += F[0]
         for drag in self._drags:
-            Q += drag.force(t, q, v) * row(drag.catch, t, q, v)[0]
+            Q += drag.force(t, q, v) * row(drag.along, t, q, v)[0]
         if self._rubs:
             multipliers = self.solve(t, q, v)[1]
             for at, rub in self._rubs:
-                Q += rub.factor * multipliers[at] * row(rub.grip, t, q, v)[0]
+                Q += rub.factor * multipliers[at] * row(rub.tangent, t, q, v)[0]
         return Q
 
     def _length(self, force: Spring, t: Any, q: Vector) -> Any:

@@ -34,10 +34,10 @@ class SmoothMechanism(Mechanism):
         rubs: Sequence[Rub] = (),
     ) -> None:
         self._slides = slides
-        self._catches = [slide.tangent for slide in slides]
-        resting = [*held, *self._catches]
+        self._rests = [slide.tangent for slide in slides]
+        resting = [*held, *self._rests]
         self._resting = Mechanism(scene, start, held=resting, drags=drags, rubs=rubs)
-        smooth = [Drag(part, self._friction(k)) for k, part in enumerate(self._catches)]
+        smooth = [Drag(part, self._friction(k)) for k, part in enumerate(self._rests)]
         super().__init__(scene, start, held=held, drags=[*drags, *smooth], rubs=rubs)
 
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
@@ -45,7 +45,7 @@ class SmoothMechanism(Mechanism):
         a, multipliers = self._resting.solve(t, q, v)
         a = self._still(t, q, v, a)
         r, along = len(self.f_a(t, q)), np.zeros(len(q))
-        for k, part in enumerate(self._catches):
+        for k, part in enumerate(self._rests):
             f, g, _ = row(part, t, q, v)
             F_a = -float(multipliers[r + k])
             along += _left(self._slides[k].friction, float(f @ v) - g, F_a) * f
@@ -69,8 +69,8 @@ class SmoothMechanism(Mechanism):
 
         def force(t: float, q: Array, v: Array) -> float:
             multipliers = self._resting.solve(t, q, v)[1]
-            F_a = -float(multipliers[len(multipliers) - len(self._catches) + k])
-            f, g, _ = row(self._catches[k], t, q, v)
+            F_a = -float(multipliers[len(multipliers) - len(self._rests) + k])
+            f, g, _ = row(self._rests[k], t, q, v)
             dry, law = _dry(self._slides[k].friction)
             return float(smooth(dry, law.band, law.sharpness, float(f @ v) - g, F_a))
 

@@ -4,19 +4,29 @@ Lengths are counted in the mechanism's size, so that a watch and a crane are tre
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from ...cases.case import Case, Placement
-from ...cases.scene import Anchor
-from ..generated.constraint import Constraint, Lock, constraints
+from ...cases.scene import Anchor, Vector
+from ..generated.constraint import Constraint
 from ..generated.coordinates import Coordinates
-from ..generated.rolling import Roll
+from ..generated.permanent import constraints
+from ..generated.rows import FIRST, Along, G, X, Y
 from ..system import Array
 
 POSITIONS = {"x": 0, "y": 1, "angle": 2}
 RATES = {"vx": 0, "vy": 1, "omega": 2}
+
+
+class Lock(NamedTuple):
+    """φ_b − φ_a = angle [rad]: the columns of the angles, None on the ground."""
+
+    a: int | None
+    b: int | None
+    angle: float
 
 
 class Closure:
@@ -27,9 +37,10 @@ class Closure:
         self.where = Coordinates(case.scene)
         self.n = len(self.where.names)
         self.parts = constraints(case.scene, self.where)
-        self.places = [c for c in self.parts if not isinstance(c, Roll)]  # C₁ of (2.17) is free
-        self.locks = [c for c in self.parts if isinstance(c, Lock)]
         self.placed = placed(case.initial)
+        self.places = [c for c in self.parts if c.holonomic]  # C₁ of (2.17) is free
+        self.places += [_at(anchor, place, self.where) for anchor, place in self.placed]
+        self.locks = [lock for c in self.parts for lock in self._locks(c)]
         self.given = held(self.locks, self.numbers(case.initial, POSITIONS))
         self.free = np.array([i for i in range(self.n) if i not in self.given], int)
         self.turning = self.where.turning
@@ -52,41 +63,35 @@ class Closure:
     def equations(self, q: Array) -> tuple[Array, Array]:
         """f = 0 in units of the mechanism's size: residuals (m,) and rows (m, n)."""
         numbers = q.tolist()
-        residual = [self._residual(c, numbers) for c in self.places]
-        rows = [self.rows(self.places, q)]
-        for anchor, at in self.placed:
-            p = self.where.point(anchor, 0.0, numbers, numbers)
-            residual.append([(p.r[0] - at[0]) / self.size, (p.r[1] - at[1]) / self.size])
-            place = np.zeros((2, self.n))
-            assert p.xy is not None  # only bodies are placed
-            place[[0, 1], [p.xy, p.xy + 1]] = 1.0
-            if p.phi is not None:
-                place[:, p.phi] = -p.d[1] / self.size, p.d[0] / self.size
-            rows.append(place)
-        return np.array([entry for part in residual for entry in part]), np.vstack(rows)
+        residual = [entry for c in self.places for entry in self._residual(c, numbers)]
+        return np.array(residual), self.rows(self.places, q)
 
     def _residual(self, part: Constraint, q: list[float]) -> list[float]:
-        if isinstance(part, Lock):  # a body turned once more is in the same place
-            return [math.remainder(part.f(0.0, q)[0], math.tau)]
-        return [entry / self.size for entry in part.f(0.0, q)]
+        return [
+            math.remainder(f, math.tau) if angle else f / self.size  # a turn more is the same place
+            for f, angle in zip(part.f(0.0, q), part.angular, strict=True)
+        ]
+
+    def _locks(self, part: Constraint) -> Iterator[Lock]:
+        for angle, angular in zip(part.held or (), part.angular, strict=part.holonomic):
+            if angular:
+                a, b = (self.where.attached[end.body, end.point].phi for end in part.ends)
+                yield Lock(a, b, angle)
 
     def rows(self, parts: Sequence[Constraint], q: Array) -> Array:
         """The rows f_a (2.15) of some constraints in units of the size, (r, n)."""
         return self.linear(parts, q)[0]
 
     def linear(self, parts: Sequence[Constraint], q: Array) -> tuple[Array, Array]:
-        """The rows (r, n) and right sides g (r,) of f_a q̇ᵃ = g (2.15), in units of the size."""
-        size = sum(c.size for c in parts)
-        rows, g, at = np.zeros((size, self.n)), np.zeros(size), 0
-        for c in parts:
-            c.fill(0.0, q.tolist(), [0.0] * self.n, rows, g, np.zeros(size), at)
-            at += c.size
-        units = np.array([self.unit(c) for c in parts for _ in range(c.size)])
-        return rows * self.units / units[:, None], g / units
+        """The rows (r, n) and right sides g (r,) of f_a q̇ᵃ = g (2.15), in units of the size.
 
-    def unit(self, part: Constraint) -> float:
-        """What a residual of 1 means: 1 rad for a held angle, else the mechanism's size [m]."""
-        return 1.0 if isinstance(part, Lock) else self.size
+        What a residual of 1 means: 1 rad for a held angle, else the mechanism's size [m].
+        """
+        still = [0.0] * self.n
+        found = [row for c in parts for row in c.numbers(0.0, q.tolist(), still)]
+        numbers = np.array(found).reshape(len(found), self.n + 2)
+        units = np.array([1.0 if angle else self.size for c in parts for angle in c.angular])
+        return numbers[:, :G] * self.units / units[:, None], numbers[:, G] / units
 
     def _size(self) -> float:
         """The largest length [m] on a body, wherever the scene stands; without one, the reach."""
@@ -110,6 +115,12 @@ def placed(placements: Mapping[str, Placement]) -> list[tuple[Anchor, tuple[floa
         for body, placement in placements.items()
         for point, at in placement.points.items()
     ]
+
+
+def _at(anchor: Anchor, place: Vector, where: Coordinates) -> Constraint:
+    """r_P = place, for the search only: nothing holds the point there later."""
+    rows = ((Along(FIRST, X),), (Along(FIRST, Y),))
+    return Constraint(str(anchor), (anchor,), rows, ((), ()), place, where)
 
 
 def held(locks: Sequence[Lock], known: Mapping[int, float]) -> dict[int, float]:

@@ -18,8 +18,7 @@ def _initial(closure: Closure, what: str) -> CaseError:
 def cannot_close(closure: Closure, q: Array) -> CaseError:
     """No positions satisfy the constraints; q is the best that was found."""
     residual = closure.equations(q)[0]
-    owners = [(c.part, c in closure.locks) for c in closure.places for _ in range(c.size)]
-    owners += [(str(anchor), False) for anchor, _ in closure.placed for _ in (0, 1)]
+    owners = [(c.part, angular) for c in closure.places for angular in c.angular]
     worst = int(np.argmax(np.abs(residual)))
     name, is_angle = owners[worst]
     gap = abs(float(residual[worst]))

@@ -12,8 +12,8 @@ from textmech.cases.scene import GROUND, Anchor, Body, Joint, Scene, Spring
 from textmech.reference.formalisms import energy, lagrange
 from textmech.reference.generated import mechanism as module
 from textmech.reference.generated.action import NoDirection, pulls
-from textmech.reference.generated.constraint import Align, Coincide
 from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.generated.rows import GAMMA, Along, Line
 from textmech.reference.system import Array
 
 EXACT = 1e-12  # of the largest term
@@ -131,25 +131,30 @@ original = module.act
 
 
 def convective(kind: type) -> Callable[..., None]:
-    """fill with γ of the wrong sign: in a pin that is all of ω² d."""
-    fill = kind.fill
+    """A term with γ of the wrong sign: in a pin that is all of ω² d."""
+    add = kind.add
 
-    def wrong(self: Any, t: Any, q: Any, v: Any, rows: Any, g: Any, gamma: Any, at: int) -> None:
-        before = gamma.copy()
-        fill(self, t, q, v, rows, g, gamma, at)
-        gamma -= 2 * (gamma - before)
+    def wrong(self: Any, ends: Any, row: list[Any]) -> None:
+        before = row[GAMMA]
+        add(self, ends, row)
+        row[GAMMA] -= 2 * (row[GAMMA] - before)
 
     return wrong
 
 
-def without_coriolis(fill: Callable[..., None]) -> Callable[..., None]:
-    """fill of a slide without 2 ω u·Δ̇."""
+def cross(a: Any, b: Any) -> Any:
+    return a[0] * b[1] - a[1] * b[0]
 
-    def wrong(self: Any, t: Any, q: Any, v: Any, rows: Any, g: Any, gamma: Any, at: int) -> None:
-        fill(self, t, q, v, rows, g, gamma, at)
-        a, b, u, _ = self.ends(t, q, v)
+
+def without_coriolis(add: Callable[..., None]) -> Callable[..., None]:
+    """The term of a slide without 2 ω u·Δ̇."""
+
+    def wrong(self: Any, ends: Any, row: list[Any]) -> None:
+        add(self, ends, row)
+        a, b = ends
+        n = self.direction(ends)
         if a.phi is not None:
-            gamma[at] -= 2 * a.omega * np.dot(u, np.subtract(b.r_dot, a.r_dot))
+            row[GAMMA] += 2 * a.omega * cross(n, np.subtract(b.r_dot, a.r_dot))
 
     return wrong
 
@@ -199,9 +204,9 @@ def test_law_sees_a_lost_moment(law: Law, monkeypatch: pytest.MonkeyPatch) -> No
 @pytest.mark.parametrize(
     ("kind", "wrong"),
     [
-        (Coincide, convective(Coincide)),
-        (Align, convective(Align)),
-        (Align, without_coriolis(Align.fill)),
+        (Along, convective(Along)),
+        (Line, convective(Line)),
+        (Line, without_coriolis(Line.add)),
     ],
     ids=["sign of ω² d in a pin", "sign of γ in a slide", "no Coriolis term in a slide"],
 )
@@ -209,6 +214,6 @@ def test_lagrange_sees_a_wrong_convective_term(
     kind: type, wrong: Callable[..., None], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The power balance cannot: reactions do no work, however large they are."""
-    monkeypatch.setattr(kind, "fill", wrong)
+    monkeypatch.setattr(kind, "add", wrong)
     assert seen(lagrangian, mutated()) > 1e-4
     assert seen(balance, mutated()) < EXACT

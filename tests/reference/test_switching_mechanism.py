@@ -20,7 +20,7 @@ from textmech.cases.scene import (
 )
 from textmech.reference.formalisms import energy, lagrange
 from textmech.reference.generated.choosing import SwitchingMechanism
-from textmech.reference.generated.contact import Drag, Rub, catch, touching
+from textmech.reference.generated.contact import Drag, Rub, at_rest, normal, tangent
 from textmech.reference.generated.element import elements
 from textmech.reference.generated.mechanism import Mechanism
 from textmech.reference.generated.smooth import SmoothMechanism
@@ -49,7 +49,7 @@ def with_slides(count: int, *, held: bool) -> list[tuple[Mechanism, np.random.Ge
         slides = [j for j in plain.scene.joints.values() if j.kind == "slide"]
         if not slides:
             continue
-        parts = [catch(joint, plain.where) for joint in slides]
+        parts = [at_rest(joint, plain.where) for joint in slides]
         drags = [] if held else [Drag(part, lambda t, q, v: -0.7) for part in parts]
         made = Mechanism(plain.scene, plain.start(), held=parts if held else [], drags=drags)
         n = len(made.coordinates)
@@ -96,9 +96,9 @@ def test_contacts_that_stick_roll_and_slide(slipping: tuple[int, int]) -> None:
     plain = Mechanism(scene, (np.zeros(9), np.zeros(9)))
     held, rubs = [], []
     for contact, s in zip(scene.contacts.values(), slipping, strict=True):
-        press, grip = touching(contact, plain.where)
-        held += [press] if s else [press, grip]
-        rubs += [Rub(press, grip, -contact.kinetic * s)] if s else []
+        rows = normal(contact, plain.where), tangent(contact, plain.where)
+        held += rows[:1] if s else rows
+        rubs += [Rub(*rows, -contact.kinetic * s)] if s else []
     mechanism = Mechanism(scene, plain.start(), held=held, rubs=rubs)
     for _ in range(20):
         t, q, v = scenes.state(random, mechanism)
@@ -108,8 +108,8 @@ def test_contacts_that_stick_roll_and_slide(slipping: tuple[int, int]) -> None:
         forces = mechanism.reactions(t, q, v)
         for contact, s in zip(scene.contacts.values(), slipping, strict=True):
             if s:
-                normal = forces[f"{contact.name}.normal"]
-                assert forces[f"{contact.name}.tangent"] == -s * contact.kinetic * normal
+                N = forces[f"{contact.name}.normal"]
+                assert forces[f"{contact.name}.tangent"] == -s * contact.kinetic * N
 
 
 def guided(mass: float, smooth: Smooth | None) -> Scene:
