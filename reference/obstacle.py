@@ -3,12 +3,11 @@
 It is asked only after the integrators have failed, to say why.
 """
 
-import math
-
 import numpy as np
 
 from ..cases.case import Case
 from ..cases.mistake import CaseError
+from .generated.action import ends_meet
 from .generated.mechanism import Mechanism
 from .motion.smooth import Stuck
 from .start.closure import Closure
@@ -29,9 +28,8 @@ def refused(case: Case, generated: Mechanism, stuck: Stuck) -> CaseError:
 
 def _line(case: Case, generated: Mechanism, t: float, q: Array) -> str | None:
     size = Closure(case).size
-    for force in (*case.scene.springs(), *case.scene.dampers()):
-        a, b = (generated.where.point(end, t, q.tolist(), q.tolist()) for end in (force.a, force.b))
-        if math.hypot(b.r[0] - a.r[0], b.r[1] - a.r[1]) < SHORT * size:
+    for force in case.scene.forces.values():
+        if ends_meet(force, generated.where, t, q.tolist(), SHORT * size):
             return f"{force.name} has no length there, and so no direction"
     return None
 

@@ -174,11 +174,11 @@ def _started(part: Constraint, start: Sequence[float]) -> Constraint:
 
 
 def _joint(joint: Joint, where: Coordinates) -> Iterator[Constraint]:
-    if joint.kind == "slide":
+    if joint.shifts:
         yield Align(joint.name, joint.a, joint.b, joint.along, where)
     else:
         yield Coincide(joint.name, joint.a, joint.b, where)
-    if joint.kind == "pin":
+    if joint.turns:
         return
     columns = [
         None if end.body == GROUND else where.columns[end.body][1] for end in (joint.a, joint.b)
