@@ -1,6 +1,5 @@
 """Joints: each kind is the freedoms that it leaves."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
@@ -16,7 +15,7 @@ from .point import Anchor
 from .trajectory import Array
 
 Freedom = Literal["turn", "shift"]
-FREEDOMS: Mapping[str, frozenset[Freedom]] = {
+FREEDOMS: dict[str, frozenset[Freedom]] = {
     "pin": frozenset({"turn"}),
     "slide": frozenset({"shift"}),
     "slot": frozenset({"turn", "shift"}),

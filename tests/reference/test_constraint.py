@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import scenes
 
+from textmech.cases.joint import FREEDOMS
 from textmech.cases.scene import GROUND, Anchor, GroundPoint, Joint, Scene
 from textmech.reference.formalisms.derivative import along
 from textmech.reference.generated.constraint import Constraint, constraints
@@ -20,7 +21,7 @@ ENDS = {
     "from particle": (Anchor("dot", "center"), Anchor("block", "Q")),
     "to particle": (Anchor("bar", "P"), Anchor("dot", "center")),
 }
-KINDS = [f"{kind}: {ends}" for kind in ("pin", "slide", "weld") for ends in ENDS]
+KINDS = [f"{kind}: {ends}" for kind in FREEDOMS for ends in ENDS]
 EXACT = 1e-13  # a few roundings of terms of size 1 to 30
 
 
@@ -107,9 +108,7 @@ def test_the_reaction_is_the_force_of_the_first_part_on_the_second(name: str) ->
         np.testing.assert_allclose(body.mass * a[xy : xy + 2], weight + F, atol=1e3 * EXACT)
         if phi is not None:
             # A slide that is open by Δ (these are any states) hands its force over at the second.
-            at = mechanism.where.point(
-                joint.b if joint.kind == "slide" else end, t, q.tolist(), v.tolist()
-            )
+            at = mechanism.where.point(joint.b if joint.shifts else end, t, q.tolist(), v.tolist())
             d = np.array(at.r) - q[xy : xy + 2]
             moment = d[0] * F[1] - d[1] * F[0] + sign * force.get("j.torque", 0.0)
             np.testing.assert_allclose(body.inertia * a[phi], moment, atol=1e3 * EXACT)
