@@ -4,9 +4,9 @@ A new one is a class here with its place in FORCES, what it exerts in reference/
 and how each engine builds it in engines/*/force.py (its law in engines/law.py if it needs one).
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, TypeVar
 
 from .body import Body
 from .kind import Fields
@@ -154,3 +154,11 @@ class Torque(Force):
 
 FORCES: dict[str, type[Force]] = {kind.word: kind for kind in (Spring, Damper, Push, Torque)}
 """By the word of the case file."""
+
+
+Kind = TypeVar("Kind", bound=Force)
+
+
+def of(kind: type[Kind], forces: Iterable[Force]) -> Iterator[Kind]:
+    """Those of a kind, in their order."""
+    return (force for force in forces if isinstance(force, kind))

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from .body import Body
 from .contact import Contact
-from .force import Damper, Force, Push, Spring, Torque
+from .force import Damper, Force, Push, Spring, Torque, of
 from .friction import Bounds, DryFriction, Smooth
 from .joint import Joint
 from .point import CENTER, FLOOR, GROUND, Anchor, GroundPoint, Vector
@@ -58,10 +58,10 @@ class Scene:
             yield from section.values()
 
     def springs(self) -> Iterator[Spring]:
-        return (f for f in self.forces.values() if isinstance(f, Spring))
+        return of(Spring, self.forces.values())
 
     def dampers(self) -> Iterator[Damper]:
-        return (f for f in self.forces.values() if isinstance(f, Damper))
+        return of(Damper, self.forces.values())
 
     def signals(self) -> Iterator[Push | Torque]:
-        return (f for f in self.forces.values() if isinstance(f, Push | Torque))
+        return (f for kind in (Push, Torque) for f in of(kind, self.forces.values()))

@@ -4,9 +4,9 @@ A tendon carries a spring or a damper. An actuator carries what follows a law in
 makes a constant, the integral of 1 a ramp; a sine's control is a callback.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 from xml.etree import ElementTree as ET
 
 import mujoco
@@ -18,6 +18,7 @@ from ...cases.signal import Signal
 from ...cases.trajectory import Array
 from .written import written
 
+Sections = Mapping[str, ET.Element]
 Outer = tuple[Anchor, Array, Array]
 """A body's point at which a force (N, 2) [N] and a torque (N,) [N m] act."""
 
@@ -26,29 +27,28 @@ Outer = tuple[Anchor, Array, Array]
 class Element:
     """MuJoCo's element of one kind; called with the force element.
 
-    write: into its section of the file. numbers: for the audit. Of an actuator, signal: the law
-    that its control follows; outer: what it exerts at its force (N,), by its gear.
+    write: into the file's sections. numbers: for the audit. Of what has an actuator, signal: the
+    law that its control follows; outer: what it exerts on bodies at its force (N,), by its gear,
+    unless through a tendon, whose forces MuJoCo counts rightly itself.
     """
 
-    section: Literal["tendon", "actuator"]
-    write: Callable[[ET.Element, Any], None]
+    write: Callable[[Sections, Any], None]
     numbers: Callable[[mujoco.MjModel, Any], dict[str, float]] = lambda model, force: {}
-    signal: Callable[[Any], Signal] = lambda force: Signal("constant", (1.0,))
-    outer: Callable[[Any, Array, Array], Iterator[Outer]] = lambda force, size, gear: iter(())
+    signal: Callable[[Any], Signal] | None = None
+    outer: Callable[[Any, Array, Array], Iterator[Outer]] = lambda *_: iter(())
 
 
 def write(root: ET.Element, scene: Scene) -> None:
     """The sections of the scene's forces."""
-    for section in ("tendon", "actuator"):
-        forces = [f for f in scene.forces.values() if ELEMENTS[type(f)].section == section]
-        inside = ET.SubElement(root, section) if forces else root
-        for force in forces:
-            ELEMENTS[type(force)].write(inside, force)
+    sections = {name: ET.Element(name) for name in ("tendon", "actuator")}
+    for force in scene.forces.values():
+        ELEMENTS[type(force)].write(sections, force)
+    root.extend(section for section in sections.values() if len(section))
 
 
 def signals(scene: Scene) -> list[Signal]:
     """The laws of the actuators' controls, in MuJoCo's order."""
-    return [ELEMENTS[type(f)].signal(f) for f in _actuated(scene)]
+    return [signal(force) for force, signal in _actuated(scene)]
 
 
 def numbers(scene: Scene, model: mujoco.MjModel) -> dict[str, float]:
@@ -62,23 +62,27 @@ def numbers(scene: Scene, model: mujoco.MjModel) -> dict[str, float]:
 
 def outer(scene: Scene, model: mujoco.MjModel, sizes: Array) -> Iterator[Outer]:
     """What the actuators exert on bodies, when their forces are `sizes` (N, actuators)."""
-    for i, force in enumerate(_actuated(scene)):
-        yield from ELEMENTS[type(force)].outer(force, sizes[:, i], model.actuator_gear[i])
+    for i, (force, _) in enumerate(_actuated(scene)):
+        gear = model.actuator_gear[i]
+        yield from ELEMENTS[type(force)].outer(force, sizes[:, i], gear)
 
 
-def _actuated(scene: Scene) -> Iterator[Force]:
-    return (f for f in scene.forces.values() if ELEMENTS[type(f)].section == "actuator")
+def _actuated(scene: Scene) -> Iterator[tuple[Force, Callable[[Any], Signal]]]:
+    for force in scene.forces.values():
+        if signal := ELEMENTS[type(force)].signal:
+            yield force, signal
 
 
-def _tendon(tendons: ET.Element, force: Line, **attributes: float) -> None:
+def tendon(sections: Sections, force: Line, **attributes: float) -> None:
+    """A tendon between the two ends."""
     texts = {key: written(value) for key, value in attributes.items()}
-    spatial = ET.SubElement(tendons, "spatial", texts, name=force.name)
+    spatial = ET.SubElement(sections["tendon"], "spatial", texts, name=force.name)
     for end in (force.a, force.b):
         ET.SubElement(spatial, "site", site=str(end))
 
 
-def _spring(tendons: ET.Element, force: Spring) -> None:
-    _tendon(tendons, force, stiffness=force.stiffness, springlength=force.rest_length)
+def _spring(sections: Sections, force: Spring) -> None:
+    tendon(sections, force, stiffness=force.stiffness, springlength=force.rest_length)
 
 
 def _spring_numbers(model: mujoco.MjModel, force: Spring) -> dict[str, float]:
@@ -87,8 +91,8 @@ def _spring_numbers(model: mujoco.MjModel, force: Spring) -> dict[str, float]:
     return {"stiffness": model.tendon_stiffness[number], "rest_length": rest_length}
 
 
-def _damper(tendons: ET.Element, force: Damper) -> None:
-    _tendon(tendons, force, damping=force.damping)
+def _damper(sections: Sections, force: Damper) -> None:
+    tendon(sections, force, damping=force.damping)
 
 
 def _damper_numbers(model: mujoco.MjModel, force: Damper) -> dict[str, float]:
@@ -96,16 +100,17 @@ def _damper_numbers(model: mujoco.MjModel, force: Damper) -> dict[str, float]:
 
 
 def _actuator(
-    actuators: ET.Element, force: Push | Torque, site: str, gear: tuple[float, ...]
+    sections: Sections, force: Push | Torque, site: str, gear: tuple[float, ...]
 ) -> ET.Element:
-    element = ET.SubElement(actuators, "general", name=force.name, site=site, gear=written(*gear))
+    given = {"name": force.name, "site": site, "gear": written(*gear)}
+    element = ET.SubElement(sections["actuator"], "general", given)
     if force.signal.law == "ramp":
         element.set("dyntype", "integrator")
     return element
 
 
-def _push(actuators: ET.Element, force: Push) -> None:
-    element = _actuator(actuators, force, str(force.at), (*force.signal.amplitude, 0, 0, 0, 0))
+def _push(sections: Sections, force: Push) -> None:
+    element = _actuator(sections, force, str(force.at), (*force.signal.amplitude, 0, 0, 0, 0))
     element.set("refsite", GROUND)  # the force keeps the ground's axes
 
 
@@ -113,9 +118,9 @@ def _push_outer(force: Push, size: Array, gear: Array) -> Iterator[Outer]:
     yield force.at, size[:, None] * gear[:2], np.zeros(len(size))
 
 
-def _torque(actuators: ET.Element, force: Torque) -> None:
+def _torque(sections: Sections, force: Torque) -> None:
     site = f"{force.body}.{CENTER}"
-    _actuator(actuators, force, site, (0, 0, 0, 0, 0, *force.signal.amplitude))
+    _actuator(sections, force, site, (0, 0, 0, 0, 0, *force.signal.amplitude))
 
 
 def _torque_outer(force: Torque, size: Array, gear: Array) -> Iterator[Outer]:
@@ -123,8 +128,8 @@ def _torque_outer(force: Torque, size: Array, gear: Array) -> Iterator[Outer]:
 
 
 ELEMENTS: dict[type[Force], Element] = {
-    Spring: Element("tendon", _spring, _spring_numbers),
-    Damper: Element("tendon", _damper, _damper_numbers),
-    Push: Element("actuator", _push, signal=lambda force: force.signal, outer=_push_outer),
-    Torque: Element("actuator", _torque, signal=lambda force: force.signal, outer=_torque_outer),
+    Spring: Element(_spring, _spring_numbers),
+    Damper: Element(_damper, _damper_numbers),
+    Push: Element(_push, signal=lambda force: force.signal, outer=_push_outer),
+    Torque: Element(_torque, signal=lambda force: force.signal, outer=_torque_outer),
 }

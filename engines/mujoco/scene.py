@@ -11,7 +11,7 @@ from xml.etree import ElementTree as ET
 
 from ...cases.scene import GROUND, Anchor, Contact, DryFriction, Scene
 from ..engine import Choice, State
-from . import force
+from .force import signals, write
 from .tree import (
     Branch,
     Tree,
@@ -56,7 +56,7 @@ def mjcf(
         _contacts(root, scene, _of(numbers, "pair"))
     if tree.loops:
         _loops(root, tree, _of(numbers, "connect"))
-    force.write(root, scene)
+    write(root, scene)
     _start(root, scene, tree, start, depths, out=_leaves_plane(scene, numbers))
     ET.indent(root)
     return ET.tostring(root, encoding="unicode") + "\n"
@@ -232,5 +232,5 @@ def _start(
     key = ET.SubElement(ET.SubElement(root, "keyframe"), "key", name="start")
     key.set("qpos", written(*(position for position, _ in flat)))
     key.set("qvel", written(*(rate for _, rate in flat)))
-    if laws := force.signals(scene):
+    if laws := signals(scene):
         key.set("ctrl", written(*(0 if law.law == "sine" else 1 for law in laws)))

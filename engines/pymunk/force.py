@@ -43,8 +43,8 @@ class Element:
     script: Callable[[World, Any, Callable[[Body], str], bool], Iterator[str]] | None = None
 
 
-def build(world: World, realised: Realised) -> None:
-    """The lines that pymunk realises itself, in the order of the case file."""
+def lines(world: World, realised: Realised) -> None:
+    """Adds the lines that pymunk realises itself, in the order of the case file."""
     for force in world.scene.forces.values():
         element = ELEMENTS[type(force)]
         if element.line is None or (realised == "law" and element.tell):
@@ -101,8 +101,8 @@ def script(world: World, of: Callable[[Body], str], *, midpoint: bool) -> Iterat
     """What has to be called before each step as lines of Python; `of` is how a body is called."""
     found = []
     for force in world.scene.forces.values():
-        if (lines := ELEMENTS[type(force)].script) and force.name not in world.lines:
-            found += [f"    # {force.name}", *lines(world, force, of, midpoint)]
+        if (text := ELEMENTS[type(force)].script) and force.name not in world.lines:
+            found += [f"    # {force.name}", *text(world, force, of, midpoint)]
     if found:
         yield f"    t = {'(n + 0.5) * h' if midpoint else 'n * h'}"
         yield from found

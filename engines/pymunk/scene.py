@@ -15,8 +15,8 @@ from pymunk.space import Space
 
 from ...cases.scene import GROUND, Anchor, DryFriction, Joint, Scene, Vector
 from ..engine import Realised, State
-from . import force
 from .contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle
+from .force import lines
 from .world import World
 
 # Half the length [m] of the floor and of a slide's groove, which pymunk wants finite: farther
@@ -32,7 +32,7 @@ def build(scene: Scene, start: State, numbers: Mapping[str, Any], realised: Real
     _bodies(world, start)
     _contacts(world)
     _joints(world, start)
-    force.build(world, realised)
+    lines(world, realised)
     joints = [part for parts in world.joints.values() for part in parts]
     for name, value in numbers.items():
         owner, _, attribute = name.partition(".")

@@ -9,8 +9,8 @@ from pymunk.shapes import Segment
 
 from ...cases.scene import Scene
 from ..engine import State
-from . import force
 from .contact import ABOVE, closed
+from .force import script
 from .scene import build
 from .world import World
 from .written import written
@@ -52,7 +52,7 @@ def text(scene: Scene, start: State, step: float, numbers: Mapping[str, Any]) ->
         lines += _seeds(world, start, seed)
     lines += [_SHIFT] if midpoint else []
     lines += ["\nfor n in range(steps):"]
-    lines += force.script(world, lambda body: _of(world, body), midpoint=bool(midpoint))
+    lines += script(world, lambda body: _of(world, body), midpoint=bool(midpoint))
     lines += _followers(world)
     position, angle = (" + h / 2 * body.velocity", " + h / 2 * body.angular_velocity")
     lines += [

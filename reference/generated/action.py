@@ -76,7 +76,7 @@ def other(force: Force, where: Coordinates, t: Any, q: Numbers, v: Numbers, Q: A
 
 def ends_meet(force: Force, where: Coordinates, t: float, q: Numbers, within: float) -> bool:
     """Whether it is shorter than that [m], and so without direction."""
-    return ACTIONS[type(force)].line and _length(force, where, t, q) < within  # type: ignore[arg-type]
+    return ACTIONS[type(force)].line and length(force, where, t, q) < within  # type: ignore[arg-type]
 
 
 def signal(law: Signal, t: Any) -> tuple[Any, ...]:
@@ -87,12 +87,14 @@ def signal(law: Signal, t: Any) -> tuple[Any, ...]:
     return tuple(entry * size for entry in law.amplitude)
 
 
-def _ends(force: Line, where: Coordinates, t: Any, q: Numbers, v: Numbers) -> tuple[Point, Point]:
+def ends(force: Line, where: Coordinates, t: Any, q: Numbers, v: Numbers) -> tuple[Point, Point]:
+    """The points at its two ends."""
     return where.point(force.a, t, q, v), where.point(force.b, t, q, v)
 
 
-def _length(force: Line, where: Coordinates, t: Any, q: Numbers) -> Any:
-    a, b = _ends(force, where, t, q, q)
+def length(force: Line, where: Coordinates, t: Any, q: Numbers) -> Any:
+    """λ [m]."""
+    a, b = ends(force, where, t, q, q)
     x, y = b.r[0] - a.r[0], b.r[1] - a.r[1]
     return np.sqrt(x * x + y * y)
 
@@ -100,7 +102,7 @@ def _length(force: Line, where: Coordinates, t: Any, q: Numbers) -> Any:
 def _spring(
     force: Spring, where: Coordinates, t: float, q: Numbers, v: Numbers
 ) -> Iterator[tuple[Any, Point]]:
-    a, b = _ends(force, where, t, q, v)
+    a, b = ends(force, where, t, q, v)
     d = (b.r[0] - a.r[0], b.r[1] - a.r[1])
     if d[0] * d[0] + d[1] * d[1] < (SHORT * force.rest_length) ** 2:
         raise NoDirection(force.name)
@@ -111,13 +113,13 @@ def _spring(
 
 def _stretched(force: Spring, where: Coordinates, t: Any, q: Numbers) -> Any:
     """(2.45) ½ c (λ − λ₀)²."""
-    return 0.5 * force.stiffness * (_length(force, where, t, q) - force.rest_length) ** 2
+    return 0.5 * force.stiffness * (length(force, where, t, q) - force.rest_length) ** 2
 
 
 def _damper(
     force: Damper, where: Coordinates, t: float, q: Numbers, v: Numbers
 ) -> Iterator[tuple[Any, Point]]:
-    a, b = _ends(force, where, t, q, v)
+    a, b = ends(force, where, t, q, v)
     d = (b.r[0] - a.r[0], b.r[1] - a.r[1])
     d_dot = (b.r_dot[0] - a.r_dot[0], b.r_dot[1] - a.r_dot[1])
     F = damper(force.damping, d, d_dot).tolist()
@@ -127,7 +129,7 @@ def _damper(
 
 def _damped(force: Damper, where: Coordinates, t: Any, q: Numbers, v: Numbers) -> Any:
     """(2.46) ½ d λ̇², λ̇ = Δ·Δ̇/λ."""
-    a, b = _ends(force, where, t, q, v)
+    a, b = ends(force, where, t, q, v)
     x, y = b.r[0] - a.r[0], b.r[1] - a.r[1]
     along = x * (b.r_dot[0] - a.r_dot[0]) + y * (b.r_dot[1] - a.r_dot[1])
     return 0.5 * force.damping * along * along / (x * x + y * y)

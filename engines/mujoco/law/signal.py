@@ -10,7 +10,7 @@ from contextlib import AbstractContextManager, contextmanager
 import mujoco
 
 from ....cases.scene import Scene
-from .. import force
+from ..force import signals as laws
 
 Control = Callable[[mujoco.MjModel, mujoco.MjData], None]
 
@@ -43,7 +43,7 @@ def installed(control: Control | None) -> Iterator[None]:
 def _control(scene: Scene) -> Control | None:
     sines = [
         (i, law.angular_frequency, law.phase)
-        for i, law in enumerate(force.signals(scene))
+        for i, law in enumerate(laws(scene))
         if law.law == "sine"
     ]
     if not sines:
