@@ -3,8 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from .mistake import CaseError, Mistake
-from .quantity import nearest
+from .mistake import CaseError, Mistake, nearest
 
 
 def shipped() -> dict[str, Path]:

@@ -1,7 +1,8 @@
 """Mistakes in a case file, as a person wants to read them: place, field, what is wrong."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 
 Path = tuple[str | int, ...]
 
@@ -54,3 +55,12 @@ class Source:
         line, column = self.places.get(known, (0, 0))
         text = self.lines[line - 1] if 0 < line <= len(self.lines) else ""
         return Mistake(self.file, line, column, ".".join(str(p) for p in path), what, text)
+
+
+def nearest(word: str, words: Iterable[str]) -> str:
+    """A hint: `; did you mean 'crank.angle'?`, or what there is, or nothing."""
+    known = list(words)
+    close = get_close_matches(word, known, n=1, cutoff=0.6)
+    if close:
+        return f"; did you mean {close[0]!r}?"
+    return f"; known: {', '.join(known)}" if 0 < len(known) <= 12 else ""

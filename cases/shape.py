@@ -4,36 +4,47 @@ Shared by the generated reference and the engines, so it is tested by itself aga
 integrals over the shape (tests/cases/test_shape.py). Hand-written systems carry their own.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from typing import Annotated
 
-from .scene import CENTER, Body, Vector
+from .body import Body
+from .language.grammar.field import In
+from .language.grammar.part import Length, Mass
+from .point import CENTER, Vector
 
 Points = Mapping[str, Vector]
+Inertia = Annotated[float, In("kg m²", above=0)]
 
 
-def bar(*, name: str, mass: float, length: float, points: Points) -> Body:
+def bar(*, name: str, mass: Mass, length: Length, points: Points) -> Body:
     """Slender bar along its own x from `start` to `end`: J = m l²/12 (Exercise 2.3)."""
     ends = {"start": (-length / 2, 0.0), "end": (length / 2, 0.0)}
     return Body(name, "bar", mass, mass * length**2 / 12, {CENTER: (0.0, 0.0), **ends, **points})
 
 
-def disk(*, name: str, mass: float, radius: float, points: Points) -> Body:
+def disk(*, name: str, mass: Mass, radius: Length, points: Points) -> Body:
     """Thin homogeneous disk: J = m R²/2 (Exercise 2.2)."""
     inertia = mass * radius**2 / 2
     return Body(name, "disk", mass, inertia, {CENTER: (0.0, 0.0), **points}, radius=radius)
 
 
-def block(*, name: str, mass: float, width: float, height: float, points: Points) -> Body:
+def block(*, name: str, mass: Mass, width: Length, height: Length, points: Points) -> Body:
     """Homogeneous rectangle: J = m (w² + h²)/12."""
     inertia = mass * (width**2 + height**2) / 12
     return Body(name, "block", mass, inertia, {CENTER: (0.0, 0.0), **points})
 
 
-def particle(*, name: str, mass: float) -> Body:
+def particle(*, name: str, mass: Mass) -> Body:
     """Point mass: no inertia, no angle."""
     return Body(name, "particle", mass, None, {CENTER: (0.0, 0.0)})
 
 
-def rigid(*, name: str, mass: float, inertia: float, points: Points) -> Body:
+def rigid(*, name: str, mass: Mass, inertia: Inertia, points: Points) -> Body:
     """Any rigid body, by its mass and its inertia about the centre of mass."""
     return Body(name, "rigid", mass, inertia, {CENTER: (0.0, 0.0), **points})
+
+
+SHAPES: dict[str, Callable[..., Body]] = {
+    make.__name__: make for make in (bar, disk, block, particle, rigid)
+}
+"""By the word of the case file."""

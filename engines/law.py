@@ -5,8 +5,12 @@ the book's letters in `reference/`, here, and as a table of typed values in test
 """
 
 import math
+from collections.abc import Callable
+from typing import Any
 
-from ..cases.scene import Damper, DryFriction, Signal, Smooth, Spring
+from ..cases.force import Damper, Line, Spring
+from ..cases.friction import DryFriction, Smooth
+from ..cases.signal import Signal
 
 
 def value(signal: Signal, t: float) -> tuple[float, ...]:
@@ -18,11 +22,25 @@ def value(signal: Signal, t: float) -> tuple[float, ...]:
     return tuple(amplitude * factor for amplitude in signal.amplitude)
 
 
-def tension(force: Spring | Damper, length: float, rate: float) -> float:
-    """With what force [N] a spring (2.82) or damper (2.47) pulls its two ends together."""
-    if isinstance(force, Spring):
-        return force.stiffness * (length - force.rest_length)
+def tension(force: Line, length: float, rate: float) -> float:
+    """With what force [N] a spring, a damper, … pulls its two ends together."""
+    return TENSIONS[type(force)](force, length, rate)
+
+
+def _spring(force: Spring, length: float, rate: float) -> float:
+    """(2.82) c (λ − λ₀)."""
+    return force.stiffness * (length - force.rest_length)
+
+
+def _damper(force: Damper, length: float, rate: float) -> float:
+    """(2.47) d λ̇."""
     return force.damping * rate
+
+
+TENSIONS: dict[type[Line], Callable[[Any, float, float], float]] = {
+    Spring: _spring,
+    Damper: _damper,
+}
 
 
 def dry_friction(friction: DryFriction, speed: float, applied: float) -> float:

@@ -4,7 +4,6 @@ What stops a motion (a line without direction, constraints that come to depend o
 asked only after the integrators have failed, to say why.
 """
 
-import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -12,6 +11,7 @@ import numpy as np
 
 from ..cases.case import Case
 from ..cases.mistake import CaseError, Mistake
+from .generated.action import ends_meet
 from .generated.choosing import BadStart, SwitchingMechanism, Undetermined
 from .motion.stuck import Stuck
 from .motion.zeno import ZenoError
@@ -52,10 +52,9 @@ def _mistake(case: Case, generated: SwitchingMechanism, failure: Exception) -> M
 
 
 def _line(case: Case, generated: SwitchingMechanism, t: float, q: Array) -> str | None:
-    size, where = Closure(case).size, generated.base.where
-    for force in (*case.scene.springs(), *case.scene.dampers()):
-        a, b = (where.point(end, t, q.tolist(), q.tolist()) for end in (force.a, force.b))
-        if math.hypot(b.r[0] - a.r[0], b.r[1] - a.r[1]) < SHORT * size:
+    within, where = SHORT * Closure(case).size, generated.base.where
+    for force in case.scene.forces.values():
+        if ends_meet(force, where, t, q.tolist(), within):
             return f"{force.name} has no length there, and so no direction"
     return None
 

@@ -10,8 +10,7 @@ from ..cases.case import Case
 from ..cases.find import find, shipped
 from ..cases.language.read.document import read
 from ..cases.load import load
-from ..cases.mistake import CaseError, Mistake
-from ..cases.quantity import nearest
+from ..cases.mistake import CaseError, Mistake, nearest
 from ..engines.engine import Engine
 from ..reference.systems import SYSTEMS
 

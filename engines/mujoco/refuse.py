@@ -14,12 +14,13 @@ def unbuildable(scene: Scene) -> str | None:
     """The first joint or contact that has no counterpart."""
     tree = spanning_tree(scene)
     for joint in tree.loops:
-        if built_as(scene, joint) == "slide":
-            return f"engine: MuJoCo has no constraint that closes a loop by the slide {joint.name}"
-        if built_as(scene, joint) == "weld":
+        if built_as(scene, joint).shifts:
+            what = f"{joint.kind} {joint.name}"
+            return f"engine: MuJoCo has no constraint that closes a loop by the {what}"
+        if not built_as(scene, joint).turns:
             return f"adapter: {joint.name} closes a loop by a weld, loops are closed by pins only"
     for branch in tree.branches:
-        if branch.joint is not None and branch.joint.kind == "slide":
+        if branch.joint is not None and branch.joint.shifts:
             reason = _slide(scene, tree, branch, branch.joint)
             if reason is not None:
                 return reason
@@ -39,7 +40,8 @@ def unbuildable(scene: Scene) -> str | None:
 
 def _slide(scene: Scene, tree: Tree, branch: Branch, joint: Joint) -> str | None:
     turns = {name: body.turns for name, body in scene.bodies.items()}
-    if turns[branch.body] and not turns.get(branch.parent, True):
+    locked = not joint.turns and turns[branch.body]
+    if locked and not turns.get(branch.parent, True):
         return f"adapter: {joint.name} would have to let {branch.body} both shift and turn"
     particle = not turns.get(joint.a.body, True)
     if particle and tree.frame(scene, branch.parent) != GROUND:

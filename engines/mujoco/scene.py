@@ -9,20 +9,21 @@ from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from xml.etree import ElementTree as ET
 
-from ...cases.scene import (
-    CENTER,
-    GROUND,
-    Anchor,
-    Contact,
-    Damper,
-    DryFriction,
-    Push,
-    Scene,
-    Spring,
-    Torque,
-)
+from ...cases.scene import GROUND, Anchor, Contact, DryFriction, Scene
 from ..engine import Choice, State
-from .tree import Branch, Tree, built_as, coordinates, driven, spanning_tree, turned
+from .force import signals, write
+from .tree import (
+    Branch,
+    Tree,
+    built_as,
+    coordinate,
+    coordinates,
+    driven,
+    freedoms,
+    spanning_tree,
+    turned,
+)
+from .written import written
 
 HEAVY = 1e15  # kg of a driven point: 1 N changes its velocity by 1e-15 m/s in a second
 LEAST = 1e-15  # kg m² (mjMINVAL) of a particle: MuJoCo takes no less of a body with a joint
@@ -44,7 +45,9 @@ def mjcf(
     numbers = {choice.name: choice.value for choice in choices}
     tree = spanning_tree(scene)
     root = ET.Element("mujoco", model="textmech")
-    option = ET.SubElement(root, "option", _of(numbers, "option"), gravity=_text(*scene.gravity, 0))
+    option = ET.SubElement(
+        root, "option", _of(numbers, "option"), gravity=written(*scene.gravity, 0)
+    )
     ET.SubElement(option, "flag", autoreset="disable")  # a reset must not look like a motion
     world = ET.SubElement(root, "worldbody")
     _world(world, scene)
@@ -53,7 +56,7 @@ def mjcf(
         _contacts(root, scene, _of(numbers, "pair"))
     if tree.loops:
         _loops(root, tree, _of(numbers, "connect"))
-    _forces(root, scene)
+    write(root, scene)
     _start(root, scene, tree, start, depths, out=_leaves_plane(scene, numbers))
     ET.indent(root)
     return ET.tostring(root, encoding="unicode") + "\n"
@@ -61,16 +64,10 @@ def mjcf(
 
 def _of(numbers: dict[str, object], group: str) -> dict[str, str]:
     return {
-        name.partition(".")[2]: value if isinstance(value, str) else _text(value)
+        name.partition(".")[2]: value if isinstance(value, str) else written(value)
         for name, value in numbers.items()
         if name.startswith(f"{group}.")
     }
-
-
-def _text(*values: object) -> str:
-    """Numbers so that they come back bit for bit; lists separated by blanks."""
-    flat = [x for value in values for x in (value if isinstance(value, list | tuple) else [value])]
-    return " ".join(repr(float(x)) if isinstance(x, float) else str(x) for x in flat)
 
 
 def _world(world: ET.Element, scene: Scene) -> None:
@@ -82,7 +79,7 @@ def _world(world: ET.Element, scene: Scene) -> None:
     ET.SubElement(world, "site", name=GROUND, pos="0 0 0")
     for name, point in scene.points.items():
         if not point.driven:
-            ET.SubElement(world, "site", name=f"{GROUND}.{name}", pos=_text(*point.at, 0))
+            ET.SubElement(world, "site", name=f"{GROUND}.{name}", pos=written(*point.at, 0))
             continue
         # A point that nothing can hold back moves at its constant velocity in every RK4 stage;
         # a mocap body would stand still during a step, which costs three orders.
@@ -103,7 +100,7 @@ def _joint(body: ET.Element, name: str, kind: str, **attributes: str) -> None:
 def _inertial(body: ET.Element, mass: float, inertia: float) -> None:
     # Only the moment about z plays in the plane; three equal ones are always a possible body.
     ET.SubElement(
-        body, "inertial", pos="0 0 0", mass=_text(mass), diaginertia=_text(*[inertia] * 3)
+        body, "inertial", pos="0 0 0", mass=written(mass), diaginertia=written(*[inertia] * 3)
     )
 
 
@@ -123,7 +120,7 @@ def _bodies(world: ET.Element, scene: Scene, tree: Tree, numbers: dict[str, obje
         least = LEAST if element.find("joint") is not None else 0.0
         _inertial(element, body.mass, least if body.inertia is None else body.inertia)
         for name, at in body.points.items():
-            ET.SubElement(element, "site", name=f"{body.name}.{name}", pos=_text(*at, 0))
+            ET.SubElement(element, "site", name=f"{body.name}.{name}", pos=written(*at, 0))
         for contact in scene.contacts.values():
             if contact.body == body.name:
                 _touching(element, scene, contact)
@@ -140,8 +137,8 @@ def _touching(element: ET.Element, scene: Scene, contact: Contact) -> None:
     radius = scene.bodies[contact.body].radius
     at = scene.bodies[contact.body].points[contact.at.point]
     ET.SubElement(
-        element, "geom", name=contact.name, type="sphere", pos=_text(*at, 0),
-        size=_text(POINT if radius is None else radius), contype="0", conaffinity="0",
+        element, "geom", name=contact.name, type="sphere", pos=written(*at, 0),
+        size=written(POINT if radius is None else radius), contype="0", conaffinity="0",
     )  # fmt: skip
 
 
@@ -154,28 +151,29 @@ def _hang(element: ET.Element, scene: Scene, branch: Branch, soft: dict[str, str
             _joint(element, f"{body.name}.{name}", kind, axis=_AXES[name])
         return
     outer, inner = branch.ends()
-    what = built_as(scene, joint)
-    held = 0.0 if what == "pin" or not body.turns else joint.angle
+    left = built_as(scene, joint)
+    held = 0.0 if left.turns or not body.turns else joint.angle
     held = held if branch.forward else -held
     at, own = local(scene, outer), turned(local(scene, inner), held)
-    element.set("pos", _text(at[0] - own[0], at[1] - own[1], 0))
+    element.set("pos", written(at[0] - own[0], at[1] - own[1], 0))
     if held:
-        element.set("quat", _text(math.cos(held / 2), 0, 0, math.sin(held / 2)))
-    if what == "pin" and body.turns:
-        _joint(
-            element, joint.name, "hinge", axis=_AXES["angle"], pos=_text(*local(scene, inner), 0)
-        )
-    elif what == "slide":
-        # MuJoCo's axis stands in the child; `along` stands in the joint's first part.
-        along = turned(joint.along, -held) if branch.forward else turned(joint.along, math.pi)
-        friction = {} if joint.dry_friction is None else _friction(joint.dry_friction, soft)
-        _joint(element, joint.name, "slide", axis=_text(*along, 0), **friction)
+        element.set("quat", written(math.cos(held / 2), 0, 0, math.sin(held / 2)))
+    for freedom in freedoms(scene, branch):
+        if freedom == "turn":
+            pos, axis = written(*local(scene, inner), 0), _AXES["angle"]
+            _joint(element, coordinate(joint, "turn"), "hinge", axis=axis, pos=pos)
+        else:
+            # MuJoCo's axis stands in the child; `along` stands in the joint's first part.
+            along = turned(joint.along, -held) if branch.forward else turned(joint.along, math.pi)
+            friction = {} if joint.dry_friction is None else _friction(joint.dry_friction, soft)
+            name = coordinate(joint, "shift")
+            _joint(element, name, "slide", axis=written(*along, 0), **friction)
 
 
 def _friction(dry: DryFriction, soft: dict[str, str]) -> dict[str, str]:
     """A joint has one number for both directions, moving and at rest."""
     mean = (dry.kinetic.forward + dry.kinetic.backward) / 2
-    return {"frictionloss": _text(mean), **soft}
+    return {"frictionloss": written(mean), **soft}
 
 
 def local(scene: Scene, anchor: Anchor) -> tuple[float, float]:
@@ -192,7 +190,7 @@ def _contacts(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> Non
         ET.SubElement(
             contacts, "pair", attributes,
             name=contact.name, geom1=FLOOR, geom2=contact.name, condim="3",
-            friction=_text(contact.friction, contact.friction, 0, 0, 0),
+            friction=written(contact.friction, contact.friction, 0, 0, 0),
         )  # fmt: skip
 
 
@@ -203,41 +201,6 @@ def _loops(root: ET.Element, tree: Tree, attributes: dict[str, str]) -> None:
             equality, "connect", attributes,
             name=joint.name, site1=str(joint.a), site2=str(joint.b),
         )  # fmt: skip
-
-
-def _forces(root: ET.Element, scene: Scene) -> None:
-    lines = [f for f in scene.forces.values() if isinstance(f, Spring | Damper)]
-    if lines:
-        tendons = ET.SubElement(root, "tendon")
-        for force in lines:
-            spatial = ET.SubElement(tendons, "spatial", name=force.name)
-            if isinstance(force, Spring):
-                spatial.set("stiffness", _text(force.stiffness))
-                spatial.set("springlength", _text(force.rest_length))
-            else:
-                spatial.set("damping", _text(force.damping))
-            for end in (force.a, force.b):
-                ET.SubElement(spatial, "site", site=str(end))
-    signals = list(scene.signals())
-    if signals:
-        actuators = ET.SubElement(root, "actuator")
-        for force in signals:
-            _actuator(actuators, force)
-
-
-def _actuator(actuators: ET.Element, force: Push | Torque) -> None:
-    """Control 1 makes a constant, the integral of 1 a ramp; a sine's control is a callback."""
-    element = ET.SubElement(actuators, "general", name=force.name)
-    amplitude = force.signal.amplitude
-    if isinstance(force, Push):
-        element.set("site", str(force.at))
-        element.set("refsite", GROUND)  # the force keeps the ground's axes
-        element.set("gear", _text(*amplitude, 0, 0, 0, 0))
-    else:
-        element.set("site", f"{force.body}.{CENTER}")
-        element.set("gear", _text(0, 0, 0, 0, 0, *amplitude))
-    if force.signal.law == "ramp":
-        element.set("dyntype", "integrator")
 
 
 def _start(
@@ -266,9 +229,8 @@ def _start(
         for element in root.iter("body")  # document order is depth first
         for pair in pairs[element.attrib["name"]]
     ]
-    signals = list(scene.signals())
     key = ET.SubElement(ET.SubElement(root, "keyframe"), "key", name="start")
-    key.set("qpos", _text(*(position for position, _ in flat)))
-    key.set("qvel", _text(*(rate for _, rate in flat)))
-    if signals:
-        key.set("ctrl", _text(*(0 if f.signal.law == "sine" else 1 for f in signals)))
+    key.set("qpos", written(*(position for position, _ in flat)))
+    key.set("qvel", written(*(rate for _, rate in flat)))
+    if laws := signals(scene):
+        key.set("ctrl", written(*(0 if law.law == "sine" else 1 for law in laws)))

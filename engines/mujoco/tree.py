@@ -7,12 +7,10 @@ MuJoCo has `connect` for a pin, and nothing for a slide.
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
 
+from ...cases.joint import Freedom
 from ...cases.scene import GROUND, Anchor, Joint, Scene, Vector
 from ..engine import State
-
-Kind = Literal["pin", "slide", "weld"]
 
 
 @dataclass(frozen=True)
@@ -58,11 +56,37 @@ class Tree:
         return name if name in branches else GROUND
 
 
-def built_as(scene: Scene, joint: Joint) -> Kind:
-    """What the joint is here: welded to a particle, which has no angle to hold, it is a pin."""
+@dataclass(frozen=True)
+class Left:
+    """The freedoms that a joint leaves here."""
+
+    turns: bool
+    shifts: bool
+
+
+def built_as(scene: Scene, joint: Joint) -> Left:
+    """What the joint leaves: welded to a particle, which has no angle to hold, it is a pin."""
     ends = (joint.a.body, joint.b.body)
     held = all(end == GROUND or scene.bodies[end].turns for end in ends)
-    return joint.kind if held or joint.kind == "slide" else "pin"
+    return Left(joint.turns or not (held or joint.shifts), joint.shifts)
+
+
+def freedoms(scene: Scene, branch: Branch) -> list[Freedom]:
+    """What the body can do on its parent, in the order of MuJoCo's joints, outer first.
+
+    The line of a shift stands in the joint's first part: it turns with the body, or does not.
+    """
+    if branch.joint is None:
+        return []
+    left = built_as(scene, branch.joint)
+    turn: list[Freedom] = ["turn"] if left.turns and scene.bodies[branch.body].turns else []
+    shift: list[Freedom] = ["shift"] if left.shifts else []
+    return shift + turn if branch.forward else turn + shift
+
+
+def coordinate(joint: Joint, freedom: Freedom) -> str:
+    """MuJoCo's joint for a freedom: the joint's name, and for the turn of a slot one more."""
+    return f"{joint.name}.turn" if freedom == "turn" and joint.shifts else joint.name
 
 
 def node(scene: Scene, anchor: Anchor) -> str:
@@ -73,7 +97,7 @@ def node(scene: Scene, anchor: Anchor) -> str:
 
 
 def spanning_tree(scene: Scene) -> Tree:
-    """Kruskal's tree over the joints, locked ones first, each kind in the scene's order."""
+    """Kruskal's tree over the joints, pins last, each kind in the scene's order."""
     group = {name: name for name in (GROUND, *driven(scene), *scene.bodies)}
 
     def root(name: str) -> str:
@@ -83,7 +107,11 @@ def spanning_tree(scene: Scene) -> Tree:
 
     kept: list[Joint] = []
     loops: list[Joint] = []
-    for joint in sorted(scene.joints.values(), key=lambda j: built_as(scene, j) == "pin"):
+
+    def closes(joint: Joint) -> bool:
+        return built_as(scene, joint) == Left(turns=True, shifts=False)
+
+    for joint in sorted(scene.joints.values(), key=closes):
         ends = sorted((root(node(scene, joint.a)), root(node(scene, joint.b))), key=_is_body)
         if ends[0] == ends[1] or not _is_body(ends[1]):  # both fixed: closes through the ground
             loops.append(joint)
@@ -137,19 +165,24 @@ def coordinates(
     turns = scene.bodies[branch.body].turns
     if branch.joint is None:
         return [(x, vx), (y, vy), *([(angle, omega)] if turns else [])]
-    held = built_as(scene, branch.joint)
-    if held == "weld":
-        return []
-    if held == "pin":
-        if not turns:
-            return []
-        parent = start.get(tree.frame(scene, branch.parent), (0.0,) * 6)
-        return [(angle - parent[2], omega - parent[5])]
-    first, second = (_point(scene, end, start) for end in (branch.joint.a, branch.joint.b))
-    base = 0.0 if branch.joint.a.body == GROUND else start[branch.joint.a.body][2]
-    u = turned(branch.joint.along, base)
+    ways = {"turn": _turn, "shift": _shift}
+    return [ways[freedom](scene, tree, branch, start) for freedom in freedoms(scene, branch)]
+
+
+def _turn(scene: Scene, tree: Tree, branch: Branch, start: State) -> tuple[float, float]:
+    _, _, angle, _, _, omega = start[branch.body]
+    parent = start.get(tree.frame(scene, branch.parent), (0.0,) * 6)
+    return angle - parent[2], omega - parent[5]
+
+
+def _shift(scene: Scene, tree: Tree, branch: Branch, start: State) -> tuple[float, float]:
+    joint = branch.joint
+    assert joint is not None
+    first, second = (_point(scene, end, start) for end in (joint.a, joint.b))
+    base = 0.0 if joint.a.body == GROUND else start[joint.a.body][2]
+    u = turned(joint.along, base)
     d = [after - before for before, after in zip(first, second, strict=True)]
-    return [(d[0] * u[0] + d[1] * u[1], d[2] * u[0] + d[3] * u[1])]
+    return d[0] * u[0] + d[1] * u[1], d[2] * u[0] + d[3] * u[1]
 
 
 def _point(scene: Scene, anchor: Anchor, start: State) -> tuple[float, float, float, float]:

@@ -58,7 +58,11 @@ class Pymunk:
                 return f"engine: {part.name} joins {where} to itself, on which pymunk aborts"
         for joint in scene.joints.values():
             first = joint.a.body
-            if joint.kind != "pin" and first != GROUND and not scene.bodies[first].turns:
+            if (
+                (joint.shifts or not joint.turns)
+                and first != GROUND
+                and not scene.bodies[first].turns
+            ):
                 return f"adapter: {joint.name} starts at a particle, which has no axes"
         return None
 

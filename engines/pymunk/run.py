@@ -24,7 +24,8 @@ from ...cases.trajectory import Array, Trajectory
 from ..engine import Diverged, Realised, State
 from .contact import closed, sink
 from .law.force import forces
-from .scene import FAR, World, build
+from .scene import FAR, build
+from .world import World
 
 Steps = Callable[[int], None]
 Counts = NDArray[np.int64]  # of steps

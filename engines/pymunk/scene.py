@@ -6,59 +6,22 @@ segment with a radius is that of a box. Only what touches the floor has a shape.
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Any
 
 from pymunk.body import Body
-from pymunk.constraints import Constraint, DampedSpring, GearJoint, GrooveJoint, PivotJoint
-from pymunk.shapes import Circle, Segment
+from pymunk.constraints import Constraint, GearJoint, GrooveJoint, PivotJoint
+from pymunk.shapes import Segment
 from pymunk.space import Space
 
-from ...cases.scene import GROUND, Anchor, DryFriction, Joint, Scene, Spring, Vector
+from ...cases.scene import GROUND, Anchor, DryFriction, Joint, Scene, Vector
 from ..engine import Realised, State
 from .contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle
+from .force import lines
+from .world import World
 
 # Half the length [m] of the floor and of a slide's groove, which pymunk wants finite: farther
 # than a case travels, and short enough that rounding (100 m × 1e-16) stays below every reach.
 FAR = 100.0
-
-
-@dataclass(frozen=True)
-class World:
-    """The space and its parts by their names in the scene.
-
-    A joint's first constraint carries its force. driven: the driven points' bodies. brakes: the
-    friction joints of slides.
-    """
-
-    scene: Scene
-    space: Space
-    bodies: dict[str, Body] = field(default_factory=dict)
-    driven: dict[str, Body] = field(default_factory=dict)
-    joints: dict[str, tuple[Constraint, ...]] = field(default_factory=dict)
-    brakes: dict[str, GrooveJoint] = field(default_factory=dict)
-    lines: dict[str, DampedSpring] = field(default_factory=dict)
-    wheels: dict[str, Circle] = field(default_factory=dict)
-
-    def body(self, anchor: Anchor) -> Body:
-        if anchor.body != GROUND:
-            return self.bodies[anchor.body]
-        return self.driven.get(anchor.point, self.space.static_body)
-
-    @property
-    def bounded(self) -> bool:
-        """Whether something in it is only FAR long."""
-        return bool(self.wheels) or any(j.kind == "slide" for j in self.scene.joints.values())
-
-    def wheel(self, contact: str) -> Body:
-        """The body that touches the floor."""
-        return self.bodies[self.scene.contacts[contact].body]
-
-    def local(self, anchor: Anchor) -> Vector:
-        """The anchor in its body's axes from its centre of mass."""
-        if anchor.body != GROUND:
-            return self.scene.bodies[anchor.body].points[anchor.point]
-        return (0.0, 0.0) if anchor.point in self.driven else self.scene.points[anchor.point].at
 
 
 def build(scene: Scene, start: State, numbers: Mapping[str, Any], realised: Realised) -> World:
@@ -69,7 +32,7 @@ def build(scene: Scene, start: State, numbers: Mapping[str, Any], realised: Real
     _bodies(world, start)
     _contacts(world)
     _joints(world, start)
-    _lines(world, realised)
+    lines(world, realised)
     joints = [part for parts in world.joints.values() for part in parts]
     for name, value in numbers.items():
         owner, _, attribute = name.partition(".")
@@ -109,11 +72,11 @@ def _joints(world: World, start: State) -> None:
     """In the order of the case file: another order is another order of the solver's sweeps."""
     for joint in world.scene.joints.values():
         a, b = world.body(joint.a), world.body(joint.b)
-        if joint.kind == "slide":
+        if joint.shifts:
             parts: list[Constraint] = [GrooveJoint(a, b, *groove(world, joint))]
         else:
             parts = [PivotJoint(a, b, world.local(joint.a), world.local(joint.b))]
-        if joint.kind != "pin" and holds_angle(world.scene, joint):
+        if not joint.turns and holds_angle(world.scene, joint):
             parts.append(GearJoint(a, b, phase(joint, start), 1.0))
         world.joints[joint.name] = tuple(parts)
         world.space.add(*parts)
@@ -141,22 +104,6 @@ def _brake(world: World, joint: Joint, friction: DryFriction) -> GrooveJoint:
     return brake
 
 
-def _lines(world: World, realised: Realised) -> None:
-    """Springs without damping, dampers without stiffness."""
-    dampers = world.scene.dampers() if realised == "native" else ()
-    for force in (*world.scene.springs(), *dampers):
-        a, b = world.body(force.a), world.body(force.b)
-        numbers = (
-            (force.rest_length, force.stiffness, 0.0)
-            if isinstance(force, Spring)
-            else (0.0, 0.0, force.damping)
-        )
-        world.lines[force.name] = DampedSpring(
-            a, b, world.local(force.a), world.local(force.b), *numbers
-        )
-        world.space.add(world.lines[force.name])
-
-
 def holds_angle(scene: Scene, joint: Joint) -> bool:
     """Whether both parts have an angle and one of them can turn; a particle has none."""
     bodies = [scene.bodies[p.body] for p in (joint.a, joint.b) if p.body != GROUND]
@@ -176,16 +123,19 @@ def phase(joint: Joint, start: State) -> float:
 def groove(world: World, joint: Joint) -> tuple[Vector, Vector, Vector]:
     """A slide's groove on its first part (two ends), and the point of the second in it.
 
-    As the slide lets nothing turn, any parallel line holds the same. It runs through the centre
-    of a first part that turns, else of the second, and meets the other where it is nearest to
-    that one's centre: pymunk projects K⁻¹(v_bias − v) onto the groove's normal, and only there
-    is the normal a principal axis of K; see `oblique` for what happens elsewhere.
+    A slot has its own line. As a slide lets nothing turn, any parallel line holds the same: it
+    runs through the centre of a first part that turns, else of the second, and meets the other
+    where it is nearest to that one's centre. pymunk projects K⁻¹(v_bias − v) onto the groove's
+    normal, and only there is the normal a principal axis of K; see `oblique` for elsewhere.
     """
     (ax, ay), (ux, uy) = world.local(joint.a), joint.along
     cos, sin = math.cos(joint.angle), math.sin(joint.angle)
     bx, by = world.local(joint.b)
     bx, by = cos * bx - sin * by, sin * bx + cos * by  # in the first part's axes
     px, py, anchor = ax - bx, ay - by, (0.0, 0.0)
+    if joint.turns:
+        bx, by = world.local(joint.b)
+        return (ax - FAR * ux, ay - FAR * uy), (ax + FAR * ux, ay + FAR * uy), (bx, by)
     if turns(world.scene, joint.a) and holds_angle(world.scene, joint):
         offset = uy * px - ux * py  # from the second centre to the line, along n
         nx, ny = -uy * offset, ux * offset
@@ -195,12 +145,17 @@ def groove(world: World, joint: Joint) -> tuple[Vector, Vector, Vector]:
 
 
 def oblique(scene: Scene, joint: Joint) -> bool:
-    """Whether a groove has to lie where K is oblique to it: a particle beside a turning centre.
+    """Whether a groove has to lie where K is oblique to it: beside a turning centre.
 
-    There the solver settles with the particle off the line by c h times its sliding speed: the
+    There the solver settles with the second point off the line by c h times its sliding speed: the
     motion is of first order, and starts with a kick.
     """
-    if joint.kind != "slide" or not turns(scene, joint.a) or holds_angle(scene, joint):
+    if not joint.shifts or (not joint.turns and holds_angle(scene, joint)):
+        return False
+    second = scene.bodies[joint.b.body].points[joint.b.point] if turns(scene, joint.b) else ()
+    if joint.turns and any(second):
+        return True
+    if not turns(scene, joint.a):
         return False
     (x, y), (ux, uy) = scene.bodies[joint.a.body].points[joint.a.point], joint.along
     return abs(ux * y - uy * x) > 1e-12 * math.hypot(x, y)

@@ -1,6 +1,5 @@
 """A scene as a stand-alone Python script, written from the very objects that would be stepped."""
 
-import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -8,10 +7,13 @@ from pymunk.body import Body
 from pymunk.constraints import Constraint, DampedSpring, GearJoint, GrooveJoint, PivotJoint
 from pymunk.shapes import Segment
 
-from ...cases.scene import Push, Scene, Torque
+from ...cases.scene import Scene
 from ..engine import State
 from .contact import ABOVE, closed
-from .scene import World, build
+from .force import script
+from .scene import build
+from .world import World
+from .written import written
 
 _ARGUMENTS: dict[type[Constraint], tuple[str, ...]] = {
     PivotJoint: ("anchor_a", "anchor_b"),
@@ -38,8 +40,8 @@ def text(scene: Scene, start: State, step: float, numbers: Mapping[str, Any]) ->
         f"h = {step!r}  # s",
         f"steps = {max(1, round(1 / step))}",
         "space = pymunk.Space()",
-        f"space.gravity = {_value(world.space.gravity)}",
-        *(f"{name} = {_value(x)}" for name, x in numbers.items() if name.startswith("space.")),
+        f"space.gravity = {written(world.space.gravity)}",
+        *(f"{name} = {written(x)}" for name, x in numbers.items() if name.startswith("space.")),
         "ground = space.static_body",
         "bodies = {}",
         *_bodies(world),
@@ -49,7 +51,9 @@ def text(scene: Scene, start: State, step: float, numbers: Mapping[str, Any]) ->
     if seed:
         lines += _seeds(world, start, seed)
     lines += [_SHIFT] if midpoint else []
-    lines += [*_forces(world, bool(midpoint)), *_followers(world)]
+    lines += ["\nfor n in range(steps):"]
+    lines += script(world, lambda body: _of(world, body), midpoint=bool(midpoint))
+    lines += _followers(world)
     position, angle = (" + h / 2 * body.velocity", " + h / 2 * body.angular_velocity")
     lines += [
         "    space.step(h)",
@@ -73,13 +77,6 @@ def _seeds(world: World, start: State, seed: float) -> list[str]:
     return lines if len(lines) > 2 else []
 
 
-def _value(value: Any) -> str:
-    """A number or vector as Python writes it."""
-    if isinstance(value, tuple):
-        return f"({', '.join(_value(float(x)) for x in value)})"
-    return "math.inf" if value == math.inf else repr(value)
-
-
 def _of(world: World, body: Body) -> str:
     """How the script calls a body."""
     names = {id(b): name for name, b in _all(world).items()}
@@ -95,11 +92,11 @@ def _bodies(world: World) -> Iterator[str]:
     for name, body in _all(world).items():
         kind = "body_type=pymunk.Body.KINEMATIC"
         if body.body_type == Body.DYNAMIC:
-            kind = f"{_value(body.mass)}, {_value(body.moment)}"
+            kind = f"{written(body.mass)}, {written(body.moment)}"
         yield ""
         yield f"bodies[{name!r}] = body = pymunk.Body({kind})"
         for attribute in ("position", "angle", "velocity", "angular_velocity"):
-            yield f"body.{attribute} = {_value(getattr(body, attribute))}"
+            yield f"body.{attribute} = {written(getattr(body, attribute))}"
         yield "space.add(body)"
 
 
@@ -107,14 +104,14 @@ def _floor(world: World) -> Iterator[str]:
     for shape in world.space.static_body.shapes:
         assert isinstance(shape, Segment)
         yield ""
-        yield f"floor = pymunk.Segment(ground, {_value(shape.a)}, {_value(shape.b)}, 0.0)"
+        yield f"floor = pymunk.Segment(ground, {written(shape.a)}, {written(shape.b)}, 0.0)"
         yield f"floor.friction = {shape.friction!r}"
         if any(wheel.elasticity for wheel in world.wheels.values()):
             yield f"floor.elasticity = {shape.elasticity!r}"
         yield "space.add(floor)"
         yield "wheels = {}"
     for name, wheel in world.wheels.items():
-        size = f"{wheel.radius!r}, {_value(wheel.offset)}" if any(wheel.offset) else wheel.radius
+        size = f"{wheel.radius!r}, {written(wheel.offset)}" if any(wheel.offset) else wheel.radius
         yield f"wheels[{name!r}] = wheel = pymunk.Circle({_of(world, world.wheel(name))}, {size})"
         yield f"wheel.friction = {wheel.friction!r}  # pymunk takes the product of both"
         if wheel.elasticity:
@@ -132,7 +129,7 @@ def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
             yield ""
             yield f"joint = pymunk.{type(part).__name__}(  # {name}"
             yield f"    {_of(world, part.a)}, {_of(world, part.b)},"
-            arguments = (_value(getattr(part, key)) for key in _ARGUMENTS[type(part)])
+            arguments = (written(getattr(part, key)) for key in _ARGUMENTS[type(part)])
             yield f"    {', '.join(arguments)},"
             yield ")"
             if part in brakes.get(name, ()):
@@ -142,26 +139,8 @@ def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
                 continue
             for key, value in numbers.items():
                 if name in world.joints and key.startswith("constraint."):
-                    yield f"joint.{key.removeprefix('constraint.')} = {_value(value)}"
+                    yield f"joint.{key.removeprefix('constraint.')} = {written(value)}"
             yield "space.add(joint)"
-
-
-def _forces(world: World, midpoint: bool) -> Iterator[str]:
-    """The loop's head, and what is given to bodies before each step."""
-    yield "\nfor n in range(steps):"
-    if any(world.scene.signals()):
-        yield f"    t = {'(n + 0.5) * h' if midpoint else 'n * h'}"
-    for force in world.scene.signals():
-        yield f"    # {force.name}"
-        if isinstance(force, Torque):
-            yield f"    {_of(world, world.bodies[force.body])}.torque += {_signal(force)[0]}"
-        else:
-            yield f"    body = {_of(world, world.body(force.at))}"
-            turn = "body.angle + h * body.angular_velocity" if midpoint else "body.angle"
-            lever = f"pymunk.Vec2d{_value(world.local(force.at))}.rotated({turn})"
-            yield f"    lever = {lever}"
-            pair = ", ".join(_signal(force))
-            yield f"    body.apply_force_at_world_point(({pair}), body.position + lever)"
 
 
 def _followers(world: World) -> Iterator[str]:
@@ -174,11 +153,3 @@ def _followers(world: World) -> Iterator[str]:
             a, b = part.points[contact.at.point]
             offset = f"({a!r} + {ABOVE} * math.sin(turned), {b!r} + {ABOVE} * math.cos(turned))"
             yield f"    wheels[{contact.name!r}].unsafe_set_offset({offset})"
-
-
-def _signal(force: Push | Torque) -> list[str]:
-    """The law in time, in the script's words."""
-    law = force.signal
-    sine = f" * math.sin({law.angular_frequency!r} * t + {law.phase!r})"
-    factor = {"constant": "", "ramp": " * t", "sine": sine}[law.law]
-    return [f"{amplitude!r}{factor}" for amplitude in law.amplitude]

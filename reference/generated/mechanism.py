@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from scipy.linalg.lapack import dgesv, dposv
 
-from ...cases.scene import Push, Scene, Spring
+from ...cases.scene import Scene
 from ..system import Array, Mass, Mode, Pose, Vector
-from .action import act, signal
+from .action import act, dissipation, other, potential
 from .constraint import Constraint
 from .contact import Drag, Rub, row
 from .coordinates import Coordinates
@@ -83,7 +83,7 @@ class Mechanism(Mode):
         for at, rub in self._rubs:
             _add(found, rub.tangent.reactions(t, numbers, [rub.factor * multipliers[at]]))
         for joint in self.scene.joints.values():
-            if joint.kind != "pin":  # a particle takes no moment
+            if not joint.turns:  # a particle takes no moment
                 found.setdefault(f"{joint.name}.torque", 0.0)
         return found
 
@@ -175,34 +175,22 @@ class Mechanism(Mode):
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = −Σ m g·r_c + Σ ½ c (λ − λ₀)² [J]."""
         energy = -np.sum(self._weight * q)
-        for force in self.scene.springs():
-            stretch = self._length(force, t, q) - force.rest_length
-            energy = energy + 0.5 * force.stiffness * stretch**2
+        for force in self.scene.forces.values():
+            energy = energy + potential(force, self.where, t, q.tolist())
         return energy
 
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.46) D = Σ ½ d λ̇² [W], λ̇ = Δ·Δ̇/λ."""
         power = 0.0 * v[0]
-        for force in self.scene.dampers():
-            a, b = (self.where.point(end, t, q.tolist(), v.tolist()) for end in (force.a, force.b))
-            x, y = b.r[0] - a.r[0], b.r[1] - a.r[1]
-            along = x * (b.r_dot[0] - a.r_dot[0]) + y * (b.r_dot[1] - a.r_dot[1])
-            power = power + 0.5 * force.damping * along * along / (x * x + y * y)
+        for force in self.scene.forces.values():
+            power = power + dissipation(force, self.where, t, q.tolist(), v.tolist())
         return power
 
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.50) Q_a = Σ F·∂r/∂qᵃ of pushes, torques and dry friction, (n,)."""
         Q = np.zeros(len(q), np.result_type(q, v, t))
-        for force in self.scene.signals():
-            F = signal(force.signal, t)
-            if isinstance(force, Push):
-                p = self.where.point(force.at, t, q.tolist(), v.tolist())
-                Q[p.xy] += F[0]
-                Q[p.xy + 1] += F[1]  # type: ignore[operator]  # a push acts on a body
-                if p.phi is not None:
-                    Q[p.phi] += p.d[0] * F[1] - p.d[1] * F[0]
-            else:
-                Q[self.where.columns[force.body][1]] += F[0]
+        for force in self.scene.forces.values():
+            other(force, self.where, t, q.tolist(), v.tolist(), Q)
         for drag in self._drags:
             Q += drag.force(t, q, v) * row(drag.along, t, q, v)[0]
         if self._rubs:
@@ -210,11 +198,6 @@ class Mechanism(Mode):
             for at, rub in self._rubs:
                 Q += rub.factor * multipliers[at] * row(rub.tangent, t, q, v)[0]
         return Q
-
-    def _length(self, force: Spring, t: Any, q: Vector) -> Any:
-        a, b = (self.where.point(end, t, q.tolist(), q.tolist()) for end in (force.a, force.b))
-        x, y = b.r[0] - a.r[0], b.r[1] - a.r[1]
-        return np.sqrt(x * x + y * y)
 
     def f(self, t: Any, q: Vector) -> Vector:
         """(2.14) the residuals of all joints and contacts, (r,)."""

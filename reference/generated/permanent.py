@@ -34,10 +34,9 @@ def constraints(
 
 def jointed(joint: Joint, where: Coordinates) -> Constraint:
     """(2.14) What a joint does not leave free: to shift along its line, to turn."""
-    shifts, turns = joint.kind == "slide", joint.kind == "pin"
-    held = [across(joint.along)] if shifts else [together(X, "fx"), together(Y, "fy")]
+    held = [across(joint.along)] if joint.shifts else [together(X, "fx"), together(Y, "fy")]
     bodies = [where.scene.bodies[end.body] for end in (joint.a, joint.b) if end.body != GROUND]
-    if not turns and all(body.turns for body in bodies):
+    if not joint.turns and all(body.turns for body in bodies):
         held.append(unturned(joint.angle))
     rows, names, places = zip(*held, strict=True)
     return Constraint(joint.name, (joint.a, joint.b), rows, names, places, where)

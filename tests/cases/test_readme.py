@@ -1,20 +1,19 @@
 """cases/README.md says what the grammar and the table of quantities say."""
 
 import re
+from inspect import signature
 from pathlib import Path
 
 from textmech.cases import shape
+from textmech.cases.language.grammar import body, force, joint
 from textmech.cases.language.grammar import file as grammar
-from textmech.cases.language.grammar.body import Body
+from textmech.cases.language.grammar.contact import Contact as ContactSpec
 from textmech.cases.language.grammar.file import File, Scene
-from textmech.cases.language.grammar.force import Force
-from textmech.cases.language.grammar.friction import Coefficients, DryFriction, Smooth, TwoWay
-from textmech.cases.language.grammar.joint import Contact as ContactSpec
-from textmech.cases.language.grammar.joint import Joint
+from textmech.cases.language.grammar.friction import Coefficients, DryFriction
 from textmech.cases.language.grammar.number import amount
 from textmech.cases.load import load
 from textmech.cases.quantity import event_quantities, table
-from textmech.cases.scene import Anchor, Bounds, Contact, Spring
+from textmech.cases.scene import Anchor, Bounds, Contact, Smooth, Spring
 from textmech.cases.scene import DryFriction as Dry
 from textmech.cases.scene import Joint as Connection
 from textmech.cases.scene import Scene as Resolved
@@ -32,11 +31,13 @@ def test_every_key_is_explained() -> None:
     code = re.findall(r"```yaml\n(.*?)```|`([^`]+)`", README, flags=re.DOTALL)
     said = set(re.findall(r"[a-z_]+", " ".join(block + word for block, word in code)))
     models = [File, Scene, grammar.Source, grammar.Deviation, grammar.Initial]
-    models += [ContactSpec, Coefficients, DryFriction, Smooth, TwoWay]
-    for union in (Body, Joint, Force):
-        models += [model.__origin__ for model in union.__origin__.__args__]  # type: ignore[attr-defined]
+    models += [ContactSpec, Coefficients, DryFriction]
+    for kinds in (body.KINDS, joint.KINDS, force.KINDS):
+        models += kinds.values()
     for model in models:
         assert set(model.model_fields) <= said, model
+    for noun in (Bounds, Smooth, *shape.SHAPES.values()):
+        assert set(signature(noun).parameters) - {"name"} <= said, noun
 
 
 def test_quantities() -> None:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import scenes
 
+from textmech.cases.joint import FREEDOMS
 from textmech.cases.scene import GROUND, Anchor, Contact, GroundPoint, Joint, Scene
 from textmech.reference.formalisms.derivative import along
 from textmech.reference.generated.constraint import Constraint
@@ -25,7 +26,7 @@ ENDS = {
     "from particle": (Anchor("dot", "center"), Anchor("block", "Q")),
     "to particle": (Anchor("bar", "P"), Anchor("dot", "center")),
 }
-KINDS = [f"{kind}: {ends}" for kind in ("pin", "slide", "weld") for ends in ENDS]
+KINDS = [f"{kind}: {ends}" for kind in FREEDOMS for ends in ENDS]
 EXACT = 1e-13  # a few roundings of terms of size 1 to 30
 
 
@@ -69,7 +70,7 @@ def held(name: str, q: Array) -> list[Constraint]:
     scene = touching() if name == "touching" else made(name)
     where = Coordinates(scene)
     switching = [c for c in scene.contacts.values() if c.switches]
-    slides = [j for j in scene.joints.values() if j.kind == "slide"]
+    slides = [j for j in scene.joints.values() if j.shifts]
     return [
         *constraints(scene, where, q.tolist()),
         *(row(contact, where) for contact in switching for row in (normal, tangent)),
@@ -150,12 +151,12 @@ def test_what_a_joint_leaves_free_and_holds(name: str) -> None:
         phi_a, phi_b = (0.0 if p.phi is None else q[p.phi] for p in (a, b))
         x, y = np.subtract(b.r, a.r)
         turn = phi_a + np.arctan2(joint.along[1], joint.along[0])
-        expected = [y * np.cos(turn) - x * np.sin(turn)] if joint.kind == "slide" else [x, y]
-        if joint.kind != "pin" and "particle" not in name:
+        expected = [y * np.cos(turn) - x * np.sin(turn)] if joint.shifts else [x, y]
+        if not joint.turns and "particle" not in name:
             expected.append(phi_b - phi_a - joint.angle)
         (c,) = constraints(scene, where)
         np.testing.assert_allclose(c.f(t, q.tolist()), expected, atol=EXACT)
-        if joint.kind == "slide":
+        if joint.shifts:
             shift = x * np.cos(turn) + y * np.sin(turn)
             np.testing.assert_allclose(at_rest(joint, where).places(t, q.tolist()), shift)
 
@@ -178,9 +179,7 @@ def test_the_reaction_is_the_force_of_the_first_part_on_the_second(name: str) ->
         np.testing.assert_allclose(body.mass * a[xy : xy + 2], weight + F, atol=1e3 * EXACT)
         if phi is not None:
             # A slide that is open by Δ (these are any states) hands its force over at the second.
-            at = mechanism.where.point(
-                joint.b if joint.kind == "slide" else end, t, q.tolist(), v.tolist()
-            )
+            at = mechanism.where.point(joint.b if joint.shifts else end, t, q.tolist(), v.tolist())
             d = np.array(at.r) - q[xy : xy + 2]
             moment = d[0] * F[1] - d[1] * F[0] + sign * force.get("j.torque", 0.0)
             np.testing.assert_allclose(body.inertia * a[phi], moment, atol=1e3 * EXACT)

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ...quantity import nearest
+from ...mistake import nearest
 from ...scene import Scene
 from ..parse import Finding, Parsed
 from .claims import claims

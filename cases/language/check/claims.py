@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator, Mapping
 
-from ...quantity import EVENT_FIELDS, Quantity, event_quantities, nearest, table
+from ...mistake import nearest
+from ...quantity import EVENT_FIELDS, Quantity, event_quantities, table
 from ...scene import Scene
 from ..grammar.number import Amount, NumberMistake, fitting
 from ..parse import Finding, Parsed

@@ -1,14 +1,11 @@
 """References between the parts of a scene: every name means one thing that is there."""
 
 from collections.abc import Iterator, Mapping
-from typing import Any
 
-from ...mistake import Path
-from ...quantity import nearest
-from ...scene import CENTER, FLOOR, GROUND, Anchor, Damper, Push, Scene, Spring, Torque
+from ...mistake import Path, nearest
+from ...scene import CENTER, FLOOR, GROUND, Anchor, Force, Joint, Scene
 from ..grammar.file import Near
 from ..parse import NAMED, Finding, Parsed
-from ..resolve import anchor
 from .touch import touches
 
 _TAKEN = ("x", "y", "angle", "vx", "vy", "omega", "speed")  # `crank.x` is a quantity
@@ -25,9 +22,12 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         yield path, f"{path[-1]!r} already names one of the {before}"
     yield from _points(parsed)
     for name, joint in scene.joints.items():
-        yield from _line(parsed, scene, ("scene", "joints", name, joint.kind), joint.a, joint.b)
+        yield from _refers(parsed, scene, ("scene", "joints", name, joint.word), joint)
     for name, force in scene.forces.items():
-        yield from _force(parsed, scene, ("scene", "forces", name), force)
+        path = ("scene", "forces", name, force.word)
+        yield from _refers(parsed, scene, path, force)
+        if what := force.unfit(scene.bodies):
+            yield path, what
     yield from touches(parsed, scene)
     for key in ("initial", "near"):
         yield from _placed(parsed, scene, key, getattr(parsed.file, key))
@@ -49,18 +49,20 @@ def _points(parsed: Parsed) -> Iterator[Finding]:
     if FLOOR in parsed.file.scene.points:
         yield ("scene", "points", FLOOR), f"the name {FLOOR!r} is taken"
     for name, body in parsed.file.scene.bodies.items():
-        ends = ("start", "end") if hasattr(body, "bar") else ()
+        ends = ("start", "end") if body.word == "bar" else ()
         for point in getattr(body, "points", {}):
             if point in (CENTER, *ends, *_TAKEN):
                 yield ("scene", "bodies", name, "points", point), f"the name {point!r} is taken"
 
 
-def _line(parsed: Parsed, scene: Scene, path: Path, a: Anchor, b: Anchor) -> Iterator[Finding]:
-    yield from _anchor(parsed, scene, (*path, 0), a)
-    yield from _anchor(parsed, scene, (*path, 1), b)
-    if a.body == b.body:
-        what = "the ground with itself" if a.body == GROUND else f"{a.body!r} with itself"
-        yield path, f"joins {what}"
+def _refers(parsed: Parsed, scene: Scene, path: Path, element: Joint | Force) -> Iterator[Finding]:
+    """The points it refers to, one under its word or a list of two."""
+    points = element.refers()
+    for i, at in enumerate(points):
+        yield from _anchor(parsed, scene, (*path, i) if len(points) > 1 else path, at)
+    if len(points) > 1 and len({at.body for at in points}) == 1:
+        body = points[0].body
+        yield path, f"joins {'the ground' if body == GROUND else repr(body)} with itself"
 
 
 def _anchor(parsed: Parsed, scene: Scene, path: Path, at: Anchor) -> Iterator[Finding]:
@@ -82,23 +84,6 @@ def _body(parsed: Parsed, scene: Scene, path: Path, name: str) -> Iterator[Findi
         yield path, f"unknown body {name!r}{nearest(name, parsed.names('bodies', scene.bodies))}"
 
 
-def _force(parsed: Parsed, scene: Scene, path: Path, force: Any) -> Iterator[Finding]:
-    match force:
-        case Spring(a=a, b=b):
-            yield from _line(parsed, scene, (*path, "spring"), a, b)
-        case Damper(a=a, b=b):
-            yield from _line(parsed, scene, (*path, "damper"), a, b)
-        case Push(at=at):
-            if at.body == GROUND:
-                yield (*path, "push"), "pushes the ground; a push acts on a body"
-            else:
-                yield from _anchor(parsed, scene, (*path, "push"), at)
-        case Torque(body=body):
-            yield from _body(parsed, scene, (*path, "torque"), body)
-            if body in scene.bodies and not scene.bodies[body].turns:
-                yield (*path, "torque"), f"{body!r} is a particle and cannot turn"
-
-
 def _placed(
     parsed: Parsed, scene: Scene, key: str, places: Mapping[str, Near]
 ) -> Iterator[Finding]:
@@ -108,7 +93,7 @@ def _placed(
             continue
         for point in place.places:
             if point not in scene.bodies[name].points:
-                yield from _anchor(parsed, scene, (key, name, point), anchor(f"{name}.{point}"))
+                yield from _anchor(parsed, scene, (key, name, point), Anchor(name, point))
         for turning in ("angle", "omega"):
             if not scene.bodies[name].turns and getattr(place, turning, None) is not None:
                 yield (key, name, turning), f"{name!r} is a particle and cannot turn"

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from ...quantity import nearest
+from ...mistake import nearest
 from ...scene import CENTER, FLOOR, GROUND, Anchor, Body, Scene
 from ..parse import Finding, Parsed
 

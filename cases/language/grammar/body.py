@@ -1,69 +1,46 @@
 """Bodies as a case file writes them: a shape, and named points beside it."""
 
-from typing import Annotated
+from collections.abc import Callable
+from typing import Annotated, Any, ClassVar
 
-from pydantic import Field, Tag
+from pydantic import Field, create_model
 
-from .field import In
-from .part import Length, Mass, Name, Part, Position, by_key
-
-
-class Bar(Part):
-    mass: Mass
-    length: Length
+from ... import shape
+from ...scene import Body as Noun
+from .element import keys, numbers
+from .part import Name, OneOf, Part, Position
 
 
-class Disk(Part):
-    mass: Mass
-    radius: Length
+class Shaped(Part):
+    """A shape's word with its measures."""
+
+    word: ClassVar[str]
+    makes: ClassVar[Callable[..., Noun]]
+
+    def named(self, name: str) -> Noun:
+        """The body."""
+        return type(self).makes(name=name, **dict(getattr(self, self.word)))
 
 
-class Block(Part):
-    mass: Mass
-    width: Length
-    height: Length
+class WithPoints(Shaped):
+    """A body on which points can be named."""
 
-
-class Particle(Part):
-    mass: Mass
-
-
-class Rigid(Part):
-    mass: Mass
-    inertia: Annotated[float, In("kg m²", above=0)]
-
-
-class _WithPoints(Part):
     points: dict[Name, Position] = Field(
         {}, description="points of the body, in its axes from its centre of mass"
     )
 
-
-class BarBody(_WithPoints):
-    bar: Bar
-
-
-class DiskBody(_WithPoints):
-    disk: Disk
+    def named(self, name: str) -> Noun:
+        measures = dict(getattr(self, self.word))
+        return type(self).makes(name=name, points=self.points, **measures)
 
 
-class BlockBody(_WithPoints):
-    block: Block
+def _body(word: str, makes: Callable[..., Noun]) -> type[Shaped]:
+    base = WithPoints if "points" in keys(makes) else Shaped
+    measures: dict[str, Any] = {word: (numbers(makes, without=("name", "points")), ...)}
+    model = create_model(f"{word.capitalize()}Body", __base__=base, **measures)
+    model.word, model.makes = word, makes
+    return model
 
 
-class ParticleBody(Part):
-    particle: Particle
-
-
-class RigidBody(_WithPoints):
-    rigid: Rigid
-
-
-Body = Annotated[
-    Annotated[BarBody, Tag("<bar>")]
-    | Annotated[DiskBody, Tag("<disk>")]
-    | Annotated[BlockBody, Tag("<block>")]
-    | Annotated[ParticleBody, Tag("<particle>")]
-    | Annotated[RigidBody, Tag("<rigid>")],
-    by_key("shape", "bar", "disk", "block", "particle", "rigid"),
-]
+KINDS = {word: _body(word, makes) for word, makes in shape.SHAPES.items()}
+Body = Annotated[Shaped, OneOf("shape", KINDS)]

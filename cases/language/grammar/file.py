@@ -5,10 +5,12 @@ from typing import Annotated, Any
 from pydantic import ConfigDict, Field
 
 from .body import Body
+from .contact import Contact
 from .event import Event, Quantity
 from .field import Bound, In, Literal
 from .force import Force
-from .joint import Contact, GroundPoint, Joint
+from .ground import GroundPoint
+from .joint import Joint
 from .number import Amount
 from .part import Angle, Name, Part, Position
 from .text import Place, Text, Word, equation, label

@@ -1,15 +1,17 @@
 """Friction as a case file writes it: of a contact by coefficients, of a slide by forces."""
 
+from collections.abc import Callable
 from typing import Annotated
 
 from pydantic import Field, Tag
 
+from ... import friction as noun
+from .element import numbers
 from .field import In
-from .part import Part, plain_or_map
+from .part import Made, Part, plain_or_map
 from .words import wrong
 
 Coefficient = Annotated[float, In("1", least=0)]
-Newtons = Annotated[float, In("N", least=0)]
 
 
 class Coefficients(Part):
@@ -23,46 +25,46 @@ class Coefficients(Part):
 
 
 Friction = Annotated[
-    Annotated[Coefficient, Tag("<plain>")] | Annotated[Coefficients, Tag("<map>")], plain_or_map()
+    Annotated[
+        Coefficients,
+        Made(Coefficient, lambda mu: Coefficients.model_construct(static=mu, kinetic=mu)),
+        Tag("<plain>"),
+    ]
+    | Annotated[Coefficients, Tag("<map>")],
+    plain_or_map(),
 ]
+"""One coefficient stands for both."""
 
 
-class TwoWay(Part):
-    """A force against motion along the slide, and one against motion the other way."""
-
-    forward: Newtons
-    backward: Newtons
+def _map(law: Callable[..., object]) -> Made:
+    """A law as a map of its numbers."""
+    return Made(numbers(law), lambda written: law(**dict(written)))
 
 
 FrictionForce = Annotated[
-    Annotated[Newtons, Tag("<plain>")] | Annotated[TwoWay, Tag("<map>")], plain_or_map()
+    Annotated[noun.Bounds, Made(noun.Newtons, lambda f: noun.Bounds(f, f)), Tag("<plain>")]
+    | Annotated[noun.Bounds, _map(noun.Bounds), Tag("<map>")],
+    plain_or_map(),
 ]
-
-
-class Smooth(Part):
-    """The smooth law (2.95) in place of the exact one."""
-
-    band: Annotated[float, In("m/s", above=0)]
-    sharpness: Annotated[float, In("s/m", above=0)]
+"""One number stands for both directions."""
 
 
 class DryFriction(Part):
     static: FrictionForce | None = Field(None, description="as `kinetic` if not given")
     kinetic: FrictionForce
-    smooth: Smooth | None = None
+    smooth: Annotated[noun.Smooth, _map(noun.Smooth)] | None = None
 
     def model_post_init(self, context: object) -> None:
         if self.static is not None:
-            held, braked = both_ways(self.static), both_ways(self.kinetic)
             for way in ("forward", "backward"):
-                _holds_as_well_as_it_brakes(getattr(held, way), getattr(braked, way))
+                _holds_as_well_as_it_brakes(getattr(self.static, way), getattr(self.kinetic, way))
+
+    def law(self) -> noun.DryFriction:
+        """The law, with what was left out."""
+        return noun.DryFriction(self.static or self.kinetic, self.kinetic, self.smooth)
 
 
-def both_ways(force: float | TwoWay) -> TwoWay:
-    """One number stands for both directions."""
-    if isinstance(force, TwoWay):
-        return force
-    return TwoWay.model_construct(forward=force, backward=force)
+Dry = Made(DryFriction, DryFriction.law)
 
 
 def _holds_as_well_as_it_brakes(static: float, kinetic: float) -> None:

@@ -1,19 +1,26 @@
 """What every part of a case file is: a map with certain keys, whose mistakes speak plainly."""
 
-from typing import Annotated, Self
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, Self, Union
 
 from pydantic import (
+    AfterValidator,
     BaseModel,
     ConfigDict,
     Discriminator,
+    GetCoreSchemaHandler,
     ModelWrapValidatorHandler,
+    Tag,
     ValidationError,
     model_validator,
 )
+from pydantic_core import CoreSchema, core_schema
 
 from .field import In
 from .text import IDENTIFIER, Text, name, reference
-from .words import in_words
+from .words import in_words, wrong
 
 Mass = Annotated[float, In("kg", above=0)]
 Length = Annotated[float, In("m", above=0)]
@@ -22,6 +29,18 @@ Name = Annotated[str, Text(name, f"^{IDENTIFIER}$")]
 Point = Annotated[str, Text(reference, rf"^{IDENTIFIER}\.{IDENTIFIER}$", "body.point")]
 Pair = tuple[Point, Point]
 Position = tuple[Annotated[float, In("m")], Annotated[float, In("m")]]
+
+
+def _unit(value: tuple[float, float]) -> tuple[float, float]:
+    length = math.hypot(*value)
+    if length == 0:
+        raise wrong("should be a direction, is [0, 0]")
+    return value[0] / length, value[1] / length
+
+
+Direction = Annotated[
+    tuple[Annotated[float, In("1")], Annotated[float, In("1")]], AfterValidator(_unit)
+]
 
 
 class Part(BaseModel):
@@ -43,8 +62,38 @@ def plain_or_map() -> Discriminator:
     return Discriminator(lambda value: "<map>" if isinstance(value, dict) else "<plain>")
 
 
-def by_key(kind: str, *words: str) -> Discriminator:
-    """Picks the model by the one key that says what a part is, so that mistakes stay sharp."""
+@dataclass(frozen=True, eq=False)
+class Made:
+    """Marks a noun that is written as something plainer, from which it is made."""
+
+    of: Any
+    by: Callable[[Any], object]
+
+    def __get_pydantic_core_schema__(
+        self, source: object, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        written = handler.generate_schema(self.of)
+        return core_schema.no_info_after_validator_function(self.by, written)
+
+
+@dataclass(frozen=True, eq=False)
+class OneOf:
+    """Marks what is written as one of some models, told apart by the word that each has alone."""
+
+    kind: str
+    models: Mapping[str, type[Part]]
+
+    def __get_pydantic_core_schema__(
+        self, source: object, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        tagged: Any = [Annotated[model, Tag(f"<{word}>")] for word, model in self.models.items()]
+        return handler.generate_schema(
+            Annotated[Union[tuple(tagged)], _by_key(self.kind, *self.models)]  # noqa: UP007
+        )
+
+
+def _by_key(kind: str, *words: str) -> Discriminator:
+    """By one key, so that a mistake is told of the model that was meant."""
 
     def tag(value: object) -> str | None:
         present = [word for word in words if isinstance(value, dict) and word in value]

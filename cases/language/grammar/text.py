@@ -5,7 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from ...quantity import RESERVED, nearest
+from ...kind import RESERVED
+from ...mistake import nearest
 from .field import Plain
 from .number import Names, shown
 from .words import wrong

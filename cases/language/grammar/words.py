@@ -6,7 +6,7 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
-from ...quantity import nearest
+from ...mistake import nearest
 from .number import shown
 
 NO_VALUE = "has no value"

@@ -4,8 +4,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
-from ...mistake import Mistake, Path, Source
-from ...quantity import nearest
+from ...mistake import Mistake, Path, Source, nearest
 from ..grammar.file import OVERLAID
 from ..grammar.number import shown
 from .document import Document

@@ -10,6 +10,7 @@ from contextlib import AbstractContextManager, contextmanager
 import mujoco
 
 from ....cases.scene import Scene
+from ..force import signals as laws
 
 Control = Callable[[mujoco.MjModel, mujoco.MjData], None]
 
@@ -41,9 +42,9 @@ def installed(control: Control | None) -> Iterator[None]:
 
 def _control(scene: Scene) -> Control | None:
     sines = [
-        (i, force.signal.angular_frequency, force.signal.phase)
-        for i, force in enumerate(scene.signals())
-        if force.signal.law == "sine"
+        (i, law.angular_frequency, law.phase)
+        for i, law in enumerate(laws(scene))
+        if law.law == "sine"
     ]
     if not sines:
         return None

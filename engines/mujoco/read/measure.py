@@ -3,6 +3,7 @@
 import mujoco
 
 from ....cases.scene import Scene
+from ..force import numbers
 from ..tree import driven
 
 
@@ -22,12 +23,7 @@ def measured(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[s
             loss = model.dof_frictionloss[model.joint(joint.name).dofadr[0]]
             found[f"{joint.name}.friction_forward"] = loss
             found[f"{joint.name}.friction_backward"] = loss
-    for spring in scene.springs():
-        number = model.tendon(spring.name).id
-        found[f"{spring.name}.stiffness"] = model.tendon_stiffness[number]
-        found[f"{spring.name}.rest_length"] = model.tendon_lengthspring[number, 0]
-    for damper in scene.dampers():
-        found[f"{damper.name}.damping"] = model.tendon_damping[model.tendon(damper.name).id]
+    found |= numbers(scene, model)
     if not any(driven(scene)):  # their mass drowns the rest
         mujoco.mj_forward(model, data)
         mujoco.mj_energyVel(model, data)

@@ -14,7 +14,7 @@ from ....cases.scene import GROUND, Scene
 from ....cases.trajectory import ANGLE, OMEGA, VX, VY, Array, X, Y
 from ...engine import State
 from ..scene import local
-from ..tree import Branch, built_as, driven, spanning_tree, turned
+from ..tree import Branch, built_as, coordinate, driven, spanning_tree, turned
 
 Coordinate = Callable[[str], tuple[Array, Array]]
 
@@ -48,12 +48,13 @@ def _hung(scene: Scene, branch: Branch, parent: Array, joint: Coordinate) -> Arr
         for name, place, rate in columns:
             rows[:, place], rows[:, rate] = joint(f"{body.name}.{name}")
         return rows
-    what = built_as(scene, by)
+    left = built_as(scene, by)
     rows[:, ANGLE], rows[:, OMEGA] = parent[:, ANGLE], parent[:, OMEGA]
-    held = 0.0 if what == "pin" or not body.turns else by.angle if branch.forward else -by.angle
+    held = 0.0 if left.turns or not body.turns else by.angle if branch.forward else -by.angle
     rows[:, ANGLE] += held
-    if what == "pin" and body.turns:
-        angle, omega = joint(by.name)
+    before = rows.copy()
+    if left.turns and body.turns:
+        angle, omega = joint(coordinate(by, "turn"))
         rows[:, ANGLE] += angle
         rows[:, OMEGA] += omega
     outer, inner = branch.ends()
@@ -61,10 +62,11 @@ def _hung(scene: Scene, branch: Branch, parent: Array, joint: Coordinate) -> Arr
         rows[:, columns] = parent[:, columns]
         rows[:, columns] += _carried(parent, local(scene, outer), rate=rate)
         rows[:, columns] -= _carried(rows, local(scene, inner), rate=rate)
-    if what == "slide":
+    if left.shifts:
         along = turned(by.along, -held) if branch.forward else turned(by.along, math.pi)
-        shift, speed = joint(by.name)
-        axis, turning = _carried(rows, along), _carried(rows, along, rate=True)
+        shift, speed = joint(coordinate(by, "shift"))
+        line = before if branch.forward else rows  # it turns with the joint's first part
+        axis, turning = _carried(line, along), _carried(line, along, rate=True)
         rows[:, X : Y + 1] += shift[:, None] * axis
         rows[:, VX : VY + 1] += speed[:, None] * axis + shift[:, None] * turning
     return rows

@@ -5,8 +5,9 @@ from collections.abc import Iterator, Mapping
 import mujoco
 import numpy as np
 
-from ....cases.scene import Anchor, Joint, Push, Scene, Torque
+from ....cases.scene import Anchor, Joint, Scene
 from ....cases.trajectory import Array
+from ..force import outer
 from ..tree import Tree
 
 Seen = Mapping[str, Array]
@@ -31,9 +32,9 @@ def joint_force(
     force = held[:, 3:5].copy()
     center = seen["subtree_com"][:, model.body_rootid[body], :2]
     moment = held[:, 2] + _cross(center - at, force)
-    for outer, place, torque in _others(scene, tree.subtree(branch.body), model, seen):
-        force -= outer
-        moment -= _cross(place - at, outer) + torque
+    for given, place, torque in _others(scene, tree.subtree(branch.body), model, seen):
+        force -= given
+        moment -= _cross(place - at, given) + torque
     sign = 1.0 if branch.forward else -1.0
     return sign * force[:, 0], sign * force[:, 1], sign * moment, np.hypot(*force.T)
 
@@ -41,15 +42,10 @@ def joint_force(
 def _others(
     scene: Scene, bodies: set[str], model: mujoco.MjModel, seen: Seen
 ) -> Iterator[tuple[Array, Array, Array]]:
-    """Forces (N, 2), where they act, and torques (N,) of pushes and torques on the bodies."""
-    for force in scene.signals():
-        number = mujoco.mj_name2id(model, _OBJECT.mjOBJ_ACTUATOR, force.name)
-        size = seen["actuator_force"][:, number]
-        gear = model.actuator_gear[number]
-        if isinstance(force, Push) and force.at.body in bodies:
-            yield size[:, None] * gear[:2], _site(model, seen, force.at), np.zeros(len(size))
-        elif isinstance(force, Torque) and force.body in bodies:
-            yield np.zeros((len(size), 2)), np.zeros((len(size), 2)), size * gear[5]
+    """Forces (N, 2), where they act, and torques (N,) that actuators exert on the bodies."""
+    for at, force, torque in outer(scene, model, seen["actuator_force"]):
+        if at.body in bodies:
+            yield force, _site(model, seen, at), torque
 
 
 def _site(model: mujoco.MjModel, seen: Seen, anchor: Anchor) -> Array:

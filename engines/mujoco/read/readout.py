@@ -13,7 +13,7 @@ import numpy as np
 from ....cases.scene import Scene
 from ....cases.trajectory import ANGLE, Array, Trajectory
 from ...engine import State
-from ..tree import Tree, built_as, spanning_tree
+from ..tree import Tree, built_as, coordinate, spanning_tree
 from .friction import Frictions
 from .reaction import Contacts, joint_force
 
@@ -128,8 +128,8 @@ def _angle(scene: Scene, tree: Tree, model: mujoco.MjModel, body: str, qpos: Arr
         joint = branch.joint
         if not scene.bodies[name].turns:
             pass  # a particle turns with what carries it
-        elif joint is None or built_as(scene, joint) == "pin":
-            hinge = f"{name}.angle" if joint is None else joint.name
+        elif joint is None or built_as(scene, joint).turns:
+            hinge = f"{name}.angle" if joint is None else coordinate(joint, "turn")
             total += qpos[:, model.joint(hinge).qposadr[0]]
         else:
             total += joint.angle if branch.forward else -joint.angle

@@ -9,9 +9,9 @@ from collections.abc import Callable
 from functools import partial
 
 from ....cases.scene import GROUND, Bounds, Contact, DryFriction, Joint, Scene
-from ..scene import World
+from ..force import load
+from ..world import World
 from .breakaway import bound, smooth_mean
-from .load import load
 
 Rub = Callable[[float], None]  # before the step that starts at t [s]
 RESTING = 1e-9  # m/s: a part that neither falls nor rises; above rounding, below any impact

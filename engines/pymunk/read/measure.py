@@ -3,8 +3,8 @@
 from pymunk.shapes import Shape
 from pymunk.vec2d import Vec2d
 
-from ....cases.scene import Spring
-from ..scene import World
+from ..force import numbers
+from ..world import World
 
 
 def measured(world: World) -> dict[str, float]:
@@ -23,12 +23,7 @@ def measured(world: World) -> dict[str, float]:
         if friction.kinetic.forward == friction.kinetic.backward:  # the engine holds one number
             found[f"{name}.friction_forward"] = brake.max_force
             found[f"{name}.friction_backward"] = brake.max_force
-    for name, line in world.lines.items():
-        if isinstance(world.scene.forces[name], Spring):
-            found[f"{name}.stiffness"] = line.stiffness
-            found[f"{name}.rest_length"] = line.rest_length
-        else:
-            found[f"{name}.damping"] = line.damping
+    found |= numbers(world)
     bodies = world.bodies.values()
     # pymunk's kinetic_energy is m v² + J ω², twice the textbook's
     found["energy.kinetic"] = sum(body.kinetic_energy for body in bodies) / 2

@@ -12,7 +12,7 @@ from pymunk.batch import BodyFields, Buffer, get_space_bodies
 from ....cases.observe import observe
 from ....cases.trajectory import Array, Trajectory
 from ..run import Steps
-from ..scene import World
+from ..world import World
 
 _STATE = BodyFields.POSITION | BodyFields.ANGLE | BodyFields.VELOCITY | BodyFields.ANGULAR_VELOCITY
 _BUFFER = Buffer()  # one for all runs: pymunk never frees a buffer's memory

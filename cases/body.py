@@ -1,0 +1,65 @@
+"""Rigid bodies. Lengths on a body are in body axes from its centre of mass."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from .kind import Fields
+from .point import CENTER, Vector
+from .trajectory import ANGLE, OMEGA, VX, VY, Array, X, Y
+
+_POINT: Fields = {
+    "x": ("m", "coordinate"),
+    "y": ("m", "coordinate"),
+    "vx": ("m/s", "velocity"),
+    "vy": ("m/s", "velocity"),
+    "speed": ("m/s", "velocity"),
+}
+_TURNING: Fields = {
+    "angle": ("rad", "coordinate"),
+    "omega": ("rad/s", "velocity"),
+}
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid body. A particle has no inertia and no angle."""
+
+    name: str
+    shape: Literal["bar", "disk", "block", "particle", "rigid"]
+    mass: float
+    inertia: float | None  # about the centre of mass, kg m²; None: it cannot turn
+    points: Mapping[str, Vector]
+    radius: float | None = None  # of a disk, m
+
+    @property
+    def turns(self) -> bool:
+        return self.inertia is not None
+
+    def quantities(self) -> dict[str, Fields]:
+        """Its fields, and those of each of its points."""
+        own = {**_POINT, **(_TURNING if self.turns else {})}
+        return {self.name: own, **{f"{self.name}.{point}": _POINT for point in self.points}}
+
+    def numbers(self) -> dict[str, float]:
+        """mass [kg] and, if it turns, inertia [kg m²]."""
+        return {"mass": self.mass} | ({} if self.inertia is None else {"inertia": self.inertia})
+
+    def observe(self, states: Array, point: str, field: str) -> Array:
+        """(N,) a field of the point ("": of itself), from its states (N, 6)."""
+        if field in _TURNING:
+            return states[:, ANGLE if field == "angle" else OMEGA]
+        p = self.point(states, point or CENTER)
+        if field == "speed":
+            return np.hypot(p[:, 2], p[:, 3])
+        return p[:, ("x", "y", "vx", "vy").index(field)]
+
+    def point(self, states: Array, point: str) -> Array:
+        """(N, 4): x, y, vx, vy of a point (2.1), (2.6)."""
+        a, b = self.points[point]
+        cos, sin = np.cos(states[:, ANGLE]), np.sin(states[:, ANGLE])
+        dx, dy = cos * a - sin * b, sin * a + cos * b
+        vx, vy = states[:, VX] - states[:, OMEGA] * dy, states[:, VY] + states[:, OMEGA] * dx
+        return np.stack([states[:, X] + dx, states[:, Y] + dy, vx, vy], axis=1)

@@ -1,0 +1,68 @@
+"""Contacts with the floor y = 0."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from .kind import Fields
+from .motion import Motion
+from .point import Anchor
+from .trajectory import ANGLE, OMEGA, Array
+
+_CONTACT: Fields = {
+    "normal": ("N", "force"),
+    "tangent": ("N", "force"),
+    "slip": ("m/s", "residual"),  # of the point that touches
+    "gap": ("m", "residual"),  # its height
+    "drift": ("m", "residual"),  # its x (of a disk x + R angle) against the start: (2.18)
+}
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A disk's rim, a particle or a point of a bar on the floor y = 0.
+
+    It opens, slides and sticks or rolls as friction says, and an impact goes by `restitution`.
+    `ideal: rolling` assumes that it only rolls; the reference checks that at every sample.
+    """
+
+    name: str
+    at: Anchor  # a disk is named by its centre and touches with its rim
+    static: float  # coefficient of friction; at least `kinetic`
+    kinetic: float
+    restitution: float = 0.0
+    ideal: Literal["rolling"] | None = None
+
+    @property
+    def body(self) -> str:
+        return self.at.body
+
+    @property
+    def friction(self) -> float:
+        """The one coefficient that engines know."""
+        return self.kinetic
+
+    @property
+    def switches(self) -> bool:
+        """Whether it may open, slide and stick, instead of only rolling."""
+        return self.ideal is None
+
+    def quantities(self) -> dict[str, Fields]:
+        """Its reactions, and where and how the touching point moves."""
+        return {self.name: _CONTACT}
+
+    def numbers(self) -> dict[str, float]:
+        """The coefficient of friction."""
+        return {"friction": self.friction}
+
+    def observe(self, motion: Motion, field: str) -> Array:
+        """(N,) of the lowest point of a disk's rim, or of the point that touches; else KeyError."""
+        x, y, vx, _ = motion.point(self.at).T
+        radius = motion.bodies[self.body].radius
+        if radius is not None:
+            s = motion.trajectory.states[self.body]
+            x, y, vx = x + radius * s[:, ANGLE], y - radius, vx + radius * s[:, OMEGA]
+        if field == "drift":
+            return x - x[0]
+        if field not in ("gap", "slip"):
+            raise KeyError(f"{self.name}.{field}")
+        return y if field == "gap" else vx

@@ -1,0 +1,164 @@
+"""Force elements. Each answers for itself: its words, its quantities, its energy, its numbers.
+
+A new one is a class here with its place in FORCES, what it exerts in reference/generated/action.py
+and how each engine builds it in engines/*/force.py (its law in engines/law.py if it needs one).
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, TypeVar
+
+from .body import Body
+from .kind import Fields
+from .language.grammar.field import In
+from .language.grammar.signal import InTime
+from .motion import Motion
+from .point import CENTER, GROUND, Anchor
+from .signal import Signal
+from .trajectory import Array
+
+
+@dataclass(frozen=True)
+class Force:
+    """What every force element answers; one without quantities, energy or numbers says nothing.
+
+    Its fields are what a case file gives: what it refers to (`a` and `b`, `at`, or `body`) under
+    its `word`, and beside that its numbers with their units.
+    """
+
+    word: ClassVar[str]
+    name: str
+
+    def refers(self) -> tuple[Anchor, ...]:
+        """The points on which it acts, in the order of the file."""
+        raise NotImplementedError
+
+    def unfit(self, bodies: Mapping[str, Body]) -> str | None:
+        """Why it cannot act on what it refers to, in words for the case file."""
+        return None
+
+    def quantities(self) -> dict[str, Fields]:
+        """What can be observed of it, by part."""
+        return {}
+
+    def observe(self, motion: Motion, field: str) -> Array:
+        """(N,) one of its quantities; else KeyError."""
+        raise KeyError(f"{self.name}.{field}")
+
+    def potential(self, motion: Motion) -> Array | float:
+        """(N,) its potential energy [J], its share of U in (2.45)."""
+        return 0.0
+
+    def numbers(self) -> dict[str, float]:
+        """What an engine holds of it, for the equal-physics audit."""
+        return {}
+
+
+@dataclass(frozen=True)
+class Line(Force):
+    """A force along the line between two points."""
+
+    a: Anchor
+    b: Anchor
+
+    def refers(self) -> tuple[Anchor, ...]:
+        """Its two ends."""
+        return (self.a, self.b)
+
+    def quantities(self) -> dict[str, Fields]:
+        """length [m], and force [N], positive when it pulls its ends together."""
+        return {self.name: {"length": ("m", "coordinate"), "force": ("N", "force")}}
+
+    def observe(self, motion: Motion, field: str) -> Array:
+        """(N,) length [m] or force [N]."""
+        length, rate = motion.line(self.a, self.b)
+        return length if field == "length" else self.tension(length, rate)
+
+    def tension(self, length: Array, rate: Array) -> Array:
+        """(N,) with what force [N] it pulls its ends together."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class Spring(Line):
+    """(2.82): F = −c(λ − λ₀) along the line between two points."""
+
+    word = "spring"
+    stiffness: Annotated[float, In("N/m", above=0)]
+    rest_length: Annotated[float, In("m", least=0)]
+
+    def tension(self, length: Array, rate: Array) -> Array:
+        """(2.82) c(λ − λ₀)."""
+        return self.stiffness * (length - self.rest_length)
+
+    def potential(self, motion: Motion) -> Array:
+        """(2.45) ½ c (λ − λ₀)²."""
+        length, _ = motion.line(self.a, self.b)
+        return 0.5 * self.stiffness * (length - self.rest_length) ** 2
+
+    def numbers(self) -> dict[str, float]:
+        """c and λ₀."""
+        return {"stiffness": self.stiffness, "rest_length": self.rest_length}
+
+
+@dataclass(frozen=True)
+class Damper(Line):
+    """(2.47) along the line between two points: F = −d λ̇."""
+
+    word = "damper"
+    damping: Annotated[float, In("N s/m", least=0)]
+
+    def tension(self, length: Array, rate: Array) -> Array:
+        """(2.47) d λ̇."""
+        return self.damping * rate
+
+    def numbers(self) -> dict[str, float]:
+        """d."""
+        return {"damping": self.damping}
+
+
+@dataclass(frozen=True)
+class Push(Force):
+    """A force at a point of a body, in ground axes."""
+
+    word = "push"
+    at: Anchor
+    signal: Annotated[Signal, InTime("N", axes=2)]
+
+    def refers(self) -> tuple[Anchor, ...]:
+        """Its point; of the ground there is nothing to push."""
+        return () if self.at.body == GROUND else (self.at,)
+
+    def unfit(self, bodies: Mapping[str, Body]) -> str | None:
+        """The ground takes no push."""
+        return "pushes the ground; a push acts on a body" if self.at.body == GROUND else None
+
+
+@dataclass(frozen=True)
+class Torque(Force):
+    """A torque on a body."""
+
+    word = "torque"
+    body: str
+    signal: Annotated[Signal, InTime("N m", axes=1)]
+
+    def refers(self) -> tuple[Anchor, ...]:
+        """The body's centre: any point would do."""
+        return (Anchor(self.body, CENTER),)
+
+    def unfit(self, bodies: Mapping[str, Body]) -> str | None:
+        """A particle takes no torque."""
+        turns = self.body not in bodies or bodies[self.body].turns
+        return None if turns else f"{self.body!r} is a particle and cannot turn"
+
+
+FORCES: dict[str, type[Force]] = {kind.word: kind for kind in (Spring, Damper, Push, Torque)}
+"""By the word of the case file."""
+
+
+Kind = TypeVar("Kind", bound=Force)
+
+
+def of(kind: type[Kind], forces: Iterable[Force]) -> Iterator[Kind]:
+    """Those of a kind, in their order."""
+    return (force for force in forces if isinstance(force, kind))

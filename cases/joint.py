@@ -1,0 +1,101 @@
+"""Joints: each kind is the freedoms that it leaves."""
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from .friction import DryFriction
+from .kind import Fields
+from .language.grammar.friction import Dry
+from .language.grammar.part import Angle, Direction
+from .motion import Motion
+from .point import Anchor
+from .trajectory import Array
+
+Freedom = Literal["turn", "shift"]
+FREEDOMS: dict[str, frozenset[Freedom]] = {
+    "pin": frozenset({"turn"}),
+    "slide": frozenset({"shift"}),
+    "slot": frozenset({"turn", "shift"}),
+    "weld": frozenset(),
+}
+
+_JOINT: Fields = {
+    "fx": ("N", "force"),  # what the first part exerts on the second, in ground axes
+    "fy": ("N", "force"),
+    "force": ("N", "force"),  # its magnitude
+    "gap": ("m", "residual"),  # constraint drift
+}
+_HOLDS_ANGLE: Fields = {"torque": ("N m", "force")}
+_RUBBING: Fields = {
+    "friction": ("N", "force"),  # on the second part, along the slide
+    "slip": ("m/s", "residual"),  # of the second part along the slide; zero while it sticks
+}
+
+
+@dataclass(frozen=True)
+class Joint:
+    """What joins a point of one part to a point of another, and leaves the kind's freedoms.
+
+    A shift is along one line: `along` is a unit vector in the axes of the first part. `angle`
+    [rad] is the angle of the second part against the first, held by what leaves no turn.
+    """
+
+    name: str
+    kind: str
+    a: Anchor
+    b: Anchor
+    along: Annotated[Direction, Field(description="in the axes of the first part")] = (1.0, 0.0)
+    angle: Angle = 0.0
+    dry_friction: Annotated[DryFriction, Dry] | None = None
+
+    @property
+    def word(self) -> str:
+        """The key under which a case file names its two points."""
+        return self.kind
+
+    @property
+    def turns(self) -> bool:
+        """Whether the second part may turn against the first."""
+        return "turn" in FREEDOMS[self.kind]
+
+    @property
+    def shifts(self) -> bool:
+        """Whether the second point may leave the first, along the line."""
+        return "shift" in FREEDOMS[self.kind]
+
+    def refers(self) -> tuple[Anchor, ...]:
+        """The points it joins, in the order of the file."""
+        return (self.a, self.b)
+
+    def quantities(self) -> dict[str, Fields]:
+        """Its reactions and its gap; slip and friction where there is dry friction."""
+        held = {} if self.turns else _HOLDS_ANGLE
+        return {self.name: {**_JOINT, **held, **(_RUBBING if self.dry_friction else {})}}
+
+    def numbers(self) -> dict[str, float]:
+        """The forces [N] of dry friction in motion."""
+        if self.dry_friction is None:
+            return {}
+        kinetic = self.dry_friction.kinetic
+        return {"friction_forward": kinetic.forward, "friction_backward": kinetic.backward}
+
+    def observe(self, motion: Motion, field: str) -> Array:
+        """(N,) what follows from the states and the given reactions; else KeyError."""
+        if field == "force":
+            fx, fy = (motion.reaction(f"{self.name}.{axis}") for axis in ("fx", "fy"))
+            return np.hypot(fx, fy)
+        if field not in ("gap", "slip"):
+            raise KeyError(f"{self.name}.{field}")
+        d = motion.point(self.b) - motion.point(self.a)
+        if not self.shifts:
+            return np.hypot(d[:, 0], d[:, 1])
+        turned, turning = motion.turned(self.a.body)
+        ux = np.cos(turned) * self.along[0] - np.sin(turned) * self.along[1]
+        uy = np.sin(turned) * self.along[0] + np.cos(turned) * self.along[1]
+        gap = ux * d[:, 1] - uy * d[:, 0]
+        if field == "gap":
+            return gap
+        return ux * d[:, 2] + uy * d[:, 3] + turning * gap  # d/dt (u · d): the line turns too

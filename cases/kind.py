@@ -1,0 +1,10 @@
+"""What can be observed of an element: its fields, each with a unit and a kind."""
+
+from collections.abc import Mapping
+from typing import Literal
+
+Kind = Literal["coordinate", "velocity", "force", "energy", "momentum", "residual", "event"]
+Fields = Mapping[str, tuple[str, Kind]]
+"""field → unit, kind."""
+
+RESERVED = ("energy", "momentum", "ground")  # parts that no element can be called

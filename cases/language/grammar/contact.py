@@ -1,0 +1,36 @@
+"""Contacts as a case file writes them."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from ...contact import Contact as Noun
+from ...point import anchor
+from .field import In
+from .friction import Friction
+from .part import Part
+from .text import Text, Word
+from .words import wrong
+
+
+class Contact(Part):
+    between: tuple[Annotated[str, Text()], Annotated[str, Text()]] = Field(
+        description="a disk, a particle or a point of a bar, then ground.floor"
+    )
+    friction: Friction
+    restitution: Annotated[float, In("1", least=0, most=1)] = Field(
+        0.0, description="speed after an impact over speed before it"
+    )
+    ideal: Annotated[str, Word("ideal", ("rolling",))] | None = Field(
+        None, description="what the reference assumes, and checks at every sample"
+    )
+
+    def model_post_init(self, context: object) -> None:
+        if self.ideal is not None and "restitution" in self.model_fields_set:
+            raise wrong("`restitution` cannot stand beside `ideal: rolling`: it has no impacts")
+
+    def named(self, name: str) -> Noun:
+        """The contact, as between[1] can only be the floor."""
+        static, kinetic = self.friction.static, self.friction.kinetic
+        at, ideal = anchor(self.between[0]), self.ideal
+        return Noun(name, at, static, kinetic, self.restitution, ideal)  # type: ignore[arg-type]

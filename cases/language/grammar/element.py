@@ -1,0 +1,89 @@
+"""The models of elements, made from their nouns: a number and its unit are declared there, once.
+
+An element is written as its word with what it refers to, and its numbers beside that:
+`{spring: [rod.end, ground.O], stiffness: c, rest_length: l0}`.
+"""
+
+from collections.abc import Callable, Collection
+from inspect import Parameter, signature
+from typing import Any, ClassVar, get_type_hints
+
+from pydantic import create_model
+
+from ...point import anchor
+from .part import Name, Pair, Part, Point
+from .signal import Following, law
+
+REFERS = ("a", "b", "at", "body")
+"""What nouns call that to which they refer: two points, a point, or a body."""
+
+
+class Element(Part):
+    """An element as a case file writes it, before the key above it names it."""
+
+    word: ClassVar[str]
+    makes: ClassVar[Callable[..., Any]]
+
+    def named(self, name: str) -> Any:
+        """The element itself."""
+        asked = signature(type(self).makes).parameters
+        numbers = {key: getattr(self, key) for key in asked if hasattr(self, key)}
+        return type(self).makes(**numbers | self.referred() | {"name": name})
+
+    def referred(self) -> dict[str, Any]:
+        """What the noun refers to, by its fields."""
+        fields = [key for key in signature(type(self).makes).parameters if key in REFERS]
+        given = getattr(self, self.word)
+        words = given if isinstance(given, tuple) else (given,)
+        return {
+            field: word if field == "body" else anchor(word)
+            for field, word in zip(fields, words, strict=True)
+        }
+
+
+class InTime(Element, Following):
+    """A force that follows a law in time."""
+
+
+def element(
+    word: str,
+    makes: Callable[..., Any],
+    *,
+    base: type[Element] = Element,
+    without: Collection[str] = (),
+    needs: Collection[str] = (),
+) -> type[Element]:
+    """The model of what `makes` makes, written under `word`.
+
+    It has no keys `without`, and no default for what it `needs`.
+    """
+    asked = keys(makes)
+    asked |= {key: (asked[key][0], ...) for key in needs}
+    refers = Pair if "b" in asked else Point if "at" in asked else Name
+    left = {key: asked[key] for key in asked if key not in (*REFERS, "name", *without)}
+    if "signal" in left:
+        base, left = InTime, left | law(word, left.pop("signal")[0])
+    fields: dict[str, Any] = {word: (refers, ...), **left}
+    model = create_model(word.capitalize(), __base__=base, __doc__=_said(makes), **fields)
+    model.word, model.makes = word, makes
+    return model
+
+
+def numbers(makes: Callable[..., Any], *, without: Collection[str] = ()) -> type[Part]:
+    """The model of a map with all that `makes` asks for, but for `without`."""
+    fields: dict[str, Any] = {k: field for k, field in keys(makes).items() if k not in without}
+    name = makes.__name__.capitalize()
+    return create_model(name, __base__=Part, __doc__=_said(makes), **fields)
+
+
+def _said(makes: Callable[..., Any]) -> str:
+    return (makes.__doc__ or "").partition("\n")[0]
+
+
+def keys(makes: Callable[..., Any]) -> dict[str, Any]:
+    """What `makes` asks for, as fields of a model: type and default."""
+    hints = get_type_hints(makes, include_extras=True)
+    return {
+        key: (hints[key], ... if asked.default is Parameter.empty else asked.default)
+        for key, asked in signature(makes).parameters.items()
+    }

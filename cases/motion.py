@@ -1,0 +1,44 @@
+"""A trajectory as elements look at it: the states of bodies and points, and lines between them."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from .body import Body
+from .point import GROUND, Anchor, GroundPoint
+from .trajectory import ANGLE, OMEGA, Array, Trajectory
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The samples of a scene's bodies and ground points."""
+
+    bodies: Mapping[str, Body]
+    points: Mapping[str, GroundPoint]
+    trajectory: Trajectory
+
+    def point(self, anchor: Anchor) -> Array:
+        """(N, 4): x, y, vx, vy of a point (2.1), (2.6)."""
+        if anchor.body == GROUND:
+            return self.points[anchor.point].states(self.trajectory.times)
+        states = self.trajectory.states[anchor.body]
+        return self.bodies[anchor.body].point(states, anchor.point)
+
+    def line(self, a: Anchor, b: Anchor) -> tuple[Array, Array]:
+        """Length (N,) of the line from a to b, and its rate (zero where the length is zero)."""
+        d = self.point(b) - self.point(a)
+        length = np.hypot(d[:, 0], d[:, 1])
+        rate = (d[:, 0] * d[:, 2] + d[:, 1] * d[:, 3]) / np.where(length > 0, length, 1.0)
+        return length, rate
+
+    def turned(self, body: str) -> tuple[Array | float, Array | float]:
+        """Angle [rad] and rate [rad/s] of a body's axes, (N,) each; 0 of the ground's."""
+        if body == GROUND:
+            return 0.0, 0.0
+        states = self.trajectory.states[body]
+        return states[:, ANGLE], states[:, OMEGA]
+
+    def reaction(self, quantity: str) -> Array:
+        """(N,) as the producer gives it. Raises KeyError if it does not."""
+        return self.trajectory.reactions[quantity]

@@ -1,0 +1,55 @@
+"""Points of bodies and of the ground, by name.
+
+Planar frame: x right, y up, angles counter-clockwise, SI units.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .trajectory import Array
+
+GROUND = "ground"
+CENTER = "center"
+FLOOR = "floor"
+
+Vector = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Anchor:
+    """A named point of a body or of the ground."""
+
+    body: str
+    point: str
+
+    def __str__(self) -> str:
+        return f"{self.body}.{self.point}"
+
+
+def anchor(word: str) -> Anchor:
+    """The point that a case file writes as `body.point`; a body alone is its centre."""
+    body, _, point = word.partition(".")
+    return Anchor(body, point or CENTER)
+
+
+@dataclass(frozen=True)
+class GroundPoint:
+    """A point of the ground, or one driven at a constant velocity (rheonomous)."""
+
+    at: Vector
+    velocity: Vector = (0.0, 0.0)
+
+    @property
+    def driven(self) -> bool:
+        return self.velocity != (0.0, 0.0)
+
+    def position(self, t: float) -> Vector:
+        """Position [m] at time t [s]."""
+        return (self.at[0] + self.velocity[0] * t, self.at[1] + self.velocity[1] * t)
+
+    def states(self, times: Array) -> Array:
+        """(N, 4): x, y, vx, vy at the times [s]."""
+        velocity = np.asarray(self.velocity)
+        position = np.asarray(self.at) + velocity * times[:, None]
+        return np.hstack([position, np.broadcast_to(velocity, position.shape)])

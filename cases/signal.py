@@ -1,0 +1,16 @@
+"""Named laws in time."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+Law = Literal["constant", "ramp", "sine"]
+
+
+@dataclass(frozen=True)
+class Signal:
+    """A named law in time: constant A, ramp A t, or sine A sin(w t + phase)."""
+
+    law: Law
+    amplitude: tuple[float, ...]  # N for a push (x, y), N m for a torque (one entry)
+    angular_frequency: float = 0.0
+    phase: float = 0.0

@@ -1,0 +1,135 @@
+"""MuJoCo's element for each force element, and what is read back of it: one table, ELEMENTS.
+
+A tendon carries a spring or a damper. An actuator carries what follows a law in time: control 1
+makes a constant, the integral of 1 a ramp; a sine's control is a callback.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+from xml.etree import ElementTree as ET
+
+import mujoco
+import numpy as np
+
+from ...cases.force import Damper, Force, Line, Push, Spring, Torque
+from ...cases.scene import CENTER, GROUND, Anchor, Scene
+from ...cases.signal import Signal
+from ...cases.trajectory import Array
+from .written import written
+
+Sections = Mapping[str, ET.Element]
+Outer = tuple[Anchor, Array, Array]
+"""A body's point at which a force (N, 2) [N] and a torque (N,) [N m] act."""
+
+
+@dataclass(frozen=True)
+class Element:
+    """MuJoCo's element of one kind; called with the force element.
+
+    write: into the file's sections. numbers: for the audit. Of what has an actuator, signal: the
+    law that its control follows; outer: what it exerts on bodies at its force (N,), by its gear,
+    unless through a tendon, whose forces MuJoCo counts rightly itself.
+    """
+
+    write: Callable[[Sections, Any], None]
+    numbers: Callable[[mujoco.MjModel, Any], dict[str, float]] = lambda model, force: {}
+    signal: Callable[[Any], Signal] | None = None
+    outer: Callable[[Any, Array, Array], Iterator[Outer]] = lambda *_: iter(())
+
+
+def write(root: ET.Element, scene: Scene) -> None:
+    """The sections of the scene's forces."""
+    sections = {name: ET.Element(name) for name in ("tendon", "actuator")}
+    for force in scene.forces.values():
+        ELEMENTS[type(force)].write(sections, force)
+    root.extend(section for section in sections.values() if len(section))
+
+
+def signals(scene: Scene) -> list[Signal]:
+    """The laws of the actuators' controls, in MuJoCo's order."""
+    return [signal(force) for force, signal in _actuated(scene)]
+
+
+def numbers(scene: Scene, model: mujoco.MjModel) -> dict[str, float]:
+    """What the compiled model holds of the forces, as `Force.numbers` names it."""
+    return {
+        f"{force.name}.{key}": number
+        for force in scene.forces.values()
+        for key, number in ELEMENTS[type(force)].numbers(model, force).items()
+    }
+
+
+def outer(scene: Scene, model: mujoco.MjModel, sizes: Array) -> Iterator[Outer]:
+    """What the actuators exert on bodies, when their forces are `sizes` (N, actuators)."""
+    for i, (force, _) in enumerate(_actuated(scene)):
+        gear = model.actuator_gear[i]
+        yield from ELEMENTS[type(force)].outer(force, sizes[:, i], gear)
+
+
+def _actuated(scene: Scene) -> Iterator[tuple[Force, Callable[[Any], Signal]]]:
+    for force in scene.forces.values():
+        if signal := ELEMENTS[type(force)].signal:
+            yield force, signal
+
+
+def tendon(sections: Sections, force: Line, **attributes: float) -> None:
+    """A tendon between the two ends."""
+    texts = {key: written(value) for key, value in attributes.items()}
+    spatial = ET.SubElement(sections["tendon"], "spatial", texts, name=force.name)
+    for end in (force.a, force.b):
+        ET.SubElement(spatial, "site", site=str(end))
+
+
+def _spring(sections: Sections, force: Spring) -> None:
+    tendon(sections, force, stiffness=force.stiffness, springlength=force.rest_length)
+
+
+def _spring_numbers(model: mujoco.MjModel, force: Spring) -> dict[str, float]:
+    number = model.tendon(force.name).id
+    rest_length = model.tendon_lengthspring[number, 0]
+    return {"stiffness": model.tendon_stiffness[number], "rest_length": rest_length}
+
+
+def _damper(sections: Sections, force: Damper) -> None:
+    tendon(sections, force, damping=force.damping)
+
+
+def _damper_numbers(model: mujoco.MjModel, force: Damper) -> dict[str, float]:
+    return {"damping": model.tendon_damping[model.tendon(force.name).id]}
+
+
+def _actuator(
+    sections: Sections, force: Push | Torque, site: str, gear: tuple[float, ...]
+) -> ET.Element:
+    given = {"name": force.name, "site": site, "gear": written(*gear)}
+    element = ET.SubElement(sections["actuator"], "general", given)
+    if force.signal.law == "ramp":
+        element.set("dyntype", "integrator")
+    return element
+
+
+def _push(sections: Sections, force: Push) -> None:
+    element = _actuator(sections, force, str(force.at), (*force.signal.amplitude, 0, 0, 0, 0))
+    element.set("refsite", GROUND)  # the force keeps the ground's axes
+
+
+def _push_outer(force: Push, size: Array, gear: Array) -> Iterator[Outer]:
+    yield force.at, size[:, None] * gear[:2], np.zeros(len(size))
+
+
+def _torque(sections: Sections, force: Torque) -> None:
+    site = f"{force.body}.{CENTER}"
+    _actuator(sections, force, site, (0, 0, 0, 0, 0, *force.signal.amplitude))
+
+
+def _torque_outer(force: Torque, size: Array, gear: Array) -> Iterator[Outer]:
+    yield Anchor(force.body, CENTER), np.zeros((len(size), 2)), size * gear[5]
+
+
+ELEMENTS: dict[type[Force], Element] = {
+    Spring: Element(_spring, _spring_numbers),
+    Damper: Element(_damper, _damper_numbers),
+    Push: Element(_push, signal=lambda force: force.signal, outer=_push_outer),
+    Torque: Element(_torque, signal=lambda force: force.signal, outer=_torque_outer),
+}

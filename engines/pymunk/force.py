@@ -1,0 +1,180 @@
+"""pymunk's element for each force element, and what it has none for: one table, ELEMENTS.
+
+A spring or a damper is a DampedSpring. What pymunk has no element for is told before every step
+through its force input. pymunk drifts first, so a force set before a step acts at positions one
+drift later. The midpoint protocol evaluates it there, and half a step later in time; else it is
+what a user writes who does not know: the force at the present time and place.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from pymunk.body import Body
+from pymunk.constraints import DampedSpring
+
+from ...cases.force import Damper, Force, Push, Spring, Torque
+from ...cases.signal import Signal
+from ..engine import Realised
+from ..law import value
+from .law.line import Load, drifted, pull, told
+from .world import World
+from .written import written
+
+Apply = Callable[[float], None]
+"""Called before the step that starts at t [s]."""
+
+
+@dataclass(frozen=True)
+class Element:
+    """What pymunk has, or is told, of one kind; called with the world and the force element.
+
+    line: the numbers of its DampedSpring, and back: what the audit reads of one. tell: the force
+    that is given before each step of `step` s, `drift` s ahead (0: at the present place); of what
+    has a line too, only where we realise its law. load: what it exerts on a body at t + ahead,
+    `drift` s from its present place. script: the same as lines of Python.
+    """
+
+    load: Callable[[World, Any, str, float, float], Load]
+    line: Callable[[Any], dict[str, float]] | None = None
+    numbers: Callable[[DampedSpring], dict[str, float]] = lambda line: {}
+    tell: Callable[[World, Any, float, float], Apply] | None = None
+    script: Callable[[World, Any, Callable[[Body], str], bool], Iterator[str]] | None = None
+
+
+def lines(world: World, realised: Realised) -> None:
+    """Adds the lines that pymunk realises itself, in the order of the case file."""
+    for force in world.scene.forces.values():
+        element = ELEMENTS[type(force)]
+        if element.line is None or (realised == "law" and element.tell):
+            continue
+        a, b = force.refers()
+        given = _LINE | element.line(force)
+        bodies, places = (world.body(a), world.body(b)), (world.local(a), world.local(b))
+        line = DampedSpring(*bodies, *places, **given)
+        world.lines[force.name] = line
+        world.space.add(line)
+
+
+_LINE = {"rest_length": 0.0, "stiffness": 0.0, "damping": 0.0}
+
+
+def tells(world: World, step: float, *, midpoint: bool) -> list[Apply]:
+    """What has to be called before each step, for all that is not built."""
+    drift = step if midpoint else 0.0
+    return [
+        tell(world, force, step, drift)
+        for force in world.scene.forces.values()
+        if force.name not in world.lines and (tell := ELEMENTS[type(force)].tell)
+    ]
+
+
+def numbers(world: World) -> dict[str, float]:
+    """What pymunk's lines hold, as `Force.numbers` names it."""
+    return {
+        f"{name}.{key}": number
+        for name, line in world.lines.items()
+        for key, number in ELEMENTS[type(world.scene.forces[name])].numbers(line).items()
+    }
+
+
+def load(world: World, name: str, step: float) -> Callable[[float, float], Load]:
+    """All that forces and gravity do to a body, at t + ahead as seen between steps at the time t.
+
+    Positions are those of the midpoint protocol, h/2 behind.
+    """
+    body, (gx, gy) = world.bodies[name], world.space.gravity
+    forces = [f for f in world.scene.forces.values() if name in {p.body for p in f.refers()}]
+
+    def acting(t: float, ahead: float) -> Load:
+        fx, fy, torque = body.mass * gx, body.mass * gy, 0.0
+        for force in forces:
+            x, y, turn = ELEMENTS[type(force)].load(world, force, name, t + ahead, ahead + step / 2)
+            fx, fy, torque = fx + x, fy + y, torque + turn
+        return fx, fy, torque
+
+    return acting
+
+
+def script(world: World, of: Callable[[Body], str], *, midpoint: bool) -> Iterator[str]:
+    """What has to be called before each step as lines of Python; `of` is how a body is called."""
+    found = []
+    for force in world.scene.forces.values():
+        if (text := ELEMENTS[type(force)].script) and force.name not in world.lines:
+            found += [f"    # {force.name}", *text(world, force, of, midpoint)]
+    if found:
+        yield f"    t = {'(n + 0.5) * h' if midpoint else 'n * h'}"
+        yield from found
+
+
+def _push(world: World, force: Push, step: float, drift: float) -> Apply:
+    body, (a, b) = world.body(force.at), world.local(force.at)
+
+    def apply(t: float) -> None:
+        angle = body.angle + drift * body.angular_velocity
+        cos, sin = math.cos(angle), math.sin(angle)
+        lever = (cos * a - sin * b, sin * a + cos * b)
+        f = value(force.signal, t + drift / 2)
+        body.apply_force_at_world_point((f[0], f[1]), body.position + lever)
+
+    return apply
+
+
+def _push_load(world: World, force: Push, name: str, t: float, drift: float) -> Load:
+    fx, fy = value(force.signal, t)
+    (rx, ry), *_ = drifted(world, force.at, drift)
+    return fx, fy, rx * fy - ry * fx
+
+
+def _push_script(
+    world: World, force: Push, of: Callable[[Body], str], midpoint: bool
+) -> Iterator[str]:
+    yield f"    body = {of(world.body(force.at))}"
+    turn = "body.angle + h * body.angular_velocity" if midpoint else "body.angle"
+    yield f"    lever = pymunk.Vec2d{written(world.local(force.at))}.rotated({turn})"
+    pair = ", ".join(_in_time(force.signal))
+    yield f"    body.apply_force_at_world_point(({pair}), body.position + lever)"
+
+
+def _torque(world: World, force: Torque, step: float, drift: float) -> Apply:
+    body = world.bodies[force.body]
+
+    def apply(t: float) -> None:
+        body.torque += value(force.signal, t + drift / 2)[0]
+
+    return apply
+
+
+def _torque_load(world: World, force: Torque, name: str, t: float, drift: float) -> Load:
+    return 0.0, 0.0, value(force.signal, t)[0]
+
+
+def _torque_script(
+    world: World, force: Torque, of: Callable[[Body], str], midpoint: bool
+) -> Iterator[str]:
+    yield f"    {of(world.bodies[force.body])}.torque += {_in_time(force.signal)[0]}"
+
+
+def _in_time(law: Signal) -> list[str]:
+    """The law in time, in the script's words."""
+    sine = f" * math.sin({law.angular_frequency!r} * t + {law.phase!r})"
+    factor = {"constant": "", "ramp": " * t", "sine": sine}[law.law]
+    return [f"{amplitude!r}{factor}" for amplitude in law.amplitude]
+
+
+ELEMENTS: dict[type[Force], Element] = {
+    Spring: Element(
+        load=pull,
+        line=lambda spring: {"rest_length": spring.rest_length, "stiffness": spring.stiffness},
+        numbers=lambda line: {"stiffness": line.stiffness, "rest_length": line.rest_length},
+    ),
+    Damper: Element(
+        load=pull,
+        line=lambda damper: {"damping": damper.damping},
+        numbers=lambda line: {"damping": line.damping},
+        tell=lambda world, damper, step, drift: told(world, damper, step),
+    ),
+    Push: Element(load=_push_load, tell=_push, script=_push_script),
+    Torque: Element(load=_torque_load, tell=_torque, script=_torque_script),
+}

@@ -1,0 +1,48 @@
+"""A pymunk Space and its parts, by their names in the scene."""
+
+from dataclasses import dataclass, field
+
+from pymunk.body import Body
+from pymunk.constraints import Constraint, DampedSpring, GrooveJoint
+from pymunk.shapes import Circle
+from pymunk.space import Space
+
+from ...cases.scene import GROUND, Anchor, Scene, Vector
+
+
+@dataclass(frozen=True)
+class World:
+    """The space and its parts by their names in the scene.
+
+    A joint's first constraint carries its force. driven: the driven points' bodies. brakes: the
+    friction joints of slides.
+    """
+
+    scene: Scene
+    space: Space
+    bodies: dict[str, Body] = field(default_factory=dict)
+    driven: dict[str, Body] = field(default_factory=dict)
+    joints: dict[str, tuple[Constraint, ...]] = field(default_factory=dict)
+    brakes: dict[str, GrooveJoint] = field(default_factory=dict)
+    lines: dict[str, DampedSpring] = field(default_factory=dict)
+    wheels: dict[str, Circle] = field(default_factory=dict)
+
+    def body(self, anchor: Anchor) -> Body:
+        if anchor.body != GROUND:
+            return self.bodies[anchor.body]
+        return self.driven.get(anchor.point, self.space.static_body)
+
+    @property
+    def bounded(self) -> bool:
+        """Whether something in it, a floor or a groove, has an end."""
+        return bool(self.wheels) or any(j.shifts for j in self.scene.joints.values())
+
+    def wheel(self, contact: str) -> Body:
+        """The body that touches the floor."""
+        return self.bodies[self.scene.contacts[contact].body]
+
+    def local(self, anchor: Anchor) -> Vector:
+        """The anchor in its body's axes from its centre of mass."""
+        if anchor.body != GROUND:
+            return self.scene.bodies[anchor.body].points[anchor.point]
+        return (0.0, 0.0) if anchor.point in self.driven else self.scene.points[anchor.point].at

@@ -1,0 +1,133 @@
+"""A force element that exists only here: a cable that pulls with a constant tension.
+
+All that has to be said of it stands below, each under the file to which it would belong; the rest
+of the suite is as it is. Prints the largest differences of a motion between its three answers.
+"""
+
+# ruff: noqa: E402 - each part has its imports beside it, and the last must come after the others
+
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+from xml.etree import ElementTree as ET
+
+import numpy as np
+
+# cases/force.py
+from textmech.cases.force import FORCES, Line
+from textmech.cases.language.grammar.field import In
+from textmech.cases.motion import Motion
+from textmech.cases.signal import Signal
+from textmech.cases.trajectory import ANGLE, Array
+
+
+@dataclass(frozen=True)
+class Cable(Line):
+    """F = T along the line between two points, which it pulls together."""
+
+    word = "cable"
+    pull: Annotated[float, In("N", above=0)]
+
+    def tension(self, length: Array, rate: Array) -> Array:
+        return np.full_like(length, self.pull)
+
+    def potential(self, motion: Motion) -> Array:
+        """U = T λ."""
+        return self.pull * motion.line(self.a, self.b)[0]
+
+
+FORCES["cable"] = Cable
+
+# reference/generated/action.py
+
+from textmech.reference.generated.action import ACTIONS, Action, ends, length
+
+
+def exerts(force: Cable, where: Any, t: float, q: Any, v: Any) -> Iterator[Any]:
+    a, b = ends(force, where, t, q, v)
+    d = np.subtract(b.r, a.r)
+    F = force.pull * d / np.hypot(*d)
+    yield F, a
+    yield -F, b
+
+
+ACTIONS[Cable] = Action(
+    exerts, U=lambda force, where, t, q: force.pull * length(force, where, t, q), line=True
+)
+
+# engines/law.py
+
+from textmech.engines.law import TENSIONS
+
+TENSIONS[Cable] = lambda force, length, rate: force.pull
+
+# engines/mujoco/force.py
+
+from textmech.engines.mujoco import MuJoCo
+from textmech.engines.mujoco import force as mujoco
+from textmech.engines.mujoco.written import written
+
+
+def write(sections: mujoco.Sections, force: Cable) -> None:
+    mujoco.tendon(sections, force)
+    gear = written(-force.pull)
+    ET.SubElement(sections["actuator"], "general", name=force.name, tendon=force.name, gear=gear)
+
+
+mujoco.ELEMENTS[Cable] = mujoco.Element(write, signal=lambda force: Signal("constant", (1.0,)))
+
+# engines/pymunk/force.py
+
+from textmech.engines.pymunk import Pymunk
+from textmech.engines.pymunk import force as pymunk
+from textmech.engines.pymunk.law.line import pull, told
+
+pymunk.ELEMENTS[Cable] = pymunk.Element(
+    load=pull, tell=lambda world, force, step, drift: told(world, force, step)
+)
+
+# The rest is used as it is.
+
+from textmech.cases.load import load
+from textmech.cases.observe import observe
+from textmech.reference.solve import solve
+
+CASE = """\
+title: A bar on a pin, pulled by a cable
+source: {equations: ["2.50"]}
+scene:
+  points: {O: [0, 0], W: [0.9, 0.7]}
+  bodies: {rod: {bar: {mass: 1.2, length: 0.8}}}
+  joints: {hinge: {pin: [ground.O, rod.start]}}
+  forces: {rope: {cable: [rod.end, ground.W], pull: 9 N}}
+initial: {rod: {angle: -20 deg}}
+allow: {rod.angle: 1.0e-2, rope.length: 1.0e-2, rope.force: 1.0e-2, hinge.fx: 1.0}
+duration: 1.0
+samples: 11
+step: {mujoco: 1.0e-3, pymunk: 1.0e-3}
+"""
+
+
+def main(folder: Path) -> None:
+    path = folder / "rope.yaml"
+    path.write_text(CASE, encoding="utf-8")
+    (case,) = load(path)
+    solution = solve(case)
+    reference = solution.trajectory
+    assert solution.holds, solution.checks
+    assert set(observe(case.scene, reference, "rope.force")) == {9.0}
+    print("energy", np.ptp(observe(case.scene, reference, "energy.total")))
+    start = {name: tuple(rows[0].tolist()) for name, rows in reference.states.items()}
+    way: dict[str, Any] = {"tied_to": 1e-3, "realised": "native"}
+    for engine, forces in ((MuJoCo("tuned"), ("hinge.fx",)), (Pymunk("tuned"), ())):
+        found = engine.run(case.scene, start, case.times, 1e-3, reactions=forces, **way)  # type: ignore[arg-type]
+        angle = found.states["rod"][:, ANGLE] - reference.states["rod"][:, ANGLE]
+        print(engine.name, np.abs(angle).max())
+        for name in forces:
+            print(name, np.abs(found.reactions[name] - reference.reactions[name]).max())
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

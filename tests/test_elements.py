@@ -1,0 +1,73 @@
+"""Elements answer for themselves: nobody else asks what they are, and a new one fits in."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from textmech.cases.force import FORCES
+from textmech.cases.joint import FREEDOMS
+
+ROOT = Path(__file__).parents[1]
+FILES = [
+    file
+    for package in ("cases", "reference", "engines", "reports")
+    for file in sorted((ROOT / package).rglob("*.py"))
+]
+KINDS = {noun.__name__ for noun in FORCES.values()} | {"Line"}
+
+
+def asked(source: str) -> list[str]:
+    """Where a program asks which kind of force or joint something is."""
+    return [ast.unparse(node) for node in ast.walk(ast.parse(source)) if _asks(node)]
+
+
+def _asks(node: ast.AST) -> bool:
+    if isinstance(node, ast.Call) and ast.unparse(node.func) in ("isinstance", "issubclass"):
+        return bool(KINDS & _words(node.args[1]))
+    if isinstance(node, ast.MatchClass):
+        return bool(KINDS & _words(node.cls))
+    if isinstance(node, ast.Compare):
+        texts = {n.value for n in ast.walk(node) if isinstance(n, ast.Constant)}
+        kinds = [n for n in ast.walk(node) if isinstance(n, ast.Attribute) and n.attr == "kind"]
+        words = [n for n in ast.walk(node) if isinstance(n, ast.Attribute) and n.attr == "word"]
+        return bool((kinds and texts & set(FREEDOMS)) or (words and texts & set(FORCES)))
+    return False
+
+
+def _words(node: ast.AST) -> set[str]:
+    names = {n.id for n in ast.walk(node) if isinstance(n, ast.Name)}
+    return names | {n.attr for n in ast.walk(node) if isinstance(n, ast.Attribute)}
+
+
+def test_nobody_asks_an_element_what_it_is() -> None:
+    found = {str(file.relative_to(ROOT)): asked(file.read_text("utf-8")) for file in FILES}
+    assert {file: places for file, places in found.items() if places} == {}
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "isinstance(force, Spring | Damper)", "isinstance(f, (scene.Push, Torque))",
+        "match force:\n    case Damper(a=a):\n        pass", "joint.kind == 'pin'",
+        "joint.kind not in ('slide', 'weld')", "force.word != 'spring'",
+    ],
+)  # fmt: skip
+def test_asking_is_seen(line: str) -> None:
+    assert asked(line)
+
+
+def test_a_new_force_element_is_said_in_five_places(tmp_path: Path) -> None:
+    """tests/cable.py adds one to the tables, in a process of its own, and a case uses it."""
+    script = Path(__file__).with_name("cable.py")
+    run = subprocess.run(
+        [sys.executable, script, tmp_path], capture_output=True, text=True, check=False
+    )
+    assert run.returncode == 0, run.stderr
+    found = {name: float(size) for name, size in map(str.split, run.stdout.splitlines())}
+    assert found["energy"] < 1e-13  # J: the shared potential is that of the force
+    assert found["mujoco"] < 1e-9
+    assert found["hinge.fx"] < 1e-7
+    assert found["pymunk"] < 1e-4
