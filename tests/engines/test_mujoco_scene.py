@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pytest
+from planning import planned
 
 from textmech.cases.quantity import table
 from textmech.cases.scene import (
@@ -226,14 +227,12 @@ def both(build: Build, step: float = STEP) -> tuple[Trajectory, Trajectory]:
     found = mechanism(build)
     y = integrate(found, TIMES, dormand_prince, tolerance=SPECIFIC).y
     start = found.poses(0.0, *found.start())
-    assert TUNED.refuses(build.scene) is None
     moved = TUNED.run(
         build.scene,
         start,
         TIMES,
         step,
-        tied_to=SOFT,
-        realised="native",
+        planned(TUNED, build.scene, start).held_at(SOFT),
         reactions=wanted(build.scene),
     )
     return motion(found, TIMES, y, found), moved

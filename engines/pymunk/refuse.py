@@ -1,0 +1,22 @@
+"""Scenes on which pymunk would abort the process, or for which it has no joint or no shape."""
+
+import math
+
+from ...cases.scene import GROUND, Scene
+
+
+def unbuildable(scene: Scene) -> str | None:
+    """The first body or joint that has no counterpart."""
+    for body in scene.bodies.values():
+        inertia = 1.0 if body.inertia is None else body.inertia
+        if not (0 < body.mass < math.inf and 0 < inertia < math.inf):
+            return f"engine: pymunk takes only positive finite masses, {body.name} has none"
+    for part in (*scene.joints.values(), *scene.springs(), *scene.dampers()):
+        if part.a.body == part.b.body:
+            where = "the ground" if part.a.body == GROUND else part.a.body
+            return f"engine: {part.name} joins {where} to itself, on which pymunk aborts"
+    for joint in scene.joints.values():
+        first = joint.a.body
+        if joint.kind != "pin" and first != GROUND and not scene.bodies[first].turns:
+            return f"adapter: {joint.name} starts at a particle, which has no axes"
+    return None
