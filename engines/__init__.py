@@ -28,7 +28,7 @@ def settings(name: str) -> tuple[str, ...]:
     return _maker(name).offers
 
 
-def engine(name: str, setting: str, options: Mapping[str, Any] | None = None) -> Engine:
+def make(name: str, setting: str, options: Mapping[str, Any] | None = None) -> Engine:
     """An engine by its name and setting; `own` takes the user's options.
 
     Raises KeyError, Broken, and ValueError for options that the engine does not have.

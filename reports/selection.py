@@ -71,7 +71,7 @@ def choose_engines(names: Sequence[str], settings: Sequence[str]) -> list[Engine
     every = {setting for offered in offers.values() for setting in offered}
     named = [word for word in settings if word in every] or every
     found = [
-        engines.engine(name, setting)
+        engines.make(name, setting)
         for name, offered in offers.items()
         for setting in offered
         if setting in named and (not names or name in names or f"{name}.{setting}" in names)
@@ -146,7 +146,7 @@ def _options(
     source: Source, name: str, options: Mapping[str, Any], found: dict[str, Engine]
 ) -> list[Mistake]:
     try:
-        found[name] = engines.engine(name, engines.OWN, options)
+        found[name] = engines.make(name, engines.OWN, options)
     except engines.Broken as broken:
         return [source.mistake((name,), str(broken))]
     except ValueError as error:

@@ -192,3 +192,11 @@ def test_find(tmp_path: Path) -> None:
     assert said["four_bra"] == "no such case; did you mean 'four_bar'?"
     assert said[str(tmp_path)] == "is a directory; a case is one YAML file"
     assert said[str(tmp_path / "for_bar.yaml")] == "no such file; did you mean 'four_bar'?"
+
+
+def test_of_an_engine_that_cannot_be_imported_no_setting_is_known(tmp_path: Path) -> None:
+    path = tmp_path / "case.yaml"
+    path.write_text(SOUND.replace("pymunk.shipped", "broken.anything"))
+    assert [case.name for case in load(path, systems=SYSTEMS, engines=ENGINES)] == ["case"]
+    path.write_text(SOUND.replace("pymunk.shipped", "nobody.anything"))
+    assert [case.name for case in load(path, systems=SYSTEMS)] == ["case"]  # nobody asks

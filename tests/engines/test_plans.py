@@ -21,7 +21,7 @@ CASES = [
     for case in load(path)
 ]
 ENGINES = [
-    engines.engine(name, setting)
+    engines.make(name, setting)
     for name in ("mujoco", "pymunk")
     for setting in engines.settings(name)
 ]
@@ -47,7 +47,7 @@ def test_a_plan_crosses_into_a_process(case: Case, engine: Engine) -> None:
 
 def test_what_is_held_stays_and_what_follows_goes() -> None:
     case = next(case for case in CASES if case.name == "four_bar")
-    plan = planned(engines.engine("mujoco", "tuned"), case.scene, assembled(case))
+    plan = planned(engines.make("mujoco", "tuned"), case.scene, assembled(case))
     held = plan.held_at(8e-4)
     assert plan.following == plan.exponents != held.exponents == plan.held
     assert held.choices(1e-4) == plan.choices(8e-4) != plan.choices(1e-4)
@@ -74,7 +74,7 @@ def test_a_title_is_text_in_an_engines_file(setting: str) -> None:
     start = assembled(case)
     texts: dict[str, list[str]] = {}
     for name in ("mujoco", "pymunk"):
-        engine = engines.engine(name, setting)
+        engine = engines.make(name, setting)
         plan = planned(engine, case.scene, start)
         titles = ("", HOSTILE)
         texts[name] = [engine.script(case.scene, start, 1e-3, plan, title=t) for t in titles]
@@ -89,4 +89,4 @@ def test_engines_are_found_sorted_and_know_their_settings() -> None:
     assert list(engines.names()) == sorted(engines.names())
     assert engines.Known()["mujoco"] == ("shipped", "tuned")
     with pytest.raises(KeyError):
-        engines.engine("nobody", "tuned")
+        engines.make("nobody", "tuned")
