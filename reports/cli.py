@@ -168,7 +168,7 @@ def list_() -> None:
     """The shipped cases, with their sources and titles."""
     from .selection import choose_cases
 
-    cases = choose_cases([])
+    cases = choose_cases([], known=None)
     width = max(len(case.name) for case in cases)
     for case in cases:
         click.echo(f"{case.name:{width}}  {case.title}\n{'':{width}}    {case.origin}")

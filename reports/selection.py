@@ -9,6 +9,7 @@ from typing import Any, cast
 from .. import engines
 from ..cases.case import Case
 from ..cases.find import find, shipped
+from ..cases.language.check.engines import Engines
 from ..cases.language.read.document import read
 from ..cases.load import load
 from ..cases.mistake import CaseError, Mistake, Source
@@ -24,8 +25,10 @@ HANDWRITTEN = {
 }
 
 
-def choose_cases(words: Sequence[str]) -> list[Case]:
+def choose_cases(words: Sequence[str], *, known: Engines | None = ENGINES) -> list[Case]:
     """The cases of the words: names, `name.variant`, or paths; all shipped ones for none.
+
+    known: the engines that they may name; None: whatever they name, and nothing is imported.
 
     Raises CaseError with the mistakes of all files.
     """
@@ -33,7 +36,7 @@ def choose_cases(words: Sequence[str]) -> list[Case]:
     mistakes: list[Mistake] = []
     for word in words or shipped():
         try:
-            for case in _cases(word):
+            for case in _cases(word, known):
                 other = Path(cases.setdefault(case.name, case).source.file)
                 if other.resolve() != Path(case.source.file).resolve():
                     what = f"{other} already has the name {case.name!r}: rename one of the files"
@@ -45,11 +48,11 @@ def choose_cases(words: Sequence[str]) -> list[Case]:
     return list(cases.values())
 
 
-def _cases(word: str) -> list[Case]:
+def _cases(word: str, known: Engines | None) -> list[Case]:
     stem, _, variant = word.partition(".")
     if stem not in shipped() or not variant or Path(word).exists():
-        return load(find([word])[0], systems=HANDWRITTEN, engines=ENGINES)
-    cases = load(shipped()[stem], systems=HANDWRITTEN, engines=ENGINES)
+        return load(find([word])[0], systems=HANDWRITTEN, engines=known)
+    cases = load(shipped()[stem], systems=HANDWRITTEN, engines=known)
     chosen = [case for case in cases if case.name == word]
     if not chosen:
         names = [case.name for case in cases]

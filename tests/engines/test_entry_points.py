@@ -48,6 +48,8 @@ def textmech(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
 
 
 def test_what_cannot_be_imported_does_not_stop_the_others(folder: Path) -> None:
+    declared = "deviates: {failing.shipped: {ball.y: {limit: 1.0, because: it is soft}}}\n"
+    (folder / "ball.yaml").write_text(CASE + declared, encoding="utf-8")
     done = textmech(folder, "run", "ball.yaml")
     assert done.returncode == 0, done.stderr
     assert {"mujoco.tuned", "pymunk.tuned"} <= set(done.stdout.split())
