@@ -70,7 +70,7 @@ class Case:
     near: Mapping[str, Placement]
     duration: float
     samples: int
-    step: Mapping[str, float]
+    step: float | Mapping[str, float]  # s, of all engines, or by engine; some may be left out
     allow: Mapping[str, float | None]  # None: `unknown`, to be measured
     reach: Mapping[str, Mapping[str, float]]
     deviates: Mapping[str, Mapping[str, Deviation]]

@@ -6,6 +6,7 @@ from pathlib import Path as FilePath
 
 from .case import Case
 from .language.check.check import check
+from .language.check.engines import Engines
 from .language.grammar.words import NO_VALUE
 from .language.parse import parse
 from .language.read.document import read
@@ -16,8 +17,13 @@ from .mistake import CaseError, Mistake
 Systems = Mapping[str, tuple[str, ...]]
 
 
-def load(path: FilePath, *, systems: Systems | None = None) -> list[Case]:
-    """The cases of a file. `systems`: the parameters of each known hand-written system.
+def load(
+    path: FilePath, *, systems: Systems | None = None, engines: Engines | None = None
+) -> list[Case]:
+    """The cases of a file.
+
+    systems: the parameters of each known hand-written system. engines: the settings of each known
+    engine. Of what is None no name is checked.
 
     Raises CaseError with every mistake of the file.
     """
@@ -29,7 +35,8 @@ def load(path: FilePath, *, systems: Systems | None = None) -> list[Case]:
     for variant, (data, source) in variants.items():
         parsed = parse(data)
         scene = resolve_scene(parsed.file)
-        findings = [*parsed.findings, *check(parsed, scene, data=document.data, systems=systems)]
+        checked = check(parsed, scene, data=document.data, systems=systems, known=engines)
+        findings = [*parsed.findings, *checked]
         found[variant] = [
             source.mistake(where, what)
             for where, what in findings

@@ -1,25 +1,71 @@
-"""The engines: the only list of them. An engine's package is imported when it is asked for."""
+"""The engines, found by the entry point group `textmech.engines`.
 
-from collections.abc import Mapping
+An engine's package is imported when the engine is asked for, and not before.
+"""
+
+from collections.abc import Iterator, Mapping
+from functools import cache
+from importlib.metadata import EntryPoint, entry_points
 from typing import Any
 
-from .engine import Engine
+from .engine import Engine, Maker
 
-NAMES = ("mujoco", "pymunk")
-SETTINGS = ("shipped", "tuned")
+GROUP = "textmech.engines"
+OWN = "own"  # the setting of a user's own options, which every engine has
 
 
-def engine(name: str, setting: str, options: Mapping[str, Any] | None = None) -> Engine:
+class Broken(Exception):
+    """An engine is installed and cannot be imported."""
+
+
+def names() -> tuple[str, ...]:
+    """The installed engines, sorted."""
+    return tuple(sorted(_found()))
+
+
+def settings(name: str) -> tuple[str, ...]:
+    """What the engine offers, in its order. Raises KeyError, Broken."""
+    return _maker(name).offers
+
+
+def make(name: str, setting: str, options: Mapping[str, Any] | None = None) -> Engine:
     """An engine by its name and setting; `own` takes the user's options.
 
-    Raises ValueError for options that the engine does not have.
+    Raises KeyError, Broken, and ValueError for options that the engine does not have.
     """
-    if name == "mujoco":
-        from .mujoco import MuJoCo
+    return _maker(name)(setting, options or {})
 
-        return MuJoCo(setting, options or {})
-    if name == "pymunk":
-        from .pymunk import Pymunk
 
-        return Pymunk(setting, options or {})
-    raise KeyError(name)
+class Known(Mapping[str, tuple[str, ...] | None]):
+    """Every engine's settings by its name, for which it is imported; None: it cannot be."""
+
+    def __getitem__(self, name: str) -> tuple[str, ...] | None:
+        try:
+            return settings(name)
+        except Broken:
+            return None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(names())
+
+    def __len__(self) -> int:
+        return len(names())
+
+
+@cache
+def _found() -> Mapping[str, EntryPoint]:
+    """The first of a name stands: what is first on the path is what Python would import."""
+    found: dict[str, EntryPoint] = {}
+    for point in entry_points(group=GROUP):
+        found.setdefault(point.name, point)
+    return found
+
+
+@cache
+def _maker(name: str) -> Maker:
+    point = _found()[name]
+    try:
+        return point.load()
+    except Exception as error:  # whatever a package does while it is imported
+        why = f"{type(error).__name__}: {error}"
+        raise Broken(f"{name} ({point.value}) cannot be imported: {why}") from error

@@ -1,8 +1,11 @@
-"""What every engine adapter answers, with the same verbs. An adapter sees scenes, never cases."""
+"""The protocol of every engine: four verbs, and the plan they share. It sees scenes, never cases.
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import Any, Literal, Protocol
+engines/README.md says how to add one.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal, Protocol, runtime_checkable
 
 from ..cases.scene import Scene
 from ..cases.trajectory import Array, Trajectory
@@ -26,17 +29,68 @@ class Choice:
     because: str
 
 
+def no_numbers(step: float) -> Sequence[Choice]:
+    """Of an engine without numbers to choose."""
+    return ()
+
+
+def as_it_is(step: float) -> str:
+    """Nothing is done to start and readout."""
+    return ""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """All that a setting decides about one scene and its start before it runs. It is pickled.
+
+    held: exponents of h in the error's expansion while every other number stays the same.
+    following: the same while numbers tied to the step follow it; None: no number is tied.
+    numbers: the setting's numbers, for the step [s] that tied ones follow.
+    protocol: what is done to start and readout at a step [s], in a few words with sizes.
+    withheld: quantity → why it cannot be read from the engine: `engine: …` or `adapter: …`.
+    """
+
+    realised: Realised
+    held: tuple[int, ...]
+    following: tuple[int, ...] | None = None
+    numbers: Callable[[float], Sequence[Choice]] = no_numbers
+    protocol: Callable[[float], str] = as_it_is
+    withheld: Mapping[str, str] = field(default_factory=dict)
+    kept: float | None = None  # s: tied numbers keep what they are at this step
+
+    def choices(self, step: float) -> Sequence[Choice]:
+        """The numbers with which a step [s] is taken."""
+        return self.numbers(step if self.kept is None else self.kept)
+
+    def held_at(self, step: float) -> "Plan":
+        """The same plan with tied numbers kept at what they are for the step [s]."""
+        return replace(self, kept=step)
+
+    @property
+    def exponents(self) -> tuple[int, ...]:
+        """Those of the ladder that is climbed with this plan."""
+        return self.held if self.following is None or self.kept is not None else self.following
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """A way in which the scene is not run: `engine: …` it cannot, `adapter: …` ours does not."""
+
+    realised: Realised
+    because: str
+
+
 class Engine(Protocol):
-    """An engine with one setting (`mujoco.shipped`, `pymunk.tuned`, …)."""
+    """An engine with one setting (`mujoco.shipped`, `pymunk.tuned`, …). It is pickled."""
 
     @property
     def name(self) -> str:
-        """`mujoco`, `pymunk`."""
+        """`mujoco`, `pymunk`: the name of its entry point."""
         ...
 
     @property
     def setting(self) -> str:
-        """`shipped`, `tuned`, or `own`."""
+        """One that the engine offers, or `own`, the user's."""
         ...
 
     @property
@@ -45,53 +99,21 @@ class Engine(Protocol):
         ...
 
     @property
-    def comment(self) -> tuple[str, str]:
-        """What opens and closes a line of comment in the engine's own files."""
-        ...
-
-    @property
     def own_step(self) -> float | None:
         """The step [s] a user gets who changes nothing; None: the case names the step."""
         ...
 
-    def realisations(self, scene: Scene) -> tuple[Realised, ...]:
-        """In which ways the scene can be built; `native` always stands first."""
+    def plans(self, scene: Scene, start: State) -> Sequence[Plan | Refusal]:
+        """Each way of running the scene once, or why it is not run."""
         ...
 
-    def refuses(self, scene: Scene) -> str | None:
-        """Why the scene cannot be built: `engine: …` or `adapter: …`, or None."""
-        ...
-
-    def withholds(self, scene: Scene, quantity: str) -> str | None:
-        """Why the quantity cannot be read from the engine: `engine: …`, `adapter: …`, or None."""
-        ...
-
-    def tied(self, scene: Scene) -> bool:
-        """Whether a number of the recipe follows the step (then there are two ladders)."""
-        ...
-
-    def exponents(self, scene: Scene, realised: Realised, *, held: bool) -> tuple[int, ...]:
-        """Exponents of h in the error's expansion, as the setting declares them."""
-        ...
-
-    def protocol(self, scene: Scene, start: State, step: float, realised: Realised) -> str:
-        """What is done to start and readout, in a few words with sizes; empty if nothing."""
-        ...
-
-    def choices(self, scene: Scene, step: float) -> list[Choice]:
-        """The numbers of the setting for this scene and step."""
-        ...
-
-    def script(self, scene: Scene, start: State, step: float) -> str:
-        """The scene as the engine's own file or script, ready to paste."""
-        ...
-
-    def measure(self, scene: Scene, start: State) -> dict[str, float]:
+    def measure(self, scene: Scene, start: State) -> Mapping[str, float]:
         """Physics read back from the engine before any step and before any seed or shift.
 
         `gravity.x`, `gravity.y`, `<body>.mass`, `<body>.inertia` (turning bodies),
-        `<contact>.friction`, `<spring>.stiffness`, `<spring>.rest_length`, `<damper>.damping`,
-        `energy.kinetic`, `momentum.x`, `momentum.y`, as far as the engine knows them.
+        `<contact>.friction`, `<joint>.friction_forward|friction_backward`, `<spring>.stiffness`,
+        `<spring>.rest_length`, `<damper>.damping`, `energy.kinetic`, `momentum.x`, `momentum.y`,
+        as far as the engine knows them.
         """
         ...
 
@@ -101,23 +123,47 @@ class Engine(Protocol):
         start: State,
         times: Array,
         step: float,
+        plan: Plan,
         *,
-        tied_to: float,
-        realised: Realised,
         reactions: tuple[str, ...],
         record: bool = False,
     ) -> Trajectory:
-        """The motion at `times`, whole multiples of `step` from 0.
+        """The motion at `times`, whole multiples of `step` [s] from 0, by a plan for the scene.
 
-        tied_to: the step [s] which the recipe's tied numbers follow (the step itself, or the
-        ladder's largest). reactions: the wanted `joint.fx|fy|force|torque` and
-        `contact.normal|tangent`; others are not computed. record: keep the states of every step
-        too, from which event times are read. Raises Diverged.
+        reactions: the wanted `joint.fx|fy|force|torque|friction` and `contact.normal|tangent`,
+        of which those not withheld are given; others are not computed. record: keep the states
+        of every step too, from which event times are read. Raises Diverged.
         """
         ...
 
-    def prepare(
-        self, scene: Scene, start: State, step: float, *, realised: Realised
-    ) -> Callable[[int], None]:
-        """A function that takes n bare steps of the engine's own loop, for the benchmark."""
+    def script(
+        self, scene: Scene, start: State, step: float, plan: Plan, *, title: str = ""
+    ) -> str:
+        """The scene as the engine's own file or script, ready to paste, headed by comments.
+
+        title: what it shows, in words of the user's: they are text there, and never code.
+        """
+        ...
+
+
+@runtime_checkable
+class Loop(Protocol):
+    """What an engine may offer beside the protocol: its bare loop, for `textmech bench`."""
+
+    def loop(self, scene: Scene, start: State, step: float, plan: Plan) -> Callable[[int], None]:
+        """A function that takes n bare steps of the engine's own loop."""
+        ...
+
+
+class Maker(Protocol):
+    """What an entry point names, usually the engine's class."""
+
+    offers: tuple[str, ...]
+    """Its settings: of `shipped` and `tuned` those it has."""
+
+    def __call__(self, setting: str, options: Mapping[str, Any]) -> Engine:
+        """The engine with a setting it offers, or with `own` and the user's options.
+
+        Raises ValueError for mistaken options: a line `<engine>.<option>: what is wrong` for each.
+        """
         ...

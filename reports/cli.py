@@ -2,6 +2,7 @@
 
 import signal
 import sys
+import warnings
 from pathlib import Path
 
 import click
@@ -59,7 +60,7 @@ def command() -> None:
     "names",
     multiple=True,
     metavar="E",
-    help="mujoco, pymunk, book, or e.g. mujoco.tuned.",
+    help="An installed engine, as mujoco, pymunk; book; or with its setting, as mujoco.tuned.",
 )
 @click.option(
     "--settings",
@@ -93,13 +94,17 @@ def run(
     from .show import terminal
 
     chosen = choose_cases(cases)
+    with warnings.catch_warnings(record=True) as broken:
+        engines = choose_engines(names, settings)
+    for warning in broken:
+        click.echo(f"warning: {warning.message}", err=True)
     for folder in (out, keep):
         if folder is not None:
             _prepare(folder)  # before the work, not after it
     with terminal.progress() as progress:
         report = suite.measure(
             chosen,
-            choose_engines(names, settings),
+            engines,
             jobs=jobs or pool.workers(),
             progress=progress,
             book=choose_book(names, settings),
@@ -163,7 +168,7 @@ def list_() -> None:
     """The shipped cases, with their sources and titles."""
     from .selection import choose_cases
 
-    cases = choose_cases([])
+    cases = choose_cases([], known=None)
     width = max(len(case.name) for case in cases)
     for case in cases:
         click.echo(f"{case.name:{width}}  {case.title}\n{'':{width}}    {case.origin}")
@@ -172,7 +177,11 @@ def list_() -> None:
 @command.command()
 @click.argument("case")
 @click.option(
-    "--engine", "name", required=True, metavar="E", help="mujoco, pymunk, or e.g. mujoco.shipped."
+    "--engine",
+    "name",
+    required=True,
+    metavar="E",
+    help="An engine, or engine.setting.",
 )
 def show(case: str, name: str) -> None:
     """The scene as the engine's own file or script, with the settings and their reasons."""
@@ -183,8 +192,11 @@ def show(case: str, name: str) -> None:
     if len(chosen) > 1:
         names = ", ".join(c.name for c in chosen)
         raise click.UsageError(f"{case} has variants; show one of: {names}")
-    full = name if "." in name else f"{name}.tuned"
-    (engine,) = choose_engines([full], [])
+    engines = choose_engines([name], [])
+    if not engines:
+        raise click.UsageError(f"{name} is no engine, and has no file of its own")
+    # Of a bare name the tuned setting, or what else the engine offers.
+    engine = next((e for e in engines if e.setting == "tuned"), engines[0])
     click.echo(script(chosen[0], engine), nl=False)
 
 

@@ -74,31 +74,32 @@ class CaseFile(pytest.File):
     def collect(self) -> Iterator[pytest.Item]:
         from ..cases.load import load
         from ..cases.mistake import CaseError
-        from .selection import HANDWRITTEN, choose_book, choose_engines
+        from .selection import ENGINES, HANDWRITTEN, choose_book, choose_engines
         from .trial.book import producers
-        from .trial.trial import judged_names, realisations
+        from .trial.start import assembled
+        from .trial.trial import judged_names, ways
 
         try:
-            cases = load(self.path, systems=HANDWRITTEN)
+            cases = load(self.path, systems=HANDWRITTEN, engines=ENGINES)
             names = self.config.getoption("textmech_engine") or []
             engines = choose_engines(names, [])
+            wanted = self.config.getoption("textmech_case") or (self.path.stem,)
+            cases = [c for c in cases if c.name in wanted or self.path.stem in wanted]
+            starts = [assembled(case) for case in cases]
         except CaseError as error:
             raise self.CollectError(str(error)) from None
-        wanted = self.config.getoption("textmech_case")
-        for case in cases:
-            if wanted and case.name not in wanted and self.path.stem not in wanted:
-                continue
+        for case, start in zip(cases, starts, strict=True):
             name = f"{case.name}-reference"
             yield CertificateItem.from_parent(self, name=name, case=case)
             for engine in producers(case, engines, book=choose_book(names, [])):
-                for realised in realisations(engine, case.scene):
+                for way in ways(engine, case.scene, start):
                     for quantity in ("audit", *judged_names(case)):
-                        how = "" if realised == "native" else f".{realised}"
+                        how = "" if way.realised == "native" else f".{way.realised}"
                         yield ComparisonItem.from_parent(
                             self,
                             name=f"{case.name}-{engine.name}.{engine.setting}{how}-{quantity}",
                             case=case,
-                            key=(case.name, engine.name, engine.setting, realised, quantity),
+                            key=(case.name, engine.name, engine.setting, way.realised, quantity),
                         )
 
 
@@ -202,8 +203,9 @@ def _measure(session: pytest.Session) -> "Report | Exception":
     items = [item for item in session.items if isinstance(item, CaseItem)]
     cases = {item.case.name: item.case for item in items}
     used = {item.key[1:3] for item in items if isinstance(item, ComparisonItem)}
-    engines = [e for e in choose_engines([], []) if (e.name, e.setting) in used]
     book = any(name == BOOK for name, _ in used)
+    names = [f"{name}.{setting}" for name, setting in sorted(used) if name != BOOK]
+    engines = choose_engines(names, []) if names else []
     try:
         return suite.measure(
             list(cases.values()),

@@ -1,6 +1,7 @@
 """From the words of a command line to cases and engines."""
 
-from collections.abc import Mapping, Sequence
+import warnings
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import fields
 from pathlib import Path
 from typing import Any, cast
@@ -8,20 +9,24 @@ from typing import Any, cast
 from .. import engines
 from ..cases.case import Case
 from ..cases.find import find, shipped
+from ..cases.language.check.engines import Engines
 from ..cases.language.read.document import read
 from ..cases.load import load
-from ..cases.mistake import CaseError, Mistake, nearest
+from ..cases.mistake import CaseError, Mistake, Source, nearest
 from ..engines.engine import Engine
 from ..reference.systems import SYSTEMS
 
 BOOK = "book"
+ENGINES = engines.Known()
 HANDWRITTEN = {
     name: tuple(f.name for f in fields(cast(Any, system))) for name, system in SYSTEMS.items()
 }
 
 
-def choose_cases(words: Sequence[str]) -> list[Case]:
+def choose_cases(words: Sequence[str], *, known: Engines | None = ENGINES) -> list[Case]:
     """The cases of the words: names, `name.variant`, or paths; all shipped ones for none.
+
+    known: the engines that they may name; None: whatever they name, and nothing is imported.
 
     Raises CaseError with the mistakes of all files.
     """
@@ -29,7 +34,7 @@ def choose_cases(words: Sequence[str]) -> list[Case]:
     mistakes: list[Mistake] = []
     for word in words or shipped():
         try:
-            for case in _cases(word):
+            for case in _cases(word, known):
                 other = Path(cases.setdefault(case.name, case).source.file)
                 if other.resolve() != Path(case.source.file).resolve():
                     what = f"{other} already has the name {case.name!r}: rename one of the files"
@@ -41,11 +46,11 @@ def choose_cases(words: Sequence[str]) -> list[Case]:
     return list(cases.values())
 
 
-def _cases(word: str) -> list[Case]:
+def _cases(word: str, known: Engines | None) -> list[Case]:
     stem, _, variant = word.partition(".")
     if stem not in shipped() or not variant or Path(word).exists():
-        return load(find([word])[0], systems=HANDWRITTEN)
-    cases = load(shipped()[stem], systems=HANDWRITTEN)
+        return load(find([word])[0], systems=HANDWRITTEN, engines=known)
+    cases = load(shipped()[stem], systems=HANDWRITTEN, engines=known)
     chosen = [case for case in cases if case.name == word]
     if not chosen:
         names = [case.name for case in cases]
@@ -54,24 +59,26 @@ def _cases(word: str) -> list[Case]:
 
 
 def choose_engines(names: Sequence[str], settings: Sequence[str]) -> list[Engine]:
-    """Engines × settings, in the order of the one list; none means all.
+    """Engines × settings, by name; none means all. A name may carry its setting (`mujoco.tuned`).
 
-    A name may carry its setting (`mujoco.tuned`). A setting that is not `shipped` or `tuned` is a
-    file of the user's own options, a further column. Raises CaseError.
+    A setting that no engine offers is a file of the user's own options, a further column. Raises
+    CaseError; an engine that nobody named and that cannot be imported is a warning.
     """
-    files = [Path(word) for word in settings if word not in engines.SETTINGS]
-    named = [word for word in settings if word in engines.SETTINGS] or list(engines.SETTINGS)
     for word in names:
         _known(word)
-    wanted = [
-        (name, setting)
-        for name in engines.NAMES
-        for setting in named
-        if not names or name in names or f"{name}.{setting}" in names
+    offers = _offers({word.partition(".")[0] for word in names if word != BOOK})
+    for word in names:
+        _offered(word, offers)
+    every = {setting for offered in offers.values() for setting in offered}
+    named = [word for word in settings if word in every] or every
+    found = [
+        engines.make(name, setting)
+        for name, offered in offers.items()
+        for setting in offered
+        if setting in named and (not names or name in names or f"{name}.{setting}" in names)
     ]
-    found = [engines.engine(name, setting) for name, setting in wanted]
-    for file in files:
-        own = read_settings(file)
+    for file in (Path(word) for word in settings if word not in every):
+        own = read_settings(file, sorted(every))
         found += [e for name, e in own.items() if not names or name in names]
     if not found and not choose_book(names, settings):
         what = f"with --settings {', '.join(settings)} no engine is left"
@@ -85,21 +92,46 @@ def choose_book(names: Sequence[str], settings: Sequence[str]) -> bool:
 
 
 def _known(word: str) -> None:
-    known = [BOOK, *engines.NAMES, *(f"{n}.{s}" for n in engines.NAMES for s in engines.SETTINGS)]
-    if word not in known:
-        raise CaseError([Mistake("--engine", 0, 0, word, f"no such engine{nearest(word, known)}")])
+    """Raises CaseError for a name that no installed engine has; its setting is not asked yet."""
+    name, _, setting = word.partition(".")
+    if word == BOOK or name in engines.names():
+        return
+    known = [BOOK, *engines.names()]
+    hints = [f"{other}.{setting}" for other in known] if setting else known
+    raise CaseError([Mistake("--engine", 0, 0, word, f"no such engine{nearest(word, hints)}")])
 
 
-def read_settings(file: Path) -> dict[str, Engine]:
+def _offers(asked: Set[str]) -> dict[str, tuple[str, ...]]:
+    """The settings of the engines that are asked for, or of all; no other is imported."""
+    offers: dict[str, tuple[str, ...]] = {}
+    for name in engines.names():
+        if not asked or name in asked:
+            try:
+                offers[name] = engines.settings(name)
+            except engines.Broken as broken:
+                if asked:
+                    raise CaseError([Mistake("--engine", 0, 0, name, str(broken))]) from None
+                warnings.warn(str(broken), stacklevel=3)
+    return offers
+
+
+def _offered(word: str, offers: Mapping[str, Sequence[str]]) -> None:
+    name, dot, setting = word.partition(".")
+    if dot and setting not in offers[name]:
+        hint = nearest(word, [f"{name}.{offered}" for offered in offers[name]])
+        raise CaseError([Mistake("--engine", 0, 0, word, f"no such engine{hint}")])
+
+
+def read_settings(file: Path, offered: Sequence[str]) -> dict[str, Engine]:
     """A file of engine → options as engines with the setting `own`. Raises CaseError."""
     if not file.exists() and file.suffix not in (".yaml", ".yml"):
-        hint = nearest(str(file), engines.SETTINGS) or "; shipped, tuned, or a YAML file"
+        hint = nearest(str(file), offered) or f"; {', '.join(offered)}, or a YAML file"
         raise CaseError([Mistake("--settings", 0, 0, str(file), f"no such setting{hint}")])
     document = read(file)
     mistakes, found = list(document.mistakes), {}
     for name, options in document.data.items():
-        if name not in engines.NAMES:
-            what = f"no such engine{nearest(name, engines.NAMES)}"
+        if name not in engines.names():
+            what = f"no such engine{nearest(name, engines.names())}"
             mistakes.append(document.source.mistake((name,), what))
         elif not isinstance(options, Mapping):
             what = "should be a map of the engine's options, for instance {step: 1.0e-3}"
@@ -112,10 +144,12 @@ def read_settings(file: Path) -> dict[str, Engine]:
 
 
 def _options(
-    source: Any, name: str, options: Mapping[str, Any], found: dict[str, Engine]
+    source: Source, name: str, options: Mapping[str, Any], found: dict[str, Engine]
 ) -> list[Mistake]:
     try:
-        found[name] = engines.engine(name, "own", options)
+        found[name] = engines.make(name, engines.OWN, options)
+    except engines.Broken as broken:
+        return [source.mistake((name,), str(broken))]
     except ValueError as error:
         return [
             source.mistake(tuple(place.split(".")), what)

@@ -6,7 +6,8 @@ from typing import Any
 
 from ..cases.case import Case
 from ..cases.mistake import CaseError
-from ..engines.engine import Engine
+from ..cases.scene import Scene
+from ..engines.engine import Engine, Plan, Refusal, State
 from ..reference.solve import Solution, solve
 from . import pool
 from .events.times import never
@@ -14,7 +15,8 @@ from .judge.compare import Outcome, compare, crashed
 from .judge.instants import of_reference
 from .row import FAILS, Certificate, Comparison, Instant, Rungs
 from .trial.book import producers
-from .trial.trial import Trial, realisations
+from .trial.start import first
+from .trial.trial import Trial, ways
 
 Progress = Callable[[str, int, int], None]
 """What is being done, how much is done, out of how much."""
@@ -53,15 +55,10 @@ def measure(
     """
     report = Report()
     solutions = _solutions(cases, jobs, progress, report)
-    trials = [
-        Trial(case, solutions[case.name].trajectory, engine, realised)
-        for case in cases
-        for engine in producers(case, engines, book=book)
-        for realised in realisations(engine, case.scene)
-    ]
+    trials, lost = _trials(cases, engines, solutions, jobs, book=book)
     outcomes = dict(_watched(compare, trials, jobs, "engines", progress))
-    for index, trial in enumerate(trials):
-        outcome = outcomes[index]
+    ended = [*lost, *((trial, outcomes[index]) for index, trial in enumerate(trials))]
+    for trial, outcome in ended:
         if isinstance(outcome, pool.Died):
             outcome = crashed(trial, outcome.because)
         outcome = _counted(outcome, solutions[trial.case.name])
@@ -70,6 +67,35 @@ def measure(
         report.instants += outcome.instants
         report.trials.append((trial, outcome))
     return report
+
+
+def _trials(
+    cases: Sequence[Case],
+    engines: Sequence[Engine],
+    solutions: Mapping[str, Solution],
+    jobs: int,
+    *,
+    book: bool,
+) -> tuple[list[Trial], list[tuple[Trial, pool.Died]]]:
+    """Every way of every engine, and what died while it planned."""
+    trials: list[Trial] = []
+    lost: list[tuple[Trial, pool.Died]] = []
+    pairs = [(case, engine) for case in cases for engine in producers(case, engines, book=book)]
+    starts = {case.name: first(solutions[case.name].trajectory) for case in cases}
+    tasks = [(engine, case.scene, starts[case.name]) for case, engine in pairs]
+    found = dict(pool.run(_planned, tasks, jobs=jobs))
+    for index, (case, engine) in enumerate(pairs):
+        planned, reference = found[index], solutions[case.name].trajectory
+        if isinstance(planned, pool.Died):
+            gone = Refusal("native", planned.because)
+            lost.append((Trial(case, reference, engine, gone), planned))
+        else:
+            trials += [Trial(case, reference, engine, way) for way in planned]
+    return trials, lost
+
+
+def _planned(task: tuple[Engine, Scene, State]) -> tuple[Plan | Refusal, ...]:
+    return ways(*task)
 
 
 def _solutions(

@@ -92,6 +92,7 @@ pymunk.ELEMENTS[Cable] = pymunk.Element(
 
 from textmech.cases.load import load
 from textmech.cases.observe import observe
+from textmech.engines.engine import Plan
 from textmech.reference.solve import solve
 
 CASE = """\
@@ -120,9 +121,18 @@ def main(folder: Path) -> None:
     assert set(observe(case.scene, reference, "rope.force")) == {9.0}
     print("energy", np.ptp(observe(case.scene, reference, "energy.total")))
     start = {name: tuple(rows[0].tolist()) for name, rows in reference.states.items()}
-    way: dict[str, Any] = {"tied_to": 1e-3, "realised": "native"}
     for engine, forces in ((MuJoCo("tuned"), ("hinge.fx",)), (Pymunk("tuned"), ())):
-        found = engine.run(case.scene, start, case.times, 1e-3, reactions=forces, **way)  # type: ignore[arg-type]
+        plan, *_ = engine.plans(case.scene, start)  # type: ignore[arg-type]
+        assert isinstance(plan, Plan)
+        found = engine.run(
+            case.scene,
+            start,  # type: ignore[arg-type]
+            case.times,
+            1e-3,
+            plan,
+            reactions=forces,
+            record=False,
+        )
         angle = found.states["rod"][:, ANGLE] - reference.states["rod"][:, ANGLE]
         print(engine.name, np.abs(angle).max())
         for name in forces:

@@ -7,6 +7,7 @@ import sys
 import sysconfig
 import venv
 import zipfile
+from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
@@ -31,23 +32,31 @@ allow: {rod.angle: 1.0e-2}
 
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Built from a copy: setuptools keeps what it built once, and would pack removed files."""
-    copy, out = tmp_path_factory.mktemp("source") / "textmech", tmp_path_factory.mktemp("wheel")
-    copy.mkdir()
-    for name in (*OURS, "pyproject.toml", "README.md", "LICENSE"):
-        if (ROOT / name).is_dir():
-            shutil.copytree(ROOT / name, copy / name, ignore=shutil.ignore_patterns("__pycache__"))
-        else:
-            shutil.copy(ROOT / name, copy / name)
-    run(sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--no-build-isolation",
-        "--disable-pip-version-check", "--wheel-dir", out, copy, cwd=copy)  # fmt: skip
-    (file,) = out.glob("textmech-*.whl")
-    return file
+    return built(ROOT, (*OURS, "pyproject.toml", "README.md", "LICENSE"), tmp_path_factory)
 
 
 @pytest.fixture(scope="module")
 def python(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A fresh environment: the wheel, and the packages it needs as links to those of this one."""
+    return environment(tmp_path_factory, wheel)
+
+
+def built(root: Path, parts: Iterable[str], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The wheel of a copy: setuptools keeps what it built once, and would pack removed files."""
+    copy, out = tmp_path_factory.mktemp("source") / root.name, tmp_path_factory.mktemp("wheel")
+    copy.mkdir()
+    for name in parts:
+        if (root / name).is_dir():
+            shutil.copytree(root / name, copy / name, ignore=shutil.ignore_patterns("__pycache__"))
+        else:
+            shutil.copy(root / name, copy / name)
+    run(sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--no-build-isolation",
+        "--disable-pip-version-check", "--wheel-dir", out, copy, cwd=copy)  # fmt: skip
+    (file,) = out.glob("*.whl")
+    return file
+
+
+def environment(tmp_path_factory: pytest.TempPathFactory, *wheels: Path) -> Path:
+    """A fresh environment: the wheels, and the packages they need as links to those of this one."""
     folder = tmp_path_factory.mktemp("environment")
     venv.create(folder / "venv", with_pip=False, symlinks=True)
     python = folder / "venv" / "bin" / "python"
@@ -56,7 +65,7 @@ def python(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
         if not any(name in package.name for name in NAMES):
             (site / package.name).symlink_to(package)
     run(sys.executable, "-m", "pip", "--python", python, "install", "--quiet", "--no-deps",
-        "--disable-pip-version-check", wheel)  # fmt: skip
+        "--disable-pip-version-check", *wheels)  # fmt: skip
     return python
 
 
@@ -126,3 +135,46 @@ def test_the_plug_in_imports_nothing_of_ours_until_a_case_is_collected(
     )
     done = run(python, "-m", "pytest", "-q", "-s", "test_mine.py", cwd=project)
     assert "imported: textmech.reports textmech.reports.pytest_plugin\n" in done.stdout
+
+
+BALL = """\
+title: A ball on a spring, thrown
+scene:
+  points: {O: [0, 0]}
+  bodies: {ball: {particle: {mass: 0.5}}}
+  forces: {coil: {spring: [ground.O, ball.center], stiffness: 20.0, rest_length: 0.5}}
+initial: {ball: {x: 0, y: -0.6, vx: 0.3, vy: 0}}
+duration: 0.4
+samples: 6
+allow: {ball.x: 1.0e-2}
+reach: {toy: {ball.x: 1.0e-2}}
+"""
+
+
+def test_an_engine_of_somebody_else_is_a_column(
+    wheel: Path, project: Path, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    """Its wheel beside ours is all: no file of ours names it."""
+    toy = ROOT / "tests" / "toy_engine"
+    parts = ("pyproject.toml", "toy_engine.py")
+    python = environment(tmp_path_factory, wheel, built(toy, parts, tmp_path_factory))
+    (project / "ball.yaml").write_text(BALL, encoding="utf-8")
+    command = (python.parent / "textmech", "run", "ball.yaml", "swing.yaml", "--out", "out")
+    done = run(*command, cwd=project)
+    assert "toy.shipped" in done.stdout
+    rows = (project / "out" / "tolerance.csv").read_text(encoding="utf-8").splitlines()
+    toys = [row.split(",") for row in rows if ",toy," in row]
+    assert [(row[0], row[7]) for row in toys] == [
+        ("ball", "audit"),
+        ("ball", "ball.x"),
+        ("swing", "rod.angle"),
+    ]
+    assert [row[-2] for row in toys] == [
+        "agrees",
+        "agrees",
+        "refused: engine: toy has no joints and no contacts",
+    ]
+    ladder = (project / "out" / "convergence.csv").read_text(encoding="utf-8")
+    assert "ball,toy,1.0,shipped,native,held,ball.x" in ladder
+    done = run(python, "-m", "pytest", "-v", "ball.yaml", "--textmech-engine", "toy", cwd=project)
+    assert "ball.yaml::ball-toy.shipped-ball.x PASSED" in done.stdout

@@ -90,6 +90,14 @@ def test_only_adapters_know_their_engine() -> None:
                 assert file.is_relative_to(ROOT / "engines" / engine)
 
 
+def test_no_engine_is_named_in_the_cases_code() -> None:
+    """Nor in its schema: which engines there are is told to `load`."""
+    for file in (ROOT / "cases").rglob("*"):
+        if file.suffix in (".py", ".json"):
+            text = file.read_text(encoding="utf-8").lower()
+            assert not [name for name in ("mujoco", "pymunk") if name in text], file
+
+
 def test_every_public_function_says_what_it_is() -> None:
     bare = [
         f"{file.relative_to(ROOT)}: {node.name}"

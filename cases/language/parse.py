@@ -23,7 +23,6 @@ _HOLLOW: dict[str, Any] = {
     "initial": {},
     "duration": 1.0,
     "samples": 3,
-    "step": {"mujoco": 1.0},
     "allow": {"-": 1.0},
 }
 
@@ -87,6 +86,8 @@ def _path(loc: tuple[str | int, ...]) -> Path:
     """pydantic's location without the names it gives to the branches of a choice."""
     if loc[0] == "scene":
         loc = (*loc[:3], *(word for word in loc[3:] if not str(word).startswith("<")))
+    if loc[0] == "step":
+        loc = (loc[0], *loc[2:])
     return loc[:-1] if len(loc) > 1 and loc[-1] == "[key]" else loc
 
 

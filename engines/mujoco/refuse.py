@@ -1,17 +1,18 @@
 """Scenes that MuJoCo has no element for, the adapter does not build, or that do not compile."""
 
-from collections.abc import Iterable
-
 from ...cases.scene import GROUND, Joint, Scene
-from ..engine import Choice
+from ..engine import Plan, State
+from .compilation import NOMINAL, compiled
 from .contact import LEAST_BOUNCE
-from .run import load
-from .scene import mjcf
+from .force import ELEMENTS
 from .tree import Branch, Tree, built_as, spanning_tree
 
 
 def unbuildable(scene: Scene) -> str | None:
     """The first joint or contact that has no counterpart."""
+    for force in scene.forces.values():
+        if type(force) not in ELEMENTS:
+            return f"adapter: {force.name} is a {force.word}, which it does not build"
     tree = spanning_tree(scene)
     for joint in tree.loops:
         if built_as(scene, joint).shifts:
@@ -49,11 +50,10 @@ def _slide(scene: Scene, tree: Tree, branch: Branch, joint: Joint) -> str | None
     return None
 
 
-def uncompilable(scene: Scene, choices: Iterable[Choice]) -> str | None:
-    """What MuJoCo's compiler says of the scene, whatever its start."""
-    anywhere = dict.fromkeys(scene.bodies, (0.0,) * 6)
+def uncompilable(scene: Scene, start: State, plan: Plan) -> str | None:
+    """What MuJoCo's compiler says of the scene."""
     try:
-        load(mjcf(scene, anywhere, choices))  # type: ignore[arg-type]
+        compiled(scene, start, NOMINAL, plan)
     except ValueError as refusal:
         return f"engine: MuJoCo does not take the scene: {' '.join(str(refusal).split())}"
     return None

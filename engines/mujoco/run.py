@@ -31,10 +31,9 @@ def heard() -> Iterator[list[str]]:
         mujoco.set_mju_user_warning(before)
 
 
-def load(text: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """The model, and data at its start. Raises ValueError with what MuJoCo does not take."""
+def started(model: mujoco.MjModel) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """The model, and data at its start."""
     with heard(), installed(None):
-        model = mujoco.MjModel.from_xml_string(text)
         data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, 0)
     return model, data

@@ -1,6 +1,6 @@
 """A scene as a stand-alone Python script, written from the very objects that would be stepped."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from pymunk.body import Body
@@ -28,11 +28,17 @@ for body in bodies.values():
     body.angle -= h / 2 * body.angular_velocity"""
 
 
-def text(scene: Scene, start: State, step: float, numbers: Mapping[str, Any]) -> str:
-    """The script: builds the scene, runs one second, prints name x y angle vx vy omega."""
+def text(
+    scene: Scene, start: State, step: float, numbers: Mapping[str, Any], head: Iterable[str]
+) -> str:
+    """The script: builds the scene, runs one second, prints name x y angle vx vy omega.
+
+    head: what the scene is, as comments.
+    """
     world = build(scene, start, numbers, "native")
     midpoint, seed = numbers.get("time.midpoint"), numbers.get("start.seed")
     lines = [
+        *(f"# {line}" for line in head),
         "import math",
         "",
         "import pymunk",

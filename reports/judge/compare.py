@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
+from ...engines.engine import Refusal
 from ..row import AGREES, CRASHED, DIVERGED, FAILS, Comparison, Instant, Rungs
 from ..trial.audit import EQUAL, audit
 from ..trial.ladder import Ladder
@@ -14,7 +15,6 @@ from .fill import row, rungs
 from .verdict import verdict
 
 AWAY = 4  # of a ladder's largest steps: how far from an event a sample tells an order
-NOTHING_OF_ITS_OWN = "engine: it has nothing of its own for this; see the rows of laws and drivers"
 
 
 @dataclass(frozen=True)
@@ -30,9 +30,8 @@ class Outcome:
 def compare(trial: Trial) -> Outcome:
     """Runs the engine and judges every observed quantity."""
     names = judged_names(trial.case)
-    refusal = _refusal(trial)
-    if refusal:
-        return Outcome([row(trial, name, f"refused: {refusal}") for name in names])
+    if isinstance(trial.way, Refusal):
+        return Outcome([row(trial, name, f"refused: {trial.way.because}") for name in names])
     withheld = {name: _withheld(trial, name) for name in names}
     rows = [_audit(trial)]
     rows += [row(trial, name, f"refused: {why}") for name, why in withheld.items() if why]
@@ -50,14 +49,6 @@ def compare(trial: Trial) -> Outcome:
     return Outcome(rows + told, climbed + ladders, runs.judged, listed)
 
 
-def _refusal(trial: Trial) -> str | None:
-    scene = trial.case.scene
-    refusal = trial.engine.refuses(scene)
-    if refusal is None and trial.realised not in trial.engine.realisations(scene):
-        return NOTHING_OF_ITS_OWN
-    return refusal
-
-
 def _of_event(trial: Trial, name: str) -> bool:
     return trial.quantity(name).kind == "event"
 
@@ -66,7 +57,7 @@ def _withheld(trial: Trial, name: str) -> str | None:
     """Why the engine does not tell the quantity, or that of the event."""
     if _of_event(trial, name):
         name = trial.case.events[name.rpartition(".")[0]].quantity
-    return trial.engine.withholds(trial.case.scene, name)
+    return trial.plan.withheld.get(name)
 
 
 def crashed(trial: Trial, because: str) -> Outcome:
@@ -124,9 +115,7 @@ def _studies(
         (ladder, name): study(
             {h: samples[name] for h, samples in climbed.items()},
             trial.wanted(name),
-            exponents=trial.engine.exponents(
-                case.scene, trial.realised, held=ladder.name == "held"
-            ),
+            exponents=ladder.plan(trial.plan).exponents,
             allow=trial.allowed(name) or float("inf"),
             floor=metric.floor(trial.size(name), case.duration / min(climbed)),
             away=trial.away(AWAY * max(climbed)),

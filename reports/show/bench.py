@@ -7,22 +7,26 @@ case with events records every step.
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
+from typing import Protocol
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from ... import engines
 from ...cases.case import Case
-from ...engines.engine import Engine, State
-from ...reference.generated.mechanism import Mechanism
+from ...engines.engine import Engine, Loop, Plan, State
 from ...reference.integrators.explicit import dormand_prince
-from ...reference.start.assembly import assemble
 from ...reference.system import Array, Mode
 from ...reference.systems.double_pendulum import DoublePendulum
-from ..selection import choose_cases
+from ..selection import choose_cases, choose_engines
 from ..trial.ladder import wanted_reactions
+from ..trial.start import assembled
 
 Work = Callable[[], object]
+
+
+class Looped(Engine, Loop, Protocol):
+    """An engine that offers its bare loop."""
+
 
 ROUNDS = 10  # the minimum of ten: what the machine can do when nobody disturbs it
 STEP = 2e-4  # s, for all: what a step costs hardly depends on its size; no wheel rolls too far
@@ -37,13 +41,13 @@ def table() -> Iterator[str]:
     head = f"{'run':>9} {'building':>9} {'bare loop':>9}  (run - building) / bare loop"
     yield f"{f'{STEPS * SAMPLES} steps, {SAMPLES} samples':52} {head}"
     for case in _one_of_each_file():
-        for name in engines.NAMES:
-            for setting in engines.SETTINGS:
-                engine = engines.engine(name, setting)
-                ours, building, bare = _stepping(case, engine)
-                label = f"{case.name} in {name}.{setting}{', every step' if case.events else ''}"
-                numbers = " ".join(f"{s * 1e3:6.1f} ms" for s in (ours, building, bare))
-                yield f"{label:52} {numbers}  {(ours - building) / bare:.2f}"
+        start = assembled(case)
+        for engine, plan in _native(case, start):
+            ours, building, bare = _stepping(case, start, engine, plan)
+            label = f"{case.name} in {engine.name}.{engine.setting}"
+            label += ", every step" if case.events else ""
+            numbers = " ".join(f"{s * 1e3:6.1f} ms" for s in (ours, building, bare))
+            yield f"{label:52} {numbers}  {(ours - building) / bare:.2f}"
     yield ""
     yield f"{'to an error of 1e-10':52} {'ours':>9} {'scipy':>9}  ratio"
     ours, scipys = _integrators()
@@ -59,12 +63,18 @@ def _one_of_each_file() -> Iterator[Case]:
             yield case
 
 
-def _stepping(case: Case, engine: Engine) -> list[float]:
+def _native(case: Case, start: State) -> Iterator[tuple[Looped, Plan]]:
+    """The engines that offer their bare loop, each with its native plan of the case."""
+    for engine in choose_engines([], []):
+        if isinstance(engine, Loop):
+            for way in engine.plans(case.scene, start):
+                if isinstance(way, Plan) and way.realised == "native":
+                    yield engine, way
+
+
+def _stepping(case: Case, start: State, engine: Looped, plan: Plan) -> list[float]:
     """Seconds of the adapter's run, of building the scene, and of the engine's bare loop."""
     times = np.arange(SAMPLES + 1, dtype=np.float64) * (STEPS * STEP)
-    mechanism = Mechanism(case.scene, assemble(case))
-    poses = mechanism.poses(0.0, *mechanism.start())
-    start: State = {name: tuple(float(x) for x in pose) for name, pose in poses.items()}  # type: ignore[misc]
 
     def adapter() -> Work:
         return lambda: engine.run(
@@ -72,17 +82,16 @@ def _stepping(case: Case, engine: Engine) -> list[float]:
             start,
             times,
             STEP,
-            tied_to=STEP,
-            realised="native",
+            plan,
             reactions=wanted_reactions(case.scene, case.allow),
             record=bool(case.events),
         )
 
     def building() -> Work:
-        return lambda: engine.prepare(case.scene, start, STEP, realised="native")
+        return lambda: engine.loop(case.scene, start, STEP, plan)
 
     def bare() -> Work:
-        loop = engine.prepare(case.scene, start, STEP, realised="native")
+        loop = engine.loop(case.scene, start, STEP, plan)
         return lambda: loop(STEPS * SAMPLES)
 
     return _fastest(adapter, building, bare)

@@ -1,12 +1,14 @@
 """The book's own approximations of dry friction beside the engines: `book.karnopp` and others."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 from ...cases.case import Case
+from ...cases.quantity import table
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
-from ...engines.engine import Choice, Engine, Realised, State
+from ...engines.engine import Choice, Engine, Plan, State
 from ...reference.approximations.approximation import DELTA, KINDS, A, Example, approximated
 from ...reference.systems import SYSTEMS
 from ...reference.systems.dynamometer import Dynamometer
@@ -37,45 +39,25 @@ class Book:
     system: Example
     name: str = "book"
     version: str = "chapter 2"
-    comment: tuple[str, str] = ("# ", "")
     own_step: float | None = STEP
 
-    def realisations(self, scene: Scene) -> tuple[Realised, ...]:
-        """The approximation is all there is."""
-        return ("native",)
-
-    def refuses(self, scene: Scene) -> str | None:
-        """It is only offered where it applies."""
-        return None
-
-    def withholds(self, scene: Scene, quantity: str) -> str | None:
-        """It knows how the block moves, and no forces of the guide."""
-        part, _, field = quantity.rpartition(".")
+    def plans(self, scene: Scene, start: State) -> Sequence[Plan]:
+        """It is only offered where it applies; a fixed step that crosses events is of order 1."""
         forces = ("fx", "fy", "force", "torque", "friction")
-        return (
-            "adapter: only the motion is read" if part in scene.joints and field in forces else None
-        )
-
-    def tied(self, scene: Scene) -> bool:
-        """Its band and sharpness are the book's, whatever the step."""
-        return False
-
-    def exponents(self, scene: Scene, realised: Realised, *, held: bool) -> tuple[int, ...]:
-        """A fixed step that crosses events is of first order."""
-        return (1, 2)
-
-    def protocol(self, scene: Scene, start: State, step: float, realised: Realised) -> str:
-        """The two numbers of the approximations."""
         sharp = f", A = {A:g} s/m" if self.setting == "smooth" else ""
-        return f"band {DELTA:g} m/s{sharp}"
-
-    def choices(self, scene: Scene, step: float) -> list[Choice]:
-        """The book's."""
-        return [Choice("band", DELTA, "Examples 2.3 and 2.4"), Choice("sharpness", A, "the same")]
-
-    def script(self, scene: Scene, start: State, step: float) -> str:
-        """There is no engine to paste it into."""
-        return ""
+        return [
+            Plan(
+                "native",
+                held=(1, 2),
+                numbers=_numbers,
+                protocol=partial(_words, f"band {DELTA:g} m/s{sharp}"),
+                withheld={
+                    name: "adapter: only the motion is read"
+                    for name, quantity in table(scene).items()
+                    if quantity.part in scene.joints and quantity.field in forces
+                },
+            )
+        ]
 
     def measure(self, scene: Scene, start: State) -> dict[str, float]:
         """Its block is the case's."""
@@ -87,9 +69,8 @@ class Book:
         start: State,
         times: Array,
         step: float,
+        plan: Plan,
         *,
-        tied_to: float,
-        realised: Realised,
         reactions: tuple[str, ...],
         record: bool = False,
     ) -> Trajectory:
@@ -97,8 +78,17 @@ class Book:
         found = approximated(self.setting, self.system, times, step)
         return found if record else replace(found, record=None)
 
-    def prepare(
-        self, scene: Scene, start: State, step: float, *, realised: Realised
-    ) -> Callable[[int], None]:
-        """There is no bare loop to compare with."""
-        raise NotImplementedError
+    def script(
+        self, scene: Scene, start: State, step: float, plan: Plan, *, title: str = ""
+    ) -> str:
+        """There is no engine to paste it into."""
+        return ""
+
+
+def _numbers(step: float) -> Sequence[Choice]:
+    """The book's."""
+    return Choice("band", DELTA, "Examples 2.3 and 2.4"), Choice("sharpness", A, "the same")
+
+
+def _words(words: str, step: float) -> str:
+    return words

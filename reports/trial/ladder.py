@@ -1,14 +1,16 @@
 """Which steps an engine is run with: the judged one, and the rungs of its ladders."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from ...cases.case import Case
 from ...cases.scene import Scene
-from ...engines.engine import Engine
+from ...engines.engine import Engine, Plan
 
 COARSEST = 8e-3  # s: larger steps are of no use to anyone who controls a body
 RUNGS_DOWN = 5  # from an engine's own step: enough for Romberg and three orders
+USUAL = 1e-4  # s, where a case names no step: with it most shipped cases reach their textbook
+MULTIPLE = 4  # of the step is the sample interval, or h, 2 h and 4 h do not meet every sample
 
 
 @dataclass(frozen=True)
@@ -18,15 +20,22 @@ class Ladder:
     name: str
     steps: tuple[float, ...]  # smallest first, doubling
 
-    def tied_to(self, step: float) -> float:
-        return step if self.name == "following" else self.steps[-1]
+    def plan(self, plan: Plan) -> Plan:
+        """The plan with which the ladder is climbed."""
+        return plan if self.name == "following" else plan.held_at(self.steps[-1])
 
 
 def judged_step(case: Case, engine: Engine) -> float:
-    """The case's step, or the engine's own, shortened where it does not divide the interval."""
-    if engine.own_step is None:
-        return case.step[engine.name]
-    return case.interval / _whole(case.interval / engine.own_step)
+    """The step [s] at which an engine is judged: its own, else the case's, else the usual one.
+
+    The case's divides the sample interval as it is; the others are shortened until they do.
+    """
+    if engine.own_step is not None:
+        return case.interval / _whole(case.interval / engine.own_step)
+    given = case.step.get(engine.name) if isinstance(case.step, Mapping) else case.step
+    if given is not None:
+        return given
+    return case.interval / (MULTIPLE * _whole(case.interval / (MULTIPLE * USUAL)))
 
 
 def _whole(ratio: float) -> int:
@@ -34,14 +43,14 @@ def _whole(ratio: float) -> int:
     return max(1, -int(-(ratio - 1e-9) // 1))
 
 
-def ladders(case: Case, engine: Engine) -> Iterator[Ladder]:
-    """The engine's ladders for the case, the judged step's first."""
+def ladders(case: Case, engine: Engine, plan: Plan) -> Iterator[Ladder]:
+    """The plan's ladders for the case, the judged step's first."""
     h = judged_step(case, engine)
     if engine.own_step is not None:
         yield Ladder("held", tuple(h / 2**k for k in reversed(range(RUNGS_DOWN))))
         return
     steps = tuple(_upward(h, case.interval))
-    if engine.tied(case.scene):
+    if plan.following is not None:
         yield Ladder("following", steps)
     yield Ladder("held", steps)
 

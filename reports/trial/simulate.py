@@ -8,7 +8,7 @@ import numpy as np
 
 from ...cases.observe import observe
 from ...cases.trajectory import Array, Trajectory
-from ...engines.engine import Diverged
+from ...engines.engine import Diverged, Plan
 from ..events.times import engine_events
 from .ladder import Ladder, ladders, wanted_reactions
 from .trial import Trial
@@ -31,11 +31,12 @@ def simulate(trial: Trial, names: tuple[str, ...]) -> Runs:
     """Runs the engine from the reference's first row. Rungs that diverge are left out."""
     climbed: dict[Ladder, dict[float, Samples]] = {}
     lost = ""
-    for ladder in ladders(trial.case, trial.engine):
+    for ladder in ladders(trial.case, trial.engine, trial.plan):
         climbed[ladder] = {}
+        plan = ladder.plan(trial.plan)
         for h in reversed(ladder.steps):
             try:
-                climbed[ladder][h] = _run(trial, names, h, ladder.tied_to(h))
+                climbed[ladder][h] = _run(trial, names, h, plan)
             except Diverged as gone:
                 climbed[ladder].clear()  # what is coarser than a rung that diverged is no ladder
                 if h == trial.step:
@@ -44,7 +45,7 @@ def simulate(trial: Trial, names: tuple[str, ...]) -> Runs:
     return Runs(judged, climbed, lost)
 
 
-def _run(trial: Trial, names: tuple[str, ...], step: float, tied_to: float) -> Samples:
+def _run(trial: Trial, names: tuple[str, ...], step: float, plan: Plan) -> Samples:
     scene, events = trial.case.scene, trial.case.events
     wanted = dict.fromkeys((*names, *(event.quantity for event in events.values())))
     trajectory = trial.engine.run(
@@ -52,8 +53,7 @@ def _run(trial: Trial, names: tuple[str, ...], step: float, tied_to: float) -> S
         trial.start,
         trial.case.times,
         step,
-        tied_to=tied_to,
-        realised=trial.realised,
+        plan,
         reactions=wanted_reactions(scene, wanted),
         record=bool(events),
     )

@@ -11,17 +11,20 @@ from ...cases.observe import observe
 from ...cases.quantity import Quantity, event_quantities, table
 from ...cases.scene import Scene
 from ...cases.trajectory import VX, VY, Array, Trajectory, X, Y
-from ...engines.engine import Engine, Realised, State
+from ...engines.engine import Engine, Plan, Realised, Refusal, State
 from ..events.times import reference_events
 from .ladder import judged_step
+from .start import first
 
+NOTHING_OF_ITS_OWN = "engine: it has nothing of its own for this; see the rows of laws and drivers"
 SAME_COUNT = 0.5  # what counts may differ by where the case does not say: they are whole numbers
 
 
-def realisations(engine: Engine, scene: Scene) -> tuple[Realised, ...]:
-    """The ways in which a scene is tried: beside a law or driver always a native row or refusal."""
-    found = engine.realisations(scene)
-    return found if "native" in found else ("native", *found)
+def ways(engine: Engine, scene: Scene, start: State) -> tuple[Plan | Refusal, ...]:
+    """How a scene is tried: beside a law or driver always a native row, or why there is none."""
+    found = tuple(engine.plans(scene, start))
+    native = any(way.realised == "native" for way in found)
+    return found if native else (Refusal("native", NOTHING_OF_ITS_OWN), *found)
 
 
 def judged_names(case: Case) -> tuple[str, ...]:
@@ -32,12 +35,23 @@ def judged_names(case: Case) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Trial:
-    """What is compared; the names are those of the engine and of the case."""
+    """A case's reference, and an engine that runs the scene in one way, or refuses to."""
 
     case: Case
     reference: Trajectory
     engine: Engine
-    realised: Realised
+    way: Plan | Refusal
+
+    @property
+    def realised(self) -> Realised:
+        """`native`, `law` or `driver`."""
+        return self.way.realised
+
+    @property
+    def plan(self) -> Plan:
+        """The plan of a trial that is run."""
+        assert isinstance(self.way, Plan)
+        return self.way
 
     def wanted(self, quantity: str) -> Array:
         """The reference's samples (N,)."""
@@ -89,7 +103,7 @@ class Trial:
     @cached_property
     def protocol(self) -> str:
         """What was done to start and readout, and a shortened step where there is one."""
-        base = self.engine.protocol(self.case.scene, self.start, self.step, self.realised)
+        base = self.plan.protocol(self.step)
         own = self.engine.own_step
         short = own is not None and abs(self.step - own) > 1e-9 * own
         note = f"own step {own:g} s shortened to divide the interval" if short else ""
@@ -98,4 +112,4 @@ class Trial:
     @property
     def start(self) -> State:
         """Row 0 of the reference: where every engine starts."""
-        return {name: tuple(rows[0].tolist()) for name, rows in self.reference.states.items()}  # type: ignore[misc]
+        return first(self.reference)

@@ -10,6 +10,7 @@ from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 
 SYSTEMS = {"pendulum": ("m", "l", "phi0"), "wheel": ("R",)}
+ENGINES = {"mujoco": ("shipped", "tuned"), "pymunk": ("shipped", "tuned"), "broken": None}
 
 SOUND = """\
 title: A bar and a wheel
@@ -57,14 +58,14 @@ def mistakes(tmp_path: Path, text: str | bytes) -> CaseError:
     path = tmp_path / "case.yaml"
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
     with pytest.raises(CaseError) as caught:
-        load(path, systems=SYSTEMS)
+        load(path, systems=SYSTEMS, engines=ENGINES)
     return caught.value
 
 
 def test_sound(tmp_path: Path) -> None:
     path = tmp_path / "case.yaml"
     path.write_text(SOUND)
-    assert [case.name for case in load(path, systems=SYSTEMS)] == ["case"]
+    assert [case.name for case in load(path, systems=SYSTEMS, engines=ENGINES)] == ["case"]
 
 
 def test_table_is_read_whole() -> None:
@@ -191,3 +192,11 @@ def test_find(tmp_path: Path) -> None:
     assert said["four_bra"] == "no such case; did you mean 'four_bar'?"
     assert said[str(tmp_path)] == "is a directory; a case is one YAML file"
     assert said[str(tmp_path / "for_bar.yaml")] == "no such file; did you mean 'four_bar'?"
+
+
+def test_of_an_engine_that_cannot_be_imported_no_setting_is_known(tmp_path: Path) -> None:
+    path = tmp_path / "case.yaml"
+    path.write_text(SOUND.replace("pymunk.shipped", "broken.anything"))
+    assert [case.name for case in load(path, systems=SYSTEMS, engines=ENGINES)] == ["case"]
+    path.write_text(SOUND.replace("pymunk.shipped", "nobody.anything"))
+    assert [case.name for case in load(path, systems=SYSTEMS)] == ["case"]  # nobody asks

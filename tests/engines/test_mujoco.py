@@ -14,6 +14,7 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
+from planning import planned, refused
 
 from textmech.cases.case import Case
 from textmech.cases.load import load
@@ -59,8 +60,9 @@ def start(scene_case: Case) -> State:
 def moved(
     scene: Scene, begin: State, times: Array, step: float, engine: MuJoCo = TUNED, **given: Any
 ) -> Trajectory:
-    given = {"tied_to": step, "realised": "native", "reactions": ()} | given
-    return engine.run(scene, begin, times, step, **given)
+    plan = planned(engine, scene, begin)
+    wanted: dict[str, Any] = {"reactions": (), **given}
+    return engine.run(scene, begin, times, step, plan, **wanted)
 
 
 def rest(scene: Scene, begin: State) -> Trajectory:
@@ -136,7 +138,7 @@ def test_audit_sees(what: str, monkeypatch: pytest.MonkeyPatch) -> None:
     name, change = WRONG[what]
     built = builder.mjcf
     monkeypatch.setattr(
-        "textmech.engines.mujoco.mjcf",
+        "textmech.engines.mujoco.compilation.mjcf",
         lambda scene, *rest, **more: built(change(scene), *rest, **more),
     )
     assert (
@@ -201,7 +203,7 @@ def test_a_sine_between_steps_is_of_first_order() -> None:
     scene, begin = shaken()
 
     def held(h: float) -> Array:
-        model, data = loaded(TUNED.script(scene, begin, h))
+        model, data = loaded(TUNED.script(scene, begin, h, planned(TUNED, scene, begin)))
         found = [data.qpos[0]]
         for _ in range(len(TIMES) - 1):
             for _ in range(round(TIMES[1] / h)):
@@ -267,8 +269,8 @@ def test_a_blow_up_is_diverged(
     stiff = forces(scene, Spring, lambda f: replace(f, stiffness=1e9))
     with pytest.raises(Diverged, match=r"MuJoCo warns: .*unstable"):
         moved(stiff, begin, np.linspace(0, 100.0, 11), 0.1, engine)
-    engine.prepare(stiff, begin, 0.1, realised="native")(1000)
-    model, _ = loaded(engine.script(stiff, begin, 0.1))
+    engine.loop(stiff, begin, 0.1, planned(engine, stiff, begin))(1000)
+    model, _ = loaded(engine.script(stiff, begin, 0.1, planned(engine, stiff, begin)))
     assert model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_AUTORESET
     assert not list(tmp_path.iterdir())
 
@@ -280,7 +282,7 @@ def test_other_warnings_are_diverged_too(tmp_path: Path, monkeypatch: pytest.Mon
     def mixed(*given: Any) -> str:  # MuJoCo says so in the first step, and takes another pair
         return built(*given).replace('solref="0.02 1.0"', 'solref="0.02 -1.0"')
 
-    monkeypatch.setattr("textmech.engines.mujoco.mjcf", mixed)
+    monkeypatch.setattr("textmech.engines.mujoco.compilation.mjcf", mixed)
     c = case("four_bar")
     with pytest.raises(Diverged, match=r"MuJoCo warns: .*solref"):
         moved(c.scene, start(c), c.times[:3], 2e-3, SHIPPED)
@@ -299,7 +301,7 @@ def loaded(text: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
 def test_the_script_moves_as_the_run(name: str, engine: MuJoCo) -> None:
     c, step = case(name), case(name).interval / 40
     begin, times = start(c), c.times[:5]
-    model, data = loaded(engine.script(c.scene, begin, step))
+    model, data = loaded(engine.script(c.scene, begin, step, planned(engine, c.scene, begin)))
     with control.signals(c.scene):
         mujoco.mj_step(model, data, 40 * (len(times) - 1))
     mujoco.mj_kinematics(model, data)
@@ -358,7 +360,7 @@ REFUSED = {
 @pytest.mark.parametrize("why", REFUSED)
 def test_refused(why: str) -> None:
     for engine in (TUNED, SHIPPED):
-        found = engine.refuses(REFUSED[why])
+        found = refused(engine, REFUSED[why])
         assert found is not None
         assert found.startswith(("engine: ", "adapter: "))
         assert re.match(why, found), found
@@ -377,13 +379,13 @@ def test_odd_names(name: str) -> None:
         contacts={"touch": Contact("touch", Anchor(name, "center"), 0.5, 0.5, ideal="rolling")},
     )
     begin = {name: (0.0, 0.3, 0.0, 0, 0, 0), "rod": (0.5, 0.3, 0.0, 0, 0, 0)}
-    assert TUNED.refuses(scene) is None
+    assert refused(TUNED, scene) is None
     found = moved(scene, begin, np.linspace(0, 0.1, 3), 1e-3)
     assert np.all(np.isfinite(found.states[name]))
     assert worst(scene, begin) <= EQUAL
     hung = still({name: replace(ROD, name=name)}, [pin("A", "ground.O", f"{name}.start")])
     assert not spanning_tree(hung).loops
-    assert TUNED.refuses(hung) is None
+    assert refused(TUNED, hung) is None
 
 
 @pytest.mark.parametrize("mass", [1e-9, 1e9])
@@ -424,8 +426,8 @@ def test_the_floor_carries_a_disk_from_the_start() -> None:
     begin = {"wheel": (0.0, 0.3, 0.0, 0.0, 0.0, 0.0)}
     found = moved(scene, begin, np.linspace(0, 0.01, 3), 1e-4, reactions=("touch.normal",))
     assert found.reactions["touch.normal"][0] == pytest.approx(39.8, rel=1e-9)
-    assert "in the floor" in TUNED.protocol(scene, begin, 1e-4, "native")
-    assert not SHIPPED.protocol(scene, begin, 1e-4, "native")
+    assert "in the floor" in planned(TUNED, scene, begin).protocol(1e-4)
+    assert not planned(SHIPPED, scene, begin).protocol(1e-4)
     assert TUNED.measure(scene, begin)["momentum.y"] == 0.0
 
 

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from planning import planned
 
 from textmech.cases.load import load
 from textmech.engines.mujoco import MuJoCo
@@ -23,10 +24,9 @@ def test_record_holds_the_samples(case) -> None:  # type: ignore[no-untyped-def]
     mechanism = Mechanism(case.scene, assemble(case))
     start = mechanism.poses(0.0, *mechanism.start())
     step = case.interval / 8
-    motion = MuJoCo("tuned").run(
-        case.scene, start, case.times[:5], step,
-        tied_to=step, realised="native", reactions=(), record=True,
-    )  # fmt: skip
+    engine = MuJoCo("tuned")
+    plan = planned(engine, case.scene, start)
+    motion = engine.run(case.scene, start, case.times[:5], step, plan, reactions=(), record=True)
     assert motion.record is not None
     assert motion.record.phase is not None
     assert motion.record.times == pytest.approx(np.arange(33) * step, abs=1e-15)

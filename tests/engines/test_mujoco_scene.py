@@ -10,6 +10,7 @@ from functools import partial
 
 import numpy as np
 import pytest
+from planning import planned
 
 from textmech.cases.quantity import table
 from textmech.cases.scene import (
@@ -229,14 +230,12 @@ def both(build: Build, step: float = STEP) -> tuple[Trajectory, Trajectory]:
     alone = Only(found)
     followed = follow(alone, TIMES, by=partial(either, tolerance=SPECIFIC))
     start = found.poses(0.0, *found.start())
-    assert TUNED.refuses(build.scene) is None
     moved = TUNED.run(
         build.scene,
         start,
         TIMES,
         step,
-        tied_to=SOFT,
-        realised="native",
+        planned(TUNED, build.scene, start).held_at(SOFT),
         reactions=wanted(build.scene),
     )
     return Motion(alone, followed).trajectory(TIMES), moved

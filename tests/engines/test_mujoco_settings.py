@@ -6,6 +6,7 @@ from typing import Any
 from xml.etree import ElementTree as ET
 
 import pytest
+from planning import planned
 
 from textmech.cases.scene import Anchor, Contact, GroundPoint, Joint, Scene
 from textmech.cases.shape import bar, disk
@@ -52,7 +53,8 @@ OPTIONS: dict[str, Any] = {
 
 def attributes(options: dict[str, Any]) -> dict[str, set[str]]:
     """Where each attribute of the model stands, with its value."""
-    root = ET.fromstring(MuJoCo("own", options).script(WHEEL, START, 1e-3))
+    engine = MuJoCo("own", options)
+    root = ET.fromstring(engine.script(WHEEL, START, 1e-3, planned(engine, WHEEL, START)))
     found: dict[str, set[str]] = {}
     for element in (*root.iter("option"), *root.iter("pair"), *root.iter("connect")):
         for name, value in element.attrib.items():
@@ -129,14 +131,15 @@ def test_what_mujoco_refuses_is_said(
 
 
 def test_tuned_numbers_follow_the_step_and_say_why() -> None:
-    tuned = MuJoCo("tuned")
+    plan = planned(MuJoCo("tuned"), WHEEL, START)
     for step in (1e-4, 8e-4):
-        numbers = {choice.name: choice.value for choice in tuned.choices(WHEEL, step)}
+        numbers = {choice.name: choice.value for choice in plan.choices(step)}
         assert numbers["connect.solref"] == [4 * step, 1.0]
         assert numbers["pair.solref"] == [2 * step, 1.0]
-    assert all(choice.because for choice in tuned.choices(WHEEL, 1e-4))
-    assert tuned.tied(WHEEL)
-    assert not MuJoCo("shipped").tied(WHEEL)
+        assert plan.held_at(8e-4).choices(step) == plan.choices(8e-4)
+    assert all(choice.because for choice in plan.choices(1e-4))
+    assert plan.following is not None
+    assert planned(MuJoCo("shipped"), WHEEL, START).following is None
 
 
 def test_a_driven_points_mass_must_not_stop_the_solver() -> None:
@@ -147,17 +150,19 @@ def test_a_driven_points_mass_must_not_stop_the_solver() -> None:
         (MuJoCo("tuned"), 0.0),
         (MuJoCo("own", {"tolerance": 1e-6}), 1e-6),
     ):
-        numbers = {choice.name: choice.value for choice in engine.choices(towed, 1e-3)}
+        numbers = {
+            choice.name: choice.value for choice in planned(engine, towed, START).choices(1e-3)
+        }
         assert numbers["option.tolerance"] == tolerance
-    names = [choice.name for choice in MuJoCo("shipped").choices(WHEEL, 1e-3)]
+    names = [choice.name for choice in planned(MuJoCo("shipped"), WHEEL, START).choices(1e-3)]
     assert "option.tolerance" not in names
 
 
 def test_exponents() -> None:
     pinned = Scene(WHEEL.gravity, WHEEL.points, WHEEL.bodies, WHEEL.joints, {}, {})
     tuned, rk4 = MuJoCo("tuned"), MuJoCo("own", {"integrator": "RK4"})
-    assert tuned.exponents(pinned, "native", held=True) == (4, 5)
-    assert tuned.exponents(pinned, "native", held=False) == (2, 3)
-    assert tuned.exponents(WHEEL, "native", held=False) == (1, 2)
-    assert rk4.exponents(pinned, "native", held=False) == (4, 5)
-    assert MuJoCo("shipped").exponents(pinned, "native", held=True) == (1, 2)
+    assert planned(tuned, pinned, START).held_at(1e-3).exponents == (4, 5)
+    assert planned(tuned, pinned, START).exponents == (2, 3)
+    assert planned(tuned, WHEEL, START).exponents == (1, 2)
+    assert planned(rk4, pinned, START).exponents == (4, 5)
+    assert planned(MuJoCo("shipped"), pinned, START).exponents == (1, 2)

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from planning import planned, refused, ways
 from scipy.integrate import solve_ivp
 
 from textmech.cases.observe import observe
@@ -24,7 +25,7 @@ from textmech.cases.scene import (
 )
 from textmech.cases.shape import bar, disk, particle
 from textmech.cases.trajectory import OMEGA, VX, VY, Array, Trajectory, X, Y
-from textmech.engines.engine import Realised
+from textmech.engines.engine import Realised, State
 from textmech.engines.mujoco import MuJoCo
 from textmech.engines.mujoco.contact import damping_ratio
 
@@ -53,15 +54,14 @@ def run(
     reactions: tuple[str, ...] = (),
 ) -> Trajectory:
     (name,) = scene.bodies
-    assert TUNED.refuses(scene) is None
     x, y, angle, vx, vy, omega = start
+    begin = {name: (x, y, angle, vx, vy, omega)}
     return TUNED.run(
         scene,
-        {name: (x, y, angle, vx, vy, omega)},
+        begin,
         np.linspace(0, duration, 21),
         step,
-        tied_to=step,
-        realised=realised,
+        planned(TUNED, scene, begin, realised),
         reactions=reactions,
         record=True,
     )
@@ -163,7 +163,7 @@ def test_damper_throws_back(bounce: float) -> None:
 
 
 def test_refuses_a_bounce_too_small() -> None:
-    reason = TUNED.refuses(floor(WHEEL, touching("wheel", 0.3, 0.01)))
+    reason = refused(TUNED, floor(WHEEL, touching("wheel", 0.3, 0.01)))
     assert reason is not None
     assert reason.startswith("engine: ")
 
@@ -231,7 +231,7 @@ def test_friction_to_and_fro(way: str) -> None:
 def test_smooth_law_creeps() -> None:
     dry = replace(DRY, smooth=Smooth(5e-4, 1e5))
     scene = drawn(dry)
-    assert TUNED.realisations(scene) == ("native", "law")
+    assert ways(TUNED, scene, {"block": (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)}) == ("native", "law")
     motion = run(scene, REST, 6.0, realised="law")
     assert motion.record is not None
     stuck = (motion.record.times > 5.0) & (motion.record.times < 6.0)
@@ -241,5 +241,6 @@ def test_smooth_law_creeps() -> None:
 
 
 def test_realisations() -> None:
-    assert TUNED.realisations(pulled(DRY)) == ("native", "law", "driver")
-    assert TUNED.realisations(floor(WHEEL, touching("wheel", 0.3))) == ("native",)
+    still: State = {"block": (0.0, 0.0, 0.0, 0.0, 0.0, 0.0), "wheel": (0.0, R, 0.0, 0.0, 0.0, 0.0)}
+    assert ways(TUNED, pulled(DRY), still) == ("native", "law", "driver")
+    assert ways(TUNED, floor(WHEEL, touching("wheel", 0.3)), still) == ("native",)

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pymunk
 import pytest
+from planning import planned, refused, ways
 from pymunk.body import Body
 from pymunk.constraints import PivotJoint
 from pymunk.space import Space
@@ -23,7 +24,7 @@ from textmech.cases.observe import observe
 from textmech.cases.scene import Anchor, GroundPoint, Joint, Scene, Spring
 from textmech.cases.shape import bar, block, particle
 from textmech.cases.trajectory import ANGLE, Array, Trajectory, X, Y
-from textmech.engines.engine import Diverged, State
+from textmech.engines.engine import Diverged, Realised, State
 from textmech.engines.pymunk import Pymunk, settings
 from textmech.engines.pymunk import scene as builder
 from textmech.reference.generated.mechanism import Mechanism
@@ -53,20 +54,14 @@ def moved(
     step: float,
     *,
     engine: Pymunk = TUNED,
-    realised: str = "native",
+    realised: Realised = "native",
     reactions: tuple[str, ...] = (),
     times: Array | None = None,
 ) -> Trajectory:
     times = case(name).times if times is None else times
-    return engine.run(
-        case(name).scene,
-        start(name),
-        times,
-        step,
-        tied_to=step,
-        realised=realised,  # type: ignore[arg-type]
-        reactions=reactions,
-    )
+    scene, begin = case(name).scene, start(name)
+    plan = planned(engine, scene, begin, realised)
+    return engine.run(scene, begin, times, step, plan, reactions=reactions)
 
 
 def without(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
@@ -106,7 +101,7 @@ def expected(name: str) -> dict[str, float]:
 @pytest.mark.parametrize("engine", [SHIPPED, TUNED], ids=lambda e: e.setting)
 @pytest.mark.parametrize("name", NAMES)
 def test_the_engine_holds_the_same_physics(name: str, engine: Pymunk) -> None:
-    assert engine.refuses(case(name).scene) is None
+    assert refused(engine, case(name).scene, start(name)) is None
     measured = engine.measure(case(name).scene, start(name))
     assert measured == pytest.approx(expected(name), rel=1e-12, abs=1e-15)
 
@@ -149,8 +144,7 @@ def test_shipped_is_what_a_user_writes() -> None:
         poses,
         np.array([0.0, 1.0]),
         0.01,
-        tied_to=0.01,
-        realised="native",
+        planned(SHIPPED, scene, poses),
         reactions=("hinge.force",),
     )
     assert end.states["bar"][1, :3].tolist() == [*rod.position, rod.angle]
@@ -303,7 +297,7 @@ def sliding_error(kind: str) -> tuple[float, float]:
     times = np.linspace(0.0, 1.0, 26)
     exact = reference(scene, poses, times)
     run = TUNED.run(
-        scene, poses, times, 1e-3, tied_to=1e-3, realised="native", reactions=("hinge.force",)
+        scene, poses, times, 1e-3, planned(TUNED, scene, poses), reactions=("hinge.force",)
     )
     force = observe(scene, exact, "hinge.force")
     return (
@@ -336,7 +330,7 @@ def test_angle_of_a_weld_may_stand_on_another_turn() -> None:
     turned = dict(poses) | {"box": (x, y, angle + math.tau, vx, vy, omega)}
     times = np.array([0.0, 0.4])
     ends = [
-        TUNED.run(scene, p, times, 1e-3, tied_to=1e-3, realised="native", reactions=())
+        TUNED.run(scene, p, times, 1e-3, planned(TUNED, scene, p), reactions=())
         for p in (poses, turned)
     ]
     assert ends[1].states["rod"][-1] == pytest.approx(ends[0].states["rod"][-1], abs=1e-12)
@@ -359,7 +353,7 @@ def chain(n: int) -> tuple[Scene, State]:
 def energy_drift(n: int) -> float:
     scene, poses = chain(n)
     times = np.linspace(0.0, 0.8, 6)
-    run = TUNED.run(scene, poses, times, 2e-4, tied_to=2e-4, realised="native", reactions=())
+    run = TUNED.run(scene, poses, times, 2e-4, planned(TUNED, scene, poses), reactions=())
     energy = observe(scene, run, "energy.total")
     return np.abs(energy - energy[0]).max()
 
@@ -409,8 +403,8 @@ def test_a_wrong_option_is_named(options: dict[str, object], words: str) -> None
 def test_own_options_stand_on_top_of_the_shipped_ones() -> None:
     scene = case("four_bar").scene
     own = Pymunk("own", {"iterations": 50, "error_bias": 0, "step": 1e-3, "max_bias": math.inf})
-    chosen = {c.name: c.value for c in own.choices(scene, 1e-3)}
-    shipped = {c.name: c.value for c in SHIPPED.choices(scene, 1e-3)}
+    chosen = {c.name: c.value for c in planned(own, scene, start("four_bar")).choices(1e-3)}
+    shipped = {c.name: c.value for c in planned(SHIPPED, scene, start("four_bar")).choices(1e-3)}
     assert chosen == shipped | {"space.iterations": 50, "constraint.error_bias": 0}
     assert own.own_step == 1e-3
     assert (SHIPPED.own_step, TUNED.own_step) == (0.01, None)
@@ -419,45 +413,51 @@ def test_own_options_stand_on_top_of_the_shipped_ones() -> None:
 def test_every_choice_has_its_reason() -> None:
     for name in NAMES:
         for engine in (SHIPPED, TUNED):
-            assert all(choice.because for choice in engine.choices(case(name).scene, 1e-3))
+            assert all(
+                choice.because
+                for choice in planned(engine, case(name).scene, start(name)).choices(1e-3)
+            )
 
 
 def test_refused_scenes() -> None:
     scene, _ = sliding("slide")
     itself = Joint("loop", "pin", Anchor("rod", "start"), Anchor("rod", "end"))
     pin = replace(scene, joints={"loop": itself})
-    assert TUNED.refuses(pin) == "engine: loop joins rod to itself, on which pymunk aborts"
+    assert refused(TUNED, pin) == "engine: loop joins rod to itself, on which pymunk aborts"
     bead = particle(name="bead", mass=0.1)
     rail = Joint("rail", "slide", Anchor("rod", "P"), Anchor("bead", "center"), along=ALONG)
     beside = replace(scene, bodies={**scene.bodies, "bead": bead}, joints={"rail": rail})
-    assert TUNED.refuses(beside) is None
-    assert TUNED.exponents(beside, "native", held=True) == (1, 2)
+    assert refused(TUNED, beside) is None
+    begin = dict.fromkeys(beside.bodies, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    assert planned(TUNED, beside, begin).exponents == (1, 2)
     first = Joint("rail", "slide", Anchor("bead", "center"), Anchor("rod", "P"))
-    assert "which has no axes" in str(TUNED.refuses(replace(beside, joints={"rail": first})))
+    assert "which has no axes" in str(refused(TUNED, replace(beside, joints={"rail": first})))
     hollow = replace(scene, bodies={"rod": replace(scene.bodies["rod"], mass=math.inf)}, joints={})
-    assert "positive finite masses" in str(TUNED.refuses(hollow))
+    assert "positive finite masses" in str(refused(TUNED, hollow))
 
 
 def test_what_an_impulse_cannot_tell() -> None:
-    scene = case("slider_crank").scene
+    withheld = planned(TUNED, case("slider_crank").scene, start("slider_crank")).withheld
     for quantity in ("main.fx", "bore.fy", "bore.torque"):
-        reason = TUNED.withholds(scene, quantity)
-        assert reason == "engine: pymunk reports a joint's impulse as a magnitude only"
-    assert TUNED.withholds(scene, "main.force") is None
-    assert TUNED.withholds(scene, "crank.angle") is None
+        assert withheld[quantity] == "engine: pymunk reports a joint's impulse as a magnitude only"
+    assert "main.force" not in withheld
+    assert "crank.angle" not in withheld
 
 
 def test_declared_expansions_and_realisations() -> None:
-    free, oiled = (case(f"spring_mass_damper.{v}").scene for v in ("free", "critical"))
-    assert SHIPPED.exponents(oiled, "native", held=True) == (1, 2)
-    assert TUNED.exponents(oiled, "native", held=True) == (1, 2)
-    assert TUNED.exponents(oiled, "law", held=True) == (2, 3)
-    assert TUNED.exponents(free, "native", held=True) == (2, 3)
-    assert TUNED.realisations(oiled) == ("native", "law")
-    assert SHIPPED.realisations(oiled) == ("native",)
+    free, oiled = (
+        (case(f"spring_mass_damper.{v}").scene, start(f"spring_mass_damper.{v}"))
+        for v in ("free", "critical")
+    )
+    assert planned(SHIPPED, *oiled).exponents == (1, 2)
+    assert planned(TUNED, *oiled).exponents == (1, 2)
+    assert planned(TUNED, *oiled, "law").exponents == (2, 3)
+    assert planned(TUNED, *free).exponents == (2, 3)
+    assert ways(TUNED, *oiled) == ("native", "law")
+    assert ways(SHIPPED, *oiled) == ("native",)
     wheel = "rolling_wheel.pushed"
     shipped, tuned = (
-        engine.protocol(case(wheel).scene, start(wheel), 1e-3, "native")
+        planned(engine, case(wheel).scene, start(wheel)).protocol(1e-3)
         for engine in (SHIPPED, TUNED)
     )
     assert shipped == ""
@@ -472,7 +472,8 @@ def test_declared_expansions_and_realisations() -> None:
 @pytest.mark.parametrize("engine", [SHIPPED, TUNED], ids=lambda e: e.setting)
 @pytest.mark.parametrize("name", ["slider_crank", "towed_pendulum", "rolling_wheel.downhill"])
 def test_the_script_makes_the_same_motion(name: str, engine: Pymunk) -> None:
-    script = engine.script(case(name).scene, start(name), 0.01)
+    scene, begin = case(name).scene, start(name)
+    script = engine.script(scene, begin, 0.01, planned(engine, scene, begin))
     out = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     ends = {line.split()[0]: line.split()[1:] for line in out.stdout.splitlines()}
     run = moved(name, 0.01, engine=engine, times=np.array([0.0, 1.0]))
@@ -499,9 +500,8 @@ def test_bare_loop_is_the_same_motion(monkeypatch: pytest.MonkeyPatch) -> None:
         return worlds[-1]
 
     monkeypatch.setattr("textmech.engines.pymunk.run.build", kept)
-    steps = TUNED.prepare(
-        case("towed_pendulum").scene, start("towed_pendulum"), 1e-3, realised="native"
-    )
+    scene, begin = case("towed_pendulum").scene, start("towed_pendulum")
+    steps = TUNED.loop(scene, begin, 1e-3, planned(TUNED, scene, begin))
     steps(300)
     steps(700)
     monkeypatch.undo()
@@ -527,15 +527,7 @@ def test_a_step_that_is_too_large_diverges() -> None:
     poses = {"bead": (0.0, -0.6, 0.0, 0.0, 0.0, 0.0)}
     times = np.linspace(0.0, 10.0, 11)
     with pytest.raises(Diverged, match=r"not finite any more at t = \d"):
-        TUNED.run(
-            scene,
-            poses,
-            times,
-            0.01,
-            tied_to=0.01,
-            realised="native",
-            reactions=(),
-        )
+        TUNED.run(scene, poses, times, 0.01, planned(TUNED, scene, poses), reactions=())
 
 
 def test_samples_that_no_step_meets() -> None:

@@ -9,6 +9,7 @@ from typing import Literal
 
 import numpy as np
 import pytest
+from planning import planned, ways
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
@@ -56,8 +57,7 @@ def moved(
         start,
         times,
         step,
-        tied_to=step,
-        realised=realised,
+        planned(TUNED, scene, start, realised),
         reactions=reactions,
         record=True,
     )
@@ -313,22 +313,22 @@ def test_mean_over_a_step_is_the_law_stepped_finely(
 
 def test_declared_expansions() -> None:
     scene = rail(SIX, THREE, PULL)
-    assert TUNED.exponents(scene, "native", held=True) == (1, 2)
-    assert TUNED.exponents(scene, "law", held=True) == (2, 3)
-    assert TUNED.exponents(incline(BLOCK, 0.1, 0.3), "native", held=True) == (1, 2)
+    assert planned(TUNED, scene, REST).exponents == (1, 2)
+    assert planned(TUNED, scene, REST, "law").exponents == (2, 3)
+    assert planned(TUNED, incline(BLOCK, 0.1, 0.3), REST).exponents == (1, 2)
 
 
 def test_realisations_audit_and_what_is_withheld() -> None:
     scene = rail(SIX, THREE, PULL)
-    assert TUNED.realisations(scene) == ("native", "law")
-    assert SHIPPED.realisations(scene) == ("native",)
-    assert TUNED.realisations(incline(BLOCK, 0.1, 0.3)) == ("native",)
-    assert TUNED.realisations(incline(BLOCK, 0.1, 0.3, static=0.4)) == ("native", "law")
+    assert ways(TUNED, scene, REST) == ("native", "law")
+    assert ways(SHIPPED, scene, REST) == ("native",)
+    assert ways(TUNED, incline(BLOCK, 0.1, 0.3), REST) == ("native",)
+    assert ways(TUNED, incline(BLOCK, 0.1, 0.3, static=0.4), REST) == ("native", "law")
     measured = TUNED.measure(scene, REST)
     assert measured["rail.friction_forward"] == measured["rail.friction_backward"] == 3.0
     uneven = rail(SIX, Bounds(1.0, 3.0), PULL)
     assert "rail.friction_forward" not in TUNED.measure(uneven, REST)
-    assert "magnitude only" in str(TUNED.withholds(scene, "rail.friction"))
+    assert "magnitude only" in planned(TUNED, scene, REST).withheld["rail.friction"]
     assert TUNED.measure(incline(BLOCK, 0.1, 0.3), thrown(0.0))["touch.friction"] == 0.3
 
 
@@ -347,18 +347,11 @@ def test_the_script_makes_the_same_motion(
             {"rod": (0.4 * math.cos(1), 0.4 * math.sin(1), 1.0, 0.0, 0.0, 0.0)},
         ),
     }[kind]
-    script = engine.script(scene, start, 0.01)
+    plan = planned(engine, scene, start)
+    script = engine.script(scene, start, 0.01, plan)
     out = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     ends = {line.split()[0]: line.split()[1:] for line in out.stdout.splitlines()}
-    run = engine.run(
-        scene,
-        start,
-        np.array([0.0, 1.0]),
-        0.01,
-        tied_to=0.01,
-        realised="native",
-        reactions=(),
-    )
+    run = engine.run(scene, start, np.array([0.0, 1.0]), 0.01, plan, reactions=())
     for body, states in run.states.items():
         assert [float(x) for x in ends[body]] == pytest.approx(states[-1].tolist(), abs=1e-12)
 
@@ -366,7 +359,7 @@ def test_the_script_makes_the_same_motion(
 def test_record_holds_every_step_and_changes_nothing() -> None:
     scene, start = incline(WHEEL, 0.0, 0.2), launched(2.0, 20.0)
     run = moved(scene, start, step=1e-3)
-    bare = TUNED.run(scene, start, TIMES, 1e-3, tied_to=1e-3, realised="native", reactions=())
+    bare = TUNED.run(scene, start, TIMES, 1e-3, planned(TUNED, scene, start), reactions=())
     assert bare.record is None
     assert run.record is not None
     assert np.array_equal(run.states["wheel"], bare.states["wheel"])

@@ -1,7 +1,6 @@
 """A pin in a slot in both engines, against the certified reference."""
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -9,8 +8,8 @@ import pytest
 from textmech.cases.load import load
 from textmech.cases.observe import observe
 from textmech.cases.scene import Scene
-from textmech.cases.trajectory import ANGLE
-from textmech.engines.engine import State
+from textmech.cases.trajectory import ANGLE, Array, Trajectory
+from textmech.engines.engine import Engine, Plan, State
 from textmech.engines.mujoco import MuJoCo
 from textmech.engines.pymunk import Pymunk
 from textmech.reference.solve import solve
@@ -60,15 +59,20 @@ def solved(scene: str, tmp_path: Path) -> tuple[Scene, State, np.ndarray, np.nda
     return case.scene, start, case.times, motion.states["rod"][:, ANGLE]  # type: ignore[return-value]
 
 
-def way(h: float) -> dict[str, Any]:
-    return {"tied_to": h, "realised": "native", "reactions": ()}
+def run(
+    engine: Engine, scene: Scene, start: State, times: Array, h: float, **more: bool
+) -> Trajectory:
+    """Natively, at the step h."""
+    plan, *_ = engine.plans(scene, start)
+    assert isinstance(plan, Plan)
+    return engine.run(scene, start, times, h, plan, reactions=(), **{"record": False, **more})
 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_mujoco_builds_a_slot(name: str, tmp_path: Path) -> None:
     """A slide and a hinge of one body, to the error of RK4."""
     scene, start, times, angles = solved(SCENES[name], tmp_path)
-    mujoco = MuJoCo("tuned").run(scene, start, times, 1e-3, **way(1e-3))
+    mujoco = run(MuJoCo("tuned"), scene, start, times, 1e-3)
     assert np.abs(mujoco.states["rod"][:, ANGLE] - angles).max() < 1e-8
     assert np.abs(observe(scene, mujoco, "guide.gap")).max() < 1e-12
 
@@ -81,10 +85,12 @@ def test_pymunk_builds_a_slot(name: str, tmp_path: Path) -> None:
     number of sweeps or smaller step helps: a row says `diverged`.
     """
     scene, start, times, angles = solved(SCENES[name], tmp_path)
-    assert Pymunk("tuned").exponents(scene, "native", held=False) == (1, 2)
+    plan, *_ = Pymunk("tuned").plans(scene, start)
+    assert isinstance(plan, Plan)
+    assert plan.held == (1, 2)
     errors = []
     for h in (1e-3, 5e-4):
-        motion = Pymunk("tuned").run(scene, start, times, h, **way(h))
+        motion = run(Pymunk("tuned"), scene, start, times, h)
         errors.append(np.abs(motion.states["rod"][:, ANGLE] - angles).max())
     assert errors[0] < 2e-2
     assert errors[0] / errors[1] == pytest.approx(2.0, rel=0.02)
@@ -92,6 +98,6 @@ def test_pymunk_builds_a_slot(name: str, tmp_path: Path) -> None:
 
 def test_a_record_of_every_step_reads_the_slot_too(tmp_path: Path) -> None:
     scene, start, times, _ = solved(SCENES["a slotted rod over a fixed pin"], tmp_path)
-    motion = MuJoCo("tuned").run(scene, start, times, 1e-3, record=True, **way(1e-3))
+    motion = run(MuJoCo("tuned"), scene, start, times, 1e-3, record=True)
     assert motion.record is not None
     np.testing.assert_allclose(motion.record.states["rod"][::100], motion.states["rod"], atol=1e-12)

@@ -13,8 +13,9 @@ from textmech.cases.case import Case
 from textmech.cases.load import load
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Array, Trajectory
-from textmech.engines.engine import Choice, Diverged, Realised, State
-from textmech.reports.trial.trial import Trial
+from textmech.engines.engine import Choice, Diverged, Plan, Realised, Refusal, State
+from textmech.reports.trial.start import first
+from textmech.reports.trial.trial import Trial, ways
 
 TEXT = """\
 title: A free body that moves at constant velocity
@@ -41,8 +42,13 @@ def speed(t: Array, *stops: float) -> Array:
     return v
 
 
+def stiffness(step: float) -> list[Choice]:
+    """A number that is tied to the step."""
+    return [Choice("soft", step, "as large as the step")]
+
+
 def nothing() -> None:
-    """What an engine does before it runs; a function with a name crosses into a process."""
+    """What an engine does before it plans or runs: named, so that it crosses into a process."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +58,6 @@ class Fake:
     setting: str = "tuned"
     name: str = "mujoco"
     version: str = "4.0.0"
-    comment: tuple[str, str] = ("# ", "")
     own_step: float | None = None
     model: float = 0.0
     rate: float = 1.0
@@ -64,30 +69,21 @@ class Fake:
     ways: tuple[Realised, ...] = ("native",)
     numbers: dict[str, float] = field(default_factory=dict)
     refusal: str | None = None
+    planning: Callable[[], None] = nothing
     before: Callable[[], None] = nothing
 
-    def realisations(self, scene: Scene) -> tuple[Realised, ...]:
-        return self.ways
+    def plans(self, scene: Scene, start: State) -> list[Plan | Refusal]:
+        self.planning()
+        if self.refusal is not None:
+            return [Refusal("native", self.refusal)]
+        orders = (self.order, self.order + 1)
+        following = orders if self.follows else None
+        blind = {"ball.vy": "engine: it is blind"}
+        return [Plan(way, orders, following, stiffness, withheld=blind) for way in self.ways]
 
-    def refuses(self, scene: Scene) -> str | None:
-        return self.refusal
-
-    def withholds(self, scene: Scene, quantity: str) -> str | None:
-        return "engine: it is blind" if quantity.endswith("vy") else None
-
-    def tied(self, scene: Scene) -> bool:
-        return self.follows
-
-    def exponents(self, scene: Scene, realised: Realised, *, held: bool) -> tuple[int, ...]:
-        return (self.order, self.order + 1)
-
-    def protocol(self, scene: Scene, start: State, step: float, realised: Realised) -> str:
-        return ""
-
-    def choices(self, scene: Scene, step: float) -> list[Choice]:
-        return []
-
-    def script(self, scene: Scene, start: State, step: float) -> str:
+    def script(
+        self, scene: Scene, start: State, step: float, plan: Plan, *, title: str = ""
+    ) -> str:
         return "pass\n"
 
     def measure(self, scene: Scene, start: State) -> dict[str, float]:
@@ -99,16 +95,16 @@ class Fake:
         start: State,
         times: Array,
         step: float,
+        plan: Plan,
         *,
-        tied_to: float,
-        realised: Realised,
         reactions: tuple[str, ...],
         record: bool = False,
     ) -> Trajectory:
         self.before()
         if step > self.stable:
             raise Diverged("too large a step")
-        model = self.model * (tied_to / 1e-3 if self.follows else 1.0)
+        (soft,) = plan.choices(step)
+        model = self.model * (soft.value / 1e-3 if self.follows else 1.0)
         ball = np.zeros((len(times), 6))
         ball[:, 0] = times * (1 + model + self.rate * step**self.order)
         ball[:, 3] = 1.0
@@ -120,11 +116,6 @@ class Fake:
         ball = np.zeros((len(every), 6))
         ball[:, 3] = speed(every, *(stop + self.delay * step for stop in self.stops))
         return Trajectory(every, {"ball": ball}, {})
-
-    def prepare(
-        self, scene: Scene, start: State, step: float, *, realised: Realised
-    ) -> Callable[[int], None]:
-        return lambda n: None
 
 
 @pytest.fixture(scope="session")
@@ -167,7 +158,10 @@ def trial(moving: Case) -> Callable[..., Trial]:
         ball[:, 0], ball[:, 3] = times, 1.0
         kept = phased() if case.events else None
         reference = Trajectory(times, {"ball": ball}, {}, record=kept)
-        way = properties.pop("realised", "native")
+        realised = properties.pop("realised", "native")
+        engine = Fake(**{k: v for k, v in properties.items() if k != "planning"})
+        found = ways(engine, case.scene, first(reference))
+        way = next(way for way in found if way.realised == realised)
         return Trial(case, reference, Fake(**properties), way)
 
     return made

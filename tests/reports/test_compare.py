@@ -24,7 +24,7 @@ from textmech.reports.judge.compare import Outcome, compare, crashed
 from textmech.reports.judge.convergence import INSTANTS
 from textmech.reports.row import AGREES, BEYOND, CHANGED, DEVIATES, DIVERGED, FAILS
 from textmech.reports.trial.audit import expected
-from textmech.reports.trial.trial import Trial, realisations
+from textmech.reports.trial.trial import Trial, ways
 
 Make = Callable[..., Trial]
 STOPS = (0.3, 0.7)  # s: the reference's
@@ -228,6 +228,23 @@ def test_without_a_record_events_are_refused(trial: Make, stopping: Case) -> Non
     assert row(outcome).verdict == AGREES
 
 
+def test_every_step_is_recorded_only_where_there_are_events(
+    trial: Make, moving: Case, stopping: Case, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kind, asked = type(trial().engine), []
+    run = kind.run
+
+    def noted(*given: Any, record: bool = False, **more: Any) -> Trajectory:
+        asked.append(record)
+        return run(*given, record=record, **more)
+
+    monkeypatch.setattr(kind, "run", noted)
+    for case, wanted in ((moving, False), (stopping, True)):
+        asked.clear()
+        stopped(trial, case)
+        assert set(asked) == {wanted}
+
+
 def test_the_reach_of_a_law_or_driver_is_asked_of_its_row(trial: Make, moving: Case) -> None:
     for way in ("law", "driver"):
         case = replace(moving, reach={f"mujoco.{way}": {"ball.x": 1e-9}})
@@ -236,8 +253,8 @@ def test_the_reach_of_a_law_or_driver_is_asked_of_its_row(trial: Make, moving: C
 
 
 def test_beside_a_law_stands_a_native_row_or_its_refusal(trial: Make, moving: Case) -> None:
-    law = trial(ways=("law",)).engine
-    assert realisations(law, moving.scene) == ("native", "law")
+    law = trial(ways=("law",))
+    assert [w.realised for w in ways(law.engine, moving.scene, law.start)] == ["native", "law"]
     native = row(compare(trial(ways=("law",))))
     assert native.verdict.startswith("refused: engine: it has nothing of its own")
     assert row(compare(trial(ways=("law",), realised="law"))).verdict == AGREES

@@ -48,6 +48,18 @@ def test_a_lost_run_is_a_row_and_the_others_are_whole(
     assert words in found[("shipped", "ball.x")].because
 
 
+@pytest.mark.parametrize(("planning", "words"), [(die, "died"), (stumble, "ZeroDivisionError")])
+def test_an_engine_that_is_lost_while_it_plans_is_a_row_too(
+    trial: Make, moving: Case, planning: Callable[[], None], words: str
+) -> None:
+    sound = trial(setting="tuned").engine
+    lost = trial(setting="shipped", own_step=1e-3, planning=planning).engine
+    found = verdicts(measure([moving], [lost, sound]))
+    assert found[("tuned", "ball.x")].verdict == AGREES
+    assert found[("shipped", "ball.x")].verdict == FAILS
+    assert words in found[("shipped", "ball.x")].because
+
+
 def test_a_diverged_run_is_a_row(trial: Make, moving: Case) -> None:
     engine = trial(setting="shipped", own_step=1e-3, stable=1e-5).engine
     report = measure([moving], [engine])

@@ -7,6 +7,7 @@ from ...mistake import nearest
 from ...scene import Scene
 from ..parse import Finding, Parsed
 from .claims import claims
+from .engines import Engines, engines
 from .links import links, twice
 from .sampling import sampling
 
@@ -19,9 +20,12 @@ def check(
     *,
     data: Mapping[str, Any],
     systems: Mapping[str, tuple[str, ...]] | None,
+    known: Engines | None,
 ) -> Iterator[Finding]:
     """Every mistake between the sound parts; `data` is the whole file as it was written."""
     yield from links(parsed, scene)
+    if known is not None:
+        yield from engines(parsed.file, known)
     if not any(twice(parsed, scene)):
         yield from claims(parsed, scene)
     if not parsed.lacks("duration") and not parsed.lacks("samples") and not parsed.lacks("step"):

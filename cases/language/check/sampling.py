@@ -1,6 +1,6 @@
 """The sample interval is a whole multiple of 4 h, so that a ladder h, 2h, 4h meets every sample."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from math import isfinite, isnan
 
 from ..grammar.file import File
@@ -11,7 +11,7 @@ _SEARCHED = 10_000  # counts of samples tried on each side
 
 def sampling(file: File) -> Iterator[Finding]:
     """A mistake where some step does not divide the interval, with the nearest counts that do."""
-    steps = tuple(file.step.values())
+    steps = tuple(file.step.values()) if isinstance(file.step, Mapping) else (file.step,)
     if any(isnan(number) for number in (file.duration, *steps)):
         return  # a mistaken parameter, found elsewhere
     if _fits(file.duration, file.samples, steps):

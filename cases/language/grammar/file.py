@@ -2,7 +2,7 @@
 
 from typing import Annotated, Any
 
-from pydantic import ConfigDict, Field
+from pydantic import ConfigDict, Field, Tag
 
 from .body import Body
 from .contact import Contact
@@ -12,16 +12,23 @@ from .force import Force
 from .ground import GroundPoint
 from .joint import Joint
 from .number import Amount
-from .part import Angle, Name, Part, Position
+from .part import Angle, Name, Part, Position, plain_or_map
 from .text import Place, Text, Word, equation, label
 from .words import wrong
 
-ENGINES = ("mujoco", "pymunk")
-WAYS = tuple(f"{engine}{way}" for engine in ENGINES for way in ("", ".law", ".driver", ".limit"))
-SETTINGS = tuple(f"{engine}.{setting}" for engine in ENGINES for setting in ("shipped", "tuned"))
+WAYS = ("", ".law", ".driver", ".limit")  # after an engine's name: which of its rows
 
 BookPlace = Annotated[str, Place()]
 Tolerance = Annotated[Amount, Bound()]
+Seconds = Annotated[float, In("s", above=0)]
+Engine = Annotated[str, Text(description="an engine's name")]  # which there are is checked later
+Way = Annotated[str, Text(description="an engine, or engine.law, engine.driver, engine.limit")]
+Setting = Annotated[str, Text(description="engine.setting, as engine.shipped")]
+Step = Annotated[
+    Annotated[Seconds, Tag("<plain>")]
+    | Annotated[dict[Engine, Seconds], Field(min_length=1), Tag("<map>")],
+    plain_or_map(),
+]
 
 
 class Source(Part):
@@ -122,18 +129,18 @@ class File(Part):
     events: dict[Name, Event] = Field(
         {}, description="named instants: when a quantity comes to zero or leaves it"
     )
-    duration: Annotated[float, In("s", above=0)]
+    duration: Seconds
     samples: int = Field(ge=3, description="number of times at which anything is compared")
-    step: dict[Annotated[str, Word("engine", ENGINES)], Annotated[float, In("s", above=0)]] = Field(
-        min_length=1, description="step of the tuned setting of each engine"
+    step: Step = Field(
+        {}, description="step of the tuned settings: one number, or engine by engine"
     )
     allow: dict[Quantity, Annotated[Amount | None, Bound("unknown")]] = Field(
         min_length=1, description="what still counts as textbook mechanics, for every engine"
     )
-    reach: dict[Annotated[str, Word("engine", WAYS)], dict[Quantity, Tolerance]] = Field(
+    reach: dict[Way, dict[Quantity, Tolerance]] = Field(
         {}, description="what the tuned setting of an engine must hold at the step"
     )
-    deviates: dict[Annotated[str, Word("setting", SETTINGS)], dict[Quantity, Deviation]] = Field(
+    deviates: dict[Setting, dict[Quantity, Deviation]] = Field(
         {}, description="known differences of an engine's model"
     )
     rests: bool = Field(False, description="nothing moves here, on purpose")

@@ -1,0 +1,20 @@
+"""What heads an engine's file or script: which scene, which setting, and each number's reason."""
+
+from .engine import Engine, Plan
+
+
+def heading(engine: Engine, title: str, step: float, plan: Plan) -> list[str]:
+    """Lines for the engine to make comments of. Each is one line, whatever the title holds."""
+    protocol = plan.protocol(step)
+    lines = [
+        title,
+        f"{engine.name} {engine.version}, {engine.setting}, h = {step:g} s",
+        *(f"{c.name} = {c.value}: {c.because}" for c in plan.choices(step)),
+        f"protocol: {protocol}" if protocol else "",
+    ]
+    return [" ".join(map(_printable, line.split())) for line in lines if line]
+
+
+def _printable(word: str) -> str:
+    """What is no character of a text would end a comment, or the file."""
+    return "".join(character if character.isprintable() else "�" for character in word)

@@ -1,0 +1,75 @@
+"""One compilation of a scene for all steps: the step, and what follows it, go into a copy.
+
+The copy holds, field by field, what compiling the script of that step gives (tested).
+"""
+
+import copy
+from functools import lru_cache
+
+import mujoco
+
+from ...cases.scene import Scene
+from ..engine import Choice, Plan, State
+from .law.settle import settle
+from .law.signal import installed
+from .run import heard, started
+from .scene import mjcf
+
+NOMINAL = 1e-3  # s: with which a scene is compiled; any step would do
+
+# Where the compiled model holds the numbers that may follow the step.
+_HELD = {
+    "connect.solref": "eq_solref",
+    "pair.solref": "pair_solref",
+    "pair.solreffriction": "pair_solreffriction",
+    "slide.solreffriction": "dof_solref",
+}
+
+
+def compiled(
+    scene: Scene, start: State, step: float, plan: Plan
+) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """The model with the plan's numbers at the step [s], and data at the start.
+
+    Raises ValueError with what MuJoCo does not take.
+    """
+    nominal = plan.numbers(NOMINAL)
+    model = copy.copy(_model(mjcf(scene, start, [timestep(NOMINAL), *nominal])))
+    model.opt.timestep = step
+    for choice, before in zip(plan.choices(step), nominal, strict=True):
+        if choice.value != before.value:
+            _write(scene, model, choice)
+    return started(model)
+
+
+def settled(
+    scene: Scene, start: State, step: float, plan: Plan
+) -> tuple[mujoco.MjModel, mujoco.MjData, dict[str, float]]:
+    """The same with its start, the keyframe, as deep in the floor as it is carried: depths [m]."""
+    model, data = compiled(scene, start, step, plan)
+    depths = settle(scene, model, data, start) if scene.contacts else {}
+    for name, depth in depths.items():
+        model.key_qpos[0, model.joint(f"{name}.y").qposadr[0]] -= depth
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+    return model, data, depths
+
+
+def timestep(step: float) -> Choice:
+    """The step as an attribute of the MJCF file."""
+    return Choice("option.timestep", step, "the case's step")
+
+
+@lru_cache(maxsize=1)  # the rungs of a trial follow each other
+def _model(text: str) -> mujoco.MjModel:
+    with heard(), installed(None):
+        return mujoco.MjModel.from_xml_string(text)
+
+
+def _write(scene: Scene, model: mujoco.MjModel, choice: Choice) -> None:
+    held = getattr(model, _HELD[choice.name])
+    if not choice.name.startswith("slide."):
+        held[:] = choice.value
+        return
+    for joint in scene.joints.values():
+        if joint.dry_friction is not None:
+            held[model.joint(joint.name).dofadr[0]] = choice.value

@@ -1,0 +1,60 @@
+"""What a setting of MuJoCo decides about a scene: ways, exponents, and the protocol's words."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+
+from ...cases.scene import Scene
+from ..engine import Choice, Plan, Realised, State
+from .compilation import NOMINAL, settled
+from .contact import falls
+from .law.friction import followed, smooth_only
+from .scene import HEAVY
+from .settings import ties
+from .tree import driven
+
+Numbers = Callable[[float], Sequence[Choice]]
+
+
+def ways(scene: Scene, *, tuned: bool) -> tuple[Realised, ...]:
+    """MuJoCo's own elements; dry friction, of which it knows one number, in other ways too."""
+    if not tuned or not followed(scene):
+        return ("native",)
+    return ("native", "law") if smooth_only(scene) else ("native", "law", "driver")
+
+
+def plan(scene: Scene, start: State, realised: Realised, numbers: Numbers, *, tuned: bool) -> Plan:
+    """One way's plan. Nothing is withheld: a joint's force and moment can be read, a contact's too.
+
+    Exponents: Euler, contacts, corners of dry friction 1, 2; RK4 4, 5; soft constraints of the
+    tuned recipe, which follow the step, 2, 3.
+    """
+    integrator = {choice.name: choice.value for choice in numbers(NOMINAL)}["option.integrator"]
+    dry = any(joint.dry_friction for joint in scene.joints.values())
+    first = integrator != "RK4" or bool(scene.contacts) or (dry and realised != "driver")
+    following = (1, 2) if first else (4, 5) if dry else (2, 3)
+    bare = Plan(
+        realised,
+        held=(1, 2) if first else (4, 5),
+        following=following if tuned and ties(scene) else None,
+        numbers=numbers,
+    )
+    return replace(bare, protocol=partial(_words, scene, start, bare, tuned))
+
+
+def _words(scene: Scene, start: State, plan: Plan, tuned: bool, step: float) -> str:
+    """Driven points, laws and drivers, and how deep a disk is started in the floor."""
+    words = []
+    if any(driven(scene)):
+        words.append(f"driven points are masses of {HEAVY:g} kg")
+    if plan.realised == "law":
+        when = "stage" if smooth_only(scene) else "step"
+        words.append(f"dry friction by our law before every {when}")
+    if plan.realised == "driver":
+        words.append("steps cut at the events of dry friction")
+    if tuned and scene.contacts:
+        if falls(scene, start):
+            words.append("starts above the floor: contacts are tuned for impacts")
+        *_, depths = settled(scene, start, step, plan)
+        words += [f"{name} started {depth:.1e} m in the floor" for name, depth in depths.items()]
+    return "; ".join(words)

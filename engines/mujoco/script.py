@@ -1,0 +1,20 @@
+"""The MJCF file that a user pastes: the scene at its start, headed by comments."""
+
+import re
+from collections.abc import Iterable, Mapping
+
+from ...cases.scene import Scene
+from ..engine import Choice, State
+from .scene import mjcf
+
+
+def text(
+    scene: Scene,
+    start: State,
+    choices: Iterable[Choice],
+    depths: Mapping[str, float],
+    head: Iterable[str],
+) -> str:
+    """The file; head: its comments, in which two hyphens would end one."""
+    comments = (f"<!-- {re.sub('-(?=-)', '- ', line)} -->\n" for line in head)
+    return "".join(comments) + mjcf(scene, start, choices, depths)

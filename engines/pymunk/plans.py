@@ -1,0 +1,76 @@
+"""What a setting of pymunk decides about a scene: ways, exponents, and the protocol's words."""
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+from typing import Any
+
+from ...cases.quantity import table
+from ...cases.scene import Scene
+from ..engine import Choice, Plan, Realised, State
+from .contact import closed
+from .law.friction import ruled
+from .scene import oblique
+
+
+def ways(scene: Scene, *, tuned: bool) -> tuple[Realised, ...]:
+    """Dampers also by their law: pymunk applies its own after the kick, a first order.
+
+    Dry friction too: pymunk's has one bound, where the textbook's has up to four.
+    """
+    law = any(scene.dampers()) or ruled(scene)
+    return ("native", "law") if law and tuned else ("native",)
+
+
+def plan(
+    scene: Scene, start: State, realised: Realised, choices: Sequence[Choice], *, tuned: bool
+) -> Plan:
+    """One way's plan; no number follows the step."""
+    return Plan(
+        realised,
+        held=(2, 3) if tuned and not _spoilt(scene, realised) else (1, 2),
+        numbers=partial(_at_every_step, choices),
+        protocol=partial(_words, scene, start, named(choices)),
+        withheld=_withheld(scene),
+    )
+
+
+def named(choices: Sequence[Choice]) -> dict[str, Any]:
+    """The numbers without their reasons."""
+    return {choice.name: choice.value for choice in choices}
+
+
+def _at_every_step(choices: Sequence[Choice], step: float) -> Sequence[Choice]:
+    return choices
+
+
+def _spoilt(scene: Scene, realised: Realised) -> bool:
+    """Where pymunk spoils the midpoint protocol's second order.
+
+    An impact, and a part that turns back without a rest, take whole steps: measured, 1.
+    """
+    native = realised == "native"
+    damped = native and any(damper.damping for damper in scene.dampers())
+    rubbed = native and any(joint.dry_friction for joint in scene.joints.values())
+    met = native and any(contact.switches for contact in scene.contacts.values())
+    oblique_slide = any(oblique(scene, joint) for joint in scene.joints.values())
+    return damped or rubbed or met or oblique_slide
+
+
+def _withheld(scene: Scene) -> dict[str, str]:
+    """A constraint's impulse has no direction."""
+    return {
+        name: "engine: pymunk reports a joint's impulse as a magnitude only"
+        for name, quantity in table(scene).items()
+        if quantity.part in scene.joints and quantity.field in ("fx", "fy", "torque", "friction")
+    }
+
+
+def _words(scene: Scene, start: State, numbers: Mapping[str, Any], step: float) -> str:
+    """The half step along the velocities, and how deep a contact is started in the floor."""
+    words = []
+    if numbers.get("time.midpoint"):
+        words.append(f"started {step / 2:g} s back, positions read {step / 2:g} s ahead")
+    if numbers.get("start.seed") and (touching := closed(scene, start)):
+        bodies = ", ".join(dict.fromkeys(contact.body for contact in touching))
+        words.append(f"{bodies} started {numbers['start.seed']:g} m in the floor")
+    return "; ".join(words)

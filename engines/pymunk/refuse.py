@@ -1,0 +1,27 @@
+"""Scenes on which pymunk would abort the process, or for which it has no joint or no shape."""
+
+import math
+
+from ...cases.scene import GROUND, Scene
+from .force import ELEMENTS
+
+
+def unbuildable(scene: Scene) -> str | None:
+    """The first body or joint that has no counterpart."""
+    for body in scene.bodies.values():
+        inertia = 1.0 if body.inertia is None else body.inertia
+        if not (0 < body.mass < math.inf and 0 < inertia < math.inf):
+            return f"engine: pymunk takes only positive finite masses, {body.name} has none"
+    for part in (*scene.joints.values(), *scene.springs(), *scene.dampers()):
+        if part.a.body == part.b.body:
+            where = "the ground" if part.a.body == GROUND else part.a.body
+            return f"engine: {part.name} joins {where} to itself, on which pymunk aborts"
+    for force in scene.forces.values():
+        if type(force) not in ELEMENTS:
+            return f"adapter: {force.name} is a {force.word}, which it does not build"
+    for joint in scene.joints.values():
+        first = joint.a.body
+        only_turns = joint.turns and not joint.shifts
+        if not only_turns and first != GROUND and not scene.bodies[first].turns:
+            return f"adapter: {joint.name} starts at a particle, which has no axes"
+    return None

@@ -1,0 +1,17 @@
+"""Where an engine starts: row 0 of the reference, or the assembled scene, the same to rounding."""
+
+from ...cases.case import Case
+from ...cases.trajectory import Trajectory
+from ...engines.engine import State
+from ...reference.start.assembly import start_poses
+
+
+def first(reference: Trajectory) -> State:
+    """Row 0 of the reference."""
+    return {name: tuple(rows[0].tolist()) for name, rows in reference.states.items()}  # type: ignore[misc]
+
+
+def assembled(case: Case) -> State:
+    """The start of a case that nobody has solved. Raises CaseError where there is none."""
+    poses = start_poses(case)
+    return {name: tuple(float(x) for x in pose) for name, pose in poses.items()}  # type: ignore[misc]

@@ -1,0 +1,94 @@
+"""Engines of other packages: found, imported when they are asked for, and not in the way."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+CASE = """\
+title: A ball that falls
+scene: {bodies: {ball: {particle: {mass: 2.0}}}}
+initial: {ball: {x: 0, y: 0}}
+duration: 0.4
+samples: 6
+allow: {ball.y: 1.0e-2}
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """With two distributions on the path: one engine is not there, one fails when imported."""
+    for name, module in (("absent", "nowhere"), ("failing", "failing_engine")):
+        info = tmp_path / "path" / f"{name}-1.0.dist-info"
+        info.mkdir(parents=True)
+        (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n")
+        (info / "entry_points.txt").write_text(f"[textmech.engines]\n{name} = {module}:Engine\n")
+    (tmp_path / "path" / "failing_engine.py").write_text("raise OSError('no libGL')\n")
+    (tmp_path / "ball.yaml").write_text(CASE, encoding="utf-8")
+    return tmp_path
+
+
+def python(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    path = os.pathsep.join(filter(None, [str(folder / "path"), os.environ.get("PYTHONPATH", "")]))
+    return subprocess.run(
+        [sys.executable, *words],
+        capture_output=True,
+        text=True,
+        cwd=folder,
+        env={**os.environ, "PYTHONPATH": path},
+        timeout=120,
+        check=False,
+    )
+
+
+def textmech(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    return python(folder, "-m", "textmech.reports.cli", *words)
+
+
+def test_what_cannot_be_imported_does_not_stop_the_others(folder: Path) -> None:
+    declared = "deviates: {failing.shipped: {ball.y: {limit: 1.0, because: it is soft}}}\n"
+    (folder / "ball.yaml").write_text(CASE + declared, encoding="utf-8")
+    done = textmech(folder, "run", "ball.yaml")
+    assert done.returncode == 0, done.stderr
+    assert {"mujoco.tuned", "pymunk.tuned"} <= set(done.stdout.split())
+    assert "warning: failing (failing_engine:Engine) cannot be imported" in done.stderr
+    assert "OSError: no libGL" in done.stderr
+    assert "warning: absent (nowhere:Engine) cannot be imported" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_who_asks_for_it_is_told(folder: Path) -> None:
+    done = textmech(folder, "run", "ball.yaml", "--engine", "failing")
+    assert done.returncode == 2
+    assert "--engine: failing: failing (failing_engine:Engine) cannot be imported" in done.stderr
+    (folder / "mine.yaml").write_text("pymunk: {iterations: 20}\nabsent: {step: 1.0e-3}\n")
+    done = textmech(folder, "run", "ball.yaml", "--engine", "pymunk", "--settings", "mine.yaml")
+    assert done.returncode == 2
+    assert "mine.yaml:2:1: absent: absent (nowhere:Engine) cannot be imported" in done.stderr
+
+
+def test_a_name_nobody_has_is_hinted_at(folder: Path) -> None:
+    for word, hint in (("mojoco.tuned", "mujoco.tuned"), ("mujoco.tunned", "mujoco.tuned")):
+        done = textmech(folder, "run", "ball.yaml", "--engine", word)
+        assert done.returncode == 2
+        assert f"did you mean '{hint}'?" in done.stderr
+    text = CASE.replace("samples: 6\n", "samples: 6\nreach: {failng: {ball.y: 1.0e-3}}\n")
+    (folder / "ball.yaml").write_text(text)
+    done = textmech(folder, "check", "ball.yaml")
+    assert "reach.failng: unknown engine 'failng'; did you mean 'failing'?" in done.stderr
+
+
+def test_only_what_is_asked_for_is_imported(folder: Path) -> None:
+    asked = (
+        "import sys\n"
+        "from pathlib import Path\n"
+        "from textmech.reports.selection import choose_cases, choose_engines\n"
+        "choose_cases(['ball.yaml'])\n"
+        "print('before:', *({'mujoco', 'pymunk', 'failing_engine'} & set(sys.modules)))\n"
+        "print([e.setting for e in choose_engines(['pymunk'], [])])\n"
+        "print('after:', *({'mujoco', 'pymunk', 'failing_engine'} & set(sys.modules)))\n"
+    )
+    done = python(folder, "-c", asked)
+    assert done.stdout == "before:\n['shipped', 'tuned']\nafter: pymunk\n", done.stderr

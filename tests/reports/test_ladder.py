@@ -1,0 +1,79 @@
+"""Which steps are judged and climbed, whatever the case says of them."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from textmech.cases.case import Case
+from textmech.cases.load import load
+from textmech.reports.judge.compare import compare
+from textmech.reports.row import AGREES
+from textmech.reports.trial.ladder import USUAL, judged_step, ladders
+from textmech.reports.trial.trial import Trial
+
+Make = Callable[..., Trial]
+TEXT = """\
+title: A ball that falls
+scene: {bodies: {ball: {particle: {mass: 2.0}}}}
+parameters: {h: 2 ms}
+initial: {ball: {x: 0, y: 0}}
+duration: 1.0
+samples: 26
+allow: {ball.y: 1.0e-2}
+"""
+
+
+def written(folder: Path, step: str) -> Case:
+    file = folder / "ball.yaml"
+    file.write_text(TEXT + step, encoding="utf-8")
+    (case,) = load(file)
+    return case
+
+
+@pytest.mark.parametrize(
+    ("step", "mujoco", "pymunk"),
+    [
+        ("step: {mujoco: 1.0e-3, pymunk: h}", 1e-3, 2e-3),
+        ("step: {mujoco: h}\n", 2e-3, USUAL),
+        ("step: h\n", 2e-3, 2e-3),
+        ("step: 1 ms\ndrops_out: [h]\nsystem: fall\n", 1e-3, 1e-3),
+        ("drops_out: [h]\nsystem: fall\n", USUAL, USUAL),
+    ],
+)
+def test_one_number_or_by_engine_or_none(
+    tmp_path: Path, trial: Make, step: str, mujoco: float, pymunk: float
+) -> None:
+    case = written(tmp_path, step)
+    for name, wanted in (("mujoco", mujoco), ("pymunk", pymunk)):
+        assert judged_step(case, trial(name=name).engine) == pytest.approx(wanted, rel=1e-12)
+
+
+@pytest.mark.parametrize("duration", [1.0, 0.7, 1 / 3, 3e-4, 1e-7, 123.4])
+@pytest.mark.parametrize("samples", [3, 26, 61])
+def test_the_usual_step_is_shortened_until_a_ladder_fits(
+    moving: Case, trial: Make, duration: float, samples: int
+) -> None:
+    case = replace(moving, step={}, duration=duration, samples=samples)
+    step = judged_step(case, trial().engine)
+    assert 0 < step <= USUAL * (1 + 1e-9)
+    ratio = case.interval / (4 * step)
+    assert ratio == pytest.approx(round(ratio), rel=1e-9)
+    made = trial(case=case)
+    for ladder in ladders(case, made.engine, made.plan):
+        assert len(ladder.steps) >= 3
+
+
+def test_a_case_without_an_engines_step_is_run(trial: Make, moving: Case) -> None:
+    made = trial(case=replace(moving, step={"mujoco": 1e-3}), name="pymunk")
+    found = next(row for row in compare(made).rows if row.quantity == "ball.x")
+    assert (found.verdict, found.step) == (AGREES, pytest.approx(USUAL))
+
+
+def test_only_tied_numbers_climb_twice(trial: Make, moving: Case) -> None:
+    for follows, names in ((False, ["held"]), (True, ["following", "held"])):
+        made = trial(follows=follows)
+        found = list(ladders(moving, made.engine, made.plan))
+        assert [ladder.name for ladder in found] == names
+        assert found[-1].plan(made.plan).kept == found[-1].steps[-1]
