@@ -12,7 +12,7 @@ from ..cases.trajectory import Array, Trajectory
 
 Realised = Literal["native", "law", "driver"]
 """The engine's own force elements; our force law in a callback; our driver around the step."""
-State = Mapping[str, tuple[float, float, float, float, float, float]]
+Start = Mapping[str, tuple[float, float, float, float, float, float]]
 """body → x, y, angle, vx, vy, omega of its centre of mass."""
 
 
@@ -103,11 +103,11 @@ class Engine(Protocol):
         """The step [s] a user gets who changes nothing; None: the case names the step."""
         ...
 
-    def plans(self, scene: Scene, start: State) -> Sequence[Plan | Refusal]:
+    def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
         """Each way of running the scene once, or why it is not run."""
         ...
 
-    def measure(self, scene: Scene, start: State) -> Mapping[str, float]:
+    def measure(self, scene: Scene, start: Start) -> Mapping[str, float]:
         """Physics read back from the engine before any step and before any seed or shift.
 
         `gravity.x`, `gravity.y`, `<body>.mass`, `<body>.inertia` (turning bodies),
@@ -120,7 +120,7 @@ class Engine(Protocol):
     def run(
         self,
         scene: Scene,
-        start: State,
+        start: Start,
         times: Array,
         step: float,
         plan: Plan,
@@ -137,7 +137,7 @@ class Engine(Protocol):
         ...
 
     def script(
-        self, scene: Scene, start: State, step: float, plan: Plan, *, title: str = ""
+        self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""
     ) -> str:
         """The scene as the engine's own file or script, ready to paste, headed by comments.
 
@@ -150,7 +150,7 @@ class Engine(Protocol):
 class Loop(Protocol):
     """What an engine may offer beside the protocol: its bare loop, for `textmech bench`."""
 
-    def loop(self, scene: Scene, start: State, step: float, plan: Plan) -> Callable[[int], None]:
+    def loop(self, scene: Scene, start: Start, step: float, plan: Plan) -> Callable[[int], None]:
         """A function that takes n bare steps of the engine's own loop."""
         ...
 

@@ -12,7 +12,8 @@ import numpy as np
 from ..cases.case import Case
 from ..cases.mistake import CaseError, Mistake
 from .generated.action import ends_meet
-from .generated.choosing import BadStart, SwitchingMechanism, Undetermined
+from .generated.choosing import Undetermined
+from .generated.mechanism import BadStart, Mechanism
 from .motion.stuck import Stuck
 from .motion.zeno import ZenoError
 from .start.closure import Closure
@@ -24,7 +25,7 @@ DEPENDENT = 1e-2  # singular values below this part of the largest: the same, fo
 
 
 @contextmanager
-def refusals(case: Case, generated: SwitchingMechanism) -> Iterator[None]:
+def refusals(case: Case, generated: Mechanism) -> Iterator[None]:
     """Turns what stops the motion into CaseError."""
     try:
         yield
@@ -32,7 +33,7 @@ def refusals(case: Case, generated: SwitchingMechanism) -> Iterator[None]:
         raise CaseError([_mistake(case, generated, failure)]) from failure
 
 
-def _mistake(case: Case, generated: SwitchingMechanism, failure: Exception) -> Mistake:
+def _mistake(case: Case, generated: Mechanism, failure: Exception) -> Mistake:
     match failure:
         case BadStart():
             return case.mistake(("initial",), str(failure))
@@ -51,7 +52,7 @@ def _mistake(case: Case, generated: SwitchingMechanism, failure: Exception) -> M
     return case.mistake(("duration",), what)
 
 
-def _line(case: Case, generated: SwitchingMechanism, t: float, q: Array) -> str | None:
+def _line(case: Case, generated: Mechanism, t: float, q: Array) -> str | None:
     within, where = SHORT * Closure(case).size, generated.base.where
     for force in case.scene.forces.values():
         if ends_meet(force, where, t, q.tolist(), within):

@@ -12,7 +12,7 @@ from ..cases.trajectory import Trajectory
 from .certificate.agreement import Check
 from .certificate.certify import certify
 from .coverage import look, noting
-from .generated.choosing import SwitchingMechanism
+from .generated.mechanism import Mechanism
 from .motion.bodies import Beside, Motion
 from .motion.follow import Followed, follow
 from .premises import check_premises
@@ -48,7 +48,7 @@ def solve(case: Case) -> Solution:
 
 
 def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
-    generated = SwitchingMechanism(case.scene, assemble(case), Closure(case).size)
+    generated = Mechanism(case.scene, assemble(case), Closure(case).size)
     with refusals(case, generated):
         system = written_system(case.system, case.parameters) if case.system else generated
         followed = follow(system, case.times, every=bool(case.events))
@@ -64,7 +64,7 @@ def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
         return motion, certify(case, answer, built, generated, motion)
 
 
-def reactions_of(generated: SwitchingMechanism, found: Followed, followed: Followed) -> Beside:
+def reactions_of(generated: Mechanism, found: Followed, followed: Followed) -> Beside:
     """The generated modes' reactions on the written motion, phase by phase.
 
     With another count of phases there are none, and the certificate says why.

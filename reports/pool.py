@@ -22,7 +22,7 @@ def workers() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def run(
+def spread(
     function: Callable[[Any], Any], tasks: Sequence[Any], *, jobs: int
 ) -> Iterator[tuple[int, Any]]:
     """(index, result) of every task as it is done; a result may be `Died`.

@@ -7,7 +7,7 @@ from typing import Any
 from ..cases.case import Case
 from ..cases.mistake import CaseError
 from ..cases.scene import Scene
-from ..engines.engine import Engine, Plan, Refusal, State
+from ..engines.engine import Engine, Plan, Refusal, Start
 from ..reference.solve import Solution, solve
 from . import pool
 from .events.times import never
@@ -83,7 +83,7 @@ def _trials(
     pairs = [(case, engine) for case in cases for engine in producers(case, engines, book=book)]
     starts = {case.name: first(solutions[case.name].trajectory) for case in cases}
     tasks = [(engine, case.scene, starts[case.name]) for case, engine in pairs]
-    found = dict(pool.run(_planned, tasks, jobs=jobs))
+    found = dict(pool.spread(_planned, tasks, jobs=jobs))
     for index, (case, engine) in enumerate(pairs):
         planned, reference = found[index], solutions[case.name].trajectory
         if isinstance(planned, pool.Died):
@@ -94,7 +94,7 @@ def _trials(
     return trials, lost
 
 
-def _planned(task: tuple[Engine, Scene, State]) -> tuple[Plan | Refusal, ...]:
+def _planned(task: tuple[Engine, Scene, Start]) -> tuple[Plan | Refusal, ...]:
     return ways(*task)
 
 
@@ -124,7 +124,7 @@ def _watched(
     function: Callable, tasks: Sequence, jobs: int, what: str, progress: Progress
 ) -> Iterator[tuple[int, Any]]:
     progress(what, 0, len(tasks))
-    for done, result in enumerate(pool.run(function, tasks, jobs=jobs), start=1):
+    for done, result in enumerate(pool.spread(function, tasks, jobs=jobs), start=1):
         progress(what, done, len(tasks))
         yield result
 

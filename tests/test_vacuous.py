@@ -15,7 +15,7 @@ from textmech.cases.mistake import CaseError
 from textmech.cases.observe import observe
 from textmech.cases.quantity import table
 from textmech.cases.trajectory import Array
-from textmech.reference.generated.choosing import SwitchingMechanism
+from textmech.reference.generated.mechanism import Mechanism
 from textmech.reference.motion.bodies import Motion
 from textmech.reference.motion.follow import either, follow
 from textmech.reference.motion.stuck import Stuck
@@ -32,7 +32,7 @@ PARAMETERS = [(file, name) for file in shipped().values() for name in load(file)
 
 def samples(case: Case) -> Mapping[str, Array]:
     """What the case observes, by the generated mechanism."""
-    mechanism = SwitchingMechanism(case.scene, assemble(case), Closure(case).size)
+    mechanism = Mechanism(case.scene, assemble(case), Closure(case).size)
     by = partial(either, tolerance=TOLERANCE)
     trajectory = Motion(mechanism, follow(mechanism, case.times, by=by)).trajectory(case.times)
     known = table(case.scene)

@@ -9,7 +9,7 @@ import mujoco
 
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
-from ..engine import Plan, Realised, Refusal, State
+from ..engine import Plan, Realised, Refusal, Start
 from ..heading import heading
 from . import options, settings
 from .compilation import NOMINAL, compiled, settled, timestep
@@ -19,7 +19,7 @@ from .law.stepping import stepping
 from .plans import plan, ways
 from .read.measure import measured
 from .refuse import unbuildable, uncompilable
-from .run import heard, simulate
+from .run import listening, simulate
 from .script import text
 
 
@@ -45,26 +45,26 @@ class MuJoCo:
     def _tuned(self) -> bool:
         return self.setting == "tuned"
 
-    def plans(self, scene: Scene, start: State) -> Sequence[Plan | Refusal]:
+    def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
         """Natively; with dry friction also by its law and by a driver, if tuned."""
         refusal = unbuildable(scene) or uncompilable(scene, start, self._plan(scene, start))
         if refusal:
             return [Refusal("native", refusal)]
         return [self._plan(scene, start, way) for way in ways(scene, tuned=self._tuned)]
 
-    def _plan(self, scene: Scene, start: State, realised: Realised = "native") -> Plan:
+    def _plan(self, scene: Scene, start: Start, realised: Realised = "native") -> Plan:
         if self._tuned:
             numbers = partial(settings.tuned, scene, start=start)
         else:
             numbers = partial(settings.with_own, self.options, scene)
         return plan(scene, start, realised, numbers, tuned=self._tuned)
 
-    def measure(self, scene: Scene, start: State) -> dict[str, float]:
+    def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as the compiled model holds it."""
         return measured(scene, *compiled(scene, start, NOMINAL, self._plan(scene, start)))
 
     def script(
-        self, scene: Scene, start: State, step: float, plan: Plan, *, title: str = ""
+        self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""
     ) -> str:
         """The MJCF file with its start as a keyframe."""
         choices = [timestep(step), *plan.choices(step)]
@@ -72,7 +72,7 @@ class MuJoCo:
         return text(scene, start, choices, depths, heading(self, title, step, plan))
 
     def _placed(
-        self, scene: Scene, start: State, step: float, plan: Plan
+        self, scene: Scene, start: Start, step: float, plan: Plan
     ) -> tuple[mujoco.MjModel, mujoco.MjData, Mapping[str, float]]:
         """As the script would be loaded: MuJoCo's floor gives way to a weight, so tuned settles."""
         if self._tuned:
@@ -82,7 +82,7 @@ class MuJoCo:
     def run(
         self,
         scene: Scene,
-        start: State,
+        start: Start,
         times: Array,
         step: float,
         plan: Plan,
@@ -96,14 +96,14 @@ class MuJoCo:
             scene, model, data, start, times, reactions, realised=plan.realised, every=record
         )
 
-    def loop(self, scene: Scene, start: State, step: float, plan: Plan) -> Callable[[int], None]:
+    def loop(self, scene: Scene, start: Start, step: float, plan: Plan) -> Callable[[int], None]:
         """MuJoCo's bare loop, with the same callbacks installed."""
         model, data, _ = self._placed(scene, start, step, plan)
         steps = stepping(scene, model, data, plan.realised)
         laws = smooth(scene, model) if plan.realised == "law" else []
 
         def take(n: int) -> None:
-            with heard(), signals(scene, laws):
+            with listening(), signals(scene, laws):
                 steps.take(n)
 
         return take

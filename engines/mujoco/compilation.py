@@ -9,10 +9,10 @@ from functools import lru_cache
 import mujoco
 
 from ...cases.scene import Scene
-from ..engine import Choice, Plan, State
+from ..engine import Choice, Plan, Start
 from .law.settle import settle
 from .law.signal import installed
-from .run import heard, started
+from .run import listening, started
 from .scene import mjcf
 
 NOMINAL = 1e-3  # s: with which a scene is compiled; any step would do
@@ -27,7 +27,7 @@ _HELD = {
 
 
 def compiled(
-    scene: Scene, start: State, step: float, plan: Plan
+    scene: Scene, start: Start, step: float, plan: Plan
 ) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """The model with the plan's numbers at the step [s], and data at the start.
 
@@ -43,7 +43,7 @@ def compiled(
 
 
 def settled(
-    scene: Scene, start: State, step: float, plan: Plan
+    scene: Scene, start: Start, step: float, plan: Plan
 ) -> tuple[mujoco.MjModel, mujoco.MjData, dict[str, float]]:
     """The same with its start, the keyframe, as deep in the floor as it is carried: depths [m]."""
     model, data = compiled(scene, start, step, plan)
@@ -61,7 +61,7 @@ def timestep(step: float) -> Choice:
 
 @lru_cache(maxsize=1)  # the rungs of a trial follow each other
 def _model(text: str) -> mujoco.MjModel:
-    with heard(), installed(None):
+    with listening(), installed(None):
         return mujoco.MjModel.from_xml_string(text)
 
 

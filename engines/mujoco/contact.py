@@ -10,14 +10,14 @@ import math
 from scipy.optimize import brentq
 
 from ...cases.scene import Contact, Scene
-from ..engine import Choice, State
+from ..engine import Choice, Start
 
 HARDEST = 0.9999  # of d: MuJoCo clamps it
 SOFTEST = 1.01e-4  # of d: MuJoCo clamps it at 1e-4
 CLOSED = 1e-9  # m: what is nearer to the floor than that lies on it
 
 
-def recipe(scene: Scene, tied_to: float, start: State | None) -> list[Choice]:
+def recipe(scene: Scene, tied_to: float, start: Start | None) -> list[Choice]:
     """The contacts' numbers; without a start everything is taken to lie on the floor."""
     if not any(contact.switches for contact in scene.contacts.values()):
         return _rolling(tied_to)
@@ -28,12 +28,12 @@ def recipe(scene: Scene, tied_to: float, start: State | None) -> list[Choice]:
     return _sliding(tied_to, shared=len(set(bodies)) < len(bodies))
 
 
-def falls(scene: Scene, start: State) -> bool:
+def falls(scene: Scene, start: Start) -> bool:
     """Whether something starts above the floor."""
     return any(height(scene, contact, start) > CLOSED for contact in scene.contacts.values())
 
 
-def height(scene: Scene, contact: Contact, start: State) -> float:
+def height(scene: Scene, contact: Contact, start: Start) -> float:
     """How high [m] what touches is above the floor."""
     body = scene.bodies[contact.body]
     dx, dy = body.points[contact.at.point]

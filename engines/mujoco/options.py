@@ -7,7 +7,7 @@ from typing import Any
 import mujoco
 
 from .law.signal import installed
-from .run import heard
+from .run import listening
 
 _WORDS = {
     "integrator": ("Euler", "RK4", "implicit", "implicitfast", "discrete"),
@@ -72,7 +72,7 @@ def _finite(value: Any) -> bool:
 
 def _refused(options: Mapping[str, Any]) -> list[str]:
     """What MuJoCo itself says of the values, when a pin and a contact are stepped with them."""
-    with heard() as warnings, installed(None):
+    with listening() as warnings, installed(None):
         try:
             model = mujoco.MjModel.from_xml_string(_trial(options))
             mujoco.mj_step(model, mujoco.MjData(model))

@@ -5,10 +5,10 @@ from dataclasses import replace
 from functools import partial
 
 from ...cases.scene import Scene
-from ..engine import Choice, Plan, Realised, State
+from ..engine import Choice, Plan, Realised, Start
 from .compilation import NOMINAL, settled
 from .contact import falls
-from .law.friction import followed, smooth_only
+from .law.friction import one_slide, smooth_only
 from .scene import HEAVY
 from .settings import ties
 from .tree import driven
@@ -18,12 +18,12 @@ Numbers = Callable[[float], Sequence[Choice]]
 
 def ways(scene: Scene, *, tuned: bool) -> tuple[Realised, ...]:
     """MuJoCo's own elements; dry friction, of which it knows one number, in other ways too."""
-    if not tuned or not followed(scene):
+    if not tuned or not one_slide(scene):
         return ("native",)
     return ("native", "law") if smooth_only(scene) else ("native", "law", "driver")
 
 
-def plan(scene: Scene, start: State, realised: Realised, numbers: Numbers, *, tuned: bool) -> Plan:
+def plan(scene: Scene, start: Start, realised: Realised, numbers: Numbers, *, tuned: bool) -> Plan:
     """One way's plan. Nothing is withheld: a joint's force and moment can be read, a contact's too.
 
     Exponents: Euler, contacts, corners of dry friction 1, 2; RK4 4, 5; soft constraints of the
@@ -42,7 +42,7 @@ def plan(scene: Scene, start: State, realised: Realised, numbers: Numbers, *, tu
     return replace(bare, protocol=partial(_words, scene, start, bare, tuned))
 
 
-def _words(scene: Scene, start: State, plan: Plan, tuned: bool, step: float) -> str:
+def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> str:
     """Driven points, laws and drivers, and how deep a disk is started in the floor."""
     words = []
     if any(driven(scene)):

@@ -1,7 +1,7 @@
 """Scenes that MuJoCo has no element for, the adapter does not build, or that do not compile."""
 
 from ...cases.scene import GROUND, Joint, Scene
-from ..engine import Plan, State
+from ..engine import Plan, Start
 from .compilation import NOMINAL, compiled
 from .contact import LEAST_BOUNCE
 from .force import ELEMENTS
@@ -50,7 +50,7 @@ def _slide(scene: Scene, tree: Tree, branch: Branch, joint: Joint) -> str | None
     return None
 
 
-def uncompilable(scene: Scene, start: State, plan: Plan) -> str | None:
+def uncompilable(scene: Scene, start: Start, plan: Plan) -> str | None:
     """What MuJoCo's compiler says of the scene."""
     try:
         compiled(scene, start, NOMINAL, plan)

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
-from ..engine import Diverged, Realised, State
+from ..engine import Diverged, Realised, Start
 from .law.signal import installed, signals
 from .law.smooth import smooth
 from .law.stepping import Steps, stepping
@@ -17,7 +17,7 @@ from .read.record import all_steps, recorded
 
 
 @contextmanager
-def heard() -> Iterator[list[str]]:
+def listening() -> Iterator[list[str]]:
     """MuJoCo's warnings as a list.
 
     Without someone who listens, MuJoCo writes them to MUJOCO_LOG.TXT in the user's folder.
@@ -33,7 +33,7 @@ def heard() -> Iterator[list[str]]:
 
 def started(model: mujoco.MjModel) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """The model, and data at its start."""
-    with heard(), installed(None):
+    with listening(), installed(None):
         data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, 0)
     return model, data
@@ -43,7 +43,7 @@ def simulate(
     scene: Scene,
     model: mujoco.MjModel,
     data: mujoco.MjData,
-    start: State,
+    start: Start,
     times: Array,
     reactions: tuple[str, ...],
     *,
@@ -54,7 +54,7 @@ def simulate(
     steps = stepping(scene, model, data, realised)
     laws = smooth(scene, model) if realised == "law" else []
     grid = all_steps(times, model.opt.timestep) if every else times
-    with heard() as warnings, signals(scene, laws):
+    with listening() as warnings, signals(scene, laws):
         record = _record(model, data, grid, steps)
         _check(warnings, grid, record)
         stride = (len(grid) - 1) // (len(times) - 1)

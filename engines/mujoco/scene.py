@@ -10,7 +10,7 @@ from types import MappingProxyType
 from xml.etree import ElementTree as ET
 
 from ...cases.scene import GROUND, Anchor, Contact, DryFriction, Scene
-from ..engine import Choice, State
+from ..engine import Choice, Start
 from .force import signals, write
 from .tree import (
     Branch,
@@ -33,7 +33,7 @@ POINT = 1e-12  # m, radius of a point that touches: too small to be an arm or a 
 
 def mjcf(
     scene: Scene,
-    start: State,
+    start: Start,
     choices: Iterable[Choice],
     depths: Mapping[str, float] = MappingProxyType({}),
 ) -> str:
@@ -207,7 +207,7 @@ def _start(
     root: ET.Element,
     scene: Scene,
     tree: Tree,
-    start: State,
+    start: Start,
     depths: Mapping[str, float],
     *,
     out: bool,

@@ -4,13 +4,13 @@ import re
 from collections.abc import Iterable, Mapping
 
 from ...cases.scene import Scene
-from ..engine import Choice, State
+from ..engine import Choice, Start
 from .scene import mjcf
 
 
 def text(
     scene: Scene,
-    start: State,
+    start: Start,
     choices: Iterable[Choice],
     depths: Mapping[str, float],
     head: Iterable[str],

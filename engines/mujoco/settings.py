@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ...cases.scene import Scene
-from ..engine import Choice, State
+from ..engine import Choice, Start
 from .contact import HARDEST, recipe
 from .options import SOFT, as_written
 from .tree import driven, spanning_tree
@@ -31,7 +31,7 @@ def shipped(scene: Scene, tied_to: float) -> list[Choice]:
     return choices
 
 
-def tuned(scene: Scene, tied_to: float, start: State | None = None) -> list[Choice]:
+def tuned(scene: Scene, tied_to: float, start: Start | None = None) -> list[Choice]:
     """The best recipe for the scene and its start; soft constraints follow the step `tied_to`."""
     choices = [
         Choice("option.integrator", "RK4", "fourth order; every other integrator is of the first"),

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from ...cases.joint import Freedom
 from ...cases.scene import GROUND, Anchor, Joint, Scene, Vector
-from ..engine import State
+from ..engine import Start
 
 
 @dataclass(frozen=True)
@@ -158,7 +158,7 @@ def turned(vector: Vector, angle: float) -> Vector:
 
 
 def coordinates(
-    scene: Scene, tree: Tree, branch: Branch, start: State
+    scene: Scene, tree: Tree, branch: Branch, start: Start
 ) -> list[tuple[float, float]]:
     """(position, rate) of the branch's joint coordinates at the start, in MuJoCo's order."""
     x, y, angle, vx, vy, omega = start[branch.body]
@@ -169,13 +169,13 @@ def coordinates(
     return [ways[freedom](scene, tree, branch, start) for freedom in freedoms(scene, branch)]
 
 
-def _turn(scene: Scene, tree: Tree, branch: Branch, start: State) -> tuple[float, float]:
+def _turn(scene: Scene, tree: Tree, branch: Branch, start: Start) -> tuple[float, float]:
     _, _, angle, _, _, omega = start[branch.body]
     parent = start.get(tree.frame(scene, branch.parent), (0.0,) * 6)
     return angle - parent[2], omega - parent[5]
 
 
-def _shift(scene: Scene, tree: Tree, branch: Branch, start: State) -> tuple[float, float]:
+def _shift(scene: Scene, tree: Tree, branch: Branch, start: Start) -> tuple[float, float]:
     joint = branch.joint
     assert joint is not None
     first, second = (_point(scene, end, start) for end in (joint.a, joint.b))
@@ -185,7 +185,7 @@ def _shift(scene: Scene, tree: Tree, branch: Branch, start: State) -> tuple[floa
     return d[0] * u[0] + d[1] * u[1], d[2] * u[0] + d[3] * u[1]
 
 
-def _point(scene: Scene, anchor: Anchor, start: State) -> tuple[float, float, float, float]:
+def _point(scene: Scene, anchor: Anchor, start: Start) -> tuple[float, float, float, float]:
     if anchor.body == GROUND:
         ground = scene.points[anchor.point]
         return (*ground.at, *ground.velocity)

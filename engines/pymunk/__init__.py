@@ -8,7 +8,7 @@ import pymunk
 
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
-from ..engine import Choice, Plan, Refusal, State
+from ..engine import Choice, Plan, Refusal, Start
 from ..heading import heading
 from . import settings
 from .plans import named, plan, ways
@@ -42,7 +42,7 @@ class Pymunk:
     def _tuned(self) -> bool:
         return self.setting == "tuned"
 
-    def plans(self, scene: Scene, start: State) -> Sequence[Plan | Refusal]:
+    def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
         """Natively; if tuned, dampers and dry friction also by their laws."""
         refusal = unbuildable(scene)
         if refusal:
@@ -57,12 +57,12 @@ class Pymunk:
         """The setting's numbers as attributes of pymunk's Space and constraints."""
         return settings.tuned(scene) if self._tuned else settings.with_own(self.options, scene)
 
-    def measure(self, scene: Scene, start: State) -> dict[str, float]:
+    def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as pymunk's objects hold it."""
         return measured(build(scene, start, named(self._choices(scene)), "native"))
 
     def script(
-        self, scene: Scene, start: State, step: float, plan: Plan, *, title: str = ""
+        self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""
     ) -> str:
         """A Python script that needs only pymunk."""
         numbers = named(plan.choices(step))
@@ -71,7 +71,7 @@ class Pymunk:
     def run(
         self,
         scene: Scene,
-        start: State,
+        start: Start,
         times: Array,
         step: float,
         plan: Plan,
@@ -90,7 +90,7 @@ class Pymunk:
         motion = simulate(world, run, times, step, reactions=readable, midpoint=midpoint)
         return replace(motion, record=kept.trajectory()) if kept else motion
 
-    def loop(self, scene: Scene, start: State, step: float, plan: Plan) -> Callable[[int], None]:
+    def loop(self, scene: Scene, start: Start, step: float, plan: Plan) -> Callable[[int], None]:
         """pymunk's bare loop on the same world, with the same forces."""
         numbers = named(plan.choices(step))
         world = placed(scene, start, step, numbers, plan.realised)

@@ -15,7 +15,7 @@ from pymunk.shapes import Circle
 
 from ...cases.scene import Body as Part
 from ...cases.scene import Contact, Scene, Vector
-from ..engine import State
+from ..engine import Start
 
 FLOOR_FRICTION = 1.0  # pymunk multiplies the frictions of two shapes: the circle carries all of µ
 FLOOR_ELASTICITY = 1.0  # likewise the restitution
@@ -56,12 +56,12 @@ def follower(contact: Contact, part: Part, shape: Circle, step: float) -> Follow
     return follow
 
 
-def closed(scene: Scene, start: State) -> list[Contact]:
+def closed(scene: Scene, start: Start) -> list[Contact]:
     """The contacts that touch at the start: as near to it as the book's scenes are assembled."""
     return [c for c in scene.contacts.values() if abs(_gap(scene, start, c)) <= TOUCHING]
 
 
-def _gap(scene: Scene, start: State, contact: Contact) -> float:
+def _gap(scene: Scene, start: Start, contact: Contact) -> float:
     """Height [m] of the point that touches."""
     part, (_, y, angle, *_) = scene.bodies[contact.body], start[contact.body]
     if part.radius is not None:

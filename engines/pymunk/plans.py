@@ -6,7 +6,7 @@ from typing import Any
 
 from ...cases.quantity import table
 from ...cases.scene import Scene
-from ..engine import Choice, Plan, Realised, State
+from ..engine import Choice, Plan, Realised, Start
 from .contact import closed
 from .law.friction import ruled
 from .scene import oblique
@@ -22,7 +22,7 @@ def ways(scene: Scene, *, tuned: bool) -> tuple[Realised, ...]:
 
 
 def plan(
-    scene: Scene, start: State, realised: Realised, choices: Sequence[Choice], *, tuned: bool
+    scene: Scene, start: Start, realised: Realised, choices: Sequence[Choice], *, tuned: bool
 ) -> Plan:
     """One way's plan; no number follows the step."""
     return Plan(
@@ -65,7 +65,7 @@ def _withheld(scene: Scene) -> dict[str, str]:
     }
 
 
-def _words(scene: Scene, start: State, numbers: Mapping[str, Any], step: float) -> str:
+def _words(scene: Scene, start: Start, numbers: Mapping[str, Any], step: float) -> str:
     """The half step along the velocities, and how deep a contact is started in the floor."""
     words = []
     if numbers.get("time.midpoint"):

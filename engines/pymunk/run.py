@@ -21,7 +21,7 @@ from pymunk.body import Body
 
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
-from ..engine import Diverged, Realised, State
+from ..engine import Diverged, Realised, Start
 from .contact import closed, sink
 from .law.force import forces
 from .scene import FAR, build
@@ -41,7 +41,7 @@ _BUFFER = Buffer()  # one for all runs: pymunk never frees a buffer's memory
 
 
 def placed(
-    scene: Scene, start: State, step: float, numbers: Mapping[str, Any], realised: Realised
+    scene: Scene, start: Start, step: float, numbers: Mapping[str, Any], realised: Realised
 ) -> World:
     """The world where a setting starts it: wheels seeded, bodies half a step back."""
     world = build(scene, start, numbers, realised)

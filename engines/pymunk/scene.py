@@ -14,7 +14,7 @@ from pymunk.shapes import Segment
 from pymunk.space import Space
 
 from ...cases.scene import GROUND, Anchor, DryFriction, Joint, Scene, Vector
-from ..engine import Realised, State
+from ..engine import Realised, Start
 from .contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle
 from .force import lines
 from .world import World
@@ -24,7 +24,7 @@ from .world import World
 FAR = 100.0
 
 
-def build(scene: Scene, start: State, numbers: Mapping[str, Any], realised: Realised) -> World:
+def build(scene: Scene, start: Start, numbers: Mapping[str, Any], realised: Realised) -> World:
     """The scene at its start, with a setting's numbers; `law` leaves the dampers to a force."""
     space = Space()
     space.gravity = scene.gravity
@@ -41,7 +41,7 @@ def build(scene: Scene, start: State, numbers: Mapping[str, Any], realised: Real
     return world
 
 
-def _bodies(world: World, start: State) -> None:
+def _bodies(world: World, start: Start) -> None:
     for body in world.scene.bodies.values():
         part = Body(body.mass, math.inf if body.inertia is None else body.inertia)
         x, y, angle, vx, vy, omega = start[body.name]
@@ -68,7 +68,7 @@ def _contacts(world: World) -> None:
         world.space.add(world.wheels[contact.name])
 
 
-def _joints(world: World, start: State) -> None:
+def _joints(world: World, start: Start) -> None:
     """In the order of the case file: another order is another order of the solver's sweeps."""
     for joint in world.scene.joints.values():
         a, b = world.body(joint.a), world.body(joint.b)
@@ -114,7 +114,7 @@ def turns(scene: Scene, anchor: Anchor) -> bool:
     return anchor.body != GROUND and scene.bodies[anchor.body].turns
 
 
-def phase(joint: Joint, start: State) -> float:
+def phase(joint: Joint, start: Start) -> float:
     """The held angle of b against a [rad], on the turn at which the start stands."""
     first, second = (0.0 if p.body == GROUND else start[p.body][2] for p in (joint.a, joint.b))
     return joint.angle + round((second - first - joint.angle) / math.tau) * math.tau

@@ -8,7 +8,7 @@ from pymunk.constraints import Constraint, DampedSpring, GearJoint, GrooveJoint,
 from pymunk.shapes import Segment
 
 from ...cases.scene import Scene
-from ..engine import State
+from ..engine import Start
 from .contact import ABOVE, closed
 from .force import script
 from .scene import build
@@ -29,7 +29,7 @@ for body in bodies.values():
 
 
 def text(
-    scene: Scene, start: State, step: float, numbers: Mapping[str, Any], head: Iterable[str]
+    scene: Scene, start: Start, step: float, numbers: Mapping[str, Any], head: Iterable[str]
 ) -> str:
     """The script: builds the scene, runs one second, prints name x y angle vx vy omega.
 
@@ -72,7 +72,7 @@ def text(
     return "\n".join(lines) + "\n"
 
 
-def _seeds(world: World, start: State, seed: float) -> list[str]:
+def _seeds(world: World, start: Start, seed: float) -> list[str]:
     lines = ["", "# a circle that only touches the floor would fall freely for one step"]
     for contact in closed(world.scene, start):
         body, wheel = _of(world, world.wheel(contact.name)), world.wheels[contact.name]

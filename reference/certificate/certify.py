@@ -13,7 +13,7 @@ from ...cases.observe import observe
 from ...cases.quantity import table
 from ...cases.trajectory import Trajectory
 from ..coverage import look
-from ..generated.choosing import SwitchingMechanism
+from ..generated.mechanism import Mechanism
 from ..integrators.implicit import Radau
 from ..integrators.march import Method, Slope
 from ..integrators.radau import radau_table
@@ -37,7 +37,7 @@ SHARE = 0.01  # of the smallest tolerance: what the reference's own error may ta
 
 
 def certify(
-    case: Case, written: Motion, built: Motion, generated: SwitchingMechanism, motion: Trajectory
+    case: Case, written: Motion, built: Motion, generated: Mechanism, motion: Trajectory
 ) -> tuple[Check, ...]:
     """All checks that apply to the case.
 
@@ -112,7 +112,7 @@ def _known(followed: Followed, events: list[tuple[str, float]]) -> float:
     )
 
 
-def _start(system: System, generated: SwitchingMechanism) -> float:
+def _start(system: System, generated: Mechanism) -> float:
     """A hand-written system states its own start: it must be the case's."""
     mode, *state = system.start()
     q, v = generated.base.place(system.modes[mode].poses(0.0, *state))

@@ -6,8 +6,8 @@ import numpy as np
 
 from ..coverage import look
 from ..formalisms import energy, lagrange, newton_euler
-from ..generated.choosing import SwitchingMechanism
 from ..generated.mechanism import Mechanism
+from ..generated.mode import Multibody
 from ..motion.bodies import Motion
 from ..system import Array, Mode
 from .agreement import Check, worst
@@ -15,7 +15,7 @@ from .agreement import Check, worst
 LAW = 1e-12  # of the largest term: the laws are algebra, only rounding may differ
 
 
-def laws(answer: Motion, generated: SwitchingMechanism, times: Array) -> Iterator[Check]:
+def laws(answer: Motion, generated: Mechanism, times: Array) -> Iterator[Check]:
     """The laws of every mode along its own part of the motion; the worst of each."""
     found: dict[str, Check] = {}
     followed, written = answer.followed, answer.system is not generated
@@ -29,7 +29,7 @@ def laws(answer: Motion, generated: SwitchingMechanism, times: Array) -> Iterato
 
 
 def of_mode(
-    mode: Mode, generated: Mechanism, times: Array, y: Array, *, written: bool
+    mode: Mode, generated: Multibody, times: Array, y: Array, *, written: bool
 ) -> Iterator[Check]:
     """The explicit accelerations against each formalism along the motion.
 

@@ -1,4 +1,4 @@
-"""What a contact on the floor or a slide at rest holds, and what rubs when it does not rest.
+"""What a contact on the floor or a slide at rest holds, and its friction when it does not rest.
 
 The floor is y = 0, and R is the radius of a rim (0 for a particle or a point of a bar), whose
 lowest point touches.
@@ -41,7 +41,7 @@ def _radius(contact: Contact, where: Coordinates) -> float:
 
 
 @dataclass(frozen=True)
-class Rub:
+class Coulomb:
     """A contact that slides: λ_t = factor λ_n, by (2.87) factor = −μ sign(slip)."""
 
     normal: Constraint
@@ -50,7 +50,7 @@ class Rub:
 
 
 @dataclass(frozen=True)
-class Drag:
+class Braking:
     """A slide that moves: a friction force [N] on the second part, along +u."""
 
     along: Constraint  # that would hold it at rest

@@ -20,7 +20,7 @@ from typing import Literal
 from ...cases.scene import DryFriction, Scene
 from ..laws.friction import Dry, stiction
 from .constraint import Constraint
-from .contact import Drag, Rub, at_rest, normal, tangent
+from .contact import Braking, Coulomb, at_rest, normal, tangent
 from .coordinates import Coordinates
 
 State = Literal["open", "slides +", "slides -", "sticks", "slides"]
@@ -60,11 +60,11 @@ class Element:
         """The constraints of the state."""
         return []
 
-    def rubs(self, state: State) -> list[Rub]:
+    def coulomb(self, state: State) -> list[Coulomb]:
         """Friction in proportion to a normal force."""
         return []
 
-    def drags(self, state: State) -> list[Drag]:
+    def braking(self, state: State) -> list[Braking]:
         """Friction forces of their own."""
         return []
 
@@ -99,11 +99,11 @@ class Touching(Element):
         assert self.normal is not None
         return {"open": [], "sticks": [self.normal, self.tangent]}.get(state, [self.normal])
 
-    def rubs(self, state: State) -> list[Rub]:
+    def coulomb(self, state: State) -> list[Coulomb]:
         """(2.87) F = −μ F_N sign(v)."""
         s = sign(state)
         assert self.normal is not None
-        return [Rub(self.normal, self.tangent, -self.kinetic * s)] if s else []
+        return [Coulomb(self.normal, self.tangent, -self.kinetic * s)] if s else []
 
     def margins(self, forces: Mapping[str, float]) -> tuple[float, float]:
         """(2.89) μ_s F_N ± F_fr [N]: negative where it breaks loose to + and to −."""
@@ -127,11 +127,11 @@ class Sliding(Element):
         """Nothing, or no slip."""
         return [self.tangent] if state == "sticks" else []
 
-    def drags(self, state: State) -> list[Drag]:
+    def braking(self, state: State) -> list[Braking]:
         """(2.89) −F₊ forward, F₋ backward."""
         s = sign(state)
         force = stiction(self.dry, float(s), 0.0) if s else 0.0
-        return [Drag(self.tangent, lambda t, q, v: force)] if s else []
+        return [Braking(self.tangent, lambda t, q, v: force)] if s else []
 
     def margins(self, forces: Mapping[str, float]) -> tuple[float, float]:
         """(2.89) F_s₊ − F_a and F_s₋ + F_a [N], F_a = −F_fr: negative where it breaks loose."""

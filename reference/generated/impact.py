@@ -24,7 +24,7 @@ class NoImpact(ArithmeticError):
 
 
 @dataclass(frozen=True)
-class Row:
+class Condition:
     """f_a (n,) and g of (2.15)."""
 
     f: Array
@@ -36,14 +36,14 @@ class Meeting:
     """A closed contact in the instant: its rows, and the normal velocity after it."""
 
     element: Element
-    normal: Row
-    tangent: Row
+    normal: Condition
+    tangent: Condition
     after: float
     strikes: bool
 
 
 def impact(
-    M: Array, joints: Sequence[Row], meetings: Sequence[Meeting], v: Array
+    M: Array, joints: Sequence[Condition], meetings: Sequence[Meeting], v: Array
 ) -> tuple[Array, tuple[State, ...]]:
     """q̇⁺ (n,) and what each of the contacts does after it.
 
@@ -65,7 +65,7 @@ def _choices(meetings: Sequence[Meeting]) -> Sequence[tuple[State, ...]]:
 
 def _tried(
     M: Array,
-    joints: Sequence[Row],
+    joints: Sequence[Condition],
     meetings: Sequence[Meeting],
     v: Array,
     states: tuple[State, ...],

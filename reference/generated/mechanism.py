@@ -1,228 +1,143 @@
-"""Any planar scene as a Mode, in maximal coordinates with multipliers (2.60)."""
+"""Any planar scene as a System, in maximal coordinates: its modes and what ends them.
 
-from collections.abc import Mapping, Sequence
-from itertools import chain
-from typing import Any
+A scene in which nothing switches has one mode, and no guards.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
-from scipy.linalg.lapack import dgesv, dposv
 
 from ...cases.scene import Scene
-from ..system import Array, Mass, Mode, Pose, Vector
-from .action import act, dissipation, other, potential
-from .constraint import Constraint
-from .contact import Drag, Rub, row
-from .coordinates import Coordinates
-from .permanent import constraints
-from .rows import GAMMA, G
+from ..system import Array, Guard, System
+from .choosing import After, Options, closed, opening, painleve, settled, staying
+from .element import REST, Element, State, sign
+from .landing import STILL, landed
+from .modes import Modes, rate
 
-CANCELS = 1e-15  # of one of two accelerations: what is left of them is their rounding
-
-
-class SingularPose(ArithmeticError):
-    """Where the constraints depend on each other: no single reaction, no single motion."""
-
-    def __init__(self, part: str) -> None:
-        super().__init__(f"what {part} holds is held by the other joints already")
+CLOSED = 1e-9  # of the scene's size: a start this close to the floor stands on it
+PIECES = 16  # of the shortest period of a force: a guard at rest sees nothing else of time
 
 
-class Mechanism(Mode):
-    """Newton's and Euler's equations of all bodies, held together by multipliers.
+class BadStart(Exception):
+    """A contact that starts where no contact can."""
 
-    q holds x, y, angle of each body in the scene's order (a particle has no angle).
-    `held` are constraints beside those of the joints, `drags` and `rubs` what slides with dry
-    friction: the mode of a scene that switches.
-    """
 
-    def __init__(
-        self,
-        scene: Scene,
-        start: tuple[Array, Array],
-        *,
-        held: Sequence[Constraint] = (),
-        drags: Sequence[Drag] = (),
-        rubs: Sequence[Rub] = (),
-    ) -> None:
-        self.scene = scene
-        self.where = Coordinates(scene)
-        self.coordinates = self.where.names
-        self.masses = {b.name: Mass(b.mass, b.inertia) for b in scene.bodies.values()}
-        self._start = start
-        self._M = np.array(self.where.masses)
-        self._constraints = [*constraints(scene, self.where, start[0].tolist()), *held]
-        self._owners = [c.part for c in self._constraints for _ in range(c.size)]
-        self._r = len(self._owners)
-        self._drags = drags
-        places = np.cumsum([0, *(c.size for c in self._constraints)]).tolist()
-        self._rubs = [(places[self._constraints.index(rub.normal)], rub) for rub in rubs]
-        self._weight = np.zeros(len(self._M))
-        for body in scene.bodies.values():
-            xy, _ = self.where.columns[body.name]
-            self._weight[xy : xy + 2] = body.mass * np.asarray(scene.gravity)
+class Mechanism(System):
+    """The scene as modes and guards; `size` [m] is what its gaps are small against."""
 
-    def start(self) -> tuple[Array, Array]:
-        """The assembled start."""
-        return self._start
+    def __init__(self, scene: Scene, start: tuple[Array, Array], size: float) -> None:
+        self.size = size
+        self.modes = self.built = Modes(scene, start)
+        self.base, self.elements = self.built.base, self.built.elements
+        sines = [f.signal for f in scene.signals() if f.signal.law == "sine"]
+        fastest = max((abs(s.angular_frequency) for s in sines), default=0.0)
+        self.longest = math.tau / fastest / PIECES if fastest else None
 
-    def accelerations(self, t: float, q: Array, v: Array) -> Array:
-        """(2.60) M q̈ = Q + λ_b f_aᵇ with f_aᵇ q̈ᵃ = γᵇ, (n,)."""
-        return self.solve(t, q, v)[0]
+    def start(self) -> After:
+        """The assembled start, and what contacts and slides do there.
 
-    def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
-        """(2.60) R_a = λ_b f_aᵇ: the force of the first part on the second, by quantity."""
-        multipliers = self.solve(t, q, v)[1].tolist()
-        at, numbers = 0, q.tolist()
-        found: dict[str, float] = {}
-        for contact in self.scene.contacts.values():
-            found |= {f"{contact.name}.normal": 0.0, f"{contact.name}.tangent": 0.0}
-        for c in self._constraints:
-            _add(found, c.reactions(t, numbers, multipliers[at : at + c.size]))
-            at += c.size
-        for drag in self._drags:
-            _add(found, drag.along.reactions(t, numbers, [drag.force(t, q, v)]))
-        for at, rub in self._rubs:
-            _add(found, rub.tangent.reactions(t, numbers, [rub.factor * multipliers[at]]))
-        for joint in self.scene.joints.values():
-            if not joint.turns:  # a particle takes no moment
-                found.setdefault(f"{joint.name}.torque", 0.0)
-        return found
-
-    def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
-        """(2.60) q̈ (n,) and the multipliers (r,), those of `held` last."""
-        numbers, rates = q.tolist(), v.tolist()
-        Q = self._weight.copy()
-        for force in self.scene.forces.values():
-            act(force, self.where, t, numbers, rates, Q)
-        for drag in self._drags:
-            Q += drag.force(t, q, v) * row(drag.along, t, q, v)[0]
-        rows, _, gamma = self.rows(t, numbers, rates, float)
-        free = Q / self._M
-        if not self._r:
-            return free, np.zeros(0)
-        if self._rubs:
-            return self._rubbing(t, q, v, rows, gamma - rows @ free, free)
-        by_mass = rows / self._M
-        _, multipliers, fails = dposv(by_mass @ rows.T, gamma - rows @ free)
-        if fails:  # not positive definite: the rows depend on each other
-            raise SingularPose(self._owners[fails - 1])
-        return _sum(free, multipliers @ by_mass), multipliers
-
-    def _rubbing(
-        self, t: float, q: Array, v: Array, rows: Array, right: Array, free: Array
-    ) -> tuple[Array, Array]:
-        """(2.60) with λ_t = factor λ_n (2.87): the force of a normal row leans against the slip."""
-        by_mass = self.columns(t, q, v, rows) / self._M
-        _, _, multipliers, fails = dgesv(rows @ by_mass.T, right)
-        if fails:
-            raise SingularPose(self._owners[fails - 1])
-        return _sum(free, multipliers @ by_mass), multipliers
-
-    def columns(self, t: float, q: Array, v: Array, rows: Array) -> Array:
-        """What a unit of each multiplier exerts, (r, n): its row, and what rubs with it (2.87)."""
-        if not self._rubs:
-            return rows
-        columns = rows.copy()
-        for at, rub in self._rubs:
-            columns[at] += rub.factor * row(rub.tangent, t, q, v)[0]
-        return columns
-
-    def rows(self, t: Any, q: Sequence[Any], v: Sequence[Any], dtype: Any) -> tuple[Any, Any, Any]:
-        """(2.15) f_a (r, n) and g (r,), and γ (r,) of f_a q̈ᵃ = γ."""
-        rows = [row for c in self._constraints for row in c.numbers(t, q, v)]
-        columns = len(self._M) + 2
-        numbers = np.fromiter(chain.from_iterable(rows), dtype, self._r * columns)
-        numbers = numbers.reshape(self._r, columns)
-        return numbers[:, :G], numbers[:, G], numbers[:, GAMMA]
-
-    def terms(self, t: float, q: Array, v: Array) -> tuple[float, float]:
-        """The largest acceleration [m/s² or rad/s²] and power [W] that one force gives alone.
-
-        The power is that of a force along the velocity: a hanging bar that trembles by rounding
-        does so across its weight.
+        Raises BadStart for a contact inside the floor or on its way into it.
         """
-        found = [self._weight]
-        for force in self.scene.forces.values():
-            Q = np.zeros(len(self._M))
-            act(force, self.where, t, q.tolist(), v.tolist(), Q)
-            found.append(Q)
-        largest, turning = np.max(np.abs(found), axis=0), self.where.turning
-        powers = [
-            np.max(largest[kind], initial=0.0) * np.max(np.abs(v[kind]), initial=0.0)
-            for kind in (turning, ~turning)
-        ]
-        return float(np.max(largest / self._M)), float(np.max(powers))
+        q, v = self.base.start()
+        if all(e.only for e in self.elements):  # nothing to choose, and nothing to bring to rest
+            return self.built.name(tuple(e.only for e in self.elements if e.only)), q, v
+        choices = [self._at_start(e, q, v) for e in self.elements]
+        return settled(self.built, choices, 0.0, q, v)
 
-    def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
-        """(2.8) R_k, E_k: the coordinates themselves."""
-        return self.where.poses(q, v)
+    def _at_start(self, element: Element, q: Array, v: Array) -> Options:
+        if element.only:
+            return (element.only,)
+        still = STILL * (float(np.max(np.abs(v))) or 1.0)
+        if element.normal is not None:
+            gap = element.normal.f(0.0, q.tolist())[0]
+            if gap > CLOSED * self.size:
+                return ("open",)
+            if gap < -CLOSED * self.size:
+                raise BadStart(f"{element.name} starts {-gap * 1e3:.3g} mm in the floor")
+            rising = rate(element.normal, 0.0, q, v)
+            if rising < -still:
+                raise BadStart(f"{element.name} starts into the floor, with {-rising:.3g} m/s")
+            if rising > still:
+                return ("open",)
+        slip = rate(element.tangent, 0.0, q, v)
+        return closed(element, slip if abs(slip) > still else 0.0)
 
-    def place(self, poses: Mapping[str, Pose]) -> tuple[Array, Array]:
-        """q and v of given poses: how another system's motion is read in these coordinates."""
-        q, v = np.zeros(len(self._M)), np.zeros(len(self._M))
-        for name, (xy, phi) in self.where.columns.items():
-            x, y, angle, vx, vy, omega = poses[name]
-            q[xy : xy + 2], v[xy : xy + 2] = (x, y), (vx, vy)
-            if phi is not None:
-                q[phi], v[phi] = angle, omega
-        return q, v
+    def guards(self, mode: str) -> Sequence[Guard]:
+        """Opening, landing, stopping and slipping of every element, in this order."""
+        states = self.built.states[mode]
+        found = [g for i, s in enumerate(states) for g in self._guards(mode, i, s)]
+        order = {"opens": 0, "lands": 1, "stops": 2, "slips": 3}
+        return sorted(found, key=lambda guard: order[str(guard.event).split()[-1]])
 
-    # The ingredients: the same mechanism from its energies and residuals alone.
+    def _guards(self, mode: str, i: int, state: State) -> Iterator[Guard]:
+        e = self.elements[i]
+        if e.only:
+            return
+        if (normal := e.normal) is not None:
+            if state == "open":
+                gap = lambda t, q, v: normal.f(t, q.tolist())[0]  # noqa: E731
+                yield Guard(f"{e.name} lands", gap, self._lands(mode, i))
+                return
+            push = lambda t, q, v: self.built.forces(mode, t, q, v)[f"{e.name}.normal"]  # noqa: E731
+            yield Guard(f"{e.name} opens", push, self._opens(mode, i))
+        if e.frictionless:
+            return
+        if s := sign(state):
+            slip = lambda t, q, v: s * rate(e.tangent, t, q, v)  # noqa: E731
+            yield Guard(f"{e.name} stops", slip, self._to(mode, i, REST))
+            return
+        for k, way in enumerate(("slides +", "slides -")):
+            yield Guard(f"{e.name} slips", self._margin(mode, e, k), self._to(mode, i, (way,)))
 
-    def T(self, t: Any, q: Vector, v: Vector) -> Any:
-        """(2.54) T = ½ Σ m ṙ_c² + ½ Σ J ω² [J]."""
-        return 0.5 * np.sum(self._M * v * v)
+    def _margin(self, mode: str, e: Element, k: int) -> Callable[[float, Array, Array], float]:
+        return lambda t, q, v: e.margins(self.built.forces(mode, t, q, v))[k]
 
-    def U(self, t: Any, q: Vector) -> Any:
-        """(2.45) U = −Σ m g·r_c + Σ ½ c (λ − λ₀)² [J]."""
-        energy = -np.sum(self._weight * q)
-        for force in self.scene.forces.values():
-            energy = energy + potential(force, self.where, t, q.tolist())
-        return energy
+    def _to(self, mode: str, i: int, choice: Options) -> Callable[[float, Array, Array], After]:
+        """The next mode if element i has this choice; at rest it first comes to rest exactly."""
 
-    def D(self, t: Any, q: Vector, v: Vector) -> Any:
-        """(2.46) D = Σ ½ d λ̇² [W], λ̇ = Δ·Δ̇/λ."""
-        power = 0.0 * v[0]
-        for force in self.scene.forces.values():
-            power = power + dissipation(force, self.where, t, q.tolist(), v.tolist())
-        return power
+        def then(t: float, q: Array, v: Array) -> After:
+            choices = staying(self.built, mode)
+            choices[i] = (*choice, *opening(self.elements[i])) if choice == REST else choice
+            return settled(self.built, choices, t, q, v)
 
-    def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
-        """(2.50) Q_a = Σ F·∂r/∂qᵃ of pushes, torques and dry friction, (n,)."""
-        Q = np.zeros(len(q), np.result_type(q, v, t))
-        for force in self.scene.forces.values():
-            other(force, self.where, t, q.tolist(), v.tolist(), Q)
-        for drag in self._drags:
-            Q += drag.force(t, q, v) * row(drag.along, t, q, v)[0]
-        if self._rubs:
-            multipliers = self.solve(t, q, v)[1]
-            for at, rub in self._rubs:
-                Q += rub.factor * multipliers[at] * row(rub.tangent, t, q, v)[0]
-        return Q
+        return then
 
-    def f(self, t: Any, q: Vector) -> Vector:
-        """(2.14) the residuals of all joints and contacts, (r,)."""
-        return np.array([entry for c in self._constraints for entry in c.f(t, q.tolist())])
+    def _opens(self, mode: str, i: int) -> Callable[[float, Array, Array], After]:
+        """The contact opens, if it then rises: a force that jumps instead has no next mode."""
 
-    def f_a(self, t: Any, q: Vector) -> Vector:
-        """(2.15) the rows f_aᵇ, (r, n)."""
-        return self.rows(t, q.tolist(), q.tolist(), np.result_type(q, t))[0]
+        def then(t: float, q: Array, v: Array) -> After:
+            choices, e = staying(self.built, mode), self.elements[i]
+            choices[i] = ("open",)
+            after = settled(self.built, choices, t, q, v)
+            assert e.normal is not None
+            rises = self.built.change(e.normal, after[0], t, q, v)
+            if rises < -self.built.small(t, q, v):
+                raise painleve(e.name, "neither staying nor leaving the floor", t)
+            return after
 
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) the right side f_aᵇ q̇ᵃ = gᵇ of driven points, (r,)."""
-        return self.rows(t, q.tolist(), q.tolist(), np.result_type(q, t))[1]
+        return then
 
+    def _lands(self, mode: str, i: int) -> Callable[[float, Array, Array], After]:
+        """The impact law, and what each contact and slide may do after it."""
+        return lambda t, q, v: landed(self.built, mode, i, t, q, v)
 
-def _add(found: dict[str, float], more: Mapping[str, float]) -> None:
-    """A slide's force across it and its friction along it make one force."""
-    for name, value in more.items():
-        found[name] = found.get(name, 0.0) + value
-
-
-def _sum(free: Array, bound: Array) -> Array:
-    """Both accelerations together; where they cancel to rounding, nothing: what is held rests.
-
-    Otherwise a body that sticks at the origin would tremble by 1e-17, which is no size for a step.
-    """
-    total = free + bound
-    total[np.abs(total) <= CANCELS * np.abs(free)] = 0.0
-    return total
+    def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
+        """(2.87), (2.89) F_N ≥ 0, |F_fr| ≤ μ_s F_N where it sticks, v as it slides, gap ≥ 0."""
+        forces = self.built.forces(mode, t, q, v)
+        # At an event a force or rate is at its bound, as well as events are located.
+        force = 1e-9 * (max(map(abs, forces.values())) or 1.0)
+        slow = 1e-9 * (float(np.max(np.abs(v))) or 1.0)
+        for e, state in zip(self.elements, self.built.states[mode], strict=True):
+            if e.normal is not None:
+                if state == "open":
+                    if e.normal.f(t, q.tolist())[0] < -CLOSED * self.size:
+                        return f"{e.name} is in the floor"
+                    continue
+                if forces[f"{e.name}.normal"] < -force:
+                    return f"the floor would have to pull at {e.name}"
+            if state == "sticks" and min(e.margins(forces)) < -force:
+                return f"{e.name} would have to slip"
+            if (s := sign(state)) and not e.frictionless and s * rate(e.tangent, t, q, v) < -slow:
+                return f"{e.name} slides the other way"
+        return None

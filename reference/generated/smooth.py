@@ -9,12 +9,12 @@ from ...cases.scene import DryFriction, Scene, Smooth
 from ..laws.friction import Dry, smooth
 from ..system import Array
 from .constraint import Constraint
-from .contact import Drag, Rub, row
+from .contact import Braking, Coulomb, row
 from .element import Smoothed
-from .mechanism import Mechanism
+from .mode import Multibody
 
 
-class SmoothMechanism(Mechanism):
+class SmoothMultibody(Multibody):
     """The mechanism at rest along its slides, moved by what (2.95) leaves of the active forces.
 
     Within the bands friction cancels the active force. In doubles their difference would be noise
@@ -30,15 +30,15 @@ class SmoothMechanism(Mechanism):
         slides: Sequence[Smoothed],
         *,
         held: Sequence[Constraint] = (),
-        drags: Sequence[Drag] = (),
-        rubs: Sequence[Rub] = (),
+        braking: Sequence[Braking] = (),
+        coulomb: Sequence[Coulomb] = (),
     ) -> None:
         self._slides = slides
         self._rests = [slide.tangent for slide in slides]
         resting = [*held, *self._rests]
-        self._resting = Mechanism(scene, start, held=resting, drags=drags, rubs=rubs)
-        smooth = [Drag(part, self._friction(k)) for k, part in enumerate(self._rests)]
-        super().__init__(scene, start, held=held, drags=[*drags, *smooth], rubs=rubs)
+        self._resting = Multibody(scene, start, held=resting, braking=braking, coulomb=coulomb)
+        smooth = [Braking(part, self._friction(k)) for k, part in enumerate(self._rests)]
+        super().__init__(scene, start, held=held, braking=[*braking, *smooth], coulomb=coulomb)
 
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
         """(2.60) at rest along the slides, and with F_a + F_fr along them: q̈ and λ are sums."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...cases.trajectory import Trajectory
 from ..system import Array, Pose, System
-from .follow import Followed, Row
+from .follow import Followed, Kept
 from .stuck import Stuck
 
 Beside = Callable[[int, float, Mapping[str, Pose]], Mapping[str, float]]
@@ -37,7 +37,7 @@ class Motion:
         phase = np.array([row[1] for row in self.followed.rows], dtype=np.int64)
         return replace(self._bodies(self.followed.rows, forces=forces), phase=phase)
 
-    def _bodies(self, rows: Iterable[Row], *, forces: bool) -> Trajectory:
+    def _bodies(self, rows: Iterable[Kept], *, forces: bool) -> Trajectory:
         times: list[float] = []
         states: dict[str, list[Any]] = {}
         reactions: list[Mapping[str, float]] = []

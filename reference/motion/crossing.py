@@ -16,7 +16,7 @@ ROOT = 1e-15  # s: what the root-finder is asked for, to keep the promise above
 INSIDE = (0.25, 0.5, 0.75)  # of a step: a guard turns no faster than the motion, at most once
 HALVINGS = 40  # of a step, in search of the rise of a guard that begins at zero: to 1e-12 of it
 
-State = Callable[[float], Array]
+Within = Callable[[float], Array]
 """h → y (2n,) after a step of that length."""
 
 
@@ -25,7 +25,7 @@ def first(
     t: float,
     points: list[float],
     states: Sequence[Array],
-    state: State,
+    state: Within,
     *,
     begins: bool,
     spent: int | None,

@@ -14,7 +14,7 @@ from ..integrators.implicit import Radau
 from ..integrators.march import IntegrationError, Method, Slope, Step, march
 from ..integrators.radau import radau_table
 from ..system import Array, Guard, Mode, System
-from .crossing import INSIDE, TOGETHER, State, first
+from .crossing import INSIDE, TOGETHER, Within, first
 from .stuck import Stuck, Watched, slope
 from .zeno import MOST, ZenoError, accumulation, ends_here
 
@@ -33,7 +33,7 @@ def either(mode: Mode, f: Slope, n: int, *, tolerance: float = TOLERANCE) -> Met
 
 
 @dataclass(frozen=True)
-class Event:
+class Change:
     """The k-th event of its name, from 1: states y (2n,) just before and just after it."""
 
     name: str | None  # None for a change of mode that nobody observes
@@ -45,7 +45,7 @@ class Event:
     after: Array
 
 
-Row = tuple[float, int, Array]
+Kept = tuple[float, int, Array]
 """t, the number of the phase, y (2n,)."""
 
 
@@ -61,9 +61,9 @@ class Followed:
     y: Array
     phase: NDArray[np.int64]
     phases: tuple[str, ...]
-    changes: tuple[Event, ...]
+    changes: tuple[Change, ...]
     steps: int
-    rows: tuple[Row, ...] = ()
+    rows: tuple[Kept, ...] = ()
 
     @property
     def modes(self) -> tuple[str, ...]:
@@ -71,7 +71,7 @@ class Followed:
         return tuple(self.phases[k] for k in self.phase)
 
     @property
-    def events(self) -> tuple[Event, ...]:
+    def events(self) -> tuple[Change, ...]:
         """The changes that have a name."""
         return tuple(change for change in self.changes if change.name is not None)
 
@@ -102,8 +102,8 @@ class _Walk:
     y: list[Array] = field(default_factory=list)
     phase: list[int] = field(default_factory=list)
     phases: list[str] = field(default_factory=list)
-    changes: list[Event] = field(default_factory=list)
-    rows: list[Row] = field(default_factory=list)
+    changes: list[Change] = field(default_factory=list)
+    rows: list[Kept] = field(default_factory=list)
     steps: int = 0
     spent: int | None = None  # the guard that has just fired, if its mode goes on
     fired: defaultdict[str, list[float]] = field(default_factory=lambda: defaultdict(list))
@@ -174,7 +174,7 @@ class _Walk:
             self.phase.append(len(self.changes))
 
     def _note(
-        self, t: float, lengths: list[float], state: State, states: Sequence[Array] = ()
+        self, t: float, lengths: list[float], state: Within, states: Sequence[Array] = ()
     ) -> None:
         """Rows of a step, but not those just behind the last sample."""
         if self.every:
@@ -196,7 +196,7 @@ class _Walk:
         after = np.concatenate([q, v])
         self._refuse_zeno(name := guard.event or f"{ended} to {mode}", t)
         k = len(self.fired[name])
-        self.changes.append(Event(guard.event, k, t, ended, mode, before, after))
+        self.changes.append(Change(guard.event, k, t, ended, mode, before, after))
         self.t, self.now = t, after
         self._enter(mode)
         if t - self.times[len(self.y) - 1] <= TOGETHER:
@@ -214,7 +214,7 @@ class _Walk:
             )
 
 
-def _within(step: Step, probe: Method) -> State:
+def _within(step: Step, probe: Method) -> Within:
     """The states inside an accepted step, each by a step of its own."""
 
     def state(h: float) -> Array:

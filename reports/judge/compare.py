@@ -11,7 +11,7 @@ from ..trial.simulate import Runs, Samples, simulate
 from ..trial.trial import Trial, judged_names
 from . import instants, metric
 from .convergence import Convergence, study
-from .fill import row, rungs
+from .rows import row, rungs
 from .verdict import verdict
 
 AWAY = 4  # of a ladder's largest steps: how far from an event a sample tells an order

@@ -13,7 +13,7 @@ from ..trial.simulate import Runs, Samples
 from ..trial.trial import Trial
 from . import metric
 from .convergence import Convergence, instants
-from .fill import row, rungs
+from .rows import row, rungs
 from .verdict import verdict
 
 

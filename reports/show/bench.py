@@ -13,7 +13,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from ...cases.case import Case
-from ...engines.engine import Engine, Loop, Plan, State
+from ...engines.engine import Engine, Loop, Plan, Start
 from ...reference.integrators.explicit import dormand_prince
 from ...reference.system import Array, Mode
 from ...reference.systems.double_pendulum import DoublePendulum
@@ -63,7 +63,7 @@ def _one_of_each_file() -> Iterator[Case]:
             yield case
 
 
-def _native(case: Case, start: State) -> Iterator[tuple[Looped, Plan]]:
+def _native(case: Case, start: Start) -> Iterator[tuple[Looped, Plan]]:
     """The engines that offer their bare loop, each with its native plan of the case."""
     for engine in choose_engines([], []):
         if isinstance(engine, Loop):
@@ -72,7 +72,7 @@ def _native(case: Case, start: State) -> Iterator[tuple[Looped, Plan]]:
                     yield engine, way
 
 
-def _stepping(case: Case, start: State, engine: Looped, plan: Plan) -> list[float]:
+def _stepping(case: Case, start: Start, engine: Looped, plan: Plan) -> list[float]:
     """Seconds of the adapter's run, of building the scene, and of the engine's bare loop."""
     times = np.arange(SAMPLES + 1, dtype=np.float64) * (STEPS * STEP)
 

@@ -8,7 +8,7 @@ from ...cases.case import Case
 from ...cases.quantity import table
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
-from ...engines.engine import Choice, Engine, Plan, State
+from ...engines.engine import Choice, Engine, Plan, Start
 from ...reference.approximations.approximation import DELTA, KINDS, A, Example, approximated
 from ...reference.systems import SYSTEMS
 from ...reference.systems.dynamometer import Dynamometer
@@ -41,7 +41,7 @@ class Book:
     version: str = "chapter 2"
     own_step: float | None = STEP
 
-    def plans(self, scene: Scene, start: State) -> Sequence[Plan]:
+    def plans(self, scene: Scene, start: Start) -> Sequence[Plan]:
         """It is only offered where it applies; a fixed step that crosses events is of order 1."""
         forces = ("fx", "fy", "force", "torque", "friction")
         sharp = f", A = {A:g} s/m" if self.setting == "smooth" else ""
@@ -59,14 +59,14 @@ class Book:
             )
         ]
 
-    def measure(self, scene: Scene, start: State) -> dict[str, float]:
+    def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Its block is the case's."""
         return {"block.mass": self.system.m}
 
     def run(
         self,
         scene: Scene,
-        start: State,
+        start: Start,
         times: Array,
         step: float,
         plan: Plan,
@@ -79,7 +79,7 @@ class Book:
         return found if record else replace(found, record=None)
 
     def script(
-        self, scene: Scene, start: State, step: float, plan: Plan, *, title: str = ""
+        self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""
     ) -> str:
         """There is no engine to paste it into."""
         return ""

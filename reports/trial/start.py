@@ -2,16 +2,16 @@
 
 from ...cases.case import Case
 from ...cases.trajectory import Trajectory
-from ...engines.engine import State
+from ...engines.engine import Start
 from ...reference.start.assembly import start_poses
 
 
-def first(reference: Trajectory) -> State:
+def first(reference: Trajectory) -> Start:
     """Row 0 of the reference."""
     return {name: tuple(rows[0].tolist()) for name, rows in reference.states.items()}  # type: ignore[misc]
 
 
-def assembled(case: Case) -> State:
+def assembled(case: Case) -> Start:
     """The start of a case that nobody has solved. Raises CaseError where there is none."""
     poses = start_poses(case)
     return {name: tuple(float(x) for x in pose) for name, pose in poses.items()}  # type: ignore[misc]

@@ -11,7 +11,7 @@ from ...cases.observe import observe
 from ...cases.quantity import Quantity, event_quantities, table
 from ...cases.scene import Scene
 from ...cases.trajectory import VX, VY, Array, Trajectory, X, Y
-from ...engines.engine import Engine, Plan, Realised, Refusal, State
+from ...engines.engine import Engine, Plan, Realised, Refusal, Start
 from ..events.times import reference_events
 from .ladder import judged_step
 from .start import first
@@ -20,7 +20,7 @@ NOTHING_OF_ITS_OWN = "engine: it has nothing of its own for this; see the rows o
 SAME_COUNT = 0.5  # what counts may differ by where the case does not say: they are whole numbers
 
 
-def ways(engine: Engine, scene: Scene, start: State) -> tuple[Plan | Refusal, ...]:
+def ways(engine: Engine, scene: Scene, start: Start) -> tuple[Plan | Refusal, ...]:
     """How a scene is tried: beside a law or driver always a native row, or why there is none."""
     found = tuple(engine.plans(scene, start))
     native = any(way.realised == "native" for way in found)
@@ -110,6 +110,6 @@ class Trial:
         return "; ".join(part for part in (base, note) if part)
 
     @property
-    def start(self) -> State:
+    def start(self) -> Start:
         """Row 0 of the reference: where every engine starts."""
         return first(self.reference)

@@ -32,12 +32,12 @@ from textmech.cases.scene import (
 )
 from textmech.cases.shape import bar, block, disk, particle, rigid
 from textmech.cases.trajectory import ANGLE, Array, Trajectory, X
-from textmech.engines.engine import Diverged, State
+from textmech.engines.engine import Diverged, Start
 from textmech.engines.mujoco import MuJoCo
 from textmech.engines.mujoco import scene as builder
 from textmech.engines.mujoco.law import signal as control
 from textmech.engines.mujoco.tree import spanning_tree
-from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.generated.mode import Multibody
 from textmech.reference.start.assembly import assemble
 from textmech.reports.trial.audit import EQUAL, expected
 
@@ -52,24 +52,24 @@ def case(name: str) -> Case:
     return next(c for c in load(path) if c.name == name)
 
 
-def start(scene_case: Case) -> State:
-    mechanism = Mechanism(scene_case.scene, assemble(scene_case))
+def start(scene_case: Case) -> Start:
+    mechanism = Multibody(scene_case.scene, assemble(scene_case))
     return mechanism.poses(0.0, *mechanism.start())
 
 
 def moved(
-    scene: Scene, begin: State, times: Array, step: float, engine: MuJoCo = TUNED, **given: Any
+    scene: Scene, begin: Start, times: Array, step: float, engine: MuJoCo = TUNED, **given: Any
 ) -> Trajectory:
     plan = planned(engine, scene, begin)
     wanted: dict[str, Any] = {"reactions": (), **given}
     return engine.run(scene, begin, times, step, plan, **wanted)
 
 
-def rest(scene: Scene, begin: State) -> Trajectory:
+def rest(scene: Scene, begin: Start) -> Trajectory:
     return Trajectory(np.zeros(1), {n: np.array([s]) for n, s in begin.items()}, {})
 
 
-def worst(scene: Scene, begin: State) -> float:
+def worst(scene: Scene, begin: Start) -> float:
     """As `reports.audit` judges: relative to the number, or to 1."""
     wanted, found = expected(scene, rest(scene, begin)), TUNED.measure(scene, begin)
     return max(abs(v - wanted[n]) / max(abs(wanted[n]), 1.0) for n, v in found.items())
@@ -176,7 +176,7 @@ def test_euler_is_of_first_order() -> None:
     assert order(lambda h: pendulum(h, SHIPPED), (2e-3, 1e-3, 5e-4)) == pytest.approx(1, abs=0.05)
 
 
-def shaken() -> tuple[Scene, State]:
+def shaken() -> tuple[Scene, Start]:
     """A mass on a rail between a spring and a fast sine."""
     push = Push("push", Anchor("m", "center"), Signal("sine", (9.0, 1.0), 12.0, 0.4))
     coil = Spring(
@@ -225,9 +225,9 @@ def test_the_callback_is_removed_and_the_users_comes_back() -> None:
     def mine(model: mujoco.MjModel, data: mujoco.MjData) -> None:
         seen.append(data.time)
 
-    heard: list[str] = []
+    listening: list[str] = []
     mujoco.set_mjcb_control(mine)
-    mujoco.set_mju_user_warning(heard.append)
+    mujoco.set_mju_user_warning(listening.append)
     try:
         plain = case("bar_pendulum")
         moved(plain.scene, start(plain), TIMES, 2e-3)

@@ -9,7 +9,7 @@ from planning import planned
 from textmech.cases.load import load
 from textmech.engines.mujoco import MuJoCo
 from textmech.engines.mujoco.read.record import all_steps
-from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.generated.mode import Multibody
 from textmech.reference.start.assembly import assemble
 
 CASES = [
@@ -21,7 +21,7 @@ CASES = [
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
 def test_record_holds_the_samples(case) -> None:  # type: ignore[no-untyped-def]
-    mechanism = Mechanism(case.scene, assemble(case))
+    mechanism = Multibody(case.scene, assemble(case))
     start = mechanism.poses(0.0, *mechanism.start())
     step = case.interval / 8
     engine = MuJoCo("tuned")

@@ -33,7 +33,7 @@ from textmech.cases.shape import bar, block, disk, particle, rigid
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.mujoco import MuJoCo
 from textmech.engines.mujoco.tree import spanning_tree
-from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.generated.mode import Multibody
 from textmech.reference.motion.bodies import Motion
 from textmech.reference.motion.follow import either, follow
 from textmech.reference.system import Only
@@ -163,14 +163,14 @@ class Build:
                 )
 
 
-def mechanism(build: Build) -> Mechanism:
+def mechanism(build: Build) -> Multibody:
     """The scene with random rates, as near to them as the constraints allow."""
     q = [x for n, p in build.poses.items() for x in (p if build.turns(n) else p[:2])]
-    still = Mechanism(build.scene, (np.array(q), np.zeros(len(q))))
+    still = Multibody(build.scene, (np.array(q), np.zeros(len(q))))
     v = build.rng.normal(size=len(q))
     rows, g = still.f_a(0.0, np.array(q)), still.g(0.0, np.array(q))
     v += np.linalg.lstsq(rows, g - rows @ v, rcond=None)[0] if len(rows) else 0.0
-    return Mechanism(build.scene, (np.array(q), v))
+    return Multibody(build.scene, (np.array(q), v))
 
 
 def regular(build: Build) -> bool:

@@ -10,7 +10,7 @@ from planning import planned
 
 from textmech.cases.scene import Anchor, Contact, GroundPoint, Joint, Scene
 from textmech.cases.shape import bar, disk
-from textmech.engines.engine import State
+from textmech.engines.engine import Start
 from textmech.engines.mujoco import MuJoCo
 
 WHEEL = Scene(
@@ -29,7 +29,7 @@ WHEEL = Scene(
     {"touch": Contact("touch", Anchor("wheel", "center"), 0.5, 0.5, ideal="rolling")},
     {},
 )
-START: State = {
+START: Start = {
     "wheel": (0.0, 0.2, 0.0, 0.0, 0.0, 0.0),
     "rod": (0.5, 1.0, 0.0, 0.0, 0.0, 0.0),
     "other": (0.5, 1.0, 0.0, 0.0, 0.0, 0.0),

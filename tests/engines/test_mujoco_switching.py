@@ -25,7 +25,7 @@ from textmech.cases.scene import (
 )
 from textmech.cases.shape import bar, disk, particle
 from textmech.cases.trajectory import OMEGA, VX, VY, Array, Trajectory, X, Y
-from textmech.engines.engine import Realised, State
+from textmech.engines.engine import Realised, Start
 from textmech.engines.mujoco import MuJoCo
 from textmech.engines.mujoco.contact import damping_ratio
 
@@ -241,6 +241,6 @@ def test_smooth_law_creeps() -> None:
 
 
 def test_realisations() -> None:
-    still: State = {"block": (0.0, 0.0, 0.0, 0.0, 0.0, 0.0), "wheel": (0.0, R, 0.0, 0.0, 0.0, 0.0)}
+    still: Start = {"block": (0.0, 0.0, 0.0, 0.0, 0.0, 0.0), "wheel": (0.0, R, 0.0, 0.0, 0.0, 0.0)}
     assert ways(TUNED, pulled(DRY), still) == ("native", "law", "driver")
     assert ways(TUNED, floor(WHEEL, touching("wheel", 0.3)), still) == ("native",)

@@ -24,10 +24,10 @@ from textmech.cases.observe import observe
 from textmech.cases.scene import Anchor, GroundPoint, Joint, Scene, Spring
 from textmech.cases.shape import bar, block, particle
 from textmech.cases.trajectory import ANGLE, Array, Trajectory, X, Y
-from textmech.engines.engine import Diverged, Realised, State
+from textmech.engines.engine import Diverged, Realised, Start
 from textmech.engines.pymunk import Pymunk, settings
 from textmech.engines.pymunk import scene as builder
-from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.generated.mode import Multibody
 from textmech.reference.motion.bodies import Motion
 from textmech.reference.motion.follow import follow
 from textmech.reference.start.assembly import assemble
@@ -44,8 +44,8 @@ def case(name: str) -> Case:
 
 
 @cache
-def start(name: str) -> State:
-    mechanism = Mechanism(case(name).scene, assemble(case(name)))
+def start(name: str) -> Start:
+    mechanism = Multibody(case(name).scene, assemble(case(name)))
     return mechanism.poses(0.0, *mechanism.start())
 
 
@@ -236,13 +236,13 @@ def test_damper_of_the_engine_and_by_its_law(variant: str, damping: float) -> No
     assert damped(law, damping) < 5e-7 < damped(native, damping) < 5e-4
 
 
-def reference(scene: Scene, poses: State, times: Array) -> Trajectory:
+def reference(scene: Scene, poses: Start, times: Array) -> Trajectory:
     q, v = [], []
     for body in scene.bodies.values():
         x, y, angle, vx, vy, omega = poses[body.name]
         q += [x, y, angle] if body.turns else [x, y]
         v += [vx, vy, omega] if body.turns else [vx, vy]
-    alone = Only(Mechanism(scene, (np.array(q), np.array(v))))
+    alone = Only(Multibody(scene, (np.array(q), np.array(v))))
     return Motion(alone, follow(alone, times)).trajectory(times)
 
 
@@ -262,7 +262,7 @@ def test_driven_point_push_and_forces_in_time() -> None:
 ALONG = (math.cos(0.3), math.sin(0.3))
 
 
-def sliding(kind: str) -> tuple[Scene, State]:
+def sliding(kind: str) -> tuple[Scene, Start]:
     rod = bar(name="rod", mass=1.1, length=0.9, points={"P": (0.1, 0.07)})
     box = block(name="box", mass=0.6, width=0.2, height=0.1, points={"Q": (0.03, -0.04)})
     hinge = Joint("hinge", "pin", Anchor("ground", "O"), Anchor("rod", "start"))
@@ -339,7 +339,7 @@ def test_angle_of_a_weld_may_stand_on_another_turn() -> None:
 # Iterations
 
 
-def chain(n: int) -> tuple[Scene, State]:
+def chain(n: int) -> tuple[Scene, Start]:
     """n bars hung from one pin, released horizontally."""
     bodies = {f"b{i}": bar(name=f"b{i}", mass=1.0, length=0.4, points={}) for i in range(n)}
     anchors = [Anchor("ground", "O"), *(Anchor(name, "end") for name in bodies)]

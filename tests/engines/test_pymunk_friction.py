@@ -31,7 +31,7 @@ from textmech.cases.scene import (
 )
 from textmech.cases.shape import bar, disk, particle
 from textmech.cases.trajectory import ANGLE, OMEGA, VX, Array, Trajectory, X, Y
-from textmech.engines.engine import Realised, State
+from textmech.engines.engine import Realised, Start
 from textmech.engines.law import smooth_friction
 from textmech.engines.pymunk import Pymunk, settings
 from textmech.engines.pymunk.law import breakaway as onset
@@ -45,7 +45,7 @@ WHEEL = disk(name="wheel", mass=1.3, radius=0.3, points={})
 
 def moved(
     scene: Scene,
-    start: State,
+    start: Start,
     times: Array = TIMES,
     *,
     step: float = STEP,
@@ -90,14 +90,14 @@ def rail(static: Bounds, kinetic: Bounds, force: Force, smooth: Smooth | None = 
 SIX, THREE = Bounds(6.0, 6.0), Bounds(3.0, 3.0)
 PULL = Spring("pull", Anchor("block", "center"), Anchor("ground", "hook"), 2.0, 10.0)
 GROWING = Push("pull", Anchor("block", "center"), Signal("ramp", (-1.0, 0.0)))
-REST: State = {"block": (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)}
+REST: Start = {"block": (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)}
 
 
-def thrown(v: float) -> State:
+def thrown(v: float) -> Start:
     return {"block": (0.0, 0.0, 0.0, v, 0.0, 0.0)}
 
 
-def launched(v: float, omega: float, height: float = 0.0) -> State:
+def launched(v: float, omega: float, height: float = 0.0) -> Start:
     return {"wheel": (0.0, 0.3 + height, 0.0, v, 0.0, omega)}
 
 

@@ -9,7 +9,7 @@ from textmech.cases.load import load
 from textmech.cases.observe import observe
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import ANGLE, Array, Trajectory
-from textmech.engines.engine import Engine, Plan, State
+from textmech.engines.engine import Engine, Plan, Start
 from textmech.engines.mujoco import MuJoCo
 from textmech.engines.pymunk import Pymunk
 from textmech.reference.solve import solve
@@ -49,7 +49,7 @@ initial: {{arm: {{angle: -0.4, omega: 1.0}}, rod: {{x: 1.5, angle: 0.5, vx: 0.3,
 }
 
 
-def solved(scene: str, tmp_path: Path) -> tuple[Scene, State, np.ndarray, np.ndarray]:
+def solved(scene: str, tmp_path: Path) -> tuple[Scene, Start, np.ndarray, np.ndarray]:
     """The scene, its start, the times, and the reference's angles of the rod."""
     path = tmp_path / "slot.yaml"
     path.write_text(HEAD + scene + TAIL)
@@ -60,7 +60,7 @@ def solved(scene: str, tmp_path: Path) -> tuple[Scene, State, np.ndarray, np.nda
 
 
 def run(
-    engine: Engine, scene: Scene, start: State, times: Array, h: float, **more: bool
+    engine: Engine, scene: Scene, start: Start, times: Array, h: float, **more: bool
 ) -> Trajectory:
     """Natively, at the step h."""
     plan, *_ = engine.plans(scene, start)

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import scenes
+from given import scenes
 
 from textmech.cases.mistake import CaseError, Mistake
-from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.generated.mode import Multibody
 from textmech.reference.start.assembly import assemble
 from textmech.reference.system import Array
 
@@ -60,7 +60,7 @@ def start(tmp_path: Path, text: str) -> tuple[dict[str, float], dict[str, float]
     """Coordinates and rates at the start, by the coordinate's name."""
     case = scenes.typed(tmp_path, text)
     q, v = assemble(case)
-    mechanism = Mechanism(case.scene, (q, v))
+    mechanism = Multibody(case.scene, (q, v))
     size = max(1.0, float(np.max(np.abs(q))))
     assert np.max(np.abs(mechanism.f(0.0, q)), initial=0.0) < 1e-12 * size
     assert np.max(np.abs(mechanism.f_a(0.0, q) @ v - mechanism.g(0.0, q)), initial=0.0) < 1e-12

@@ -6,14 +6,14 @@ from functools import partial
 
 import numpy as np
 import pytest
-import scenes
+from given import scenes
 
 from textmech.cases.case import Case
 from textmech.reference import systems
 from textmech.reference.certificate import laws
 from textmech.reference.certificate.agreement import Check, difference, relative, worst
 from textmech.reference.certificate.certify import certify
-from textmech.reference.generated.choosing import SwitchingMechanism
+from textmech.reference.generated.mechanism import Mechanism
 from textmech.reference.motion.bodies import Motion
 from textmech.reference.motion.follow import TOLERANCE, either, follow
 from textmech.reference.solve import reactions_of
@@ -36,7 +36,7 @@ DRIFT, SHARE = "constraint drift", "share of the tolerances"
 
 def failing(case: Case, system: Mode, *, tolerance: float = TOLERANCE) -> set[str]:
     """The checks that do not hold if the case is answered by this system."""
-    generated = SwitchingMechanism(case.scene, assemble(case), Closure(case).size)
+    generated = Mechanism(case.scene, assemble(case), Closure(case).size)
     by = partial(either, tolerance=tolerance)
     built = Motion(generated, follow(generated, case.times))
     beside = reactions_of(generated, built.followed, built.followed)

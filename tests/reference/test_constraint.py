@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import scenes
+from given import scenes
 
 from textmech.cases.joint import FREEDOMS
 from textmech.cases.scene import GROUND, Anchor, Contact, GroundPoint, Joint, Scene
@@ -12,7 +12,7 @@ from textmech.reference.formalisms.derivative import along
 from textmech.reference.generated.constraint import Constraint
 from textmech.reference.generated.contact import at_rest, normal, tangent
 from textmech.reference.generated.coordinates import Coordinates
-from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.generated.mode import Multibody
 from textmech.reference.generated.permanent import constraints
 from textmech.reference.generated.rows import GAMMA, G
 from textmech.reference.system import Array
@@ -170,7 +170,7 @@ def test_the_reaction_is_the_force_of_the_first_part_on_the_second(name: str) ->
     end = joint.b if second else joint.a
     sign = 1.0 if second else -1.0  # on the first part it is the opposite
     for t, q, v in states(scene):
-        mechanism = Mechanism(scene, (q, v))
+        mechanism = Multibody(scene, (q, v))
         a, force = mechanism.accelerations(t, q, v), mechanism.reactions(t, q, v)
         body = scene.bodies[end.body]
         xy, phi = mechanism.where.columns[body.name]
@@ -191,7 +191,7 @@ def test_rolling_reactions_hold_the_disk_up_and_turn_it() -> None:
     scene = Scene(scene.gravity, {}, {"b0": scene.bodies["b0"]}, {}, scene.contacts, {})
     disk = scene.bodies["b0"]
     for t, q, v in states(scene):
-        mechanism = Mechanism(scene, (q, v))
+        mechanism = Multibody(scene, (q, v))
         a, force = mechanism.accelerations(t, q, v), mechanism.reactions(t, q, v)
         assert force["touch.normal"] == pytest.approx(disk.mass * 9.0, rel=EXACT)
         np.testing.assert_allclose(disk.mass * a[0], disk.mass * 2.0 + force["touch.tangent"])
@@ -203,7 +203,7 @@ def test_a_particle_takes_no_moment() -> None:
     for name in ("slide: to particle", "weld: from particle"):
         scene = made(name)
         t, q, v = states(scene)[0]
-        assert Mechanism(scene, (q, v)).reactions(t, q, v)["j.torque"] == 0.0
+        assert Multibody(scene, (q, v)).reactions(t, q, v)["j.torque"] == 0.0
 
 
 def test_an_angle_is_held_on_the_turn_at_which_it_starts() -> None:

@@ -4,7 +4,7 @@ import sys
 from collections.abc import Callable
 
 import pytest
-import scenes
+from given import scenes
 
 from textmech.reference.coverage import CALLS, equations, look, noting
 from textmech.reference.laws import momentum

@@ -3,11 +3,11 @@
 from collections.abc import Callable
 from typing import Any
 
-import laws
 import numpy as np
 import pytest
 import sympy as sp
-from examples import PARAMETERS, example, states
+from given import laws
+from given.examples import PARAMETERS, example, states
 from sympy.physics import mechanics
 
 Derived = Callable[[Any, Any], tuple[Any, Any]]

@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-import scenes
+from given import scenes
 
 from textmech.cases.scene import GROUND, Anchor, Body, Joint, Scene, Spring
 from textmech.reference.formalisms import energy, lagrange
-from textmech.reference.generated import mechanism as module
+from textmech.reference.generated import mode as module
 from textmech.reference.generated.action import NoDirection, pulls
-from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.generated.mode import Multibody
 from textmech.reference.generated.rows import GAMMA, Along, Line
 from textmech.reference.system import Array
 
@@ -20,14 +20,14 @@ EXACT = 1e-12  # of the largest term
 COUNT = 60  # random scenes: every kind of body, joint and force comes ten times and more
 
 
-def lagrangian(mechanism: Mechanism, t: float, q: Array, v: Array) -> float:
+def lagrangian(mechanism: Multibody, t: float, q: Array, v: Array) -> float:
     """(2.60) Explicit accelerations against T, U, D, Q₄, f_a, g, relative to the largest term."""
     a, lam = lagrange.multipliers(mechanism, t, q, v)
     terms = [np.abs(a), *(np.abs(mechanism.f_a(t, q) * lam[:, None]) / mechanism.where.masses)]
     return float(np.max(np.abs(mechanism.accelerations(t, q, v) - a)) / np.max(terms))
 
 
-def balance(mechanism: Mechanism, t: float, q: Array, v: Array) -> float:
+def balance(mechanism: Multibody, t: float, q: Array, v: Array) -> float:
     """(2.51) The power that is not accounted for, relative to the power of all forces together."""
     lam = lagrange.multipliers(mechanism, t, q, v)[1]
     power = np.abs(mechanism.f_a(t, q) * lam[:, None] * v).sum()
@@ -35,7 +35,7 @@ def balance(mechanism: Mechanism, t: float, q: Array, v: Array) -> float:
     return abs(energy.power_balance(mechanism, t, q, v)) / (power or 1.0)  # 0: nothing can move
 
 
-Law = Callable[[Mechanism, float, Array, Array], float]
+Law = Callable[[Multibody, float, Array, Array], float]
 
 
 @pytest.mark.parametrize("law", [lagrangian, balance])
@@ -64,7 +64,7 @@ def test_free_scenes_keep_momentum_and_angular_momentum() -> None:
     while checked < 20:
         scene = scenes.scene(random, free=True, loops=False)
         n = sum(3 if b.turns else 2 for b in scene.bodies.values())
-        mechanism = Mechanism(scene, (np.zeros(n), np.zeros(n)))
+        mechanism = Multibody(scene, (np.zeros(n), np.zeros(n)))
         if not scenes.independent(mechanism, random):
             continue
         q = scenes.closed(mechanism, 0.0, random.uniform(-2.0, 2.0, n))
@@ -100,21 +100,21 @@ def heavier(body: Body) -> Body:
     return replace(body, inertia=body.inertia * 1.05) if body.inertia else body
 
 
-class Turning(Mechanism):
+class Turning(Multibody):
     """Every J 5 % too large in the explicit accelerations."""
 
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         made = {name: heavier(body) for name, body in self.scene.bodies.items()}
-        return Mechanism(replace(self.scene, bodies=made), self.start()).accelerations(t, q, v)
+        return Multibody(replace(self.scene, bodies=made), self.start()).accelerations(t, q, v)
 
 
-class Rising(Mechanism):
+class Rising(Multibody):
     """Gravity with the wrong sign in the explicit accelerations."""
 
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         x, y = self.scene.gravity
         scene = replace(self.scene, gravity=(-x, -y))
-        return Mechanism(scene, self.start()).accelerations(t, q, v)
+        return Multibody(scene, self.start()).accelerations(t, q, v)
 
 
 def without_moment(force: Any, where: Any, t: Any, q: Any, v: Any, Q: Any) -> None:
@@ -159,7 +159,7 @@ def without_coriolis(add: Callable[..., None]) -> Callable[..., None]:
     return wrong
 
 
-def mutated(kind: type[Mechanism] = Mechanism) -> Mechanism:
+def mutated(kind: type[Multibody] = Multibody) -> Multibody:
     """Two bodies on the ground by a pin and a slide, with a spring off centre, as `kind`."""
     bar = scenes.shape.bar(name="bar", mass=1.2, length=0.9, points={"P": (0.3, 0.2)})
     block = scenes.shape.block(name="block", mass=0.7, width=0.5, height=0.3, points={})
@@ -179,7 +179,7 @@ def mutated(kind: type[Mechanism] = Mechanism) -> Mechanism:
     return kind(scene, (np.zeros(6), np.zeros(6)))
 
 
-def seen(law: Law, mechanism: Mechanism) -> float:
+def seen(law: Law, mechanism: Multibody) -> float:
     random = np.random.default_rng(4)
     return max(law(mechanism, *scenes.state(random, mechanism)) for _ in range(5))
 
@@ -191,7 +191,7 @@ def test_the_laws_hold_for_what_is_mutated(law: Law) -> None:
 
 @pytest.mark.parametrize("law", [lagrangian, balance])
 @pytest.mark.parametrize("kind", [Turning, Rising])
-def test_law_sees_a_wrong_body(law: Law, kind: type[Mechanism]) -> None:
+def test_law_sees_a_wrong_body(law: Law, kind: type[Multibody]) -> None:
     assert seen(law, mutated(kind)) > 1e-4
 
 

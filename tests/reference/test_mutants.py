@@ -7,11 +7,11 @@ from types import ModuleType
 from typing import Any
 from unittest import mock
 
-import laws
 import numpy as np
 import pytest
-from examples import PARAMETERS, example, states
-from laws import Law
+from given import laws
+from given.examples import PARAMETERS, example, states
+from given.laws import Law
 
 from textmech.reference.system import Load, Mode
 

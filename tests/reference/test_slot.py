@@ -4,12 +4,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import scenes
+from given import scenes
 from scipy.integrate import solve_ivp
 
 from textmech.cases.joint import FREEDOMS
 from textmech.cases.trajectory import ANGLE, OMEGA, VX, X
-from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.generated.mode import Multibody
 from textmech.reference.solve import solve
 
 G = 9.80665
@@ -66,7 +66,7 @@ def test_without_one_of_its_freedoms_it_moves_differently(
     """The mutant: the word in the table is all that the generated reference knows."""
     case = scenes.typed(tmp_path, SCENE)
     t, q, v = 0.0, np.array([0.5, 0.1, PHI0]), np.array([V0, 0.0, 0.0])
-    free = Mechanism(case.scene, (q, v)).accelerations(t, q, v)
+    free = Multibody(case.scene, (q, v)).accelerations(t, q, v)
     monkeypatch.setitem(FREEDOMS, "slot", FREEDOMS["slot"] - {lost})
-    held = Mechanism(case.scene, (q, v)).accelerations(t, q, v)
+    held = Multibody(case.scene, (q, v)).accelerations(t, q, v)
     assert np.abs(free - held).max() > 1e-2

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import scenes
+from given import scenes
 
 from textmech.cases.case import Case, Event
 from textmech.cases.observe import observe
 from textmech.cases.quantity import table
 from textmech.cases.trajectory import Array, Trajectory
-from textmech.reference.generated.choosing import SwitchingMechanism
+from textmech.reference.generated.mechanism import Mechanism
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 from textmech.reference.start.assembly import assemble
@@ -72,7 +72,7 @@ def with_event(case: Case) -> Case:
 def located(case: Case) -> list[float]:
     """The times at which the guard falls, each the end of a step."""
     quantity = case.events["turns"].quantity
-    mechanism = SwitchingMechanism(case.scene, assemble(case), Closure(case).size)
+    mechanism = Mechanism(case.scene, assemble(case), Closure(case).size)
 
     def g(t: float, q: Array, v: Array) -> float:
         poses = mechanism.base.poses(t, q, v)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import scenes
+from given import scenes
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError, Mistake

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from switching_examples import example
+from given.switching_examples import example
 
 from textmech.reference.approximations.karnopp import Karnopp, boxcars
 from textmech.reference.approximations.stepping import arrest, stepped

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-import scenes
+from given import scenes
 
 from textmech.cases import shape
 from textmech.cases.scene import (
@@ -19,11 +19,11 @@ from textmech.cases.scene import (
     Spring,
 )
 from textmech.reference.formalisms import energy, lagrange
-from textmech.reference.generated.choosing import SwitchingMechanism
-from textmech.reference.generated.contact import Drag, Rub, at_rest, normal, tangent
+from textmech.reference.generated.contact import Braking, Coulomb, at_rest, normal, tangent
 from textmech.reference.generated.element import elements
 from textmech.reference.generated.mechanism import Mechanism
-from textmech.reference.generated.smooth import SmoothMechanism
+from textmech.reference.generated.mode import Multibody
+from textmech.reference.generated.smooth import SmoothMultibody
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array, Only
 from textmech.reference.systems.smooth_friction import SmoothDynamometer
@@ -32,7 +32,7 @@ LAW = 1e-9  # of the largest acceleration: random scenes lose up to four digits 
 WELL = 100.0  # condition of the rows: beyond, rounding shows
 
 
-def lawful(mechanism: Mechanism, t: float, q: Array, v: Array) -> None:
+def lawful(mechanism: Multibody, t: float, q: Array, v: Array) -> None:
     """The explicit accelerations by (2.60) from the ingredients, and the power (2.51)."""
     a = mechanism.accelerations(t, q, v)
     size = float(np.max(np.abs(a))) + mechanism.terms(t, q, v)[0]
@@ -42,16 +42,16 @@ def lawful(mechanism: Mechanism, t: float, q: Array, v: Array) -> None:
     assert abs(energy.power_balance(mechanism, t, q, v)) < LAW * size
 
 
-def with_slides(count: int, *, held: bool) -> list[tuple[Mechanism, np.random.Generator]]:
-    """Random mechanisms whose slides rest, or rub with 0.7 N, on parts that turn as well."""
+def with_slides(count: int, *, held: bool) -> list[tuple[Multibody, np.random.Generator]]:
+    """Random mechanisms whose slides rest, or sliding with 0.7 N, on parts that turn as well."""
     found = []
     for plain, random in scenes.mechanisms(400):
         slides = [j for j in plain.scene.joints.values() if j.kind == "slide"]
         if not slides:
             continue
         parts = [at_rest(joint, plain.where) for joint in slides]
-        drags = [] if held else [Drag(part, lambda t, q, v: -0.7) for part in parts]
-        made = Mechanism(plain.scene, plain.start(), held=parts if held else [], drags=drags)
+        braking = [] if held else [Braking(part, lambda t, q, v: -0.7) for part in parts]
+        made = Multibody(plain.scene, plain.start(), held=parts if held else [], braking=braking)
         n = len(made.coordinates)
         if scenes.independent(made, random) and len(made.f_a(0.0, np.zeros(n))) < n:
             found.append((made, random))
@@ -93,13 +93,13 @@ def rods() -> Scene:
 @pytest.mark.parametrize("slipping", [(0, 0), (1, 0), (0, -1), (-1, 1)])
 def test_contacts_that_stick_roll_and_slide(slipping: tuple[int, int]) -> None:
     scene, random = rods(), np.random.default_rng(seed=3)
-    plain = Mechanism(scene, (np.zeros(9), np.zeros(9)))
-    held, rubs = [], []
+    plain = Multibody(scene, (np.zeros(9), np.zeros(9)))
+    held, coulomb = [], []
     for contact, s in zip(scene.contacts.values(), slipping, strict=True):
         rows = normal(contact, plain.where), tangent(contact, plain.where)
         held += rows[:1] if s else rows
-        rubs += [Rub(*rows, -contact.kinetic * s)] if s else []
-    mechanism = Mechanism(scene, plain.start(), held=held, rubs=rubs)
+        coulomb += [Coulomb(*rows, -contact.kinetic * s)] if s else []
+    mechanism = Multibody(scene, plain.start(), held=held, coulomb=coulomb)
     for _ in range(20):
         t, q, v = scenes.state(random, mechanism)
         if np.linalg.cond(mechanism.f_a(t, q)) > WELL:
@@ -137,7 +137,7 @@ def guided(mass: float, smooth: Smooth | None) -> Scene:
 def test_a_slide_brakes_by_its_own_bound(way: float) -> None:
     """(2.89) v₀ m / F₊ forward, v₀ m / F₋ backward; then it rests, by no force."""
     q, v = np.array([0.1, -0.2]), way * np.array([0.6, 0.8])
-    system = SwitchingMechanism(guided(1.3, None), (q, v), 1.0)
+    system = Mechanism(guided(1.3, None), (q, v), 1.0)
     followed = follow(system, np.linspace(0.0, 1.0, 11))
     (stop,) = followed.changes
     assert stop.time == pytest.approx(1.3 / (2.0 if way > 0 else 2.5), abs=1e-12)
@@ -150,9 +150,9 @@ def test_smooth_friction_of_a_slide_by_the_formalisms() -> None:
     """(2.95) outside the band is −F₊; the residual by superposition is the sum of the forces."""
     law = Smooth(band=0.05, sharpness=100.0)
     start = np.array([0.1, -0.2]), np.zeros(2)
-    system = SwitchingMechanism(guided(1.3, law), start, 1.0)
+    system = Mechanism(guided(1.3, law), start, 1.0)
     mechanism = system.modes[system.start()[0]]
-    assert isinstance(mechanism, SmoothMechanism)
+    assert isinstance(mechanism, SmoothMultibody)
     for speed in (-1.0, -0.05, 0.0, 0.02, 0.05, 1.0):
         q, v = np.array([0.1, -0.2]), speed * np.array([0.6, 0.8])
         a = mechanism.accelerations(0.0, q, v)
@@ -174,7 +174,7 @@ def test_smooth_friction_on_an_oblique_slide_of_odd_mass() -> None:
         forces={"coil": Spring("coil", Anchor("ground", "hook"), ends[1], 2.0, 1.0)},
     )
     times = np.linspace(0.0, 5.0, 26)
-    y = follow(SwitchingMechanism(scene, (np.zeros(2), np.zeros(2)), 1.0), times).y
+    y = follow(Mechanism(scene, (np.zeros(2), np.zeros(2)), 1.0), times).y
     block = SmoothDynamometer(1.3, 2.0, 2.0, 3.0, 3.0, 6.0, 6.0, 5e-4, 1e5)
     exact = follow(Only(block), times).y
     assert y[:, :2] @ [0.6, 0.8] == pytest.approx(exact[:, 0], abs=1e-9)
@@ -182,7 +182,7 @@ def test_smooth_friction_on_an_oblique_slide_of_odd_mass() -> None:
 
 def test_every_element_is_found() -> None:
     scene = rods()
-    plain = Mechanism(scene, (np.zeros(9), np.zeros(9)))
+    plain = Multibody(scene, (np.zeros(9), np.zeros(9)))
     assert [e.name for e in elements(scene, plain.where)] == ["P", "rim"]
 
 
@@ -193,7 +193,7 @@ def test_a_disk_that_lands_turning_rolls_or_slides_by_the_cone() -> None:
         touch = Contact("touch", Anchor("wheel", "center"), mu, mu)
         scene = Scene((0.0, -9.80665), {}, {"wheel": disk}, {}, {"touch": touch}, {})
         start = np.array([0.0, 1.25, 0.0]), np.array([1.0, 0.0, 4.0])
-        followed = follow(SwitchingMechanism(scene, start, 0.25), np.linspace(0.0, 0.46, 3))
+        followed = follow(Mechanism(scene, start, 0.25), np.linspace(0.0, 0.46, 3))
         land = followed.changes[0]
         v_n, slip = math.sqrt(2 * 9.80665), 1.0 + 0.25 * 4.0
         jump = -slip / 3 if rolls else -mu * v_n

@@ -7,15 +7,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import scenes
-import sliding_scenes
+from given import scenes, sliding_scenes
 
 from textmech.cases.case import Case, Event
 from textmech.cases.mistake import CaseError, Mistake
-from textmech.reference.generated import choosing as switching_mechanism
+from textmech.reference.generated import choosing, impact, landing, mechanism
 from textmech.reference.generated import element as contact_modes
-from textmech.reference.generated import impact
-from textmech.reference.generated.contact import Rub
+from textmech.reference.generated.contact import Coulomb
 from textmech.reference.generated.element import State, Touching, sign
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import Solution, solve
@@ -179,27 +177,30 @@ def failing(tmp_path: Path, name: str) -> set[str]:
         return {"refused"}
 
 
-def _rubs(coefficient: Callable[[Touching], float]) -> Callable[[Touching, State], list[Rub]]:
-    def rubs(self: Touching, state: State) -> list[Rub]:
+def _coulomb(
+    coefficient: Callable[[Touching], float],
+) -> Callable[[Touching, State], list[Coulomb]]:
+    def coulomb(self: Touching, state: State) -> list[Coulomb]:
         s = sign(state)
         assert self.normal is not None
-        return [Rub(self.normal, self.tangent, coefficient(self) * s)] if s else []
+        return [Coulomb(self.normal, self.tangent, coefficient(self) * s)] if s else []
 
-    return rubs
+    return coulomb
 
 
 def test_mutant_static_for_kinetic(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Touching, "rubs", _rubs(lambda touch: -touch.static))
+    monkeypatch.setattr(Touching, "coulomb", _coulomb(lambda touch: -touch.static))
     assert {"generated motion", "generated events"} <= failing(tmp_path, "braking")
 
 
 def test_mutant_sign_of_kinetic_friction(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Touching, "rubs", _rubs(lambda touch: touch.kinetic))
+    monkeypatch.setattr(Touching, "coulomb", _coulomb(lambda touch: touch.kinetic))
     assert {"generated motion", "generated events"} <= failing(tmp_path, "braking")
 
 
 def test_mutant_without_sticking(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(switching_mechanism, "REST", ("slides +", "slides -"))
+    for module in (choosing, mechanism):
+        monkeypatch.setattr(module, "REST", ("slides +", "slides -"))
     assert failing(tmp_path, "braking")
     assert failing(tmp_path, "backspin")
 
@@ -209,7 +210,7 @@ def test_mutant_restitution_ignored(tmp_path: Path, monkeypatch: pytest.MonkeyPa
         def __init__(self, element, normal, tangent, after, strikes) -> None:  # type: ignore[no-untyped-def]
             super().__init__(element, normal, tangent, 0.0, strikes)
 
-    monkeypatch.setattr(switching_mechanism, "Meeting", Dead)
+    monkeypatch.setattr(landing, "Meeting", Dead)
     assert {"generated motion", "generated events"} <= failing(tmp_path, "elastic")
 
 

@@ -5,13 +5,13 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import fields, replace
 from typing import Any
 
-import laws
 import mpmath
 import numpy as np
 import pytest
-from examples import PARAMETERS as SMOOTH
+from given import laws
+from given.examples import PARAMETERS as SMOOTH
+from given.switching_examples import PARAMETERS, example, states
 from scipy.integrate import solve_ivp
-from switching_examples import PARAMETERS, example, states
 
 from textmech.reference.formalisms import lagrange, newton_euler
 from textmech.reference.integrators.implicit import radau

@@ -4,12 +4,11 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-import laws
 import mpmath
 import numpy as np
 import pytest
-import switching_examples
-from examples import PARAMETERS, example, states
+from given import laws, switching_examples
+from given.examples import PARAMETERS, example, states
 from scipy.special import ellipj
 
 from textmech.reference.formalisms import lagrange, newton_euler

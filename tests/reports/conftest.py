@@ -13,7 +13,7 @@ from textmech.cases.case import Case
 from textmech.cases.load import load
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Array, Trajectory
-from textmech.engines.engine import Choice, Diverged, Plan, Realised, Refusal, State
+from textmech.engines.engine import Choice, Diverged, Plan, Realised, Refusal, Start
 from textmech.reports.trial.start import first
 from textmech.reports.trial.trial import Trial, ways
 
@@ -72,7 +72,7 @@ class Fake:
     planning: Callable[[], None] = nothing
     before: Callable[[], None] = nothing
 
-    def plans(self, scene: Scene, start: State) -> list[Plan | Refusal]:
+    def plans(self, scene: Scene, start: Start) -> list[Plan | Refusal]:
         self.planning()
         if self.refusal is not None:
             return [Refusal("native", self.refusal)]
@@ -82,17 +82,17 @@ class Fake:
         return [Plan(way, orders, following, stiffness, withheld=blind) for way in self.ways]
 
     def script(
-        self, scene: Scene, start: State, step: float, plan: Plan, *, title: str = ""
+        self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""
     ) -> str:
         return "pass\n"
 
-    def measure(self, scene: Scene, start: State) -> dict[str, float]:
+    def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         return {"ball.mass": 2.0} | self.numbers
 
     def run(
         self,
         scene: Scene,
-        start: State,
+        start: Start,
         times: Array,
         step: float,
         plan: Plan,

@@ -18,7 +18,7 @@ def work(task: int) -> int:
 
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_the_rest_goes_on(jobs: int) -> None:
-    found = dict(pool.run(work, list(range(7)), jobs=jobs))
+    found = dict(pool.spread(work, list(range(7)), jobs=jobs))
     assert {i: r for i, r in found.items() if i not in (3, 5)} == {0: 0, 1: 1, 2: 4, 4: 16, 6: 36}
     assert found[3] == pool.Died("the process died")
     assert found[5] == pool.Died("ZeroDivisionError: five")
@@ -30,4 +30,4 @@ def where(_: int) -> str:
 
 def test_engines_do_not_write_into_the_users_folder(tmp_path, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)
-    assert dict(pool.run(where, [0], jobs=1))[0] != str(tmp_path)
+    assert dict(pool.spread(where, [0], jobs=1))[0] != str(tmp_path)

@@ -11,7 +11,7 @@ import numpy as np
 
 from textmech.cases.scene import GROUND, Anchor, Damper, Push, Scene, Spring
 from textmech.cases.trajectory import Array, Trajectory
-from textmech.engines.engine import Plan, Refusal, State
+from textmech.engines.engine import Plan, Refusal, Start
 from textmech.engines.heading import heading
 from textmech.engines.law import tension, value
 
@@ -31,7 +31,7 @@ class Toy:
         if self.options:
             raise ValueError("\n".join(f"toy.{name}: unknown option" for name in self.options))
 
-    def plans(self, scene: Scene, start: State) -> Sequence[Plan | Refusal]:
+    def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
         """One way, of first order, for what is free and does not turn."""
         if scene.joints or scene.contacts:
             return [Refusal("native", "engine: toy has no joints and no contacts")]
@@ -39,13 +39,13 @@ class Toy:
             return [Refusal("native", "engine: toy knows particles only")]
         return [Plan("native", held=(1, 2))]
 
-    def measure(self, scene: Scene, start: State) -> dict[str, float]:
+    def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """It holds nothing of its own but masses and gravity."""
         masses = {f"{body.name}.mass": body.mass for body in scene.bodies.values()}
         return masses | {"gravity.x": scene.gravity[0], "gravity.y": scene.gravity[1]}
 
     def run(
-        self, scene: Scene, start: State, times: Array, step: float, plan: Plan,
+        self, scene: Scene, start: Start, times: Array, step: float, plan: Plan,
         *, reactions: tuple[str, ...], record: bool = False,
     ) -> Trajectory:  # fmt: skip
         """Every step is kept; the samples are some of them."""
@@ -66,7 +66,7 @@ class Toy:
         return Trajectory(times, states, {}, record=Trajectory(every, kept, {}) if record else None)
 
     def script(
-        self, scene: Scene, start: State, step: float, plan: Plan, *, title: str = ""
+        self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""
     ) -> str:
         """It has no files; what would head one."""
         return "".join(f"# {line}\n" for line in heading(self, title, step, plan))

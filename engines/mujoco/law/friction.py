@@ -71,7 +71,7 @@ def slides(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> list[Sli
     return [Slide(model, data, j) for j in scene.joints.values() if j.dry_friction is not None]
 
 
-def followed(scene: Scene) -> bool:
+def one_slide(scene: Scene) -> bool:
     """Whether friction can be told from outside: one slide, and no other force that gives way."""
     dry = [joint for joint in scene.joints.values() if joint.dry_friction is not None]
     return len(dry) == 1 and not scene.contacts

@@ -8,7 +8,7 @@ import mujoco
 from scipy.optimize import brentq
 
 from ....cases.scene import CENTER, Scene
-from ...engine import State
+from ...engine import Start
 from ..contact import CLOSED, height
 from ..tree import spanning_tree
 from .signal import signals
@@ -17,7 +17,7 @@ _DEEPEST = 1.0  # m, of a particle; a disk could be as deep as its radius
 
 
 def settle(
-    scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, start: State
+    scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, start: Start
 ) -> dict[str, float]:
     """Depth [m] of what lies on the floor by itself; what is joined rests on its joints.
 

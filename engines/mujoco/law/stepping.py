@@ -37,7 +37,7 @@ class Steps:
 def stepping(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, realised: Realised) -> Steps:
     """Steps of the model's size; smooth friction is a callback and needs nothing here."""
     ours = realised != "native" and not smooth_only(scene)
-    followed = slides(scene, model, data) if ours else []
+    found = slides(scene, model, data) if ours else []
     step = float(model.opt.timestep)
 
     def native(n: int) -> None:
@@ -45,13 +45,13 @@ def stepping(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, realised:
 
     def by_law(n: int) -> None:
         for _ in range(n):
-            for slide in followed:
+            for slide in found:
                 bounded(slide)
             mujoco.mj_step(model, data)
 
     def by_driver(n: int) -> None:
         for _ in range(n):
-            driven_step(followed, step)
+            driven_step(found, step)
 
     ways = {"law": by_law, "driver": by_driver}
-    return Steps(model, data, followed, ways[realised] if followed else native)
+    return Steps(model, data, found, ways[realised] if found else native)

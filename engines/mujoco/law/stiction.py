@@ -16,7 +16,9 @@ def bounded(slide: Slide) -> None:
         slide.sense = 0
     if not slide.sense:
         slide.sense = slide.starts(now) or slide.starts(soon)
-        model.dof_frictionloss[slide.dof] = _onset(slide, now, soon) if slide.sense else slide.holds
+        model.dof_frictionloss[slide.dof] = (
+            _breaking_loose(slide, now, soon) if slide.sense else slide.holds
+        )
         return
     brakes = slide.brakes(slide.sense)
     model.dof_frictionloss[slide.dof] = brakes
@@ -25,7 +27,7 @@ def bounded(slide: Slide) -> None:
         slide.sense = 0  # it comes to rest in this step
 
 
-def _onset(slide: Slide, now: float, soon: float) -> float:
+def _breaking_loose(slide: Slide, now: float, soon: float) -> float:
     """A constant bound [N] with the impulse of holding first and braking then."""
     now, soon = slide.sense * now, slide.sense * soon
     static = slide.friction.static

@@ -8,7 +8,7 @@ from ....cases.scene import Scene
 _FRICTION = int(mujoco.mjtConstraint.mjCNSTR_FRICTION_DOF)
 
 
-class Frictions:
+class SlideFriction:
     """The friction force [N] on the second part along each slide: (N,) by the joint's name."""
 
     def __init__(self, scene: Scene, model: mujoco.MjModel, samples: int) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 
 from ....cases.scene import GROUND, Scene
 from ....cases.trajectory import ANGLE, OMEGA, VX, VY, Array, X, Y
-from ...engine import State
+from ...engine import Start
 from ..scene import local
 from ..tree import Branch, built_as, coordinate, driven, spanning_tree, turned
 
@@ -20,7 +20,7 @@ Coordinate = Callable[[str], tuple[Array, Array]]
 
 
 def poses(
-    scene: Scene, model: mujoco.MjModel, qpos: Array, qvel: Array, start: State
+    scene: Scene, model: mujoco.MjModel, qpos: Array, qvel: Array, start: Start
 ) -> dict[str, Array]:
     """(N, 6) of each body: x, y, angle, vx, vy, omega of the centre of mass."""
     tree = spanning_tree(scene)
@@ -81,7 +81,7 @@ def _carried(frame: Array, vector: tuple[float, float], *, rate: bool = False) -
     return np.column_stack([x, y])
 
 
-def _counted(scene: Scene, *, rows: Array, name: str, start: State) -> Array:
+def _counted(scene: Scene, *, rows: Array, name: str, start: Start) -> Array:
     """The angle counted from the start's, which may be 370 deg; a particle has none."""
     if not scene.bodies[name].turns:
         rows = rows.copy()

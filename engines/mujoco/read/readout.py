@@ -12,9 +12,9 @@ import numpy as np
 
 from ....cases.scene import Scene
 from ....cases.trajectory import ANGLE, Array, Trajectory
-from ...engine import State
+from ...engine import Start
 from ..tree import Tree, built_as, coordinate, spanning_tree
-from .friction import Frictions
+from .friction import SlideFriction
 from .reaction import Contacts, joint_force
 
 _PLACES = ("xipos", "cvel", "subtree_com")
@@ -25,7 +25,7 @@ def read(
     scene: Scene,
     model: mujoco.MjModel,
     data: mujoco.MjData,  # any of the model: it is moved through the record
-    start: State,
+    start: Start,
     times: Array,
     record: list[Array],
     reactions: tuple[str, ...],
@@ -36,7 +36,7 @@ def read(
     contacts = Contacts(scene, model, len(times)) if scene.contacts and reactions else None
     joints = [name for name in reactions if name.partition(".")[0] in scene.joints]
     wanted = (*_PLACES, *(_FORCES if joints else ()))
-    dry = Frictions(scene, model, len(times))
+    dry = SlideFriction(scene, model, len(times))
     keepers = [dry] if contacts is None else [contacts, dry]
     seen = _seen(model, data, times, record, wanted, keepers, recall, forces=bool(reactions))
     found: dict[str, Array] = {}
@@ -63,7 +63,7 @@ def _seen(
     times: Array,
     record: list[Array],
     wanted: tuple[str, ...],
-    keepers: Sequence[Contacts | Frictions],
+    keepers: Sequence[Contacts | SlideFriction],
     recall: Callable[[int], None],
     *,
     forces: bool,

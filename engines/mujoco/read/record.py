@@ -8,7 +8,7 @@ import numpy as np
 
 from ....cases.scene import Scene
 from ....cases.trajectory import Array, Trajectory
-from ...engine import State
+from ...engine import Start
 from .poses import poses
 
 
@@ -23,7 +23,7 @@ def recorded(
     trajectory: Trajectory,
     times: Array,
     record: Sequence[Array],  # positions and velocities, then what is not needed here
-    start: State,
+    start: Start,
 ) -> Trajectory:
     """The trajectory with its record; an engine does not say when a phase ends."""
     qpos, qvel, *_ = record

@@ -25,7 +25,7 @@ from textmech.cases.scene import (
     Spring,
     Torque,
 )
-from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.generated.mode import Multibody
 from textmech.reference.solve import Solution, solve
 from textmech.reference.system import Array
 
@@ -165,7 +165,7 @@ def rolling(random: Random) -> Scene:
     )
 
 
-def state(random: Random, mechanism: Mechanism) -> tuple[float, Array, Array]:
+def state(random: Random, mechanism: Multibody) -> tuple[float, Array, Array]:
     """Random t, q and v; the rates meet the constraints, the places need not."""
     n = len(mechanism.coordinates)
     t, q, v = random.uniform(0.0, 3.0), random.uniform(-2.0, 2.0, n), random.uniform(-3.0, 3.0, n)
@@ -175,7 +175,7 @@ def state(random: Random, mechanism: Mechanism) -> tuple[float, Array, Array]:
     return float(t), q, v
 
 
-def closed(mechanism: Mechanism, t: float, q: Array) -> Array:
+def closed(mechanism: Multibody, t: float, q: Array) -> Array:
     """The places near q that close all joints, by Newton's method."""
     for _ in range(50):  # quadratic near the end, damped before
         f = mechanism.f(t, q)
@@ -186,19 +186,19 @@ def closed(mechanism: Mechanism, t: float, q: Array) -> Array:
     raise AssertionError("the random scene does not close")
 
 
-def mechanisms(count: int, seed: int = 1) -> Iterator[tuple[Mechanism, Random]]:
+def mechanisms(count: int, seed: int = 1) -> Iterator[tuple[Multibody, Random]]:
     """Mechanisms of random scenes, independently constrained, and the generator of their states."""
     random = np.random.default_rng(seed)
     while count:
         made = rolling(random) if count % 10 == 0 else scene(random)
         n = sum(3 if b.turns else 2 for b in made.bodies.values())
-        mechanism = Mechanism(made, (np.zeros(n), np.zeros(n)))
+        mechanism = Multibody(made, (np.zeros(n), np.zeros(n)))
         if independent(mechanism, random):
             count -= 1
             yield mechanism, random
 
 
-def independent(mechanism: Mechanism, random: Random) -> bool:
+def independent(mechanism: Multibody, random: Random) -> bool:
     """Whether no joint repeats another, by 1e-2: so that rounding grows by 1e4 at most."""
     rows = mechanism.f_a(0.0, random.uniform(-2.0, 2.0, len(mechanism.coordinates)))
     return not len(rows) or bool(np.linalg.svd(rows, compute_uv=False)[-1] > 1e-2)

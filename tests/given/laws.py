@@ -7,11 +7,12 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
-from examples import MULTIPLIERS, STARTS
 
 from textmech.reference.formalisms import energy, lagrange, newton_euler
 from textmech.reference.formalisms.derivative import along
 from textmech.reference.system import Array, Mode
+
+from .examples import MULTIPLIERS, STARTS
 
 States = Iterable[tuple[float, Array, Array]]
 Law = Callable[[Mode, str, States], float]

@@ -1,0 +1,228 @@
+"""Any planar scene as a Mode, in maximal coordinates with multipliers (2.60)."""
+
+from collections.abc import Mapping, Sequence
+from itertools import chain
+from typing import Any
+
+import numpy as np
+from scipy.linalg.lapack import dgesv, dposv
+
+from ...cases.scene import Scene
+from ..system import Array, Mass, Mode, Pose, Vector
+from .action import act, dissipation, other, potential
+from .constraint import Constraint
+from .contact import Braking, Coulomb, row
+from .coordinates import Coordinates
+from .permanent import constraints
+from .rows import GAMMA, G
+
+CANCELS = 1e-15  # of one of two accelerations: what is left of them is their rounding
+
+
+class SingularPose(ArithmeticError):
+    """Where the constraints depend on each other: no single reaction, no single motion."""
+
+    def __init__(self, part: str) -> None:
+        super().__init__(f"what {part} holds is held by the other joints already")
+
+
+class Multibody(Mode):
+    """Newton's and Euler's equations of all bodies, held together by multipliers.
+
+    q holds x, y, angle of each body in the scene's order (a particle has no angle).
+    `held` are constraints beside those of the joints, `braking` and `coulomb` what slides with dry
+    friction: the mode of a scene that switches.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        start: tuple[Array, Array],
+        *,
+        held: Sequence[Constraint] = (),
+        braking: Sequence[Braking] = (),
+        coulomb: Sequence[Coulomb] = (),
+    ) -> None:
+        self.scene = scene
+        self.where = Coordinates(scene)
+        self.coordinates = self.where.names
+        self.masses = {b.name: Mass(b.mass, b.inertia) for b in scene.bodies.values()}
+        self._start = start
+        self._M = np.array(self.where.masses)
+        self._constraints = [*constraints(scene, self.where, start[0].tolist()), *held]
+        self._owners = [c.part for c in self._constraints for _ in range(c.size)]
+        self._r = len(self._owners)
+        self._braking = braking
+        places = np.cumsum([0, *(c.size for c in self._constraints)]).tolist()
+        self._coulomb = [(places[self._constraints.index(law.normal)], law) for law in coulomb]
+        self._weight = np.zeros(len(self._M))
+        for body in scene.bodies.values():
+            xy, _ = self.where.columns[body.name]
+            self._weight[xy : xy + 2] = body.mass * np.asarray(scene.gravity)
+
+    def start(self) -> tuple[Array, Array]:
+        """The assembled start."""
+        return self._start
+
+    def accelerations(self, t: float, q: Array, v: Array) -> Array:
+        """(2.60) M q̈ = Q + λ_b f_aᵇ with f_aᵇ q̈ᵃ = γᵇ, (n,)."""
+        return self.solve(t, q, v)[0]
+
+    def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
+        """(2.60) R_a = λ_b f_aᵇ: the force of the first part on the second, by quantity."""
+        multipliers = self.solve(t, q, v)[1].tolist()
+        at, numbers = 0, q.tolist()
+        found: dict[str, float] = {}
+        for contact in self.scene.contacts.values():
+            found |= {f"{contact.name}.normal": 0.0, f"{contact.name}.tangent": 0.0}
+        for c in self._constraints:
+            _add(found, c.reactions(t, numbers, multipliers[at : at + c.size]))
+            at += c.size
+        for brake in self._braking:
+            _add(found, brake.along.reactions(t, numbers, [brake.force(t, q, v)]))
+        for at, law in self._coulomb:
+            _add(found, law.tangent.reactions(t, numbers, [law.factor * multipliers[at]]))
+        for joint in self.scene.joints.values():
+            if not joint.turns:  # a particle takes no moment
+                found.setdefault(f"{joint.name}.torque", 0.0)
+        return found
+
+    def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
+        """(2.60) q̈ (n,) and the multipliers (r,), those of `held` last."""
+        numbers, rates = q.tolist(), v.tolist()
+        Q = self._weight.copy()
+        for force in self.scene.forces.values():
+            act(force, self.where, t, numbers, rates, Q)
+        for brake in self._braking:
+            Q += brake.force(t, q, v) * row(brake.along, t, q, v)[0]
+        rows, _, gamma = self.rows(t, numbers, rates, float)
+        free = Q / self._M
+        if not self._r:
+            return free, np.zeros(0)
+        if self._coulomb:
+            return self._leaning(t, q, v, rows, gamma - rows @ free, free)
+        by_mass = rows / self._M
+        _, multipliers, fails = dposv(by_mass @ rows.T, gamma - rows @ free)
+        if fails:  # not positive definite: the rows depend on each other
+            raise SingularPose(self._owners[fails - 1])
+        return _sum(free, multipliers @ by_mass), multipliers
+
+    def _leaning(
+        self, t: float, q: Array, v: Array, rows: Array, right: Array, free: Array
+    ) -> tuple[Array, Array]:
+        """(2.60) with λ_t = factor λ_n (2.87): the force of a normal row leans against the slip."""
+        by_mass = self.columns(t, q, v, rows) / self._M
+        _, _, multipliers, fails = dgesv(rows @ by_mass.T, right)
+        if fails:
+            raise SingularPose(self._owners[fails - 1])
+        return _sum(free, multipliers @ by_mass), multipliers
+
+    def columns(self, t: float, q: Array, v: Array, rows: Array) -> Array:
+        """What a unit of each multiplier exerts, (r, n): its row and its friction (2.87)."""
+        if not self._coulomb:
+            return rows
+        columns = rows.copy()
+        for at, law in self._coulomb:
+            columns[at] += law.factor * row(law.tangent, t, q, v)[0]
+        return columns
+
+    def rows(self, t: Any, q: Sequence[Any], v: Sequence[Any], dtype: Any) -> tuple[Any, Any, Any]:
+        """(2.15) f_a (r, n) and g (r,), and γ (r,) of f_a q̈ᵃ = γ."""
+        rows = [row for c in self._constraints for row in c.numbers(t, q, v)]
+        columns = len(self._M) + 2
+        numbers = np.fromiter(chain.from_iterable(rows), dtype, self._r * columns)
+        numbers = numbers.reshape(self._r, columns)
+        return numbers[:, :G], numbers[:, G], numbers[:, GAMMA]
+
+    def terms(self, t: float, q: Array, v: Array) -> tuple[float, float]:
+        """The largest acceleration [m/s² or rad/s²] and power [W] that one force gives alone.
+
+        The power is that of a force along the velocity: a hanging bar that trembles by rounding
+        does so across its weight.
+        """
+        found = [self._weight]
+        for force in self.scene.forces.values():
+            Q = np.zeros(len(self._M))
+            act(force, self.where, t, q.tolist(), v.tolist(), Q)
+            found.append(Q)
+        largest, turning = np.max(np.abs(found), axis=0), self.where.turning
+        powers = [
+            np.max(largest[kind], initial=0.0) * np.max(np.abs(v[kind]), initial=0.0)
+            for kind in (turning, ~turning)
+        ]
+        return float(np.max(largest / self._M)), float(np.max(powers))
+
+    def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
+        """(2.8) R_k, E_k: the coordinates themselves."""
+        return self.where.poses(q, v)
+
+    def place(self, poses: Mapping[str, Pose]) -> tuple[Array, Array]:
+        """q and v of given poses: how another system's motion is read in these coordinates."""
+        q, v = np.zeros(len(self._M)), np.zeros(len(self._M))
+        for name, (xy, phi) in self.where.columns.items():
+            x, y, angle, vx, vy, omega = poses[name]
+            q[xy : xy + 2], v[xy : xy + 2] = (x, y), (vx, vy)
+            if phi is not None:
+                q[phi], v[phi] = angle, omega
+        return q, v
+
+    # The ingredients: the same mechanism from its energies and residuals alone.
+
+    def T(self, t: Any, q: Vector, v: Vector) -> Any:
+        """(2.54) T = ½ Σ m ṙ_c² + ½ Σ J ω² [J]."""
+        return 0.5 * np.sum(self._M * v * v)
+
+    def U(self, t: Any, q: Vector) -> Any:
+        """(2.45) U = −Σ m g·r_c + Σ ½ c (λ − λ₀)² [J]."""
+        energy = -np.sum(self._weight * q)
+        for force in self.scene.forces.values():
+            energy = energy + potential(force, self.where, t, q.tolist())
+        return energy
+
+    def D(self, t: Any, q: Vector, v: Vector) -> Any:
+        """(2.46) D = Σ ½ d λ̇² [W], λ̇ = Δ·Δ̇/λ."""
+        power = 0.0 * v[0]
+        for force in self.scene.forces.values():
+            power = power + dissipation(force, self.where, t, q.tolist(), v.tolist())
+        return power
+
+    def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
+        """(2.50) Q_a = Σ F·∂r/∂qᵃ of pushes, torques and dry friction, (n,)."""
+        Q = np.zeros(len(q), np.result_type(q, v, t))
+        for force in self.scene.forces.values():
+            other(force, self.where, t, q.tolist(), v.tolist(), Q)
+        for brake in self._braking:
+            Q += brake.force(t, q, v) * row(brake.along, t, q, v)[0]
+        if self._coulomb:
+            multipliers = self.solve(t, q, v)[1]
+            for at, law in self._coulomb:
+                Q += law.factor * multipliers[at] * row(law.tangent, t, q, v)[0]
+        return Q
+
+    def f(self, t: Any, q: Vector) -> Vector:
+        """(2.14) the residuals of all joints and contacts, (r,)."""
+        return np.array([entry for c in self._constraints for entry in c.f(t, q.tolist())])
+
+    def f_a(self, t: Any, q: Vector) -> Vector:
+        """(2.15) the rows f_aᵇ, (r, n)."""
+        return self.rows(t, q.tolist(), q.tolist(), np.result_type(q, t))[0]
+
+    def g(self, t: Any, q: Vector) -> Vector:
+        """(2.15) the right side f_aᵇ q̇ᵃ = gᵇ of driven points, (r,)."""
+        return self.rows(t, q.tolist(), q.tolist(), np.result_type(q, t))[1]
+
+
+def _add(found: dict[str, float], more: Mapping[str, float]) -> None:
+    """A slide's force across it and its friction along it make one force."""
+    for name, value in more.items():
+        found[name] = found.get(name, 0.0) + value
+
+
+def _sum(free: Array, bound: Array) -> Array:
+    """Both accelerations together; where they cancel to rounding, nothing: what is held rests.
+
+    Otherwise a body that sticks at the origin would tremble by 1e-17, which is no size for a step.
+    """
+    total = free + bound
+    total[np.abs(total) <= CANCELS * np.abs(free)] = 0.0
+    return total

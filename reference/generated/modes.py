@@ -1,0 +1,81 @@
+"""The modes of a scene: which rows and frictions hold in each, and the forces that follow."""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from ...cases.scene import Scene
+from ..system import MOVING, Array
+from .constraint import Constraint
+from .contact import row
+from .element import Element, Smoothed, State, elements
+from .mode import Multibody
+from .smooth import SmoothMultibody
+
+ROUNDING = 1e-10  # of the accelerations that the forces give alone
+
+
+class Modes(Mapping[str, Multibody]):
+    """The modes by name, built when they are first met."""
+
+    def __init__(self, scene: Scene, start: tuple[Array, Array]) -> None:
+        self.scene, self.start = scene, start
+        self.base = Multibody(scene, start)  # what holds in all of them
+        self.elements: tuple[Element, ...] = tuple(elements(scene, self.base.where))
+        self.M = np.array(self.base.where.masses)
+        self.states: dict[str, tuple[State, ...]] = {}  # what each element does in a mode
+        self._built: dict[str, Multibody] = {}
+        self._known: tuple[str, float, bytes, bytes] | None = None
+        self._forces: dict[str, float] = {}
+
+    def name(self, states: tuple[State, ...]) -> str:
+        """`touch slides +, rail sticks`."""
+        pairs = zip(self.elements, states, strict=True)
+        name = ", ".join(f"{e.name} {state}" for e, state in pairs) or MOVING
+        self.states[name] = states
+        return name
+
+    def __getitem__(self, name: str) -> Multibody:
+        if name not in self._built:
+            self._built[name] = self._build(self.states[name])
+        return self._built[name]
+
+    def _build(self, states: tuple[State, ...]) -> Multibody:
+        pairs = list(zip(self.elements, states, strict=True))
+        held = [part for e, s in pairs for part in e.held(s)]
+        braking = [brake for e, s in pairs for brake in e.braking(s)]
+        coulomb = [law for e, s in pairs for law in e.coulomb(s)]
+        smooth = [e for e in self.elements if isinstance(e, Smoothed)]
+        if smooth:
+            return SmoothMultibody(
+                self.scene, self.start, smooth, held=held, braking=braking, coulomb=coulomb
+            )
+        return Multibody(self.scene, self.start, held=held, braking=braking, coulomb=coulomb)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._built)
+
+    def __len__(self) -> int:
+        return len(self._built)
+
+    def forces(self, mode: str, t: float, q: Array, v: Array) -> dict[str, float]:
+        """The reactions of the mode; several guards ask at the same state."""
+        key = (mode, t, q.tobytes(), v.tobytes())
+        if key != self._known:
+            self._forces, self._known = self[mode].reactions(t, q, v), key
+        return self._forces
+
+    def change(self, part: Constraint, mode: str, t: float, q: Array, v: Array) -> float:
+        """f_a q̈ᵃ − γ: how the rate of a row changes in a mode [m/s²]."""
+        f, _, gamma = row(part, t, q, v)
+        return float(f @ self[mode].accelerations(t, q, v)) - gamma
+
+    def small(self, t: float, q: Array, v: Array) -> float:
+        """What rounding makes of an acceleration here [m/s²]."""
+        return ROUNDING * self.base.terms(t, q, v)[0]
+
+
+def rate(part: Constraint, t: float, q: Array, v: Array) -> float:
+    """f_a q̇ᵃ − g (2.15) of one row [m/s]."""
+    f, g, _ = row(part, t, q, v)
+    return float(f @ v) - g
