@@ -1,15 +1,19 @@
-# Two commands do everything: `make reports` and `make test`. Both set up `.venv` themselves.
+# Two commands do everything: `make reports` and `make test`. All set up `.venv` themselves.
 VENV := .venv
 PYTHON ?= python3
 READY := $(VENV)/.ready
 
-.PHONY: reports test lint bench clean
+.PHONY: reports test quick lint bench clean
 
 reports: $(READY)
 	$(VENV)/bin/textmech run
 
 test: $(READY)
 	$(VENV)/bin/pytest
+
+# What a change of one file needs; the tests marked `whole` solve or run all shipped cases.
+quick: lint
+	$(VENV)/bin/pytest -q -m "not whole" $$($(VENV)/bin/python tests/touched.py)
 
 lint: $(READY)
 	$(VENV)/bin/ruff check .
