@@ -26,11 +26,12 @@ def equations(docstring: str | None) -> list[str]:
 
 
 class _Watch:
-    """The functions seen so far, and how many calls are still looked at."""
+    """The functions seen so far, how many calls are still looked at, and who looked before."""
 
     def __init__(self) -> None:
         self.codes: set[CodeType] = set()
         self.left = 0
+        self.before: Any = sys.getprofile()
 
     def start(self) -> None:
         self.left = CALLS
@@ -41,7 +42,15 @@ class _Watch:
             self.codes.add(frame.f_code)
             self.left -= 1
             if self.left < 0:
-                sys.setprofile(None)
+                self.end()
+
+    def end(self) -> None:
+        """Whoever profiled before does so again."""
+        if hasattr(self.before, "enable"):  # cProfile's, which is no function
+            sys.setprofile(None)
+            self.before.enable()
+        else:
+            sys.setprofile(self.before)
 
     def equations(self) -> Iterator[str]:
         for code in self.codes:
@@ -63,12 +72,12 @@ def look() -> None:
 def noting() -> Iterator[set[str]]:
     """The equations of the functions of `reference` that run inside, filled in at the end."""
     found: set[str] = set()
-    before, watch = sys.getprofile(), _Watch()
+    watch = _Watch()
     _watches.append(watch)
     watch.start()
     try:
         yield found
     finally:
         _watches.pop()
-        sys.setprofile(before)
+        watch.end()
         found.update(watch.equations())

@@ -1,5 +1,6 @@
 """Which equations count as used: those whose function runs."""
 
+import cProfile
 import sys
 from collections.abc import Callable
 
@@ -59,6 +60,19 @@ def test_another_profiler_is_put_back_even_after_an_error() -> None:
     with pytest.raises(ZeroDivisionError):
         noted(lambda: 1 / 0)
     assert sys.getprofile() is before
+
+
+def test_a_profile_of_the_whole_goes_on_after_it() -> None:
+    """cProfile's is no function that `sys.setprofile` would take."""
+    profile = cProfile.Profile()
+    profile.enable()
+    try:
+        assert noted(lambda: spring(1.0, 0.5, (1.0, 0.0))) == {"2.82"}
+        equations("(2.44) seen by the profile")
+    finally:
+        profile.disable()
+    seen = {getattr(entry.code, "co_name", "") for entry in profile.getstats()}
+    assert "equations" in seen
 
 
 def test_a_watch_ends_and_starts_anew() -> None:
