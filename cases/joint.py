@@ -29,7 +29,7 @@ _JOINT: Fields = {
     "gap": ("m", "residual"),  # constraint drift
 }
 _HOLDS_ANGLE: Fields = {"torque": ("N m", "force")}
-_RUBBING: Fields = {
+_DRY: Fields = {
     "friction": ("N", "force"),  # on the second part, along the slide
     "slip": ("m/s", "residual"),  # of the second part along the slide; zero while it sticks
 }
@@ -73,7 +73,7 @@ class Joint:
     def quantities(self) -> dict[str, Fields]:
         """Its reactions and its gap; slip and friction where there is dry friction."""
         held = {} if self.turns else _HOLDS_ANGLE
-        return {self.name: {**_JOINT, **held, **(_RUBBING if self.dry_friction else {})}}
+        return {self.name: {**_JOINT, **held, **(_DRY if self.dry_friction else {})}}
 
     def numbers(self) -> dict[str, float]:
         """The forces [N] of dry friction in motion."""

@@ -50,10 +50,10 @@ def _spoilt(scene: Scene, realised: Realised) -> bool:
     """
     native = realised == "native"
     damped = native and any(damper.damping for damper in scene.dampers())
-    rubbed = native and any(joint.dry_friction for joint in scene.joints.values())
+    brakes = native and any(joint.dry_friction for joint in scene.joints.values())
     met = native and any(contact.switches for contact in scene.contacts.values())
     oblique_slide = any(oblique(scene, joint) for joint in scene.joints.values())
-    return damped or rubbed or met or oblique_slide
+    return damped or brakes or met or oblique_slide
 
 
 def _withheld(scene: Scene) -> dict[str, str]:

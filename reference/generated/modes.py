@@ -1,4 +1,4 @@
-"""The modes of a scene: which rows and frictions hold in each, and the forces that follow."""
+"""The modes of a scene: which rows and friction laws hold in each, and the forces that follow."""
 
 from collections.abc import Iterator, Mapping
 

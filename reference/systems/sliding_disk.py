@@ -40,10 +40,10 @@ class _Disk(Mode):
 
         [m/s², m/s², rad/s²], (3,).
         """
-        along, grip = G * math.sin(self.beta), self.sigma * self.mu * G * math.cos(self.beta)
+        along, friction = G * math.sin(self.beta), self.sigma * self.mu * G * math.cos(self.beta)
         if self.sigma == 0:
             return np.array([2 / 3 * along, 0.0, 2 / 3 * along / self.R])
-        return np.array([along - grip, 0.0, 2 * grip / self.R])
+        return np.array([along - friction, 0.0, 2 * friction / self.R])
 
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.87) F_N = m g cos β, F_fr = −σ μ F_N; rolling: −⅓ m g sin β [N]: on the wheel."""
@@ -121,7 +121,11 @@ class SlidingDisk(System):
         q, v = np.array([0.0, self.R, 0.0]), np.array([-self.v0, 0.0, self.w0])
         slip = self.slip(v)
         mode = (
-            "slips forward" if slip > 0.0 else "slips backward" if slip < 0.0 else self._gripped()
+            "slips forward"
+            if slip > 0.0
+            else "slips backward"
+            if slip < 0.0
+            else self._without_slip()
         )
         return mode, q, v
 
@@ -129,7 +133,7 @@ class SlidingDisk(System):
         """(2.16) ẋ_c − R φ̇ [m/s]: the velocity of the point that touches."""
         return float(v[0] - self.R * v[2])
 
-    def _gripped(self) -> str:
+    def _without_slip(self) -> str:
         """(2.89) without slip it rolls if |tan β| ≤ 3 μ, else it slips down the slope."""
         if abs(math.sin(self.beta)) <= 3 * self.mu * math.cos(self.beta):
             return "rolling"
@@ -139,7 +143,7 @@ class SlidingDisk(System):
         """(2.89) `rolls` where the slip ends; too steep for that, the slip turns."""
         if mode == "rolling":
             return ()
-        sigma, after = (1.0 if mode == "slips forward" else -1.0), self._gripped()
+        sigma, after = (1.0 if mode == "slips forward" else -1.0), self._without_slip()
 
         def then(t: float, q: Array, v: Array) -> tuple[str, Array, Array]:
             return after, q, np.array([v[0], 0.0, v[0] / self.R])
@@ -147,7 +151,7 @@ class SlidingDisk(System):
         event = "rolls" if after == "rolling" else None
         return (Guard(event, lambda t, q, v: sigma * self.slip(v), then),)
 
-    def _grip(self) -> float | None:
+    def _slip_ends(self) -> float | None:
         """(2.87) the slip ends at t₁ = |s₀|/(g (3 μ cos β ∓ sin β)), − where it is forward."""
         slip = self.slip(self.start()[2])
         sigma = math.copysign(1.0, slip)
@@ -157,8 +161,8 @@ class SlidingDisk(System):
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.87) q = q₀ + v₀ t + ½ a t², v = v₀ + a t until the slip ends, and again from there."""
         mode, q, v = self.start()
-        t1 = self._grip()
-        phases = [(mode, t)] if t1 is None else [(mode, min(t, t1)), (self._gripped(), t - t1)]
+        t1 = self._slip_ends()
+        phases = [(mode, t)] if t1 is None else [(mode, min(t, t1)), (self._without_slip(), t - t1)]
         for name, tau in phases:
             if tau > 0.0:
                 a = self.modes[name].accelerations(0.0, q, v)
@@ -167,8 +171,8 @@ class SlidingDisk(System):
 
     def closed_events(self, until: float) -> list[tuple[str, float]]:
         """(2.87) rolls at t₁, if it can."""
-        t1 = self._grip()
-        if t1 is None or t1 > until or self._gripped() != "rolling":
+        t1 = self._slip_ends()
+        if t1 is None or t1 > until or self._without_slip() != "rolling":
             return []
         return [("rolls", t1)]
 

@@ -29,12 +29,12 @@ class _NeverSlides(_Joint):
 
 def _joint(kind: str) -> type[Element]:
     turns, shifts = "turn" in FREEDOMS[kind], "shift" in FREEDOMS[kind]
-    rubs = shifts and not turns
-    asked = {"kind": False, "along": shifts, "angle": not turns, "dry_friction": rubs}
+    brakes = shifts and not turns
+    asked = {"kind": False, "along": shifts, "angle": not turns, "dry_friction": brakes}
     return element(
         kind,
         Noun,
-        base=_Joint if rubs else _NeverSlides,
+        base=_Joint if brakes else _NeverSlides,
         without=[key for key, plays in asked.items() if not plays],
         needs=["along"] if shifts else [],
     )

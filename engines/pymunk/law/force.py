@@ -5,14 +5,14 @@ from collections.abc import Callable
 from ..contact import follower
 from ..force import tells
 from ..world import World
-from .friction import rubs
+from .friction import laws
 
 Apply = Callable[[float], None]  # at time t [s]
 
 
 def forces(world: World, step: float, *, midpoint: bool, law: bool) -> list[Apply]:
     """What has to be called before each step; law: whether friction is ours too."""
-    friction = rubs(world, step) if law else []
+    friction = laws(world, step) if law else []
     return [*tells(world, step, midpoint=midpoint), *friction, *_followers(world, step)]
 
 

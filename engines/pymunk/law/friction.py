@@ -13,7 +13,7 @@ from ..force import load
 from ..world import World
 from .breakaway import bound, smooth_mean
 
-Rub = Callable[[float], None]  # before the step that starts at t [s]
+Told = Callable[[float], None]  # called before the step that starts at t [s]
 RESTING = 1e-9  # m/s: a part that neither falls nor rises; above rounding, below any impact
 
 
@@ -27,9 +27,9 @@ def ruled(scene: Scene) -> bool:
     return bool(slides or contacts) and alone
 
 
-def rubs(world: World, step: float) -> list[Rub]:
+def laws(world: World, step: float) -> list[Told]:
     """What has to be called before each step where friction goes by its law."""
-    found: list[Rub] = []
+    found: list[Told] = []
     for joint in world.scene.joints.values():
         if joint.dry_friction:
             found.append(_slide(world, joint, joint.dry_friction, step))
@@ -55,7 +55,7 @@ def _simple(scene: Scene, contact: Contact) -> bool:
     return body.radius is not None or not body.turns
 
 
-def _slide(world: World, joint: Joint, friction: DryFriction, step: float) -> Rub:
+def _slide(world: World, joint: Joint, friction: DryFriction, step: float) -> Told:
     body, brake = world.bodies[joint.b.body], world.brakes[joint.name]
     acting, (ux, uy) = load(world, joint.b.body, step), joint.along
     carried = world.scene.points[joint.a.point].velocity  # of a driven rail
@@ -88,7 +88,7 @@ def _slide(world: World, joint: Joint, friction: DryFriction, step: float) -> Ru
     return blurred if smooth else exact
 
 
-def _contact(world: World, contact: Contact, step: float) -> Rub:
+def _contact(world: World, contact: Contact, step: float) -> Told:
     """By the slip of the point that touches, and the mass that resists it there."""
     part = world.scene.bodies[contact.body]
     body, shape = world.bodies[contact.body], world.wheels[contact.name]
