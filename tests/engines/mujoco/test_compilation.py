@@ -4,27 +4,20 @@
 # pyright: reportAttributeAccessIssue=false
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import mujoco
 import numpy as np
 import pytest
-from planning import planned
+from given.planning import CASES, planned
 
 from textmech.cases.case import Case
-from textmech.cases.load import load
 from textmech.engines.mujoco import MuJoCo, compilation
 from textmech.reference.solve import solve
 from textmech.reports.judge.compare import compare
 from textmech.reports.trial.start import assembled, first
 from textmech.reports.trial.trial import Trial
 
-CASES = [
-    case
-    for path in sorted((Path(__file__).parents[2] / "cases").glob("*.yaml"))
-    for case in load(path)
-]
 TUNED = MuJoCo("tuned")
 
 
@@ -46,7 +39,7 @@ def differing(a: mujoco.MjModel, b: mujoco.MjModel) -> list[str]:
     return [name for (name, x), (_, y) in both if not np.array_equal(x, y)]
 
 
-@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+@pytest.mark.parametrize("case", CASES.values(), ids=list(CASES))
 def test_it_equals_the_compiled_script_field_by_field(case: Case) -> None:
     start = assembled(case)
     for setting in ("shipped", "tuned"):
@@ -64,7 +57,7 @@ def test_it_equals_the_compiled_script_field_by_field(case: Case) -> None:
 
 
 def test_a_step_that_is_not_written_is_seen() -> None:
-    case = next(case for case in CASES if case.name == "four_bar")
+    case = CASES["four_bar"]
     start = assembled(case)
     plan = planned(TUNED, case.scene, start)
     a, b, c = (
@@ -77,7 +70,7 @@ def test_a_step_that_is_not_written_is_seen() -> None:
 
 @pytest.mark.parametrize("name", ["four_bar", "rolling_wheel.pushed"])
 def test_a_trial_compiles_once(name: str) -> None:
-    case = next(case for case in CASES if case.name == name)
+    case = CASES[name]
     reference = solve(case).trajectory
     compilation._model.cache_clear()
     trial = Trial(case, reference, TUNED, planned(TUNED, case.scene, first(reference)))

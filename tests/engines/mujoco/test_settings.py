@@ -1,12 +1,11 @@
 """MuJoCo's settings: recipes, a user's own options, and what MuJoCo itself does not take."""
 
-import re
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree as ET
 
 import pytest
-from planning import planned
+from given.planning import planned
 
 from textmech.cases.scene import Anchor, Contact, GroundPoint, Joint, Scene
 from textmech.cases.shape import bar, disk
@@ -73,51 +72,8 @@ def test_every_option_takes_effect(name: str) -> None:
     assert all(after[key] == {text} for key in changed)
 
 
-def test_own_step() -> None:
-    assert MuJoCo("own", {"step": 5e-4}).own_step == 5e-4
-    assert MuJoCo("own").own_step == MuJoCo("shipped").own_step == 2e-3
-    assert MuJoCo("tuned").own_step is None
-
-
 def test_whole_numbers_may_be_written_as_reals() -> None:
     assert attributes({"iterations": 50.0})["option.iterations"] == {"50"}
-
-
-BAD = [
-    ({"integratr": "RK4"}, "did you mean 'integrator'"),
-    ({1: 2}, "unknown option"),
-    ({"integrator": "implict"}, "did you mean 'implicit'"),
-    ({"cone": ["elliptic"]}, "pyramidal, elliptic"),
-    ({"iterations": -1}, "whole number"),
-    ({"iterations": 2.5}, "whole number"),
-    ({"iterations": 10**30}, "whole number"),
-    ({"iterations": float("inf")}, "whole number"),
-    ({"iterations": float("nan")}, "whole number"),
-    ({"iterations": True}, "whole number"),
-    ({"iterations": "50"}, "whole number"),
-    ({"tolerance": float("nan")}, "at least 0"),
-    ({"tolerance": 10**400}, "at least 0"),
-    ({"impratio": -1.0}, "at least 0"),
-    ({"step": 0}, "positive"),
-    ({"step": None}, "positive"),
-    ({"solref": [0.02]}, "list of 2"),
-    ({"solref": 0.02}, "list of 2"),
-    ({"solref": [True, 1.0]}, "list of 2"),
-    ({"solimp": [0.9, float("nan"), 0.1]}, "list of 3 or 5"),
-    ({"solimp": [0.9, 0.9]}, "list of 3 or 5"),
-]
-
-
-@pytest.mark.parametrize(("options", "what"), BAD, ids=str)
-def test_bad_options(options: dict[str, Any], what: str) -> None:
-    with pytest.raises(ValueError, match=re.escape(what)):
-        MuJoCo("own", options)
-
-
-def test_all_mistakes_at_once() -> None:
-    with pytest.raises(ValueError, match="unknown option") as caught:
-        MuJoCo("own", {"inpratio": 1.0, "cone": "round", "step": -1})
-    assert len(str(caught.value).splitlines()) == 3
 
 
 @pytest.mark.parametrize("options", [{"solref": [0.02, -1.0]}], ids=str)

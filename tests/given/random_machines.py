@@ -1,18 +1,13 @@
-"""Random scenes: what the MuJoCo adapter builds moves, and is held, as the mechanism says.
+"""Random machines whose poses come first, so that every loop closes, and rates that fit them.
 
-Poses come first and joints are put where they fit, so that every loop closes; rates are projected
-onto the constraints. Whatever is wrong in an orientation, a sign or an order shows at once.
+Whatever an engine has wrong in an orientation, a sign or an order shows at once.
 """
 
 import math
 from dataclasses import dataclass, field, replace
-from functools import partial
 
 import numpy as np
-import pytest
-from planning import planned
 
-from textmech.cases.quantity import table
 from textmech.cases.scene import (
     CENTER,
     GROUND,
@@ -30,26 +25,13 @@ from textmech.cases.scene import (
     Torque,
 )
 from textmech.cases.shape import bar, block, disk, particle, rigid
-from textmech.cases.trajectory import Array, Trajectory
-from textmech.engines.mujoco import MuJoCo
-from textmech.engines.mujoco.tree import spanning_tree
 from textmech.reference.generated.mode import Multibody
-from textmech.reference.motion.bodies import Motion
-from textmech.reference.motion.follow import either, follow
-from textmech.reference.system import Only
 
-TUNED = MuJoCo("tuned")
 GRAVITY = (0.8, -9.7)  # not along an axis, so that no component can hide
-TIMES = np.linspace(0.0, 0.2, 6)
-STEP = 1e-4
-SPECIFIC = 1e-12  # tolerance of the reference: far below every bound here
-TREE = 1e-11  # of the quantity's size: RK4 at 1e-4 s; measured 8e-13
-SOFT = 4 * STEP  # what the pins' stiffness follows: slow against a step, fast against the motion
-LOOP = 1e-5  # of the size, once the pins have settled; measured 1e-6 (places), 8e-6 (forces)
 REGULAR = 0.05  # smallest singular value of the rows: nearer to singular, forces grow large
 
 
-@dataclass
+@dataclass(eq=False)  # each is itself, so that answers to it can be kept
 class Build:
     """A scene in the making: poses (x, y, angle) in the order of the bodies."""
 
@@ -182,6 +164,16 @@ def regular(build: Build) -> bool:
     return len(rows) < rows.shape[1] and float(np.linalg.svd(rows)[1][-1]) > REGULAR
 
 
+def loops(scene: Scene) -> int:
+    """How many joints join what is joined already."""
+    group, closing = {part: part for part in (GROUND, *scene.bodies)}, 0
+    for joint in scene.joints.values():
+        a, b = group[joint.a.body], group[joint.b.body]
+        closing += a == b
+        group = {part: a if head == b else head for part, head in group.items()}
+    return closing
+
+
 def tree(seed: int, *, count: int = 4, driven: bool = False) -> Build:
     """Bodies that hang on earlier ones, on the ground, on a driven point, or on nothing."""
     build = Build(np.random.default_rng(seed))
@@ -214,67 +206,9 @@ def chain(seed: int, *, driven: bool = False) -> Build:
             continue
         a, b = build.rng.permutation(loose)[:2].tolist()
         build.join("pin", a, b)
-        if spanning_tree(build.scene).loops and regular(build):
+        if loops(build.scene) and regular(build):
             return build
     raise AssertionError(f"seed {seed} closes no loop")
-
-
-def wanted(scene: Scene) -> tuple[str, ...]:
-    fields = ("fx", "fy", "torque", "normal", "tangent")
-    return tuple(name for name in table(scene) if name.rpartition(".")[2] in fields)
-
-
-def both(build: Build, step: float = STEP) -> tuple[Trajectory, Trajectory]:
-    """The mechanism's motion and MuJoCo's, with all reactions."""
-    found = mechanism(build)
-    alone = Only(found)
-    followed = follow(alone, TIMES, by=partial(either, tolerance=SPECIFIC))
-    start = found.poses(0.0, *found.start())
-    moved = TUNED.run(
-        build.scene,
-        start,
-        TIMES,
-        step,
-        planned(TUNED, build.scene, start).held_at(SOFT),
-        reactions=wanted(build.scene),
-    )
-    return Motion(alone, followed).trajectory(TIMES), moved
-
-
-def off(a: Array, b: Array) -> float:
-    """The largest difference, relative to the size (at least 1)."""
-    return float(np.max(np.abs(a - b)) / max(1.0, np.max(np.abs(a))))
-
-
-def states_off(expected: Trajectory, found: Trajectory) -> float:
-    return max(off(expected.states[name], found.states[name]) for name in expected.states)
-
-
-def forces_off(expected: Trajectory, found: Trajectory, *, skip: int = 0) -> float:
-    a, b = expected.reactions, found.reactions
-    return max((off(a[n][skip:], b[n][skip:]) for n in b), default=0.0)
-
-
-@pytest.mark.parametrize("driven", [False, True])
-@pytest.mark.parametrize("seed", range(12))
-def test_tree(seed: int, driven: bool) -> None:
-    build = tree(seed, driven=driven)
-    assert not spanning_tree(build.scene).loops
-    expected, found = both(build)
-    assert set(found.reactions) == set(expected.reactions)
-    assert states_off(expected, found) < TREE
-    assert forces_off(expected, found) < TREE
-
-
-@pytest.mark.parametrize("driven", [False, True])
-@pytest.mark.parametrize("seed", range(10))
-def test_loop(seed: int, driven: bool) -> None:
-    build = chain(seed, driven=driven)
-    expected, found = both(build)
-    assert set(found.reactions) == set(expected.reactions)
-    assert states_off(expected, found) < LOOP
-    # At t = 0 the pins have not given way yet: (1 - d) of the force, 1e-4 and more, is missing.
-    assert forces_off(expected, found, skip=1) < LOOP
 
 
 def rolling(seed: int, *, wheels: int) -> Build:
@@ -290,20 +224,3 @@ def rolling(seed: int, *, wheels: int) -> Build:
         build.join("pin", *((name, build.body(("bar",))) if i else (build.body(("bar",)), name)))
     build.load()
     return build
-
-
-# Measured: 1e-9 of a place or rate, 7e-9 of a force.
-ROLLING = 1e-7
-
-
-@pytest.mark.parametrize("wheels", [1, 2])
-@pytest.mark.parametrize("seed", range(3))
-def test_rolling(seed: int, wheels: int) -> None:
-    build = rolling(seed, wheels=wheels)
-    expected, found = both(build)
-    assert all(np.all(expected.reactions[f"touch{i}.normal"] > 0) for i in range(wheels))
-    assert {f"touch{i}.{x}" for i in range(wheels) for x in ("normal", "tangent")} <= set(
-        found.reactions
-    )
-    assert states_off(expected, found) < ROLLING
-    assert forces_off(expected, found, skip=1) < ROLLING

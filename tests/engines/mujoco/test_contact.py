@@ -1,0 +1,74 @@
+"""MuJoCo's floor: how it settles, what keeps blocks from creeping, and the damper of a bounce."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from given.engine_scenes import (
+    BLOCK,
+    RESTS,
+    ROLLS,
+    WHEEL,
+    incline,
+    launched,
+    machine,
+    touching,
+)  # fmt: skip
+from given.planning import SHIPPED, TUNED, every, moved, planned
+from given.random_machines import chain, loops, tree
+from scipy.integrate import solve_ivp
+
+from textmech.cases.scene import Anchor, Push, Signal
+from textmech.cases.trajectory import VX, Array
+from textmech.engines.mujoco.contact import damping_ratio
+from textmech.engines.mujoco.read.record import all_steps
+from textmech.engines.mujoco.tree import spanning_tree
+
+
+def test_a_disk_is_started_as_deep_as_it_is_carried() -> None:
+    """Where it neither falls nor rises; the audit sees it before."""
+    push = Push("push", Anchor("wheel", "center"), Signal("sine", (0.0, -30.0), 5.0, math.pi / 2))
+    scene = machine([replace(WHEEL, mass=1.0)], contacts=[ROLLS], forces=[push])
+    begin = launched(0.0)
+    assert "in the floor" in planned(TUNED["mujoco"], scene, begin).protocol(1e-4)
+    assert not planned(SHIPPED["mujoco"], scene, begin).protocol(1e-4)
+    assert TUNED["mujoco"].measure(scene, begin)["momentum.y"] == 0.0
+
+
+def test_noslip_needs_the_way_out_of_the_plane(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = incline(BLOCK, touching("block", 0.4), slope=math.radians(15))
+
+    def speed() -> float:
+        run = moved(TUNED["mujoco"], scene, RESTS, np.linspace(0.0, 0.2, 21), 1e-4, record=True)
+        return abs(every(run).states["block"][-1, VX])
+
+    still = speed()
+    monkeypatch.setattr("textmech.engines.mujoco.scene._leaves_plane", lambda scene, numbers: False)
+    assert still <= 1e-15 < 1e-9 <= speed()
+
+
+@pytest.mark.parametrize("bounce", [1.0, 0.9, 0.3, 0.14, 0.13, 0.02])
+def test_damper_throws_back(bounce: float) -> None:
+    ratio = damping_ratio(bounce)
+
+    def leaves(t: float, y: Array) -> float:
+        return y[0] + 2 * ratio * y[1] if t else 1.0
+
+    leaves.terminal = True  # type: ignore[attr-defined]
+    leaves.direction = -1  # type: ignore[attr-defined]
+    solution = solve_ivp(
+        lambda t, y: [y[1], -y[0] - 2 * ratio * y[1]],
+        (0, 100), [0.0, 1.0], events=leaves, rtol=1e-10, atol=1e-12,
+    )  # fmt: skip
+    assert -solution.y[1, -1] == pytest.approx(bounce, abs=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_tree_has_no_loop_and_a_chain_has_one(seed: int) -> None:
+    for build in (tree(seed), tree(seed, driven=True), chain(seed)):
+        assert len(spanning_tree(build.scene).loops) == loops(build.scene)
+
+
+def test_times_are_products() -> None:
+    assert all_steps(np.array([0.0, 0.3]), 0.1).tolist() == [0.0, 0.1, 0.2, 0.1 * 3]

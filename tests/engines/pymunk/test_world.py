@@ -1,0 +1,84 @@
+"""What pymunk is given: a user's own loop bit for bit, checked by the audit, and its limits."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from given.engine_scenes import G
+from given.planning import CASES, SHIPPED, TUNED, begun, moved, planned
+from pymunk.body import Body
+from pymunk.constraints import PivotJoint
+from pymunk.space import Space
+
+from textmech.cases.trajectory import Trajectory
+from textmech.engines.engine import Diverged
+from textmech.engines.pymunk import scene as builder
+from textmech.reports.trial.audit import EQUAL, audit
+from textmech.reports.trial.trial import Trial
+
+
+def heavier(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(builder, "Body", lambda m=0.0, J=0.0, **kw: Body(m, 1.05 * J, **kw))
+
+
+def other_rule_of_friction(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(builder, "FLOOR_FRICTION", 0.5)  # as if pymunk took the mean
+
+
+@pytest.mark.parametrize(
+    ("mutant", "quantity", "told"),
+    [
+        (heavier, "wheel.inertia", "energy.kinetic"),  # 2.6e-3 J; the inertia is 2e-3 kg m² off
+        (other_rule_of_friction, "touch.friction", "touch.friction"),
+    ],
+    ids=["inertia 5 % off", "friction's product rule broken"],
+)
+def test_the_audit_sees_a_mutant(
+    monkeypatch: pytest.MonkeyPatch,
+    mutant: Callable[[pytest.MonkeyPatch], None],
+    quantity: str,
+    told: str,
+) -> None:
+    """It tells the largest difference, relative to the number or to 1."""
+    engine, name = TUNED["pymunk"], "rolling_wheel.downhill"
+    scene, start = begun(name)
+    begin = Trajectory(np.zeros(1), {n: np.array([row]) for n, row in start.items()}, {})
+    trial = Trial(CASES[name], begin, engine, planned(engine, scene, start))
+    right = engine.measure(scene, start)[quantity]
+    assert audit(trial)[0] <= EQUAL
+    mutant(monkeypatch)
+    assert abs(engine.measure(scene, start)[quantity] / right - 1) > 0.04
+    worst, because = audit(trial)
+    assert worst > 1e-3
+    assert because.startswith(f"{told} is ")
+
+
+def test_shipped_is_what_a_user_writes() -> None:
+    """Bit for bit: nothing of pymunk's own is touched."""
+    scene, poses = begun("bar_pendulum")
+    space, rod = Space(), Body(1.2, 1.2 * 0.8**2 / 12)
+    space.gravity = (0.0, -G)
+    x, y, rod.angle, *_ = poses["bar"]
+    rod.position = (x, y)
+    hinge = PivotJoint(space.static_body, rod, (0.0, 0.0), (-0.4, 0.0))
+    space.add(rod, hinge)
+    for _ in range(100):
+        space.step(0.01)
+    wanted, times = ("hinge.force",), np.array([0.0, 1.0])
+    end = moved(SHIPPED["pymunk"], scene, poses, times, 0.01, reactions=wanted)
+    assert end.states["bar"][1, :3].tolist() == [*rod.position, rod.angle]
+    assert end.reactions["hinge.force"][1] == hinge.impulse / 0.01
+
+
+def test_a_wheel_that_leaves_the_floor_diverges_at_the_first_sample_beyond() -> None:
+    """Its floor is finite; MuJoCo's is not."""
+    scene, start = begun("rolling_wheel.downhill")
+    with pytest.raises(Diverged, match=r"a body left the floor's .* at t = 10 s"):
+        moved(SHIPPED["pymunk"], scene, start, np.linspace(0.0, 14.0, 8), 0.01)
+
+
+def test_samples_that_no_step_meets() -> None:
+    """MuJoCo's run does not check it: the ladder gives whole multiples only."""
+    times = CASES["bar_pendulum"].times
+    with pytest.raises(ValueError, match=r"no whole multiples of the step 0\.003"):
+        moved(TUNED["pymunk"], *begun("bar_pendulum"), times, 3e-3)

@@ -1,0 +1,132 @@
+"""Every engine holds the case's physics before it takes a step, and the audit sees where not."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import astuple, replace
+
+import numpy as np
+import pytest
+from given.engine_scenes import machine, pin, with_bodies, with_forces
+from given.planning import CASES, NAMES, SETTINGS, TUNED, begun, planned, refused, words
+
+from textmech.cases.scene import Damper, Scene, Spring
+from textmech.cases.shape import bar, particle
+from textmech.cases.trajectory import Trajectory
+from textmech.engines.engine import Engine, Start
+from textmech.reports.trial.audit import EQUAL, audit
+from textmech.reports.trial.trial import Trial
+
+# Where a scene is handed to what builds it.
+BUILDER = {
+    "mujoco": "textmech.engines.mujoco.compilation.mjcf",
+    "pymunk": "textmech.engines.pymunk.build",
+}
+
+
+def expected(scene: Scene, poses: Start) -> dict[str, float]:
+    """The physics of a scene, by the test's own formulas."""
+    found = {"gravity.x": scene.gravity[0], "gravity.y": scene.gravity[1]}
+    found |= {f"{b.name}.mass": b.mass for b in scene.bodies.values()}
+    found |= {f"{b.name}.inertia": b.inertia for b in scene.bodies.values() if b.inertia}
+    found |= {f"{c.name}.friction": c.friction for c in scene.contacts.values()}
+    for joint in scene.joints.values():
+        # Of two bounds an engine holds one number, which is neither.
+        if joint.dry_friction and len({*astuple(joint.dry_friction.kinetic)}) == 1:
+            found[f"{joint.name}.friction_forward"] = joint.dry_friction.kinetic.forward
+            found[f"{joint.name}.friction_backward"] = joint.dry_friction.kinetic.backward
+    for spring in scene.springs():
+        found[f"{spring.name}.stiffness"] = spring.stiffness
+        found[f"{spring.name}.rest_length"] = spring.rest_length
+    found |= {f"{d.name}.damping": d.damping for d in scene.dampers()}
+    motions = [(b.mass, b.inertia or 0.0, poses[b.name][3:]) for b in scene.bodies.values()]
+    found["energy.kinetic"] = sum(
+        (m * (vx**2 + vy**2) + J * w**2) / 2 for m, J, (vx, vy, w) in motions
+    )
+    found["momentum.x"] = sum(m * v[0] for m, _, v in motions)
+    found["momentum.y"] = sum(m * v[1] for m, _, v in motions)
+    return found
+
+
+def unknown(engine: Engine, scene: Scene) -> set[str]:
+    """What the engine does not hold."""
+    driven = any(point.driven for point in scene.points.values())
+    if engine.name == "mujoco" and driven:  # its driven points are heavy bodies, which move
+        return {"energy.kinetic", "momentum.x", "momentum.y"}
+    return set()
+
+
+@pytest.mark.parametrize("engine", SETTINGS, ids=words)
+@pytest.mark.parametrize("name", CASES)
+def test_the_engine_holds_the_same_physics(name: str, engine: Engine) -> None:
+    scene, start = begun(name)
+    assert refused(engine, scene, start) is None
+    wanted, lost = expected(scene, start), unknown(engine, scene)
+    assert lost <= set(wanted)
+    wanted = {key: x for key, x in wanted.items() if key not in lost}
+    found = engine.measure(scene, start)
+    assert found == pytest.approx(wanted, rel=EQUAL, abs=1e-15)
+
+
+def audited(name: str, engine: Engine) -> tuple[float, str]:
+    """The suite's audit of a shipped case at its start: the largest difference, and of what."""
+    scene, start = begun(name)
+    begin = Trajectory(np.zeros(1), {n: np.array([row]) for n, row in start.items()}, {})
+    return audit(Trial(CASES[name], begin, engine, planned(engine, scene, start)))
+
+
+@pytest.mark.parametrize("engine", SETTINGS, ids=words)
+@pytest.mark.parametrize("name", CASES)
+def test_the_audit_passes(name: str, engine: Engine) -> None:
+    assert audited(name, engine)[0] <= EQUAL
+
+
+def _friction(scene: Scene) -> Scene:
+    more = {n: replace(c, kinetic=1.05 * c.kinetic) for n, c in scene.contacts.items()}
+    return replace(scene, contacts=more)
+
+
+WRONG: Mapping[str, tuple[str, Callable[[Scene], Scene]]] = {
+    "mass": ("double_pendulum", lambda s: with_bodies(s, lambda b: replace(b, mass=1.05 * b.mass))),
+    "inertia": (
+        "four_bar",
+        lambda s: with_bodies(s, lambda b: replace(b, inertia=1.05 * (b.inertia or 0))),
+    ),
+    "stiffness": (
+        "rhombus",
+        lambda s: with_forces(s, Spring, lambda f: replace(f, stiffness=1.05 * f.stiffness)),
+    ),
+    "rest_length": (
+        "rhombus",
+        lambda s: with_forces(s, Spring, lambda f: replace(f, rest_length=1.05 * f.rest_length)),
+    ),
+    "damping": (
+        "slider_crank",
+        lambda s: with_forces(s, Damper, lambda f: replace(f, damping=1.05 * f.damping)),
+    ),
+    "friction": ("rolling_wheel.pushed", _friction),
+    "gravity": ("bar_pendulum", lambda s: replace(s, gravity=(s.gravity[0], -s.gravity[1]))),
+}
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("what", WRONG)
+def test_the_audit_sees(what: str, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """An engine that was given another scene: 5 % on one number, gravity upside down."""
+    case, change = WRONG[what]
+    module, _, attribute = BUILDER[name].rpartition(".")
+    built = getattr(__import__(module, fromlist=[attribute]), attribute)
+    monkeypatch.setattr(
+        BUILDER[name], lambda scene, *rest, **more: built(change(scene), *rest, **more)
+    )
+    difference, because = audited(case, TUNED[name])
+    assert difference > 1e-3  # 5 % of the 0.053 kg m² of a bar, relative to 1
+    assert what in because
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_held_particle_adds_no_inertia(name: str) -> None:
+    """It is a point: fixed on a bar it adds m r², and nothing else."""
+    parts = bar(name="rod", mass=1.0, length=1.0, points={}), particle(name="bob", mass=2.0)
+    scene = machine(parts, [pin("A", "ground.O", "rod.start"), pin("B", "rod.end", "bob.center")])
+    begin = {"rod": (0.5, 0, 0, 0, 0.5, 1.0), "bob": (1.0, 0, 0, 0, 1.0, 0.0)}
+    energy = TUNED[name].measure(scene, begin)["energy.kinetic"]
+    assert energy == pytest.approx(0.5 / 3 + 1.0, rel=1e-14)

@@ -1,0 +1,75 @@
+"""A record is every step of the run, and keeping it, or reading forces, changes nothing."""
+
+import numpy as np
+import pytest
+from given.engine_scenes import WHEEL, incline, launched, touching
+from given.planning import CASES, NAMES, SETTINGS, TUNED, begun, every, moved, words
+
+from textmech.cases.trajectory import Trajectory
+from textmech.engines.engine import Engine
+
+# How near the states of a record are to those of the samples. MuJoCo's are read from all steps at
+# once and rounded once more or less; pymunk's are copied.
+NEAR = {"mujoco": 2e-15, "pymunk": 0.0}
+
+
+def holds_every_step(motion: Trajectory, bare: Trajectory, step: float, near: float) -> None:
+    """Of a run that was recorded, and one that was not."""
+    stride = round((motion.times[1] - motion.times[0]) / step)
+    record = every(motion)
+    assert bare.record is None
+    assert record.phase is not None
+    assert not record.phase.any()
+    assert len(record.times) == stride * (len(motion.times) - 1) + 1
+    assert record.times == pytest.approx(np.arange(len(record.times)) * step, abs=1e-14)
+    for name, rows in motion.states.items():
+        assert np.array_equal(rows, bare.states[name])
+        assert record.states[name][::stride] == pytest.approx(rows, rel=near, abs=near)
+
+
+@pytest.mark.parametrize("engine", SETTINGS, ids=words)
+@pytest.mark.parametrize("name", CASES)
+def test_of_a_case(name: str, engine: Engine) -> None:
+    case, (scene, start) = CASES[name], begun(name)
+    step, times = case.interval / 8, case.times[:5]
+    found, bare = (moved(engine, scene, start, times, step, record=r) for r in (True, False))
+    holds_every_step(found, bare, step, NEAR[engine.name])
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_of_a_disk_that_comes_to_roll(name: str) -> None:
+    scene, start = incline(WHEEL, touching("wheel", 0.2)), launched(2.0, 20.0)
+    times = np.linspace(0.0, 2.0, 21)
+    found, bare = (moved(TUNED[name], scene, start, times, 1e-3, record=r) for r in (True, False))
+    holds_every_step(found, bare, 1e-3, NEAR[name])
+
+
+REPEATED = ("towed_pendulum", "slider_crank", "rolling_wheel.pushed")
+
+
+@pytest.mark.parametrize("engine", SETTINGS, ids=words)
+@pytest.mark.parametrize("name", REPEATED)
+def test_two_runs_are_equal_bit_for_bit(name: str, engine: Engine) -> None:
+    """Also whatever is read, and however often."""
+    case, (scene, start) = CASES[name], begun(name)
+    times, step = case.times[:6], case.interval / 20
+    wanted = tuple(
+        f"{part}.{field}"
+        for parts, fields in ((scene.joints, ("fx", "force")), (scene.contacts, ("normal",)))
+        for part in parts
+        for field in fields
+    )
+    for plan in engine.plans(scene, start):
+        way = plan.realised
+        first = moved(engine, scene, start, times, step, realised=way)
+        read, again = (
+            moved(engine, scene, start, times, step, realised=way, reactions=wanted)
+            for _ in range(2)
+        )
+        sparse = moved(engine, scene, start, times[::5], step, realised=way)
+        for body, states in first.states.items():
+            assert np.array_equal(states, read.states[body])
+            assert np.array_equal(states, again.states[body])
+            assert np.array_equal(states[::5], sparse.states[body])
+        assert read.reactions
+        assert all(np.array_equal(read.reactions[n], again.reactions[n]) for n in read.reactions)

@@ -1,0 +1,97 @@
+"""Motions known without the reference: in closed form, or by scipy from typed equations."""
+
+import math
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+from scipy.special import ellipj, ellipk
+
+from textmech.cases.trajectory import Array
+
+from .engine_scenes import RADIUS, G
+
+
+def pendulum(times: Array) -> tuple[Array, Array]:
+    """`bar_pendulum`: its angle [rad] and the size of the hinge's force [N], by Newton's law."""
+    released = math.radians(24.6) + math.pi / 2
+    k, frequency = math.sin(released / 2), math.sqrt(1.5 * G / 0.8)
+    sn, cn, _, _ = ellipj(ellipk(k * k) - frequency * times, k * k)
+    hanging = 2 * np.arcsin(k * sn)
+    omega = 2 * k * frequency * cn  # up to its sign
+    angular = -(frequency**2) * np.sin(hanging)
+    along = 1.2 * (0.4 * omega**2 + G * np.cos(hanging))
+    across = 1.2 * (0.4 * angular + G * np.sin(hanging))
+    return hanging - math.pi / 2, np.hypot(along, across)
+
+
+def damped(times: Array, damping: float) -> Array:
+    """`spring_mass_damper`: y [m], from m ÿ + d ẏ + c (y − y∞) = 0."""
+    rest, root, decay = -0.5 - G / 36.0, np.emath.sqrt((damping / 2) ** 2 - 36.0), damping / 2
+    with np.errstate(invalid="ignore"):
+        slope = np.where(root == 0, times, np.sinh(root * times) / (root or 1.0))
+    swing = np.exp(-decay * times) * (np.cosh(root * times) + decay * slope)
+    return rest + (-0.6 - rest) * np.real(swing)
+
+
+def braked(times: Array, v: float, mu: float, slope: float) -> Array:
+    """x [m] of a block on an incline that holds what rests, or is too steep for it."""
+    push, hold = G * math.sin(slope), mu * G * math.cos(slope)
+    if v == 0.0:
+        return max(push - hold, 0.0) * times**2 / 2
+    a = push - math.copysign(hold, v)
+    t = np.minimum(times, -v / a)
+    return v * t + a * t**2 / 2
+
+
+def sliding_then_rolling(times: Array, v: float, omega: float, mu: float) -> Array:
+    """x [m] of a disk: its slip v + R ω falls by 3 μ g."""
+    rolls = (v + RADIUS * omega) / (3 * mu * G)
+    t = np.minimum(times, rolls)
+    return v * t - mu * G * t**2 / 2 + (v - mu * G * rolls) * (times - t)
+
+
+def leaning_bar(times: Array, length: float, angle: float, mu: float) -> tuple[Array, Array]:
+    """x [m] and angle [rad] of a bar whose lower end slides backwards on the floor."""
+    arm, inertia = length / 2, length**2 / 12  # of 1 kg
+
+    def rate(t: float, state: Array) -> list[float]:
+        _, a, vx, omega = state  # the end slides backwards: friction points forward
+        lever = arm * (mu * math.sin(a) - math.cos(a))
+        normal = G - arm * math.sin(a) * omega**2
+        normal /= 1 - arm * math.cos(a) * lever / inertia
+        return [vx, omega, mu * normal, lever * normal / inertia]
+
+    begin = [arm * math.cos(angle), angle, 0.0, 0.0]
+    x, a, *_ = solve_ivp(rate, (0, times[-1]), begin, "DOP853", times, rtol=1e-12, atol=1e-13).y
+    return x, a
+
+
+def growing(times: Array) -> Array:
+    """Example 2.3: x [m] of a block that slips from t = 6 s on."""
+    slid = np.maximum(times - 6.0, 0.0)
+    return -(slid**3) / 6 - 3 * slid**2 / 2
+
+
+def drawn(times: Array) -> Array:
+    """Example 2.4: x [m] through phases of rest, and of ẍ = −2 x + 4 t − 3."""
+    x, start, w, found = 0.0, 0.0, math.sqrt(2.0), np.zeros_like(times)
+    while start < times[-1]:
+        slips = (6.0 + 2 * x) / 4
+        a, b = x - (2 * slips - 1.5), -2.0 / w
+        speed = partial(_speed, w=w, a=a, b=b)
+        grid = np.linspace(0.1, 4.0, 40)
+        low, high = next((p, q) for p, q in pairwise(grid) if speed(p) > 0 >= speed(q))
+        lasts = float(brentq(speed, low, high, xtol=1e-14))
+        s = np.clip(times - slips, 0.0, lasts)
+        slid = 2 * (slips + s) - 1.5 + a * np.cos(w * s) + b * np.sin(w * s)
+        found = np.where(times >= start, np.where(times > slips, slid, x), found)
+        x = 2 * (slips + lasts) - 1.5 + a * math.cos(w * lasts) + b * math.sin(w * lasts)
+        start = slips + lasts
+    return found
+
+
+def _speed(s: float, *, w: float, a: float, b: float) -> float:
+    return 2.0 + w * (b * math.cos(w * s) - a * math.sin(w * s))
