@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 X, Y, ANGLE, VX, VY, OMEGA = range(6)  # the columns of a body's states
+ALIKE = {"m": [X, Y], "m/s": [VX, VY], "rad": [ANGLE], "rad/s": [OMEGA]}  # those of a unit
 
 
 @dataclass(frozen=True)

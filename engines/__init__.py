@@ -11,6 +11,8 @@ from typing import Any
 from .engine import Engine, Maker
 
 GROUP = "textmech.engines"
+SETTINGS = ("shipped", "tuned")  # what an engine may offer
+TAKEN = ("book", "reference")  # words that stand for something else in the reports
 OWN = "own"  # the setting of a user's own options, which every engine has
 
 
@@ -33,7 +35,13 @@ def make(name: str, setting: str, options: Mapping[str, Any] | None = None) -> E
 
     Raises KeyError, Broken, and ValueError for options that the engine does not have.
     """
-    return _maker(name)(setting, options or {})
+    maker = _maker(name)
+    try:
+        return maker(setting, options or {})
+    except ValueError:
+        raise
+    except (Exception, SystemExit) as error:
+        raise Broken(f"{name} cannot be made: {type(error).__name__}: {error}") from error
 
 
 class Known(Mapping[str, tuple[str, ...] | None]):
@@ -54,10 +62,11 @@ class Known(Mapping[str, tuple[str, ...] | None]):
 
 @cache
 def _found() -> Mapping[str, EntryPoint]:
-    """The first of a name stands: what is first on the path is what Python would import."""
+    """By names that a case can write; of two with one name, what Python would import first."""
     found: dict[str, EntryPoint] = {}
     for point in entry_points(group=GROUP):
-        found.setdefault(point.name, point)
+        if point.name.isidentifier() and point.name not in TAKEN:
+            found.setdefault(point.name, point)
     return found
 
 
@@ -65,7 +74,12 @@ def _found() -> Mapping[str, EntryPoint]:
 def _maker(name: str) -> Maker:
     point = _found()[name]
     try:
-        return point.load()
-    except Exception as error:  # whatever a package does while it is imported
+        maker = point.load()
+    except (Exception, SystemExit) as error:  # whatever a package does while it is imported
         why = f"{type(error).__name__}: {error}"
         raise Broken(f"{name} ({point.value}) cannot be imported: {why}") from error
+    offers = getattr(maker, "offers", None)
+    if not isinstance(offers, tuple) or not offers or not set(offers) <= set(SETTINGS):
+        what = f"its `offers` should be a tuple of {' and '.join(SETTINGS)}, is {offers!r}"
+        raise Broken(f"{name} ({point.value}) is no engine: {what}")
+    return maker

@@ -8,11 +8,10 @@ from ..cases.case import Case
 from ..cases.mistake import CaseError, Mistake
 from ..cases.observe import observe
 from ..cases.quantity import table
-from ..cases.trajectory import ANGLE, OMEGA, VX, VY, Array, Trajectory, X, Y
+from ..cases.trajectory import ALIKE, Array, Trajectory
 from .start.closure import Closure
 
 STILL = 1e-9  # of the motion's size: smaller changes are no motion
-ALIKE = {"m": [X, Y], "m/s": [VX, VY], "rad": [ANGLE], "rad/s": [OMEGA]}  # columns of a state
 OPEN = 1e-9  # of the mechanism's size: nearer than that, a contact starts closed
 ROUNDING = 1e-12  # of the normal force: a wheel that needs no friction rolls without any
 

@@ -66,7 +66,7 @@ def _result(future: Future) -> Any:
         return future.result()
     except BrokenProcessPool:
         raise
-    except Exception as error:  # a bug in one task must not cost the others their rows
+    except (Exception, SystemExit) as error:  # one task must not cost the others their rows
         return Died(f"{type(error).__name__}: {error}")
 
 

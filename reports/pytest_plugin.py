@@ -77,7 +77,7 @@ class CaseFile(pytest.File):
         from .selection import ENGINES, HANDWRITTEN, choose_book, choose_engines
         from .trial.book import producers
         from .trial.start import assembled
-        from .trial.trial import judged_names, ways
+        from .trial.trial import judged_names, planned
 
         try:
             cases = load(self.path, systems=HANDWRITTEN, engines=ENGINES)
@@ -92,7 +92,7 @@ class CaseFile(pytest.File):
             name = f"{case.name}-reference"
             yield CertificateItem.from_parent(self, name=name, case=case)
             for engine in producers(case, engines, book=choose_book(names, [])):
-                for way in ways(engine, case.scene, start):
+                for way in planned(engine, case.scene, start):
                     for quantity in ("audit", *judged_names(case)):
                         how = "" if way.realised == "native" else f".{way.realised}"
                         yield ComparisonItem.from_parent(

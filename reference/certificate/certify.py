@@ -46,7 +46,9 @@ def certify(
     """
     look()
     times, system, followed = case.times, written.system, written.followed
-    own, (name, other) = _own(system, followed), _second(system, times)
+    stiff = any(system.modes[mode].stiff for mode in followed.phases)
+    own = _own(followed, stiff=stiff)
+    name, other = _second(system, times, stiff=stiff)
     others = {name: Motion(system, other, written.beside).trajectory(times)}
     checks = [Check(name, difference(motion, others[name]), own)]
     if followed.changes or other.changes:
@@ -73,20 +75,21 @@ def certify(
     return (*checks, Check("share of the tolerances", share(case, motion, others), SHARE))
 
 
-def _own(system: System, followed: Followed) -> float:
+def _own(followed: Followed, *, stiff: bool) -> float:
     """What two integrators of the same equations may differ by."""
-    if any(system.modes[mode].stiff for mode in followed.phases):
+    if stiff:
         return STIFF
     return SWITCHED if followed.changes else max(OWN_ERROR, ROUNDING * followed.steps)
 
 
-def _second(system: System, times: Array) -> tuple[str, Followed]:
+def _second(system: System, times: Array, *, stiff: bool) -> tuple[str, Followed]:
     """The motion by another integrator, or where it is stiff, by another tolerance."""
+    if stiff:
+        return "another tolerance", follow(system, times, by=_other)
     finer = np.linspace(times[0], times[-1], (len(times) - 1) * QUARTERS + 1)
     found = follow(system, finer, by=_other)
     other = replace(found, y=found.y[::QUARTERS], phase=found.phase[::QUARTERS])
-    stiff = any(system.modes[mode].stiff for mode in other.phases)
-    return "another tolerance" if stiff else "implicit integrator", other
+    return "implicit integrator", other
 
 
 def _other(mode: Mode, f: Slope, n: int) -> Method:

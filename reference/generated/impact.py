@@ -99,19 +99,26 @@ def _tried(
         return None
     v_after = v + impulse @ by_mass
     small = ROUNDING * float(np.max(np.abs(v)))
+    nothing = ROUNDING * float(np.max(np.abs(impulse), initial=0.0))
     for meeting, state, at in zip(meetings, states, normals, strict=True):
         if at is None:
             if meeting.normal.f @ v_after < -small:
                 return None
-        elif not _lawful(meeting, state, impulse[at : at + 2], v_after, small):
+        elif not _lawful(meeting, state, impulse[at : at + 2], v_after, small, nothing):
             return None
     return v_after
 
 
-def _lawful(meeting: Meeting, state: State, impulse: Array, v: Array, small: float) -> bool:
-    """(2.87) for impulses: the floor pushes, within the cone or against the slip."""
-    if impulse[0] < 0.0:
+def _lawful(
+    meeting: Meeting, state: State, impulse: Array, v: Array, small: float, nothing: float
+) -> bool:
+    """(2.87) for impulses: the floor pushes, within the cone or against the slip.
+
+    A contact that the impact does not concern gets an impulse of rounding, of either sign.
+    """
+    if impulse[0] < -nothing:
         return False
     if state == "sticks":
-        return bool(abs(impulse[1]) <= (1 + CONE) * meeting.element.kinetic * impulse[0])
+        cone = (1 + CONE) * meeting.element.kinetic * impulse[0]
+        return bool(abs(impulse[1]) <= cone + nothing)
     return bool(sign(state) * (meeting.tangent.f @ v) >= -small)

@@ -4,31 +4,28 @@ The reference knows its phases, and an event is the boundary of two. An engine o
 it creeps: it never rests. So no threshold is a time here; a threshold only tells what is near.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from itertools import pairwise
 
 import numpy as np
-from scipy.interpolate import BarycentricInterpolator
-from scipy.optimize import brentq
 
 from ...cases.case import Case, Event
 from ...cases.mistake import Mistake
 from ...cases.observe import observe
+from ...cases.quantity import table
 from ...cases.scene import Scene
-from ...cases.trajectory import Array, Trajectory
+from ...cases.trajectory import ALIKE, Array, Trajectory
+from .passages import passages
 from .rests import LOW, rests
 
-STILL = 1e-9  # of the largest value: what the reference's own rounding leaves of a zero
-AROUND = (
-    8  # steps in a curve through a passage: of seventh degree, as the integrator's eighth order
-)
+STILL = 1e-9  # of the largest value of its kind: what the reference's own rounding leaves of a zero
 
 
 def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
     """Times (K,) [s] of the event, from the boundaries of the reference's phases."""
     assert record.phase is not None  # the reference's record has it
     u = observe(scene, record, event.quantity)
-    still = STILL * float(np.max(np.abs(u)))
+    still = STILL * max(float(np.max(np.abs(u))), _peers(scene, record, event.quantity))
     pieces = [
         piece
         for piece in np.split(np.arange(len(u)), np.flatnonzero(np.diff(record.phase)) + 1)
@@ -41,8 +38,18 @@ def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
         if happens(u[before], u[after], still)
     ]
     if event.rule == "falls to zero":
-        times += [t for piece in pieces for t in _passages(record.times[piece], u[piece], still)]
+        times += [t for piece in pieces for t in passages(record.times[piece], u[piece], still)]
     return np.array(sorted(times), float)
+
+
+def _peers(scene: Scene, record: Trajectory, name: str) -> float:
+    """The largest of all places, rates or forces of the scene: what trembles is small beside it."""
+    quantity = table(scene)[name]
+    columns = ALIKE.get(quantity.unit, [])
+    peers = [states[:, columns] for states in record.states.values()]
+    if quantity.kind == "force":
+        peers += list(record.reactions.values())
+    return max((float(np.max(np.abs(x), initial=0.0)) for x in peers), default=0.0)
 
 
 _RULES: Mapping[str, Callable[[Array, Array, float], bool]] = {
@@ -56,17 +63,6 @@ def _lands(u: Array, still: float) -> bool:
     """Whether u ends at zero, and came to it from above."""
     moving = u[np.abs(u) > still]
     return bool(abs(u[-1]) <= still and moving[-1] > 0)
-
-
-def _passages(times: Array, u: Array, still: float) -> Iterator[float]:
-    """Where u passes zero from above within a smooth piece, as the top of a flight does."""
-    passed = u[1:] <= 0
-    passed[-1] &= u[-1] < -still  # what ends at zero is the boundary's
-    for i in np.flatnonzero((u[:-1] > still) & passed):
-        first = min(max(0, i - AROUND // 2 + 1), max(0, len(u) - AROUND))
-        rows = slice(first, first + AROUND)
-        curve = BarycentricInterpolator(times[rows], u[rows])
-        yield float(brentq(lambda t, u=curve: float(u(t)), times[i], times[i + 1], xtol=1e-14))
 
 
 def _leaves(u: Array, still: float) -> bool:

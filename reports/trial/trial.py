@@ -27,6 +27,14 @@ def ways(engine: Engine, scene: Scene, start: Start) -> tuple[Plan | Refusal, ..
     return found if native else (Refusal("native", NOTHING_OF_ITS_OWN), *found)
 
 
+def planned(engine: Engine, scene: Scene, start: Start) -> tuple[Plan | Refusal, ...]:
+    """As `ways`; what an engine raises is one native way, which fails when it is tried."""
+    try:
+        return ways(engine, scene, start)
+    except (Exception, SystemExit) as error:
+        return (Refusal("native", f"{type(error).__name__}: {error}"),)
+
+
 def judged_names(case: Case) -> tuple[str, ...]:
     """What is judged: what the case allows, and that every event happens as often."""
     counts = (f"{event}.count" for event in case.events)

@@ -21,7 +21,8 @@ def engines(file: File, known: Engines) -> Iterator[Finding]:
     for setting in file.deviates:
         name, _, word = setting.partition(".")
         if name not in known:
-            yield from _one_of("setting", ("deviates", setting), [f"{n}.{word}" for n in known])
+            offered = [f"{n}.{each}" for n in known for each in known[n] or (word,)]
+            yield from _one_of("setting", ("deviates", setting), offered)
         elif (offered := known[name]) is not None:
             settings = [f"{name}.{each}" for each in offered]
             yield from _one_of("setting", ("deviates", setting), settings)

@@ -1,0 +1,53 @@
+"""Falls through zero within a smooth piece: on a row, between rows, and not where it trembles."""
+
+import math
+
+import numpy as np
+import pytest
+
+from textmech.reports.events.passages import passages
+
+STILL = 1e-9
+
+
+@pytest.mark.parametrize("count", [11, 41, 101])
+def test_a_zero_on_a_row_is_found_once(count: int) -> None:
+    """A row may hold 0 or its rounding of either sign."""
+    times = np.linspace(0.0, 1.0, count)
+    for rounding in (0.0, 1e-16, -1e-16):
+        u = 0.5 - times
+        u[count // 2] = rounding
+        assert list(passages(times, u, STILL)) == pytest.approx([0.5], abs=1e-12)
+
+
+def test_what_ends_at_zero_is_the_boundarys() -> None:
+    times = np.linspace(0.0, 0.5, 11)
+    assert list(passages(times, 0.5 - times, STILL)) == []
+
+
+@pytest.mark.parametrize("depth", [1e-6, 1e-4, 1e-2])
+@pytest.mark.parametrize("samples", [150, 400])
+def test_a_dip_between_rows_is_found(depth: float, samples: int) -> None:
+    """1 − d − cos t falls through zero where cos t = 1 − d on its way up, before each 2 π k.
+
+    Rows are 0.13 and 0.05 s apart, the curves of seventh degree: (0.13)⁸/8! is 2e-12 of a dip that
+    may be 1e-6 deep and as flat.
+    """
+    times = np.linspace(0.1, 20.0, samples)
+    known = [2 * math.pi * k - math.acos(1 - depth) for k in (1, 2, 3)]
+    found = list(passages(times, 1 - depth - np.cos(times), STILL))
+    assert found == pytest.approx(known, abs=1e-7 if samples == 150 else 1e-9)
+
+
+def test_a_hump_between_rows_is_found() -> None:
+    """cos t − 1 + d rises above zero around 2 π k only."""
+    times = np.linspace(0.1, 14.0, 301)
+    found = list(passages(times, np.cos(times) - 1 + 1e-6, STILL))
+    known = [2 * math.pi * k + math.acos(1 - 1e-6) for k in (1, 2)]
+    assert found == pytest.approx(known, abs=1e-10)
+
+
+def test_what_trembles_does_not_fall() -> None:
+    times = np.linspace(0.0, 1.0, 101)
+    trembling = 1e-17 * np.where(np.arange(101) % 2, 1.0, -1.0)
+    assert list(passages(times, trembling, STILL)) == []
