@@ -1,4 +1,10 @@
-"""Case files typed in the tests of switching: each with the hand-written system's parameters."""
+"""Case files typed for hand-written systems that switch: each with its system's parameters."""
+
+from pathlib import Path
+
+from textmech.cases.case import Case
+
+from . import scenes
 
 DISK = """\
 {system}
@@ -87,14 +93,6 @@ SMOOTH = ", smooth: {band: Delta, sharpness: A}"
 BAND = ", Delta: 0.0005, A: 1.0e5"
 
 
-def tail(duration: float, samples: int) -> str:
-    """The end of a case file."""
-    step = duration / (samples - 1) / 4
-    return (
-        f"duration: {duration}\nsamples: {samples}\nstep: {{mujoco: {step!r}, pymunk: {step!r}}}\n"
-    )
-
-
 # name → text, parameters of the text, duration, samples
 WRITTEN: dict[str, tuple[str, str, dict[str, object], float, int]] = {
     "launched": (DISK, "sliding_disk", {"beta": 0, "v0": -3, "w0": 0}, 1.0, 26),
@@ -122,7 +120,21 @@ WRITTEN: dict[str, tuple[str, str, dict[str, object], float, int]] = {
 }  # fmt: skip
 
 
-def written(name: str) -> tuple[str, str]:
-    """Scene and tail of a case answered by a hand-written system."""
-    text, system, parameters, duration, samples = WRITTEN[name]
-    return text.format(system=f"system: {system}", **parameters), tail(duration, samples)
+def text(name: str) -> tuple[str, str]:
+    """Scene and tail of the file."""
+    scene, system, parameters, duration, samples = WRITTEN[name]
+    filled = scene.format(system=f"system: {system}", **parameters)
+    return filled, scenes.tail(duration, samples)
+
+
+def case(tmp_path: Path, name: str) -> Case:
+    """The case, answered by its hand-written system."""
+    scene, end = text(name)
+    return scenes.typed(tmp_path, scene, tail=end)
+
+
+def generated(tmp_path: Path, name: str) -> Case:
+    """The same scene, to be answered by the generated mechanism alone."""
+    scene, end = text(name)
+    scene = scene.split("\n", 1)[1].replace("drops_out: [m]\n", "")
+    return scenes.typed(tmp_path, scene, tail=end)

@@ -12,11 +12,8 @@ from textmech.cases.case import Case, Event
 from textmech.cases.observe import observe
 from textmech.cases.quantity import table
 from textmech.cases.trajectory import Array, Trajectory
-from textmech.reference.generated.mechanism import Mechanism
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
-from textmech.reference.start.assembly import assemble
-from textmech.reference.start.closure import Closure
 from textmech.reference.system import Guard, System
 from textmech.reports.events.times import never, reference_events
 
@@ -72,7 +69,7 @@ def with_event(case: Case) -> Case:
 def located(case: Case) -> list[float]:
     """The times at which the guard falls, each the end of a step."""
     quantity = case.events["turns"].quantity
-    mechanism = Mechanism(case.scene, assemble(case), Closure(case).size)
+    mechanism = scenes.mechanism(case)
 
     def g(t: float, q: Array, v: Array) -> float:
         poses = mechanism.base.poses(t, q, v)

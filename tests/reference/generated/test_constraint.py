@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from given import scenes
+from given import random_scenes
 
+from textmech.cases import shape
 from textmech.cases.joint import FREEDOMS
 from textmech.cases.scene import GROUND, Anchor, Contact, GroundPoint, Joint, Scene
 from textmech.reference.formalisms.derivative import along
@@ -36,11 +37,11 @@ def jointed(joint: Joint) -> Scene:
         gravity=(1.0, -9.0),
         points={"O": GroundPoint((0.3, -0.1)), "hook": GroundPoint((0.2, 0.5), (0.8, -1.1))},
         bodies={
-            "bar": scenes.shape.bar(name="bar", mass=1.2, length=0.9, points={"P": (0.3, 0.2)}),
-            "block": scenes.shape.block(
+            "bar": shape.bar(name="bar", mass=1.2, length=0.9, points={"P": (0.3, 0.2)}),
+            "block": shape.block(
                 name="block", mass=0.7, width=0.5, height=0.3, points={"Q": (-0.2, 0.4)}
             ),
-            "dot": scenes.shape.particle(name="dot", mass=0.4),
+            "dot": shape.particle(name="dot", mass=0.4),
         },
         joints={joint.name: joint},
         contacts={},
@@ -50,16 +51,16 @@ def jointed(joint: Joint) -> Scene:
 
 def made(name: str) -> Scene:
     if name == "rolling":
-        return scenes.rolling(np.random.default_rng(3))
+        return random_scenes.rolling(np.random.default_rng(3))
     kind, ends = name.split(": ")
     a, b = ENDS[ends]
-    return jointed(scenes.joint(np.random.default_rng(3), "j", kind, a, b))
+    return jointed(random_scenes.joint(np.random.default_rng(3), "j", kind, a, b))
 
 
 def touching() -> Scene:
     """A rim, a point of a bar, a corner and a particle on the floor; nothing is joined."""
     scene = made("pin: bodies")
-    disk = scenes.shape.disk(name="disk", mass=0.5, radius=0.2, points={"E": (0.05, 0.1)})
+    disk = shape.disk(name="disk", mass=0.5, radius=0.2, points={"E": (0.05, 0.1)})
     ends = ("disk.center", "disk.E", "bar.P", "block.Q", "dot.center")
     contacts = {end: Contact(end, Anchor(*end.split(".")), 0.5, 0.4) for end in ends}
     return replace(scene, bodies={**scene.bodies, "disk": disk}, joints={}, contacts=contacts)
@@ -187,7 +188,7 @@ def test_the_reaction_is_the_force_of_the_first_part_on_the_second(name: str) ->
 
 def test_rolling_reactions_hold_the_disk_up_and_turn_it() -> None:
     """(2.27) About the centre only the friction R λ_t turns a disk that nothing else touches."""
-    scene = scenes.rolling(np.random.default_rng(3))
+    scene = random_scenes.rolling(np.random.default_rng(3))
     scene = Scene(scene.gravity, {}, {"b0": scene.bodies["b0"]}, {}, scene.contacts, {})
     disk = scene.bodies["b0"]
     for t, q, v in states(scene):
