@@ -93,7 +93,7 @@ class Falls(Mode):
 
 def late() -> None:
     swing = Watched([(None, lambda t, x, v: x)], Oscillator(), "off")
-    swing.modes["off"] = Falls()
+    swing.modes = {**swing.modes, "off": Falls()}
     follow(swing, np.array([0.0, 1.5, 1.6]))
 
 

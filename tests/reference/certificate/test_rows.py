@@ -17,7 +17,7 @@ from textmech.reference.certificate import certify as module
 from textmech.reference.certificate.agreement import Check
 from textmech.reference.generated.mechanism import Mechanism
 from textmech.reference.motion.follow import Followed, follow
-from textmech.reference.system import Array, Guard, System
+from textmech.reference.system import MOVING, Array, Guard, System
 from textmech.reference.systems import written
 
 EVENTS = {"implicit integrator: events", "generated events", "closed events"}
@@ -76,6 +76,19 @@ def test_a_generated_answer_is_not_compared_with_itself(tmp_path: Path) -> None:
     seen = {"implicit integrator: events", "constraint drift", "modes possible"}
     assert checks.keys() & OPTIONAL == seen
     assert checks["modes possible"].difference == 0
+
+
+def test_modes_are_asked_where_there_are_others_or_what_ends_them(tmp_path: Path) -> None:
+    """A disk that rolls from rest, which nothing ends; a pendulum with a guard that never falls."""
+    scene, end = written_scenes.text("too steep")
+    case = scenes.typed(tmp_path, scene.replace("60 deg", "10 deg"), tail=end)
+    rolls = answer(case)
+    assert rolls.guards(rolls.start()[0]) == ()
+    assert "modes possible" in by_name(certified(case, rolls))
+    case = replace(scenes.SHIPPED["bar_pendulum"], duration=0.3, samples=4)
+    quiet = Guard("never", lambda t, q, v: 1.0, lambda t, q, v: (MOVING, q, v))
+    guarded = mutant(answer(case), guards=lambda self, mode: (quiet,))
+    assert "modes possible" in by_name(certified(case, guarded))
 
 
 def test_a_written_system_without_the_change_is_seen(braking: Case) -> None:

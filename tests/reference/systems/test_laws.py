@@ -36,6 +36,7 @@ def test_laws_left_out_have_nothing_to_say(at: laws.At):
     system = example(at[0])
     mode = system.modes[at[1]]
     t, q, v = next(states(*at))
+    assert len(mode.g(t, q)) == len(mode.f_a(t, q)) == len(lagrange.multipliers(mode, t, q, v)[1])
     starting = at[1] == system.start()[0]
     found = {
         laws.multipliers: len(mode.f_a(t, q)) > 0,
