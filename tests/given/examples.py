@@ -1,119 +1,123 @@
-"""The systems as their cases set them, what their starts must be, and random admissible states."""
+"""The hand-written systems as their cases set them, and what their starts must be."""
 
 import math
-from collections.abc import Callable, Iterator
 
-import numpy as np
+from textmech.reference.system import MOVING, Mode, System
+from textmech.reference.systems import written
 
-from textmech.reference.system import Array, Mode
-from textmech.reference.systems import SYSTEMS
-
+BOOK = {"F_minus": 3.0, "F_plus": 3.0, "Fs_minus": 6.0, "Fs_plus": 6.0}
+BAND = {"Delta": 5e-4, "A": 1e5}
 PARAMETERS: dict[str, dict[str, float]] = {
-    "rolling_wheel": {
-        "m": 1.3, "R": 0.25, "mu": 0.5, "beta": math.radians(20), "F": 2.5, "v0": 0.4, "w0": 1.6,
+    "anisotropic_drift": {
+        "m": 1.0, "A": 5.0, "w": 2 * math.pi,
+        "F_minus": 3.0, "F_plus": 1.0, "Fs_minus": 4.0, "Fs_plus": 1.5,
     },
     "bar_pendulum": {"m": 1.2, "l": 0.8, "phi0": math.radians(24.6)},
+    "bouncing_disk": {"m": 0.8, "R": 0.2, "e": 1.0, "y0": 0.7},
     "double_pendulum": {
         "m1": 1.0, "l1": 0.6, "m2": 0.7, "l2": 0.9,
         "a0": math.radians(-61), "b0": math.radians(-33),
     },
+    "dynamometer": {"m": 1.0, "c": 2.0, "u": 2.0, **BOOK},
     "four_bar": {
         "m": 1.0, "a": 0.3, "b": 0.8, "c": 0.6, "d": 0.9, "crank0": math.radians(70),
     },
+    "growing_force": {"m": 1.0, "b": 1.0, **BOOK},
     "rhombus": {
         "m": 0.5, "l": 0.4, "c": 60.0, "l0": 0.5,
         "left0": math.radians(-130), "right0": math.radians(-60),
     },
+    "rolling_wheel": {
+        "m": 1.3, "R": 0.25, "mu": 0.5, "beta": math.radians(20), "F": 2.5, "v0": 0.4, "w0": 1.6,
+    },
+    "sliding_block": {
+        "m": 1.4, "mu_s": 0.5, "mu_k": 0.4, "beta": math.radians(20), "v0": -2.0,
+    },
+    "sliding_disk": {
+        "m": 1.3, "R": 0.25, "mu": 0.4, "beta": math.radians(10), "v0": 3.0, "w0": 20.0,
+    },
+    "smooth_dynamometer": {"m": 1.0, "c": 2.0, "u": 2.0, **BOOK, **BAND},
+    "smooth_growing_force": {"m": 1.0, "b": 1.0, **BOOK, **BAND},
     "spring_mass_damper": {"m": 1.0, "c": 36.0, "d": 1.2, "l0": 0.5, "y0": -0.6},
 }  # fmt: skip
 
-# What the case files say of the start, typed again: body, column of its pose, value. Of the
-# rocker they only say near which of the two ways to close the loop it is.
+_BLOCK = [("block", 0, 0.0, 0.0), ("block", 3, 0.0, 0.0)]
+# What the case files say of the start, typed again: body, column of its pose, value, margin. Of
+# the rocker they only say near which of the two ways to close the loop it is.
 STARTS: dict[str, list[tuple[str, int, float, float]]] = {
-    "rolling_wheel": [
-        ("wheel", 0, 0.0, 0.0), ("wheel", 1, 0.25, 0.0), ("wheel", 2, 0.0, 0.0),
-        ("wheel", 3, 0.4, 1e-15), ("wheel", 5, -1.6, 1e-15),
-    ],
+    "anisotropic_drift": _BLOCK,
     "bar_pendulum": [("bar", 2, 24.6 * math.pi / 180, 1e-15), ("bar", 5, 0.0, 0.0)],
+    "bouncing_disk": [("wheel", 1, 0.7, 0.0), ("wheel", 4, 0.0, 0.0), ("wheel", 5, 0.0, 0.0)],
     "double_pendulum": [
         ("upper", 2, -61 * math.pi / 180, 1e-15), ("lower", 2, -33 * math.pi / 180, 1e-15),
     ],
+    "dynamometer": _BLOCK,
     "four_bar": [
         ("crank", 2, 70 * math.pi / 180, 1e-15), ("rocker", 2, 96 * math.pi / 180, 0.01),
     ],
+    "growing_force": _BLOCK,
     "rhombus": [
         ("left", 2, -130 * math.pi / 180, 1e-15), ("lower_right", 2, -130 * math.pi / 180, 1e-15),
         ("right", 2, -60 * math.pi / 180, 1e-15), ("lower_left", 2, -60 * math.pi / 180, 1e-15),
     ],
+    "rolling_wheel": [
+        ("wheel", 0, 0.0, 0.0), ("wheel", 1, 0.25, 0.0), ("wheel", 2, 0.0, 0.0),
+        ("wheel", 3, 0.4, 1e-15), ("wheel", 5, -1.6, 1e-15),
+    ],
+    "sliding_block": [("block", 0, 0.0, 0.0), ("block", 3, -2.0, 0.0)],
+    "sliding_disk": [
+        ("wheel", 0, 0.0, 0.0), ("wheel", 1, 0.25, 0.0), ("wheel", 2, 0.0, 0.0),
+        ("wheel", 3, -3.0, 0.0), ("wheel", 5, -20.0, 0.0),
+    ],
+    "smooth_dynamometer": _BLOCK,
+    "smooth_growing_force": _BLOCK,
     "spring_mass_damper": [("mass", 1, -0.6, 0.0), ("mass", 4, 0.0, 0.0)],
 }  # fmt: skip
 
-# The reactions that the multipliers λ of (2.60) are.
-MULTIPLIERS = {
-    "rolling_wheel": ("touch.tangent", "touch.normal"),
-    "four_bar": ("C.fx", "C.fy"),
-}
+# Systems of other parameters: changes, and the events that follow in the duration.
+VARIANTS: dict[str, tuple[str, dict[str, float], list[str]]] = {
+    "resting": ("rolling_wheel", {"beta": 0.0, "F": 0.0}, []),
+    "pushed": ("rolling_wheel", {"beta": 0.0}, []),
+    "downhill": ("rolling_wheel", {"F": 0.0}, []),
+    "free": ("spring_mass_damper", {"d": 0.0}, []),
+    "critical": ("spring_mass_damper", {"d": 12.0}, []),
+    "overdamped": ("spring_mass_damper", {"d": 30.0}, []),
+    "plane, back": ("sliding_disk", {"beta": 0.0}, ["rolls"]),
+    "plane, no spin": ("sliding_disk", {"beta": 0.0, "v0": -3.0, "w0": 0.0}, ["rolls"]),
+    "up the incline": ("sliding_disk", {}, ["rolls"]),
+    "too steep": ("sliding_disk", {"beta": math.radians(60)}, []),
+    "too steep, released": (
+        "sliding_disk", {"beta": math.radians(60), "v0": 0.0, "w0": 0.0}, [],
+    ),
+    "rolls from rest": ("sliding_disk", {"v0": 0.0, "w0": 0.0}, []),
+    "stops above": ("sliding_block", {}, ["stops"]),
+    "comes back": ("sliding_block", {"beta": math.radians(35)}, []),
+    "rests": ("sliding_block", {"v0": 0.0}, []),
+    "just sticks": ("sliding_block", {"v0": 0.0, "beta": math.atan(0.5) - 1e-6}, []),
+    "just slides": ("sliding_block", {"v0": 0.0, "beta": math.atan(0.5) + 1e-6}, []),
+    "brakes": ("sliding_block", {"beta": 0.0, "v0": 2.0}, ["stops"]),
+    "slips for good": ("growing_force", {}, ["slips"]),
+    "stick-slip": ("dynamometer", {}, ["slips", "stops"] * 2),
+    "elastic": ("bouncing_disk", {}, ["bounces"] * 5),
+    "plastic": ("bouncing_disk", {"e": 0.0}, ["lands"]),
+}  # fmt: skip
+DURATION = {"sliding_block": 1.0, "sliding_disk": 2.0, "bouncing_disk": 3.0}  # 10 s else
 
 
-def example(name: str, **changed: float) -> Mode:
+def example(name: str, **changed: float) -> System:
     """The system of the case, with some of its parameters changed."""
-    found = SYSTEMS[name](**{**PARAMETERS[name], **changed})
-    assert isinstance(found, Mode)
-    return found
+    return written(name, {**PARAMETERS[name], **changed})
 
 
-def states(name: str, count: int = 50, seed: int = 1) -> Iterator[tuple[float, Array, Array]]:
-    """Random t, q, v that meet the constraints."""
-    random = np.random.default_rng(seed)
-    for _ in range(count):
-        yield random.uniform(0.0, 5.0), *_STATE[name](random)
+def only(name: str, **changed: float) -> Mode:
+    """The only mode of a smooth system."""
+    return example(name, **changed).modes[MOVING]
 
 
-def _rolling_wheel(random: np.random.Generator) -> tuple[Array, Array]:
-    phi, phi_dot = random.uniform(-9, 9), random.uniform(-9, 9)
-    return np.array([0.25 * phi, 0.25, phi]), np.array([0.25 * phi_dot, 0.0, phi_dot])
+def duration(name: str) -> float:
+    """How long [s] the system is followed."""
+    return DURATION.get(name, 10.0)
 
 
-def _bar_pendulum(random: np.random.Generator) -> tuple[Array, Array]:
-    return random.uniform(-math.pi, math.pi, 1), random.uniform(-8, 8, 1)
-
-
-def _double_pendulum(random: np.random.Generator) -> tuple[Array, Array]:
-    return random.uniform(-math.pi, math.pi, 2), random.uniform(-8, 8, 2)
-
-
-def _four_bar(random: np.random.Generator) -> tuple[Array, Array]:
-    """Any crank angle, on both branches: with these lengths β − γ never comes near 0 or π."""
-    a, b, c, d = (PARAMETERS["four_bar"][key] for key in "abcd")
-    alpha, alpha_dot = random.uniform(-math.pi, math.pi), random.uniform(-8, 8)
-    B = a * np.exp(1j * alpha)
-    diagonal = d - B
-    s = abs(diagonal)
-    turn = random.choice([-1, 1]) * np.arccos((b * b + s * s - c * c) / (2 * b * s))
-    beta = np.angle(diagonal) + turn
-    gamma = np.angle(B + b * np.exp(1j * beta) - d)
-    # i a e^{iα} α̇ + i b e^{iβ} β̇ − i c e^{iγ} γ̇ = 0, real and imaginary part
-    e = 1j * np.exp(1j * np.array([alpha, beta, gamma])) * [a, b, -c]
-    rates = np.linalg.solve([e[1:].real, e[1:].imag], [-e[0].real, -e[0].imag]) * alpha_dot
-    return np.array([alpha, beta, gamma]), np.array([alpha_dot, *rates])
-
-
-def _rhombus(random: np.random.Generator) -> tuple[Array, Array]:
-    """Opened between 20° and 160°: flat, the free-cut equations have no unique reactions."""
-    theta1 = random.uniform(-math.pi, math.pi)
-    opening = random.choice([-1, 1]) * random.uniform(math.radians(20), math.radians(160))
-    return np.array([theta1, theta1 + opening]), random.uniform(-8, 8, 2)
-
-
-def _spring_mass_damper(random: np.random.Generator) -> tuple[Array, Array]:
-    return random.uniform(-1.5, -0.1, 1), random.uniform(-5, 5, 1)
-
-
-_STATE: dict[str, Callable[[np.random.Generator], tuple[Array, Array]]] = {
-    "rolling_wheel": _rolling_wheel,
-    "bar_pendulum": _bar_pendulum,
-    "double_pendulum": _double_pendulum,
-    "four_bar": _four_bar,
-    "rhombus": _rhombus,
-    "spring_mass_damper": _spring_mass_damper,
-}
+SMOOTH = [name for name in PARAMETERS if list(example(name).modes) == [MOVING]]
+MODES = [(name, mode) for name in PARAMETERS for mode in example(name).modes]

@@ -4,12 +4,18 @@ import cProfile
 import sys
 from collections.abc import Callable
 
+import numpy as np
 import pytest
 from given import scenes
+from given.watched import Oscillator, Watched
 
+from textmech.reference import coverage
 from textmech.reference.coverage import CALLS, equations, look, noting
 from textmech.reference.laws import momentum
-from textmech.reference.laws.force import spring
+from textmech.reference.laws.force import spring, weight
+from textmech.reference.motion import follow as motion
+from textmech.reference.motion.follow import follow
+from textmech.reference.system import Array, Mode
 
 
 @pytest.mark.parametrize(
@@ -88,6 +94,51 @@ def test_a_watch_ends_and_starts_anew() -> None:
 
     assert noted(long) == set()
     assert noted(looking) == {"2.82"}
+
+
+class Falls(Mode):
+    """Pulled by a spring, which no phase before it is."""
+
+    coordinates = ("x",)
+
+    def accelerations(self, t: float, q: Array, v: Array) -> Array:
+        return -np.array(spring(1.0, 0.5, (float(q[0]) + 9.0, 0.0))[:1])
+
+
+def late() -> None:
+    swing = Watched([(None, lambda t, x, v: x)], Oscillator(), "off")
+    swing.modes = {**swing.modes, "off": Falls()}
+    follow(swing, np.array([0.0, 1.5, 1.6]))
+
+
+def test_what_begins_late_is_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A phase after the end of the watch; without `look` its equations would be lost."""
+    monkeypatch.setattr(coverage, "CALLS", 300)
+    assert noted(late) == {"2.82"}
+    monkeypatch.setattr(motion, "look", lambda: None)
+    assert noted(late) == set()
+
+
+def test_looking_alone_does_nothing() -> None:
+    before = sys.getprofile()
+    look()
+    assert sys.getprofile() is before
+
+
+def test_of_two_watches_the_inner_one_looks() -> None:
+    """And the outer one goes on when the inner one ends."""
+    inner: set[str] = set()
+
+    def outer() -> None:
+        def within() -> None:
+            look()
+            spring(1.0, 0.5, (1.0, 0.0))
+
+        inner.update(noted(within))
+        weight(1.0, (0.0, -1.0))
+
+    assert noted(outer) == {"2.81"}
+    assert inner == {"2.82"}
 
 
 @pytest.mark.parametrize("name", scenes.SHIPPED)

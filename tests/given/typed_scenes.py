@@ -1,0 +1,66 @@
+"""Scenes typed for several tests, without an end: what rolls, loses its way or rests."""
+
+WHEEL = """\
+scene:
+  points: {hook: [0, 1]}
+  incline: BETA
+  bodies: {wheel: {disk: {mass: 1, radius: 0.25}}}
+  contacts: {touch: {between: [wheel, ground.floor], friction: MU, ideal: rolling}}
+  forces: {lift: {push: wheel.center, ramp: [0, UP]}}
+initial: {wheel: {x: 0, angle: 0}}
+allow: {wheel.x: 1.0e-2}
+"""
+PARALLELOGRAM = """\
+scene:
+  points: {O: [0, 0], Q: [0.9, 0]}
+  bodies:
+    crank: {bar: {mass: 1, length: 0.3}}
+    coupler: {bar: {mass: 1, length: 0.9}}
+    rocker: {bar: {mass: 1, length: 0.3}}
+  joints:
+    A: {pin: [ground.O, crank.start]}
+    B: {pin: [crank.end, coupler.start]}
+    C: {pin: [coupler.end, rocker.end]}
+    D: {pin: [ground.Q, rocker.start]}
+initial: {crank: {angle: 70 deg}}
+near: {rocker: {angle: 70 deg}}
+allow: {crank.angle: 1.0e-2}
+"""
+SPRING = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {dot: {particle: {mass: 0.7}}}
+  forces: {coil: {spring: [ground.O, dot.center], stiffness: 3, rest_length: 0.5}}
+initial: {dot: {x: 0, y: START}}
+allow: {dot.y: 1.0e-2}
+"""
+CART = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {cart: {block: {mass: 2, width: 0.3, height: 0.1}}, rod: {bar: {mass: 0.5, length: 0.6}}}
+  joints:
+    rail: {slide: [ground.O, cart.center], along: [1, 0]}
+    hinge: {pin: [cart.center, rod.start]}
+initial: {cart: {x: 0}, rod: {angle: -40 deg}}
+allow: {cart.x: 1.0e-3, cart.y: 1.0e-3, cart.vy: 1.0e-3}
+"""
+AT_REST = {
+    "hanging bar": """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {bar: {bar: {mass: 1.2, length: 0.8}}}
+  joints: {hinge: {pin: [ground.O, bar.start]}}
+initial: {bar: {angle: -90 deg}}
+allow: {bar.angle: 1.0e-2}
+""",
+    "hanging mass": """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {dot: {particle: {mass: 0.7}}}
+  joints: {guide: {slide: [ground.O, dot.center], along: [0, 1]}}
+  forces: {coil: {spring: [ground.O, dot.center], stiffness: 30, rest_length: 0.5}}
+initial: {dot: {y: -0.7288218333333333}}
+allow: {dot.y: 1.0e-2, guide.torque: 1.0e-3}
+""",
+    "wheel without friction": WHEEL.replace("BETA", "0").replace("MU", "0").replace("UP", "0"),
+}

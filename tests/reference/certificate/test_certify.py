@@ -1,0 +1,171 @@
+"""The certificate can fail: one thing broken at a time, and the check that sees it."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from given import scenes
+from given.certified import certified
+
+from textmech.cases.case import Case
+from textmech.reference import systems
+from textmech.reference.certificate import laws
+from textmech.reference.certificate.agreement import Check, difference, relative, worst
+from textmech.reference.motion.follow import TOLERANCE
+from textmech.reference.system import Array, Load, Mode, Only
+from textmech.reference.systems.bar_pendulum import BarPendulum
+from textmech.reference.systems.spring_mass_damper import SpringMassDamper
+
+IMPLICIT, START, GENERATED = "implicit integrator", "start as assembled", "generated motion"
+REACTIONS, CLOSED = "generated reactions", "closed form"
+LAGRANGE = "accelerations by Lagrange (2.44)"
+POWER, BALANCE, FORCES = (
+    "power balance (2.51)",
+    "Newton-Euler balance (2.23), (2.27)",
+    "reactions by Newton-Euler",
+)
+DRIFT, SHARE = "constraint drift", "share of the tolerances"
+
+
+def failing(case: Case, mode: Mode, *, tolerance: float = TOLERANCE) -> set[str]:
+    """The checks that do not hold if the case is answered by this mode."""
+    checks = certified(case, Only(mode), tolerance=tolerance)
+    return {check.name for check in checks if not check.holds}
+
+
+def written(case: Case) -> Mode:
+    """The hand-written mode of a smooth case."""
+    found = systems.SYSTEMS[case.system or ""](**case.parameters)
+    assert isinstance(found, Mode)
+    return found
+
+
+PENDULUM = replace(scenes.SHIPPED["bar_pendulum"], duration=2.0, samples=26)
+SPRING = replace(scenes.SHIPPED["spring_mass_damper.underdamped"], duration=2.0, samples=26)
+
+
+class Heavy(BarPendulum):
+    """(2.34) with J 5 % too large in the explicit accelerations."""
+
+    def accelerations(self, t: float, q: Array, v: Array) -> Array:
+        return super().accelerations(t, q, v) / 1.05
+
+
+class Started(BarPendulum):
+    """Starts a thousandth of a radian off."""
+
+    def start(self) -> tuple[Array, Array]:
+        q, v = super().start()
+        return q + 1e-3, v
+
+
+class Swapped(BarPendulum):
+    """Reactions on the ground instead of on the bar."""
+
+    def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
+        return {name: -force for name, force in super().reactions(t, q, v).items()}
+
+
+class Weightless(BarPendulum):
+    """The free-cut body without its weight."""
+
+    def loads(self, t: float, q: Array, v: Array) -> list[Load]:
+        return []
+
+
+class Leaking(BarPendulum):
+    """A damper in the energies that the accelerations do not know."""
+
+    def D(self, t: float, q: Array, v: Array) -> float:
+        return 1e-3 * v[0] ** 2
+
+
+class Undamped(SpringMassDamper):
+    """d dropped in the explicit accelerations."""
+
+    def accelerations(self, t: float, q: Array, v: Array) -> Array:
+        return super().accelerations(t, q, 0 * v)
+
+
+class Otherwise(SpringMassDamper):
+    """The closed form of another damping."""
+
+    def closed_form(self, t: float) -> tuple[Array, Array]:
+        other = {**SPRING.parameters, "d": 1.001 * self.d}
+        return SpringMassDamper(**other).closed_form(t)
+
+
+BROKEN: dict[type[Mode], tuple[Case, set[str]]] = {
+    Heavy: (PENDULUM, {GENERATED, REACTIONS, CLOSED, LAGRANGE, POWER, BALANCE, SHARE}),
+    Started: (PENDULUM, {START, GENERATED, REACTIONS, CLOSED, SHARE}),
+    Swapped: (PENDULUM, {REACTIONS, FORCES, SHARE}),
+    Weightless: (PENDULUM, {BALANCE}),
+    Leaking: (PENDULUM, {LAGRANGE, POWER}),
+    Undamped: (SPRING, {GENERATED, CLOSED, LAGRANGE, POWER, BALANCE, SHARE}),
+    Otherwise: (SPRING, {CLOSED, SHARE}),
+}
+
+
+@pytest.mark.parametrize("case", [PENDULUM, SPRING], ids=lambda case: case.name)
+def test_unbroken_systems_hold(case: Case) -> None:
+    assert failing(case, written(case)) == set()
+
+
+@pytest.mark.parametrize("kind", BROKEN, ids=lambda kind: kind.__name__)
+def test_a_broken_system_is_seen(kind: type[Mode]) -> None:
+    case, seen = BROKEN[kind]
+    assert seen <= failing(case, kind(**case.parameters))
+
+
+def test_a_sloppy_integrator_is_seen() -> None:
+    system = BarPendulum(**PENDULUM.parameters)
+    assert {IMPLICIT, CLOSED} <= failing(PENDULUM, system, tolerance=1e-6)
+
+
+def test_drift_is_seen() -> None:
+    """A loop that is left alone with a coarse integrator opens."""
+    case = replace(scenes.SHIPPED["four_bar"], duration=1.2, samples=6)
+    assert DRIFT in failing(case, written(case), tolerance=1e-6)
+
+
+@pytest.mark.parametrize("change", ["gravity", "inertia", "mass"])
+def test_a_wrong_generated_answer_is_seen(change: str) -> None:
+    """The mistake is in the scene here: the written system does not look there."""
+    scene = PENDULUM.scene
+    bar = scene.bodies["bar"]
+    wrong = {
+        "gravity": replace(scene, gravity=(0.0, 0.0)),
+        "inertia": replace(
+            scene, bodies={"bar": replace(bar, inertia=1.05 * (bar.inertia or 0.0))}
+        ),
+        "mass": replace(scene, bodies={"bar": replace(bar, mass=1.05 * bar.mass)}),
+    }[change]
+    case = replace(PENDULUM, scene=wrong)
+    assert {GENERATED, REACTIONS} <= failing(case, BarPendulum(**case.parameters))
+
+
+def test_a_tolerance_that_the_reference_cannot_judge_is_seen() -> None:
+    case = replace(PENDULUM, allow={"bar.angle": 1e-15}, reach={})
+    assert failing(case, BarPendulum(**case.parameters)) == {SHARE}
+
+
+def test_nan_never_holds() -> None:
+    """Python's max drops a NaN that does not come first."""
+    assert not Check("any", float("nan"), 1.0).holds
+    assert np.isnan(worst([1.0, float("nan"), 2.0]))
+    assert np.isnan(relative(np.array([1.0, 2.0]), np.array([1.0, np.nan])))
+    one = scenes.solved("bar_pendulum").trajectory
+    states = {name: rows.copy() for name, rows in one.states.items()}
+    states["bar"][3, 5] = np.nan
+    assert np.isnan(difference(one, replace(one, states=states)))
+
+
+def test_nan_in_a_law_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    balance: Callable[..., float] = laws.energy.power_balance
+
+    def sometimes(system: Mode, t: float, q: Array, v: Array) -> float:
+        return float("nan") if 0.9 < t < 1.0 else balance(system, t, q, v)
+
+    monkeypatch.setattr(laws.energy, "power_balance", sometimes)
+    assert failing(PENDULUM, BarPendulum(**PENDULUM.parameters)) == {POWER}

@@ -1,0 +1,50 @@
+"""The implicit integrator where the explicit one would creep."""
+
+from math import cos, sin
+
+import numpy as np
+import pytest
+from given.problems import by_scipy
+
+from textmech.reference.integrators.implicit import radau
+from textmech.reference.integrators.march import Vector
+
+
+def prothero_robinson(t: float, y: Vector) -> Vector:
+    """Draws every solution to cos t within a microsecond."""
+    return np.array([-1e6 * (y[0] - cos(t)) - sin(t)])
+
+
+def van_der_pol(t: float, y: Vector) -> Vector:
+    return np.array([y[1], 1e3 * (1.0 - y[0] * y[0]) * y[1] - y[0]])
+
+
+@pytest.mark.parametrize("start", [1.0, 2.0])
+def test_prothero_robinson(start: float):
+    """Also with a start far off the smooth solution, whose approach must be followed."""
+    times = np.linspace(0.0, 10.0, 6)
+    result = radau(prothero_robinson, times, [start])
+    assert np.abs(result.y[1:, 0] - np.cos(times[1:])).max() < 1e-12
+    assert result.steps < 200
+
+
+def test_van_der_pol_against_scipy():
+    """Samples away from the jumps, where the state is as well determined as the time of a jump."""
+    times = np.array([0.0, 300.0, 600.0, 1000.0, 1400.0])
+    result = radau(van_der_pol, times, [2.0, 0.0])
+    theirs = by_scipy(van_der_pol, times, [2.0, 0.0], method="Radau", rtol=1e-9, atol=1e-12)
+    assert np.abs(result.y - theirs).max() < 1e-7
+    assert result.steps < 600
+    other = radau(van_der_pol, times, [2.0, 0.0], stages=7, tolerance=1e-14)
+    assert np.abs(result.y - other.y).max() < 1e-10
+
+
+def test_a_given_jacobian_saves_evaluations():
+    def jacobian(t: float, y: Vector) -> Vector:
+        return np.array([[0.0, 1.0], [-2e3 * y[0] * y[1] - 1.0, 1e3 * (1.0 - y[0] * y[0])]])
+
+    times = [0.0, 1000.0]
+    with_it = radau(van_der_pol, times, [2.0, 0.0], jacobian=jacobian)
+    without = radau(van_der_pol, times, [2.0, 0.0])
+    assert with_it.evaluations < without.evaluations
+    assert np.abs(with_it.y - without.y).max() < 1e-10

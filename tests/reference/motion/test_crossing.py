@@ -1,0 +1,75 @@
+"""Events: located, ordered, and never missed."""
+
+import math
+
+import numpy as np
+import pytest
+from given.watched import Still, Watched, events
+
+from textmech.reference.motion.crossing import TOGETHER
+from textmech.reference.motion.follow import follow
+
+
+def test_event_is_located():
+    found = events(("down", lambda t, x, v: x), until=20.0)
+    known = [math.pi / 2 + 2 * math.pi * k for k in range(3)]
+    assert [name for name, _ in found] == ["down"] * 3
+    assert [time for _, time in found] == pytest.approx(known, abs=1e-12, rel=0)
+
+
+def test_threshold_in_place_of_the_event_is_seen():
+    """Where |x| falls below 1e-6 instead of through zero, the event comes 1e-6 s early."""
+    [(_, time)] = events(("down", lambda t, x, v: x - 1e-6), until=5.0)
+    assert abs(time - math.pi / 2) > 1e5 * TOGETHER
+
+
+@pytest.mark.parametrize("depth", [0.5, 1e-3, 1e-6, 1e-9])
+def test_dip_within_a_step_is_seen(depth: float):
+    """x + 1 − depth is negative for 2 acos(1 − depth) around t = π only."""
+    found = events(("dips", lambda t, x, v: x + 1.0 - depth), until=6.0, samples=2)
+    # x is flat there: rounding of 1e-16 in x moves the time by 1e-16/√(2 depth).
+    margin = 1e-12 + 1e-15 / math.sqrt(depth)
+    assert [time for _, time in found] == [pytest.approx(math.acos(depth - 1), abs=margin, rel=0)]
+
+
+def test_near_miss_is_none():
+    assert events(("dips", lambda t, x, v: x + 1.0 + 1e-9), until=6.0, samples=2) == []
+
+
+def test_first_of_simultaneous_guards_wins():
+    first, second = ("first", lambda t, x, v: x), ("second", lambda t, x, v: 2 * x)
+    for order in ([first, second], [second, first]):
+        assert [name for name, _ in events(*order, until=3.0, after="off")] == [order[0][0]]
+
+
+def test_earlier_guard_wins_whatever_the_order():
+    late, early = ("late", lambda t, x, v: x), ("early", lambda t, x, v: x - 1e-6)
+    assert [name for name, _ in events(late, early, until=3.0, after="off")] == ["early"]
+
+
+def test_rising_guard_is_no_event():
+    assert events(("up", lambda t, x, v: -x), until=math.pi) == []
+
+
+def test_guard_at_zero_that_falls_ends_the_mode_at_once():
+    [(_, time)] = events(("now", lambda t, x, v: v), until=1.0, after="off")
+    assert time == 0.0
+
+
+def test_guard_of_time_alone_is_met_by_steps_that_are_not_too_long():
+    """While nothing moves, a step may be as long as the motion: `longest` bounds it."""
+    still = Watched([("beats", lambda t, x, v: math.cos(20 * t) + 0.9)], Still())
+    known = [(math.acos(-0.9) + 2 * math.pi * k) / 20 for k in range(32)]
+    still.longest = 0.05
+    found = follow(still, np.array([0.0, 10.0])).events
+    assert [e.time for e in found] == pytest.approx(known, abs=1e-12, rel=0)
+    assert [e.k for e in found] == list(range(1, 33))
+
+
+@pytest.mark.parametrize("height", [0.5, 1e-3, 1e-6, 1e-9])
+def test_hump_within_a_step_is_seen(height: float):
+    """x is above 1 − height only around t = 2π: the guard rises and falls within a step."""
+    found = events(("ends", lambda t, x, v: x - 1.0 + height), until=9.0, samples=2)
+    known = [math.acos(1 - height), 2 * math.pi + math.acos(1 - height)]
+    margin = 1e-12 + 1e-15 / math.sqrt(height)
+    assert [time for _, time in found] == pytest.approx(known, abs=margin, rel=0)

@@ -1,0 +1,118 @@
+"""Every smooth case given an event: located in its record, and again by a guard of its own."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from given import scenes
+
+from textmech.cases.case import Case, Event
+from textmech.cases.observe import observe
+from textmech.cases.quantity import table
+from textmech.cases.trajectory import Array, Trajectory
+from textmech.reference.motion.follow import follow
+from textmech.reference.solve import solve
+from textmech.reference.system import Guard, System
+from textmech.reports.events.times import never, reference_events
+
+SMOOTH = [
+    name
+    for name, case in scenes.SHIPPED.items()
+    if all(contact.ideal for contact in case.scene.contacts.values())
+    and not any(joint.dry_friction for joint in case.scene.joints.values())
+]
+CREEPING = ("spring_mass_damper.critical", "spring_mass_damper.overdamped")
+LOCATED = 1e-9  # s: a curve of seventh degree through the steps around it
+
+
+@dataclass(frozen=True)
+class Watched(System):
+    """A system with one more guard, which changes nothing."""
+
+    system: System
+    guard: Guard
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "modes", self.system.modes)
+
+    def start(self) -> tuple[str, Array, Array]:
+        return self.system.start()
+
+    def guards(self, mode: str) -> Sequence[Guard]:
+        return (self.guard,)
+
+
+def with_event(case: Case) -> Case:
+    """An event on the first place or velocity that falls through zero; a wheel gets a rim point.
+
+    What only creeps to its rest gets one that never happens.
+    """
+    bodies = {
+        name: replace(body, points={**body.points, "P": (-body.radius, 0.0)})
+        if body.radius
+        else body
+        for name, body in case.scene.bodies.items()
+    }
+    case = replace(case, scene=replace(case.scene, bodies=bodies))
+    motion = scenes.solved(case.name).trajectory
+    for name, quantity in table(case.scene).items():
+        if quantity.kind in ("coordinate", "velocity") and quantity.part not in case.scene.forces:
+            u = observe(case.scene, motion, name)
+            size = np.max(np.abs(u))
+            if np.any((u[:-1] > 1e-6 * size) & (u[1:] < -1e-6 * size)):
+                return replace(case, events={"turns": Event(name, "falls to zero")})
+    return replace(case, events={"turns": Event("mass.vy", "falls to zero")})
+
+
+def located(case: Case) -> list[float]:
+    """The times at which the guard falls, each the end of a step."""
+    quantity = case.events["turns"].quantity
+    mechanism = scenes.mechanism(case)
+
+    def g(t: float, q: Array, v: Array) -> float:
+        poses = mechanism.base.poses(t, q, v)
+        states = {name: np.array([pose]) for name, pose in poses.items()}
+        return float(observe(case.scene, Trajectory(np.array([t]), states, {}), quantity)[0])
+
+    guard = Guard("turns", g, lambda t, q, v: (mechanism.start()[0], q, v))
+    found = follow(Watched(mechanism, guard), case.times).events
+    return [event.time for event in found if event.time > 0.0]  # the start itself is no event
+
+
+def test_all_smooth_cases_are_here() -> None:
+    assert len(SMOOTH) == 12
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+def test_a_smooth_case_may_have_an_event(name: str) -> None:
+    case = with_event(scenes.SHIPPED[name])
+    solution = solve(case)
+    assert [check for check in solution.checks if not check.holds] == []
+    record = solution.trajectory.record
+    assert record is not None
+    found = reference_events(case.scene, record, case.events["turns"])
+    known = located(case)
+    assert (len(known) == 0) == (name in CREEPING)
+    assert bool(never(case, solution.trajectory)) == (name in CREEPING)
+    assert found.tolist() == pytest.approx(known, abs=LOCATED, rel=0)
+
+
+def test_a_pendulum_turns_when_its_period_says(tmp_path: Path) -> None:
+    """Small swings of a bar: T = 2π √(2 l / 3 g); ω falls through zero at T/2, 3 T/2, …"""
+    text = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {rod: {bar: {mass: 1, length: 0.6}}}
+  joints: {hinge: {pin: [ground.O, rod.start]}}
+initial: {rod: {angle: -89.9999 deg}}
+events: {turns: {rod.omega: falls to zero}}
+allow: {rod.angle: 1.0e-9}
+"""
+    case = scenes.typed(tmp_path, text, tail=scenes.TAIL.replace("duration: 1.0", "duration: 2.0"))
+    record = solve(case).trajectory.record
+    assert record is not None
+    period = 2 * np.pi * np.sqrt(2 * 0.6 / (3 * 9.80665))
+    found = reference_events(case.scene, record, case.events["turns"])
+    assert found.tolist() == pytest.approx([period * (k + 1.0) for k in range(1)], abs=1e-9)

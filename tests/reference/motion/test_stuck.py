@@ -1,0 +1,97 @@
+"""A motion that ends before its time says in which mode, when, and about where it was."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from given import scenes
+from given.typed_scenes import PARALLELOGRAM, SPRING
+
+from textmech.cases.case import Case
+from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.motion.follow import follow
+from textmech.reference.motion.stuck import Stuck
+from textmech.reference.system import Array, Mode, Only
+
+# The spring of SPRING along a guide, and a disk that slides for (v + R ω)/(3 μ g) and then rolls.
+BESIDE = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {wheel: {disk: {mass: 1.3, radius: 0.25}}, dot: {particle: {mass: 0.7}}}
+  joints: {guide: {slide: [ground.O, dot.center], along: [1, 0]}}
+  contacts: {touch: {between: [wheel, ground.floor], friction: 0.4}}
+  forces: {coil: {spring: [ground.O, dot.center], stiffness: 3, rest_length: 0.5}}
+initial: {wheel: {x: 0, y: 0.25, angle: 0, vx: -3, omega: OMEGA}, dot: {x: 2}}
+allow: {wheel.x: 1.0e-3, dot.x: 1.0e-2}
+"""
+FLAT = np.arccos(-0.5 / 1.5) / np.sqrt(3 / 0.7)  # s: there 0.5 m + 1.5 m cos(√(c/m) t) is zero
+
+
+def stuck(case: Case) -> tuple[Mechanism, Stuck]:
+    mechanism = scenes.mechanism(case)
+    with pytest.raises(Stuck) as caught:
+        follow(mechanism, case.times)
+    return mechanism, caught.value
+
+
+def test_a_flat_parallelogram(tmp_path: Path):
+    mechanism, failure = stuck(scenes.typed(tmp_path, PARALLELOGRAM))
+    [name] = mechanism.modes
+    assert failure.mode is mechanism.modes[name]
+    assert failure.time == pytest.approx(time_to_flat(), abs=2e-4)
+    angles = failure.q[[2, 5, 8]]
+    np.testing.assert_allclose(np.sin(angles), 0.0, atol=2e-3)
+    assert failure.v[2] == pytest.approx(failure.v[8], abs=1e-2)  # both cranks still turn alike
+
+
+def time_to_flat() -> float:
+    """½ J α̇² = 2 m g a (sin α₀ − sin α), J = (2/3 + 1) m a²: t = ∫ dα/α̇ with α = α₀ − s²."""
+    J, weight = 2 * 0.3**2 / 3 + 0.3**2, 2 * 9.80665 * 0.3
+    s, weights = np.polynomial.legendre.leggauss(40)
+    half = np.sqrt(np.radians(70)) / 2
+    s, weights = half * (s + 1), half * weights
+    fallen = np.sin(np.radians(70)) - np.sin(np.radians(70) - s**2)
+    return float(np.sum(weights * 2 * s / np.sqrt(2 * weight * fallen / J)))
+
+
+def test_a_spring_that_loses_its_length(tmp_path: Path):
+    text = SPRING.replace("START", "-2").replace("scene:\n", "scene:\n  gravity: none\n")
+    mechanism, failure = stuck(scenes.typed(tmp_path, text))
+    [name] = mechanism.modes
+    assert failure.mode is mechanism.modes[name]
+    assert failure.time == pytest.approx(FLAT, abs=1e-4)
+    np.testing.assert_allclose(failure.q, 0.0, atol=1e-3)
+
+
+@pytest.mark.parametrize(("omega", "mode"), [(-20, "touch sticks"), (-40, "touch slides -")])
+def test_beside_a_contact_it_is_the_mode_of_that_time(tmp_path: Path, omega: int, mode: str):
+    """The disk rolls from 0.68 s on, or not before 1.1 s."""
+    case = scenes.typed(tmp_path, BESIDE.replace("OMEGA", str(omega)))
+    mechanism, failure = stuck(case)
+    assert failure.mode is mechanism.modes[mode]
+    assert failure.time == pytest.approx(FLAT, abs=1e-4)
+    places = mechanism.base.poses(0.0, failure.q, failure.v)
+    assert abs(places["dot"][0]) < 1e-3
+    assert places["wheel"][1] == pytest.approx(0.25, abs=1e-12)
+
+
+class Wall(Mode):
+    """q̈ = 1/(1 − t), which nobody can follow beyond t = 1."""
+
+    coordinates = ("x",)
+
+    def start(self) -> tuple[Array, Array]:
+        return np.zeros(1), np.zeros(1)
+
+    def accelerations(self, t: float, q: Array, v: Array) -> Array:
+        return np.array([1.0 / (1.0 - t) if t < 1.0 else np.nan])
+
+
+def test_a_written_mode_is_told_as_well():
+    """x = (1 − t) ln(1 − t) + t, so that x is 1 there."""
+    system = Only(Wall())
+    with pytest.raises(Stuck) as caught:
+        follow(system, np.array([0.0, 0.5, 2.0]))
+    assert caught.value.mode is system.mode
+    assert caught.value.time == pytest.approx(1.0, abs=1e-5)
+    assert caught.value.q == pytest.approx([1.0], abs=1e-3)

@@ -1,0 +1,220 @@
+"""Planted mistakes: the law that must see each is named, and it sees it."""
+
+import importlib
+from collections.abc import Callable
+from dataclasses import replace
+from types import ModuleType
+from typing import Any
+from unittest import mock
+
+import numpy as np
+import pytest
+from given import laws
+from given.examples import PARAMETERS, SMOOTH, only
+from given.laws import Law
+from given.mutants import mutant
+from given.states import states
+
+from textmech.reference.system import MOVING, Load, Mode, Only
+
+# Which law sees a parameter that is 5 % off in the explicit accelerations and reactions only.
+# Where a mass drops out of the motion, the reactions tell.
+PARAMETER: dict[str, dict[str, Law]] = {
+    "rolling_wheel": {
+        "m": laws.equations, "R": laws.equations, "beta": laws.free_cut, "F": laws.free_cut,
+    },
+    "bar_pendulum": {"m": laws.reactions, "l": laws.equations},
+    "double_pendulum": {
+        "m1": laws.equations, "l1": laws.free_cut, "m2": laws.power, "l2": laws.equations,
+    },
+    "four_bar": {
+        "m": laws.multipliers, "a": laws.equations, "b": laws.free_cut, "c": laws.power,
+    },
+    "rhombus": {
+        "m": laws.equations, "l": laws.free_cut, "c": laws.power, "l0": laws.equations,
+    },
+    "spring_mass_damper": {
+        "m": laws.equations, "c": laws.free_cut, "d": laws.power, "l0": laws.equations,
+    },
+}  # fmt: skip
+
+# Which law sees a parameter that is 5 % off in the start only.
+AT_THE_START: dict[str, dict[str, Law]] = {
+    "rolling_wheel": {"R": laws.start, "v0": laws.start, "w0": laws.start},
+    "bar_pendulum": {"phi0": laws.closed_form},
+    "double_pendulum": {"a0": laws.start, "b0": laws.start},
+    "four_bar": {
+        "a": laws.start, "b": laws.start, "c": laws.start, "d": laws.start, "crank0": laws.start,
+    },
+    "rhombus": {"left0": laws.start, "right0": laws.start},
+    "spring_mass_damper": {"y0": laws.start},
+}  # fmt: skip
+
+DROPS_OUT = {("rolling_wheel", "mu")}  # rolling needs enough friction, not a certain friction
+
+
+def explicit_of(other: Mode) -> dict[str, Callable[..., Any]]:
+    """The explicit accelerations and reactions of another system."""
+    return {
+        "accelerations": lambda self, t, q, v: other.accelerations(t, q, v),
+        "reactions": lambda self, t, q, v: other.reactions(t, q, v),
+    }
+
+
+def module_of(system: Mode) -> ModuleType:
+    return importlib.import_module(type(system).__module__)
+
+
+def assert_seen(law: Law, name: str, mode: Mode) -> None:
+    at = (name, MOVING)
+    assert not laws.broken(law, law(Only(only(name)), at)), "sound, and yet refused"
+    assert laws.broken(law, law(Only(mode), at))
+
+
+def flat(table: dict[str, dict[str, Law]]) -> list[Any]:
+    return [
+        pytest.param(name, parameter, law, id=f"{name}: {parameter} seen by {law.__name__}")
+        for name, laws_of in table.items()
+        for parameter, law in laws_of.items()
+    ]
+
+
+def test_every_parameter_has_a_mutant():
+    """Of what never switches; the others' modes share one law of friction, tested beside it."""
+    assert set(PARAMETER) == {name for name in SMOOTH if not name.startswith("smooth")}
+    planted = {
+        (name, key)
+        for table in (PARAMETER, AT_THE_START)
+        for name, laws_of in table.items()
+        for key in laws_of
+    }
+    assert planted | DROPS_OUT == {(name, key) for name in PARAMETER for key in PARAMETERS[name]}
+
+
+@pytest.mark.parametrize(("name", "parameter", "law"), flat(PARAMETER))
+def test_parameter_off_in_the_explicit_accelerations(name: str, parameter: str, law: Law):
+    system = only(name)
+    off = only(name, **{parameter: 1.05 * PARAMETERS[name][parameter]})
+    assert_seen(law, name, mutant(system, **explicit_of(off)))
+
+
+@pytest.mark.parametrize(("name", "parameter", "law"), flat(AT_THE_START))
+def test_parameter_off_at_the_start(name: str, parameter: str, law: Law):
+    off = only(name, **{parameter: 1.05 * PARAMETERS[name][parameter]})
+    assert_seen(law, name, mutant(only(name), start=lambda self: off.start()))
+
+
+@pytest.mark.parametrize("parameter", [parameter for _, parameter in DROPS_OUT])
+def test_parameter_that_drops_out(parameter: str):
+    system = only("rolling_wheel")
+    off = only("rolling_wheel", **{parameter: 1.05 * PARAMETERS["rolling_wheel"][parameter]})
+    for t, q, v in states("rolling_wheel", MOVING, 5):
+        np.testing.assert_array_equal(system.accelerations(t, q, v), off.accelerations(t, q, v))
+        assert system.reactions(t, q, v) == off.reactions(t, q, v)
+
+
+@pytest.mark.parametrize("name", PARAMETER)
+def test_sign_of_gravity(name: str):
+    system = only(name)
+
+    def accelerations(self: Mode, t: float, q: Any, v: Any) -> Any:
+        with mock.patch.object(module_of(system), "G", -9.80665):
+            return system.accelerations(t, q, v)
+
+    for law in (laws.equations, laws.free_cut, laws.power):
+        assert_seen(law, name, mutant(system, accelerations=accelerations))
+
+
+def test_missing_steiner_term_in_the_explicit_accelerations():
+    system = only("bar_pendulum")
+    lonely = mutant(system, _J_O=lambda self: self.m * self.l**2 / 12)
+    for law in (laws.equations, laws.free_cut, laws.power, laws.closed_form):
+        assert_seen(law, "bar_pendulum", lonely)
+
+
+def test_missing_steiner_term_in_the_kinetic_energy():
+    def T(self: Any, t: Any, q: Any, v: Any) -> Any:
+        return self.m * self.l**2 / 24 * v[0] ** 2
+
+    for law in (laws.equations, laws.koenig):
+        assert_seen(law, "bar_pendulum", mutant(only("bar_pendulum"), T=T))
+
+
+def test_wrong_branch_of_the_four_bar():
+    """The loop closes in two ways; mirrored at the line from B to Q it meets (2.14) as well."""
+    system = only("four_bar")
+    q, v = system.start()
+    s = PARAMETERS["four_bar"]["d"] - PARAMETERS["four_bar"]["a"] * np.exp(1j * q[0])
+    mirrored = np.array([q[0], *(2 * np.angle(s) - q[1:])])
+    assert abs(system.f(0.0, mirrored)).max() < 1e-15
+    assert_seen(laws.start, "four_bar", mutant(system, start=lambda self: (mirrored, v)))
+
+
+def test_missing_centrifugal_terms():
+    for name in ("double_pendulum", "four_bar", "rhombus"):
+        system = only(name)
+        still = mutant(
+            system,
+            accelerations=lambda self, t, q, v, system=system: system.accelerations(t, q, 0 * v),
+        )
+        for law in (laws.equations, laws.free_cut):
+            assert_seen(law, name, still)
+
+
+def test_damping_with_the_wrong_sign():
+    system = only("spring_mass_damper")
+    fed = replace(system, d=-system.d)  # type: ignore[type-var, attr-defined]
+    for law in (laws.equations, laws.free_cut, laws.power):
+        assert_seen(law, "spring_mass_damper", mutant(system, **explicit_of(fed)))
+
+
+def test_forgotten_generalized_force():
+    blind = mutant(only("rolling_wheel"), Q4=lambda self, t, q, v: np.zeros(3))
+    for law in (laws.equations, laws.power):
+        assert_seen(law, "rolling_wheel", blind)
+
+
+def test_constraint_row_with_the_wrong_sign():
+    """The book's φ is clockwise: with the angle's sign in (2.17) the wheel would slip."""
+    wrong = np.array([[1.0, 0.0, 0.25], [0.0, 1.0, 0.0]])
+    slipping = mutant(only("rolling_wheel"), f_a=lambda self, t, q: wrong)
+    for law in (laws.constraints, laws.equations):
+        assert_seen(law, "rolling_wheel", slipping)
+
+
+def test_angle_of_the_wheel_taken_as_the_book_counts_it():
+    def poses(self: Any, t: Any, q: Any, v: Any) -> Any:
+        return {"wheel": (q[0], q[1], q[2], v[0], v[1], v[2])}
+
+    assert_seen(laws.free_cut, "rolling_wheel", mutant(only("rolling_wheel"), poses=poses))
+
+
+def test_pose_velocity_of_another_point():
+    system = only("double_pendulum")
+
+    def poses(self: Any, t: Any, q: Any, v: Any) -> Any:
+        known = system.poses(t, q, v)
+        return known | {"lower": (*known["lower"][:3], *known["upper"][3:])}
+
+    for law in (laws.rates_of_poses, laws.koenig):
+        assert_seen(law, "double_pendulum", mutant(system, poses=poses))
+
+
+def test_reaction_with_the_parts_exchanged():
+    """`elbow.fx` is the force of the first part on the second, not of the second on the first."""
+    system = only("double_pendulum")
+
+    def reactions(self: Mode, t: float, q: Any, v: Any) -> dict[str, float]:
+        known = system.reactions(t, q, v)
+        return known | {"elbow.fx": -known["elbow.fx"]}
+
+    assert_seen(laws.reactions, "double_pendulum", mutant(system, reactions=reactions))
+
+
+def test_spring_that_pulls_at_one_knee_only():
+    system = only("rhombus")
+
+    def loads(self: Mode, t: float, q: Any, v: Any) -> list[Load]:
+        return system.loads(t, q, v)[:-1]
+
+    assert_seen(laws.free_cut, "rhombus", mutant(system, loads=loads))

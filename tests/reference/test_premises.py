@@ -1,0 +1,92 @@
+"""What a case takes for granted: that it rolls, moves, and says where it lands."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from given import scenes
+from given.refused import refused
+from given.rod import rod
+from given.typed_scenes import AT_REST, CART, WHEEL
+
+from textmech.cases.mistake import CaseError
+from textmech.reference.solve import solve
+
+AIMED = """\
+scene:
+  bodies: {ball: {particle: {mass: 1}}}
+  contacts: {touch: {between: [ball, ground.floor], friction: 0.3}}
+initial: {ball: {x: 0, y: HEIGHT, vx: 1}}
+allow: {ball.y: 1.0e-3}
+"""
+
+
+@pytest.mark.parametrize(("part", "rolls"), [(0.99, False), (1.01, True)])
+def test_rolling_is_possible_just_above_what_it_needs(
+    tmp_path: Path, part: float, rolls: bool
+) -> None:
+    """A disk needs tan β / 3: Example 2.1; one per cent less is not enough."""
+    mu = part * np.tan(np.pi / 6) / 3
+    text = WHEEL.replace("BETA", "30 deg").replace("MU", repr(float(mu))).replace("UP", "0")
+    case = scenes.typed(tmp_path, text)
+    if rolls:
+        assert solve(case).holds
+    else:
+        assert "rolling is not possible" in refused(case).what
+
+
+def test_rolling_needs_enough_friction(tmp_path: Path) -> None:
+    """A disk needs tan β / 3: Example 2.1."""
+    text = WHEEL.replace("BETA", "30 deg").replace("MU", "0.1").replace("UP", "0")
+    mistake = refused(scenes.typed(tmp_path, text))
+    assert mistake.where == "scene.contacts.touch.ideal"
+    assert mistake.line == 7
+    assert "rolling is not possible with friction 0.1: at t = 0 s it would slip" in mistake.what
+    assert f"needs {np.tan(np.pi / 6) / 3:.3g}" in mistake.what
+    solve(scenes.typed(tmp_path, text.replace("friction: 0.1", "friction: 0.2")))
+
+
+def test_the_floor_does_not_pull(tmp_path: Path) -> None:
+    """m g / 20 N/s: the wheel is lifted after 0.490 s, seen at the next sample."""
+    text = WHEEL.replace("BETA", "0").replace("MU", "0.5").replace("UP", "20")
+    mistake = refused(scenes.typed(tmp_path, text))
+    assert "the floor would have to pull at t = 0.52 s: the disk leaves it" in mistake.what
+
+
+def test_what_fails_first_is_told(tmp_path: Path) -> None:
+    """On a slope a lifted wheel slips before it leaves the floor."""
+    text = WHEEL.replace("BETA", "20 deg").replace("MU", "0.2").replace("UP", "20")
+    assert "it would slip" in refused(scenes.typed(tmp_path, text)).what
+
+
+@pytest.mark.parametrize("name", AT_REST)
+def test_what_rests_has_to_say_so(tmp_path: Path, name: str) -> None:
+    with pytest.raises(CaseError, match="never moves: it stays") as caught:
+        solve(scenes.typed(tmp_path, AT_REST[name]))
+    assert all(mistake.where.startswith("allow.") for mistake in caught.value.mistakes)
+
+
+def test_a_place_that_is_held_only_trembles(tmp_path: Path) -> None:
+    """The cart's height is 0 but for rounding, and rounding is no motion."""
+    with pytest.raises(CaseError) as caught:
+        solve(scenes.typed(tmp_path, CART))
+    assert [mistake.where for mistake in caught.value.mistakes] == ["allow.cart.y", "allow.cart.vy"]
+
+
+def test_a_contact_above_the_floor_has_to_say_so(tmp_path: Path) -> None:
+    mistake = refused(rod(tmp_path, y=0.01, unsaid=True))
+    assert mistake.where == "scene.contacts.tip"
+    assert "starts 0.01 m above the floor" in mistake.what
+    solve(rod(tmp_path, y=1e-10, mu=0.5, unsaid=True))
+
+
+@pytest.mark.parametrize(("height", "lands"), [(2.0, True), (20.0, False)])
+def test_a_contact_that_has_not_landed_by_the_end_is_no_mistake(
+    tmp_path: Path, height: float, lands: bool
+) -> None:
+    """It falls 4.9 m in the second that is followed."""
+    typed = scenes.typed(tmp_path, AIMED.replace("HEIGHT", repr(height)))
+    if lands:
+        assert "starts 2 m above the floor" in refused(typed).what
+    else:
+        assert solve(typed).holds

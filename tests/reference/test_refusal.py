@@ -1,0 +1,68 @@
+"""What ends a motion before its time is told as a mistake of the case, at its place."""
+
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from given import scenes, written_scenes
+from given.refused import refused
+from given.typed_scenes import PARALLELOGRAM, SPRING
+
+
+def test_a_flat_parallelogram_ends_the_motion(tmp_path: Path) -> None:
+    """There it can go on as a parallelogram or crossed: reported soon, and with the time.
+
+    Until then ½ J α̇² = 2 m g a (sin α₀ − sin α), J = (2/3 + 1) m a², so that t = ∫ dα/α̇.
+    """
+    begin = time.process_time()
+    mistake = refused(scenes.typed(tmp_path, PARALLELOGRAM))
+    assert time.process_time() - begin < 2.0  # the integrators alone would creep on for minutes
+    J, weight = 2 * 0.3**2 / 3 + 0.3**2, 2 * 9.80665 * 0.3  # two cranks, one coupler of 1 kg
+    # α = α₀ − s², by Gauss: the integrand is then smooth at the start
+    s, weights = np.polynomial.legendre.leggauss(40)
+    half = np.sqrt(np.radians(70)) / 2
+    s, weights = half * (s + 1), half * weights
+    fallen = np.sin(np.radians(70)) - np.sin(np.radians(70) - s**2)
+    t = np.sum(weights * 2 * s / np.sqrt(2 * weight * fallen / J))
+    assert mistake.where == "duration"
+    told = float(mistake.what.split("t = ")[1].split(" s")[0])
+    assert told == pytest.approx(t, abs=2e-4)  # four digits, and it stops a little before
+    assert "what D holds is held by the others already" in mistake.what
+
+
+def test_a_spring_without_length(tmp_path: Path) -> None:
+    mistake = refused(scenes.typed(tmp_path, SPRING.replace("START", "0")))
+    assert mistake.where == "duration"
+    assert "beyond t = 0 s: coil has no length there, and so no direction" in mistake.what
+
+
+def test_a_spring_that_loses_its_length_on_the_way(tmp_path: Path) -> None:
+    """It would push backwards beyond its anchor: λ = λ₀ + 1.5 cos(√(c/m) t) m is zero there."""
+    text = SPRING.replace("START", "-2").replace("scene:\n", "scene:\n  gravity: none\n")
+    mistake = refused(scenes.typed(tmp_path, text))
+    assert mistake.where == "duration"
+    t = np.arccos(-0.5 / 1.5) / np.sqrt(3 / 0.7)
+    assert f"beyond t = {t:.4g} s: coil has no length there" in mistake.what
+
+
+def test_a_rhombus_that_folds_flat_ends_the_motion() -> None:
+    """Its own coordinates know no constraint; the generated answer stops where it lies flat."""
+    rhombus = scenes.SHIPPED["rhombus"]
+    soft = {name: replace(f, stiffness=1e-3) for name, f in rhombus.scene.forces.items()}  # type: ignore[call-overload]
+    case = replace(
+        rhombus,
+        scene=replace(rhombus.scene, forces=soft),
+        parameters={**rhombus.parameters, "c": 1e-3},
+    )
+    mistake = refused(case)
+    assert mistake.where == "duration"
+    assert "diagonal has no length there" in mistake.what
+
+
+def test_a_zeno_sequence_ends_with_a_message(tmp_path: Path) -> None:
+    text, end = written_scenes.text("elastic")
+    mistake = refused(scenes.typed(tmp_path, text.replace("e: 1", "e: 0.5"), tail=end))
+    assert "Zeno" in mistake.what
+    assert mistake.where == "duration"

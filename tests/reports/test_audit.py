@@ -1,0 +1,56 @@
+"""The audit: whether an engine has the numbers of the scene."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from textmech.cases.scene import (
+    Anchor,
+    Body,
+    Bounds,
+    Contact,
+    DryFriction,
+    GroundPoint,
+    Joint,
+    Scene,
+)
+from textmech.cases.trajectory import Trajectory
+from textmech.reports.judge.compare import Outcome, compare
+from textmech.reports.row import AGREES, FAILS
+from textmech.reports.trial.audit import expected
+from textmech.reports.trial.trial import Trial
+
+Make = Callable[..., Trial]
+
+
+def row(outcome: Outcome, quantity: str = "ball.x") -> Any:
+    return next(row for row in outcome.rows if row.quantity == quantity)
+
+
+@pytest.mark.parametrize("number", [2.1, 2.0 + 1e-11, float("nan")])
+def test_the_audit_sees_other_physics(trial: Make, number: float) -> None:
+    assert row(compare(trial()), "audit").verdict == AGREES
+    found = row(compare(trial(numbers={"ball.mass": number})), "audit")
+    assert found.verdict == FAILS
+    assert "ball.mass" in found.because
+
+
+def test_the_audit_reads_dry_friction_back() -> None:
+    friction = DryFriction(static=Bounds(6.0, 7.0), kinetic=Bounds(3.0, 4.0))
+    box = Body("box", "particle", 1.0, None, {"center": (0.0, 0.0)})
+    rail = Joint("rail", "slide", Anchor("ground", "O"), Anchor("box", "center"))
+    scene = Scene(
+        (0.0, 0.0),
+        {"O": GroundPoint((0.0, 0.0))},
+        {"box": box},
+        {"rail": replace(rail, dry_friction=friction)},
+        {"touch": Contact("touch", Anchor("box", "center"), 0.5, 0.4)},
+        {},
+    )
+    start = Trajectory(np.zeros(1), {"box": np.zeros((1, 6))}, {})
+    numbers = expected(scene, start)
+    assert (numbers["rail.friction_forward"], numbers["rail.friction_backward"]) == (3.0, 4.0)
+    assert numbers["touch.friction"] == 0.4
