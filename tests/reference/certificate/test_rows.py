@@ -117,8 +117,8 @@ def test_a_second_integrator_without_the_change_is_seen(
 ) -> None:
     second = module._second
 
-    def lost(system: System, times: Array) -> tuple[str, Followed]:
-        name, other = second(system, times)
+    def lost(system: System, times: Array, *, stiff: bool) -> tuple[str, Followed]:
+        name, other = second(system, times, stiff=stiff)
         return name, replace(other, changes=())
 
     monkeypatch.setattr(module, "_second", lost)
