@@ -72,10 +72,11 @@ def choose_engines(names: Sequence[str], settings: Sequence[str]) -> list[Engine
     every = {setting for offered in offers.values() for setting in offered}
     named = [word for word in settings if word in every] or every
     found = [
-        engines.make(name, setting)
+        engine
         for name, offered in offers.items()
         for setting in offered
         if setting in named and (not names or name in names or f"{name}.{setting}" in names)
+        if (engine := _made(name, setting, asked=bool(names))) is not None
     ]
     for file in (Path(word) for word in settings if word not in every):
         own = read_settings(file, sorted(every))
@@ -101,6 +102,21 @@ def _known(word: str) -> None:
     raise CaseError([Mistake("--engine", 0, 0, word, f"no such engine{nearest(word, hints)}")])
 
 
+def _made(name: str, setting: str, *, asked: bool) -> Engine | None:
+    """The engine; one that cannot be made is a mistake if it is asked for, else a warning."""
+    try:
+        return engines.make(name, setting)
+    except engines.Broken as broken:
+        _lost(name, broken, asked=asked)
+        return None
+
+
+def _lost(name: str, broken: engines.Broken, *, asked: bool) -> None:
+    if asked:
+        raise CaseError([Mistake("--engine", 0, 0, name, str(broken))]) from None
+    warnings.warn(str(broken), stacklevel=4)
+
+
 def _offers(asked: Set[str]) -> dict[str, tuple[str, ...]]:
     """The settings of the engines that are asked for, or of all; no other is imported."""
     offers: dict[str, tuple[str, ...]] = {}
@@ -109,9 +125,7 @@ def _offers(asked: Set[str]) -> dict[str, tuple[str, ...]]:
             try:
                 offers[name] = engines.settings(name)
             except engines.Broken as broken:
-                if asked:
-                    raise CaseError([Mistake("--engine", 0, 0, name, str(broken))]) from None
-                warnings.warn(str(broken), stacklevel=3)
+                _lost(name, broken, asked=bool(asked))
     return offers
 
 

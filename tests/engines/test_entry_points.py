@@ -92,3 +92,38 @@ def test_only_what_is_asked_for_is_imported(folder: Path) -> None:
     )
     done = python(folder, "-c", asked)
     assert done.stdout == "before:\n['shipped', 'tuned']\nafter: pymunk\n", done.stderr
+
+
+BROKEN = {
+    "it leaves": ("import sys; sys.exit(3)\n", "SystemExit: 3"),
+    "it offers nothing": ("class Engine: pass\n", "its `offers` should be a tuple"),
+    "it offers letters": ("class Engine:\n    offers = 'shipped'\n", "its `offers` should be"),
+    "it cannot be made": (
+        "class Engine:\n    offers = ('shipped',)\n"
+        "    def __init__(self, *_): raise RuntimeError('no licence')\n",
+        "RuntimeError: no licence",
+    ),
+}
+
+
+@pytest.mark.parametrize("what", BROKEN)
+def test_no_broken_engine_stops_the_others(folder: Path, what: str) -> None:
+    text, said = BROKEN[what]
+    (folder / "path" / "failing_engine.py").write_text(text, encoding="utf-8")
+    done = textmech(folder, "run", "ball.yaml")
+    assert done.returncode == 0, done.stderr
+    assert {"mujoco.tuned", "pymunk.tuned"} <= set(done.stdout.split())
+    assert said in done.stderr
+    assert "Traceback" not in done.stderr
+    asked = textmech(folder, "run", "ball.yaml", "--engine", "failing")
+    assert asked.returncode == 2
+    assert said in asked.stderr
+
+
+@pytest.mark.parametrize("taken", ["book", "reference", "my.engine"])
+def test_a_name_that_no_case_can_write_is_no_engine(folder: Path, taken: str) -> None:
+    info = folder / "path" / "failing-1.0.dist-info" / "entry_points.txt"
+    info.write_text(f"[textmech.engines]\n{taken} = failing_engine:Engine\n")
+    done = textmech(folder, "run", "ball.yaml")
+    assert done.returncode == 0, done.stderr
+    assert "failing" not in done.stderr

@@ -2,6 +2,7 @@
 
 import os
 import signal
+import sys
 
 import pytest
 
@@ -13,15 +14,18 @@ def work(task: int) -> int:
         os.kill(os.getpid(), signal.SIGKILL)
     if task == 5:
         raise ZeroDivisionError("five")
+    if task == 6:
+        sys.exit(0)
     return task * task
 
 
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_the_rest_goes_on(jobs: int) -> None:
     found = dict(pool.spread(work, list(range(7)), jobs=jobs))
-    assert {i: r for i, r in found.items() if i not in (3, 5)} == {0: 0, 1: 1, 2: 4, 4: 16, 6: 36}
+    assert {i: r for i, r in found.items() if i not in (3, 5, 6)} == {0: 0, 1: 1, 2: 4, 4: 16}
     assert found[3] == pool.Died("the process died")
     assert found[5] == pool.Died("ZeroDivisionError: five")
+    assert found[6] == pool.Died("SystemExit: 0")
 
 
 def where(_: int) -> str:

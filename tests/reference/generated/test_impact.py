@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from given import scenes
 from given.refused import refused
 from given.rod import rod
 
@@ -14,8 +15,10 @@ from textmech.cases.scene import Anchor, Contact, Scene
 from textmech.reference.generated.mechanism import Mechanism
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
+from textmech.reports.events.times import reference_events
 
 G = 9.80665
+SHORT = "duration: 0.25\nsamples: 6\n"
 
 
 @pytest.mark.parametrize(
@@ -72,3 +75,40 @@ def test_painleve_is_refused(tmp_path: Path) -> None:
 def test_starts_that_are_refused(tmp_path: Path) -> None:
     assert "tip starts 3 mm in the floor" in refused(rod(tmp_path, y=-0.003)).what
     assert "tip starts into the floor, with 1 m/s" in refused(rod(tmp_path, vy=-1)).what
+
+
+BESIDE = """\
+scene:
+  points: {Q: [0, 0]}
+  bodies:
+    ball: {disk: {mass: 1, radius: 0.1}}
+    leaning: {bar: {mass: 1, length: 1}}
+    slider: {particle: {mass: 1}}
+  joints:
+    guide: {slide: [ground.Q, slider.center], along: [0, 1]}
+    hold: {pin: [slider.center, leaning.start]}
+  contacts:
+    touch: {between: [ball, ground.floor], friction: 0.3}
+    tip: {between: [leaning.end, ground.floor], friction: MU}
+initial: {ball: {x: -1, y: 0.2, angle: 0}, leaning: {angle: ANGLE, end: [TIP, 0]}}
+events: {lands: {touch.gap: falls to zero}, tip_lands: {tip.gap: falls to zero}}
+allow: {leaning.x: 1.0e-3, lands.time: 1.0e-3}
+"""
+
+
+@pytest.mark.parametrize("angle", [-0.758, -1.065, -0.418])
+@pytest.mark.parametrize("mu", [0.0, 0.3])
+def test_an_impact_does_not_concern_what_rests_apart(
+    tmp_path: Path, angle: float, mu: float
+) -> None:
+    """Impulses of rounding, of either sign, on a tip that no joint ties to the disk that lands."""
+    text = BESIDE.replace("MU", repr(mu)).replace("ANGLE", repr(angle))
+    typed = scenes.typed(tmp_path, text.replace("TIP", repr(math.cos(angle))), tail=SHORT)
+    solution = solve(typed)
+    assert [check for check in solution.checks if not check.holds] == []
+    record = solution.trajectory.record
+    assert record is not None
+    fall = math.sqrt(2 * 0.1 / G)
+    times = {name: reference_events(typed.scene, record, e) for name, e in typed.events.items()}
+    assert times["lands"].tolist() == pytest.approx([fall], abs=1e-12)
+    assert times["tip_lands"].tolist() == []
