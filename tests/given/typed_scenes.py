@@ -1,5 +1,7 @@
 """Scenes typed for several tests, without an end: what rolls, loses its way or rests."""
 
+import numpy as np
+
 WHEEL = """\
 scene:
   points: {hook: [0, 1]}
@@ -64,3 +66,14 @@ allow: {dot.y: 1.0e-2, guide.torque: 1.0e-3}
 """,
     "wheel without friction": WHEEL.replace("BETA", "0").replace("MU", "0").replace("UP", "0"),
 }
+
+
+def time_to_flat() -> float:
+    """When [s] PARALLELOGRAM lies flat: ½ J α̇² = 2 m g a (sin α₀ − sin α), so that t = ∫ dα/α̇."""
+    J, weight = 2 * 0.3**2 / 3 + 0.3**2, 2 * 9.80665 * 0.3  # two cranks, one coupler of 1 kg
+    # α = α₀ − s², by Gauss: the integrand is then smooth at the start
+    s, weights = np.polynomial.legendre.leggauss(40)
+    half = np.sqrt(np.radians(70)) / 2
+    s, weights = half * (s + 1), half * weights
+    fallen = np.sin(np.radians(70)) - np.sin(np.radians(70) - s**2)
+    return float(np.sum(weights * 2 * s / np.sqrt(2 * weight * fallen / J)))

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from given import scenes
-from given.typed_scenes import PARALLELOGRAM, SPRING
+from given.typed_scenes import PARALLELOGRAM, SPRING, time_to_flat
 
 from textmech.cases.case import Case
 from textmech.reference.generated.mechanism import Mechanism
@@ -42,16 +42,6 @@ def test_a_flat_parallelogram(tmp_path: Path):
     angles = failure.q[[2, 5, 8]]
     np.testing.assert_allclose(np.sin(angles), 0.0, atol=2e-3)
     assert failure.v[2] == pytest.approx(failure.v[8], abs=1e-2)  # both cranks still turn alike
-
-
-def time_to_flat() -> float:
-    """½ J α̇² = 2 m g a (sin α₀ − sin α), J = (2/3 + 1) m a²: t = ∫ dα/α̇ with α = α₀ − s²."""
-    J, weight = 2 * 0.3**2 / 3 + 0.3**2, 2 * 9.80665 * 0.3
-    s, weights = np.polynomial.legendre.leggauss(40)
-    half = np.sqrt(np.radians(70)) / 2
-    s, weights = half * (s + 1), half * weights
-    fallen = np.sin(np.radians(70)) - np.sin(np.radians(70) - s**2)
-    return float(np.sum(weights * 2 * s / np.sqrt(2 * weight * fallen / J)))
 
 
 def test_a_spring_that_loses_its_length(tmp_path: Path):
