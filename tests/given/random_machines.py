@@ -31,7 +31,7 @@ GRAVITY = (0.8, -9.7)  # not along an axis, so that no component can hide
 REGULAR = 0.05  # smallest singular value of the rows: nearer to singular, forces grow large
 
 
-@dataclass
+@dataclass(eq=False)  # each is itself, so that answers to it can be kept
 class Build:
     """A scene in the making: poses (x, y, angle) in the order of the bodies."""
 
