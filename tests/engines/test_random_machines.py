@@ -32,7 +32,7 @@ TREE: dict[tuple[str, Realised], Near] = {
 }
 ROLLING: dict[tuple[str, Realised], Near] = {
     ("mujoco", "native"): (4e-9, 1e-8),  # a soft floor, settled; measured 1.2e-9, 4e-9
-    ("pymunk", "law"): (4e-7, 2.5e-6),
+    ("pymunk", "law"): (8e-7, 4e-6),  # of second order; measured 3.3e-7, 1.7e-6
 }
 # A loop's pins in MuJoCo are soft: measured 9e-7 and 8e-6. In pymunk some of these loops are
 # unstable: with error_bias = 0 its sweeps do not converge between bodies that fit each other badly.

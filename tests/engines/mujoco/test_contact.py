@@ -16,14 +16,11 @@ from given.engine_scenes import (
     touching,
 )  # fmt: skip
 from given.planning import SHIPPED, TUNED, every, moved, planned
-from given.random_machines import chain, loops, tree
 from scipy.integrate import solve_ivp
 
 from textmech.cases.scene import Anchor, Push, Signal
 from textmech.cases.trajectory import VX, Array
 from textmech.engines.mujoco.contact import damping_ratio
-from textmech.engines.mujoco.read.record import all_steps
-from textmech.engines.mujoco.tree import spanning_tree
 
 
 def test_a_disk_is_started_as_deep_as_it_is_carried() -> None:
@@ -62,13 +59,3 @@ def test_damper_throws_back(bounce: float) -> None:
         (0, 100), [0.0, 1.0], events=leaves, rtol=1e-10, atol=1e-12,
     )  # fmt: skip
     assert -solution.y[1, -1] == pytest.approx(bounce, abs=1e-6)
-
-
-@pytest.mark.parametrize("seed", range(12))
-def test_a_tree_has_no_loop_and_a_chain_has_one(seed: int) -> None:
-    for build in (tree(seed), tree(seed, driven=True), chain(seed)):
-        assert len(spanning_tree(build.scene).loops) == loops(build.scene)
-
-
-def test_times_are_products() -> None:
-    assert all_steps(np.array([0.0, 0.3]), 0.1).tolist() == [0.0, 0.1, 0.2, 0.1 * 3]
