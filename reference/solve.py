@@ -13,7 +13,7 @@ from .certificate.agreement import Check
 from .certificate.certify import certify
 from .coverage import look, noting
 from .generated.mechanism import Mechanism
-from .motion.bodies import Beside, Motion
+from .motion.bodies import Answer, Beside
 from .motion.follow import Followed, follow
 from .premises import check_premises
 from .refusal import refusals
@@ -53,9 +53,9 @@ def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
         system = written_system(case.system, case.parameters) if case.system else generated
         followed = follow(system, case.times, every=bool(case.events))
         found = followed if system is generated else follow(generated, case.times)
-        built = Motion(generated, found)
+        built = Answer(generated, found)
         beside = reactions_of(generated, found, followed)
-        answer = built if system is generated else Motion(system, followed, beside)
+        answer = built if system is generated else Answer(system, followed, beside)
         look()
         motion = answer.trajectory(case.times)
         if case.events:

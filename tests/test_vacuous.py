@@ -16,7 +16,7 @@ from textmech.cases.observe import observe
 from textmech.cases.quantity import table
 from textmech.cases.trajectory import Array
 from textmech.reference.generated.mechanism import Mechanism
-from textmech.reference.motion.bodies import Motion
+from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import either, follow
 from textmech.reference.motion.stuck import Stuck
 from textmech.reference.motion.zeno import ZenoError
@@ -34,7 +34,7 @@ def samples(case: Case) -> Mapping[str, Array]:
     """What the case observes, by the generated mechanism."""
     mechanism = Mechanism(case.scene, assemble(case), Closure(case).size)
     by = partial(either, tolerance=TOLERANCE)
-    trajectory = Motion(mechanism, follow(mechanism, case.times, by=by)).trajectory(case.times)
+    trajectory = Answer(mechanism, follow(mechanism, case.times, by=by)).trajectory(case.times)
     known = table(case.scene)
     return {name: observe(case.scene, trajectory, name) for name in case.allow if name in known}
 

@@ -6,7 +6,7 @@ from dataclasses import asdict, replace
 import numpy as np
 
 from ...cases.trajectory import VX, Trajectory, X
-from ..motion.bodies import Motion
+from ..motion.bodies import Answer
 from ..motion.follow import follow
 from ..system import Array, Mode, Only, System
 from ..systems.dynamometer import Dynamometer
@@ -36,7 +36,7 @@ def approximated(kind: str, system: Example, times: Array, step: float) -> Traje
         other: System = Karnopp(system.m, system.pull, system.dry, DELTA, literal=True)
     else:
         other = Only(_SMOOTH[type(system)](**asdict(system), Delta=DELTA, A=A))
-    motion = Motion(other, follow(other, times, every=True))
+    motion = Answer(other, follow(other, times, every=True))
     return replace(motion.trajectory(times), record=motion.record(forces=False))
 
 

@@ -17,7 +17,7 @@ from ..generated.mechanism import Mechanism
 from ..integrators.implicit import Radau
 from ..integrators.march import Method, Slope
 from ..integrators.radau import radau_table
-from ..motion.bodies import Motion
+from ..motion.bodies import Answer
 from ..motion.follow import TOLERANCE, Followed, either, follow
 from ..system import Array, Mode, System
 from .agreement import Check, difference, reactions, relative, times_apart, worst
@@ -37,7 +37,7 @@ SHARE = 0.01  # of the smallest tolerance: what the reference's own error may ta
 
 
 def certify(
-    case: Case, written: Motion, built: Motion, generated: Mechanism, motion: Trajectory
+    case: Case, written: Answer, built: Answer, generated: Mechanism, motion: Trajectory
 ) -> tuple[Check, ...]:
     """All checks that apply to the case.
 
@@ -49,7 +49,7 @@ def certify(
     stiff = any(system.modes[mode].stiff for mode in followed.phases)
     own = _own(followed, stiff=stiff)
     name, other = _second(system, times, stiff=stiff)
-    others = {name: Motion(system, other, written.beside).trajectory(times)}
+    others = {name: Answer(system, other, written.beside).trajectory(times)}
     checks = [Check(name, difference(motion, others[name]), own)]
     if followed.changes or other.changes:
         checks.append(Check(f"{name}: events", _apart(followed, other), OTHER_EVENTS))

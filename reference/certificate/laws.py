@@ -8,14 +8,14 @@ from ..coverage import look
 from ..formalisms import energy, lagrange, newton_euler
 from ..generated.mechanism import Mechanism
 from ..generated.mode import Multibody
-from ..motion.bodies import Motion
+from ..motion.bodies import Answer
 from ..system import Array, Mode
 from .agreement import Check, worst
 
 LAW = 1e-12  # of the largest term: the laws are algebra, only rounding may differ
 
 
-def laws(answer: Motion, generated: Mechanism, times: Array) -> Iterator[Check]:
+def laws(answer: Answer, generated: Mechanism, times: Array) -> Iterator[Check]:
     """The laws of every mode along its own part of the motion; the worst of each."""
     found: dict[str, Check] = {}
     followed, written = answer.followed, answer.system is not generated

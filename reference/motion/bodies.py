@@ -16,7 +16,7 @@ Beside = Callable[[int, float, Mapping[str, Pose]], Mapping[str, float]]
 
 
 @dataclass(frozen=True)
-class Motion:
+class Answer:
     """A system, how it moved, and who derives the reactions that it does not know itself."""
 
     system: System

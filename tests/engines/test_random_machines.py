@@ -15,7 +15,7 @@ from textmech.cases.quantity import table
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Realised, Start
-from textmech.reference.motion.bodies import Motion
+from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import either, follow
 from textmech.reference.system import Only
 
@@ -57,7 +57,7 @@ def expected(build: Build) -> tuple[Start, Trajectory]:
     found = mechanism(build)
     alone = Only(found)
     followed = follow(alone, TIMES, by=partial(either, tolerance=SPECIFIC))
-    return found.poses(0.0, *found.start()), Motion(alone, followed).trajectory(TIMES)
+    return found.poses(0.0, *found.start()), Answer(alone, followed).trajectory(TIMES)
 
 
 def off(a: Array, b: Array) -> float:

@@ -5,7 +5,7 @@ from functools import partial
 from textmech.cases.case import Case
 from textmech.reference.certificate.agreement import Check
 from textmech.reference.certificate.certify import certify
-from textmech.reference.motion.bodies import Motion
+from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import TOLERANCE, either, follow
 from textmech.reference.solve import reactions_of
 from textmech.reference.system import System
@@ -18,10 +18,10 @@ def certified(
 ) -> tuple[Check, ...]:
     """All checks that apply if this system answers; without one, the generated mechanism does."""
     generated = scenes.mechanism(case)
-    built = Motion(generated, follow(generated, case.times))
+    built = Answer(generated, follow(generated, case.times))
     if system is None:
         return certify(case, built, built, generated, built.trajectory(case.times))
     followed = follow(system, case.times, by=partial(either, tolerance=tolerance))
     beside = reactions_of(generated, built.followed, followed)
-    answer = Motion(system, followed, beside)
+    answer = Answer(system, followed, beside)
     return certify(case, answer, built, generated, answer.trajectory(case.times))

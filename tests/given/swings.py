@@ -7,7 +7,7 @@ from textmech.cases.scene import Scene
 from textmech.cases.trajectory import ANGLE, Array, Trajectory
 from textmech.engines.engine import Engine, Start
 from textmech.reference.generated.mode import Multibody
-from textmech.reference.motion.bodies import Motion
+from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Only
 
@@ -23,7 +23,7 @@ def generated(scene: Scene, poses: Start, times: Array) -> Trajectory:
         q += [x, y, angle] if body.turns else [x, y]
         v += [vx, vy, omega] if body.turns else [vx, vy]
     alone = Only(Multibody(scene, (np.array(q), np.array(v))))
-    return Motion(alone, follow(alone, times)).trajectory(times)
+    return Answer(alone, follow(alone, times)).trajectory(times)
 
 
 def swing_error(engine: Engine, kind: str) -> tuple[float, float]:
