@@ -2,10 +2,7 @@
 
 from functools import cache
 
-import numpy as np
-
 from textmech import engines
-from textmech.cases.case import Case
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Engine, Plan, Realised, Refusal, Start
@@ -70,8 +67,3 @@ def every(motion: Trajectory) -> Trajectory:
 def begun(name: str) -> tuple[Scene, Start]:
     """A shipped case's scene and its assembled start."""
     return CASES[name].scene, assembled(CASES[name])
-
-
-def sampled(case: Case, count: int) -> Array:
-    """The first of a case's samples."""
-    return np.array(case.times[:count])
