@@ -14,7 +14,7 @@ from types import CodeType, FrameType
 from typing import Any
 
 HERE = str(Path(__file__).parent)
-CALLS = 5000  # of one watch: the laws of a slider crank at one sample take 3000
+CALLS = 5000  # of one watch: the laws of a slider crank at one sample take 3300
 _OPENING = re.compile(r"\s*(?:\(2\.\d+\)(?:[-–](?:\(2\.\d+\))?)?(?:,| and)?\s*)+")
 _NUMBER = re.compile(r"2\.\d+")
 
