@@ -31,3 +31,8 @@ class DryFriction:
     static: Bounds
     kinetic: Bounds
     smooth: Smooth | None = None
+
+    def numbers(self) -> dict[str, float]:
+        """The forces [N] in motion: what the audit reads back from an engine."""
+        kinetic = self.kinetic
+        return {"friction_forward": kinetic.forward, "friction_backward": kinetic.backward}

@@ -77,10 +77,7 @@ class Joint:
 
     def numbers(self) -> dict[str, float]:
         """The forces [N] of dry friction in motion."""
-        if self.dry_friction is None:
-            return {}
-        kinetic = self.dry_friction.kinetic
-        return {"friction_forward": kinetic.forward, "friction_backward": kinetic.backward}
+        return {} if self.dry_friction is None else self.dry_friction.numbers()
 
     def observe(self, motion: Motion, field: str) -> Array:
         """(N,) what follows from the states and the given reactions; else KeyError."""

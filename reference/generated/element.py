@@ -41,6 +41,12 @@ def sliding(direction: float) -> State:
     return "slides +" if direction > 0 else "slides -"
 
 
+def dry(friction: DryFriction) -> Dry:
+    """A slide's friction with the book's letters: F₋ against sliding backward, F₊ forward."""
+    kinetic, static = friction.kinetic, friction.static
+    return Dry(kinetic.backward, kinetic.forward, static.backward, static.forward)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Element:
     """Something that has states; by itself, one that is never left.
@@ -118,11 +124,6 @@ class Sliding(Element):
 
     friction: DryFriction
 
-    @property
-    def dry(self) -> Dry:
-        kinetic, static = self.friction.kinetic, self.friction.static
-        return Dry(kinetic.backward, kinetic.forward, static.backward, static.forward)
-
     def held(self, state: State) -> list[Constraint]:
         """Nothing, or no slip."""
         return [self.tangent] if state == "sticks" else []
@@ -130,7 +131,7 @@ class Sliding(Element):
     def braking(self, state: State) -> list[Braking]:
         """(2.89) −F₊ forward, F₋ backward."""
         s = sign(state)
-        force = stiction(self.dry, float(s), 0.0) if s else 0.0
+        force = stiction(dry(self.friction), float(s), 0.0) if s else 0.0
         return [Braking(self.tangent, lambda t, q, v: force)] if s else []
 
     def margins(self, forces: Mapping[str, float]) -> tuple[float, float]:
@@ -155,11 +156,11 @@ def elements(scene: Scene, where: Coordinates) -> Iterator[Element]:
                 frictionless=contact.static == 0.0,
             )
     for joint in scene.joints.values():
-        if (dry := joint.dry_friction) is None:
+        if (friction := joint.dry_friction) is None:
             continue
         along = at_rest(joint, where)
-        if dry.smooth is not None:
-            yield Smoothed(name=joint.name, tangent=along, friction=dry)
+        if friction.smooth is not None:
+            yield Smoothed(name=joint.name, tangent=along, friction=friction)
         else:
-            loose = dry.static.forward == dry.static.backward == 0.0
-            yield Sliding(name=joint.name, tangent=along, friction=dry, frictionless=loose)
+            loose = friction.static.forward == friction.static.backward == 0.0
+            yield Sliding(name=joint.name, tangent=along, friction=friction, frictionless=loose)

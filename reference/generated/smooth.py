@@ -10,7 +10,7 @@ from ..laws.friction import Dry, smooth
 from ..system import Array
 from .constraint import Constraint
 from .contact import Braking, Coulomb, row
-from .element import Smoothed
+from .element import Smoothed, dry
 from .mode import Multibody
 
 
@@ -71,28 +71,26 @@ class SmoothMultibody(Multibody):
             multipliers = self._resting.solve(t, q, v)[1]
             F_a = -float(multipliers[len(multipliers) - len(self._rests) + k])
             f, g, _ = row(self._rests[k], t, q, v)
-            dry, law = _dry(self._slides[k].friction)
-            return float(smooth(dry, law.band, law.sharpness, float(f @ v) - g, F_a))
+            F, law = _dry(self._slides[k].friction)
+            return float(smooth(F, law.band, law.sharpness, float(f @ v) - g, F_a))
 
         return force
 
 
 def _dry(friction: DryFriction) -> tuple[Dry, Smooth]:
     assert friction.smooth is not None
-    kinetic, static = friction.kinetic, friction.static
-    dry = Dry(kinetic.backward, kinetic.forward, static.backward, static.forward)
-    return dry, friction.smooth
+    return dry(friction), friction.smooth
 
 
 def _left(friction: DryFriction, v: float, F_a: float) -> float:
     """(2.95) F_a + F_fr = F_a (1 − h_v h_F) + F₋ {…} − F₊ {…} [N], h = 1 − below − above."""
-    dry, law = _dry(friction)
+    F, law = _dry(friction)
     slower, faster = _outside(law.sharpness, v, law.band, law.band)
-    weaker, stronger = _outside(law.sharpness, F_a, dry.Fs_minus, dry.Fs_plus)
+    weaker, stronger = _outside(law.sharpness, F_a, F.Fs_minus, F.Fs_plus)
     inside = 1.0 - slower - faster
     free = slower + faster + inside * (weaker + stronger)
     backward, forward = slower + inside * weaker, faster + inside * stronger
-    return F_a * free + dry.F_minus * backward - dry.F_plus * forward
+    return F_a * free + F.F_minus * backward - F.F_plus * forward
 
 
 def _outside(A: float, x: float, low: float, high: float) -> tuple[float, float]:

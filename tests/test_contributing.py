@@ -1,0 +1,51 @@
+"""CONTRIBUTING.md says what to touch: its lists are those of the code."""
+
+import ast
+import re
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+TEXT = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+TREES = {
+    str(file.relative_to(ROOT)): ast.parse(file.read_text(encoding="utf-8"))
+    for room in ("cases", "reference", "engines", "reports")
+    for file in sorted((ROOT / room).rglob("*.py"))
+}
+ROWS = {"Comparison", "Rungs", "Certificate", "Instant"}  # the dataclasses of reports/row.py
+BOUNDS = {"forward", "backward"}  # the numbers of a law of dry friction
+
+
+def listed(what: str) -> set[str]:
+    """The files that the table names for a thing to add."""
+    (row,) = [line for line in TEXT.splitlines() if line.startswith(f"| {what} |")]
+    return set(re.findall(r"`([\w/]+\.py)`", row.split("|")[2]))
+
+
+def makes(tree: ast.AST) -> bool:
+    """Whether a program fills a row."""
+    calls = [node.func for node in ast.walk(tree) if isinstance(node, ast.Call)]
+    return any(isinstance(name, ast.Name) and name.id in ROWS for name in calls)
+
+
+def reads(tree: ast.AST) -> bool:
+    """Whether a program reads the numbers of dry friction."""
+    return any(isinstance(n, ast.Attribute) and n.attr in BOUNDS for n in ast.walk(tree))
+
+
+def test_every_path_exists() -> None:
+    paths = set(re.findall(r"`((?:cases|reference|engines|reports|tests)/[\w./<>]*)`", TEXT))
+    assert len(paths) > 20
+    missing = {path for path in paths if "<" not in path and not (ROOT / path).exists()}
+    assert not missing
+
+
+def test_rows_are_filled_where_it_says() -> None:
+    filled = {file for file, tree in TREES.items() if makes(tree)}
+    assert filled | {"reports/row.py"} == listed("a column of a report")
+
+
+def test_a_law_of_friction_is_where_it_says() -> None:
+    """But for the engines' own folders: what an engine knows of friction is its own."""
+    told = {file for file, tree in TREES.items() if reads(tree) and file.count("/") < 2}
+    told |= {f for f, tree in TREES.items() if f.startswith("reference/") and reads(tree)}
+    assert told | {"cases/friction.py", "reference/laws/friction.py"} == listed("a law of friction")
