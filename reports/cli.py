@@ -90,6 +90,7 @@ def run(
 ) -> None:
     """Compare engines with the reference and report the differences."""
     from . import pool, suite, write
+    from . import keep as kept
     from .selection import choose_book, choose_cases, choose_engines
     from .show import terminal
 
@@ -114,7 +115,7 @@ def run(
     if out is not None:
         write.write(write.tables(report, chosen), out)
     if keep is not None:
-        write.keep(report, keep)
+        kept.keep(report, keep)
     terminal.show(report, detailed=bool(cases), written=out)
     if report.fails:
         raise click.exceptions.Exit(FAILED)
