@@ -98,6 +98,7 @@ def run(
 
     A file with mistakes is left out: the other files run, and the exit code is 2.
     """
+    from . import keep as kept
     from . import pool, suite, write
     from .selection import choose_book, choose_engines, sound_cases
     from .show import terminal
@@ -131,7 +132,7 @@ def run(
     if out is not None:
         write.write(write.tables(report, chosen), out)
     if keep is not None:
-        write.keep(report, keep)
+        kept.keep(report, keep)
     terminal.show(report, detailed=bool(cases), written=out)
     if mistakes:
         click.echo(_left_out(mistakes), err=True)  # again: by now it has scrolled away

@@ -1,10 +1,9 @@
-"""The reports as tables and as CSV files: sorted, counted, and replaced all together."""
+"""The reports as tables and as CSV files: sorted, counted, each named after its run."""
 
-import os
-import shutil
-import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, fields
+from hashlib import sha256
+from io import StringIO
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -12,15 +11,17 @@ import numpy as np
 import pandas as pd
 
 from ..cases.case import Case
-from ..cases.quantity import table
 from .coverage import coverage
+from .replace import replace, settle
 from .row import Certificate, Comparison, Instant, Rungs
 from .suite import Report
 
 HERE = Path(__file__).parent
 ELSEWHERE = Path("textmech-reports")
+NAMES = ("tolerance.csv", "convergence.csv", "events.csv", "reference.csv", "coverage.csv")
 KEYS = ("case", "engine", "setting", "realised", "ladder", "quantity", "check", "event", "k")
 NUMBERS = ".3g"  # three digits: more would be noise from one machine to the next
+RUN = 12  # letters of a run's name: two runs never share them
 TIMES = ".9g"  # of an event's time: its difference is a thousandth of a step
 
 Row = TypeVar("Row", Comparison, Rungs, Certificate, Instant)
@@ -33,13 +34,14 @@ def by_default() -> Path:
 
 def tables(report: Report, cases: Sequence[Case]) -> dict[str, pd.DataFrame]:
     """Each report by its file name."""
-    return {
-        "tolerance.csv": _table(report.comparisons, Comparison),
-        "convergence.csv": _table(report.rungs, Rungs),
-        "events.csv": _table(report.instants, Instant),
-        "reference.csv": _table(report.certificates, Certificate),
-        "coverage.csv": coverage(cases, report.equations),
-    }
+    found = (
+        _table(report.comparisons, Comparison),
+        _table(report.rungs, Rungs),
+        _table(report.instants, Instant),
+        _table(report.certificates, Certificate),
+        coverage(cases, report.equations),
+    )
+    return dict(zip(NAMES, found, strict=True))
 
 
 def _table(rows: Sequence[Any], kind: type) -> pd.DataFrame:
@@ -50,28 +52,44 @@ def _table(rows: Sequence[Any], kind: type) -> pd.DataFrame:
 
 
 def write(frames: Mapping[str, pd.DataFrame], folder: Path) -> None:
-    """Writes all files beside the old ones, then renames them: an interruption leaves the old.
+    """Replaces all files together or none of them. Raises OSError: then none.
 
-    The last line of each file counts its rows, so that a cut file can be told.
+    The last line of each counts its rows, so that a cut file can be told, and names the run by its
+    content, so that files of two runs can.
     """
-    folder.mkdir(parents=True, exist_ok=True)
-    new = Path(tempfile.mkdtemp(prefix=".writing-", dir=folder))
-    try:
-        for name, frame in frames.items():
-            text = _rounded(frame).to_csv(index=False, lineterminator="\n")
-            (new / name).write_text(f"{text}# {len(frame)} rows\n", encoding="utf-8")
-        for name in frames:
-            os.replace(new / name, folder / name)
-    finally:
-        shutil.rmtree(new, ignore_errors=True)
+    replace(folder, texts(frames))
+
+
+def texts(frames: Mapping[str, pd.DataFrame]) -> dict[str, str]:
+    """What is written, by file name."""
+    bodies = {
+        name: _rounded(frame).to_csv(index=False, lineterminator="\n")
+        for name, frame in frames.items()
+    }
+    run = sha256("\0".join([*bodies, *bodies.values()]).encode()).hexdigest()[:RUN]
+    return {name: f"{body}{footer(len(frames[name]), run)}\n" for name, body in bodies.items()}
+
+
+def footer(rows: int, run: str) -> str:
+    """The last line of a report."""
+    return f"# {rows} rows of run {run}"
 
 
 def read(path: Path, kind: type[Row]) -> list[Row]:
-    """The rows of a written report. Raises ValueError if the file was cut."""
-    footer = path.read_text(encoding="utf-8").splitlines()[-1]
-    frame = pd.read_csv(path, dtype=str, comment="#", keep_default_na=False)
-    if footer != f"# {len(frame)} rows":
-        raise ValueError(f"{path}: cut, or changed by hand: it ends in {footer!r}")
+    """The rows of a written report.
+
+    Raises ValueError if the file was cut, or stands beside reports of another run.
+    """
+    settle(path.parent)
+    body, ending = _parted(path)
+    frame = pd.read_csv(StringIO(body), dtype=str, keep_default_na=False)
+    run = _run(ending)
+    if ending != footer(len(frame), run):
+        raise ValueError(f"{path}: cut, or changed by hand: it ends in {ending!r}")
+    for name in NAMES:
+        other = path.with_name(name)
+        if other.exists() and _run(_parted(other)[1]) != run:
+            raise ValueError(f"{path}: of another run than {other.name} beside it: run both again")
     numbers = {column.name for column in fields(kind) if "float" in str(column.type)}
     counts = {column.name for column in fields(kind) if column.type is int}
     rows: list[Row] = []
@@ -81,6 +99,16 @@ def read(path: Path, kind: type[Row]) -> list[Row]:
         values |= {name: int(values[name]) for name in counts}
         rows.append(kind(**values))
     return rows
+
+
+def _parted(path: Path) -> tuple[str, str]:
+    """The table, and the line that ends it."""
+    body, _, ending = path.read_text(encoding="utf-8").rstrip("\n").rpartition("\n")
+    return f"{body}\n", ending
+
+
+def _run(ending: str) -> str:
+    return ending.rpartition(" of run ")[2]
 
 
 def _number(text: str) -> Any:
@@ -94,21 +122,3 @@ def _rounded(frame: pd.DataFrame) -> pd.DataFrame:
         digits = TIMES if name in ("time", "k") else NUMBERS
         out[name] = ["" if pd.isna(x) else format(x, digits) for x in out[name]]
     return out.fillna("")
-
-
-def keep(report: Report, folder: Path) -> None:
-    """One CSV a case: times, and each quantity of the reference and of every engine, side by side.
-
-    In full precision: these files are for looking and plotting, and are not committed.
-    """
-    folder.mkdir(parents=True, exist_ok=True)
-    for case in {trial.case.name: trial.case for trial, _ in report.trials}.values():
-        columns = {"t": case.times}
-        trials = [(t, outcome) for t, outcome in report.trials if t.case.name == case.name]
-        for name in (name for name in case.allow if name in table(case.scene)):
-            columns[f"{name} reference"] = trials[0][0].wanted(name)
-            for trial, outcome in trials:
-                if name in outcome.samples:
-                    engine = f"{trial.engine.name}.{trial.engine.setting}.{trial.realised}"
-                    columns[f"{name} {engine}"] = outcome.samples[name]
-        pd.DataFrame(columns).to_csv(folder / f"{case.name}.csv", index=False)

@@ -24,11 +24,11 @@ ROOMS = {
     ],
     "engines": ["engine law", "heading", "mujoco pymunk"],
     "reports": [
-        "row pins pool selection coverage events pytest_short",
+        "row pins pool selection coverage events replace pytest_short",
         "trial",
         "judge",
         "suite",
-        "write",
+        "write keep",
         "show",
         "cli pytest_plugin",
     ],

@@ -78,8 +78,8 @@ def test_certificates_are_current(report: Report) -> None:
 
 def test_coverage_is_current(report: Report) -> None:
     now = write.tables(report, choose_cases([]))["coverage.csv"]
-    text = now.to_csv(index=False, lineterminator="\n") + f"# {len(now)} rows\n"
-    assert (write.HERE / "coverage.csv").read_text(encoding="utf-8") == text
+    text = now.to_csv(index=False, lineterminator="\n") + f"# {len(now)} rows of run "
+    assert (write.HERE / "coverage.csv").read_text(encoding="utf-8").startswith(text)
 
 
 def test_every_equation_that_a_case_names_is_executed_by_it(report: Report) -> None:

@@ -1,5 +1,6 @@
 """Reports are whole or old: never half, never unsorted, never uncounted."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
@@ -31,8 +32,6 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
 
 
 def test_rows_are_sorted(tmp_path: Path) -> None:
-    from dataclasses import replace
-
     first = replace(ROW, case="a")
     write.write(frames(ROW, first), tmp_path)
     rows = write.read(tmp_path / "tolerance.csv", Comparison)
@@ -46,6 +45,27 @@ def test_a_cut_file_is_told(tmp_path: Path) -> None:
     file.write_text("".join([*lines[:2], lines[-1]]))
     with pytest.raises(ValueError, match="cut"):
         write.read(file, Comparison)
+
+
+def test_files_of_two_runs_are_told(tmp_path: Path) -> None:
+    write.write(frames(ROW), tmp_path)
+    events = (tmp_path / "events.csv").read_bytes()
+    write.write(frames(ROW, ROW), tmp_path)
+    (tmp_path / "events.csv").write_bytes(events)
+    with pytest.raises(ValueError, match=r"another run than events\.csv"):
+        write.read(tmp_path / "tolerance.csv", Comparison)
+
+
+def test_the_same_run_has_the_same_name(tmp_path: Path) -> None:
+    one, same, other = (write.texts(frames(*rows)) for rows in ([ROW], [ROW], [ROW, ROW]))
+    assert one == same
+    assert one["events.csv"] != other["events.csv"]  # though it holds the same rows, none
+
+
+def test_a_name_may_begin_like_a_comment(tmp_path: Path) -> None:
+    write.write(frames(replace(ROW, case="#b")), tmp_path)
+    (row,) = write.read(tmp_path / "tolerance.csv", Comparison)
+    assert row.case == "#b"
 
 
 def test_an_interrupted_run_leaves_the_old_reports_whole(tmp_path: Path, monkeypatch) -> None:
@@ -70,7 +90,7 @@ def test_instants_are_sorted_counted_and_read_back(tmp_path: Path) -> None:
     ]
     rows.append(Instant("a", "mujoco", "4.0.0", "tuned", "law", "slips", 1, 1.23456789e-3, 1e-9))
     write.write(write.tables(Report(instants=rows), []), tmp_path)
-    assert (tmp_path / "events.csv").read_text().splitlines()[-1] == "# 3 rows"
+    assert (tmp_path / "events.csv").read_text().splitlines()[-1].startswith("# 3 rows of run ")
     found = write.read(tmp_path / "events.csv", Instant)
     assert [(i.realised, i.k) for i in found] == [("law", 1), ("native", 9), ("native", 10)]
     assert [i.difference for i in found] == [1e-9, 0.0, None]

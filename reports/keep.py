@@ -1,0 +1,26 @@
+"""The motions behind the rows, one CSV a case, for looking and plotting."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from ..cases.quantity import table
+from .suite import Report
+
+
+def keep(report: Report, folder: Path) -> None:
+    """One CSV a case: times, and each quantity of the reference and of every engine, side by side.
+
+    In full precision: these files are for looking and plotting, and are not committed.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    for case in {trial.case.name: trial.case for trial, _ in report.trials}.values():
+        columns = {"t": case.times}
+        trials = [(t, outcome) for t, outcome in report.trials if t.case.name == case.name]
+        for name in (name for name in case.allow if name in table(case.scene)):
+            columns[f"{name} reference"] = trials[0][0].wanted(name)
+            for trial, outcome in trials:
+                if name in outcome.samples:
+                    engine = f"{trial.engine.name}.{trial.engine.setting}.{trial.realised}"
+                    columns[f"{name} {engine}"] = outcome.samples[name]
+        pd.DataFrame(columns).to_csv(folder / f"{case.name}.csv", index=False)

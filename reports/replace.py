@@ -1,0 +1,113 @@
+"""Files of one folder replaced all together or not at all, whatever strikes where.
+
+The new files are made in a folder beside the old ones. The renaming of that folder decides: before
+it the old files count, after it the new ones, and whoever comes next can finish what was decided.
+"""
+
+import os
+import shutil
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+try:
+    import fcntl
+except ImportError:  # Windows locks no folder: two runs at once are the user's care there
+    fcntl = None
+
+MAKING, DECIDED = ".writing-", ".written-"
+NEW, OLD, NAMES = "new", "old", "names"
+
+
+def replace(folder: Path, texts: Mapping[str, str]) -> None:
+    """Writes the texts under their names; waits while another process writes there.
+
+    Raises OSError if the folder cannot take them: then it holds what it held.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    with _alone(folder):
+        _settled(folder)
+        try:
+            _decide(folder, texts)
+        finally:
+            _settled(folder)
+
+
+def settle(folder: Path) -> None:
+    """Finishes what an earlier process decided and could not finish, where that may be done."""
+    if any(folder.glob(f"{DECIDED}*")):
+        with suppress(OSError), _alone(folder):
+            _settled(folder)
+
+
+@contextmanager
+def _alone(folder: Path) -> Iterator[None]:
+    """Locks the folder itself: nothing is left behind, and a lock dies with its process."""
+    if fcntl is None:
+        yield
+        return
+    held = os.open(folder, os.O_RDONLY)
+    try:
+        with suppress(OSError):  # a network file system without locks
+            fcntl.flock(held, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(held)
+
+
+def _decide(folder: Path, texts: Mapping[str, str]) -> None:
+    made = Path(tempfile.mkdtemp(prefix=MAKING, dir=folder))
+    (made / NEW).mkdir()
+    (made / OLD).mkdir()
+    (made / NAMES).write_text("\n".join(texts), encoding="utf-8")
+    for name, text in texts.items():
+        if (folder / name).exists():
+            shutil.copy2(folder / name, made / OLD / name)
+        with (made / NEW / name).open("w", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())  # the decision must not reach the disk before the text
+    made.rename(made.with_name(made.name.replace(MAKING, DECIDED)))
+
+
+def _settled(folder: Path) -> None:
+    try:
+        _settle(folder)
+    except OSError:
+        _settle(folder)  # what was refused is undone; what is left is swept
+        raise
+    except BaseException:  # an interruption between two files: they belong together
+        _settle(folder)
+        raise
+
+
+def _settle(folder: Path) -> None:
+    """With the lock, what stands there belongs to nobody any more."""
+    for decided in folder.glob(f"{DECIDED}*"):
+        _finish(decided, folder)
+        shutil.rmtree(decided, ignore_errors=True)
+    for made in folder.glob(f"{MAKING}*"):
+        shutil.rmtree(made, ignore_errors=True)
+
+
+def _finish(decided: Path, folder: Path) -> None:
+    if not (decided / NAMES).exists():
+        return  # finished, and killed while it was swept
+    names = (decided / NAMES).read_text(encoding="utf-8").splitlines()
+    try:
+        for name in names:
+            if (decided / NEW / name).exists():
+                (decided / NEW / name).replace(folder / name)
+    except OSError:  # the folder refuses one of them: then it keeps all old ones
+        _undo(decided, folder, names)
+        raise
+
+
+def _undo(decided: Path, folder: Path, names: list[str]) -> None:
+    for name in names:
+        if (decided / OLD / name).exists():
+            (decided / OLD / name).replace(folder / name)
+        elif not (decided / NEW / name).exists():
+            (folder / name).unlink(missing_ok=True)
+    decided.rename(decided.with_name(decided.name.replace(DECIDED, MAKING)))
