@@ -18,6 +18,7 @@ from .row import Certificate, Comparison, Instant, Rungs
 from .suite import Report
 
 HERE = Path(__file__).parent
+INSTANTS = 12  # decimals of a second: samples of two grids that are the same
 ELSEWHERE = Path("textmech-reports")
 KEYS = ("case", "engine", "setting", "realised", "ladder", "quantity", "check", "event", "k")
 NUMBERS = ".3g"  # three digits: more would be noise from one machine to the next
@@ -91,7 +92,7 @@ def _rounded(frame: pd.DataFrame) -> pd.DataFrame:
     """Numbers as text with three significant digits; what is not known is empty."""
     out = frame.copy()
     for name in out.select_dtypes(include=[np.number]).columns:
-        digits = TIMES if name in ("time", "k") else NUMBERS
+        digits = TIMES if name in ("time", "when", "k") else NUMBERS
         out[name] = ["" if pd.isna(x) else format(x, digits) for x in out[name]]
     return out.fillna("")
 
@@ -103,12 +104,15 @@ def keep(report: Report, folder: Path) -> None:
     """
     folder.mkdir(parents=True, exist_ok=True)
     for case in {trial.case.name: trial.case for trial, _ in report.trials}.values():
-        columns = {"t": case.times}
+        columns: dict[str, pd.Series] = {}
         trials = [(t, outcome) for t, outcome in report.trials if t.case.name == case.name]
         for name in (name for name in case.allow if name in table(case.scene)):
-            columns[f"{name} reference"] = trials[0][0].wanted(name)
             for trial, outcome in trials:
+                times = np.round(trial.case.times, INSTANTS)
+                columns[f"{name} reference"] = pd.Series(trial.wanted(name), times).combine_first(
+                    columns.get(f"{name} reference", pd.Series(dtype=float))
+                )
                 if name in outcome.samples:
                     engine = f"{trial.engine.name}.{trial.engine.setting}.{trial.realised}"
-                    columns[f"{name} {engine}"] = outcome.samples[name]
-        pd.DataFrame(columns).to_csv(folder / f"{case.name}.csv", index=False)
+                    columns[f"{name} {engine}"] = pd.Series(outcome.samples[name], times)
+        pd.DataFrame(columns).to_csv(folder / f"{case.name}.csv", index_label="t")
