@@ -13,11 +13,14 @@ from . import pool
 from .events.times import never
 from .judge.compare import Outcome, compare, crashed
 from .judge.instants import of_reference
+from .judge.metric import told
 from .row import FAILS, Certificate, Comparison, Instant, Rungs
 from .trial.book import producers
 from .trial.ladder import sampled
 from .trial.start import first
 from .trial.trial import Trial, ways, with_room
+
+OF_BOUND = 0.1  # of what a check must keep: below it a difference is its rounding
 
 Progress = Callable[[str, int, int], None]
 """What is being done, how much is done, out of how much."""
@@ -159,7 +162,7 @@ def _certificates(case: Case, solution: Solution) -> list[Certificate]:
             source=str(case.origin),
             system=solution.system,
             check=check.name,
-            difference=check.difference,
+            difference=told(check.difference, OF_BOUND * check.bound),
             bound=check.bound,
             verdict="holds" if check.holds else FAILS,
         )
