@@ -1,7 +1,7 @@
 """A motion as samples addressed by name; what a reference and an engine both answer with."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,8 @@ class Trajectory:
     of mass. reactions: quantity (`pin.fx`, `touch.normal`) → (N,), as the producer gives them.
     record: every step of a motion that switches, from which event times are read. phase: in the
     reference's record, the number of the smooth piece that a row belongs to; an event stands there
-    twice, as the last row of one piece and the first of the next.
+    twice, as the last row of one piece and the first of the next. switches: (K,) s, when the
+    reference changes from one smooth piece to the next; an engine has none to tell.
     """
 
     times: Array
@@ -28,3 +29,4 @@ class Trajectory:
     reactions: Mapping[str, Array]
     record: "Trajectory | None" = None
     phase: NDArray[np.int64] | None = None
+    switches: Array = field(default_factory=lambda: np.zeros(0))

@@ -6,6 +6,8 @@ The motion is the hand-written system's where there is one, else the generated m
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from ..cases.case import Case
 from ..cases.mistake import CaseError
 from ..cases.quantity import table
@@ -59,7 +61,8 @@ def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
         beside = reactions_of(generated, found, followed)
         answer = built if system is generated else Answer(system, followed, beside)
         look()
-        motion = answer.trajectory(case.times)
+        switches = np.array([change.time for change in followed.changes], dtype=float)
+        motion = replace(answer.trajectory(case.times), switches=switches)
         if case.events:
             motion = replace(motion, record=answer.record(forces=_felt(case)))
         check_premises(case, motion, [change.name for change in found.changes])

@@ -2,10 +2,13 @@
 
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
 from ..cases.quantity import table
 from .suite import Report
+
+INSTANTS = 12  # decimals of a second: samples of two grids that are the same
 
 
 def keep(report: Report, folder: Path) -> None:
@@ -15,12 +18,15 @@ def keep(report: Report, folder: Path) -> None:
     """
     folder.mkdir(parents=True, exist_ok=True)
     for case in {trial.case.name: trial.case for trial, _ in report.trials}.values():
-        columns = {"t": case.times}
+        columns: dict[str, pd.Series] = {}
         trials = [(t, outcome) for t, outcome in report.trials if t.case.name == case.name]
         for name in (name for name in case.allow if name in table(case.scene)):
-            columns[f"{name} reference"] = trials[0][0].wanted(name)
             for trial, outcome in trials:
+                times = np.round(trial.case.times, INSTANTS)
+                columns[f"{name} reference"] = pd.Series(trial.wanted(name), times).combine_first(
+                    columns.get(f"{name} reference", pd.Series(dtype=float))
+                )
                 if name in outcome.samples:
                     engine = f"{trial.engine.name}.{trial.engine.setting}.{trial.realised}"
-                    columns[f"{name} {engine}"] = outcome.samples[name]
-        pd.DataFrame(columns).to_csv(folder / f"{case.name}.csv", index=False)
+                    columns[f"{name} {engine}"] = pd.Series(outcome.samples[name], times)
+        pd.DataFrame(columns).to_csv(folder / f"{case.name}.csv", index_label="t")

@@ -21,6 +21,7 @@ class Comparison:
     unit: str
     step: float | None
     largest: float | None
+    when: float | None  # s: where the error is largest
     rms: float | None
     final: float | None
     allowed: float | None

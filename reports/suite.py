@@ -6,17 +6,21 @@ from typing import Any
 
 from ..cases.case import Case
 from ..cases.mistake import CaseError
-from ..cases.scene import Scene
+from ..cases.trajectory import Trajectory
 from ..engines.engine import Engine, Plan, Refusal, Start
 from ..reference.solve import Solution, solve
 from . import pool
 from .events.times import never
 from .judge.compare import Outcome, compare, crashed
 from .judge.instants import of_reference
+from .judge.metric import told
 from .row import FAILS, Certificate, Comparison, Instant, Rungs
 from .trial.book import producers
+from .trial.ladder import sampled
 from .trial.start import first
-from .trial.trial import Trial, ways
+from .trial.trial import Trial, ways, with_room
+
+OF_BOUND = 0.1  # of what a check must keep: below it a difference is its rounding
 
 Progress = Callable[[str, int, int], None]
 """What is being done, how much is done, out of how much."""
@@ -82,7 +86,7 @@ def _trials(
     lost: list[tuple[Trial, pool.Died]] = []
     pairs = [(case, engine) for case in cases for engine in producers(case, engines, book=book)]
     starts = {case.name: first(solutions[case.name].trajectory) for case in cases}
-    tasks = [(engine, case.scene, starts[case.name]) for case, engine in pairs]
+    tasks = [(engine, case, starts[case.name]) for case, engine in pairs]
     found = dict(pool.spread(_planned, tasks, jobs=jobs))
     for index, (case, engine) in enumerate(pairs):
         planned, reference = found[index], solutions[case.name].trajectory
@@ -90,12 +94,23 @@ def _trials(
             gone = Refusal("native", planned.because)
             lost.append((Trial(case, reference, engine, gone), planned))
         else:
-            trials += [Trial(case, reference, engine, way) for way in planned]
+            how, own = planned
+            if own is not None:
+                case, reference = sampled(case, engine), own
+            trials += [Trial(case, reference, engine, way, own is not None) for way in how]
     return trials, lost
 
 
-def _planned(task: tuple[Engine, Scene, Start]) -> tuple[Plan | Refusal, ...]:
-    return ways(*task)
+def _planned(
+    task: tuple[Engine, Case, Start],
+) -> tuple[tuple[Plan | Refusal, ...], Trajectory | None]:
+    """The engine's ways, and the reference's motion where its own step meets other samples."""
+    engine, case, start = task
+    found = with_room(ways(engine, case.scene, start), case, engine)
+    own = sampled(case, engine)
+    if own is case or all(isinstance(way, Refusal) for way in found):
+        return found, None
+    return found, solve(own).trajectory
 
 
 def _solutions(
@@ -147,7 +162,7 @@ def _certificates(case: Case, solution: Solution) -> list[Certificate]:
             source=str(case.origin),
             system=solution.system,
             check=check.name,
-            difference=check.difference,
+            difference=told(check.difference, OF_BOUND * check.bound),
             bound=check.bound,
             verdict="holds" if check.holds else FAILS,
         )

@@ -119,6 +119,6 @@ def _rounded(frame: pd.DataFrame) -> pd.DataFrame:
     """Numbers as text with three significant digits; what is not known is empty."""
     out = frame.copy()
     for name in out.select_dtypes(include=[np.number]).columns:
-        digits = TIMES if name in ("time", "k") else NUMBERS
+        digits = TIMES if name in ("time", "when", "k") else NUMBERS
         out[name] = ["" if pd.isna(x) else format(x, digits) for x in out[name]]
     return out.fillna("")

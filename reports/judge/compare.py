@@ -3,6 +3,10 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
+import numpy as np
+from numpy.typing import NDArray
+
+from ...cases.trajectory import Array
 from ...engines.engine import Refusal
 from ..row import AGREES, CRASHED, DIVERGED, FAILS, Comparison, Instant, Rungs
 from ..trial.audit import EQUAL, audit
@@ -10,8 +14,12 @@ from ..trial.ladder import Ladder
 from ..trial.simulate import Runs, Samples, simulate
 from ..trial.trial import Trial, judged_names
 from . import instants, metric
-from .convergence import Convergence, study
-from .rows import row, rungs
+from .cause import cause
+from .convergence import UNSETTLED, Convergence, study
+from .metric import told
+from .moment import moment
+from .rounding import floor
+from .rows import judged, row, rungs
 from .verdict import verdict
 
 AWAY = 4  # of a ladder's largest steps: how far from an event a sample tells an order
@@ -40,10 +48,16 @@ def compare(trial: Trial) -> Outcome:
     runs = simulate(trial, motion)
     if runs.judged is None:
         return Outcome(rows + _diverged(trial, (*motion, *events), runs.lost))
-    studies = _studies(trial, runs, motion)
-    held = {name: found for (_, name), found in studies.items()}  # the held ladder is the last
-    rows += [_judged(trial, name, runs.judged, held[name]) for name in motion]
-    climbed = [_rungs(trial, ladder, runs, n, found) for (ladder, n), found in studies.items()]
+    held = {name: _study(trial, list(runs.ladders)[-1], runs, name) for name in motion}
+    rows += [_judged(trial, name, runs, runs.judged[name], held[name]) for name in motion]
+    studies = [
+        (ladder, name, found)
+        for ladder, climbed in runs.ladders.items()
+        if climbed
+        for name in motion
+        for found in [_study(trial, ladder, runs, name)]
+    ]
+    climbed = [rungs(trial, ladder, name, found) for ladder, name, found in studies]
     told, ladders = instants.judge(trial, events, runs, runs.judged)
     listed = instants.listed(trial, runs.judged)
     return Outcome(rows + told, climbed + ladders, runs.judged, listed)
@@ -89,46 +103,39 @@ def _audit(trial: Trial) -> Comparison:
     )
 
 
-def _judged(trial: Trial, name: str, samples: Samples, held: Convergence) -> Comparison:
-    error = metric.error(samples[name], trial.wanted(name))
-    word, because = verdict(trial, name, error.largest, held)
-    allowed = trial.allowed(name)
-    return row(
-        trial,
-        name,
-        word,
-        protocol=trial.protocol,
-        step=trial.step,
-        largest=error.largest,
-        rms=error.rms,
-        final=error.final,
-        ratio=None if allowed is None else error.largest / allowed,
-        because=because,
+def _judged(trial: Trial, name: str, runs: Runs, samples: Array, held: Convergence) -> Comparison:
+    wanted = trial.wanted(name)
+    error = metric.error(samples, wanted)
+    why = cause(held, runs.finer)
+    at = moment(trial, samples, wanted, error)
+    least = floor(trial, name, trial.step)
+    if at is not None:
+        rest = metric.error(samples[at.elsewhere], wanted[at.elsewhere]).largest
+        why = f"{at.words}; elsewhere at most {told(rest, least):.2g}"
+        if not rest <= (trial.allowed(name) or np.inf):
+            others = _study(trial, list(runs.ladders)[-1], runs, name, at.elsewhere)
+            why = f"{why}: {cause(others, runs.finer)}"
+    when = float(trial.case.times[error.at])
+    return judged(trial, name, verdict(trial, name, error.largest, held, why), error, when)
+
+
+def _study(
+    trial: Trial,
+    ladder: Ladder,
+    runs: Runs,
+    name: str,
+    among: NDArray[np.bool_] | None = None,
+) -> Convergence:
+    """One quantity on one ladder; `among`: of these samples (N,) alone."""
+    climbed, case = runs.ladders[ladder], trial.case
+    if not climbed:
+        return Convergence(UNSETTLED, {}, None)
+    keep = np.ones(case.samples, dtype=bool) if among is None else among
+    return study(
+        {h: samples[name][keep] for h, samples in climbed.items()},
+        trial.wanted(name)[keep],
+        exponents=ladder.plan(trial.plan).exponents,
+        allow=trial.allowed(name) or float("inf"),
+        floor=floor(trial, name, min(climbed)),
+        away=trial.away(AWAY * max(climbed))[keep],
     )
-
-
-def _studies(
-    trial: Trial, runs: Runs, names: tuple[str, ...]
-) -> dict[tuple[Ladder, str], Convergence]:
-    case = trial.case
-    return {
-        (ladder, name): study(
-            {h: samples[name] for h, samples in climbed.items()},
-            trial.wanted(name),
-            exponents=ladder.plan(trial.plan).exponents,
-            allow=trial.allowed(name) or float("inf"),
-            floor=metric.floor(trial.size(name), case.duration / min(climbed)),
-            away=trial.away(AWAY * max(climbed)),
-        )
-        for ladder, climbed in runs.ladders.items()
-        if climbed
-        for name in names
-    }
-
-
-def _rungs(trial: Trial, ladder: Ladder, runs: Runs, name: str, found: Convergence) -> Rungs:
-    errors = {
-        h: metric.error(samples[name], trial.wanted(name)).largest
-        for h, samples in sorted(runs.ladders[ladder].items())
-    }
-    return rungs(trial, ladder, name, errors, found)

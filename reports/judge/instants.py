@@ -1,6 +1,6 @@
 """The events of a trial: rows for their times and counts, and the list of all instants."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -12,29 +12,29 @@ from ..trial.ladder import Ladder
 from ..trial.simulate import Runs, Samples
 from ..trial.trial import Trial
 from . import metric
-from .convergence import Convergence, instants
-from .rows import row, rungs
+from .cause import cause
+from .convergence import UNSETTLED, Convergence, instants
+from .rounding import floor
+from .rows import judged, row, rungs
 from .verdict import verdict
 
 
 def judge(
-    trial: Trial, names: tuple[str, ...], runs: Runs, judged: Samples
+    trial: Trial, names: tuple[str, ...], runs: Runs, samples: Samples
 ) -> tuple[list[Comparison], list[Rungs]]:
     """Rows of tolerance.csv and convergence.csv for the names `event.time` and `event.count`."""
     rows: list[Comparison] = []
     ladders: list[Rungs] = []
     for name in names:
         event, _, field = name.rpartition(".")
-        if f"{event}.time" not in judged:
+        if f"{event}.time" not in samples:
             why = "refused: adapter: its quantity is not kept for every step"
             rows.append(row(trial, name, why))
         elif field == "count":
-            rows.append(_count(trial, event, judged[f"{event}.time"]))
+            rows.append(_count(trial, event, samples[f"{event}.time"]))
         else:
-            climbed = dict(_climbed(trial, name, runs))
-            held = list(climbed.values())[-1]  # the held ladder is the last
-            rows.append(_time(trial, event, judged[name], held[1]))
-            ladders += [rungs(trial, ladder, name, *found) for ladder, found in climbed.items()]
+            rows.append(_time(trial, event, samples[name], runs))
+            ladders += [rungs(trial, *rung) for rung in _climbed(trial, name, runs)]
     return rows, ladders
 
 
@@ -43,44 +43,24 @@ def _count(trial: Trial, event: str, found: Array) -> Comparison:
     name, wanted = f"{event}.count", len(trial.events[event])
     off = float(abs(wanted - len(found)))
     why = f"reference {wanted}, engine {len(found)}"
-    word, because = verdict(trial, name, off, instants({trial.step: off}, 0.0), why)
-    return _measured(trial, name, word, because, largest=off)
+    reached = verdict(trial, name, off, instants({trial.step: off}, 0.0), why)
+    return judged(trial, name, reached, metric.Error(off, off, off, 0), None)
 
 
-def _time(trial: Trial, event: str, found: Array, held: Convergence) -> Comparison:
+def _time(trial: Trial, event: str, found: Array, runs: Runs) -> Comparison:
     """The times in their order, as many as both have; another count is the other row's matter."""
     name, wanted = f"{event}.time", trial.events[event]
     both = min(len(wanted), len(found))
     if not both:
         return row(trial, name, "refused: engine: it never happens there")
     error = metric.error(found[:both], wanted[:both])
-    word, because = verdict(trial, name, error.largest, held)
-    return _measured(
-        trial, name, word, because, largest=error.largest, rms=error.rms, final=error.final
-    )
+    (*_, held) = [Convergence(UNSETTLED, {}, None), *(c for _, _, c in _climbed(trial, name, runs))]
+    reached = verdict(trial, name, error.largest, held, cause(held, runs.finer))
+    return judged(trial, name, reached, error, float(wanted[error.at]))
 
 
-def _measured(
-    trial: Trial, name: str, word: str, because: str, *, largest: float, **values: float
-) -> Comparison:
-    allowed = trial.allowed(name)
-    return row(
-        trial,
-        name,
-        word,
-        protocol=trial.protocol,
-        step=trial.step,
-        largest=largest,
-        ratio=None if allowed is None else largest / allowed,
-        because=because,
-        **values,
-    )
-
-
-def _climbed(
-    trial: Trial, name: str, runs: Runs
-) -> Iterator[tuple[Ladder, tuple[Mapping[float, float], Convergence]]]:
-    """Each ladder with the errors by step, inf where the count is another one."""
+def _climbed(trial: Trial, name: str, runs: Runs) -> Iterator[tuple[Ladder, str, Convergence]]:
+    """What each ladder's errors by step say, inf where the count is another one."""
     wanted = trial.events[name.rpartition(".")[0]]
     for ladder, climbed in runs.ladders.items():
         errors = {
@@ -90,7 +70,7 @@ def _climbed(
             for h, samples in sorted(climbed.items())
         }
         if errors and len(wanted):
-            yield ladder, (errors, instants(errors, trial.allowed(name) or np.inf))
+            yield ladder, name, instants(errors, trial.allowed(name) or np.inf)
 
 
 def listed(trial: Trial, samples: Samples) -> list[Instant]:
@@ -105,11 +85,15 @@ def listed(trial: Trial, samples: Samples) -> list[Instant]:
             event=event,
             k=k,
             time=t,
-            difference=t - wanted[k - 1] if k <= len(wanted) else None,
+            difference=_told(trial, event, t - wanted[k - 1]) if k <= len(wanted) else None,
         )
         for event, wanted in ((name, times.tolist()) for name, times in trial.events.items())
         for k, t in enumerate(samples.get(f"{event}.time", np.zeros(0)).tolist(), start=1)
     ]
+
+
+def _told(trial: Trial, event: str, difference: float) -> float:
+    return metric.told(difference, floor(trial, f"{event}.time", trial.step))
 
 
 def of_reference(case: Case, reference: Trajectory) -> list[Instant]:

@@ -1,12 +1,13 @@
-"""The size of a difference between two motions, and the floor below which it means nothing."""
+"""The size of a difference between two motions, where it is largest, and its digits."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...cases.trajectory import Array
 
-ROUNDING = 2.2e-16
+AS_LARGE = 0.999  # of the largest: a constant error is largest at its first sample, not at a random
 
 
 @dataclass(frozen=True)
@@ -16,14 +17,28 @@ class Error:
     largest: float
     rms: float
     final: float
+    at: int  # the first sample where it is the largest, to three digits
 
 
 def error(samples: Array, reference: Array) -> Error:
     """Of samples (N,) against the reference (N,)."""
     d = np.abs(samples - reference)
-    return Error(float(np.max(d)), float(np.sqrt(np.mean(d * d))), float(d[-1]))
+    largest = float(np.max(d))
+    first = int(np.argmax(~(d < AS_LARGE * largest)))  # of NaN nothing is smaller
+    return Error(largest, float(np.sqrt(np.mean(d * d))), float(d[-1]), first)
 
 
-def floor(size: float, steps: float) -> float:
-    """What rounding alone can make of a number of this size in so many steps."""
-    return ROUNDING * size * steps
+def told(number: float, floor: float) -> float:
+    """The number to the digits above the floor's power of ten; below it 0."""
+    if not (math.isfinite(number) and 0 < floor < math.inf):
+        return number
+    return round(number, _digits(floor))
+
+
+def told_uncertainty(number: float, floor: float) -> float:
+    """The same, but never less than the last digit that is told."""
+    return told(max(number, 10.0 ** -_digits(floor)), floor) if 0 < floor < math.inf else number
+
+
+def _digits(floor: float) -> int:
+    return -math.ceil(math.log10(floor))

@@ -1,17 +1,18 @@
 """Rows filled with what a trial knows by itself."""
 
-from collections.abc import Mapping
 from typing import Any
 
 from ..row import Comparison, Rungs
 from ..trial.ladder import Ladder
 from ..trial.trial import Trial
 from .convergence import Convergence
+from .metric import Error, told
+from .rounding import floor
 
 
 def row(trial: Trial, name: str, word: str, **values: Any) -> Comparison:
     """A row of tolerance.csv for the quantity `name` with the verdict `word`."""
-    columns: dict[str, Any] = dict.fromkeys(("step", "largest", "rms", "final", "ratio"))
+    columns: dict[str, Any] = dict.fromkeys(("step", "largest", "when", "rms", "final", "ratio"))
     columns |= {"protocol": "", "because": "", "allowed": None} | values
     if name != "audit":
         columns["allowed"] = trial.allowed(name)
@@ -29,10 +30,31 @@ def row(trial: Trial, name: str, word: str, **values: Any) -> Comparison:
     )
 
 
-def rungs(
-    trial: Trial, ladder: Ladder, name: str, errors: Mapping[float, float], found: Convergence
-) -> Rungs:
+def judged(
+    trial: Trial, name: str, verdict: tuple[str, str], error: Error, when: float | None
+) -> Comparison:
+    """A row of what was measured at the judged step; `when` [s] the error is largest."""
+    word, because = verdict
+    least, allowed = floor(trial, name, trial.step), trial.allowed(name)
+    largest = told(error.largest, least)
+    return row(
+        trial,
+        name,
+        word,
+        protocol=trial.protocol,
+        step=trial.step,
+        largest=largest,
+        when=when if largest else None,
+        rms=told(error.rms, least),
+        final=told(error.final, least),
+        ratio=None if allowed is None else largest / allowed,
+        because=because,
+    )
+
+
+def rungs(trial: Trial, ladder: Ladder, name: str, found: Convergence) -> Rungs:
     """A row of convergence.csv: the errors by step, smallest first, and what they say."""
+    least = floor(trial, name, min(found.errors))
     return Rungs(
         case=trial.case.name,
         engine=trial.engine.name,
@@ -42,8 +64,8 @@ def rungs(
         ladder=ladder.name,
         quantity=name,
         unit=trial.quantity(name).unit,
-        steps=" ".join(f"{h:.3g}" for h in errors),
-        errors=" ".join(f"{e:.2e}" for e in errors.values()),
+        steps=" ".join(f"{h:.3g}" for h in found.errors),
+        errors=" ".join(f"{told(e, least):.2e}" for e in found.errors.values()),
         order=found.order,
         order_low=found.order_low,
         order_high=found.order_high,

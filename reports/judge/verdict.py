@@ -1,20 +1,20 @@
-"""From a difference and its convergence to a verdict and its cause."""
+"""From a difference and its convergence to a verdict."""
 
 from ...cases.case import Deviation
 from ...engines.engine import Engine
 from .. import pins
 from ..row import AGREES, BEYOND, CHANGED, DEVIATES, FAILS
 from ..trial.trial import Trial
-from .convergence import ANOTHER, INSTANTS, TEXTBOOK, UNSETTLED, Convergence
+from .convergence import ANOTHER, Convergence
 
 STAYS = 0.25  # of a declared deviation: what it may change and be the same one
 CERTAIN = 10  # uncertainties that a declared limit must stand above
 
 
 def verdict(
-    trial: Trial, quantity: str, largest: float, convergence: Convergence, why: str = ""
+    trial: Trial, quantity: str, largest: float, convergence: Convergence, why: str
 ) -> tuple[str, str]:
-    """The verdict's word and its reason: `why`, or what the ladder tells."""
+    """The verdict's word and its reason: a bar that is broken, and `why` there is a difference."""
     case, engine = trial.case, trial.engine
     allowed = trial.allowed(quantity)
     declared = case.deviates.get(f"{engine.name}.{engine.setting}", {}).get(quantity)
@@ -26,11 +26,9 @@ def verdict(
         return _declared(engine, declared, largest, convergence)
     if engine.setting == "tuned":
         broken = _broken(trial, quantity, largest, convergence)
-        return (
-            (FAILS, f"{broken}; {why or cause(convergence, allowed)}") if broken else (AGREES, "")
-        )
+        return (FAILS, f"{broken}; {why}") if broken else (AGREES, "")
     if not largest <= allowed:
-        return BEYOND, why or cause(convergence, allowed)
+        return BEYOND, why
     return AGREES, ""
 
 
@@ -52,25 +50,6 @@ def _broken(trial: Trial, quantity: str, largest: float, convergence: Convergenc
         if not convergence.limit <= limit:
             return f"its limit {convergence.limit:.3g} for h → 0 is above reach {limit:.3g}"
     return ""
-
-
-def cause(convergence: Convergence, allowed: float) -> str:
-    """Why there is a difference, as far as the held ladder tells."""
-    usable = convergence.usable_step
-    enough = f"within from h = {usable:.3g} s on" if usable else "not within on this ladder"
-    limit = convergence.limit
-    if convergence.verdict == TEXTBOOK:
-        order = "" if convergence.order is None else f" with order {convergence.order:.1f}"
-        return f"the step: it falls{order}, {enough}"
-    if convergence.verdict == ANOTHER and limit is not None:
-        if limit > allowed:
-            return f"the model: {limit:.3g} remains for h → 0"
-        return f"the step: {enough}; the model's own {limit:.3g} would be"
-    if convergence.verdict == INSTANTS:
-        return f"instants of events: {enough}"
-    if convergence.verdict == UNSETTLED:
-        return "the ladder has not settled: neither step nor model can be named"
-    return "rounding"
 
 
 def _declared(

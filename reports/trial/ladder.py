@@ -1,7 +1,7 @@
 """Which steps an engine is run with: the judged one, and the rungs of its ladders."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ...cases.case import Case
 from ...cases.scene import Scene
@@ -10,6 +10,7 @@ from ...engines.engine import Engine, Plan
 COARSEST = 8e-3  # s: larger steps are of no use to anyone who controls a body
 RUNGS_DOWN = 5  # from an engine's own step: enough for Romberg and three orders
 USUAL = 1e-4  # s, where a case names no step: with it most shipped cases reach their textbook
+WHOLE = 1e-9  # steps: a ratio that is whole up to rounding
 MULTIPLE = 4  # of the step is the sample interval, or h, 2 h and 4 h do not meet every sample
 
 
@@ -28,10 +29,11 @@ class Ladder:
 def judged_step(case: Case, engine: Engine) -> float:
     """The step [s] at which an engine is judged: its own, else the case's, else the usual one.
 
-    The case's divides the sample interval as it is; the others are shortened until they do.
+    The case's divides the sample interval as it is; the usual one is shortened until it does. Its
+    own stays what it is: another step is another question, see `sampled`.
     """
     if engine.own_step is not None:
-        return case.interval / _whole(case.interval / engine.own_step)
+        return engine.own_step
     given = case.step.get(engine.name) if isinstance(case.step, Mapping) else case.step
     if given is not None:
         return given
@@ -40,7 +42,20 @@ def judged_step(case: Case, engine: Engine) -> float:
 
 def _whole(ratio: float) -> int:
     """Rounded up, but not for a ratio that is whole up to rounding."""
-    return max(1, -int(-(ratio - 1e-9) // 1))
+    return max(1, -int(-(ratio - WHOLE) // 1))
+
+
+def sampled(case: Case, engine: Engine) -> Case:
+    """The case with samples that the engine's own step meets: as often as it says, or a bit more.
+
+    The reference is solved for these times; nobody interpolates, and no step is shortened.
+    """
+    own = engine.own_step
+    if own is None or abs(case.interval / own - round(case.interval / own)) <= WHOLE:
+        return case
+    interval = own * max(1, int(case.interval / own))
+    whole = int(case.duration / interval + WHOLE)
+    return replace(case, duration=whole * interval, samples=whole + 1)
 
 
 def ladders(case: Case, engine: Engine, plan: Plan) -> Iterator[Ladder]:

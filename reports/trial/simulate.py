@@ -20,17 +20,25 @@ Samples = Mapping[str, Array]
 
 @dataclass(frozen=True)
 class Runs:
-    """Samples by ladder and step, and `event.time`s; `lost` says why the judged step has none."""
+    """Samples and `event.time`s, of the judged step and by ladder and step.
+
+    lost: why the judged step has none. finer: why a smaller one has none, if it is a user's own.
+    """
 
     judged: Samples | None
     ladders: Mapping[Ladder, Mapping[float, Samples]]
     lost: str = ""
+    finer: str = ""
 
 
 def simulate(trial: Trial, names: tuple[str, ...]) -> Runs:
-    """Runs the engine from the reference's first row. Rungs that diverge are left out."""
+    """Runs the engine from the reference's first row.
+
+    Rungs that diverge are left out, and what is coarser than they are; the judged run stays.
+    """
+    judged: Samples | None = None
     climbed: dict[Ladder, dict[float, Samples]] = {}
-    lost = ""
+    lost = finer = ""
     for ladder in ladders(trial.case, trial.engine, trial.plan):
         climbed[ladder] = {}
         plan = ladder.plan(trial.plan)
@@ -38,11 +46,15 @@ def simulate(trial: Trial, names: tuple[str, ...]) -> Runs:
             try:
                 climbed[ladder][h] = _run(trial, names, h, plan)
             except Diverged as gone:
-                climbed[ladder].clear()  # what is coarser than a rung that diverged is no ladder
-                if h == trial.step:
-                    lost = str(gone)
-    judged = next(iter(climbed.values())).get(trial.step)
-    return Runs(judged, climbed, lost)
+                climbed[ladder].clear()
+                if h < trial.step:
+                    finer = f"h = {h:.3g} s: {gone}"
+                elif h == trial.step:
+                    lost = lost or str(gone)
+            else:
+                if h == trial.step and len(climbed) == 1:  # the plan's first ladder is judged
+                    judged = climbed[ladder][h]
+    return Runs(judged, climbed, lost, finer)
 
 
 def _run(trial: Trial, names: tuple[str, ...], step: float, plan: Plan) -> Samples:

@@ -27,6 +27,17 @@ def ways(engine: Engine, scene: Scene, start: Start) -> tuple[Plan | Refusal, ..
     return found if native else (Refusal("native", NOTHING_OF_ITS_OWN), *found)
 
 
+def with_room(
+    found: tuple[Plan | Refusal, ...], case: Case, engine: Engine
+) -> tuple[Plan | Refusal, ...]:
+    """The ways, refused where three samples are more than the engine's own step leaves room for."""
+    own = engine.own_step
+    if own is None or 2 * own <= case.duration:
+        return found
+    why = f"adapter: {case.duration:g} s are less than two of its steps of {own:g} s"
+    return tuple(Refusal(way.realised, why) for way in found)
+
+
 def planned(engine: Engine, scene: Scene, start: Start) -> tuple[Plan | Refusal, ...]:
     """As `ways`; what an engine raises is one native way, which fails when it is tried."""
     try:
@@ -49,6 +60,7 @@ class Trial:
     reference: Trajectory
     engine: Engine
     way: Plan | Refusal
+    sampled: bool = False  # the case's samples are not its own: the engine's step misses those
 
     @property
     def realised(self) -> Realised:
@@ -78,11 +90,7 @@ class Trial:
 
     def away(self, distance: float) -> NDArray[np.bool_]:
         """Which samples (N,) are at least `distance` [s] from where the reference switches."""
-        times, record = self.case.times, self.reference.record
-        if not self.case.events or record is None or record.phase is None:
-            return np.ones(len(times), dtype=bool)
-        switches = record.times[:-1][np.diff(record.phase) != 0]
-        gaps = np.abs(times[:, None] - switches[None, :])
+        gaps = np.abs(self.case.times[:, None] - self.reference.switches[None, :])
         return np.min(gaps, axis=1, initial=np.inf) >= distance
 
     def allowed(self, name: str) -> float | None:
@@ -110,12 +118,10 @@ class Trial:
 
     @cached_property
     def protocol(self) -> str:
-        """What was done to start and readout, and a shortened step where there is one."""
-        base = self.plan.protocol(self.step)
-        own = self.engine.own_step
-        short = own is not None and abs(self.step - own) > 1e-9 * own
-        note = f"own step {own:g} s shortened to divide the interval" if short else ""
-        return "; ".join(part for part in (base, note) if part)
+        """What was done to start and readout, and the samples where they are not the case's."""
+        base, n = self.plan.protocol(self.step), self.case.samples
+        own = f"{n} samples at whole steps of its own" if self.sampled else ""
+        return "; ".join(part for part in (base, own) if part)
 
     @property
     def start(self) -> Start:

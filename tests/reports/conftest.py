@@ -63,6 +63,7 @@ class Fake:
     rate: float = 1.0
     order: int = 1
     stable: float = 1.0
+    lost: tuple[float, ...] = ()  # steps at which it diverges too
     follows: bool = False
     stops: tuple[float, ...] = ()  # of the record of every step
     delay: float = 0.0  # of each stop, in steps
@@ -101,7 +102,7 @@ class Fake:
         record: bool = False,
     ) -> Trajectory:
         self.before()
-        if step > self.stable:
+        if step > self.stable or step in self.lost:
             raise Diverged("too large a step")
         (soft,) = plan.choices(step)
         model = self.model * (soft.value / 1e-3 if self.follows else 1.0)
@@ -157,7 +158,8 @@ def trial(moving: Case) -> Callable[..., Trial]:
         ball = np.zeros((len(times), 6))
         ball[:, 0], ball[:, 3] = times, 1.0
         kept = phased() if case.events else None
-        reference = Trajectory(times, {"ball": ball}, {}, record=kept)
+        switches = np.array([STOPS[0], STARTS, STOPS[1]] if case.events else [])
+        reference = Trajectory(times, {"ball": ball}, {}, record=kept, switches=switches)
         realised = properties.pop("realised", "native")
         engine = Fake(**{k: v for k, v in properties.items() if k != "planning"})
         found = ways(engine, case.scene, first(reference))

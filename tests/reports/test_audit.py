@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from textmech.cases.case import Case
 from textmech.cases.scene import (
     Anchor,
     Body,
@@ -36,6 +37,29 @@ def test_the_audit_sees_other_physics(trial: Make, number: float) -> None:
     found = row(compare(trial(numbers={"ball.mass": number})), "audit")
     assert found.verdict == FAILS
     assert "ball.mass" in found.because
+
+
+@pytest.mark.parametrize("late", [-9.81, 0.0, 1e300])
+def test_a_number_that_is_none_stays_the_worst(trial: Make, late: float) -> None:
+    """What is read after it, good or bad, does not take its place."""
+    numbers = {"ball.mass": 2.1, "gravity.x": float("nan"), "gravity.y": late}
+    found = row(compare(trial(numbers=numbers)), "audit")
+    assert (found.verdict, found.largest) == (FAILS, np.inf)
+    assert "gravity.x is nan" in found.because
+
+
+def test_a_small_number_is_compared_with_itself(trial: Make, moving: Case) -> None:
+    """5 % off a nanogram is 5 %, whatever the scale of the rest."""
+    light = replace(moving.scene.bodies["ball"], mass=1e-12)
+    case = replace(moving, scene=replace(moving.scene, bodies={"ball": light}))
+    found = row(compare(trial(case=case, numbers={"ball.mass": 1.05e-12})), "audit")
+    assert (found.verdict, found.largest) == (FAILS, pytest.approx(0.05))
+
+
+def test_rounding_is_no_number_of_the_audit(trial: Make) -> None:
+    """The last bit of a product is another one on another machine."""
+    found = row(compare(trial(numbers={"ball.mass": 2.0 + 4e-16})), "audit")
+    assert (found.verdict, found.largest, found.because) == (AGREES, 0.0, "1 numbers read back")
 
 
 def test_the_audit_reads_dry_friction_back() -> None:

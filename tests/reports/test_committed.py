@@ -3,7 +3,7 @@
 import pytest
 
 from textmech.reports import pool, suite, write
-from textmech.reports.judge.metric import ROUNDING
+from textmech.reports.judge.rounding import EPSILON
 from textmech.reports.pytest_plugin import CaseItem, measured
 from textmech.reports.row import Certificate, Comparison, Instant, Rungs
 from textmech.reports.selection import choose_cases, choose_engines
@@ -14,6 +14,8 @@ QUARTER = 0.25  # what another compiler or processor may change of a number abov
 AFTER_EVENTS = 2 / 3  # a factor of three: which step sees an event first may change
 # Below this part of a tolerance a number is rounding's, and differs between machines.
 FLOOR = 1e-6
+DIGITS = 1e-2  # of a step as it is written
+ORDER = 0.05  # what the noise of neighbouring rungs may do to it, beside a quarter of itself
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +40,10 @@ def test_tolerances_are_current(report: Report) -> None:
             before.unit,
             before.protocol != "",
         )
-        assert near(row.largest, before.largest, FLOOR * (row.allowed or 1.0), spread), key(row)
+        floor = FLOOR * (row.allowed or 1.0)
+        assert near(row.largest, before.largest, floor, spread), key(row)
+        assert near(row.rms, before.rms, floor, spread), key(row)
+        assert near(row.final, before.final, floor, spread), key(row)
 
 
 def test_orders_and_limits_are_current(report: Report) -> None:
@@ -55,6 +60,9 @@ def test_orders_and_limits_are_current(report: Report) -> None:
         if max(row.uncertainty or 0.0, before.uncertainty or 0.0) > floor:
             assert row.verdict == before.verdict, key(row)
         assert near(row.limit, before.limit, floor, spread), key(row)
+        assert row.usable_step == pytest.approx(before.usable_step, rel=DIGITS), key(row)
+        if (row.order is None) == (before.order is None):  # near the floor there may be none
+            assert near(row.order, before.order, ORDER), key(row)
 
 
 def test_events_are_current(report: Report) -> None:
@@ -103,4 +111,4 @@ def instant(row: Instant) -> tuple[str, ...]:
 def near(now: float | None, before: float | None, floor: float, spread: float = QUARTER) -> bool:
     if now is None or before is None:
         return now is before
-    return abs(now - before) <= spread * max(abs(now), abs(before)) + max(floor, ROUNDING)
+    return abs(now - before) <= spread * max(abs(now), abs(before)) + max(floor, EPSILON)

@@ -113,6 +113,32 @@ def test_coarse_rungs_that_diverge_are_left_out(trial: Make) -> None:
     assert outcome.rungs[0].steps == "0.001 0.002 0.004"
 
 
+def test_nothing_coarser_than_a_diverged_rung_is_on_a_ladder(trial: Make) -> None:
+    """8e-3 runs by luck: from 4e-3 on nothing can be told from it."""
+    outcome = compare(trial(lost=(4e-3,), order=2))
+    assert row(outcome).verdict == AGREES
+    assert outcome.rungs[0].steps == "0.001 0.002"
+
+
+@pytest.mark.parametrize(("lost", "steps"), [(1e-3 / 4, ["6.25e-05 0.000125"]), (1e-3 / 16, [])])
+def test_a_finer_step_that_diverges_leaves_the_judged_run(
+    trial: Make, lost: float, steps: list[str]
+) -> None:
+    shipped = {"setting": "shipped", "own_step": 1e-3}
+    outcome = compare(trial(lost=(lost,), **shipped))
+    assert (row(outcome).verdict, row(outcome).step) == (AGREES, 1e-3)
+    above = row(compare(trial(lost=(lost,), rate=15.0, **shipped)))
+    assert above.verdict == BEYOND
+    assert f"a smaller step diverges (h = {lost:.3g} s: too large a step)" in above.because
+    assert [r.steps for r in outcome.rungs] == steps
+
+
+def test_the_judged_step_that_diverges_is_told_and_no_ladder_above(trial: Make) -> None:
+    shipped = {"setting": "shipped", "own_step": 1e-3}
+    found = row(compare(trial(lost=(1e-3,), **shipped)))
+    assert (found.verdict, found.because) == (DIVERGED, "too large a step")
+
+
 def test_a_runaway_is_no_motion(trial: Make) -> None:
     shipped = row(compare(trial(model=1e8, setting="shipped", own_step=1e-3)))
     assert shipped.verdict == DIVERGED
@@ -123,7 +149,7 @@ def test_both_ladders_only_where_a_number_follows_the_step(trial: Make) -> None:
     both = compare(trial(follows=True, model=1e-3)).rungs
     assert {r.ladder: r.verdict for r in both} == {
         "following": "converges to the textbook",
-        "held": "converges to another value",
+        "held": "converges to another value within the tolerance",
     }
 
 

@@ -6,8 +6,11 @@ import pytest
 from textmech.reports.judge.convergence import (
     ANOTHER,
     EXACT,
+    FALLS,
+    STAYS,
     TEXTBOOK,
     UNSETTLED,
+    WITHIN,
     Convergence,
     study,
 )
@@ -35,10 +38,18 @@ def test_the_order_and_the_textbook_come_out(p: int) -> None:
 
 
 def test_a_difference_of_the_model_is_told_from_the_step() -> None:
-    found = judge(ladder(p=1, model=3e-3), p=1)
+    found = judge(ladder(p=1, model=3e-3), p=1, allow=2e-3)
     assert found.verdict == ANOTHER
     assert found.limit == pytest.approx(3e-3, rel=1e-6)
     assert found.order == pytest.approx(1.0, abs=0.05)
+
+
+@pytest.mark.parametrize(("model", "word"), [(3e-3, WITHIN), (9e-9, TEXTBOOK), (2e-5, WITHIN)])
+def test_another_value_within_the_tolerance_is_told_as_that(model: float, word: str) -> None:
+    """A millionth of what is allowed is of no use to anyone: that is the textbook's."""
+    found = judge(ladder(p=1, model=model), p=1, allow=1e-2)
+    assert found.verdict == word
+    assert found.limit == pytest.approx(model, rel=1e-3)
 
 
 def test_a_motion_at_the_rounding_floor_is_exact() -> None:
@@ -73,7 +84,29 @@ def test_two_rungs_are_no_ladder() -> None:
 
 
 def test_an_uncertainty_near_the_tolerance_decides_nothing() -> None:
-    assert judge(ladder(p=1), p=1, allow=1e-6).verdict == UNSETTLED
+    found = judge(ladder(p=1), p=1, allow=1e-6)
+    assert found.verdict == FALLS
+    assert found.order == pytest.approx(1.0, abs=0.02)
+
+
+def turning(*sizes: float) -> dict[float, np.ndarray]:
+    """Errors of these sizes with both signs in turn: no limit settles."""
+    signs = (1.0, -1.0, 1.0, -1.0, 1.0)
+    rungs = zip(STEPS, signs, sizes, strict=True)
+    return {h: REFERENCE + sign * size * T for h, sign, size in rungs}
+
+
+def test_errors_that_fall_name_the_step_where_no_limit_settles() -> None:
+    found = judge(turning(1.0, 2.1, 3.9, 8.0, 16.5), p=1)
+    assert found.verdict == FALLS
+    assert (found.order, found.order_low) == pytest.approx((1.07, 0.893), abs=0.01)
+    found = judge(turning(1.0, 4.0, 3.0, 9.0, 8.0), p=1)
+    assert (found.verdict, found.order) == (FALLS, None)
+
+
+def test_errors_that_do_not_fall_are_not_the_steps() -> None:
+    assert judge(turning(1.0, 1.4, 0.9, 1.5, 1.1), p=1).verdict == STAYS
+    assert judge(turning(3.0, 1.0, 4.0, 2.0, 1.0), p=1).verdict == UNSETTLED
 
 
 def test_the_usable_step_is_the_largest_from_which_on_all_are_within() -> None:
