@@ -68,8 +68,9 @@ class MuJoCo:
     ) -> str:
         """The MJCF file with its start as a keyframe."""
         choices = [timestep(step), *plan.choices(step)]
-        *_, depths = self._placed(scene, start, step, plan)
-        return text(scene, start, choices, depths, heading(self, title, step, plan))
+        model, *_ = self._placed(scene, start, step, plan)
+        begun = model.key_qpos[0].tolist(), model.key_qvel[0].tolist()
+        return text(scene, start, choices, begun, heading(self, title, step, plan))
 
     def _placed(
         self, scene: Scene, start: Start, step: float, plan: Plan

@@ -47,10 +47,8 @@ def settled(
 ) -> tuple[mujoco.MjModel, mujoco.MjData, dict[str, float]]:
     """The same with its start, the keyframe, as deep in the floor as it is carried: depths [m]."""
     model, data = compiled(scene, start, step, plan)
-    depths = settle(scene, model, data, start) if scene.contacts else {}
-    for name, depth in depths.items():
-        model.key_qpos[0, model.joint(f"{name}.y").qposadr[0]] -= depth
-    mujoco.mj_resetDataKeyframe(model, data, 0)
+    depths = settle(scene, model, data, start)
+    model.key_qpos[0], model.key_qvel[0] = data.qpos, data.qvel
     return model, data, depths
 
 

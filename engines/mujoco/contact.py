@@ -1,15 +1,16 @@
-"""MuJoCo's three recipes for contacts with the floor, chosen by the scene and its start.
+"""MuJoCo's recipes for contacts with the floor, chosen by the scene and its start.
 
 MuJoCo asks of a contact the acceleration d (−b v − k r) + (1 − d) a, where a is the one without
-the contact. What holds a wheel makes a sliding body hop, and what lets it slide makes a falling
-one bounce: so there are three.
+the contact. What holds a wheel (d near 1) makes a sliding body hop and takes the friction out of
+an impact, and a spring that carries (k) throws back what falls: so there are several. Each is
+measured in tests/engines/test_floor.py, test_tips.py and test_impacts.py.
 """
 
 import math
 
 from scipy.optimize import brentq
 
-from ...cases.scene import Contact, Scene
+from ...cases.scene import CENTER, Contact, Scene
 from ..engine import Choice, Start
 
 HARDEST = 0.9999  # of d: MuJoCo clamps it
@@ -19,13 +20,23 @@ CLOSED = 1e-9  # m: what is nearer to the floor than that lies on it
 
 def recipe(scene: Scene, tied_to: float, start: Start | None) -> list[Choice]:
     """The contacts' numbers; without a start everything is taken to lie on the floor."""
-    if not any(contact.switches for contact in scene.contacts.values()):
+    contacts = scene.contacts.values()
+    if not any(contact.switches for contact in contacts):
         return _rolling(tied_to)
-    bounce = max(contact.restitution for contact in scene.contacts.values())
-    if bounce > 0 or (start is not None and falls(scene, start)):
-        return _impact(bounce, tied_to)
-    bodies = [contact.body for contact in scene.contacts.values()]
-    return _sliding(tied_to, shared=len(set(bodies)) < len(bodies))
+    if bounce := max(contact.restitution for contact in contacts):
+        return _bouncing(bounce, tied_to)
+    if start is not None and falls(scene, start):
+        return _landing(tied_to)
+    if all(alone(scene, contact) for contact in contacts):
+        return _sliding(tied_to)
+    return _tip(tied_to)
+
+
+def alone(scene: Scene, contact: Contact) -> bool:
+    """Whether a disk or a particle touches, and nothing else holds it."""
+    joined = (end.body for joint in scene.joints.values() for end in (joint.a, joint.b))
+    touching = [other.body for other in scene.contacts.values()].count(contact.body)
+    return contact.at.point == CENTER and touching == 1 and contact.body not in joined
 
 
 def falls(scene: Scene, start: Start) -> bool:
@@ -50,11 +61,37 @@ def _rolling(h: float) -> list[Choice]:
     ]
 
 
-def _sliding(h: float, *, shared: bool) -> list[Choice]:
-    k, b = (0.1, 0.4) if shared else (0.25, 1.0)
-    why = "two contacts of a body act together: softer" if shared else "critically damped"
+def _sliding(h: float) -> list[Choice]:
+    because = "k = 0.25/h², b = 1/h: critically damped"
     return [
-        Choice("pair.solref", [-k / h**2, -b / h], f"k = {k}/h², b = {b}/h: {why}"),
+        *_soft(h, k=0.25 / h**2, b=1.0, along=1.0, because=because),
+        Choice("option.noslip_iterations", 5, "a block at rest creeps 1e-19 m/s instead of 1e-6"),
+    ]
+
+
+def _tip(h: float) -> list[Choice]:
+    because = "k = 0.1/h², b = 0.4/h: contacts of one body act together, their stiffness adds up"
+    return [*_soft(h, k=0.1 / h**2, b=0.4, along=0.8, because=because), _EXACT]
+
+
+def _bouncing(bounce: float, h: float) -> list[Choice]:
+    because = f"k = ({_BEAT}/h)²: a bounce lasts 16 h and keeps its energy to 0.2 %; b gives e"
+    b = 2 * damping_ratio(bounce) * _BEAT
+    return [*_soft(h, k=(_BEAT / h) ** 2, b=b, along=1.0, because=because), _EXACT]
+
+
+def _landing(h: float) -> list[Choice]:
+    because = f"k = {_RISE:g}/h, b = 1/h: thrown back by {_RISE:g} h of the speed, it rises slowly"
+    return [*_soft(h, k=_RISE / h, b=1.0, along=1.0, because=because), _EXACT]
+
+
+def _soft(h: float, *, k: float, b: float, along: float, because: str) -> list[Choice]:
+    """The softest d, so that friction and normal force do not feel each other.
+
+    k [1/s²]; b and along [1/h]: the damping of the normal velocity and of the slip.
+    """
+    return [
+        Choice("pair.solref", [-k, -b / h], because),
         Choice(
             "pair.solimp",
             [SOFTEST, SOFTEST, 0.001],
@@ -62,33 +99,27 @@ def _sliding(h: float, *, shared: bool) -> list[Choice]:
         ),
         Choice(
             "pair.solreffriction",
-            [-1.0, -b * SOFTEST / h],
-            f"b = {b}/h along the floor (times d, by which MuJoCo divides): slip ends in a step "
-            "or two; RK4 is stable up to 2.8/h",
+            [-1.0, -along * SOFTEST / h],
+            f"b = {along}/h along the floor (times d, by which MuJoCo divides): slip ends in a "
+            "step or two; RK4 is stable up to 2.8/h",
         ),
         _ELLIPTIC,
         Choice("option.impratio", 1e6, "makes up for the soft d: slip 2e-6 · a; Newton bears it"),
-        Choice("option.noslip_iterations", 5, "a block at rest creeps 1e-19 m/s instead of 1e-6"),
     ]
 
 
-def _impact(bounce: float, h: float) -> list[Choice]:
-    if bounce:
-        k, b = (_BEAT / h) ** 2, 2 * damping_ratio(bounce) * _BEAT / h
-        because = f"k = ({_BEAT}/h)²: a bounce lasts 16 h and keeps its energy to 3e-4; b gives e"
-    else:
-        k, b = (0.1 / h) ** 2, 1 / h
-        because = "k = (0.1/h)², b = 1/h: five times overdamped, it does not throw back"
-    return [
-        Choice("pair.solref", [-k, -b], because),
-        Choice("pair.solimp", [HARDEST, HARDEST, 0.001], "the contact's own motion, no weight"),
-        _ELLIPTIC,
-        Choice("option.impratio", 100.0, "less creep; from 1e4 on Newton stops early"),
-    ]
-
-
+_EXACT = Choice(
+    "flag.diagexact",
+    "enable",
+    "or k and b are those of a mean inertia: a bar's tip has up to four times its inverse mass",
+)
+# 1/s: what has landed comes up within a tenth of a second, and is thrown back by 0.1 % of its
+# speed at 1e-4 s: both errors are of first order. A spring of 0.01/h² throws back 1 % at any h.
+_RISE = 10.0
 _ELLIPTIC = Choice("option.cone", "elliptic", "the pyramid's friction depends on the direction")
-_BEAT = 0.2  # h times the contact's frequency: RK4 keeps the energy to 3e-4, with 0.5 to 1e-2
+# h times the contact's frequency. Where in a step a bounce begins decides what RK4 keeps of the
+# energy: ± 2e-3 from twelve heights at any h, ± 5e-4 with 0.1, which lasts twice as long.
+_BEAT = 0.2
 LEAST_BOUNCE = 0.02  # below, the damper that a spring of _BEAT needs is unstable with RK4
 
 

@@ -56,5 +56,6 @@ def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> 
         if falls(scene, start):
             words.append("starts above the floor: contacts are tuned for impacts")
         *_, depths = settled(scene, start, step, plan)
-        words += [f"{name} started {depth:.1e} m in the floor" for name, depth in depths.items()]
+        deep = ((name, depth) for name, depth in depths.items() if depth)
+        words += [f"{name} started {depth:.1e} m in the floor" for name, depth in deep]
     return "; ".join(words)

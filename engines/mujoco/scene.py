@@ -5,8 +5,7 @@ springs and dampers are tendons, pushes and torques are actuators at sites.
 """
 
 import math
-from collections.abc import Iterable, Mapping
-from types import MappingProxyType
+from collections.abc import Iterable, Sequence
 from xml.etree import ElementTree as ET
 
 from ...cases.scene import GROUND, Anchor, Contact, DryFriction, Scene
@@ -35,12 +34,12 @@ def mjcf(
     scene: Scene,
     start: Start,
     choices: Iterable[Choice],
-    depths: Mapping[str, float] = MappingProxyType({}),
+    begun: tuple[Sequence[float], Sequence[float]] = ((), ()),
 ) -> str:
     """The scene and its start as text that MuJoCo compiles; choices become attributes.
 
     A choice's name says where it stands: `option.integrator`, `connect.solref`, `pair.solimp`.
-    depths: how deep [m] free bodies are started in the floor.
+    begun: positions and rates in MuJoCo's order, where they are not the start's.
     """
     numbers = {choice.name: choice.value for choice in choices}
     tree = spanning_tree(scene)
@@ -48,7 +47,8 @@ def mjcf(
     option = ET.SubElement(
         root, "option", _of(numbers, "option"), gravity=written(*scene.gravity, 0)
     )
-    ET.SubElement(option, "flag", autoreset="disable")  # a reset must not look like a motion
+    flags = {"autoreset": "disable", **_of(numbers, "flag")}  # a reset must not look like a motion
+    ET.SubElement(option, "flag", flags)
     world = ET.SubElement(root, "worldbody")
     _world(world, scene)
     _bodies(world, scene, tree, numbers)
@@ -57,7 +57,7 @@ def mjcf(
     if tree.loops:
         _loops(root, tree, _of(numbers, "connect"))
     write(root, scene)
-    _start(root, scene, tree, start, depths, out=_leaves_plane(scene, numbers))
+    _start(root, scene, tree, start, begun, out=_leaves_plane(scene, numbers))
     ET.indent(root)
     return ET.tostring(root, encoding="unicode") + "\n"
 
@@ -189,9 +189,14 @@ def _contacts(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> Non
         # A pair takes one coefficient; two geoms would take the larger of theirs.
         ET.SubElement(
             contacts, "pair", attributes,
-            name=contact.name, geom1=FLOOR, geom2=contact.name, condim="3",
+            name=contact.name, geom1=FLOOR, geom2=contact.name, condim=_dimensions(contact),
             friction=written(contact.friction, contact.friction, 0, 0, 0),
         )  # fmt: skip
+
+
+def _dimensions(contact: Contact) -> str:
+    """What is smooth gets no friction at all: MuJoCo knows no coefficient below 1e-5."""
+    return "3" if contact.friction else "1"
 
 
 def _loops(root: ET.Element, tree: Tree, attributes: dict[str, str]) -> None:
@@ -208,7 +213,7 @@ def _start(
     scene: Scene,
     tree: Tree,
     start: Start,
-    depths: Mapping[str, float],
+    begun: tuple[Sequence[float], Sequence[float]],
     *,
     out: bool,
 ) -> None:
@@ -221,16 +226,13 @@ def _start(
         pairs[branch.body] = coordinates(scene, tree, branch, start)
         if branch.joint is None and out:
             pairs[branch.body].append((0.0, 0.0))
-    for name, depth in depths.items():
-        y, vy = pairs[name][1]
-        pairs[name][1] = (y - depth, vy)
     flat = [
         pair
         for element in root.iter("body")  # document order is depth first
         for pair in pairs[element.attrib["name"]]
     ]
     key = ET.SubElement(ET.SubElement(root, "keyframe"), "key", name="start")
-    key.set("qpos", written(*(position for position, _ in flat)))
-    key.set("qvel", written(*(rate for _, rate in flat)))
+    key.set("qpos", written(*(begun[0] or [position for position, _ in flat])))
+    key.set("qvel", written(*(begun[1] or [rate for _, rate in flat])))
     if laws := signals(scene):
         key.set("ctrl", written(*(0 if law.law == "sine" else 1 for law in laws)))

@@ -1,7 +1,7 @@
 """The MJCF file that a user pastes: the scene at its start, headed by comments."""
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Sequence
 
 from ...cases.scene import Scene
 from ..engine import Choice, Start
@@ -12,9 +12,9 @@ def text(
     scene: Scene,
     start: Start,
     choices: Iterable[Choice],
-    depths: Mapping[str, float],
+    begun: tuple[Sequence[float], Sequence[float]],
     head: Iterable[str],
 ) -> str:
     """The file; head: its comments, in which two hyphens would end one."""
     comments = (f"<!-- {re.sub('-(?=-)', '- ', line)} -->\n" for line in head)
-    return "".join(comments) + mjcf(scene, start, choices, depths)
+    return "".join(comments) + mjcf(scene, start, choices, begun)

@@ -53,20 +53,44 @@ def sliding_then_rolling(times: Array, v: float, omega: float, mu: float) -> Arr
     return v * t - mu * G * t**2 / 2 + (v - mu * G * rolls) * (times - t)
 
 
-def leaning_bar(times: Array, length: float, angle: float, mu: float) -> tuple[Array, Array]:
-    """x [m] and angle [rad] of a bar whose lower end slides backwards on the floor."""
-    arm, inertia = length / 2, length**2 / 12  # of 1 kg
+def leaning_bar(times: Array, length: float, angle: float, mu: float) -> tuple[Array, Array, Array]:
+    """x [m] and angle [rad] of a bar of 1 kg whose lower end slides backwards; the normal force."""
+    arm, inertia = length / 2, length**2 / 12
 
-    def rate(t: float, state: Array) -> list[float]:
-        _, a, vx, omega = state  # the end slides backwards: friction points forward
-        lever = arm * (mu * math.sin(a) - math.cos(a))
-        normal = G - arm * math.sin(a) * omega**2
-        normal /= 1 - arm * math.cos(a) * lever / inertia
-        return [vx, omega, mu * normal, lever * normal / inertia]
+    def lever(a: Array) -> Array:  # the end slides backwards: friction points forward
+        return arm * (mu * np.sin(a) - np.cos(a))
+
+    def normal(a: Array, omega: Array) -> Array:
+        falls = G - arm * np.sin(a) * omega**2
+        return falls / (1 - arm * np.cos(a) * lever(a) / inertia)
+
+    def rate(t: float, state: Array) -> Array:
+        _, a, vx, omega = state
+        force = normal(a, omega)
+        return np.array([vx, omega, mu * force, lever(a) * force / inertia])
 
     begin = [arm * math.cos(angle), angle, 0.0, 0.0]
-    x, a, *_ = solve_ivp(rate, (0, times[-1]), begin, "DOP853", times, rtol=1e-12, atol=1e-13).y
-    return x, a
+    x, a, _, omega = solve_ivp(
+        rate, (0, times[-1]), begin, "DOP853", times, rtol=1e-12, atol=1e-13
+    ).y
+    return x, a, normal(a, omega)
+
+
+def pivoting(times: Array, length: float, angle: float) -> tuple[Array, Array, Array]:
+    """Angle [rad] and x, y acceleration [m/s²] of the centre of a bar that turns about its start.
+
+    So moves a bar whose tip sticks, and on a smooth floor one of two that lean on each other.
+    """
+
+    def rate(t: float, state: Array) -> list[float]:
+        return [state[1], -1.5 * G / length * math.cos(state[0])]
+
+    a, omega = solve_ivp(
+        rate, (0, times[-1]), [angle, 0.0], "DOP853", times, rtol=1e-12, atol=1e-13
+    ).y
+    alpha, arm = -1.5 * G / length * np.cos(a), length / 2
+    ax = -arm * (np.sin(a) * alpha + np.cos(a) * omega**2)
+    return a, ax, arm * (np.cos(a) * alpha - np.sin(a) * omega**2)
 
 
 def growing(times: Array) -> Array:

@@ -1,54 +1,91 @@
-"""The depth at which MuJoCo's soft floor carries a disk or a particle.
+"""The start at which MuJoCo's soft floor carries what lies on it.
 
 Put exactly on the floor, a disk is not in contact: it falls free for a step, and the settling
-that follows is an error of first order. So it is started where its normal acceleration vanishes.
+that follows is an error of first order, and wrong forces. So every point that touches is started
+as deep as keeps its height from accelerating, which is the textbook's contact; and what sticks
+creeps from the start as fast as MuJoCo's friction needs to hold it.
 """
 
+from collections.abc import Callable
+
 import mujoco
+import numpy as np
 from scipy.optimize import brentq
 
-from ....cases.scene import CENTER, Scene
+from ....cases.scene import CENTER, Contact, Scene
 from ...engine import Start
 from ..contact import CLOSED, height
-from ..tree import spanning_tree
+from .floor import Floor
 from .signal import signals
 
-_DEEPEST = 1.0  # m, of a particle; a disk could be as deep as its radius
+_DEEPEST = 1.0  # m, of a point; a disk could be as deep as its radius
+_SETTLED = 1e-12  # of a depth: points that share a load have found it
+_SWEEPS = 100  # at most: each takes a third or more of the error, as two ends of one bar do
+_STICKS = 10  # steps of the slip's growth: friction is damped by about 1/h, and holds or does not
+_STILL = 1e-9  # m/s: what slips less is meant to stick
 
 
 def settle(
     scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, start: Start
 ) -> dict[str, float]:
-    """Depth [m] of what lies on the floor by itself; what is joined rests on its joints.
-
-    The data is at its start, and is so again afterwards.
-    """
-    free = {branch.body for branch in spanning_tree(scene).branches if branch.joint is None}
-    depths = {}
+    """Depth [m] of each point that lies on the floor; afterwards the data starts there."""
+    contacts = [c for c in scene.contacts.values() if height(scene, c, start) <= CLOSED]
+    if not contacts:
+        return {}
     with signals(scene):
-        for contact in scene.contacts.values():
-            body = scene.bodies[contact.body]
-            alone = body.name in free and contact.at.point == CENTER
-            if alone and height(scene, contact, start) <= CLOSED:
-                depths[body.name] = _depth(model, data, body.name, body.radius or _DEEPEST)
+        floor = Floor(scene, model, data, contacts)
+        for _ in range(_SWEEPS):  # Gauss and Seidel
+            before = floor.depths.copy()
+            for i, contact in enumerate(contacts):
+                _sink(floor, i, scene.bodies[contact.body].radius or _DEEPEST)
+                if contact.friction and not model.opt.noslip_iterations:
+                    _creep(floor, i)
+            if np.max(np.abs(floor.depths - before)) <= _SETTLED * np.max(floor.depths):
+                break
     mujoco.mj_resetDataKeyframe(model, data, 0)  # the run must not inherit a warm start
-    return depths
+    floor.place()
+    return dict(zip(map(_words, contacts), floor.depths.tolist(), strict=True))
 
 
-def _depth(model: mujoco.MjModel, data: mujoco.MjData, body: str, deepest: float) -> float:
-    place = data.joint(f"{body}.y")
-    height = float(place.qpos[0])
+def _words(contact: Contact) -> str:
+    """`wheel`, `rod.end`."""
+    return contact.body if contact.at.point == CENTER else str(contact.at)
+
+
+def _sink(floor: Floor, i: int, deepest: float) -> None:
+    """To where the point neither falls nor rises. Depth 0 is no contact; the least above it is."""
 
     def rise(depth: float) -> float:
-        place.qpos[0] = height - depth
-        mujoco.mj_forward(model, data)
-        return float(place.qacc[0])
+        floor.depths[i] = depth
+        return floor.acceleration(i)[1]
 
-    # Depth 0 is no contact at all; the smallest number above it that y can hold is.
-    shallow = deep = 4e-16 * max(abs(height), 1.0)
+    shallow = deep = 4e-16 * max(abs(float(floor.heights[i])), 1.0)
     while rise(deep) < 0 and deep < deepest:
         deep *= 10
     carried = rise(shallow) < 0 < rise(deep)  # else it is lifted off, or pressed through the floor
-    depth = brentq(rise, shallow, deep, xtol=shallow) if carried else 0.0
-    place.qpos[0] = height
-    return float(depth)
+    floor.depths[i] = brentq(rise, shallow, deep, xtol=shallow) if carried else 0.0
+
+
+def _creep(floor: Floor, i: int) -> None:
+    """As fast as makes friction hold a point that sticks; what friction cannot hold slides off."""
+    before = floor.creeps[i]
+
+    def slips(creep: float) -> float:
+        floor.creeps[i] = creep
+        return floor.acceleration(i)[0]
+
+    floor.creeps[i] = 0.0
+    if abs(floor.slips[i]) > _STILL or not floor.depths[i]:
+        return
+    now = slips(before)
+    floor.creeps[i] = _zero(slips, before, now, floor.model.opt.timestep) if now else before
+
+
+def _zero(slips: Callable[[float], float], before: float, now: float, h: float) -> float:
+    """The creep [m/s] at which the slip does not grow; 0 where friction cannot hold it."""
+    reach = now * h
+    while slips(before + reach) * now > 0:
+        reach *= 2
+        if abs(reach) > _STICKS * abs(now) * h:
+            return 0.0
+    return float(brentq(slips, before, before + reach, xtol=4e-16 * abs(reach)))
