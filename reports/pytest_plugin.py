@@ -152,13 +152,17 @@ class CertificateItem(CaseItem):
 
 
 class ComparisonItem(CaseItem):
-    """One quantity in one engine. What is a finding and no failure shows as an expected one."""
+    """One quantity in one engine. What is a finding and no failure shows as an expected one.
+
+    A finding that the committed reports did not have is a failure: a row that got worse.
+    """
 
     def __init__(self, *, key: tuple[str, ...], **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.key = key
 
     def runtest(self) -> None:
+        from .committed import worse
         from .row import AGREES, DEVIATES, FAILS
         from .show.terminal import line
 
@@ -166,6 +170,9 @@ class ComparisonItem(CaseItem):
         if row.verdict == FAILS:
             place = f"{self.path}:{self.place('allow', row.quantity)}"
             raise RowError(f"{place}: {row.quantity}\n{_row_text(row)}")
+        lost = worse(self.case, row)
+        if lost:
+            raise RowError(f"{lost}\n{_row_text(row)}")
         if row.verdict not in (AGREES, DEVIATES):
             pytest.xfail(line(row))
 

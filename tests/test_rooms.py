@@ -25,7 +25,7 @@ ROOMS = {
     "engines": ["engine law", "heading", "mujoco pymunk"],
     "reports": [
         "row pins pool selection coverage events replace pytest_short",
-        "trial",
+        "trial committed",
         "judge",
         "suite",
         "write keep",

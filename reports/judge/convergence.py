@@ -86,6 +86,8 @@ def study(
         return Convergence(UNSETTLED, errors, usable)
     rungs, reference = [ladder[h][keep] for h in steps], reference[keep]
     size = _Size([metric.error(rung, reference).largest for rung in rungs])
+    if size.verdict == UNSETTLED:
+        size = _Size(list(errors.values()))  # what is beside events may fall all the same
     if len(steps) < len(exponents) + 1:
         return Convergence(size.verdict, errors, usable, *size.orders)
     value, uncertainty = _romberg(rungs, exponents)

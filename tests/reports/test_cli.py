@@ -84,6 +84,13 @@ def test_a_verdict_that_fails_is_exit_code_1_and_is_named(new: Path) -> None:
     assert "FAILS: cart: mujoco.tuned rod.angle" in done.stdout
 
 
+def test_a_verdict_that_fails_is_exit_code_1_though_it_is_written(new: Path) -> None:
+    new.write_text(NEW.replace("cart.x: 1.0e-2", "cart.x: 1.0e-8"), encoding="utf-8")
+    done = textmech("run", new, "--engine", "pymunk.tuned", "--out", "o", folder=new.parent)
+    assert done.returncode == 1
+    assert (new.parent / "o" / "tolerance.csv").is_file()
+
+
 def test_an_unknown_tolerance_is_never_written_but_said(new: Path) -> None:
     new.write_text(NEW.replace("rod.angle: 1.0e-2", "rod.angle: unknown"), encoding="utf-8")
     done = textmech("run", new, "--engine", "mujoco.tuned")

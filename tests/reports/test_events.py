@@ -11,6 +11,7 @@ from textmech.cases.case import Event
 from textmech.cases.scene import Body, Scene
 from textmech.cases.trajectory import VX, Array, Trajectory
 from textmech.reports.events import rests as reading
+from textmech.reports.events.passages import passages
 from textmech.reports.events.rests import rests
 from textmech.reports.events.times import engine_events, falls, reference_events
 
@@ -151,6 +152,14 @@ def test_falls_that_no_step_sees_at_zero(h: float) -> None:
     found = falls(t, height)
     assert len(found) == len(impacts)
     assert found == pytest.approx(impacts, abs=10 * h * h)
+
+
+def test_what_turns_above_zero_does_not_fall_to_it() -> None:
+    t = np.arange(0.0, 0.6, 1e-3)
+    for lowest in (0.5, 1e-3):
+        u = lowest + (t - 0.3) ** 2
+        assert len(falls(t, u)) == 0
+        assert list(passages(t, u, 1e-9)) == []
 
 
 def test_what_rests_on_the_floor_falls_once() -> None:

@@ -1,0 +1,69 @@
+"""What must be red in pytest: a reference, an audit, and a row that got worse."""
+
+import pytest
+
+pytest_plugins = ["pytester"]
+
+CASE = """\
+title: A bar that swings
+scene:
+  points: {O: [0, 0]}
+  bodies: {rod: {bar: {mass: 0.5, length: 0.6}}}
+  joints: {hinge: {pin: [ground.O, rod.start]}}
+initial: {rod: {angle: -40 deg}}
+duration: 0.4
+samples: 6
+step: {mujoco: 1.0e-3, pymunk: 1.0e-3}
+allow: {rod.angle: 1.0e-6}
+"""
+# `spawn` would lose what a conftest changed: the workers of these runs are forks.
+FORKED = "import multiprocessing; multiprocessing.set_start_method('fork')\n"
+WORSE = """\
+from pathlib import Path
+from textmech.reports import committed
+key = ("swing", "mujoco", "shipped", "native", "rod.angle")
+said = committed.Committed({version!r}, 0.002, {largest}, {verdict!r})
+committed.rows = lambda: {{key: said}}
+committed.shipped = lambda: {{"swing": Path("swing.yaml")}}
+"""
+
+
+def run(pytester: pytest.Pytester, change: str, engine: str = "mujoco.shipped") -> pytest.RunResult:
+    pytester.makefile(".yaml", swing=CASE)
+    pytester.makeconftest(FORKED + change)
+    return pytester.runpytest_subprocess("swing.yaml", "--textmech-engine", engine)
+
+
+def test_a_reference_that_is_not_certified_is_red(pytester: pytest.Pytester) -> None:
+    change = "import textmech.reference.certificate.agreement as a; a.Check.holds = False\n"
+    done = run(pytester, change)
+    assert done.ret == pytest.ExitCode.TESTS_FAILED
+    done.assert_outcomes(failed=3)  # the reference, and nothing can be judged by it
+    done.stdout.fnmatch_lines(["*the reference (generated) is not certified*"])
+
+
+def test_an_audit_that_fails_is_red(pytester: pytest.Pytester) -> None:
+    done = run(pytester, "import textmech.reports.judge.compare as c; c.EQUAL = -1.0\n")
+    done.assert_outcomes(passed=1, failed=1, xfailed=1)
+    done.stdout.fnmatch_lines(["*: audit*", "*FAILS*"])
+
+
+@pytest.mark.parametrize(
+    ("version", "largest", "verdict", "red"),
+    [
+        ("installed", "1.0", "agrees", True),
+        ("installed", "1e-9", "beyond", True),
+        ("installed", "1.0", "beyond", False),
+        ("another", "1.0", "agrees", False),
+    ],
+)
+def test_a_row_that_got_worse_is_red(
+    pytester: pytest.Pytester, version: str, largest: str, verdict: str, red: bool
+) -> None:
+    from mujoco import __version__ as installed
+
+    known = installed if version == "installed" else version
+    done = run(pytester, WORSE.format(version=known, largest=largest, verdict=verdict))
+    done.assert_outcomes(passed=2, failed=int(red), xfailed=int(not red))
+    if red:
+        done.stdout.fnmatch_lines(["*committed*"])
