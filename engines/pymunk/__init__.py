@@ -2,21 +2,25 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any, ClassVar
 
 import pymunk
 
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
-from ..engine import Choice, Plan, Refusal, Start
+from ..engine import Plan, Realised, Refusal, Start
 from ..heading import heading
-from . import settings
-from .plans import named, plan, ways
+from . import plans, settings
+from .plans import named
+from .read.health import Left
 from .read.measure import measured
 from .read.record import Record
+from .read.samples import sampled
+from .recipe import recipe
 from .refuse import unbuildable
-from .run import placed, simulate, stepper
-from .scene import build
+from .run import placed, stepper
+from .scene import FAR, build
 from .script import text
 
 
@@ -47,19 +51,14 @@ class Pymunk:
         refusal = unbuildable(scene)
         if refusal:
             return [Refusal("native", refusal)]
-        choices = self._choices(scene)
-        return [
-            plan(scene, start, way, choices, tuned=self._tuned)
-            for way in ways(scene, tuned=self._tuned)
-        ]
-
-    def _choices(self, scene: Scene) -> list[Choice]:
-        """The setting's numbers as attributes of pymunk's Space and constraints."""
-        return settings.tuned(scene) if self._tuned else settings.with_own(self.options, scene)
+        if not self._tuned:
+            return [plans.shipped(scene, settings.with_own(self.options, scene))]
+        best = recipe(scene, start)
+        return [plans.tuned(scene, start, way, best) for way in plans.ways(scene)]
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
-        """Physics as pymunk's objects hold it."""
-        return measured(build(scene, start, named(self._choices(scene)), "native"))
+        """Physics as pymunk's objects hold it, with which no number of a setting has to do."""
+        return measured(build(scene, start, {}, "native"))
 
     def script(
         self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""
@@ -79,19 +78,34 @@ class Pymunk:
         reactions: tuple[str, ...],
         record: bool = False,
     ) -> Trajectory:
-        """The motion, by `space.step(h)` between samples."""
+        """The motion, by `space.step(h)` between samples; once more where the floor was short."""
         numbers = named(plan.choices(step))
-        world = placed(scene, start, step, numbers, plan.realised)
-        readable = tuple(name for name in reactions if name not in plan.withheld)
-        midpoint = bool(numbers.get("time.midpoint"))
-        steps = stepper(world, step, numbers, plan.realised)
-        kept = Record(world, steps, step, midpoint) if record else None
-        run = kept.run if kept else steps
-        motion = simulate(world, run, times, step, reactions=readable, midpoint=midpoint)
-        return replace(motion, record=kept.trajectory()) if kept else motion
+        wanted = tuple(name for name in reactions if name not in plan.withheld)
+        again = partial(_run, scene, start, times, step, plan.realised, wanted, record)
+        try:
+            return again(numbers)
+        except Left:
+            return again(numbers | {"ground.reach": FAR})
 
     def loop(self, scene: Scene, start: Start, step: float, plan: Plan) -> Callable[[int], None]:
         """pymunk's bare loop on the same world, with the same forces."""
         numbers = named(plan.choices(step))
         world = placed(scene, start, step, numbers, plan.realised)
         return stepper(world, step, numbers, plan.realised)
+
+
+def _run(
+    scene: Scene,
+    start: Start,
+    times: Array,
+    step: float,
+    realised: Realised,
+    wanted: tuple[str, ...],
+    record: bool,
+    numbers: Mapping[str, Any],
+) -> Trajectory:
+    world = placed(scene, start, step, numbers, realised)
+    kept = Record(world, step, bool(numbers.get("time.midpoint"))) if record else None
+    steps = stepper(world, step, numbers, realised, kept and kept.keep)
+    motion = sampled(world, steps, times, step, numbers, reactions=wanted)
+    return replace(motion, record=kept.trajectory()) if kept else motion

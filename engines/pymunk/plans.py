@@ -1,6 +1,6 @@
 """What a setting of pymunk decides about a scene: ways, exponents, and the protocol's words."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
@@ -9,27 +9,38 @@ from ...cases.scene import Scene
 from ..engine import Choice, Plan, Realised, Start
 from .contact import closed
 from .law.friction import ruled
+from .recipe import Recipe
 from .scene import oblique
 
 
-def ways(scene: Scene, *, tuned: bool) -> tuple[Realised, ...]:
+def ways(scene: Scene) -> tuple[Realised, ...]:
     """Dampers also by their law: pymunk applies its own after the kick, a first order.
 
     Dry friction too: pymunk's has one bound, where the textbook's has up to four.
     """
     law = any(scene.dampers()) or ruled(scene)
-    return ("native", "law") if law and tuned else ("native",)
+    return ("native", "law") if law else ("native",)
 
 
-def plan(
-    scene: Scene, start: Start, realised: Realised, choices: Sequence[Choice], *, tuned: bool
-) -> Plan:
-    """One way's plan; no number follows the step."""
+def shipped(scene: Scene, choices: Sequence[Choice]) -> Plan:
+    """The plan of the shipped setting, or a user's own: of first order, no number follows h."""
+    return Plan(
+        "native",
+        held=(1, 2),
+        numbers=partial(_at_every_step, choices),
+        withheld=_withheld(scene),
+    )
+
+
+def tuned(scene: Scene, start: Start, realised: Realised, recipe: Recipe) -> Plan:
+    """One way's plan. A bias that stays while h falls is of first order, as pymunk's own is."""
+    order = (1, 2) if _spoilt(scene, realised) else (2, 3)
     return Plan(
         realised,
-        held=(2, 3) if tuned and not _spoilt(scene, realised) else (1, 2),
-        numbers=partial(_at_every_step, choices),
-        protocol=partial(_words, scene, start, named(choices)),
+        held=(1, 2) if recipe.follows else order,
+        following=order if recipe.follows else None,
+        numbers=recipe,
+        protocol=partial(_words, scene, start, recipe),
         withheld=_withheld(scene),
     )
 
@@ -65,12 +76,11 @@ def _withheld(scene: Scene) -> dict[str, str]:
     }
 
 
-def _words(scene: Scene, start: Start, numbers: Mapping[str, Any], step: float) -> str:
+def _words(scene: Scene, start: Start, recipe: Recipe, step: float) -> str:
     """The half step along the velocities, and how deep a contact is started in the floor."""
-    words = []
-    if numbers.get("time.midpoint"):
-        words.append(f"started {step / 2:g} s back, positions read {step / 2:g} s ahead")
-    if numbers.get("start.seed") and (touching := closed(scene, start)):
+    numbers = named(recipe(step))
+    words = [f"started {step / 2:g} s back, positions read {step / 2:g} s ahead"]
+    if touching := closed(scene, start):
         bodies = ", ".join(dict.fromkeys(contact.body for contact in touching))
         words.append(f"{bodies} started {numbers['start.seed']:g} m in the floor")
     return "; ".join(words)

@@ -19,16 +19,18 @@ from .contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle
 from .force import lines
 from .world import World
 
-# Half the length [m] of the floor and of a slide's groove, which pymunk wants finite: farther
-# than a case travels, and short enough that rounding (100 m × 1e-16) stays below every reach.
-FAR = 100.0
+# Half the length [m] of the floor, and of a slide's groove, which pymunk wants finite. Every step
+# takes anew 1e-16 × the length of a place, and so 1e-16 × length × mass / h² of a force: 1e-6 N of
+# 1 kg at 1e-4 s.
+NEAR = 100.0
+FAR = 1e4  # of those of the ground, once a body has left them; longer, a disk's seed is lost
 
 
 def build(scene: Scene, start: Start, numbers: Mapping[str, Any], realised: Realised) -> World:
     """The scene at its start, with a setting's numbers; `law` leaves the dampers to a force."""
     space = Space()
     space.gravity = scene.gravity
-    world = World(scene, space)
+    world = World(scene, space, numbers.get("ground.reach", NEAR))
     _bodies(world, start)
     _contacts(world)
     _joints(world, start)
@@ -59,7 +61,7 @@ def _bodies(world: World, start: Start) -> None:
 def _contacts(world: World) -> None:
     if not world.scene.contacts:
         return
-    floor = Segment(world.space.static_body, (-FAR, 0.0), (FAR, 0.0), 0.0)
+    floor = Segment(world.space.static_body, (-world.reach, 0.0), (world.reach, 0.0), 0.0)
     floor.friction, floor.elasticity = FLOOR_FRICTION, FLOOR_ELASTICITY
     world.space.add(floor)
     for contact in world.scene.contacts.values():
@@ -96,7 +98,8 @@ def _brake(world: World, joint: Joint, friction: DryFriction) -> GrooveJoint:
     (x, y), (ux, uy) = world.local(joint.a), joint.along
     if turns(world.scene, joint.a):
         x, y = 0.0, 0.0
-    ends = (x + FAR * uy, y - FAR * ux), (x - FAR * uy, y + FAR * ux)
+    far = reach(world, joint)
+    ends = (x + far * uy, y - far * ux), (x - far * uy, y + far * ux)
     brake = GrooveJoint(world.body(joint.a), world.body(joint.b), *ends, (0.0, 0.0))
     brake.max_bias = 0.0
     # the engine knows one force for both directions, and for rest and motion
@@ -108,6 +111,11 @@ def holds_angle(scene: Scene, joint: Joint) -> bool:
     """Whether both parts have an angle and one of them can turn; a particle has none."""
     bodies = [scene.bodies[p.body] for p in (joint.a, joint.b) if p.body != GROUND]
     return all(body.turns for body in bodies)
+
+
+def reach(world: World, joint: Joint) -> float:
+    """How far [m] the second part can shift to each side."""
+    return world.reach if joint.a.body == GROUND else NEAR
 
 
 def turns(scene: Scene, anchor: Anchor) -> bool:
@@ -132,15 +140,15 @@ def groove(world: World, joint: Joint) -> tuple[Vector, Vector, Vector]:
     cos, sin = math.cos(joint.angle), math.sin(joint.angle)
     bx, by = world.local(joint.b)
     bx, by = cos * bx - sin * by, sin * bx + cos * by  # in the first part's axes
-    px, py, anchor = ax - bx, ay - by, (0.0, 0.0)
+    px, py, anchor, far = ax - bx, ay - by, (0.0, 0.0), reach(world, joint)
     if joint.turns:
         bx, by = world.local(joint.b)
-        return (ax - FAR * ux, ay - FAR * uy), (ax + FAR * ux, ay + FAR * uy), (bx, by)
+        return (ax - far * ux, ay - far * uy), (ax + far * ux, ay + far * uy), (bx, by)
     if turns(world.scene, joint.a) and holds_angle(world.scene, joint):
         offset = uy * px - ux * py  # from the second centre to the line, along n
         nx, ny = -uy * offset, ux * offset
         px, py, anchor = 0.0, 0.0, (cos * nx + sin * ny, cos * ny - sin * nx)
-    ends = (px - FAR * ux, py - FAR * uy), (px + FAR * ux, py + FAR * uy)
+    ends = (px - far * ux, py - far * uy), (px + far * ux, py + far * uy)
     return *ends, anchor
 
 

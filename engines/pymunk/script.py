@@ -11,6 +11,7 @@ from ...cases.scene import Scene
 from ..engine import Start
 from .contact import ABOVE, closed
 from .force import script
+from .run import COLD
 from .scene import build
 from .world import World
 from .written import written
@@ -58,6 +59,8 @@ def text(
         lines += _seeds(world, start, seed)
     lines += [_SHIFT] if midpoint else []
     lines += ["\nfor n in range(steps):"]
+    if cold := numbers.get("start.iterations"):
+        lines.append(f"    space.iterations = {cold} if n < {COLD} else {world.space.iterations}")
     lines += script(world, lambda body: _of(world, body), midpoint=bool(midpoint))
     lines += _followers(world)
     position, angle = (" + h / 2 * body.velocity", " + h / 2 * body.angular_velocity")

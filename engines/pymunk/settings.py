@@ -1,7 +1,4 @@
-"""pymunk's settings: each number with its reason, as attributes of its Space and constraints.
-
-`start.seed` and `time.midpoint` are what is done around the engine, see run.py.
-"""
+"""pymunk as shipped, and with a user's own options: attributes of its Space and constraints."""
 
 import math
 from collections.abc import Mapping
@@ -17,53 +14,11 @@ from ..engine import Choice
 
 SHIPPED_STEP = 0.01  # s; pymunk has no step of its own, and its examples use 1/50 to 1/100
 _DEFAULT = "pymunk's default"
-_TUNED = [
-    Choice(
-        "time.midpoint",
-        True,
-        "pymunk drifts, then kicks: started h/2 back and read h/2 ahead this is position Verlet, "
-        "of second order",
-    ),
-    Choice(
-        "constraint.error_bias",
-        0.0,
-        "the whole gap is closed in one step, as in SHAKE: second order; the default closes "
-        "6.3 h of it, and takes kinetic energy of first order with it",
-    ),
-    Choice(
-        "start.seed",
-        1e-9,
-        "a circle that only touches falls freely for one step; 1e-9 m is above rounding and "
-        "below every reach",
-    ),
-]
-_SLOP = Choice(
-    "space.collision_slop",
-    1e-6,
-    "so deep a body rests after an impact; above the seed, or the contact opens every few steps",
-)
-_IMPACT = (
-    "an impact on jointed bodies starts its sweeps from nothing: measured, 10 leave an error that "
-    "no smaller step removes, and 300 none"
-)
 
 
 def shipped(scene: Scene) -> list[Choice]:
     """What a user gets who changes nothing."""
     return with_own({}, scene)
-
-
-def tuned(scene: Scene) -> list[Choice]:
-    """The best recipe; no number follows the step."""
-    because = (
-        "with error_bias = 0 a sweep short of convergence is unstable, the more the smaller the "
-        "step; measured: chains of n pins need n²/4, loops of four and five pins settle with 30"
-    )
-    iterations = Choice("space.iterations", max(30, len(scene.joints) ** 2), because)
-    if scene.joints and any(contact.switches for contact in scene.contacts.values()):
-        iterations = Choice("space.iterations", max(300, iterations.value), _IMPACT)
-    landing = [_SLOP] if any(contact.switches for contact in scene.contacts.values()) else []
-    return [c for c in (*_TUNED, *landing, iterations) if _matters(c.name, scene)]
 
 
 def with_own(options: Mapping[str, Any], scene: Scene) -> list[Choice]:
@@ -90,7 +45,7 @@ def _defaults() -> dict[str, Any]:
 def _matters(name: str, scene: Scene) -> bool:
     if name.startswith("constraint."):
         return bool(scene.joints)
-    if "collision" in name or name == "start.seed":
+    if "collision" in name:
         return bool(scene.contacts)
     return True
 

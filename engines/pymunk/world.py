@@ -14,12 +14,13 @@ from ...cases.scene import GROUND, Anchor, Scene, Vector
 class World:
     """The space and its parts by their names in the scene.
 
-    A joint's first constraint carries its force. driven: the driven points' bodies. brakes: the
-    friction joints of slides.
+    A joint's first constraint carries its force. reach: half the length [m] of the floor and of
+    grooves of the ground. driven: the driven points' bodies. brakes: the friction joints of slides.
     """
 
     scene: Scene
     space: Space
+    reach: float
     bodies: dict[str, Body] = field(default_factory=dict)
     driven: dict[str, Body] = field(default_factory=dict)
     joints: dict[str, tuple[Constraint, ...]] = field(default_factory=dict)
@@ -31,11 +32,6 @@ class World:
         if anchor.body != GROUND:
             return self.bodies[anchor.body]
         return self.driven.get(anchor.point, self.space.static_body)
-
-    @property
-    def bounded(self) -> bool:
-        """Whether something in it, a floor or a groove, has an end."""
-        return bool(self.wheels) or any(j.shifts for j in self.scene.joints.values())
 
     def wheel(self, contact: str) -> Body:
         """The body that touches the floor."""

@@ -34,9 +34,17 @@ ROLLING: dict[tuple[str, Realised], Near] = {
     ("mujoco", "native"): (4e-9, 1e-8),  # a soft floor, settled; measured 1.2e-9, 4e-9
     ("pymunk", "law"): (8e-7, 4e-6),  # of second order; measured 3.3e-7, 1.7e-6
 }
-# A loop's pins in MuJoCo are soft: measured 9e-7 and 8e-6. In pymunk some of these loops are
-# unstable: with error_bias = 0 its sweeps do not converge between bodies that fit each other badly.
-LOOP = {"mujoco": (2e-6, 1e-5)}
+LOOP: dict[tuple[str, Realised], Near] = {
+    ("mujoco", "native"): (2e-6, 1e-5),  # their pins are soft; measured 9e-7 and 8e-6
+    ("pymunk", "law"): (2e-7, 3e-4),  # measured 8e-8; 8e-5 in one, 3e-6 in all others
+}
+# In two of pymunk's loops bodies fit each other so badly that a step can close only a share of a
+# gap, with the numbers of SOFT 3 % and 5e-7: measured 7e-6 and 3e-4.
+BADLY = {(5, True): (2e-5, 1e-4), (2, True): (1e-3, 2e-3)}
+# At t = 0 MuJoCo's soft pins and floors have not given way yet, (1 - d) of the force is missing:
+# only its trees are held from the start. pymunk's force is extrapolated from two steps.
+START = {"mujoco": 2e-12, "pymunk": 3e-5}  # measured 8e-13, 1e-5
+LOOSE = 1.5e-3  # the same in pymunk's loops; measured 5e-4, where bodies fit badly
 NO_AXES = "starts at a particle, which has no axes"  # three of the trees, in pymunk
 
 
@@ -65,20 +73,19 @@ def off(a: Array, b: Array) -> float:
     return float(np.max(np.abs(a - b)) / max(1.0, np.max(np.abs(a))))
 
 
-def agrees(name: str, way: Realised, build: Build, near: Near, *, skip: int = 0) -> None:
-    """States from the start on, and all forces that the engine tells from sample `skip` on."""
+def agrees(
+    name: str, way: Realised, build: Build, near: Near, *, start_near: float | None = None
+) -> None:
+    """States, and all forces that the engine tells; those of the start by a bound of their own."""
     scene, (start, wanted) = build.scene, expected(build)
     plan, asked = planned(TUNED[name], scene, start, way).held_at(SOFT), held(scene)
     found = TUNED[name].run(scene, start, TIMES, STEP, plan, reactions=asked)
     assert set(found.reactions) == set(asked) - set(plan.withheld)
     assert max(off(wanted.states[n], found.states[n]) for n in wanted.states) < near[0]
     for quantity, force in found.reactions.items():
-        assert off(observe(scene, wanted, quantity)[skip:], force[skip:]) < near[1], quantity
-
-
-# pymunk's sweeps have not settled at the start, from which its force is extrapolated: an error of
-# up to 0.8 of the size, see the comparison's rows of the start.
-SETTLES = {"mujoco": 0, "pymunk": 1}
+        exact = observe(scene, wanted, quantity)
+        assert off(exact[1:], force[1:]) < near[1], quantity
+        assert start_near is None or off(exact, force) < max(start_near, near[1]), quantity
 
 
 # Each is made once: the reference is the same for all.
@@ -96,7 +103,7 @@ def test_tree(seed: int, driven: bool, name: str, way: Realised) -> None:
         assert name == "pymunk"
         assert because.endswith(NO_AXES)
         return
-    agrees(name, way, build, TREE[name, way], skip=SETTLES[name])
+    agrees(name, way, build, TREE[name, way], start_near=START[name])
 
 
 def test_few_trees_are_refused() -> None:
@@ -104,12 +111,19 @@ def test_few_trees_are_refused() -> None:
     assert sum(refused(TUNED["pymunk"], scene) is not None for scene in builds) == 3
 
 
-@pytest.mark.parametrize("name", LOOP)
+@pytest.mark.parametrize(("name", "way"), LOOP)
 @pytest.mark.parametrize("driven", [False, True])
 @pytest.mark.parametrize("seed", range(10))
-def test_loop(seed: int, driven: bool, name: str) -> None:
-    # At t = 0 the pins have not given way yet: (1 - d) of the force, 1e-4 and more, is missing.
-    agrees(name, "native", chains(seed, driven=driven), LOOP[name], skip=1)
+def test_loop(seed: int, driven: bool, name: str, way: Realised) -> None:
+    build, near = chains(seed, driven=driven), LOOP[name, way]
+    because = refused(TUNED[name], build.scene)
+    if because is not None:
+        assert (name, seed, driven) == ("pymunk", 6, True)
+        assert because.endswith(NO_AXES)
+        return
+    if name == "pymunk":
+        near = BADLY.get((seed, driven), near)
+    agrees(name, way, build, near, start_near=LOOSE if name == "pymunk" else None)
 
 
 @pytest.mark.parametrize(("name", "way"), ROLLING)
@@ -119,4 +133,4 @@ def test_rolling(seed: int, wheels: int, name: str, way: Realised) -> None:
     build = wheels_of(seed, wheels=wheels)
     _, wanted = expected(build)
     assert all(np.all(wanted.reactions[f"touch{i}.normal"] > 0) for i in range(wheels))
-    agrees(name, way, build, ROLLING[name, way], skip=1)
+    agrees(name, way, build, ROLLING[name, way])

@@ -76,7 +76,9 @@ def test_the_bare_loop_makes_the_same_motion(
 
     monkeypatch.setattr(owner, what, kept)
     assert isinstance(engine, Loop)
-    steps = engine.loop(scene, start, 1e-3, planned(engine, scene, start))
+    plan = planned(engine, scene, start)  # which may rehearse
+    made.clear()
+    steps = engine.loop(scene, start, 1e-3, plan)
     steps(300)
     steps(700)
     monkeypatch.undo()

@@ -11,7 +11,6 @@ from pymunk.batch import BodyFields, Buffer, get_space_bodies
 
 from ....cases.observe import observe
 from ....cases.trajectory import Array, Trajectory
-from ..run import Steps
 from ..world import World
 
 _STATE = BodyFields.POSITION | BodyFields.ANGLE | BodyFields.VELOCITY | BodyFields.ANGULAR_VELOCITY
@@ -23,20 +22,16 @@ class Record:
     """Steps that are recorded; `trajectory` is what they were."""
 
     world: World
-    steps: Steps
     step: float
     midpoint: bool
 
     def __post_init__(self) -> None:
         _BUFFER.clear()
-        get_space_bodies(self.world.space, _STATE, _BUFFER)
+        self.keep()
 
-    def run(self, n: int) -> None:
-        """Takes n steps, and keeps the states after each."""
-        space, one, buffer = self.world.space, self.steps, _BUFFER
-        for _ in range(n):
-            one(1)
-            get_space_bodies(space, _STATE, buffer)
+    def keep(self) -> None:
+        """Keeps the present states."""
+        get_space_bodies(self.world.space, _STATE, _BUFFER)
 
     def trajectory(self) -> Trajectory:
         """A row for the start and for each step, and one in the middle of a step that bounces.

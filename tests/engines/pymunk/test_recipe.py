@@ -14,8 +14,8 @@ from textmech.cases.observe import observe
 from textmech.cases.scene import Bounds, DryFriction, Joint
 from textmech.cases.trajectory import ANGLE, X, Y
 from textmech.engines.pymunk import scene as builder
-from textmech.engines.pymunk import settings
 from textmech.engines.pymunk.law import breakaway
+from textmech.engines.pymunk.recipe import Recipe
 
 ENGINE = TUNED["pymunk"]
 STEP = 1e-4
@@ -23,7 +23,10 @@ STEP = 1e-4
 
 def without(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     """The tuned recipe without one of its numbers."""
-    monkeypatch.setattr(settings, "_TUNED", [c for c in settings._TUNED if c.name != name])
+    whole = Recipe.__call__
+    monkeypatch.setattr(
+        Recipe, "__call__", lambda self, h: [c for c in whole(self, h) if c.name != name]
+    )
 
 
 @pytest.mark.parametrize("number", ["constraint.error_bias", "time.midpoint"])
@@ -64,10 +67,11 @@ def test_a_slide_is_worse_where_a_user_would_put_the_groove(
 
 
 def test_a_chain_with_the_default_iterations_gains_energy(monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = Recipe.__call__
     monkeypatch.setattr(
-        settings,
-        "tuned",
-        lambda scene: [replace(c, value=10) if "iter" in c.name else c for c in settings._TUNED],
+        Recipe,
+        "__call__",
+        lambda self, h: [replace(c, value=10) if "iter" in c.name else c for c in whole(self, h)],
     )
     assert energy_drift(ENGINE, 12) > 1.0
 

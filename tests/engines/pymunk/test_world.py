@@ -4,13 +4,14 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from given.engine_scenes import G
+from given.engine_scenes import RADIUS, WHEEL, G, guided, incline, touching
 from given.planning import CASES, SHIPPED, TUNED, begun, moved, planned
 from pymunk.body import Body
 from pymunk.constraints import PivotJoint
 from pymunk.space import Space
 
-from textmech.cases.trajectory import Trajectory
+from textmech.cases.scene import Bounds
+from textmech.cases.trajectory import Trajectory, X
 from textmech.engines.engine import Diverged
 from textmech.engines.pymunk import scene as builder
 from textmech.reports.trial.audit import EQUAL, audit
@@ -70,11 +71,28 @@ def test_shipped_is_what_a_user_writes() -> None:
     assert end.reactions["hinge.force"][1] == hinge.impulse / 0.01
 
 
-def test_a_wheel_that_leaves_the_floor_diverges_at_the_first_sample_beyond() -> None:
-    """Its floor is finite; MuJoCo's is not."""
+def test_a_floor_and_a_rail_end_where_ours_do() -> None:
+    """pymunk's have ends; MuJoCo's have none. 150 m away both are as at home."""
+    far, times = 150.0, np.linspace(0.0, 2.0, 21)
+    scene = incline(WHEEL, touching("wheel", 0.2))
+    near, away = (
+        moved(TUNED["pymunk"], scene, {"wheel": (x, RADIUS, 0, 2.0, 0, 20.0)}, times, 1e-3)
+        for x in (0.0, far)
+    )
+    moved_by = away.states["wheel"][:, X] - far
+    assert moved_by == pytest.approx(near.states["wheel"][:, X], abs=1e-11)
+    guide, start = guided(None, Bounds(2, 2), Bounds(2, 2)), {"block": (far, 0, 0, 1.0, 0, 0)}
+    block = moved(TUNED["pymunk"], guide, start, times, 1e-3).states["block"]
+    assert block[-1, X] == pytest.approx(far + 0.25, abs=1e-6)
+
+
+def test_a_wheel_that_leaves_the_floor_says_whose_limit_it_is() -> None:
     scene, start = begun("rolling_wheel.downhill")
-    with pytest.raises(Diverged, match=r"a body left the floor's .* at t = 10 s"):
-        moved(SHIPPED["pymunk"], scene, start, np.linspace(0.0, 14.0, 8), 0.01)
+    said = (
+        r"a body left touch's floor, of which our adapter builds 10000 m to each side, at t = 100"
+    )
+    with pytest.raises(Diverged, match=said):
+        moved(SHIPPED["pymunk"], scene, start, np.linspace(0.0, 120.0, 13), 0.02)
 
 
 def test_samples_that_no_step_meets() -> None:

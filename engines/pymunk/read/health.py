@@ -1,0 +1,131 @@
+"""Whether what pymunk has computed is a motion at all, before anybody compares it.
+
+Once the sweeps of a step have converged, every joint's two points move so that the step's share of
+their gap is closed. What is missing is the error of the sweeps, in m/s.
+"""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from pymunk.body import Body
+from pymunk.constraints import GrooveJoint, PivotJoint
+
+from ....cases.trajectory import Array
+from ...engine import Diverged
+from ..scene import reach
+from ..sweeps import halving
+from ..world import World
+
+
+class Left(Diverged):
+    """A body is where neither the floor nor a groove goes on, which in the scene they do."""
+
+
+def sound(world: World, rows: Array, times: Array, step: float) -> None:
+    """Raises Diverged for pymunk's samples (N, bodies, 6) that are no motion, with the cause.
+
+    times: of the positions. Sweeps that are too few come first: they make a body leave its floor,
+    and numbers infinite.
+    """
+    finite = np.isfinite(rows).all(axis=(1, 2))
+    _held(world, rows[finite], times[finite], step)
+    if not finite.all():
+        raise Diverged(f"pymunk: not finite any more at t = {times[np.argmin(finite)]:g} s")
+    for what, end, distance in _ways(world, rows):
+        if (far := distance > end).any():
+            limit = f"{what}, of which our adapter builds {end:g} m to each side"
+            raise Left(f"pymunk: a body left {limit}, at t = {times[np.argmax(far)]:g} s")
+
+
+def _ways(world: World, rows: Array) -> Iterator[tuple[str, float, Array]]:
+    """What ends somewhere: its name, its reach [m], and how far along it a body is (N,)."""
+    places = dict(zip(world.bodies, np.moveaxis(rows[:, :, :2], 1, 0), strict=True))
+    for contact in world.scene.contacts.values():
+        yield f"{contact.name}'s floor", world.reach, np.abs(places[contact.body][:, 0])
+    for joint in world.scene.joints.values():
+        if joint.shifts:
+            rail = places.get(joint.a.body, np.zeros(2))
+            far = np.linalg.norm(places.get(joint.b.body, np.zeros(2)) - rail, axis=1)
+            yield f"{joint.name}'s groove", reach(world, joint), far
+
+
+def _held(world: World, rows: Array, times: Array, step: float) -> None:
+    """Compares what the sweeps leave with what a step changes. After an impact they may leave as
+    much; they are blamed if by their number no motion was stable.
+    """
+    if len(rows) < 2 or not world.joints:
+        return
+    lately = np.linalg.norm(np.diff(rows[:, :, 3:5], axis=0), axis=2) / np.diff(times)[:, None]
+    rates = np.append(0.0, np.max(lately, axis=1))
+    change = step * np.maximum(rates, math.hypot(*world.space.gravity))
+    left = np.max([np.zeros(len(rows)), *_left(world, rows, times, step)], axis=0)
+    torn = left > change
+    if not torn.any():
+        return
+    first = int(np.argmax(torn))
+    needed = 0.0
+    for row in rows[: first + 1]:
+        for body, (x, y, angle, *_) in zip(world.bodies.values(), row, strict=True):
+            body.position, body.angle = (x, y), angle
+        needed = max(needed, halving(world))
+    joints = [part for parts in world.joints.values() for part in parts]
+    share = max(1 - joint.error_bias**step for joint in joints)
+    needed *= math.log2(1 + share)
+    if needed > world.space.iterations:
+        raise Diverged(
+            f"pymunk: the sweeps were not enough: {world.space.iterations} a step, where the "
+            f"joints need more than {needed:.0f}; at t = {times[first]:g} s they leave "
+            f"{left[first]:.2g} m/s"
+        )
+
+
+def _left(world: World, rows: Array, times: Array, step: float) -> list[Array]:
+    """(N,) [m/s] of each joint that holds a point."""
+    return [
+        _missing(world, part, rows, times, step)
+        for parts in world.joints.values()
+        for part in parts
+        if isinstance(part, PivotJoint | GrooveJoint)
+    ]
+
+
+def _missing(
+    world: World, joint: PivotJoint | GrooveJoint, rows: Array, times: Array, step: float
+) -> Array:
+    share = 1 - joint.error_bias**step
+    a, b = (_motion(world, body, rows, times) for body in (joint.a, joint.b))
+    rb = _turned(b, joint.anchor_b)
+    if isinstance(joint, PivotJoint):
+        ra = _turned(a, joint.anchor_a)
+        gap = b[:2] + rb - a[:2] - ra
+        return np.hypot(*(_speed(b, rb) - _speed(a, ra) + share / step * gap))
+    along = (joint.groove_b - joint.groove_a).normalized()
+    normal = _turned(a, (-along.y, along.x))
+    gap = np.sum(normal * (b[:2] + rb - a[:2] - _turned(a, joint.groove_a)), axis=0)
+    ra = b[:2] + rb - a[:2] - normal * gap
+    closing = np.sum(normal * (_speed(b, rb) - _speed(a, ra)), axis=0)
+    return np.abs(closing + share / step * gap)
+
+
+def _motion(world: World, body: Body, rows: Array, times: Array) -> Array:
+    """(6, N) of a body, of the ground, or of a driven point, which keeps its velocity."""
+    for i, other in enumerate(world.bodies.values()):
+        if other is body:
+            return rows[:, i].T
+    (x, y), (vx, vy), angle = (0.0, 0.0), body.velocity, np.zeros_like(times)
+    for name, other in world.driven.items():
+        if other is body:
+            x, y = world.scene.points[name].at
+    return np.array([x + vx * times, y + vy * times, angle, angle + vx, angle + vy, angle])
+
+
+def _turned(motion: Array, point: tuple[float, float]) -> Array:
+    """(2, N): a point of the body in ground axes, from its centre."""
+    cos, sin = np.cos(motion[2]), np.sin(motion[2])
+    return np.array([cos * point[0] - sin * point[1], sin * point[0] + cos * point[1]])
+
+
+def _speed(motion: Array, lever: Array) -> Array:
+    """(2, N): the velocity of a point of the body."""
+    return motion[3:5] + motion[5] * np.array([-lever[1], lever[0]])

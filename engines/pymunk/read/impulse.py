@@ -1,0 +1,55 @@
+"""The impulses of the last step, by the quantities that are wanted."""
+
+from collections.abc import Callable, Mapping
+
+from pymunk.arbiter import Arbiter
+from pymunk.body import Body
+from pymunk.constraints import Constraint
+from pymunk.shapes import Shape
+
+from ..world import World
+
+Floor = dict[str, tuple[float, float]]
+
+
+def impulses(world: World, reactions: tuple[str, ...]) -> Callable[[], list[float]]:
+    """A function that reads them [N s]: a joint's size, the floor's tangent and normal."""
+    parts = [quantity.rpartition(".") for quantity in reactions]
+    joints: list[Constraint | None] = [
+        world.joints[name][0] if name in world.joints else None for name, _, _ in parts
+    ]
+    bodies = _contacts(world, {name for name, _, _ in parts})
+
+    def read() -> list[float]:
+        floor: Floor = {}
+        for body, names in bodies.items():
+            body.each_arbiter(_one if len(names) == 1 else _several, names, floor)
+        row = []
+        for (name, _, what), joint in zip(parts, joints, strict=True):
+            if joint:
+                row.append(joint.impulse)
+            else:
+                row.append(floor.get(name, (0.0, 0.0))[0 if what == "tangent" else 1])
+        return row
+
+    return read
+
+
+def _contacts(world: World, wanted: set[str]) -> Mapping[Body, Mapping[Shape, str]]:
+    """The bodies with wanted contacts, each with all of its own."""
+    found: dict[Body, dict[Shape, str]] = {}
+    for name, shape in world.wheels.items():
+        found.setdefault(world.wheel(name), {})[shape] = name
+    return {body: names for body, names in found.items() if wanted & set(names.values())}
+
+
+def _one(arbiter: Arbiter, names: Mapping[Shape, str], floor: Floor) -> None:
+    """Its only contact: asking for the shapes would cost more than the impulse."""
+    for name in names.values():
+        floor[name] = arbiter.total_impulse
+
+
+def _several(arbiter: Arbiter, names: Mapping[Shape, str], floor: Floor) -> None:
+    for shape in arbiter.shapes:
+        if shape in names:
+            floor[names[shape]] = arbiter.total_impulse
