@@ -21,7 +21,7 @@ SHORT = 1e-9  # of the rest length: a motion that comes so close would not miss 
 
 
 class NoDirection(ArithmeticError):
-    """A spring whose ends are at the same place."""
+    """A spring with a length of its own whose ends are at the same place."""
 
 
 @dataclass(frozen=True)
@@ -29,14 +29,14 @@ class Action:
     """A kind of force element; called with the element, the coordinates, t, q and, but for U, v.
 
     pulls: each force [N] with the point at which it acts. U [J], D [W]. Q4: adds its own to a
-    vector (n,). line: whether it has no direction where its two ends meet.
+    vector (n,). line: whether that element has no direction where its two ends meet.
     """
 
     pulls: Callable[..., Iterator[tuple[Any, Point]]]
     U: Callable[..., Any] = lambda force, where, t, q: 0.0
     D: Callable[..., Any] = lambda force, where, t, q, v: 0.0
     Q4: Callable[..., None] = lambda force, where, t, q, v, Q: None
-    line: bool = False
+    line: Callable[[Any], bool] = lambda force: False
 
 
 def act(force: Force, where: Coordinates, t: float, q: Numbers, v: Numbers, Q: Array) -> None:
@@ -76,7 +76,7 @@ def other(force: Force, where: Coordinates, t: Any, q: Numbers, v: Numbers, Q: A
 
 def ends_meet(force: Force, where: Coordinates, t: float, q: Numbers, within: float) -> bool:
     """Whether it is shorter than that [m], and so without direction."""
-    return ACTIONS[type(force)].line and length(force, where, t, q) < within  # type: ignore[arg-type]
+    return ACTIONS[type(force)].line(force) and length(force, where, t, q) < within  # type: ignore[arg-type]
 
 
 def signal(law: Signal, t: Any) -> tuple[Any, ...]:
@@ -112,7 +112,11 @@ def _spring(
 
 
 def _stretched(force: Spring, where: Coordinates, t: Any, q: Numbers) -> Any:
-    """(2.45) ½ c (λ − λ₀)²."""
+    """(2.45) ½ c (λ − λ₀)²; ½ c λ² has a derivative at λ = 0 too."""
+    if force.rest_length == 0.0:
+        a, b = ends(force, where, t, q, q)
+        x, y = b.r[0] - a.r[0], b.r[1] - a.r[1]
+        return 0.5 * force.stiffness * (x * x + y * y)
     return 0.5 * force.stiffness * (length(force, where, t, q) - force.rest_length) ** 2
 
 
@@ -165,8 +169,8 @@ def _turned(force: Torque, where: Coordinates, t: Any, q: Numbers, v: Numbers, Q
 
 
 ACTIONS: dict[type[Force], Action] = {
-    Spring: Action(_spring, U=_stretched, line=True),
-    Damper: Action(_damper, D=_damped, line=True),
+    Spring: Action(_spring, U=_stretched, line=lambda spring: spring.rest_length > 0.0),
+    Damper: Action(_damper, D=_damped, line=lambda damper: True),
     Push: Action(_push, Q4=_pushed),
     Torque: Action(_torque, Q4=_turned),
 }

@@ -1,11 +1,11 @@
 """Any planar scene as a Mode, in maximal coordinates with multipliers (2.60)."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from itertools import chain
 from typing import Any
 
 import numpy as np
-from scipy.linalg.lapack import dgesv, dposv
+from scipy.linalg.lapack import dgesv, dgetrs, dposv, dpotrs
 
 from ...cases.scene import Scene
 from ..system import Array, Mass, Mode, Pose, Vector
@@ -16,6 +16,7 @@ from .coordinates import Coordinates
 from .permanent import constraints
 from .rows import GAMMA, G
 
+TURNS = 2  # of refinement, each with the digits of the first solution: 10 of 16 may be lost
 CANCELS = 1e-15  # of one of two accelerations: what is left of them is their rounding
 
 
@@ -88,34 +89,46 @@ class Multibody(Mode):
         return found
 
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
-        """(2.60) q̈ (n,) and the multipliers (r,), those of `held` last."""
+        """(2.60) q̈ (n,) and the multipliers (r,), those of `held` last.
+
+        A bob on a light rod: its weight divided by the rod's mass is an acceleration whose rounding
+        is larger than the rod's own.  What the rows leave of f_a q̈ᵃ = γ is solved for again, which
+        gives back the digits (refinement): it is the nearest q̈, in M, that meets the rows.
+        """
+        rows, _, gamma = self.rows(t, q.tolist(), v.tolist(), float)
+        free = self.applied(t, q, v) / self._M
+        if not self._r:
+            return free, np.zeros(0)
+        # With λ_t = factor λ_n (2.87) the force of a normal row leans against the slip.
+        by_mass = self.columns(t, q, v, rows) / self._M
+        again, multipliers = self._factored(rows @ by_mass.T, gamma - rows @ free)
+        a = free + multipliers @ by_mass
+        for _ in range(TURNS):
+            change = again(gamma - rows @ a)
+            a, multipliers = a + change @ by_mass, multipliers + change
+        return _at_rest(a, free), multipliers
+
+    def applied(self, t: float, q: Array, v: Array) -> Array:
+        """(2.60) Q: weights, forces and the friction of slides that move, (n,)."""
         numbers, rates = q.tolist(), v.tolist()
         Q = self._weight.copy()
         for force in self.scene.forces.values():
             act(force, self.where, t, numbers, rates, Q)
         for brake in self._braking:
             Q += brake.force(t, q, v) * row(brake.along, t, q, v)[0]
-        rows, _, gamma = self.rows(t, numbers, rates, float)
-        free = Q / self._M
-        if not self._r:
-            return free, np.zeros(0)
-        if self._coulomb:
-            return self._leaning(t, q, v, rows, gamma - rows @ free, free)
-        by_mass = rows / self._M
-        _, multipliers, fails = dposv(by_mass @ rows.T, gamma - rows @ free)
-        if fails:  # not positive definite: the rows depend on each other
-            raise SingularPose(self._owners[fails - 1])
-        return _sum(free, multipliers @ by_mass), multipliers
+        return Q
 
-    def _leaning(
-        self, t: float, q: Array, v: Array, rows: Array, right: Array, free: Array
-    ) -> tuple[Array, Array]:
-        """(2.60) with λ_t = factor λ_n (2.87): the force of a normal row leans against the slip."""
-        by_mass = self.columns(t, q, v, rows) / self._M
-        _, _, multipliers, fails = dgesv(rows @ by_mass.T, right)
-        if fails:
+    def _factored(self, matrix: Array, right: Array) -> tuple[Callable[[Array], Array], Array]:
+        """How to solve with the matrix of the multipliers again, and the first solution."""
+        if self._coulomb:
+            factors, pivots, solution, fails = dgesv(matrix, right)
+            again = lambda right: dgetrs(factors, pivots, right)[0]  # noqa: E731
+        else:
+            factors, solution, fails = dposv(matrix, right)
+            again = lambda right: dpotrs(factors, right)[0]  # noqa: E731
+        if fails:  # not positive definite, or singular: the rows depend on each other
             raise SingularPose(self._owners[fails - 1])
-        return _sum(free, multipliers @ by_mass), multipliers
+        return again, solution
 
     def columns(self, t: float, q: Array, v: Array, rows: Array) -> Array:
         """What a unit of each multiplier exerts, (r, n): its row and its friction (2.87)."""
@@ -218,11 +231,10 @@ def _add(found: dict[str, float], more: Mapping[str, float]) -> None:
         found[name] = found.get(name, 0.0) + value
 
 
-def _sum(free: Array, bound: Array) -> Array:
-    """Both accelerations together; where they cancel to rounding, nothing: what is held rests.
+def _at_rest(a: Array, free: Array) -> Array:
+    """Accelerations, and zero where forces cancel to rounding: what is held rests.
 
     Otherwise a body that sticks at the origin would tremble by 1e-17, which is no size for a step.
     """
-    total = free + bound
-    total[np.abs(total) <= CANCELS * np.abs(free)] = 0.0
-    return total
+    a[np.abs(a) <= CANCELS * np.abs(free)] = 0.0
+    return a

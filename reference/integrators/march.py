@@ -6,7 +6,7 @@ the states at the samples.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
@@ -14,13 +14,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .budget import spend
+from .slope import EPS, POINTS, Slope, Vector, noise
 
-Vector = NDArray[np.float64]
-Slope = Callable[[float, Vector], Vector]
-
-EPS = float(np.finfo(np.float64).eps)
 SAFETY = 0.8  # aim below the tolerance: on chaotic motion 0.9 has a quarter of the steps refused
 SHRINK, GROW = 0.2, 6.0  # one estimate is not trusted to change the step by more than this
+FUTILE = 0.5  # an error that falls less than that with a shorter step is no error of the step
+ROUNDED = 10.0  # an error row adds up to 8 slopes, each with its rounding
 STRETCH = 0.05  # a step may be this much longer than wanted if that saves a step before a sample
 
 
@@ -43,7 +42,10 @@ class Integration:
 
 
 class Step(NamedTuple):
-    """One accepted step and the number of attempts refused before it."""
+    """One accepted step and the number of attempts refused before it.
+
+    Errors below `floor` times the tolerance are rounding.
+    """
 
     t: float
     y: Vector
@@ -51,11 +53,13 @@ class Step(NamedTuple):
     t_next: float
     y_next: Vector
     rejected: int
+    floor: Vector
 
 
 class Method(Protocol):
     """A one-step method bound to an equation."""
 
+    f: Slope
     power: float  # the error estimate behaves as h ** (1 / power)
     tolerance: float
     evaluations: int
@@ -99,10 +103,11 @@ class _Walker:
     low: Vector
     peak: Vector
     wanted: float
+    noise: Vector
 
     def step(self, target: float) -> Step:
         """Take one step towards `target`, landing on it exactly with the last."""
-        rejected = 0
+        rejected, before = 0, math.inf
         while True:
             left = target - self.t
             pieces = max(1, math.ceil(left / self.wanted - STRETCH))
@@ -117,19 +122,40 @@ class _Walker:
                 end = target if pieces == 1 else self.t + h
                 return self._accept(h, factor, end, tried, rejected)
             rejected += 1
+            if rejected > 1 and not error <= FUTILE * before:  # true for NaN
+                self._listen(h)
+            before = error
             self.wanted = h * min(factor, SAFETY)
             # Below 4 ulp the time no longer advances properly; at t = 0 some other bound is needed.
             if self.wanted < max(4.0 * math.ulp(self.t), 1e-30 * left):
                 what = "the step size underflows" if error < math.inf else "values are not finite"
                 raise IntegrationError(what, self.t) from problem
 
+    def _listen(self, h: float) -> None:
+        """Learn the rounding of the slopes: the error did not fall as the step did."""
+        with np.errstate(all="ignore"):
+            try:
+                found = noise(self.method.f, self.t, self.y, h, self.peak)
+            except (ArithmeticError, ValueError):  # too far out, as in an attempt
+                return
+        self.method.evaluations += POINTS
+        if found is not None:
+            self.noise = found
+
+    def _floor(self, h: float) -> Vector:
+        """The size at which the tolerance is what rounding of the slopes does to a step of h."""
+        return ROUNDED * h / self.method.tolerance * self.noise
+
     def _try(self, h: float) -> tuple[float, tuple[Vector, Vector, Vector], Exception | None]:
         try:
             with np.errstate(all="ignore"):  # overflow shows as a step that is not finite
-                total = self.method.attempt(self.t, self.y, h, self.peak) + self.low
+                floor = self._floor(h)
+                measured = np.maximum(self.peak, floor)
+                total = self.method.attempt(self.t, self.y, h, measured) + self.low
                 y = self.y + total
                 peak = np.maximum(self.peak, np.abs(y))
-                error = self.method.error(sizes(peak, self.method.tolerance))
+                size = sizes(np.maximum(peak, floor), self.method.tolerance)
+                error = self.method.error(size)
                 return error, (y, total - (y - self.y), peak), None
         except (ArithmeticError, ValueError) as problem:  # as of math.exp or math.sqrt, too far out
             return math.inf, (self.y, self.low, self.peak), problem
@@ -138,7 +164,7 @@ class _Walker:
         self, h: float, factor: float, t: float, tried: tuple[Vector, Vector, Vector], rejected: int
     ) -> Step:
         y, low, peak = tried
-        done = Step(self.t, self.y, h, t, y, rejected)
+        done = Step(self.t, self.y, h, t, y, rejected, self._floor(h))
         # A step cut short by a sample says little about how far the method could have gone.
         self.wanted = max(h * factor, self.wanted) if factor == GROW else h * factor
         self.t, self.y, self.low, self.peak = t, y, low, peak
@@ -171,7 +197,8 @@ def march(
         return
     size = sizes(np.abs(y), method.tolerance)
     first = _first_step(y, slope, size, samples[1] - samples[0])
-    walker = _Walker(method, samples[0], y, np.zeros_like(y), np.abs(y), first)
+    none = np.zeros_like(y)
+    walker = _Walker(method, samples[0], y, none, np.abs(y), first, none)
     taken = 0
     for target in samples[1:]:
         while walker.t < target:

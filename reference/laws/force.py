@@ -16,9 +16,12 @@ def weight(m: float, g: ArrayLike) -> Array:
 def spring(c: float, l0: float, d: ArrayLike) -> Array:
     """(2.82) F = −c (λ − λ₀) along the spring, (2,) [N]: the force on the first end.
 
-    d (2,) runs from the first end to the second and λ = |d| > 0: stretched, it pulls along d.
+    d (2,) runs from the first end to the second and λ = |d|: stretched, it pulls along d. λ > 0
+    unless λ₀ = 0, where F = c d needs no direction.
     """
     x, y = np.asarray(d, dtype=np.float64).tolist()
+    if l0 == 0.0:
+        return np.array([c * x, c * y])
     l = math.sqrt(x * x + y * y)
     return np.array([x, y]) * (c * (l - l0) / l)
 

@@ -14,6 +14,7 @@ from ..system import Array, Guard
 TOGETHER = 1e-12  # s: how well an event is located, so closer ones are one instant
 ROOT = 1e-15  # s: what the root-finder is asked for, to keep the promise above
 INSIDE = (0.25, 0.5, 0.75)  # of a step: a guard turns no faster than the motion, at most once
+TOUCH = 1e-10  # of its values around: what falls no deeper has touched zero, and not fallen
 HALVINGS = 40  # of a step, in search of the rise of a guard that begins at zero: to 1e-12 of it
 
 Within = Callable[[float], Array]
@@ -64,10 +65,28 @@ def crossing(
         top = _near(g, points, values, -1.0)
         return None if top is None else _root(g, *top)
     fall = next((i for i in range(rise, len(values)) if values[i] <= 0.0), None)
-    if fall is not None:
-        return _root(g, points[fall - 1], points[fall])
-    bottom = _near(g, points[rise:], values[rise:], 1.0)
-    return None if bottom is None else _root(g, *bottom)
+    if fall is None:
+        bottom = _near(g, points[rise:], values[rise:], 1.0)
+        return (
+            None if bottom is None or _touches(g, points, values, bottom[1]) else _root(g, *bottom)
+        )
+    if _touches(g, points, values, points[fall]):
+        return None
+    return _root(g, points[fall - 1], points[fall])
+
+
+def _touches(
+    g: Callable[[float], float], points: list[float], values: list[float], at: float
+) -> bool:
+    """Whether g, not positive at that point, falls no further, there or as long a step beyond.
+
+    A speed that comes to zero and rises again is negative there by rounding, or not: whether it
+    fell would be chance, and the motion is the same.
+    """
+    deep = TOUCH * max(map(abs, values))
+    if min(g(at), *values) < -deep:
+        return False
+    return all(g(at + part * points[-1]) >= -deep for part in (*INSIDE, 1.0))
 
 
 def _begun(g: Callable[[float], float], h: float, spent: bool) -> float | None:
@@ -100,6 +119,8 @@ def _near(
 
 def _root(g: Callable[[float], float], left: float, right: float) -> float:
     """Just beyond the zero between a positive value and one that is not: g has fallen there."""
+    if g(right) > 0.0:  # an implicit step repeated differs by rounding: the zero is here
+        return right
     root = float(brentq(g, left, right, xtol=ROOT, rtol=4 * np.finfo(float).eps))
     beyond = ROOT
     while root < right and g(root) > 0.0:

@@ -220,6 +220,6 @@ def _within(step: Step, probe: Method) -> Within:
     def state(h: float) -> Array:
         if h == 0.0 or h == step.t_next - step.t:
             return step.y_next if h else step.y
-        return step.y + probe.attempt(step.t, step.y, h, np.abs(step.y))
+        return step.y + probe.attempt(step.t, step.y, h, np.maximum(np.abs(step.y), step.floor))
 
     return state

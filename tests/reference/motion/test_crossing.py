@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from given.watched import Still, Watched, events
+from given.watched import Oscillator, Still, Watched, events
 
 from textmech.reference.motion.crossing import TOGETHER
 from textmech.reference.motion.follow import follow
@@ -73,3 +73,12 @@ def test_hump_within_a_step_is_seen(height: float):
     known = [math.acos(1 - height), 2 * math.pi + math.acos(1 - height)]
     margin = 1e-12 + 1e-15 / math.sqrt(height)
     assert [time for _, time in found] == pytest.approx(known, abs=margin, rel=0)
+
+
+@pytest.mark.parametrize("sink", [0.0, 1e-15, -1e-15])
+def test_a_touch_is_no_fall(sink: float):
+    """x + 1 comes to zero at t = π: by rounding above it, on it, or below."""
+    touch = ("touches", lambda t, x, v: x + 1.0 - sink)
+    assert events(touch, until=6.0, samples=2) == []
+    on_a_sample = Watched([touch], Oscillator())
+    assert follow(on_a_sample, np.array([0.0, math.pi, 6.0])).events == ()
