@@ -149,6 +149,8 @@ def _certificates(case: Case, solution: Solution) -> list[Certificate]:
             check=check.name,
             difference=check.difference,
             bound=check.bound,
+            certified=check.certified,
+            unit=check.unit,
             verdict="holds" if check.holds else FAILS,
         )
         for check in solution.checks
