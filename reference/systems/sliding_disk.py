@@ -152,7 +152,7 @@ class SlidingDisk(System):
         return (Guard(event, lambda t, q, v: sigma * self.slip(v), then),)
 
     def closed_form(self, t: float) -> tuple[Array, Array]:
-        """(2.87) x_c = −v₀ t + ½ a t², R φ = R w₀ t + ½ b t² until the slip ends, then on from there.
+        """(2.87) x_c = −v₀ t + ½ a t², R φ = R w₀ t + ½ b t² while it slips, and so on.
 
         a = g (sin β − σ μ cos β), b = 2 σ μ g cos β with σ of the slip; after it a = b = ⅔ g sin β,
         or σ = sign β where that is too steep.
@@ -188,7 +188,7 @@ class SlidingDisk(System):
         return abs(slip) / brake if brake > 0.0 else math.inf
 
     def _after(self) -> float:
-        """(2.89) σ after the slip: 0 where it rolls, |tan β| ≤ 3 μ, else it slips down the slope."""
+        """(2.89) σ after the slip: 0, it rolls, if |tan β| ≤ 3 μ, else down the slope."""
         rolls = abs(math.tan(self.beta)) <= 3 * self.mu
         return 0.0 if rolls else math.copysign(1.0, self.beta)
 
