@@ -1,6 +1,9 @@
-"""What a case takes for granted and only its motion can tell: that it rolls, moves, and lands."""
+"""What a case takes for granted and only its motion can tell: that it rolls, moves, and lands.
 
-from collections.abc import Collection, Iterator
+And what only its start can: that a hand-written system starts as the scene does.
+"""
+
+from collections.abc import Collection, Iterator, Mapping
 
 import numpy as np
 
@@ -9,11 +12,50 @@ from ..cases.mistake import CaseError, Mistake
 from ..cases.observe import observe
 from ..cases.quantity import table
 from ..cases.trajectory import ALIKE, Array, Trajectory
+from .generated.mechanism import Mechanism
 from .start.closure import Closure
+from .system import Pose, System
 
 STILL = 1e-9  # of the motion's size: smaller changes are no motion
 OPEN = 1e-9  # of the mechanism's size: nearer than that, a contact starts closed
 ROUNDING = 1e-12  # of the normal force: a wheel that needs no friction rolls without any
+START = 1e-12  # of the sizes: two derivations of one start differ by rounding
+FIELDS = ("x", "y", "angle", "vx", "vy", "omega")
+UNITS = ("m", "m", "rad", "m/s", "m/s", "rad/s")
+
+
+def check_start(case: Case, system: System, generated: Mechanism) -> None:
+    """Raises CaseError with what a hand-written system starts otherwise than the scene does."""
+    mode, *state = system.start()
+    own = system.modes[mode].poses(0.0, *state)
+    assembled = generated.base.where.poses(*generated.start()[1:])
+    if found := list(_otherwise(case, own, assembled)):
+        raise CaseError(found)
+
+
+def _otherwise(
+    case: Case, own: Mapping[str, Pose], assembled: Mapping[str, Pose]
+) -> Iterator[Mistake]:
+    """At what the file gives; at the body, if it gives nothing of what differs."""
+    names = list(assembled)
+    a, b = (np.array([poses[name] for name in names], float) for poses in (own, assembled))
+    size = np.max(np.abs(b), axis=0)
+    kinds = {(0, 1): Closure(case).size, (2,): 1.0, (3, 4): 0.0, (5,): 0.0}
+    least = {i: max(least, *size[[*kind]]) for kind, least in kinds.items() for i in kind}
+    for row, name in enumerate(names):
+        apart = [abs(a[row, i] - b[row, i]) for i in range(len(FIELDS))]
+        differ = [i for i, d in enumerate(apart) if not d <= START * least[i]]
+        given = (
+            [i for i in differ if FIELDS[i] in case.initial[name].given]
+            if name in case.initial
+            else []
+        )
+        for i in given or sorted(differ, key=lambda i: -apart[i])[:1]:
+            what = (
+                f"{case.system} starts {name} with {FIELDS[i]} = {a[row, i]:.6g} {UNITS[i]}, the "
+                f"scene with {b[row, i]:.6g}: leave out `system`, then the scene alone answers"
+            )
+            yield case.mistake(("initial", name, *([FIELDS[i]] if given else [])), what)
 
 
 def check_premises(case: Case, motion: Trajectory, happened: Collection[str | None]) -> None:

@@ -14,11 +14,12 @@ from ..cases.quantity import table
 from ..cases.trajectory import Trajectory
 from .certificate.agreement import Check
 from .certificate.certify import certify
+from .certificate.errors import beyond
 from .coverage import look, noting
 from .generated.mechanism import Mechanism
 from .motion.bodies import Answer, Beside
 from .motion.follow import Followed, follow
-from .premises import check_premises
+from .premises import check_premises, check_start
 from .refusal import bounded, refusals
 from .start.assembly import assemble
 from .start.closure import Closure
@@ -43,7 +44,8 @@ class Solution:
 def solve(case: Case) -> Solution:
     """The certified motion of a case at its sample times.
 
-    Raises CaseError where the case cannot be started or its idealisation does not hold.
+    Raises CaseError where the case cannot be started, its idealisation does not hold, or it asks
+    more than can be certified.
     """
     with noting() as equations, bounded(case):
         motion, checks = _solved(case)
@@ -55,6 +57,8 @@ def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
     generated = Mechanism(case.scene, assemble(case), Closure(case).size)
     with refusals(case, generated):
         system = written or generated
+        if written:
+            check_start(case, written, generated)
         followed = follow(system, case.times, every=bool(case.events))
         found = followed if system is generated else follow(generated, case.times)
         built = Answer(generated, found)
@@ -66,7 +70,10 @@ def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
         if case.events:
             motion = replace(motion, record=answer.record(forces=_felt(case)))
         check_premises(case, motion, [change.name for change in found.changes])
-        return motion, certify(case, answer, built, generated, motion)
+        checks = certify(case, answer, built, generated, motion)
+    if mistakes := beyond(case, checks):
+        raise CaseError(mistakes)
+    return motion, checks
 
 
 def _written(case: Case) -> System | None:

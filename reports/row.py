@@ -70,7 +70,10 @@ class Instant:
 
 @dataclass(frozen=True)
 class Certificate:
-    """A row of reference.csv: one check of one reference."""
+    """A row of reference.csv: one check of one reference.
+
+    certified: what the reference is known to, of an observed quantity; None of anything else.
+    """
 
     case: str
     source: str
@@ -78,4 +81,6 @@ class Certificate:
     check: str
     difference: float
     bound: float
+    certified: float | None
+    unit: str
     verdict: str

@@ -164,6 +164,8 @@ def _certificates(case: Case, solution: Solution) -> list[Certificate]:
             check=check.name,
             difference=told(check.difference, OF_BOUND * check.bound),
             bound=check.bound,
+            certified=check.certified,
+            unit=check.unit,
             verdict="holds" if check.holds else FAILS,
         )
         for check in solution.checks

@@ -11,11 +11,16 @@ from ..system import Array
 
 @dataclass(frozen=True)
 class Check:
-    """One comparison: `difference` relative to the size, and the bound it must keep."""
+    """One comparison of two answers: `difference` relative to the size, and its bound.
+
+    certified: what is known of an observed quantity, in its unit, where the check is about one.
+    """
 
     name: str
     difference: float
     bound: float
+    certified: float | None = None
+    unit: str = ""
 
     @property
     def holds(self) -> bool:
@@ -25,6 +30,11 @@ class Check:
 def worst(values: Iterable[float]) -> float:
     """The largest, 0 of none; NaN if there is one, where `max` may lose it."""
     return float(np.max([0.0, *values]))
+
+
+def gravest(checks: Sequence[Check]) -> Check:
+    """Of checks of one name the one that is nearest to failing; one of NaN if there is any."""
+    return max(checks, key=lambda c: np.inf if np.isnan(c.difference) else c.difference / c.bound)
 
 
 def relative(a: Array, b: Array, *, least: float = 0.0) -> float:
@@ -43,15 +53,6 @@ def difference(one: Trajectory, other: Trajectory) -> float:
     size = worst(np.abs(a[:, [0, 1]]).ravel())
     groups = {(0, 1): 0.0, (2,): 1.0, (3, 4): size / duration, (5,): 1.0 / duration}
     return worst(relative(a[:, [*g]], b[:, [*g]], least=least) for g, least in groups.items())
-
-
-def reactions(one: Trajectory, other: Trajectory) -> float:
-    """Largest difference of the reactions that both know, relative to the largest of them."""
-    shared = [name for name in one.reactions if name in other.reactions]
-    if not shared:
-        return 0.0
-    a, b = (np.array([t.reactions[name] for name in shared]) for t in (one, other))
-    return relative(a, b)
 
 
 def times_apart(one: Sequence[float], other: Sequence[float]) -> float:

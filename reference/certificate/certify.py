@@ -1,6 +1,8 @@
 """What the reference says of its own error: every answer that shares no algebra, compared.
 
-Bounds are relative to the size of what is compared.
+The laws are asked at states, and their bounds are those of rounding. Two motions are also as far
+apart as the motion is sensitive: what that may be is a share of what the case asks (`errors`), and
+one answer may be little farther from the others than two integrators of one system are.
 """
 
 from collections.abc import Iterator, Mapping
@@ -9,8 +11,6 @@ from dataclasses import replace
 import numpy as np
 
 from ...cases.case import Case
-from ...cases.observe import observe
-from ...cases.quantity import table
 from ...cases.trajectory import Trajectory
 from ..coverage import look
 from ..generated.mechanism import Mechanism
@@ -20,20 +20,21 @@ from ..integrators.radau import radau_table
 from ..motion.bodies import Answer
 from ..motion.follow import TOLERANCE, Followed, either, follow
 from ..system import Array, Mode, System
-from .agreement import Check, difference, reactions, relative, times_apart, worst
+from .agreement import Check, difference, times_apart, worst
+from .beside import beside
+from .errors import errors
 from .laws import laws
 
-OWN_ERROR = 1e-12  # of the motion's size: what is asked of a reference
+OWN_ERROR = 1e-12  # of the motion's size: what a motion is known to that is not sensitive
 ROUNDING = 2.2e-16  # a step: a motion of many steps cannot be known better
 SWITCHED = 1e-11  # of the motion's size: an event is known to 1e-12 s, and what follows with it
-STIFF = 1e-9  # of the motion's size: what two tolerances of a stiff integrator agree to
 GENERATED = 1e-9  # hand-written against generated motion
 OWN_EVENTS = 1e-12  # s, against known functions
 OTHER_EVENTS = 1e-10  # s, against another motion
+LOOSER = 100  # times what two integrators differ by: two samples of one error may differ so much
 COARSER = 1e-13  # tolerance of the second answer where there is only one stiff integrator
 STAGES = 7  # Radau IIA of order 13: five stages need twice the time at this tolerance
 QUARTERS = 4  # steps a sample at least: longer ones, of order 13, lose up to two digits here
-SHARE = 0.01  # of the smallest tolerance: what the reference's own error may take
 
 
 def certify(
@@ -47,38 +48,31 @@ def certify(
     look()
     times, system, followed = case.times, written.system, written.followed
     stiff = any(system.modes[mode].stiff for mode in followed.phases)
-    own = _own(followed, stiff=stiff)
-    name, other = _second(system, times, stiff=stiff)
-    others = {name: Answer(system, other, written.beside).trajectory(times)}
-    checks = [Check(name, difference(motion, others[name]), own)]
-    if followed.changes or other.changes:
-        checks.append(Check(f"{name}: events", _apart(followed, other), OTHER_EVENTS))
+    name, second = _second(system, times, stiff=stiff)
+    others = {name: Answer(system, second, written.beside).trajectory(times)}
+    apart = difference(motion, others[name])
+    checks, found = [], {f"{name}: events": second}
     if system is not generated:
-        others["generated"] = built.trajectory(times)
-        checks += [
-            Check("start as assembled", _start(system, generated), OWN_ERROR),
-            Check("generated motion", difference(motion, others["generated"]), GENERATED),
-            Check("generated reactions", reactions(motion, others["generated"]), GENERATED),
-        ]
-        if followed.changes or built.followed.changes:
-            checks.append(Check("generated events", _apart(followed, built.followed), OTHER_EVENTS))
+        others["generated"], found["generated events"] = built.trajectory(times), built.followed
+        far = difference(motion, others["generated"])
+        checks.append(Check("generated motion", far, max(GENERATED, LOOSER * apart)))
+        checks += beside(written, built, generated, times)
+    own = max(_own(followed), LOOSER * apart)
     if (closed := _closed_form(system, times)) is not None:
         others["closed form"] = written.trajectory(times, closed)
         checks.append(Check("closed form", difference(motion, others["closed form"]), own))
-    events = system.closed_events(float(times[-1]))
-    if events is not None and (events or followed.events):
-        checks.append(Check("closed events", _known(followed, events), OWN_EVENTS))
+    late = apart * float(times[-1] - times[0])
+    checks += _events(system, followed, found, LOOSER * late, float(times[-1]))
     checks += laws(written, generated, times)
     checks += _drift(system, times, followed, own)
     if len(system.modes) > 1 or any(system.guards(mode) for mode in followed.phases):
         checks.append(Check("modes possible", _impossible(system, times, followed), 0.0))
-    return (*checks, Check("share of the tolerances", share(case, motion, others), SHARE))
+    late = worst([late, *(_apart(followed, other) for other in found.values())])
+    return (*checks, *errors(case, motion, others, late))
 
 
-def _own(followed: Followed, *, stiff: bool) -> float:
-    """What two integrators of the same equations may differ by."""
-    if stiff:
-        return STIFF
+def _own(followed: Followed) -> float:
+    """What a motion is known to that is not sensitive, of its size."""
     return SWITCHED if followed.changes else max(OWN_ERROR, ROUNDING * followed.steps)
 
 
@@ -103,6 +97,21 @@ def _apart(one: Followed, other: Followed) -> float:
     return times_apart([c.time for c in one.changes], [c.time for c in other.changes])
 
 
+def _events(
+    system: System, followed: Followed, found: Mapping[str, Followed], late: float, until: float
+) -> Iterator[Check]:
+    """The times at which modes change, in every other answer and by known functions.
+
+    late: what a motion as sensitive as this one may have events apart by [s].
+    """
+    for name, other in found.items():
+        if followed.changes or other.changes:
+            yield Check(name, _apart(followed, other), max(OTHER_EVENTS, late))
+    events = system.closed_events(until)
+    if events is not None and (events or followed.events):
+        yield Check("closed events", _known(followed, events), max(OWN_EVENTS, late))
+
+
 def _known(followed: Followed, events: list[tuple[str, float]]) -> float:
     """The largest distance [s] from the events by known functions, by name and order."""
     names = {name for name, _ in events} | {event.name for event in followed.changes if event.name}
@@ -113,14 +122,6 @@ def _known(followed: Followed, events: list[tuple[str, float]]) -> float:
         )
         for name in names
     )
-
-
-def _start(system: System, generated: Mechanism) -> float:
-    """A hand-written system states its own start: it must be the case's."""
-    mode, *state = system.start()
-    q, v = generated.base.place(system.modes[mode].poses(0.0, *state))
-    _, q0, v0 = generated.start()
-    return worst([relative(q0, q), relative(v0, v)])
 
 
 def _closed_form(system: System, times: Array) -> Array | None:
@@ -148,20 +149,3 @@ def _impossible(system: System, times: Array, followed: Followed) -> int:
     look()
     rows = zip(times.tolist(), followed.modes, followed.y, strict=True)
     return sum(system.possible(mode, t, *np.split(y, 2)) is not None for t, mode, y in rows)
-
-
-def share(case: Case, motion: Trajectory, others: Mapping[str, Trajectory]) -> float:
-    """The reference's own error against the smallest allow or reach of any quantity."""
-    shares = []
-    known = table(case.scene)
-    for name, allowed in case.allow.items():
-        if name not in known:
-            continue  # an event's: its times have a check of their own
-        bars = [bars[name] for bars in case.reach.values() if name in bars]
-        bars += [] if allowed is None else [allowed]
-        own = observe(case.scene, motion, name)
-        error = worst(
-            worst(np.abs(own - observe(case.scene, other, name))) for other in others.values()
-        )
-        shares += [error / bar for bar in bars]
-    return worst(shares)

@@ -31,8 +31,13 @@ def accelerations(system: Mode, t: float, q: Array, v: Array) -> Array:
 
 
 def momentum(system: Mode, t: Any, q: Any, v: Any) -> Any:
-    """p_a = ∂T/∂q̇ᵃ (n,): the central difference is exact, because T is quadratic in q̇."""
-    return np.array([(system.T(t, q, v + e) - system.T(t, q, v - e)) / 2 for e in np.eye(len(v))])
+    """p_a = ∂T/∂q̇ᵃ (n,): the central difference is exact, because T is quadratic in q̇.
+
+    Its width is the largest rate: beside a much larger or smaller one T would lose its digits.
+    """
+    h = float(np.max(np.abs(np.real(v)), initial=0.0)) or 1.0
+    steps = h * np.eye(len(v))
+    return np.array([(system.T(t, q, v + e) - system.T(t, q, v - e)) / (2 * h) for e in steps])
 
 
 def mass_matrix(system: Mode, t: float, q: Array) -> Array:

@@ -153,17 +153,21 @@ class Multibody(Mode):
         The power is that of a force along the velocity: a hanging bar that trembles by rounding
         does so across its weight.
         """
-        found = [self._weight]
-        for force in self.scene.forces.values():
-            Q = np.zeros(len(self._M))
-            act(force, self.where, t, q.tolist(), v.tolist(), Q)
-            found.append(Q)
-        largest, turning = np.max(np.abs(found), axis=0), self.where.turning
+        largest, turning = self.largest(t, q, v), self.where.turning
         powers = [
             np.max(largest[kind], initial=0.0) * np.max(np.abs(v[kind]), initial=0.0)
             for kind in (turning, ~turning)
         ]
         return float(np.max(largest / self._M)), float(np.max(powers))
+
+    def largest(self, t: float, q: Array, v: Array) -> Array:
+        """The largest force [N] or moment [N m] along each coordinate that comes from one force."""
+        found = [self._weight]
+        for force in self.scene.forces.values():
+            Q = np.zeros(len(self._M))
+            act(force, self.where, t, q.tolist(), v.tolist(), Q)
+            found.append(Q)
+        return np.max(np.abs(found), axis=0)
 
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R_k, E_k: the coordinates themselves."""

@@ -12,9 +12,10 @@ from .positions import CLOSED, RANK, rank, undetermined
 
 
 def rates(closure: Closure, q: Array) -> Array:
-    """v (n,) with f_a q̇ᵃ = g (2.15); zero where that satisfies the constraints of a mechanism.
+    """v (n,) with f_a q̇ᵃ = g (2.15); what does not follow is zero.
 
-    Raises CaseError if the given rates violate a constraint or leave a rate open.
+    Raises CaseError if the given rates violate a constraint, or leave rates open that cannot all
+    be zero: a bar on a bar that turns could keep its own rate or its neighbour's.
     """
     given = closure.numbers(closure.case.initial, RATES)
     v = np.zeros(closure.n)
@@ -41,7 +42,11 @@ def _of_one(closure: Closure, q: Array, v: Array, columns: list[int], free: list
         raise refusal.rates_violate(closure, worst.part)
     names = [_as_rate(closure.where.names[i]) for i in free]
     if loose := undetermined(rows[:, free], names, RANK):
-        raise refusal.open_ended(closure, loose, rank(rows[:, free], RANK), among=len(free))
+        left = [i for i, name in zip(free, names, strict=True) if name not in loose]
+        scaled[[i for i in free if i not in left]] = 0.0
+        scaled[left] += np.linalg.lstsq(rows[:, left], g - rows @ scaled, rcond=RANK)[0]
+        if _open(rows, g, scaled)[1]:
+            raise refusal.open_ended(closure, loose, rank(rows[:, free], RANK), among=len(free))
     return (scaled * closure.units)[columns]
 
 

@@ -55,10 +55,11 @@ class RollingWheel(Mode):
         }
 
     def closed_form(self, t: float) -> tuple[Array, Array]:
-        """(2.18) x_c = v₀ t + ½ a t², y_c = R, φ = w₀ t + ½ (a/R) t², with constant a = ẍ_c."""
-        q0, v0 = self.start()
-        a = self.accelerations(t, q0, v0)
-        return q0 + v0 * t + a * t**2 / 2, v0 + a * t
+        """(2.18) x_c = v₀ t + ½ a t², y_c = R, φ = w₀ t + ½ (a/R) t²; 3/2 m a = F + m g sin β."""
+        a = (self.F / self.m + G * math.sin(self.beta)) / 1.5
+        x, phi = self.v0 * t + a * t**2 / 2, self.w0 * t + a * t**2 / (2 * self.R)
+        u, w = self.v0 + a * t, self.w0 + a * t / self.R
+        return np.array([x, self.R, phi]), np.array([u, 0.0, w])
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ m (ẋ_c² + ẏ_c²) + ½ J₃₃ φ̇² [J]."""

@@ -123,36 +123,37 @@ class SlidingBlock(System):
             ),
         )
 
-    def _phases(self) -> list[tuple[float, float]]:
-        """Acceleration [m/s²] of the start, and after v = 0, with the time from which it holds."""
-        mode, *state = self.start()
-        a, after = (
-            float(self.modes[name].accelerations(0.0, *state)[0])
-            for name in (mode, self._at_rest())
-        )
-        t0 = self._halt()
-        return [(0.0, a)] if t0 is None else [(0.0, a), (t0, after)]
-
-    def _halt(self) -> float | None:
-        """(2.87) v = 0 at t₀ = |v₀|/(g (μ_k cos β ∓ sin β)), − where it goes down."""
-        sigma = math.copysign(1.0, self.v0)
-        brake = G * (self.mu_k * math.cos(self.beta) - sigma * math.sin(self.beta))
-        return abs(self.v0) / brake if self.v0 and brake > 0.0 else None
-
     def closed_form(self, t: float) -> tuple[Array, Array]:
-        """(2.87) x = v₀ t + ½ a t² until v = 0, and from rest with the next a after it."""
-        (_, a), *later = self._phases()
-        if not later or t <= later[0][0]:
-            return np.array([self.v0 * t + a * t**2 / 2]), np.array([self.v0 + a * t])
-        (t0, after), x0 = later[0], self.v0 * later[0][0] / 2
-        return np.array([x0 + after * (t - t0) ** 2 / 2]), np.array([after * (t - t0)])
+        """(2.87) x = v₀ t + ½ g (sin β ∓ μ_k cos β) t² until v = 0, − where it goes down.
+
+        From there on x = x₀ + ½ a (t − t₀)², x₀ = ½ v₀ t₀.
+        """
+        t0, a = self._halts(), self._sets_off()
+        if t < t0:
+            against = math.copysign(self.mu_k, self.v0) * math.cos(self.beta)
+            along = G * (math.sin(self.beta) - against)
+            return np.array([self.v0 * t + along * t**2 / 2]), np.array([self.v0 + along * t])
+        tau = t - t0
+        return np.array([self.v0 * t0 / 2 + a * tau**2 / 2]), np.array([a * tau])
 
     def closed_events(self, until: float) -> list[tuple[str, float]]:
-        """(2.87) stops at t₀, if it sticks there."""
-        t0 = self._halt()
-        if t0 is None or t0 > until or self._at_rest() != "sticks":
-            return []
-        return [("stops", t0)]
+        """(2.87) stops at t₀, if it moves before and does not set off again."""
+        t0 = self._halts()
+        return [("stops", t0)] if 0.0 < t0 <= until and self._sets_off() == 0.0 else []
+
+    def _halts(self) -> float:
+        """(2.87) v = 0 at t₀ = |v₀|/(g (μ_k cos β ∓ sin β)) [s], − where it goes down, or never."""
+        if self.v0 == 0.0:
+            return 0.0
+        down = math.copysign(math.sin(self.beta), self.v0 * self.beta)
+        brake = G * (self.mu_k * math.cos(self.beta) - down)
+        return abs(self.v0) / brake if brake > 0.0 else math.inf
+
+    def _sets_off(self) -> float:
+        """(2.87) a = g (sin β ∓ μ_k cos β) [m/s²] from rest, − where it goes down; 0: it sticks."""
+        if abs(math.tan(self.beta)) <= self.mu_s:
+            return 0.0
+        return G * (math.sin(self.beta) - math.copysign(self.mu_k, self.beta) * math.cos(self.beta))
 
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.89) |F_fr| ≤ μ_s F_N where it sticks, F_N > 0."""

@@ -151,30 +151,46 @@ class SlidingDisk(System):
         event = "rolls" if after == "rolling" else None
         return (Guard(event, lambda t, q, v: sigma * self.slip(v), then),)
 
-    def _slip_ends(self) -> float | None:
-        """(2.87) the slip ends at t₁ = |s₀|/(g (3 μ cos β ∓ sin β)), − where it is forward."""
-        slip = self.slip(self.start()[2])
-        sigma = math.copysign(1.0, slip)
-        brake = G * (3 * self.mu * math.cos(self.beta) - sigma * math.sin(self.beta))
-        return abs(slip) / brake if slip and brake > 0.0 else None
-
     def closed_form(self, t: float) -> tuple[Array, Array]:
-        """(2.87) q = q₀ + v₀ t + ½ a t², v = v₀ + a t until the slip ends, and again from there."""
-        mode, q, v = self.start()
-        t1 = self._slip_ends()
-        phases = [(mode, t)] if t1 is None else [(mode, min(t, t1)), (self._without_slip(), t - t1)]
-        for name, tau in phases:
+        """(2.87) x_c = −v₀ t + ½ a t², R φ = R w₀ t + ½ b t² while it slips, and so on.
+
+        a = g (sin β − σ μ cos β), b = 2 σ μ g cos β with σ of the slip; after it a = b = ⅔ g sin β,
+        or σ = sign β where that is too steep.
+        """
+        t1, friction = self._ends(), self.mu * G * math.cos(self.beta)
+        x, u, w = 0.0, -self.v0, self.R * self.w0
+        turned = 0.0  # R φ
+        for sigma, tau in ((math.copysign(1.0, u - w), min(t, t1)), (self._after(), t - t1)):
             if tau > 0.0:
-                a = self.modes[name].accelerations(0.0, q, v)
-                q, v = q + v * tau + a * tau**2 / 2, v + a * tau
-        return q, v
+                a = G * math.sin(self.beta) - sigma * friction
+                b = 2 * sigma * friction
+                if sigma == 0.0:
+                    a = b = G * math.sin(self.beta) / 1.5
+                x, u = x + u * tau + a * tau**2 / 2, u + a * tau
+                turned, w = turned + w * tau + b * tau**2 / 2, w + b * tau
+        return np.array([x, self.R, turned / self.R]), np.array([u, 0.0, w / self.R])
 
     def closed_events(self, until: float) -> list[tuple[str, float]]:
-        """(2.87) rolls at t₁, if it can."""
-        t1 = self._slip_ends()
-        if t1 is None or t1 > until or self._without_slip() != "rolling":
-            return []
-        return [("rolls", t1)]
+        """(2.87) rolls at t₁, if it slips before and can."""
+        t1 = self._ends()
+        return [("rolls", t1)] if 0.0 < t1 <= until and self._after() == 0.0 else []
+
+    def _ends(self) -> float:
+        """(2.87) No slip at t₁ = |s₀|/(g (3 μ cos β ∓ sin β)) [s], − where it is forward, or never.
+
+        s₀ = −v₀ − R w₀.
+        """
+        slip = -self.v0 - self.R * self.w0
+        if slip == 0.0:
+            return 0.0
+        down = math.copysign(math.sin(self.beta), slip * self.beta)
+        brake = G * (3 * self.mu * math.cos(self.beta) - down)
+        return abs(slip) / brake if brake > 0.0 else math.inf
+
+    def _after(self) -> float:
+        """(2.89) σ after the slip: 0, it rolls, if |tan β| ≤ 3 μ, else down the slope."""
+        rolls = abs(math.tan(self.beta)) <= 3 * self.mu
+        return 0.0 if rolls else math.copysign(1.0, self.beta)
 
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.87) |F_fr| ≤ μ F_N where it rolls, F_N > 0."""

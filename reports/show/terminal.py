@@ -9,7 +9,7 @@ from pathlib import Path
 
 import click
 
-from ..row import AGREES, FAILS, Comparison
+from ..row import AGREES, FAILS, Certificate, Comparison
 from ..suite import Progress, Report
 from .summary import aligned, summary
 
@@ -39,6 +39,7 @@ def show(report: Report, *, detailed: bool, written: Path | None) -> None:
     """The rows of named cases, the summary, what fails, and where it was written."""
     if detailed:
         _rows(report.comparisons)
+        _known(report.certificates)
     click.echo()
     click.echo(aligned(summary(report.comparisons, report.rungs)))
     click.echo()
@@ -51,6 +52,18 @@ def show(report: Report, *, detailed: bool, written: Path | None) -> None:
     click.echo(", ".join(f"{count} {word}" for word, count in counts.most_common()))
     if written is not None:
         click.echo(f"written to {written}")
+
+
+def _known(certificates: Sequence[Certificate]) -> None:
+    """What each reference is known to, of all that its case bounds."""
+    for case, rows in groupby(certificates, key=lambda row: row.case):
+        known = [
+            f"{row.check.removeprefix('error of ')} to {row.certified:.0e} {row.unit}"
+            for row in rows
+            if row.certified is not None
+        ]
+        if known:
+            click.echo(f"\n{case}: the reference is certified: {', '.join(known)}")
 
 
 def _fails(rows: Sequence[Comparison]) -> None:

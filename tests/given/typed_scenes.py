@@ -36,6 +36,14 @@ scene:
 initial: {dot: {x: 0, y: START}}
 allow: {dot.y: 1.0e-2}
 """
+PENDULUM = """\
+scene:
+  points: {O: [PLACE, 0]}
+  bodies: {bar: {bar: {mass: MASS, length: LENGTH}}}
+  joints: {hinge: {pin: [ground.O, bar.start]}}
+initial: {bar: {angle: ANGLE, omega: RATE}}
+allow: {bar.angle: SMALL, hinge.fx: FORCE}
+"""
 CART = """\
 scene:
   points: {O: [0, 0]}

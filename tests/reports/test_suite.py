@@ -80,10 +80,7 @@ def test_all_cases_that_cannot_start_are_named_together(trial: Make, moving: Cas
 def test_a_reference_that_is_not_certified_judges_nothing(
     trial: Make, moving: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(
-        "textmech.reference.certificate.certify.OWN_ERROR", -1.0
-    )  # nothing can keep that
-    monkeypatch.setattr("textmech.reference.certificate.certify.ROUNDING", -1.0)
+    monkeypatch.setattr("textmech.reference.certificate.laws.LAW", -1.0)  # nothing can keep that
     report = measure([moving], [trial().engine])
     assert report.fails
     assert {row.verdict for row in report.comparisons} == {FAILS}

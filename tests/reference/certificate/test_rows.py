@@ -21,7 +21,7 @@ from textmech.reference.system import MOVING, Array, Guard, System
 from textmech.reference.systems import written
 
 EVENTS = {"implicit integrator: events", "generated events", "closed events"}
-WRITTEN = {"start as assembled", "generated motion", "generated reactions"}
+WRITTEN = {"generated motion", "generated accelerations", "generated reactions"}
 OPTIONAL = EVENTS | WRITTEN | {"closed form", "constraint drift", "modes possible"}
 
 # What of OPTIONAL each case must have, and nothing else of it.

@@ -171,6 +171,24 @@ allow: {one.angle: 1.0e-2}
     assert v["two.angle"] == v["two.y"] == 0.0
 
 
+@pytest.mark.parametrize("given", ["vx: 2", "vx: 2, vy: 0", "vx: 1.0e12", "omega: 3"])
+def test_rates_that_nothing_determines_are_zero(tmp_path: Path, given: str) -> None:
+    """A welded pair on the floor: once any rate is given, the others were asked for too."""
+    text = """\
+scene:
+  bodies: {a: {block: {mass: 1.0e-30, width: 0.2, height: 0.2}}, b: {disk: {mass: 1, radius: 0.2}}}
+  joints: {w: {weld: [a.center, b.center]}}
+  contacts: {touch: {between: [b, ground.floor], friction: 0.3}}
+initial: {b: {x: 0, y: 0.2, angle: 0, GIVEN}}
+allow: {b.x: 1.0e-2}
+"""
+    _, v = start(tmp_path, text.replace("GIVEN", given))
+    name, value = given.split(",")[0].split(": ")
+    field = {"vx": "x", "omega": "angle"}[name]
+    both = {f"{body}.{field}": float(value) for body in ("a", "b")}
+    assert v == {key: both.get(key, 0.0) for key in v}
+
+
 def test_a_dead_centre_is_a_start_like_any_other(tmp_path: Path) -> None:
     text = SLIDER_CRANK + "initial: {crank: {angle: 0, omega: 3}}\nnear: {piston: {x: 0.8}}\n"
     _, v = start(tmp_path, text)

@@ -1,0 +1,70 @@
+"""The hand-written system beside the mechanism of the scene, at one state at a time.
+
+No integrator's error is in it: a mass or a sign that only the scene has otherwise shows at once,
+however sensitive the motion and however loose its tolerances are.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..coverage import look
+from ..formalisms.derivative import along
+from ..generated.mechanism import Mechanism
+from ..generated.mode import Multibody
+from ..motion.bodies import Answer
+from ..system import Array, Mode
+from .agreement import Check, worst
+
+AGREE = 1e-12  # of the largest term, if the mechanism's own equations are well conditioned
+EPS = float(np.finfo(np.float64).eps)
+DIGITS = 100  # times ε and the condition of its equations: what these lose
+
+
+def beside(written: Answer, built: Answer, generated: Mechanism, times: Array) -> Iterator[Check]:
+    """Accelerations, and reactions where the system knows its own; phase by phase.
+
+    With another count of phases there is nothing to compare: the events say so.
+    """
+    look()
+    followed, phases = written.followed, built.followed.phases
+    if len(phases) != len(followed.phases):
+        return
+    moved, held, condition = [], [], 1.0
+    for t, phase, y in zip(times.tolist(), followed.phase.tolist(), followed.y, strict=True):
+        q, v = np.split(y, 2)
+        mode, other = written.system.modes[followed.phases[phase]], generated.modes[phases[phase]]
+        place = generated.base.place(mode.poses(t, q, v))
+        a = _accelerations(mode, generated.base, t, q, v)
+        size = max(worst(np.abs(a)), generated.base.terms(t, *place)[0]) or 1.0
+        moved.append(worst(np.abs(other.accelerations(t, *place) - a)) / size)
+        condition = max(condition, _condition(other.f_a(t, place[0]), generated.base))
+        own, theirs = mode.reactions(t, q, v), other.reactions(t, *place)
+        force = worst(map(abs, theirs.values())) or 1.0
+        held += [abs(own[name] - theirs[name]) / force for name in own if name in theirs]
+    bound = max(AGREE, DIGITS * EPS * condition)
+    yield Check("generated accelerations", worst(moved), bound)
+    if held:
+        yield Check("generated reactions", worst(held), bound)
+
+
+def _accelerations(mode: Mode, base: Multibody, t: float, q: Array, v: Array) -> Array:
+    """(n,) of the bodies: the change of the velocities that the system's poses have."""
+    a = mode.accelerations(t, q, v)
+
+    def velocities(t: object, q: Array, v: Array) -> Array:
+        poses = mode.poses(t, q, v)
+        return np.array([poses[name][3:] for name in base.where.columns])
+
+    rates: Array = along(velocities, (t, q, v), (1.0, v, a))
+    names = base.where.columns
+    return base.place({name: (0, 0, 0, *rate) for name, rate in zip(names, rates, strict=True)})[1]
+
+
+def _condition(rows: Array, base: Multibody) -> float:
+    """Of the equations for the multipliers, in units in which each row has the size 1."""
+    if not len(rows):
+        return 1.0
+    by_mass = rows / np.sqrt(np.array(base.where.masses))
+    by_mass /= np.linalg.norm(by_mass, axis=1, keepdims=True)
+    return float(np.linalg.cond(by_mass)) ** 2

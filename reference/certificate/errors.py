@@ -1,0 +1,78 @@
+"""What the reference knows of each observed quantity, against what the case asks of it."""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from ...cases.case import Case
+from ...cases.mistake import Mistake
+from ...cases.observe import observe
+from ...cases.quantity import event_quantities, table
+from ...cases.trajectory import Trajectory
+from .agreement import Check, worst
+
+SHARE = 0.01  # of the smallest tolerance: what the reference's own error may take
+EPS = float(np.finfo(np.float64).eps)
+ERROR = "error of "
+
+
+def errors(
+    case: Case, motion: Trajectory, others: Mapping[str, Trajectory], apart: float
+) -> Iterator[Check]:
+    """The share of the smallest `allow` or `reach` that each quantity's own error takes.
+
+    The error is the largest difference to any other answer, and at least the rounding of a double.
+    apart: how well the times of events are known [s].
+    """
+    known = table(case.scene)
+    times = {name: q for name, q in event_quantities(case.events).items() if q.field == "time"}
+    for name in case.allow:
+        bars = dict(_bars(case, name))
+        if name in known:
+            own = observe(case.scene, motion, name)
+            found = [np.abs(own - observe(case.scene, other, name)) for other in others.values()]
+            error, unit = worst([EPS * worst(np.abs(own)), *map(worst, found)]), known[name].unit
+        elif name in times:
+            error, unit = max(EPS * float(motion.times[-1]), apart), times[name].unit
+        else:
+            continue  # a count: the changes of mode are compared by name and number
+        if bars:
+            smallest = min(bars.values())
+            yield Check(f"{ERROR}{name}", error / smallest, SHARE, error, unit)
+
+
+def beyond(case: Case, checks: Sequence[Check]) -> list[Mistake]:
+    """Each `allow` or `reach` that asks more than can be certified, if nothing else is wrong."""
+    broken = [check for check in checks if not check.holds]
+    found = []
+    for check in broken:
+        if check.certified is None or not math.isfinite(check.certified):
+            return []
+        name = check.name.removeprefix(ERROR)
+        found += [
+            case.mistake(path, _asks(bar, check.certified, check.unit))
+            for path, bar in _bars(case, name)
+            if not check.certified <= SHARE * bar
+        ]
+    return found
+
+
+def _bars(case: Case, name: str) -> Iterator[tuple[tuple[str, ...], float]]:
+    """Where the case bounds a quantity, and by what."""
+    allowed = case.allow[name]
+    if allowed is not None:
+        yield ("allow", name), allowed
+    for engine, bars in case.reach.items():
+        if name in bars:
+            yield ("reach", engine, name), bars[name]
+
+
+def _asks(bar: float, certified: float, unit: str) -> str:
+    digit = 10.0 ** math.floor(math.log10(certified / SHARE))
+    least = math.ceil(certified / SHARE / digit) * digit
+    return (
+        f"{bar:.3g} asks more than can be certified: the reference knows this to "
+        f"{certified:.1e} {unit}, and that may be {SHARE:.0%} of it; give at least {least:.0e}, "
+        "or a shorter duration"
+    )

@@ -1,0 +1,83 @@
+"""Closed forms share nothing with the motion: not a line of code runs in both."""
+
+import sys
+from collections.abc import Callable, Iterator
+from types import CodeType, FrameType
+from typing import Any
+
+import numpy as np
+import pytest
+from given.examples import PARAMETERS, VARIANTS, example
+
+from textmech.reference.system import Guard, System
+
+TIMES = (0.0, 0.3, 1.1, 2.9)
+KNOWN = [name for name in PARAMETERS if example(name).closed_form(0.5) is not None]
+LIKE = {name: (system, changed) for name, (system, changed, _) in VARIANTS.items()}
+SYSTEMS = {name: (name, {}) for name in KNOWN} | LIKE
+
+
+def executed(run: Callable[[], Any]) -> set[CodeType]:
+    """The functions of the hand-written systems that are called on the way."""
+    found: set[CodeType] = set()
+
+    def note(frame: FrameType, event: str, argument: Any) -> None:
+        if event == "call" and "textmech.reference.systems" in frame.f_globals["__name__"]:
+            found.add(frame.f_code)
+
+    before = sys.getprofile()
+    sys.setprofile(note)
+    try:
+        run()
+    finally:
+        sys.setprofile(before)
+    return found
+
+
+def known(system: System) -> None:
+    """All that is known by functions."""
+    system.closed_events(5.0)
+    for t in TIMES:
+        system.closed_form(t)
+
+
+def moves(system: System) -> None:
+    """All that makes the motion, in each mode."""
+    _, q, v = system.start()
+    for name, mode in system.modes.items():
+        for _ in _asked(system.guards(name), q, v):
+            pass
+        mode.accelerations(0.3, q, v)
+        mode.reactions(0.3, q, v)
+        system.possible(name, 0.3, q, v)
+
+
+def _asked(guards: Any, q: Any, v: Any) -> Iterator[Any]:
+    for guard in guards:
+        assert isinstance(guard, Guard)
+        yield guard.g(0.3, q, v), guard.then(0.3, q, v)
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_a_closed_form_shares_no_function_with_the_motion(name: str) -> None:
+    system, changed = SYSTEMS[name]
+    built = example(system, **changed)
+    ours, theirs = executed(lambda: known(built)), executed(lambda: moves(built))
+    assert ours, "nothing is known"
+    assert theirs, "nothing moves"
+    assert {code.co_qualname for code in ours & theirs} == set()
+
+
+@pytest.mark.parametrize("name", ["sliding_block", "sliding_disk", "rolling_wheel"])
+def test_a_mistake_of_the_motion_leaves_the_closed_form(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Before, 5 % on the accelerations were 5 % in both, and nothing was compared."""
+    system = example(name)
+    before = [np.concatenate(system.closed_form(t) or ()) for t in TIMES]
+    for kind in {type(mode) for mode in system.modes.values()}:
+        a = kind.accelerations
+        wrong = lambda self, t, q, v, a=a: 1.05 * a(self, t, q, v)  # noqa: E731
+        monkeypatch.setattr(kind, "accelerations", wrong)
+    after = [np.concatenate(system.closed_form(t) or ()) for t in TIMES]
+    np.testing.assert_array_equal(after, before)
