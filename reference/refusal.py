@@ -4,24 +4,45 @@ What stops a motion (a line without direction, constraints that come to depend o
 asked only after the integrators have failed, to say why.
 """
 
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 import numpy as np
+from numpy.linalg import LinAlgError
 
 from ..cases.case import Case
+from ..cases.language.check.work import GO_ON
 from ..cases.mistake import CaseError, Mistake
 from .generated.action import ends_meet
 from .generated.choosing import Undetermined
 from .generated.mechanism import BadStart, Mechanism
+from .integrators.budget import Endless, budget
 from .motion.stuck import Stuck
 from .motion.zeno import ZenoError
 from .start.closure import Closure
 from .start.positions import rank
 from .system import Array
 
+MOST = 5e6  # evaluations: the largest shipped case takes 4e4 and 8 s, so this is a quarter hour
+FEW = 4  # bodies: an evaluation costs more of more than these
 SHORT = 1e-3  # of the mechanism's size: steps give up well before the length is zero
 DEPENDENT = 1e-2  # singular values below this part of the largest: the same, for constraints
+
+
+@contextmanager
+def bounded(case: Case) -> Iterator[None]:
+    """Turns what takes too long, or leaves the doubles, into CaseError."""
+    each = max(1.0, len(case.scene.bodies) / FEW)
+    try:
+        with budget(math.inf if case.long else MOST / each):
+            yield
+    except Endless as endless:
+        what = f"the reference {endless}, and was at {endless.time:.4g} s: {GO_ON}"
+        raise CaseError([case.mistake(("duration",), what)]) from endless
+    except (ArithmeticError, LinAlgError) as error:
+        what = f"the numbers of this scene cannot be computed with ({error}); are the units right?"
+        raise CaseError([case.mistake(("scene",), what)]) from error
 
 
 @contextmanager

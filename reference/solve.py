@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from ..cases.case import Case
+from ..cases.mistake import CaseError
 from ..cases.quantity import table
 from ..cases.trajectory import Trajectory
 from .certificate.agreement import Check
@@ -16,10 +17,10 @@ from .generated.mechanism import Mechanism
 from .motion.bodies import Answer, Beside
 from .motion.follow import Followed, follow
 from .premises import check_premises
-from .refusal import refusals
+from .refusal import bounded, refusals
 from .start.assembly import assemble
 from .start.closure import Closure
-from .system import Pose
+from .system import Pose, System
 from .systems import written as written_system
 
 
@@ -42,15 +43,16 @@ def solve(case: Case) -> Solution:
 
     Raises CaseError where the case cannot be started or its idealisation does not hold.
     """
-    with noting() as equations:
+    with noting() as equations, bounded(case):
         motion, checks = _solved(case)
     return Solution(motion, case.system or "generated", checks, frozenset(equations))
 
 
 def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
+    written = _written(case)
     generated = Mechanism(case.scene, assemble(case), Closure(case).size)
     with refusals(case, generated):
-        system = written_system(case.system, case.parameters) if case.system else generated
+        system = written or generated
         followed = follow(system, case.times, every=bool(case.events))
         found = followed if system is generated else follow(generated, case.times)
         built = Answer(generated, found)
@@ -62,6 +64,14 @@ def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
             motion = replace(motion, record=answer.record(forces=_felt(case)))
         check_premises(case, motion, [change.name for change in found.changes])
         return motion, certify(case, answer, built, generated, motion)
+
+
+def _written(case: Case) -> System | None:
+    """The hand-written system, if there is one. Raises CaseError for what it says it cannot be."""
+    try:
+        return written_system(case.system, case.parameters) if case.system else None
+    except ValueError as error:
+        raise CaseError([case.mistake(("parameters",), f"{case.system}: {error}")]) from error
 
 
 def reactions_of(generated: Mechanism, found: Followed, followed: Followed) -> Beside:

@@ -13,6 +13,8 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .budget import spend
+
 Vector = NDArray[np.float64]
 Slope = Callable[[float, Vector], Vector]
 
@@ -153,7 +155,7 @@ def _first_step(y: Vector, slope: Vector, size: Vector, span: float) -> float:
 
 
 def march(
-    method: Method, times: ArrayLike, y0: ArrayLike, *, most: int = 1_000_000
+    method: Method, times: ArrayLike, y0: ArrayLike, *, most: int = 100_000_000
 ) -> Iterator[Step]:
     """The accepted steps from `times[0]` to `times[-1]`; every sample time ends one of them."""
     grid, y = np.array(times, dtype=np.float64), np.array(y0, dtype=np.float64)
@@ -176,7 +178,10 @@ def march(
             if taken == most:
                 raise IntegrationError(f"more than {most} steps", walker.t)
             taken += 1
-            yield walker.step(target)
+            before = method.evaluations
+            step = walker.step(target)
+            spend(method.evaluations - before, walker.t)
+            yield step
 
 
 def integrate(method: Method, times: ArrayLike, y0: ArrayLike, *, most: int) -> Integration:
