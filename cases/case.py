@@ -77,6 +77,7 @@ class Case:
     rests: bool
     events: Mapping[str, Event]
     source: Source  # the file, for messages
+    long: bool = False  # whether its reference may take any amount of work
 
     @property
     def times(self) -> Array:

@@ -1,9 +1,11 @@
 """What a person may call a case: the path of a YAML file, or the name of one that is shipped."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from .mistake import CaseError, Mistake, nearest
+from .mistake import CaseError, Mistake, nearest, plain, unseen
+
+LONGEST = 100  # letters of a name: with a variant's and an ending it has to make a file's name
 
 
 def shipped() -> dict[str, Path]:
@@ -18,9 +20,14 @@ def find(words: Sequence[str]) -> list[Path]:
     mistakes: list[Mistake] = []
     for word in words:
         path = known.get(word, Path(word))
-        if path.is_file():
+        try:
+            is_file, is_dir = path.is_file(), path.is_dir()
+        except OSError as error:  # a name that no file can have
+            mistakes.append(Mistake(word, 0, 0, "", f"no such file: {error.strerror}"))
+            continue
+        if is_file:
             paths.append(path)
-        elif path.is_dir():
+        elif is_dir:
             mistakes.append(Mistake(word, 0, 0, "", "is a directory; a case is one YAML file"))
         elif path.suffix in (".yaml", ".yml"):
             mistakes.append(Mistake(word, 0, 0, "", f"no such file{nearest(path.stem, known)}"))
@@ -29,3 +36,18 @@ def find(words: Sequence[str]) -> list[Path]:
     if mistakes:
         raise CaseError(mistakes)
     return paths
+
+
+def misnamed(path: Path) -> Iterator[Mistake]:
+    """What is wrong with the file's name, which is the case's in every report."""
+    stem = path.stem
+    if len(stem) > LONGEST:
+        what = f"has a name of {len(stem)} letters; a case has at most {LONGEST}"
+    elif unseen(stem) or "#" in stem or stem[0] in "=+-@":
+        what = (
+            f"has the name '{plain(stem)}': in the reports `#` begins a comment, and with = + - @ "
+            "a spreadsheet begins a formula; rename the file"
+        )
+    else:
+        return
+    yield Mistake(str(path), 0, 0, "", what)

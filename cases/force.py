@@ -4,8 +4,9 @@ A new one is a class here with its place in FORCES, what it exerts in reference/
 and how each engine builds it in engines/*/force.py (its law in engines/law.py if it needs one).
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from math import sqrt
 from typing import Annotated, ClassVar, TypeVar
 
 from .body import Body
@@ -52,6 +53,13 @@ class Force:
     def numbers(self) -> dict[str, float]:
         """What an engine holds of it, for the equal-physics audit."""
         return {}
+
+    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
+        """How fast [rad/s] it makes its points swing, and how fast [1/s] it slows them down.
+
+        mobility: how easily [1/kg] a point moves.
+        """
+        return 0.0, 0.0
 
 
 @dataclass(frozen=True)
@@ -100,6 +108,10 @@ class Spring(Line):
         """c and λ₀."""
         return {"stiffness": self.stiffness, "rest_length": self.rest_length}
 
+    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
+        """√(c/m)."""
+        return sqrt(self.stiffness * (mobility(self.a) + mobility(self.b))), 0.0
+
 
 @dataclass(frozen=True)
 class Damper(Line):
@@ -115,6 +127,10 @@ class Damper(Line):
     def numbers(self) -> dict[str, float]:
         """d."""
         return {"damping": self.damping}
+
+    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
+        """d/m."""
+        return 0.0, self.damping * (mobility(self.a) + mobility(self.b))
 
 
 @dataclass(frozen=True)
@@ -133,6 +149,10 @@ class Push(Force):
         """The ground takes no push."""
         return "pushes the ground; a push acts on a body" if self.at.body == GROUND else None
 
+    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
+        """That of a sine."""
+        return self.signal.angular_frequency, 0.0
+
 
 @dataclass(frozen=True)
 class Torque(Force):
@@ -150,6 +170,10 @@ class Torque(Force):
         """A particle takes no torque."""
         turns = self.body not in bodies or bodies[self.body].turns
         return None if turns else f"{self.body!r} is a particle and cannot turn"
+
+    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
+        """That of a sine."""
+        return self.signal.angular_frequency, 0.0
 
 
 FORCES: dict[str, type[Force]] = {kind.word: kind for kind in (Spring, Damper, Push, Torque)}

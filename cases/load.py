@@ -5,8 +5,10 @@ from dataclasses import replace
 from pathlib import Path as FilePath
 
 from .case import Case
+from .find import misnamed
 from .language.check.check import check
 from .language.check.engines import Engines
+from .language.check.work import too_many_variants, work
 from .language.grammar.words import NO_VALUE
 from .language.parse import parse
 from .language.read.document import read
@@ -18,32 +20,38 @@ Systems = Mapping[str, tuple[str, ...]]
 
 
 def load(
-    path: FilePath, *, systems: Systems | None = None, engines: Engines | None = None
+    path: FilePath,
+    *,
+    systems: Systems | None = None,
+    engines: Engines | None = None,
+    long: bool = False,
 ) -> list[Case]:
     """The cases of a file.
 
     systems: the parameters of each known hand-written system. engines: the settings of each known
-    engine. Of what is None no name is checked.
+    engine. Of what is None no name is checked. long: whether any amount of work is allowed.
 
     Raises CaseError with every mistake of the file.
     """
     document = read(path)
+    if not long and (what := too_many_variants(document.data)):  # before any is even looked at
+        raise CaseError([*document.mistakes, document.source.mistake(("variants",), what)])
     variants, mistakes = overlay(document)
-    mistakes = [*document.mistakes, *mistakes]
+    mistakes = [*misnamed(path), *document.mistakes, *mistakes]
     found: dict[str, list[Mistake]] = {}
     cases: list[Case] = []
     for variant, (data, source) in variants.items():
         parsed = parse(data)
         scene = resolve_scene(parsed.file)
         checked = check(parsed, scene, data=document.data, systems=systems, known=engines)
-        findings = [*parsed.findings, *checked]
+        findings = [*parsed.findings, *checked, *(() if long else work(parsed.file, scene))]
         found[variant] = [
             source.mistake(where, what)
             for where, what in findings
             if what != NO_VALUE  # the document has said so
         ]
         name = f"{path.stem}.{variant}" if variant else path.stem
-        cases.append(resolve_case(name, parsed.file, scene, source))
+        cases.append(resolve_case(name, parsed.file, scene, source, long=long))
     mistakes += _once(found)
     if mistakes:
         raise CaseError(mistakes)

@@ -1,10 +1,24 @@
 """Mistakes in a case file, as a person wants to read them: place, field, what is wrong."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from itertools import groupby
 
 Path = tuple[str | int, ...]
+
+SHOWN = 20  # mistakes of one file: whoever has more has one cause, and reads no further
+_JOINERS = "\u00ad\u200c\u200d"  # not printable to Python, and part of how words are written
+
+
+def unseen(text: str) -> str | None:
+    """The first character that would steer a terminal or hide what follows, or None."""
+    return next((c for c in text if not (c.isprintable() or c in _JOINERS)), None)
+
+
+def plain(text: str) -> str:
+    """The text with such characters written out, as \\x1b."""
+    return "".join(c if unseen(c) is None else c.encode("unicode_escape").decode() for c in text)
 
 
 @dataclass(frozen=True, order=True)
@@ -21,22 +35,31 @@ class Mistake:
     def __str__(self) -> str:
         place = f"{self.file}:{self.line}:{self.column}" if self.line else self.file
         head = f"{place}: {self.where}: {self.what}" if self.where else f"{place}: {self.what}"
+        head = plain(head)
         if not self.text.strip():
             return head
         start = max(0, self.column - 60) if len(self.text) > 100 else 0  # a window on a long line
-        shown = self.text[start : start + 100]
-        return f"{head}\n    {shown}\n    {' ' * (self.column - 1 - start)}^"
+        line = "".join(c if unseen(c) is None else " " for c in self.text)  # the caret stays below
+        return f"{head}\n    {line[start : start + 100]}\n    {' ' * (self.column - 1 - start)}^"
 
 
 class CaseError(Exception):
-    """All mistakes of a case file at once."""
+    """All mistakes of a case file at once; its text shows the first of each file."""
 
     def __init__(self, mistakes: Sequence[Mistake]) -> None:
         self.mistakes = sorted(set(mistakes))
-        super().__init__("\n".join(str(m) for m in self.mistakes))
+        super().__init__("\n".join(_lines(self.mistakes)))
 
     def __reduce__(self) -> tuple[type["CaseError"], tuple[list[Mistake]]]:
         return CaseError, (self.mistakes,)  # errors cross the border of a process
+
+
+def _lines(mistakes: Sequence[Mistake]) -> Iterator[str]:
+    for file, found in groupby(mistakes, key=lambda mistake: mistake.file):
+        all_ = [*found]
+        yield from map(str, all_[:SHOWN])
+        if len(all_) > SHOWN:
+            yield f"{plain(file)}: and {len(all_) - SHOWN} more"
 
 
 @dataclass(frozen=True)
@@ -61,6 +84,9 @@ def nearest(word: str, words: Iterable[str]) -> str:
     """A hint: `; did you mean 'crank.angle'?`, or what there is, or nothing."""
     known = list(words)
     close = get_close_matches(word, known, n=1, cutoff=0.6)
-    if close:
-        return f"; did you mean {close[0]!r}?"
-    return f"; known: {', '.join(known)}" if 0 < len(known) <= 12 else ""
+    return f"; did you mean {close[0]!r}?" if close else listed(known)
+
+
+def listed(words: Sequence[str]) -> str:
+    """A hint: what there is, or nothing where that is too much to read."""
+    return f"; known: {', '.join(words)}" if 0 < len(words) <= 12 else ""

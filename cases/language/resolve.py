@@ -29,7 +29,7 @@ def _named(elements: Mapping[str, Any]) -> dict[str, Any]:
     return {name: element.named(name) for name, element in elements.items()}
 
 
-def resolve_case(name: str, file: File, scene: Scene, source: Source) -> Case:
+def resolve_case(name: str, file: File, scene: Scene, source: Source, *, long: bool) -> Case:
     """The case of a file without mistakes."""
     book = file.source
     return Case(
@@ -68,6 +68,7 @@ def resolve_case(name: str, file: File, scene: Scene, source: Source) -> Case:
             for quantity, rule in rules.items()
         },
         source=source,
+        long=long,
     )
 
 

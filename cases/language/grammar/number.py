@@ -40,6 +40,7 @@ newton = kilogram * meter / second**2 = N
 joule = newton * meter = J
 watt = joule / second = W
 """
+SMALLEST, LARGEST = 1e-30, 1e30  # in SI: beyond them squares of products leave the doubles
 _KNOWN = ("m", "mm", "cm", "kg", "g", "s", "ms", "rad", "deg", "rpm", "N", "kN", "J", "W")
 
 
@@ -88,9 +89,7 @@ def names(parameters: object) -> Names:
 def amount(value: object) -> Amount:
     """A literal or a quantity with its unit, in SI."""
     if isinstance(value, int | float) and not isinstance(value, bool):
-        if not math.isfinite(value):
-            raise NumberMistake(f"must be finite, is {value}")
-        return Amount(float(value))
+        return Amount(_sized(float(value), value))
     short = isinstance(value, str) and len(value) <= 60  # so that no search is long
     if short and (match := _QUANTITY.fullmatch(str(value))):
         return _measured(float(match[1]), match[2], str(value))
@@ -126,9 +125,17 @@ def fitting(found: Amount, unit: str | None) -> Amount:
 
 def _measured(value: float, unit: str, text: str) -> Amount:
     converted = _quantity(value, unit)
-    if not math.isfinite(converted.magnitude):
-        raise NumberMistake(f"must be finite, is {text!r}")
-    return Amount(float(converted.magnitude), str(converted.dimensionality), text)
+    size = _sized(float(converted.magnitude), repr(text))
+    return Amount(size, str(converted.dimensionality), text)
+
+
+def _sized(value: float, said: object) -> float:
+    """The value, if it can be computed with."""
+    if not math.isfinite(value):
+        raise NumberMistake(f"must be finite, is {said}")
+    if value and not SMALLEST <= abs(value) <= LARGEST:
+        raise NumberMistake(f"must be 0 or from {SMALLEST:g} to {LARGEST:g} in SI, is {said}")
+    return value
 
 
 @cache

@@ -54,7 +54,7 @@ class Part(BaseModel):
         try:
             return check(value)
         except ValidationError as error:
-            raise in_words(error, tuple(cls.model_fields)) from None
+            raise in_words(error, tuple(cls.model_fields), value) from None
 
 
 def plain_or_map() -> Discriminator:

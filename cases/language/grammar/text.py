@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...kind import RESERVED
-from ...mistake import nearest
+from ...mistake import nearest, plain, unseen
 from .field import Plain
 from .number import Names, shown
 from .words import wrong
@@ -25,6 +25,9 @@ class Text(Plain):
     def check(self, value: object, known: Names) -> str:
         if not isinstance(value, str) or not value.strip():
             raise wrong(f"should be text, is {shown(value)}")
+        value = value.rstrip("\n")  # what a block of YAML ends with
+        if (hidden := unseen(value)) is not None:
+            raise wrong(f"should be one line of text, has the character {plain(hidden)}")
         if what := self.rule(value):
             raise wrong(what)
         return value

@@ -6,7 +6,7 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
-from ...mistake import nearest
+from ...mistake import listed, nearest
 from .number import shown
 
 NO_VALUE = "has no value"
@@ -26,15 +26,17 @@ def wrong(what: str) -> PydanticCustomError:
     return PydanticCustomError("plain", "{what}", {"what": what})
 
 
-def in_words(error: ValidationError, keys: Sequence[str]) -> ValidationError:
-    """The same error of a model with these keys, in plain words."""
+def in_words(error: ValidationError, keys: Sequence[str], given: object) -> ValidationError:
+    """The same error of a model with these keys, in plain words; `given` is what it was given."""
+    present = given if isinstance(given, Mapping) else {}
+    absent = [key for key in keys if key not in present]  # no misspelt key means one that is there
     errors: list[dict[str, Any]] = [dict(e) for e in error.errors(include_url=False)]
-    misspelt = {hint for e in errors if (hint := _meant(e, keys))}
+    misspelt = {hint for e in errors if (hint := _meant(e, keys, absent))}
     details = [
         InitErrorDetails(type=wrong(what), loc=loc, input=e["input"])
         for e in errors
         if not (e["type"] == "missing" and e["loc"][-1] in misspelt)
-        for loc, what in _said(e, keys)
+        for loc, what in _said(e, keys, absent)
     ]
     return ValidationError.from_exception_data(error.title, details)
 
@@ -47,12 +49,14 @@ def _unknown(error: Mapping[str, Any], keys: Sequence[str]) -> bool:
     return error["type"] in ("extra_forbidden", "tuple_type")
 
 
-def _meant(error: Mapping[str, Any], keys: Sequence[str]) -> str | None:
-    hint = nearest(error["loc"][0], keys) if _unknown(error, keys) else ""
+def _meant(error: Mapping[str, Any], keys: Sequence[str], absent: Sequence[str]) -> str | None:
+    hint = nearest(error["loc"][0], absent) if _unknown(error, keys) else ""
     return hint.split("'")[1] if "did you mean" in hint else None
 
 
-def _said(error: Mapping[str, Any], keys: Sequence[str]) -> Iterator[tuple[Any, str]]:
+def _said(
+    error: Mapping[str, Any], keys: Sequence[str], absent: Sequence[str]
+) -> Iterator[tuple[Any, str]]:
     value: Any = error["input"]
     loc, kind = error["loc"], error["type"]
     context = error.get("ctx", {})
@@ -61,7 +65,8 @@ def _said(error: Mapping[str, Any], keys: Sequence[str]) -> Iterator[tuple[Any, 
     elif kind == "plain":
         yield loc, context["what"]
     elif _unknown(error, keys):
-        yield loc, f"unknown key {loc[0]!r}{nearest(loc[0], keys)}"
+        close = nearest(loc[0], absent)
+        yield loc, f"unknown key {loc[0]!r}{close if 'did you mean' in close else listed(keys)}"
     elif kind == "choice":
         yield from _choice(loc, value, context["kind"], context["words"])
     elif kind == "missing":
@@ -99,4 +104,5 @@ def _choice(
         yield loc, f"is empty; a {kind} is one of {', '.join(words)}"
     else:
         key = close[0] if close else next(iter(value))
-        yield (*loc, key), f"unknown {kind} {key!r}{nearest(key, words)}"
+        known = f" There are {', '.join(words)}" if close else ""
+        yield (*loc, key), f"unknown {kind} {key!r}{nearest(key, words)}{known}"

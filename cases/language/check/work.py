@@ -1,0 +1,84 @@
+"""The work that a case asks of its reference, counted before anything is computed.
+
+A person may allow any amount of it; what nobody expected ends with a message instead of a night.
+The steps of engines are counted where engines are known (reports/trial/work.py).
+"""
+
+from collections.abc import Iterator, Mapping
+from math import hypot, sqrt
+from typing import Any
+
+from ...mistake import Path
+from ...scene import GROUND, Anchor, Body, Scene
+from ..grammar.file import File
+from ..parse import Finding
+
+VARIANTS = 100  # each is solved and run; a sweep of more is several files
+PARTS = 300  # bodies, joints, contacts, forces: a chain of 100 bars has 200 and takes minutes
+ROWS = 200_000  # samples × bodies: each is a step of the reference, four times at 0.1 ms at least
+SWING = 20_000.0  # rad: 800 evaluations each (measured on a pendulum), a quarter of an hour
+DAMPED = 50.0  # what a damper slows down costs so much less: only stability bounds its steps
+
+GO_ON = "if that is meant, go on with --allow-long (pytest: --textmech-allow-long)"
+
+
+def too_many_variants(data: Mapping[str, Any]) -> str | None:
+    """What is wrong with so many variants in a file's data, or None."""
+    given = data.get("variants")
+    count = len(given) if isinstance(given, Mapping) else 0
+    return _above(count, VARIANTS, f"{count} variants")
+
+
+def work(file: File, scene: Scene) -> Iterator[Finding]:
+    """What is above its limit: parts, samples, and how much swings in the time."""
+    sections = (scene.bodies, scene.joints, scene.contacts, scene.forces)
+    parts = sum(map(len, sections))
+    if what := _above(parts, PARTS, f"{parts} bodies, joints, contacts and forces"):
+        yield ("scene",), what
+    rows = file.samples * len(scene.bodies)
+    bodies = "body" if len(scene.bodies) == 1 else "bodies"
+    each = f"{file.samples} samples of {len(scene.bodies)} {bodies} are {rows} rows"
+    if what := _above(rows, ROWS, each):
+        yield ("samples",), what
+    rate, path = max(_rates(scene), default=(0.0, ()))
+    swing = rate * file.duration
+    where = ".".join(map(str, path))
+    if what := _above(swing, SWING, f"{where} swings at {rate:.3g} rad/s, {swing:.3g} rad in all"):
+        yield ("duration",), what
+
+
+def _above(number: float, limit: float, what: str) -> str | None:
+    return f"{what}, and the limit is {limit:g}: {GO_ON}" if number > limit else None
+
+
+def _rates(scene: Scene) -> Iterator[tuple[float, Path]]:
+    """How fast [rad/s] what is in the scene swings by itself or is driven, and by what."""
+    jointed = {at.body for joint in scene.joints.values() for at in joint.refers()}
+    heaviest = max((body.mass for body in scene.bodies.values()), default=1.0)
+
+    def mobility(at: Anchor) -> float:
+        body = scene.bodies.get(at.body)
+        if body is None or at.point not in body.points:
+            return 0.0
+        # What is jointed moves others: to call it free would see a fast swing that is none.
+        return 1 / heaviest if at.body in jointed else _free(body, at.point)
+
+    for name, force in scene.forces.items():
+        swings, decays = force.pace(mobility)
+        yield max(swings, decays / DAMPED), ("scene", "forces", name)
+    g = hypot(*scene.gravity)
+    for joint in scene.joints.values():
+        for at in joint.refers() if joint.turns else ():
+            if at.body != GROUND and (body := scene.bodies.get(at.body)) is not None:
+                yield _pendulum(body, at.point, g), ("scene", "bodies", at.body)
+
+
+def _free(body: Body, point: str) -> float:
+    """1/m + d²/J [1/kg], how easily the point of a free body moves across its arm d."""
+    return 1 / body.mass + (hypot(*body.points[point]) ** 2 / body.inertia if body.inertia else 0.0)
+
+
+def _pendulum(body: Body, point: str, g: float) -> float:
+    """√(m g d/(J + m d²)) [rad/s], the body hung up at the point."""
+    d = hypot(*body.points.get(point, (0.0, 0.0)))
+    return sqrt(body.mass * g * d / ((body.inertia or 0.0) + body.mass * d * d)) if d else 0.0

@@ -1,0 +1,104 @@
+"""What asks for endless work is said when the file is read, with its place and what is allowed."""
+
+import time
+from pathlib import Path
+
+import pytest
+from given.pendulum import pendulum
+
+from textmech.cases.load import load
+from textmech.cases.mistake import CaseError
+
+SPRING = "{s: {spring: [rod.end, ground.O], stiffness: 1.0e12, rest_length: 0.1}}"
+DAMPER = "{s: {damper: [rod.end, ground.O], damping: 1.0e9}}"
+SINE = "{s: {push: rod.end, sine: {amplitude: [1, 0], angular_frequency: 1.0e5}}}"
+MOTOR = "{s: {torque: rod, sine: {amplitude: 1, angular_frequency: 1.0e6 rpm}}}"
+
+
+def chain(bars: int) -> str:
+    """A chain of bars, each on its own lines."""
+    bodies = [f"    b{i}: {{bar: {{mass: 1.0, length: 0.1}}}}" for i in range(bars)]
+    ends = ["ground.O", *(f"b{i}.end" for i in range(bars))]
+    joints = [f"    j{i}: {{pin: [{ends[i]}, b{i}.start]}}" for i in range(bars)]
+    head = ["title: A chain", "scene:", "  points: {O: [0, 0]}", "  bodies:"]
+    start = ", ".join(f"b{i}: {{angle: 0.1}}" for i in range(bars))
+    tail = [f"initial: {{{start}}}", "duration: 1.0", "samples: 26", "allow: {b0.angle: 1.0e-2}"]
+    return "\n".join([*head, *bodies, "  joints:", *joints, *tail])
+
+
+def variants(count: int) -> str:
+    return "\n".join(["variants:", *(f"  v{i}: {{duration: 2.0}}" for i in range(count))])
+
+
+def said(folder: Path, text: str) -> list[tuple[str, str]]:
+    """Place and words of every mistake."""
+    file = folder / "case.yaml"
+    file.write_text(text, encoding="utf-8")
+    try:
+        load(file)
+    except CaseError as error:
+        return [(f"{m.line}:{m.column} {m.where}", m.what) for m in error.mistakes]
+    return []
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "number"),
+    [
+        (pendulum(length=1e-9), "8:1 duration", "1.21e+05 rad/s"),
+        (pendulum(duration=1e6, step=1.0), "8:1 duration", "5.42e+06 rad in all"),
+        (pendulum(forces=SINE), "8:1 duration", "scene.forces.s swings at 1e+05 rad/s"),
+        (pendulum(forces=MOTOR), "8:1 duration", "1.05e+05 rad/s"),
+        (pendulum(forces=SPRING), "8:1 duration", "1e+06 rad/s"),
+        (pendulum(forces=DAMPER), "8:1 duration", "2e+07 rad/s"),
+        (pendulum(samples=250_001), "9:1 samples", "250001 rows"),
+        (pendulum(more=variants(3000)), "12:1 variants", "3000 variants"),
+        (chain(1000), "2:1 scene", "2000 bodies, joints"),
+    ],
+)  # fmt: skip
+def test_endless_work_is_said_with_its_number_and_the_way_on(
+    tmp_path: Path, text: str, place: str, number: str
+) -> None:
+    (mistake,) = [m for m in said(tmp_path, text) if "limit" in m[1]]
+    assert mistake[0] == place
+    assert number in mistake[1]
+    assert "--allow-long" in mistake[1]
+    file = tmp_path / "case.yaml"
+    if "samples" not in place:  # these do not fit the step either
+        (first, *_) = load(file, long=True)
+        assert first.long
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        pendulum(),
+        pendulum(duration=1e3),
+        pendulum(length=1e-3, duration=10),
+        pendulum(more=variants(100)),
+        pendulum(forces=SPRING.replace("1.0e12", "1.0e8")),
+        chain(100),
+    ],
+)
+def test_what_takes_minutes_is_not_said(tmp_path: Path, text: str) -> None:
+    assert said(tmp_path, text) == []
+
+
+def test_a_stiff_spring_between_light_jointed_links_is_no_fast_swing(tmp_path: Path) -> None:
+    """At the pin the light link moves the heavy bar: alone it would swing at 2e6 rad/s."""
+    text = pendulum(forces=SPRING.replace("1.0e12", "1.0e6").replace("rod.end", "link.end"))
+    text = text.replace("bodies: {", "bodies: {link: {bar: {mass: 1.0e-6, length: 0.1}}, ")
+    text = text.replace("joints: {", "joints: {pin: {pin: [rod.end, link.start]}, ")
+    assert said(tmp_path, text) == []
+
+
+def test_many_mistakes_are_found_quickly_and_shown_in_part(tmp_path: Path) -> None:
+    file = tmp_path / "case.yaml"
+    file.write_text(pendulum(more="\n".join(f"k{i}: 1" for i in range(11_778))), encoding="utf-8")
+    began = time.process_time()
+    with pytest.raises(CaseError) as caught:
+        load(file)
+    assert time.process_time() - began < 20  # 3 s: every key is compared with every other word
+    assert len(caught.value.mistakes) == 11_778
+    *shown, last = str(caught.value).splitlines()
+    assert len(shown) == 3 * 20
+    assert last == f"{file}: and 11758 more"
