@@ -11,6 +11,10 @@ from ..cases.mistake import CaseError, Mistake
 
 FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
 
+allow_long = click.option(
+    "--allow-long", is_flag=True, help="Do any amount of work, and not only what takes minutes."
+)
+
 
 def main() -> None:
     """The entry point."""
@@ -80,6 +84,7 @@ def command() -> None:
     type=click.Path(file_okay=False, path_type=Path),
     help="Write the trajectories too, one CSV a case, reference and engines side by side.",
 )
+@allow_long
 def run(
     cases: tuple[str, ...],
     names: tuple[str, ...],
@@ -87,15 +92,27 @@ def run(
     jobs: int | None,
     out: Path | None,
     keep: Path | None,
+    allow_long: bool,
 ) -> None:
-    """Compare engines with the reference and report the differences."""
-    from . import pool, suite, write
-    from .selection import choose_book, choose_cases, choose_engines
-    from .show import terminal
+    """Compare engines with the reference and report the differences.
 
-    chosen = choose_cases(cases)
+    A file with mistakes is left out: the other files run, and the exit code is 2.
+    """
+    from . import pool, suite, write
+    from .selection import choose_book, choose_engines, sound_cases
+    from .show import terminal
+    from .trial.work import too_long
+
+    found, mistakes = sound_cases(cases, long=allow_long)
     with warnings.catch_warnings(record=True) as broken:
-        engines = choose_engines(names, settings)
+        engines = choose_engines(names, settings, long=allow_long)
+    mistakes += too_long(found, engines)
+    mistaken = {mistake.file for mistake in mistakes}
+    chosen = [case for case in found if case.source.file not in mistaken]
+    if not chosen:
+        raise CaseError(mistakes)
+    if mistakes:
+        click.echo(_left_out(mistakes), err=True)
     for warning in broken:
         click.echo(f"warning: {warning.message}", err=True)
     for folder in (out, keep):
@@ -109,15 +126,24 @@ def run(
             progress=progress,
             book=choose_book(names, settings),
         )
-    if out is None and not (cases or names or settings):
+    if out is None and not (cases or names or settings or mistakes):
         out = write.by_default()
     if out is not None:
         write.write(write.tables(report, chosen), out)
     if keep is not None:
         write.keep(report, keep)
     terminal.show(report, detailed=bool(cases), written=out)
+    if mistakes:
+        click.echo(_left_out(mistakes), err=True)  # again: by now it has scrolled away
+        raise click.exceptions.Exit(BAD_INPUT)
     if report.fails:
         raise click.exceptions.Exit(FAILED)
+
+
+def _left_out(mistakes: list[Mistake]) -> str:
+    files = len({mistake.file for mistake in mistakes})
+    what = "1 file has mistakes and is" if files == 1 else f"{files} files have mistakes and are"
+    return f"{CaseError(mistakes)}\n{what} left out"
 
 
 def _prepare(folder: Path) -> None:
@@ -129,17 +155,24 @@ def _prepare(folder: Path) -> None:
 
 @command.command()
 @click.argument("files", nargs=-1, required=True, metavar="FILE...")
-def check(files: tuple[str, ...]) -> None:
+@allow_long
+def check(files: tuple[str, ...], allow_long: bool) -> None:
     """All mistakes of case files, without running an engine."""
     from ..reference.solve import solve
     from .events.times import never
-    from .selection import choose_cases
+    from .selection import choose_cases, choose_engines
+    from .trial.work import too_long
 
     mistakes: list[Mistake] = []
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # an engine that is broken is no mistake of a case
+        engines = choose_engines([], [])
     failed = False
     for file in files:
         try:
-            chosen = choose_cases([file])
+            chosen = choose_cases([file], long=allow_long)
+            if long := too_long(chosen, engines):
+                raise CaseError(long)
             solutions = [solve(case) for case in chosen]
         except CaseError as error:
             mistakes += error.mistakes
@@ -150,9 +183,9 @@ def check(files: tuple[str, ...]) -> None:
             for mistake in never(case, solution.trajectory)
         ]
         mistakes += found
-        if not found:
-            click.echo(f"{file}: {len(chosen)} case{'s' if len(chosen) > 1 else ''}, no mistakes")
         broken = [check for solution in solutions for check in solution.checks if not check.holds]
+        if not found and not broken:
+            click.echo(f"{file}: {len(chosen)} case{'s' if len(chosen) > 1 else ''}, no mistakes")
         for check in broken:
             numbers = f"{check.difference:.2e} is above {check.bound:.1e}"
             click.echo(f"{file}: FAILS: the reference's {check.name}: {numbers}")
@@ -183,12 +216,13 @@ def list_() -> None:
     metavar="E",
     help="An engine, or engine.setting.",
 )
-def show(case: str, name: str) -> None:
+@allow_long
+def show(case: str, name: str, allow_long: bool) -> None:
     """The scene as the engine's own file or script, with the settings and their reasons."""
     from .selection import choose_cases, choose_engines
     from .show.script import script
 
-    chosen = choose_cases([case])
+    chosen = choose_cases([case], long=allow_long)
     if len(chosen) > 1:
         names = ", ".join(c.name for c in chosen)
         raise click.UsageError(f"{case} has variants; show one of: {names}")

@@ -38,6 +38,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         metavar="CASE",
         help="only this case or variant (may be repeated)",
     )
+    group.addoption(
+        "--textmech-allow-long",
+        dest="textmech_allow_long",
+        action="store_true",
+        help="do any amount of work, and not only what takes minutes",
+    )
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
@@ -78,13 +84,17 @@ class CaseFile(pytest.File):
         from .trial.book import producers
         from .trial.start import assembled
         from .trial.trial import judged_names, planned
+        from .trial.work import too_long
 
         try:
-            cases = load(self.path, systems=HANDWRITTEN, engines=ENGINES)
+            long = bool(self.config.getoption("textmech_allow_long"))
+            cases = load(self.path, systems=HANDWRITTEN, engines=ENGINES, long=long)
             names = self.config.getoption("textmech_engine") or []
             engines = choose_engines(names, [])
             wanted = self.config.getoption("textmech_case") or (self.path.stem,)
             cases = [c for c in cases if c.name in wanted or self.path.stem in wanted]
+            if mistakes := too_long(cases, engines):
+                raise CaseError(mistakes)
             starts = [assembled(case) for case in cases]
         except CaseError as error:
             raise self.CollectError(str(error)) from None

@@ -1,7 +1,7 @@
 """From the words of a command line to cases and engines."""
 
 import warnings
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import fields
 from pathlib import Path
 from typing import Any, cast
@@ -10,6 +10,7 @@ from .. import engines
 from ..cases.case import Case
 from ..cases.find import find, shipped
 from ..cases.language.check.engines import Engines
+from ..cases.language.check.work import GO_ON
 from ..cases.language.read.document import read
 from ..cases.load import load
 from ..cases.mistake import CaseError, Mistake, Source, nearest
@@ -17,40 +18,53 @@ from ..engines.engine import Engine
 from ..reference.systems import SYSTEMS
 
 BOOK = "book"
+SWEEPS = 10_000  # what a chain of 200 pins needs in pymunk; as shipped engines take 10 and 100
 ENGINES = engines.Known()
 HANDWRITTEN = {
     name: tuple(f.name for f in fields(cast(Any, system))) for name, system in SYSTEMS.items()
 }
 
 
-def choose_cases(words: Sequence[str], *, known: Engines | None = ENGINES) -> list[Case]:
+def choose_cases(
+    words: Sequence[str], *, known: Engines | None = ENGINES, long: bool = False
+) -> list[Case]:
     """The cases of the words: names, `name.variant`, or paths; all shipped ones for none.
 
     known: the engines that they may name; None: whatever they name, and nothing is imported.
+    long: whether they may ask for any amount of work.
 
     Raises CaseError with the mistakes of all files.
     """
+    cases, mistakes = sound_cases(words, known=known, long=long)
+    if mistakes:
+        raise CaseError(mistakes)
+    return cases
+
+
+def sound_cases(
+    words: Sequence[str], *, known: Engines | None = ENGINES, long: bool = False
+) -> tuple[list[Case], list[Mistake]]:
+    """As `choose_cases`, but a mistake costs its own file: what is left, and all mistakes."""
     cases: dict[str, Case] = {}
     mistakes: list[Mistake] = []
     for word in words or shipped():
         try:
-            for case in _cases(word, known):
+            for case in _cases(word, known, long):
                 other = Path(cases.setdefault(case.name, case).source.file)
                 if other.resolve() != Path(case.source.file).resolve():
                     what = f"{other} already has the name {case.name!r}: rename one of the files"
                     mistakes.append(Mistake(case.source.file, 0, 0, "", what))
         except CaseError as error:
             mistakes += error.mistakes
-    if mistakes:
-        raise CaseError(mistakes)
-    return list(cases.values())
+    mistaken = {mistake.file for mistake in mistakes}
+    return [c for c in cases.values() if c.source.file not in mistaken], mistakes
 
 
-def _cases(word: str, known: Engines | None) -> list[Case]:
+def _cases(word: str, known: Engines | None, long: bool) -> list[Case]:
     stem, _, variant = word.partition(".")
     if stem not in shipped() or not variant or Path(word).exists():
-        return load(find([word])[0], systems=HANDWRITTEN, engines=known)
-    cases = load(shipped()[stem], systems=HANDWRITTEN, engines=known)
+        return load(find([word])[0], systems=HANDWRITTEN, engines=known, long=long)
+    cases = load(shipped()[stem], systems=HANDWRITTEN, engines=known, long=long)
     chosen = [case for case in cases if case.name == word]
     if not chosen:
         names = [case.name for case in cases]
@@ -58,11 +72,14 @@ def _cases(word: str, known: Engines | None) -> list[Case]:
     return chosen
 
 
-def choose_engines(names: Sequence[str], settings: Sequence[str]) -> list[Engine]:
+def choose_engines(
+    names: Sequence[str], settings: Sequence[str], *, long: bool = False
+) -> list[Engine]:
     """Engines × settings, by name; none means all. A name may carry its setting (`mujoco.tuned`).
 
-    A setting that no engine offers is a file of the user's own options, a further column. Raises
-    CaseError; an engine that nobody named and that cannot be imported is a warning.
+    A setting that no engine offers is a file of the user's own options, a further column. long:
+    whether these may ask for any number of iterations. Raises CaseError; an engine that nobody
+    named and that cannot be imported is a warning.
     """
     for word in names:
         _known(word)
@@ -79,7 +96,7 @@ def choose_engines(names: Sequence[str], settings: Sequence[str]) -> list[Engine
         if (engine := _made(name, setting, asked=bool(names))) is not None
     ]
     for file in (Path(word) for word in settings if word not in every):
-        own = read_settings(file, sorted(every))
+        own = read_settings(file, sorted(every), long=long)
         found += [e for name, e in own.items() if not names or name in names]
     if not found and not choose_book(names, settings):
         what = f"with --settings {', '.join(settings)} no engine is left"
@@ -136,7 +153,7 @@ def _offered(word: str, offers: Mapping[str, Sequence[str]]) -> None:
         raise CaseError([Mistake("--engine", 0, 0, word, f"no such engine{hint}")])
 
 
-def read_settings(file: Path, offered: Sequence[str]) -> dict[str, Engine]:
+def read_settings(file: Path, offered: Sequence[str], *, long: bool = False) -> dict[str, Engine]:
     """A file of engine → options as engines with the setting `own`. Raises CaseError."""
     if not file.exists() and file.suffix not in (".yaml", ".yml"):
         hint = nearest(str(file), offered) or f"; {', '.join(offered)}, or a YAML file"
@@ -150,11 +167,21 @@ def read_settings(file: Path, offered: Sequence[str]) -> dict[str, Engine]:
         elif not isinstance(options, Mapping):
             what = "should be a map of the engine's options, for instance {step: 1.0e-3}"
             mistakes.append(document.source.mistake((name,), what))
+        elif not long and (sweeps := [*_sweeps(document.source, name, options)]):
+            mistakes += sweeps
         else:
             mistakes += _options(document.source, name, options, found)
     if mistakes:
         raise CaseError(mistakes)
     return found
+
+
+def _sweeps(source: Source, name: str, options: Mapping[str, Any]) -> Iterator[Mistake]:
+    """Solvers that would sweep for hours: each engine calls the number of sweeps `…iterations`."""
+    for key, value in options.items():
+        if key.endswith("iterations") and isinstance(value, int | float) and value > SWEEPS:
+            what = f"{value:g} iterations in each step, and the limit is {SWEEPS}: {GO_ON}"
+            yield source.mistake((name, key), what)
 
 
 def _options(

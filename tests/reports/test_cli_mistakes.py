@@ -1,0 +1,107 @@
+"""What a mistake in one file costs: its own file, and the exit code of the command."""
+
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+from given.pendulum import pendulum
+
+from textmech.cases.case import Case
+from textmech.reference import solve
+from textmech.reference.certificate.agreement import Check
+from textmech.reports.cli import command
+
+
+def textmech(
+    folder: Path, *words: str | bytes, env: dict[str, str] | None = None
+) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "textmech.reports.cli", *words],
+        capture_output=True,
+        text=True,
+        cwd=folder,
+        env={**os.environ, **(env or {})},
+        timeout=120,
+        check=False,
+    )
+
+
+@pytest.fixture
+def files(tmp_path: Path) -> Path:
+    (tmp_path / "good.yaml").write_text(pendulum(), encoding="utf-8")
+    (tmp_path / "bad.yaml").write_text(pendulum(length=-1), encoding="utf-8")
+    (tmp_path / "long.yaml").write_text(pendulum(step=1e-9), encoding="utf-8")
+    return tmp_path
+
+
+def test_a_mistake_costs_its_own_file(files: Path) -> None:
+    done = textmech(files, "run", "bad.yaml", "good.yaml", "long.yaml", "--engine", "mujoco.tuned")
+    assert done.returncode == 2
+    assert "good in mujoco" in done.stdout
+    assert "bad.yaml:4:" in done.stderr
+    assert "long.yaml:10:1: step: " in done.stderr
+    assert "2 files have mistakes and are left out" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_without_a_sound_file_nothing_runs(files: Path) -> None:
+    done = textmech(files, "run", "bad.yaml", "long.yaml")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "2 mistakes; nothing was written" in done.stderr or "3 mistakes" in done.stderr
+
+
+def test_check_says_what_would_take_for_ever_and_allow_long_goes_on(files: Path) -> None:
+    done = textmech(files, "check", "long.yaml", "good.yaml")
+    assert done.returncode == 2
+    assert "good.yaml: 1 case, no mistakes" in done.stdout
+    assert "--allow-long" in done.stderr
+    assert textmech(files, "check", "--allow-long", "long.yaml").returncode == 0
+
+
+def test_check_says_no_mistakes_only_where_nothing_fails(
+    files: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sound = solve.solve
+
+    def uncertified(case: Case) -> solve.Solution:
+        return replace(sound(case), checks=(Check("closed form", 2e-3, 1e-12),))
+
+    monkeypatch.setattr(solve, "solve", uncertified)
+    done = CliRunner().invoke(command, ["check", str(files / "good.yaml")])
+    assert done.exit_code == 1
+    assert "FAILS: the reference's closed form: 2.00e-03 is above 1.0e-12" in done.output
+    assert "no mistakes" not in done.output
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["#h.yaml", "=cmd().yaml", "@x.yaml", "a\nb.yaml", "esc\x1b[31m.yaml", "l" * 150 + ".yaml"],
+)
+def test_a_name_that_reports_cannot_carry_is_a_mistake(files: Path, name: str) -> None:
+    (files / name).write_text(pendulum(), encoding="utf-8")
+    done = textmech(files, "check", name)
+    assert done.returncode == 2
+    assert "name" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert "\x1b" not in done.stderr
+
+
+def test_names_that_no_file_can_have(files: Path) -> None:
+    for name in ("n" * 300 + ".yaml", b"\xff\xfe.yaml", ""):
+        done = textmech(files, "check", name)
+        assert done.returncode == 2, name
+        assert "Traceback" not in done.stderr
+
+
+def test_a_name_that_is_not_utf8(files: Path) -> None:
+    name = b"caf\xe9.yaml"
+    with open(os.path.join(os.fsencode(files), name), "wb") as file:
+        file.write(pendulum().encode())
+    done = textmech(files, "check", name)
+    assert done.returncode == 2
+    assert "caf\\udce9" in done.stderr
+    assert "Traceback" not in done.stderr
