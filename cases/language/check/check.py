@@ -54,7 +54,8 @@ def _parameters(
         needed = systems[file.system]
         for name in needed:
             if name not in given:
-                yield ("parameters",), f"system {file.system!r} needs the parameter {name!r}"
+                place = "parameters" if file.parameters else "system"
+                yield (place,), f"system {file.system!r} needs the parameter {name!r}"
         for name in file.parameters:
             if name not in needed:
                 what = f"system {file.system!r} has no parameter {name!r}{nearest(name, needed)}"

@@ -6,11 +6,13 @@ from typing import Any
 
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
+from ruamel.yaml.reader import ReaderError
 
-from ...mistake import CaseError, Mistake, Source
+from ...mistake import CaseError, Mistake, Source, plain
 from .tree import Tree
 
 LARGEST = 200_000  # bytes, read in 1.5 s; a case has 2000
+MARK = "\ufeff"  # with which some editors begin a file
 
 
 @dataclass
@@ -29,6 +31,11 @@ def read(path: FilePath) -> Document:
     tree = Tree(str(path), lines)
     try:
         data = tree.document(YAML(typ="safe", pure=True).parse(text))
+    except ReaderError as error:
+        line, column = _end(text[: error.position])
+        what = f"the character {plain(text[error.position])} cannot stand in YAML"
+        shown = lines[line - 1] if line <= len(lines) else ""
+        raise CaseError([Mistake(str(path), line, column, "", what, shown)]) from None
     except YAMLError as error:
         raise CaseError([tree.unreadable(error)]) from None
     except (ValueError, OverflowError) as error:  # ruamel on an escape such as "\U99999999"
@@ -55,7 +62,14 @@ def _text(path: FilePath) -> str:
     if len(content) > LARGEST:
         raise refuse(f"is larger than {LARGEST // 1000} kB, too large for a case")
     try:
-        return content.decode("utf-8-sig")
+        return content.decode().removeprefix(MARK)
     except UnicodeDecodeError as error:
-        line, byte = content.count(b"\n", 0, error.start) + 1, content[error.start]
-        raise refuse(f"is not UTF-8 text: line {line} has the byte {byte:#x}") from None
+        before = content[: error.start].decode().removeprefix(MARK)
+        what = f"is not UTF-8 text: here is the byte {content[error.start]:#x}"
+        raise CaseError([Mistake(str(path), *_end(before), "", what)]) from None
+
+
+def _end(text: str) -> tuple[int, int]:
+    """Line and column, from 1, of what would follow the text."""
+    head, _, last = text.rpartition("\n")
+    return head.count("\n") + 1 + ("\n" in text), len(last) + 1
