@@ -75,6 +75,7 @@ class Case:
     reach: Mapping[str, Mapping[str, float]]
     deviates: Mapping[str, Mapping[str, Deviation]]
     rests: bool
+    stays: tuple[str, ...]  # quantities whose claim is that they do not move
     events: Mapping[str, Event]
     source: Source  # the file, for messages
     long: bool = False  # whether its reference may take any amount of work

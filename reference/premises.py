@@ -80,16 +80,21 @@ def _needed(normal: Array, tangent: Array) -> str:
 
 
 def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:
-    """A place or velocity that stays what it was proves nothing, unless the case says it rests."""
+    """A place or velocity that stays what it was proves nothing, unless that is the claim."""
     known = table(case.scene)
     states = np.concatenate(list(motion.states.values()))
     for name in (name for name in case.allow if name in known):  # the rest are of events
         quantity = known[name]
-        if case.rests or quantity.kind not in ("coordinate", "velocity"):
+        claimed = name in case.stays
+        if (case.rests and not claimed) or quantity.kind not in ("coordinate", "velocity"):
             continue
         samples = observe(case.scene, motion, name)
         # a place held at 0 trembles by rounding, which is small only beside the other bodies'
         size = max(np.max(np.abs(samples)), np.max(np.abs(states[:, ALIKE[quantity.unit]])))
-        if np.ptp(samples) <= STILL * size:
-            what = f"never moves: it stays {samples[0]:.6g}, so nothing is compared; leave it out"
-            yield case.mistake(("allow", name), f"{what}, or say `rests: true`")
+        still = np.ptp(samples) <= STILL * size
+        if still and not claimed:
+            what = f"never moves: it stays {samples[0]:.6g}; leave it out, or say what is claimed: "
+            yield case.mistake(("allow", name), f"{what}`stays: [{name}]`, or `rests: true` of all")
+        elif claimed and not still:
+            what = f"moves by {np.ptp(samples):.3g} {quantity.unit}"
+            yield case.mistake(("stays", case.stays.index(name)), what)

@@ -53,7 +53,12 @@ def command() -> None:
       textmech check my_case.yaml             all mistakes of a file, without running it
       textmech show bar_pendulum --engine mujoco.tuned > pendulum.xml
 
-    Exit codes: 0 as expected, 1 a verdict FAILS, 2 bad input.
+    \b
+    Exit codes:
+      0    all is as expected; findings (`beyond`) are no failures
+      1    a verdict FAILS
+      2    a mistake in the command or in a file, which is left out; the other files run
+      130  interrupted
     """
 
 

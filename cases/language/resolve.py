@@ -62,6 +62,7 @@ def resolve_case(name: str, file: File, scene: Scene, source: Source, *, long: b
             for setting, known in file.deviates.items()
         },
         rests=file.rests,
+        stays=file.stays,
         events={
             event: Event(quantity, rule)  # type: ignore[arg-type]  # the grammar's word
             for event, rules in file.events.items()

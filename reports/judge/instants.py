@@ -52,7 +52,7 @@ def _time(trial: Trial, event: str, found: Array, held: Convergence) -> Comparis
     name, wanted = f"{event}.time", trial.events[event]
     both = min(len(wanted), len(found))
     if not both:
-        return row(trial, name, "refused: engine: it never happens there")
+        return row(trial, name, "refused: engine: the event never happens in its motion")
     error = metric.error(found[:both], wanted[:both])
     word, because = verdict(trial, name, error.largest, held)
     return _measured(

@@ -19,7 +19,7 @@ often = settings(
     max_examples=N,
     derandomize=True,
     deadline=None,  # the machine may be busy
-    suppress_health_check=list(HealthCheck),
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )
 WHOLE = ("missing key", "is empty")  # what is said of a file, and of no line in it
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 
-from ...mistake import nearest
+from ...mistake import Path, nearest
 from ...quantity import EVENT_FIELDS, Quantity, event_quantities, table
 from ...scene import Scene
 from ..grammar.number import Amount, NumberMistake, fitting
@@ -21,7 +21,7 @@ def _events(parsed: Parsed, scene: Scene, seen: Mapping[str, Quantity]) -> Itera
         for name in rules:
             path = ("events", event, name)
             if name not in seen:
-                yield from _unknown(parsed, seen, path)
+                yield from _unknown(parsed, seen, path, name)
             elif not _marks(scene, seen[name]):
                 what = "its zero marks no event; take a place, a velocity, a slip or a force"
                 yield path, what
@@ -38,11 +38,16 @@ def _bounds(parsed: Parsed, known: Mapping[str, Quantity]) -> Iterator[Finding]:
     if ("allow",) in parsed.broken:
         return
     for name, bound in file.allow.items():
-        yield from _quantity(parsed, known, ("allow", name), bound)
+        yield from _quantity(parsed, known, ("allow", name), name, bound)
+    for i, name in enumerate(file.stays):
+        if name not in file.allow:
+            yield from _allowed(parsed, known, ("stays", i), name)
+        elif name in known and known[name].kind not in ("coordinate", "velocity"):
+            yield ("stays", i), f"{name!r} is no place and no velocity, and may stay as it is"
     for way, reached in file.reach.items():
         for name, bound in reached.items():
             path = ("reach", way, name)
-            yield from _allowed(parsed, known, path, bound)
+            yield from _allowed(parsed, known, path, name, bound)
             allow = file.allow.get(name)
             if allow is not None and bound.value > allow.value:
                 yield path, f"{bound.value:g} is above its `allow`, {allow.value:g}"
@@ -53,17 +58,20 @@ def _bounds(parsed: Parsed, known: Mapping[str, Quantity]) -> Iterator[Finding]:
             for size in (deviation.limit, *(deviation.by or ())):
                 if size is None:
                     continue
-                yield from _allowed(parsed, known, path, size)
+                yield from _allowed(parsed, known, path, name, size)
                 if allow is not None and size.value <= allow.value:
                     yield path, f"{size.value:g} is not above its `allow`, {allow.value:g}"
 
 
 def _quantity(
-    parsed: Parsed, known: Mapping[str, Quantity], path: tuple[str, ...], bound: Amount | None
+    parsed: Parsed,
+    known: Mapping[str, Quantity],
+    path: Path,
+    name: str,
+    bound: Amount | None,
 ) -> Iterator[Finding]:
-    name = path[-1]
     if name not in known:
-        yield from _unknown(parsed, known, path)
+        yield from _unknown(parsed, known, path, name)
     elif bound is not None:
         try:
             fitting(bound, known[name].unit)
@@ -72,19 +80,21 @@ def _quantity(
 
 
 def _allowed(
-    parsed: Parsed, known: Mapping[str, Quantity], path: tuple[str, ...], bound: Amount
+    parsed: Parsed,
+    known: Mapping[str, Quantity],
+    path: Path,
+    name: str,
+    bound: Amount | None = None,
 ) -> Iterator[Finding]:
-    name = path[-1]
     if name in parsed.file.allow or ("allow", name) in parsed.broken:
-        yield from _quantity(parsed, known, path, bound)
+        yield from _quantity(parsed, known, path, name, bound)
     elif not _hidden(parsed, name):
         yield path, f"{name!r} is not in `allow`{nearest(name, parsed.file.allow)}"
 
 
 def _unknown(
-    parsed: Parsed, known: Mapping[str, Quantity], path: tuple[str, ...]
+    parsed: Parsed, known: Mapping[str, Quantity], path: Path, name: str
 ) -> Iterator[Finding]:
-    name = path[-1]
     part, _, field = name.rpartition(".")
     if _hidden(parsed, name):
         return

@@ -13,7 +13,7 @@ from .ground import GroundPoint
 from .joint import Joint
 from .number import Amount
 from .part import Angle, Name, Part, Position, plain_or_map
-from .text import Place, Text, Word, equation, label
+from .text import Place, Text, Word, equation, label, no_formula
 from .words import wrong
 
 WAYS = ("", ".law", ".driver", ".limit")  # after an engine's name: which of its rows
@@ -86,7 +86,7 @@ class Deviation(Part):
 
     limit: Tolerance | None = None
     by: tuple[Tolerance, Tolerance] | None = None
-    because: Annotated[str, Text()]
+    because: Annotated[str, Text(no_formula)]
 
     def model_post_init(self, context: object) -> None:
         if (self.limit is None) == (self.by is None):
@@ -144,6 +144,9 @@ class File(Part):
         {}, description="known differences of an engine's model"
     )
     rests: bool = Field(False, description="nothing moves here, on purpose")
+    stays: tuple[Quantity, ...] = Field(
+        (), description="places and velocities that stay what they were, and that is the claim"
+    )
     variants: dict[Name, dict[str, Any]] = Field(
         {},
         description="each a deep overlay of the keys above, but title and source",

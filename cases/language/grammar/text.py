@@ -89,3 +89,10 @@ def reference(word: str) -> str | None:
     if re.fullmatch(rf"{IDENTIFIER}\.{IDENTIFIER}", word):
         return None
     return f"should be body.point or ground.point, is {word!r}"
+
+
+def no_formula(words: str) -> str | None:
+    """What is wrong with words that fill a cell of a report."""
+    if words[0] in "=+-@":
+        return f"begins with {words[0]!r}, as a formula of a spreadsheet does"
+    return None

@@ -1,0 +1,39 @@
+"""A place that stays may be the claim itself: then it is compared, and it has to be true."""
+
+from pathlib import Path
+
+import pytest
+from given.scenes import typed
+
+from textmech.cases.mistake import CaseError
+from textmech.reference.solve import solve
+
+# The end of the rod runs on a straight line, though nothing guides it there.
+SCOTT_RUSSELL = """\
+scene:
+  gravity: none
+  points: {O: [0, 0]}
+  bodies: {crank: {bar: {mass: 0.4, length: 0.5}}, rod: {bar: {mass: 0.8, length: 1.0}}}
+  joints:
+    axle: {pin: [ground.O, crank.start]}
+    middle: {pin: [crank.end, rod.center]}
+    foot: {slot: [ground.O, rod.start], along: [1, 0]}
+initial: {crank: {angle: 50 deg, omega: 0.3}}
+near: {rod: {angle: 130 deg}}
+allow: {rod.end.x: 1.0e-6, rod.end.y: 1.0e-3}
+"""
+
+
+def test_a_straight_line_that_a_linkage_keeps_is_a_claim(tmp_path: Path) -> None:
+    with pytest.raises(CaseError, match=r"say what is claimed: `stays: \[rod.end.x\]`"):
+        solve(typed(tmp_path, SCOTT_RUSSELL))
+    assert solve(typed(tmp_path, f"{SCOTT_RUSSELL}stays: [rod.end.x]\n")).holds
+
+
+@pytest.mark.parametrize("more", ["", "rests: true\n"])
+def test_what_is_said_to_stay_and_moves_is_a_mistake(tmp_path: Path, more: str) -> None:
+    with pytest.raises(CaseError) as caught:
+        solve(typed(tmp_path, f"{SCOTT_RUSSELL}stays: [rod.end.x, rod.end.y]\n{more}"))
+    (mistake,) = caught.value.mistakes
+    assert mistake.where == "stays.1"
+    assert mistake.what.startswith("moves by ")
