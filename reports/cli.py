@@ -3,11 +3,18 @@
 import signal
 import sys
 import warnings
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from ..cases.mistake import CaseError, Mistake
+
+if TYPE_CHECKING:
+    from ..cases.case import Case
+    from .suite import Report
 
 FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
 
@@ -112,8 +119,7 @@ def run(
     with warnings.catch_warnings(record=True) as broken:
         engines = choose_engines(names, settings, long=allow_long)
     mistakes += too_long(found, engines)
-    mistaken = {mistake.file for mistake in mistakes}
-    chosen = [case for case in found if case.source.file not in mistaken]
+    chosen = _sound(found, mistakes)
     if not chosen:
         raise CaseError(mistakes)
     if mistakes:
@@ -124,13 +130,16 @@ def run(
         if folder is not None:
             _prepare(folder)  # before the work, not after it
     with terminal.progress() as progress:
-        report = suite.measure(
-            chosen,
-            engines,
+        measure = partial(
+            suite.measure,
+            engines=engines,
             jobs=jobs or pool.workers(),
             progress=progress,
             book=choose_book(names, settings),
         )
+        report, unsolved = _each_for_itself(measure, chosen)
+    mistakes += unsolved
+    chosen = _sound(chosen, unsolved)
     if out is None and not (cases or names or settings or mistakes):
         out = write.by_default()
     if out is not None:
@@ -143,6 +152,28 @@ def run(
         raise click.exceptions.Exit(BAD_INPUT)
     if report.fails:
         raise click.exceptions.Exit(FAILED)
+
+
+def _sound(cases: "list[Case]", mistakes: list[Mistake]) -> "list[Case]":
+    """The cases of the files without mistakes."""
+    mistaken = {mistake.file for mistake in mistakes}
+    return [case for case in cases if case.source.file not in mistaken]
+
+
+def _each_for_itself(
+    measure: "Callable[[list[Case]], Report]", cases: "list[Case]"
+) -> "tuple[Report, list[Mistake]]":
+    """The report, and the mistakes that only solving finds: they cost their own files.
+
+    All of these are found at once, so what is left is measured in one more go.
+    """
+    try:
+        return measure(cases), []
+    except CaseError as error:
+        left = _sound(cases, error.mistakes)
+        if not left or left == cases:
+            raise
+        return measure(left), error.mistakes
 
 
 def _left_out(mistakes: list[Mistake]) -> str:

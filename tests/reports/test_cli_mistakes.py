@@ -35,16 +35,19 @@ def files(tmp_path: Path) -> Path:
     (tmp_path / "good.yaml").write_text(pendulum(), encoding="utf-8")
     (tmp_path / "bad.yaml").write_text(pendulum(length=-1), encoding="utf-8")
     (tmp_path / "long.yaml").write_text(pendulum(step=1e-9), encoding="utf-8")
+    (tmp_path / "still.yaml").write_text(pendulum(angle="-90 deg"), encoding="utf-8")
     return tmp_path
 
 
 def test_a_mistake_costs_its_own_file(files: Path) -> None:
-    done = textmech(files, "run", "bad.yaml", "good.yaml", "long.yaml", "--engine", "mujoco.tuned")
+    names = ("bad.yaml", "good.yaml", "long.yaml", "still.yaml")
+    done = textmech(files, "run", *names, "--engine", "mujoco.tuned")
     assert done.returncode == 2
     assert "good in mujoco" in done.stdout
     assert "bad.yaml:4:" in done.stderr
     assert "long.yaml:10:1: step: " in done.stderr
-    assert "2 files have mistakes and are left out" in done.stderr
+    assert "still.yaml:11:9: allow.rod.angle: never moves" in done.stderr  # only solving tells
+    assert "3 files have mistakes and are left out" in done.stderr
     assert "Traceback" not in done.stderr
 
 
