@@ -25,7 +25,7 @@ from .start.positions import rank
 from .system import Array
 
 MOST = 5e6  # evaluations: the largest shipped case takes 4e4 and 8 s, so this is a quarter hour
-FEW = 4  # bodies: an evaluation costs more of more than these
+FEW = 20  # bodies: an evaluation costs the more of more than these
 SHORT = 1e-3  # of the mechanism's size: steps give up well before the length is zero
 DEPENDENT = 1e-2  # singular values below this part of the largest: the same, for constraints
 

@@ -6,6 +6,7 @@ lists some. Everything heavy is imported only then.
 
 from collections.abc import Iterator
 from fnmatch import fnmatch
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,10 +14,11 @@ import pytest
 
 if TYPE_CHECKING:
     from ..cases.case import Case
+    from ..cases.mistake import Mistake
     from .row import Certificate, Comparison
     from .suite import Report
 
-_REPORT = pytest.StashKey["Report | Exception"]()
+_REPORT = pytest.StashKey["tuple[Report, list[Mistake]]"]()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -121,7 +123,14 @@ class CaseItem(pytest.Item):
         self.case = case
 
     def report(self) -> "Report":
-        return measured(self.session)
+        """All rows. Raises RowError with the mistakes of its own file, if solving found some."""
+        from ..cases.mistake import CaseError
+
+        report, mistakes = _found(self.session)
+        mine = [mistake for mistake in mistakes if mistake.file == self.case.source.file]
+        if mine:
+            raise RowError(str(CaseError(mine)))
+        return report
 
     def place(self, *path: str) -> int:
         """The line of the case file, from 1, where the row's claim stands."""
@@ -202,17 +211,22 @@ def _certificate_text(row: "Certificate") -> str:
 
 
 def measured(session: pytest.Session) -> "Report":
-    """All rows that were collected, each simulation once in the session. Raises RowError."""
+    """All rows that were collected. Raises RowError where a file has mistakes."""
+    report, mistakes = _found(session)
+    if mistakes:
+        raise RowError("\n".join(map(str, mistakes)))
+    return report
+
+
+def _found(session: pytest.Session) -> "tuple[Report, list[Mistake]]":
+    """All rows that were collected, each simulation once in the session, and what could not be."""
     if _REPORT not in session.stash:
         session.stash[_REPORT] = _measure(session)
-    found = session.stash[_REPORT]
-    if isinstance(found, Exception):
-        raise RowError(str(found))
-    return found
+    return session.stash[_REPORT]
 
 
-def _measure(session: pytest.Session) -> "Report | Exception":
-    """Runs what is collected, on all cores."""
+def _measure(session: pytest.Session) -> "tuple[Report, list[Mistake]]":
+    """Runs what is collected, on all cores; a mistake that solving finds costs its own file."""
     from ..cases.mistake import CaseError
     from . import pool, suite
     from .selection import BOOK, choose_engines
@@ -223,13 +237,16 @@ def _measure(session: pytest.Session) -> "Report | Exception":
     book = any(name == BOOK for name, _ in used)
     names = [f"{name}.{setting}" for name, setting in sorted(used) if name != BOOK]
     engines = choose_engines(names, []) if names else []
+    measure = partial(
+        suite.measure,
+        engines=engines,
+        jobs=pool.workers(),
+        progress=lambda *_: None,
+        book=book,
+    )
     try:
-        return suite.measure(
-            list(cases.values()),
-            engines,
-            jobs=pool.workers(),
-            progress=lambda *_: None,
-            book=book,
-        )
+        return measure(list(cases.values())), []
     except CaseError as error:
-        return error
+        mistaken = {mistake.file for mistake in error.mistakes}
+        left = [case for case in cases.values() if case.source.file not in mistaken]
+        return measure(left), error.mistakes

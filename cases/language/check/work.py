@@ -9,7 +9,7 @@ from math import hypot, sqrt
 from typing import Any
 
 from ...mistake import Path
-from ...scene import GROUND, Anchor, Body, Scene
+from ...scene import Anchor, Body, Scene
 from ..grammar.file import File
 from ..parse import Finding
 
@@ -40,7 +40,7 @@ def work(file: File, scene: Scene) -> Iterator[Finding]:
     each = f"{file.samples} samples of {len(scene.bodies)} {bodies} are {rows} rows"
     if what := _above(rows, ROWS, each):
         yield ("samples",), what
-    rate, path = max(_rates(scene), default=(0.0, ()))
+    rate, path = max([*_rates(scene), *_spins(file, scene)], default=(0.0, ()))
     swing = rate * file.duration
     where = ".".join(map(str, path))
     if what := _above(swing, SWING, f"{where} swings at {rate:.3g} rad/s, {swing:.3g} rad in all"):
@@ -67,10 +67,26 @@ def _rates(scene: Scene) -> Iterator[tuple[float, Path]]:
         swings, decays = force.pace(mobility)
         yield max(swings, decays / DAMPED), ("scene", "forces", name)
     g = hypot(*scene.gravity)
+    for at in _pins(scene):
+        yield _pendulum(scene.bodies[at.body], at.point, g), ("scene", "bodies", at.body)
+
+
+def _spins(file: File, scene: Scene) -> Iterator[tuple[float, Path]]:
+    """How fast what turns about a pin is set off; what is free only turns, which costs nothing."""
+    for at in _pins(scene):
+        start = file.initial.get(at.body)
+        if start is not None and start.omega is not None and any(_arm(scene, at)):
+            yield abs(start.omega), ("initial", at.body)
+
+
+def _pins(scene: Scene) -> Iterator[Anchor]:
+    """Where bodies turn about others or about the ground."""
     for joint in scene.joints.values():
-        for at in joint.refers() if joint.turns else ():
-            if at.body != GROUND and (body := scene.bodies.get(at.body)) is not None:
-                yield _pendulum(body, at.point, g), ("scene", "bodies", at.body)
+        yield from (at for at in joint.refers() if joint.turns and at.body in scene.bodies)
+
+
+def _arm(scene: Scene, at: Anchor) -> tuple[float, float]:
+    return scene.bodies[at.body].points.get(at.point, (0.0, 0.0))
 
 
 def _free(body: Body, point: str) -> float:
