@@ -13,7 +13,6 @@ from .engine import Engine, Maker
 GROUP = "textmech.engines"
 SETTINGS = ("shipped", "tuned")  # what an engine may offer
 TAKEN = ("book", "reference")  # words that stand for something else in the reports
-OWN = "own"  # the setting of a user's own options, which every engine has
 
 
 class Broken(Exception):
@@ -31,7 +30,7 @@ def settings(name: str) -> tuple[str, ...]:
 
 
 def make(name: str, setting: str, options: Mapping[str, Any] | None = None) -> Engine:
-    """An engine by its name and setting; `own` takes the user's options.
+    """An engine by its name and setting; any other name is that of the user's own options.
 
     Raises KeyError, Broken, and ValueError for options that the engine does not have.
     """

@@ -90,7 +90,7 @@ class Engine(Protocol):
 
     @property
     def setting(self) -> str:
-        """One that the engine offers, or `own`, the user's."""
+        """One that the engine offers, or the name of the user's own."""
         ...
 
     @property
@@ -162,7 +162,7 @@ class Maker(Protocol):
     """Its settings: of `shipped` and `tuned` those it has."""
 
     def __call__(self, setting: str, options: Mapping[str, Any]) -> Engine:
-        """The engine with a setting it offers, or with `own` and the user's options.
+        """The engine with a setting it offers, or with the user's options under another name.
 
         Raises ValueError for mistaken options: a line `<engine>.<option>: what is wrong` for each.
         """

@@ -15,6 +15,7 @@ from ..cases.mistake import CaseError, Mistake
 if TYPE_CHECKING:
     from ..cases.case import Case
     from .suite import Report
+    from ..engines.engine import Engine
 
 FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
 
@@ -56,7 +57,7 @@ def command() -> None:
     \b
       textmech run                            all cases: regenerates reports/*.csv
       textmech run bar_pendulum               one case: prints its rows, writes nothing
-      textmech run --settings mine.yaml       your own engine options as a further column
+      textmech run --settings mine.yaml       your own engine options as a further column, mine
       textmech check my_case.yaml             all mistakes of a file, without running it
       textmech show bar_pendulum --engine mujoco.tuned > pendulum.xml
 
@@ -82,7 +83,8 @@ def command() -> None:
     "--settings",
     multiple=True,
     metavar="shipped|tuned|FILE",
-    help="Only this setting; a FILE of your own engine options is a further column.",
+    help="Only this setting; a FILE of your own engine options is a further column, with its name. "
+    "May be repeated.",
 )
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default.")
 @click.option(
@@ -127,6 +129,8 @@ def run(
         click.echo(_left_out(mistakes), err=True)
     for warning in broken:
         click.echo(f"warning: {warning.message}", err=True)
+    book = choose_book(names, settings)
+    _answered(chosen, engines, book=book, named=bool(cases))
     for folder in (out, keep):
         if folder is not None:
             _prepare(folder)  # before the work, not after it
@@ -136,7 +140,7 @@ def run(
             engines=engines,
             jobs=jobs or pool.workers(),
             progress=progress,
-            book=choose_book(names, settings),
+            book=book,
         )
         report, unsolved = _each_for_itself(measure, chosen)
     mistakes += unsolved
@@ -181,6 +185,18 @@ def _left_out(mistakes: list[Mistake]) -> str:
     files = len({mistake.file for mistake in mistakes})
     what = "1 file has mistakes and is" if files == 1 else f"{files} files have mistakes and are"
     return f"{CaseError(mistakes)}\n{what} left out"
+
+
+def _answered(cases: "list[Case]", engines: "list[Engine]", *, book: bool, named: bool) -> None:
+    """Says which of the named cases nobody would answer; where that is all, it is a mistake."""
+    from .trial.book import producers
+
+    silent = [case.name for case in cases if not producers(case, engines, book=book)]
+    what = "the book approximates dry friction alone, in Examples 2.3 and 2.4"
+    if len(silent) == len(cases):
+        raise click.UsageError(f"no row for {', '.join(silent)}: {what}")
+    if named and silent:
+        click.echo(f"no row for {', '.join(silent)}: {what}", err=True)
 
 
 def _prepare(folder: Path) -> None:

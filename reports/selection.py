@@ -1,5 +1,6 @@
 """From the words of a command line to cases and engines."""
 
+import re
 import warnings
 from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import fields
@@ -19,6 +20,7 @@ from ..reference.systems import SYSTEMS
 
 BOOK = "book"
 SWEEPS = 10_000  # what a chain of 200 pins needs in pymunk; as shipped engines take 10 and 100
+NAME = re.compile(r"\w[\w-]*", re.ASCII)
 ENGINES = engines.Known()
 HANDWRITTEN = {
     name: tuple(f.name for f in fields(cast(Any, system))) for name, system in SYSTEMS.items()
@@ -95,13 +97,36 @@ def choose_engines(
         if setting in named and (not names or name in names or f"{name}.{setting}" in names)
         if (engine := _made(name, setting, asked=bool(names))) is not None
     ]
-    for file in (Path(word) for word in settings if word not in every):
+    for file in _files([word for word in settings if word not in every], every):
         own = read_settings(file, sorted(every), long=long)
         found += [e for name, e in own.items() if not names or name in names]
     if not found and not choose_book(names, settings):
         what = f"with --settings {', '.join(settings)} no engine is left"
         raise CaseError([Mistake("--engine", 0, 0, ", ".join(names), what)])
     return found
+
+
+def _files(words: Sequence[str], taken: Set[str]) -> list[Path]:
+    """Files of own options, by whose names their columns are called. Raises CaseError."""
+    files: dict[str, Path] = {}
+    mistakes: list[Mistake] = []
+    for word in words:
+        file = Path(word)
+        other = files.setdefault(file.stem, file)
+        if not word or file.is_dir():
+            what = "is no file; own settings are one YAML file"
+        elif file.exists() and not NAME.fullmatch(file.stem):
+            what = "its name is its column's: letters, digits, - and _, please"
+        elif file.exists() and (file.stem in taken or file.stem in engines.SETTINGS):
+            what = f"{file.stem!r} is a built-in setting: rename the file"
+        elif other.resolve() != file.resolve():
+            what = f"{other} already has the name {file.stem!r}: rename one of the files"
+        else:
+            continue
+        mistakes.append(Mistake("--settings", 0, 0, word, what))
+    if mistakes:
+        raise CaseError(mistakes)
+    return list(files.values())
 
 
 def choose_book(names: Sequence[str], settings: Sequence[str]) -> bool:
@@ -154,7 +179,7 @@ def _offered(word: str, offers: Mapping[str, Sequence[str]]) -> None:
 
 
 def read_settings(file: Path, offered: Sequence[str], *, long: bool = False) -> dict[str, Engine]:
-    """A file of engine → options as engines with the setting `own`. Raises CaseError."""
+    """A file of engine → options as engines with a setting of its name. Raises CaseError."""
     if not file.exists() and file.suffix not in (".yaml", ".yml"):
         hint = nearest(str(file), offered) or f"; {', '.join(offered)}, or a YAML file"
         raise CaseError([Mistake("--settings", 0, 0, str(file), f"no such setting{hint}")])
@@ -170,7 +195,7 @@ def read_settings(file: Path, offered: Sequence[str], *, long: bool = False) -> 
         elif not long and (sweeps := [*_sweeps(document.source, name, options)]):
             mistakes += sweeps
         else:
-            mistakes += _options(document.source, name, options, found)
+            mistakes += _options(document.source, (name, file.stem), options, found)
     if mistakes:
         raise CaseError(mistakes)
     return found
@@ -185,10 +210,11 @@ def _sweeps(source: Source, name: str, options: Mapping[str, Any]) -> Iterator[M
 
 
 def _options(
-    source: Source, name: str, options: Mapping[str, Any], found: dict[str, Engine]
+    source: Source, key: tuple[str, str], options: Mapping[str, Any], found: dict[str, Engine]
 ) -> list[Mistake]:
+    name, setting = key
     try:
-        found[name] = engines.make(name, engines.OWN, options)
+        found[name] = engines.make(name, setting, options)
     except engines.Broken as broken:
         return [source.mistake((name,), str(broken))]
     except ValueError as error:

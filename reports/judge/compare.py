@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...cases.trajectory import Array
+from ...engines import SETTINGS
 from ...engines.engine import Refusal
 from ..row import AGREES, CRASHED, DIVERGED, FAILS, Comparison, Instant, Rungs
 from ..trial.audit import EQUAL, audit
@@ -77,7 +78,7 @@ def _withheld(trial: Trial, name: str) -> str | None:
 def crashed(trial: Trial, because: str) -> Outcome:
     """Rows of a run whose process died; with a user's own numbers that is a finding."""
     word, why = (
-        (CRASHED, because) if trial.engine.setting == "own" else (FAILS, f"crashed: {because}")
+        (FAILS, f"crashed: {because}") if trial.engine.setting in SETTINGS else (CRASHED, because)
     )
     return Outcome([row(trial, name, word, because=why) for name in judged_names(trial.case)])
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from ..row import AGREES, FAILS, Comparison, Rungs
+from ..row import CHANGED, FAILS, Comparison, Rungs
 
 
 def summary(comparisons: Sequence[Comparison], rungs: Sequence[Rungs]) -> list[list[str]]:
@@ -31,7 +31,7 @@ def _column(row: Comparison | Rungs) -> str:
 def _by_engine(column: str) -> tuple[str, int, str]:
     """Engines by name; of each the shipped setting, the user's own, then the tuned one."""
     engine, _, setting = column.partition(".")
-    place = {"shipped": 0, "own": 1}.get(setting, 2)
+    place = {"shipped": 0, "tuned": 2}.get(setting.partition(" ")[0], 1)
     return engine, place, setting
 
 
@@ -42,17 +42,20 @@ def _cell(rows: Sequence[Comparison], ladder: Sequence[Rungs]) -> Iterator[str]:
     if not judged:
         yield "refused"
         return
-    off = [row for row in judged if row.verdict != AGREES]
     fails = sum(row.verdict == FAILS for row in judged)
+    beyond = [row for row in judged if row.ratio is not None and not row.ratio <= 1.0]
+    changed = sum(row.verdict.startswith(CHANGED) for row in judged)
     if fails:
-        yield f"{fails} FAIL"
-    if all(row.ratio is None for row in judged):
+        yield f"{fails} of {len(judged)} FAIL"
+    if changed:
+        yield f"{changed} of {len(judged)} changed"
+    if beyond:
+        worst = max(beyond, key=lambda row: row.ratio or 0.0)
+        yield f"{len(beyond)} of {len(judged)} beyond"
+        yield f"{worst.quantity} ×{worst.ratio:.2g}"
+    elif all(row.ratio is None for row in judged) and not fails:
         yield judged[0].verdict
-    elif off:
-        worst = max(off, key=lambda row: row.ratio or 0.0)
-        yield f"{len(off)} of {len(judged)} beyond"
-        yield f"{worst.quantity} ×{worst.ratio or 0.0:.2g}"
-    else:
+    elif not (fails or changed):
         yield "agrees"
     steps = [row.usable_step for row in ladder]
     known = [step for step in steps if step is not None]

@@ -11,6 +11,7 @@ import click
 
 from ..row import AGREES, FAILS, Certificate, Comparison
 from ..suite import Progress, Report
+from .notes import without_effect
 from .summary import aligned, summary
 
 
@@ -48,6 +49,8 @@ def show(report: Report, *, detailed: bool, written: Path | None) -> None:
             numbers = f"{check.difference:.2e} is above {check.bound:.1e}"
             click.echo(f"FAILS: {check.case}: the reference's {check.check}: {numbers}")
     _fails([row for row in report.comparisons if row.verdict == FAILS])
+    for note in without_effect(report.comparisons):
+        click.echo(note)
     counts = Counter(row.verdict.partition(":")[0] for row in report.comparisons)
     click.echo(", ".join(f"{count} {word}" for word, count in counts.most_common()))
     if written is not None:

@@ -162,7 +162,7 @@ def test_own_settings_are_a_further_column(new: Path) -> None:
     assert done.returncode == 0, done.stderr
     assert [w for w in done.stdout.split() if w.startswith("mujoco.")] == [
         "mujoco.shipped",
-        "mujoco.own",
+        "mujoco.mine",
         "mujoco.tuned",
     ]
 
@@ -174,7 +174,7 @@ def test_the_own_settings_of_the_readme(new: Path) -> None:
     file.write_text(own.removeprefix("yaml"), encoding="utf-8")
     done = textmech("run", new, "--settings", file)
     assert done.returncode == 0, done.stderr
-    assert {"mujoco.own", "pymunk.own"} <= set(done.stdout.split())
+    assert {"mujoco.mine", "pymunk.mine"} <= set(done.stdout.split())
 
 
 def test_what_moves_late_is_no_mistake(new: Path) -> None:

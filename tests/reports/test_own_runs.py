@@ -1,0 +1,70 @@
+"""Own settings through the command, in the engines themselves."""
+
+from pathlib import Path
+
+import pandas as pd
+import pytest
+from click.testing import CliRunner, Result
+
+from textmech.reports import write
+from textmech.reports.cli import command
+from textmech.reports.row import Comparison
+
+SWING = """\
+title: A bar that swings, and turns
+scene:
+  points: {O: [0, 0]}
+  bodies: {rod: {bar: {mass: 0.5, length: 0.6}}}
+  joints: {hinge: {pin: [ground.O, rod.start]}}
+initial: {rod: {angle: -40 deg}}
+duration: 0.4
+samples: 6
+step: 1.0e-3
+allow: {rod.angle: 1.0e-2}
+"""
+GAME = "mujoco: {step: 0.016666666666666666}\npymunk: {step: 0.016666666666666666}\n"
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "swing.yaml").write_text(SWING, encoding="utf-8")
+    (tmp_path / "game.yaml").write_text(GAME, encoding="utf-8")
+    (tmp_path / "same.yaml").write_text("pymunk: {collision_slop: 0.1}\n", encoding="utf-8")
+    return tmp_path
+
+
+def run(folder: Path, *words: str) -> Result:
+    return CliRunner().invoke(command, ["run", str(folder / "swing.yaml"), *words])
+
+
+def test_a_games_step_is_taken_by_both_engines_as_it_is(folder: Path) -> None:
+    out, kept = folder / "o", folder / "k"
+    settings = ("--settings", str(folder / "game.yaml"), "--settings", "shipped")
+    done = run(folder, *settings, "--out", str(out), "--keep", str(kept))
+    assert done.exit_code == 0, done.output
+    rows = write.read(out / "tolerance.csv", Comparison)
+    own = [row for row in rows if row.setting == "game" and row.quantity == "rod.angle"]
+    assert [row.engine for row in own] == ["mujoco", "pymunk"]
+    for row in own:
+        assert row.step == pytest.approx(1 / 60, rel=1e-2)
+        assert row.protocol.endswith("7 samples at whole steps of its own")
+        # Euler's error of the angle is h/2 of its rate at most: no sample is half a step late.
+        assert row.largest is not None
+        assert 0 < row.largest < 0.05
+    frame = pd.read_csv(kept / "swing.csv")
+    both = frame[["t", "rod.angle reference", "rod.angle mujoco.game.native"]].dropna()
+    assert both["t"].tolist() == pytest.approx([k / 15 for k in range(7)])
+    assert frame["rod.angle reference"].notna().all()
+
+
+def test_options_without_effect_are_told_below_the_table(folder: Path) -> None:
+    settings = ("--settings", str(folder / "same.yaml"), "--settings", "shipped")
+    done = run(folder, "--engine", "pymunk", *settings)
+    assert done.exit_code == 0, done.output
+    assert "swing: pymunk.same changes nothing: every number is shipped's" in done.output
+
+
+def test_an_approximation_that_the_book_does_not_make_is_told(folder: Path) -> None:
+    done = run(folder, "--engine", "book")
+    assert done.exit_code == 2
+    assert "no row for swing: the book approximates dry friction alone" in done.output

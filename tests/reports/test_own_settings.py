@@ -1,0 +1,121 @@
+"""A user's own settings: under their names, at their own step, and told where they do nothing."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from textmech.cases.case import Case
+from textmech.cases.mistake import CaseError
+from textmech.reports import suite
+from textmech.reports.row import AGREES, BEYOND, FAILS, Comparison
+from textmech.reports.selection import choose_engines
+from textmech.reports.show.notes import without_effect
+from textmech.reports.show.summary import summary
+from textmech.reports.trial.ladder import judged_step, sampled
+from textmech.reports.trial.trial import Trial
+
+Make = Callable[..., Trial]
+
+
+def written(folder: Path, name: str, text: str = "mujoco: {step: 1.0e-3}\n") -> str:
+    file = folder / name
+    file.parent.mkdir(exist_ok=True)
+    file.write_text(text, encoding="utf-8")
+    return str(file)
+
+
+def test_each_file_is_a_column_of_its_name(tmp_path: Path) -> None:
+    files = [written(tmp_path, "coarse.yaml"), written(tmp_path, "fine.yaml")]
+    found = choose_engines(["mujoco"], [*files, "shipped"])
+    assert [engine.setting for engine in found] == ["shipped", "coarse", "fine"]
+    assert [e.setting for e in choose_engines(["mujoco"], [files[0], files[0], "shipped"])] == [
+        "shipped",
+        "coarse",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("shipped.yaml", "built-in setting"),
+        ("other/coarse.yaml", "already has the name 'coarse'"),
+        ("=cmd().yaml", "letters, digits"),
+        ("a\nb.yaml", "letters, digits"),
+    ],
+)
+def test_names_that_clash_or_are_none_are_mistakes(tmp_path: Path, name: str, words: str) -> None:
+    files = [written(tmp_path, "coarse.yaml"), written(tmp_path, name)]
+    with pytest.raises(CaseError, match=words):
+        choose_engines(["mujoco"], files)
+
+
+@pytest.mark.parametrize("word", ["", "folder"])
+def test_what_is_no_file_is_told(tmp_path: Path, word: str) -> None:
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    with pytest.raises(CaseError, match="is no file"):
+        choose_engines(["mujoco"], [str(folder) if word else ""])
+
+
+def own(trial: Make, step: float, **more: Any) -> Any:
+    return trial(setting="mine", own_step=step, **more).engine
+
+
+@pytest.mark.parametrize("step", [1 / 60, 0.03, 0.05, 0.013, 0.04, 1e-3])
+def test_samples_are_taken_where_the_own_step_is(moving: Case, trial: Make, step: float) -> None:
+    """25 samples a second: 1/60 s meets none of them, and a larger step has fewer."""
+    engine = own(trial, step)
+    case = sampled(moving, engine)
+    assert judged_step(case, engine) == step
+    assert case.times / step == pytest.approx(np.rint(case.times / step), abs=1e-9)
+    assert case.times[-1] <= moving.duration * (1 + 1e-12)
+    assert case.times[-1] > moving.duration - max(2 * step, moving.interval)
+    assert (case is moving) == (step in (0.04, 1e-3))
+
+
+def measured(case: Case, *engines: Any) -> list[Comparison]:
+    report = suite.measure([case], engines, jobs=1, progress=lambda *_: None, book=False)
+    return [row for row in report.comparisons if row.quantity != "audit"]
+
+
+def test_a_games_step_is_judged_as_it_is(moving: Case, trial: Make) -> None:
+    """x is off by h t: the step shows in the error, and the reference is solved for its times."""
+    (row,) = measured(moving, own(trial, 1 / 60))
+    assert row.step == 1 / 60
+    assert row.largest == pytest.approx(1 / 60 * row.when if row.when else 0, rel=1e-12)
+    assert row.when == pytest.approx(1.0)
+    assert row.verdict == BEYOND
+    assert row.protocol == "31 samples at whole steps of its own"
+
+
+def test_a_step_that_leaves_no_room_is_refused(moving: Case, trial: Make) -> None:
+    (row,) = measured(moving, own(trial, 0.6))
+    assert row.verdict == "refused: adapter: 1 s are less than two of its steps of 0.6 s"
+
+
+def test_options_without_effect_are_told(moving: Case, trial: Make) -> None:
+    shipped = trial(setting="shipped", own_step=1e-3).engine
+    same, other = own(trial, 1e-3), replace(own(trial, 1e-3), setting="faster", rate=2.0)
+    rows = measured(moving, shipped, same, other)
+    assert list(without_effect(rows)) == [
+        "moving: mujoco.mine changes nothing: every number is shipped's"
+    ]
+
+
+def cells(*rows: Comparison) -> str:
+    return summary(rows, [])[1][1]
+
+
+def test_the_summary_counts_what_fails_and_what_is_beyond(trial: Make, moving: Case) -> None:
+    (row,) = measured(moving, trial().engine)
+    assert cells(row) == "agrees"
+    broken = replace(row, verdict=FAILS, ratio=6.5e-9)
+    assert cells(broken, replace(broken, quantity="ball.y")) == "2 of 2 FAIL"
+    above = replace(row, quantity="ball.y", verdict=BEYOND, ratio=12.0)
+    assert cells(row, above) == "1 of 2 beyond; ball.y ×12"
+    assert cells(broken, above) == "1 of 2 FAIL; 1 of 2 beyond; ball.y ×12"
+    assert row.verdict == AGREES
