@@ -47,6 +47,7 @@ class Plan:
     following: the same while numbers tied to the step follow it; None: no number is tied.
     numbers: the setting's numbers, for the step [s] that tied ones follow.
     protocol: what is done to start and readout at a step [s], in a few words with sizes.
+    simplified: what of the scene is left out, in words: it is named where the model differs.
     withheld: quantity → why it cannot be read from the engine: `engine: …` or `adapter: …`.
     """
 
@@ -56,6 +57,7 @@ class Plan:
     numbers: Callable[[float], Sequence[Choice]] = no_numbers
     protocol: Callable[[float], str] = as_it_is
     withheld: Mapping[str, str] = field(default_factory=dict)
+    simplified: str = ""
     kept: float | None = None  # s: tied numbers keep what they are at this step
 
     def choices(self, step: float) -> Sequence[Choice]:

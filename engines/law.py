@@ -6,10 +6,12 @@ the book's letters in `reference/`, here, and as a table of typed values in test
 
 import math
 from collections.abc import Callable
+from dataclasses import astuple
 from typing import Any
 
 from ..cases.force import Damper, Line, Spring
 from ..cases.friction import DryFriction, Smooth
+from ..cases.scene import Scene
 from ..cases.signal import Signal
 
 
@@ -35,6 +37,22 @@ def _spring(force: Spring, length: float, rate: float) -> float:
 def _damper(force: Damper, length: float, rate: float) -> float:
     """(2.47) d λ̇."""
     return force.damping * rate
+
+
+def one_number(scene: Scene) -> str:
+    """What an engine that knows one number of friction leaves out, in words; or nothing."""
+    told = [
+        f"{contact.name} by its kinetic {contact.kinetic:g} (static {contact.static:g})"
+        for contact in scene.contacts.values()
+        if contact.switches and contact.static != contact.kinetic
+    ]
+    told += [
+        f"{joint.name}, where there are several"
+        for joint in scene.joints.values()
+        if (dry := joint.dry_friction) is not None
+        if len({*astuple(dry.static), *astuple(dry.kinetic)}) > 1 or dry.smooth is not None
+    ]
+    return f"one number for friction: {', '.join(told)}" if told else ""
 
 
 TENSIONS: dict[type[Line], Callable[[Any, float, float], float]] = {

@@ -6,6 +6,7 @@ from functools import partial
 
 from ...cases.scene import Scene
 from ..engine import Choice, Plan, Realised, Start
+from ..law import one_number
 from .compilation import NOMINAL, settled
 from .contact import falls
 from .law.friction import one_slide, smooth_only
@@ -38,6 +39,7 @@ def plan(scene: Scene, start: Start, realised: Realised, numbers: Numbers, *, tu
         held=(1, 2) if first else (4, 5),
         following=following if tuned and ties(scene) else None,
         numbers=numbers,
+        simplified=one_number(scene) if realised == "native" else "",
     )
     return replace(bare, protocol=partial(_words, scene, start, bare, tuned))
 

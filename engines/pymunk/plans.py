@@ -7,6 +7,7 @@ from typing import Any
 from ...cases.quantity import table
 from ...cases.scene import Scene
 from ..engine import Choice, Plan, Realised, Start
+from ..law import one_number
 from .contact import closed
 from .law.friction import ruled
 from .recipe import Recipe
@@ -42,6 +43,7 @@ def tuned(scene: Scene, start: Start, realised: Realised, recipe: Recipe) -> Pla
         numbers=recipe,
         protocol=partial(_words, scene, start, recipe),
         withheld=_withheld(scene),
+        simplified=one_number(scene) if realised == "native" else "",
     )
 
 

@@ -3,9 +3,19 @@
 from . import convergence as of
 from .convergence import Convergence
 
+STEPS = (of.EXACT, of.TEXTBOOK, of.WITHIN, of.FALLS)  # verdicts that blame no model
 
-def cause(found: Convergence, finer: str = "") -> str:
-    """In a few words; finer: why a step below the judged one gave nothing."""
+
+def cause(found: Convergence, finer: str = "", simplified: str = "") -> str:
+    """In a few words; finer: why a step below the judged one gave nothing.
+
+    simplified: what the engine leaves out of the scene, named unless the step alone is to blame.
+    """
+    left_out = "" if found.verdict in STEPS else simplified
+    return "; ".join(part for part in (_told(found, finer), left_out) if part)
+
+
+def _told(found: Convergence, finer: str) -> str:
     if finer:
         return f"a smaller step diverges ({finer}): neither step nor model can be named"
     usable = found.usable_step

@@ -107,7 +107,7 @@ def _audit(trial: Trial) -> Comparison:
 def _judged(trial: Trial, name: str, runs: Runs, samples: Array, held: Convergence) -> Comparison:
     wanted = trial.wanted(name)
     error = metric.error(samples, wanted)
-    why = cause(held, runs.finer)
+    why = cause(held, runs.finer, trial.plan.simplified)
     at = moment(trial, samples, wanted, error)
     least = floor(trial, name, trial.step)
     if at is not None:
@@ -115,7 +115,7 @@ def _judged(trial: Trial, name: str, runs: Runs, samples: Array, held: Convergen
         why = f"{at.words}; elsewhere at most {told(rest, least):.2g}"
         if not rest <= (trial.allowed(name) or np.inf):
             others = _study(trial, list(runs.ladders)[-1], runs, name, at.elsewhere)
-            why = f"{why}: {cause(others, runs.finer)}"
+            why = f"{why}: {cause(others, runs.finer, trial.plan.simplified)}"
     when = float(trial.case.times[error.at])
     return judged(trial, name, verdict(trial, name, error.largest, held, why), error, when)
 

@@ -55,7 +55,9 @@ def _time(trial: Trial, event: str, found: Array, runs: Runs) -> Comparison:
         return row(trial, name, "refused: engine: the event never happens in its motion")
     error = metric.error(found[:both], wanted[:both])
     (*_, held) = [Convergence(UNSETTLED, {}, None), *(c for _, _, c in _climbed(trial, name, runs))]
-    reached = verdict(trial, name, error.largest, held, cause(held, runs.finer))
+    reached = verdict(
+        trial, name, error.largest, held, cause(held, runs.finer, trial.plan.simplified)
+    )
     return judged(trial, name, reached, error, float(wanted[error.at]))
 
 

@@ -2,7 +2,7 @@
 
 import itertools
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -70,6 +70,7 @@ class Fake:
     ways: tuple[Realised, ...] = ("native",)
     numbers: dict[str, float] = field(default_factory=dict)
     refusal: str | None = None
+    simplified: str = ""
     planning: Callable[[], None] = nothing
     before: Callable[[], None] = nothing
 
@@ -80,7 +81,8 @@ class Fake:
         orders = (self.order, self.order + 1)
         following = orders if self.follows else None
         blind = {"ball.vy": "engine: it is blind"}
-        return [Plan(way, orders, following, stiffness, withheld=blind) for way in self.ways]
+        bare = Plan("native", orders, following, stiffness, withheld=blind)
+        return [replace(bare, realised=way, simplified=self.simplified) for way in self.ways]
 
     def script(
         self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""

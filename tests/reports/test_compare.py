@@ -139,6 +139,14 @@ def test_the_judged_step_that_diverges_is_told_and_no_ladder_above(trial: Make) 
     assert (found.verdict, found.because) == (DIVERGED, "too large a step")
 
 
+def test_what_a_way_leaves_out_is_named_where_its_model_differs(trial: Make) -> None:
+    one = {"simplified": "one number for friction: rail, where there are several"}
+    model = row(compare(trial(rate=0.0, model=0.02, **one)))
+    assert model.because.endswith("the model: 0.02 remains for h → 0; " + one["simplified"])
+    step = row(compare(trial(rate=20.0, **one)))
+    assert "friction" not in step.because
+
+
 def test_a_runaway_is_no_motion(trial: Make) -> None:
     shipped = row(compare(trial(model=1e8, setting="shipped", own_step=1e-3)))
     assert shipped.verdict == DIVERGED
