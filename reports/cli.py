@@ -14,8 +14,8 @@ from ..cases.mistake import CaseError, Mistake
 
 if TYPE_CHECKING:
     from ..cases.case import Case
-    from .suite import Report
     from ..engines.engine import Engine
+    from .suite import Report
 
 FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
 

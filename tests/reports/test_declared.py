@@ -1,0 +1,103 @@
+"""Declared differences follow from the equations: they are no copies of what an engine did."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from given.one_number import one_number
+
+from textmech.cases.case import Case
+from textmech.cases.find import shipped
+from textmech.cases.load import load
+from textmech.cases.observe import observe
+from textmech.reference.solve import solve
+from textmech.reports.events.times import reference_events
+from textmech.reports.selection import HANDWRITTEN
+
+Applied = Callable[[float, float], float]
+NARROW = 1.03  # high over low: 1 % to either side, and what was rounded
+# The one number of each case [N]: the kinetic one; of two that differ, 2.5 is their mean.
+ONE = {
+    "growing_force": 3.0,
+    "growing_force_smooth": 3.0,
+    "dynamometer": 3.0,
+    "dynamometer_smooth": 3.0,
+    "anisotropic_drift": 2.5,
+}
+
+
+def case_of(name: str) -> Case:
+    return load(shipped()[name], systems=HANDWRITTEN)[0]
+
+
+def applied(case: Case) -> Applied:
+    """The force on the block beside friction [N], typed here from the book's examples."""
+    p = case.parameters
+    if "b" in p:
+        return lambda t, x: -p["b"] * t
+    if "c" in p:
+        return lambda t, x: p["c"] * (p["u"] * t - x)
+    return lambda t, x: p["A"] * math.sin(p["w"] * t)
+
+
+def expected(case: Case) -> dict[str, float]:
+    """How far the motion with one number of friction is from the case's own."""
+    wanted = solve(case).trajectory
+    bound = ONE[case.name]
+    x, v, slips, stops = one_number(applied(case), case.parameters["m"], bound, case.times)
+    off = {
+        name: float(np.max(np.abs(found - observe(case.scene, wanted, name))))
+        for name, found in (("block.x", x), ("block.vx", v))
+    }
+    off["scale.force"] = case.parameters.get("c", 0.0) * off["block.x"]
+    for name, found in (("slips", slips), ("stops", stops)):
+        if name in case.events:
+            assert wanted.record is not None
+            times = reference_events(case.scene, wanted.record, case.events[name])
+            pairs = zip(times.tolist(), found, strict=False)
+            off[f"{name}.time"] = max(abs(a - b) for a, b in pairs)
+            off[f"{name}.count"] = abs(len(times) - len(found))
+    return off
+
+
+@pytest.mark.parametrize("name", ONE)
+def test_one_number_of_friction_costs_what_is_declared(name: str) -> None:
+    case = case_of(name)
+    off = expected(case)
+    declared = {
+        (setting, quantity): deviation.by
+        for setting, of in case.deviates.items()
+        for quantity, deviation in of.items()
+    }
+    assert {setting for setting, _ in declared} == {"mujoco.tuned", "pymunk.tuned"}
+    for (_, quantity), by in declared.items():
+        assert by is not None
+        low, high = by
+        assert low <= off[quantity] <= high, quantity
+        assert high <= NARROW * low or quantity.endswith(".count"), quantity
+
+
+def test_no_other_interval_is_declared() -> None:
+    """But for the elastic bounce, whose numbers are derived beside them."""
+    found = {
+        case.name
+        for path in shipped().values()
+        for case in load(path)
+        for of in case.deviates.values()
+        if any(deviation.by is not None for deviation in of.values())
+    }
+    assert found == {*ONE, "bouncing_disk.elastic"}
+
+
+def test_the_elastic_bounces_numbers_follow_from_its_duration() -> None:
+    (case,) = [c for c in load(shipped()["bouncing_disk"]) if c.name.endswith("elastic")]
+    g, fall = 9.81, case.parameters["y0"] - case.parameters["R"]
+    assert isinstance(case.step, dict)
+    late, v = 16 * case.step["mujoco"], math.sqrt(2 * g * fall)
+    least = {"bounces.time": late, "wheel.y": 2 * late * v, "wheel.vy": 2 * late * g}
+    for quantity, deviation in case.deviates["mujoco.tuned"].items():
+        assert deviation.by is not None
+        low, high = deviation.by
+        assert low == pytest.approx(least[quantity], rel=5e-3)
+        assert high <= 1.2 * low * 1.005
