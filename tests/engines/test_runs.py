@@ -51,7 +51,7 @@ def test_samples_between_steps_are_refused(engine: Engine, record: bool) -> None
 @pytest.mark.parametrize("engine", SETTINGS, ids=words)
 def test_samples_may_be_uneven(engine: Engine) -> None:
     scene, start = begun("bar_pendulum")
-    even = moved(engine, scene, start, np.arange(6) * 0.01, 1e-3).states["bar"]
+    even = moved(engine, scene, start, np.linspace(0.0, 0.05, 6), 1e-3).states["bar"]
     uneven = moved(engine, scene, start, np.array([0.0, 0.01, 0.04, 0.05]), 1e-3).states["bar"]
     assert np.array_equal(uneven, even[[0, 1, 4, 5]])
 
