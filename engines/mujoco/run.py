@@ -11,9 +11,11 @@ from ...cases.trajectory import Array, Trajectory
 from ..engine import Diverged, Realised, Start
 from .law.signal import installed, signals
 from .law.smooth import smooth
-from .law.stepping import Steps, stepping
+from .law.stepping import stepping
+from .read.poses import poses
+from .read.reaction import contact_force
 from .read.readout import read
-from .read.record import all_steps, recorded
+from .read.record import Record, all_steps, counted, sampled, whole
 
 
 @contextmanager
@@ -50,36 +52,44 @@ def simulate(
     realised: Realised,
     every: bool,
 ) -> Trajectory:
-    """The motion at the times, whole multiples of the model's step from 0. Raises Diverged."""
+    """The motion at the times, whole multiples of the model's step from 0.
+
+    every: all steps too, with the contacts' forces at each. Raises Diverged, or ValueError for
+    other times.
+    """
+    counts = counted(times, model.opt.timestep)
+    grid = all_steps(times, model.opt.timestep) if every else times
     steps = stepping(scene, model, data, realised)
     laws = smooth(scene, model) if realised == "law" else []
-    grid = all_steps(times, model.opt.timestep) if every else times
+    touching = tuple(name for name in reactions if name.partition(".")[0] in scene.contacts)
     with listening() as warnings, signals(scene, laws):
-        record = _record(model, data, grid, steps)
+        if every and not steps.slides:
+            record = whole(model, data, len(grid))
+        else:
+            record = sampled(data, np.arange(len(grid)) if every else counts, steps)
         _check(warnings, grid, record)
-        stride = (len(grid) - 1) // (len(times) - 1)
-        samples, steps.noted = [kept[::stride] for kept in record], steps.noted[::stride]
-        trajectory = read(scene, model, data, start, times, samples, reactions, steps.recall)
-        _check(warnings, times, samples)
-    return recorded(scene, model, trajectory, grid, record, start) if every else trajectory
+        each: dict[str, Array] = {}
+        if record.felt is not None:
+            each = {name: contact_force(scene, record.felt, name) for name in touching}
+        elif every:
+            each = read(scene, model, data, grid, record, touching, steps.recall)
+        rows = record
+        if every:
+            rows = record.at(counts)
+            steps.keep(counts)
+        forces = read(scene, model, data, times, rows, reactions, steps.recall)
+        _check(warnings, grid, record)
+    states = poses(scene, model, record.qpos, record.qvel, start)
+    if not every:
+        return Trajectory(times, states, forces)
+    phase = np.zeros(len(grid), dtype=np.int64)  # an engine does not say when one ends
+    whole_run = Trajectory(grid, states, each, phase=phase)
+    samples = {name: rows[counts] for name, rows in states.items()}
+    return Trajectory(times, samples, forces, record=whole_run)
 
 
-def _record(model: mujoco.MjModel, data: mujoco.MjData, times: Array, take: Steps) -> list[Array]:
-    """Position, velocity, activation and control of every sample, (N, ·) each."""
-    parts = (data.qpos, data.qvel, data.act, data.ctrl)  # views: fetching one costs 0.2 µs
-    record = [np.empty((len(times), len(part))) for part in parts]
-    steps = round((times[1] - times[0]) / model.opt.timestep)
-    for i in range(len(times)):
-        if i:
-            take.take(steps)
-        take.note()
-        for kept, part in zip(record, parts, strict=True):
-            kept[i] = part
-    return record
-
-
-def _check(warnings: list[str], times: Array, record: list[Array]) -> None:
-    finite = np.all([np.all(np.isfinite(kept), axis=1) for kept in record], axis=0)
+def _check(warnings: list[str], times: Array, record: Record) -> None:
+    finite = np.all(np.isfinite(record.qpos), axis=1) & np.all(np.isfinite(record.qvel), axis=1)
     if warnings:
         raise Diverged(f"MuJoCo warns: {' '.join(warnings[0].split())}")
     if not np.all(finite):

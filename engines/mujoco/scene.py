@@ -54,6 +54,7 @@ def mjcf(
     _bodies(world, scene, tree, numbers)
     if scene.contacts:
         _contacts(root, scene, _of(numbers, "pair"))
+        _sensors(root, scene)
     if tree.loops:
         _loops(root, tree, _of(numbers, "connect"))
     write(root, scene)
@@ -191,6 +192,15 @@ def _contacts(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> Non
             contacts, "pair", attributes,
             name=contact.name, geom1=FLOOR, geom2=contact.name, condim=_dimensions(contact),
             friction=written(contact.friction, contact.friction, 0, 0, 0),
+        )  # fmt: skip
+
+
+def _sensors(root: ET.Element, scene: Scene) -> None:
+    """The floor's force on each, along the ground's axes: MuJoCo records it at every step."""
+    sensors = ET.SubElement(root, "sensor")
+    for name in scene.contacts:
+        ET.SubElement(
+            sensors, "contact", geom1=FLOOR, geom2=name, data="force", num="1", reduce="netforce",
         )  # fmt: skip
 
 

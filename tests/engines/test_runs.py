@@ -38,6 +38,24 @@ def test_a_blow_up_is_diverged(
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.parametrize("record", [False, True], ids=["samples", "record"])
+@pytest.mark.parametrize("engine", SETTINGS, ids=words)
+def test_samples_between_steps_are_refused(engine: Engine, record: bool) -> None:
+    """A sample that is no whole multiple of the step would be answered at another time."""
+    scene, start = begun("bar_pendulum")
+    for times in ([0.0, 0.0105], [0.0, 0.01, 0.0205]):
+        with pytest.raises(ValueError, match="no whole multiple"):
+            moved(engine, scene, start, np.array(times), 1e-3, record=record)
+
+
+@pytest.mark.parametrize("engine", SETTINGS, ids=words)
+def test_samples_may_be_uneven(engine: Engine) -> None:
+    scene, start = begun("bar_pendulum")
+    even = moved(engine, scene, start, np.linspace(0.0, 0.05, 6), 1e-3).states["bar"]
+    uneven = moved(engine, scene, start, np.array([0.0, 0.01, 0.04, 0.05]), 1e-3).states["bar"]
+    assert np.array_equal(uneven, even[[0, 1, 4, 5]])
+
+
 # Where each engine makes what its loop steps.
 MAKES = {
     "mujoco": "textmech.engines.mujoco.MuJoCo._placed",

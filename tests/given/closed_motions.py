@@ -3,12 +3,14 @@
 import math
 from functools import partial
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.special import ellipj, ellipk
 
+from textmech.cases.scene import Bounds
 from textmech.cases.trajectory import Array
 
 from .engine_scenes import RADIUS, G
@@ -119,3 +121,30 @@ def drawn(times: Array) -> Array:
 
 def _speed(s: float, *, w: float, a: float, b: float) -> float:
     return 2.0 + w * (b * math.cos(w * s) - a * math.sin(w * s))
+
+
+def to_and_fro(times: Array, amplitude: float, frequency: float, bounds: Bounds) -> Array:
+    """x [m] of 1 kg from rest under a sine so strong that it turns back without a rest.
+
+    v = c − (A/ω) cos ω t − s F t between two reversals.
+    """
+    a, w, n = amplitude, frequency, 200_000
+    x, t0, found = 0.0, math.asin(bounds.forward / a) / w, np.zeros_like(times)
+    sense = 1
+    while t0 < times[-1]:
+        brakes = bounds.forward if sense > 0 else -bounds.backward
+
+        def speed(t: Any, t0: float = t0, brakes: float = brakes) -> Any:
+            return -a / w * (np.cos(w * t) - math.cos(w * t0)) - brakes * (t - t0)
+
+        grid = np.linspace(t0, t0 + 2 * math.pi / w, n)[1:]
+        after = int(np.argmax(sense * speed(grid) < 0))
+        t1 = float(brentq(speed, grid[after - 1], grid[after], xtol=1e-15))
+
+        def place(t: Any, x: float = x, t0: float = t0, brakes: float = brakes) -> Any:
+            sines = (np.sin(w * t) - math.sin(w * t0)) / w - math.cos(w * t0) * (t - t0)
+            return x - a / w * sines - brakes * (t - t0) ** 2 / 2
+
+        found = np.where((times >= t0) & (times <= t1), place(times), found)
+        x, t0, sense = float(place(t1)), t1, -sense
+    return found

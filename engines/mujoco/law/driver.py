@@ -29,9 +29,10 @@ _SHORTEST = 1e-12  # of a step: what is left is rounding
 
 def engage(slide: Slide) -> None:
     """Hold what sticks, push what slides."""
-    slide.model.dof_frictionloss[slide.dof] = 0.0 if slide.sense else slide.holds
-    pushed = -slide.sense * slide.brakes(slide.sense) if slide.sense else 0.0
-    slide.data.qfrc_applied[slide.dof] = pushed
+    if slide.sense:
+        slide.push(-slide.sense * slide.brakes(slide.sense))
+    else:
+        slide.hold()
 
 
 def _passed(slide: Slide) -> float:

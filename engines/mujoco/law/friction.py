@@ -1,7 +1,7 @@
 """Dry friction on a slide that MuJoCo's one number cannot say: which way it slides, and when.
 
 MuJoCo's `frictionloss` holds a joint with up to that force, and brakes it with just that force.
-`bound` sets it before every step (the law); `drive` cuts the steps at the events (the driver).
+`bounded` sets the force before every step (the law); `driven_step` cuts the steps at the events.
 """
 
 from dataclasses import dataclass, field
@@ -23,6 +23,7 @@ class Slide:
     joint: Joint
     sense: int = 0
     before: float | None = None  # the applied force [N] at the step before
+    last: float = 0.0  # m/s, at the step before
     effort: Array = field(init=False)
 
     def __post_init__(self) -> None:
@@ -31,6 +32,7 @@ class Slide:
         self.unit[0, self.dof] = 1.0
         self.effort = np.zeros((1, self.model.nv))
         self.sense = int(np.sign(self.data.qvel[self.dof]))
+        self.last = self.speed
 
     @property
     def friction(self) -> DryFriction:
@@ -40,6 +42,16 @@ class Slide:
     @property
     def speed(self) -> float:
         return float(self.data.qvel[self.dof])
+
+    def push(self, force: float) -> None:
+        """Friction is this force [N], and nothing holds."""
+        self.model.dof_frictionloss[self.dof] = 0.0
+        self.data.qfrc_applied[self.dof] = force
+
+    def hold(self) -> None:
+        """Friction holds, whatever it takes."""
+        self.model.dof_frictionloss[self.dof] = self.holds
+        self.data.qfrc_applied[self.dof] = 0.0
 
     @property
     def holds(self) -> float:

@@ -4,6 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import mujoco
+import numpy as np
+from numpy.typing import NDArray
 
 from ....cases.scene import Scene
 from ...engine import Realised
@@ -26,6 +28,11 @@ class Steps:
         """Remember the senses of the slides."""
         if self.slides:
             self.noted.append(tuple(slide.sense for slide in self.slides))
+
+    def keep(self, rows: NDArray[np.int64]) -> None:
+        """Of all notes only some."""
+        if self.noted:
+            self.noted = [self.noted[row] for row in rows.tolist()]
 
     def recall(self, sample: int) -> None:
         """Friction as it was at a sample, for reading forces."""

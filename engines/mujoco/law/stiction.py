@@ -1,34 +1,59 @@
-"""Dry friction as a law: MuJoCo's `frictionloss`, set before every step by (2.89)."""
+"""Dry friction as a law: the force of (2.89), set before every step to its mean over the step.
+
+What slides is pushed; what sticks is held by MuJoCo's `frictionloss`. Pushing matters near a
+reversal: `frictionloss` aims at v = 0, so it would push the other way before the speed is zero.
+"""
 
 import mujoco
 
 from .friction import Slide
 
+_FAR = 6  # steps to a stop: until then the force is the same all step long, whatever comes next
+
 
 def bounded(slide: Slide) -> None:
-    """Set the friction of the step to come by (2.89), averaged over a step that breaks loose."""
-    model, data = slide.model, slide.data
-    mujoco.mj_forward(model, data)
+    """Set the friction of the step to come by (2.89)."""
+    speed = slide.speed
+    gained, slide.last = speed - slide.last, speed
+    if slide.sense and slide.sense * speed > _FAR * abs(gained) > 0:
+        slide.push(-slide.sense * slide.brakes(slide.sense))
+        slide.before = None
+        return
+    mujoco.mj_forward(slide.model, slide.data)
     now, mass = slide.applied()
     soon = now if slide.before is None else 2 * now - slide.before  # at the end of the step
     slide.before = now
-    if slide.sense and slide.sense * slide.speed <= 0:
+    if slide.sense and slide.sense * speed <= 0:
         slide.sense = 0
-    if not slide.sense:
-        slide.sense = slide.starts(now) or slide.starts(soon)
-        model.dof_frictionloss[slide.dof] = (
-            _breaking_loose(slide, now, soon) if slide.sense else slide.holds
-        )
+    if slide.sense:
+        _sliding(slide, now, soon, mass)
+    elif sense := slide.starts(now) or slide.starts(soon):
+        slide.sense = sense
+        slide.push(-sense * _breaking_loose(slide, now, soon))
+    else:
+        slide.hold()
+
+
+def _sliding(slide: Slide, now: float, soon: float, mass: float) -> None:
+    """Brakes; if it stops within the step, it then rests or goes on the other way."""
+    model, before = slide.model, slide.sense
+    h, mean = model.opt.timestep, (now + soon) / 2
+    brakes = -before * slide.brakes(before)
+    gained = h * (mean + brakes) / mass
+    if before * (slide.speed + gained) > 0:
+        slide.push(brakes)
         return
-    brakes = slide.brakes(slide.sense)
-    model.dof_frictionloss[slide.dof] = brakes
-    gained = model.opt.timestep * ((now + soon) / 2 - slide.sense * brakes) / mass
-    if slide.sense * (slide.speed + gained) <= 0:
-        slide.sense = 0  # it comes to rest in this step
+    part = -slide.speed / gained  # of the step, until it stops
+    slide.sense = slide.starts(now + part * (soon - now))
+    if slide.sense:
+        after = -slide.sense * slide.brakes(slide.sense)
+        slide.push(part * brakes + (1 - part) * after)
+    else:
+        slide.push(-mean - slide.speed * mass / h)
 
 
 def _breaking_loose(slide: Slide, now: float, soon: float) -> float:
-    """A constant bound [N] with the impulse of holding first and braking then."""
+    """A constant force [N] with the impulse of holding first and braking then."""
     now, soon = slide.sense * now, slide.sense * soon
     static = slide.friction.static
     limit = static.forward if slide.sense > 0 else static.backward

@@ -56,22 +56,7 @@ def _cross(a: Array, b: Array) -> Array:
     return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
 
 
-class Contacts:
-    """The floor's force on each disk, x and y: (N, 2) by the contact's name."""
-
-    def __init__(self, scene: Scene, model: mujoco.MjModel, samples: int) -> None:
-        self.model = model
-        self._force = np.empty(6)
-        self.forces = {name: np.zeros((samples, 2)) for name in scene.contacts}
-        self._of_disk = {
-            mujoco.mj_name2id(model, _OBJECT.mjOBJ_GEOM, contact.name): self.forces[contact.name]
-            for contact in scene.contacts.values()
-        }
-
-    def keep(self, sample: int, data: mujoco.MjData) -> None:
-        """Read the contacts of a state; a disk in the air feels no force."""
-        for i in range(data.ncon):
-            touch = data.contact[i]  # the floor is the first geom: its number is the lowest
-            mujoco.mj_contactForce(self.model, data, i, self._force)
-            on_disk = self._force[:3] @ touch.frame.reshape(3, 3)
-            self._of_disk[touch.geom2][sample] = on_disk[:2]
+def contact_force(scene: Scene, felt: Array, name: str) -> Array:
+    """`touch.normal` or `touch.tangent` (N,) from the sensors' rows; what is in the air has 0."""
+    part, _, field = name.rpartition(".")
+    return felt[:, 3 * list(scene.contacts).index(part) + (1 if field == "normal" else 0)]
