@@ -12,6 +12,7 @@ import numpy as np
 from numpy.linalg import LinAlgError
 
 from ..cases.case import Case
+from ..cases.force import Force
 from ..cases.language.check.work import GO_ON
 from ..cases.mistake import CaseError, Mistake
 from .generated.action import ends_meet
@@ -27,6 +28,8 @@ from .system import Array
 MOST = 5e6  # evaluations: the largest shipped case takes 4e4 and 8 s, so this is a quarter hour
 FEW = 20  # bodies: an evaluation costs the more of more than these
 SHORT = 1e-3  # of the mechanism's size: steps give up well before the length is zero
+UNEVEN = 1e4  # of two masses: the lighter one's equations then have lost four digits of sixteen
+FAST = 1e3  # swings in the duration: an integrator of order 8 takes a dozen steps for each
 DEPENDENT = 1e-2  # singular values below this part of the largest: the same, for constraints
 
 
@@ -66,7 +69,8 @@ def _mistake(case: Case, generated: Mechanism, failure: Exception) -> Mistake:
             why = f"{event!r} happens thousands of times or without end (a Zeno sequence)"
         case Stuck(time=time):
             q, _ = generated.base.place(failure.mode.poses(time, failure.q, failure.v))
-            why = _line(case, generated, time, q) or _constraint(case, q) or str(failure)
+            why = _line(case, generated, time, q) or _constraint(case, q)
+            why = why or f"{str(failure).partition(' at t = ')[0]}{_uneven(case)}"
         case _:
             raise failure
     what = f"the motion cannot be followed beyond t = {time:.4g} s: {why}"
@@ -92,3 +96,28 @@ def _constraint(case: Case, q: Array) -> str | None:
                 "neither its reaction nor the way on is determined"
             )
     return None
+
+
+def _uneven(case: Case) -> str:
+    """What a person can do about numbers that lie far apart, as the end of a sentence."""
+    bodies = sorted(case.scene.bodies.values(), key=lambda body: body.mass)
+    light, heavy = bodies[0], bodies[-1]
+    if heavy.mass > UNEVEN * light.mass:
+        return (
+            f"; {heavy.name} is {heavy.mass / light.mass:.0e} times as heavy as {light.name}: give "
+            f"{light.name} more mass, or leave it out"
+        )
+    stiffness = max((c for f in case.scene.forces.values() for c in _stiffness(f)), default=0.0)
+    swings = case.duration * math.sqrt(stiffness / light.mass) / math.tau
+    if swings > FAST:
+        return (
+            f"; a spring of {stiffness:.0e} N/m swings {swings:.0e} times in {case.duration:g} s: "
+            "make it softer, or a joint"
+        )
+    return "; shorten the duration, or change what is about to jump or to meet there"
+
+
+def _stiffness(force: Force) -> Iterator[float]:
+    """[N/m] of a spring."""
+    if "stiffness" in (numbers := force.numbers()):
+        yield numbers["stiffness"]

@@ -4,7 +4,7 @@ Examples 2.3 (a growing force) and 2.4 (drawn by a spring), and the smooth law o
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -30,6 +30,7 @@ from textmech.cases.scene import Anchor, Bounds, DryFriction, Push, Signal, Smoo
 from textmech.cases.trajectory import Array, X
 from textmech.engines.engine import Realised
 from textmech.engines.law import smooth_friction
+from textmech.engines.mujoco.law import stiction
 
 STEPS = {"mujoco": 1e-3, "pymunk": 1e-4}  # s: RK4 is of fourth order, position Verlet of second
 EIGHT, TEN = np.linspace(0.0, 8.0, 81), np.linspace(0.0, 10.0, 101)
@@ -74,6 +75,36 @@ def test_block_under_a_growing_force(name: str, way: Realised) -> None:
         return
     friction = run.reactions["guide.friction"] - np.where(EIGHT < 6.0, EIGHT, 3.0)
     assert np.delete(friction, 60) == pytest.approx(0, abs=1e-12)  # at 6 s it falls from 6 to 3 N
+
+
+# A force held over a step that begins to slip inside it has the right impulse, and 6 − 3 N for a
+# part s of it: s (1 − s)/2 of 3 h² m at most, whatever comes after. The driver's step ends there.
+INSIDE = {"law": 3 / 8, "driver": 0.0}
+
+
+@pytest.mark.parametrize("b", [1.0007, 0.99])
+@pytest.mark.parametrize(("name", "way"), ROWS)
+def test_it_slips_inside_a_step(name: str, way: Realised, b: float) -> None:
+    """With b = 1 N/s it slips where a step ends, and no formula for a part of one is asked."""
+    x = _slips_inside(name, way, b)
+    bound = NEAR[name, way].growing + INSIDE[way] * STEPS[name] ** 2
+    assert np.abs(x - growing(EIGHT, b)).max() < bound
+
+
+def test_a_step_that_holds_to_its_end_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    """3 N too much for a part s = 0.8 or 0.4 of a step; with b = 1 N/s there is no such part."""
+    monkeypatch.setattr(stiction, "_breaking_loose", lambda slide, now, soon: abs(now + soon) / 2)
+    bound = NEAR["mujoco", "law"].growing
+    assert np.abs(_slips_inside("mujoco", "law", 1.0) - growing(EIGHT)).max() < bound
+    for b in (1.0007, 0.99):
+        assert np.abs(_slips_inside("mujoco", "law", b) - growing(EIGHT, b)).max() > 1e-4
+
+
+def _slips_inside(name: str, way: Realised, b: float) -> Array:
+    """x [m] under a force that grows by b [N/s]."""
+    pull = replace(GROWING, signal=Signal("ramp", (-b, 0.0)))
+    run = moved(TUNED[name], guided(pull), RESTS, EIGHT, STEPS[name], realised=way)
+    return run.states["block"][:, X]
 
 
 @pytest.mark.parametrize(("name", "way"), ROWS)

@@ -95,10 +95,10 @@ def pivoting(times: Array, length: float, angle: float) -> tuple[Array, Array, A
     return a, ax, arm * (np.cos(a) * alpha - np.sin(a) * omega**2)
 
 
-def growing(times: Array) -> Array:
-    """Example 2.3: x [m] of a block that slips from t = 6 s on."""
-    slid = np.maximum(times - 6.0, 0.0)
-    return -(slid**3) / 6 - 3 * slid**2 / 2
+def growing(times: Array, b: float = 1.0) -> Array:
+    """Example 2.3: x [m] of a block that slips from 6 N / b on."""
+    slid = np.maximum(times - 6.0 / b, 0.0)
+    return -b * slid**3 / 6 - 3 * slid**2 / 2
 
 
 def drawn(times: Array) -> Array:

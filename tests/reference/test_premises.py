@@ -90,3 +90,38 @@ def test_a_contact_that_has_not_landed_by_the_end_is_no_mistake(
         assert "starts 2 m above the floor" in refused(typed).what
     else:
         assert solve(typed).holds
+
+
+STARTS = {
+    "omega: 9": ("omega", 10, "bar_pendulum starts bar with omega = 0 rad/s, the scene with 9:"),
+    "vx: 1": ("vx", 10, "bar_pendulum starts bar with vx = 0 m/s, the scene with 1:"),
+}
+WRITTEN = """\
+system: bar_pendulum
+parameters: {m: 1.2, l: 0.8, phi0: -40 deg}
+scene:
+  points: {O: [0, 0]}
+  bodies: {bar: {bar: {mass: m, length: l}}}
+  joints: {hinge: {pin: [ground.O, bar.start]}}
+
+initial: {bar: {angle: phi0, GIVEN}}
+allow: {bar.angle: 1.0e-2}
+"""
+
+
+@pytest.mark.parametrize("given", STARTS)
+def test_a_written_system_starts_as_the_scene(tmp_path: Path, given: str) -> None:
+    """It has no parameter for a rate, and took no notice of one."""
+    field, line, words = STARTS[given]
+    mistake = refused(scenes.typed(tmp_path, WRITTEN.replace("GIVEN", given)))
+    assert (mistake.where, mistake.line) == (f"initial.bar.{field}", line)
+    assert mistake.what.startswith(words)
+    assert "leave out `system`" in mistake.what
+
+
+def test_a_start_that_differs_in_what_follows_names_the_body(tmp_path: Path) -> None:
+    """The place of the pin is nowhere in `initial`."""
+    text = WRITTEN.replace("O: [0, 0]", "O: [0, 0.1]").replace("GIVEN", "omega: 0")
+    mistake = refused(scenes.typed(tmp_path, text))
+    assert mistake.where == "initial.bar"
+    assert "starts bar with y = -0.257115 m, the scene with -0.157115" in mistake.what

@@ -8,7 +8,11 @@ import numpy as np
 import pytest
 from given import scenes, written_scenes
 from given.refused import refused
-from given.typed_scenes import PARALLELOGRAM, SPRING, time_to_flat
+from given.typed_scenes import AT_REST, PARALLELOGRAM, SPRING, time_to_flat
+
+from textmech.cases.mistake import CaseError
+from textmech.reference.motion.stuck import Stuck
+from textmech.reference.refusal import refusals
 
 
 def test_a_flat_parallelogram_ends_the_motion(tmp_path: Path) -> None:
@@ -57,3 +61,34 @@ def test_a_zeno_sequence_ends_with_a_message(tmp_path: Path) -> None:
     mistake = refused(scenes.typed(tmp_path, text.replace("e: 1", "e: 0.5"), tail=end))
     assert "Zeno" in mistake.what
     assert mistake.where == "duration"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (
+            AT_REST["hanging bar"]
+            .replace("bodies: {", "bodies: {dot: {particle: {mass: 1.2e6}}, ")
+            .replace("initial: {", "initial: {dot: {x: 1, y: 0}, "),
+            "dot is 1e+06 times as heavy as bar: give bar more mass, or leave it out",
+        ),
+        (
+            AT_REST["hanging mass"].replace("stiffness: 30", "stiffness: 1.0e8"),
+            "a spring of 1e+08 N/m swings 2e+03 times in 1 s: make it softer, or a joint",
+        ),
+        (AT_REST["hanging bar"], "shorten the duration, or change what is about to jump"),
+    ],
+    ids=["masses", "spring", "unknown"],
+)
+def test_steps_that_shrink_are_told_with_what_can_be_done(
+    tmp_path: Path, text: str, words: str
+) -> None:
+    case = scenes.typed(tmp_path, text)
+    generated = scenes.mechanism(case)
+    y = np.concatenate(generated.start()[1:])
+    reason = "the steps shrink to nothing at t = 0.00034668686823560225"
+    with pytest.raises(CaseError) as caught, refusals(case, generated):
+        raise Stuck(reason, generated.base, 0.00034668686823560225, y)
+    (mistake,) = caught.value.mistakes
+    begin = "the motion cannot be followed beyond t = 0.0003467 s: the steps shrink to nothing; "
+    assert mistake.what.startswith(begin + words)

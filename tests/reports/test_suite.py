@@ -4,11 +4,13 @@ import os
 import signal
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from textmech.cases.case import Case
+from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 from textmech.engines.engine import Engine
 from textmech.reports import suite
@@ -85,3 +87,23 @@ def test_a_reference_that_is_not_certified_judges_nothing(
     assert report.fails
     assert {row.verdict for row in report.comparisons} == {FAILS}
     assert all("not certified" in row.because for row in report.comparisons)
+
+
+def test_nor_does_it_judge_events(
+    trial: Make, moving: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A ball that turns at 0.5 s: its time is a row of its own."""
+    text = "\n".join(moving.source.lines)
+    forces = "  forces: {brake: {push: ball.center, constant: [-4, 0]}}\n"
+    events = "events: {turns: {ball.vx: falls to zero}}\n"
+    text = text.replace("initial:", f"{forces}initial:").replace("allow: {", f"{events}allow: {{")
+    text = text.replace("allow: {", "allow: {turns.time: 1.0e-3, turns.count: 0.5, ")
+    file = tmp_path / "turning.yaml"
+    file.write_text(f"{text}\n", encoding="utf-8")
+    (turning,) = load(file)
+    engine = trial(stops=(0.5,)).engine
+    assert {row.verdict for row in measure([turning], [engine]).certificates} == {"holds"}
+    monkeypatch.setattr("textmech.reference.certificate.laws.LAW", -1.0)
+    rows = {row.quantity: row.verdict for row in measure([turning], [engine]).comparisons}
+    assert {"turns.time", "turns.count", "ball.x"} <= rows.keys()
+    assert set(rows.values()) == {FAILS}
