@@ -20,6 +20,11 @@ Pose = tuple[Any, Any, Any, Any, Any, Any]  # x, y, angle, vx, vy, omega of a ce
 
 MOVING = "moving"  # the mode of a system that has only one
 
+# Where events pile up, as of a ball that bounces ever lower, the motion goes on from their limit:
+# by Δ too early, with flights of d and less left out.  It rests then with the momentum that these
+# would give it, and is off by g d Δ at most.
+EARLY, LAST = 5e-7, 5e-8  # of the duration: Δ, or d where that is larger; shorter ones drown in ε
+
 
 @dataclass(frozen=True)
 class Mass:
@@ -125,11 +130,14 @@ class Guard:
 
     event is the name of what happens there, or None for a change that nobody observes. A guard at
     zero when its mode begins has to rise first; if it falls at once, the mode ends at once.
+    at_last: what `then` is in the limit, where falls without end pile up in a finite time, as those
+    of a ball that bounces ever lower: it rests. None where there is no limit to go on from.
     """
 
     event: str | None
     g: Callable[[float, Array, Array], float]
     then: Callable[[float, Array, Array], tuple[str, Array, Array]]
+    at_last: Callable[[float, Array, Array], tuple[str, Array, Array]] | None = None
 
 
 class System:

@@ -54,7 +54,9 @@ def exerts(force: Cable, where: Any, t: float, q: Any, v: Any) -> Iterator[Any]:
 
 
 ACTIONS[Cable] = Action(
-    exerts, U=lambda force, where, t, q: force.pull * length(force, where, t, q), line=True
+    exerts,
+    U=lambda force, where, t, q: force.pull * length(force, where, t, q),
+    line=lambda force: True,
 )
 
 # engines/law.py

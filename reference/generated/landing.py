@@ -12,13 +12,15 @@ from .modes import Modes, rate
 STILL = 1e-12  # of the largest rate: what a projection or an assembly leaves of a zero
 
 
-def landed(modes: Modes, mode: str, i: int, t: float, q: Array, v: Array) -> After:
-    """The mode after contact i has struck the floor, and its state.
+def landed(
+    modes: Modes, mode: str, i: int, t: float, q: Array, v: Array, *, rests: bool = False
+) -> After:
+    """The mode after contact i has struck the floor, and its state; `rests`: it stays there.
 
     Raises Undetermined where the impact law has no answer.
     """
     base = modes.base
-    touching, met = _meetings(modes, mode, i, t, q, v)
+    touching, met = _meetings(modes, mode, i, t, q, v, rests=rests)
     held = [Condition(f, g) for f, g in zip(base.f_a(t, q), base.g(t, q), strict=True)]
     try:
         v, states = impact(modes.M, held, met, v)
@@ -41,7 +43,7 @@ def _staying(element: Element, state: State) -> Options:
 
 
 def _meetings(
-    modes: Modes, mode: str, i: int, t: float, q: Array, v: Array
+    modes: Modes, mode: str, i: int, t: float, q: Array, v: Array, *, rests: bool
 ) -> tuple[list[int], list[Meeting]]:
     """The contacts that are closed or strike, and their rows."""
     touching, met = [], []
@@ -49,7 +51,7 @@ def _meetings(
         if e.normal is not None and (k == i or state != "open"):
             parts = (e.normal, e.tangent)
             normal, tangent = (Condition(*row(part, t, q, v)[:2]) for part in parts)
-            after = -e.restitution * float(normal.f @ v) if k == i else 0.0
+            after = -e.restitution * float(normal.f @ v) if k == i and not rests else 0.0
             touching.append(k)
             met.append(Meeting(e, normal, tangent, after, k == i))
     return touching, met

@@ -77,7 +77,8 @@ class Mechanism(System):
         if (normal := e.normal) is not None:
             if state == "open":
                 gap = lambda t, q, v: normal.f(t, q.tolist())[0]  # noqa: E731
-                yield Guard(f"{e.name} lands", gap, self._lands(mode, i))
+                rest = self._lands(mode, i, rests=True)
+                yield Guard(f"{e.name} lands", gap, self._lands(mode, i), rest)
                 return
             push = lambda t, q, v: self.built.forces(mode, t, q, v)[f"{e.name}.normal"]  # noqa: E731
             yield Guard(f"{e.name} opens", push, self._opens(mode, i))
@@ -118,9 +119,11 @@ class Mechanism(System):
 
         return then
 
-    def _lands(self, mode: str, i: int) -> Callable[[float, Array, Array], After]:
-        """The impact law, and what each contact and slide may do after it."""
-        return lambda t, q, v: landed(self.built, mode, i, t, q, v)
+    def _lands(
+        self, mode: str, i: int, *, rests: bool = False
+    ) -> Callable[[float, Array, Array], After]:
+        """The impact law, and what each contact and slide may do after it; without a rebound."""
+        return lambda t, q, v: landed(self.built, mode, i, t, q, v, rests=rests)
 
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.87), (2.89) F_N ≥ 0, |F_fr| ≤ μ_s F_N where it sticks, v as it slides, gap ≥ 0."""

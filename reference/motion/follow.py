@@ -16,7 +16,7 @@ from ..integrators.radau import radau_table
 from ..system import Array, Guard, Mode, System
 from .crossing import INSIDE, TOGETHER, Within, first
 from .stuck import Stuck, Watched, slope
-from .zeno import MOST, ZenoError, accumulation, ends_here
+from .zeno import MOST, ZenoError, accumulation, ends_here, settles
 
 TOLERANCE = 1e-15  # per step; the integrators do not go below 4 ε, so: as well as doubles can
 STAGES = 5  # of the implicit integrator
@@ -192,9 +192,11 @@ class _Walk:
         look()
         ended = self.phases[-1]
         mode, q, v = guard.then(t, *np.split(before, 2))
+        name = guard.event or f"{ended} to {mode}"
+        if self._piles_up(name, t, refused=guard.at_last is None) and guard.at_last is not None:
+            mode, q, v = guard.at_last(t, *np.split(before, 2))
         self.spent = i if mode == ended else None
         after = np.concatenate([q, v])
-        self._refuse_zeno(name := guard.event or f"{ended} to {mode}", t)
         k = len(self.fired[name])
         self.changes.append(Change(guard.event, k, t, ended, mode, before, after))
         self.t, self.now = t, after
@@ -203,15 +205,20 @@ class _Walk:
             self.y[-1], self.phase[-1] = after, len(self.changes)
         self._keep(t)
 
-    def _refuse_zeno(self, name: str, t: float) -> None:
+    def _piles_up(self, name: str, t: float, *, refused: bool) -> bool:
+        """Whether this was the last of infinitely many; raises ZenoError if that is refused."""
+        begin, end = float(self.times[0]), float(self.times[-1])
         self.fired[name].append(t)
         if sum(map(len, self.fired.values())) > MOST:
             raise ZenoError(name, t, f"is one of more than {MOST} events")
         limit = accumulation(self.fired[name])
-        if limit is not None and ends_here(limit, t, float(self.times[0]), float(self.times[-1])):
+        if not refused:
+            return settles(self.fired[name], end - begin)
+        if limit is not None and ends_here(limit, t, begin, end):
             raise ZenoError(
                 name, t, f"happens without end before {limit:.6g} s (a Zeno sequence), seen"
             )
+        return False
 
 
 def _within(step: Step, probe: Method) -> Within:

@@ -4,6 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..system import EARLY, LAST
+
 MOST = 10_000  # events
 SEEN = 6  # firings of one name from which an accumulation is judged: five distances
 NEAR = 1e-5  # of the duration: an accumulation point this close ends the motion
@@ -29,6 +31,17 @@ def accumulation(instants: Sequence[float]) -> float | None:
         return None
     ratio = float(np.max(distances[1:] / distances[:-1]))
     return instants[-1] + float(distances[-1]) * ratio / (1.0 - ratio) if ratio < 1.0 else None
+
+
+def settles(instants: Sequence[float], duration: float) -> bool:
+    """Whether the instants pile up so close to the last that the motion may go on from there."""
+    if len(instants) < 3:
+        return False
+    one, two = np.diff(instants[-3:]).tolist()
+    if not two < one:
+        return False
+    following = two * two / one
+    return following <= LAST * duration or following <= EARLY * duration * (1.0 - two / one)
 
 
 def ends_here(limit: float, t: float, begin: float, end: float) -> bool:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
+from ..system import EARLY, LAST, Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 
 G = 9.80665  # m/s²
 
@@ -101,8 +101,11 @@ class BouncingDisk(System):
         def then(t: float, q: Array, v: Array) -> tuple[str, Array, Array]:
             return "flight" if self.e else "rest", np.array([self.R]), -self.e * v
 
+        def rests(t: float, q: Array, v: Array) -> tuple[str, Array, Array]:
+            return "rest", np.array([self.R]), np.zeros(1)
+
         name = "bounces" if self.e else "lands"
-        return (Guard(name, lambda t, q, v: float(q[0]) - self.R, then),)
+        return (Guard(name, lambda t, q, v: float(q[0]) - self.R, then, rests),)
 
     def _falls(self, until: float) -> list[float]:
         """Impacts at t₁ = √(2 (y₀ − R)/g), and each next one 2 eᵏ t₁ later, up to their limit."""
@@ -124,9 +127,13 @@ class BouncingDisk(System):
         return np.array([self.R + up * tau - G * tau**2 / 2]), np.array([up - G * tau])
 
     def closed_events(self, until: float) -> list[tuple[str, float]]:
-        """The impacts up to `until`."""
-        name = "bounces" if self.e else "lands"
-        return [(name, t) for t in self._falls(until)]
+        """The impacts up to `until`, but of those that pile up only the ones we tell apart."""
+        name, falls = "bounces" if self.e else "lands", self._falls(until)
+        for k in range(2, len(falls) if self.e < 1.0 else 0):
+            flight = 2 * self.e ** (k + 1) * falls[0]
+            if flight <= LAST * until or flight <= EARLY * until * (1 - self.e):
+                return [(name, t) for t in falls[: k + 1]]
+        return [(name, t) for t in falls]
 
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """y ≥ R: the contact does not penetrate, but for rounding."""

@@ -13,6 +13,7 @@ from given.typed_scenes import AT_REST, PARALLELOGRAM, SPRING, time_to_flat
 from textmech.cases.mistake import CaseError
 from textmech.reference.motion.stuck import Stuck
 from textmech.reference.refusal import refusals
+from textmech.reference.solve import solve
 
 
 def test_a_flat_parallelogram_ends_the_motion(tmp_path: Path) -> None:
@@ -56,11 +57,14 @@ def test_a_rhombus_that_folds_flat_ends_the_motion() -> None:
     assert "diagonal has no length there" in mistake.what
 
 
-def test_a_zeno_sequence_ends_with_a_message(tmp_path: Path) -> None:
+def test_a_disk_that_bounces_until_it_rests_is_no_mistake(tmp_path: Path) -> None:
     text, end = written_scenes.text("elastic")
-    mistake = refused(scenes.typed(tmp_path, text.replace("e: 1", "e: 0.5"), tail=end))
-    assert "Zeno" in mistake.what
-    assert mistake.where == "duration"
+    solution = solve(scenes.typed(tmp_path, text.replace("e: 1", "e: 0.5"), tail=end))
+    failed = {check.name: check.difference for check in solution.checks if not check.holds}
+    # The last flights are 1e-13 m high: beside 0.25 m the floor is met to 1e-11 s, not 1e-12.
+    assert failed.pop("closed events", 0.0) < 2e-11
+    assert not failed
+    np.testing.assert_allclose(solution.trajectory.states["wheel"][-1][[1, 4]], [0.25, 0.0])
 
 
 @pytest.mark.parametrize(
