@@ -25,6 +25,12 @@ TOUCHING = 1e-9  # m: a start that the assembly has found to 1e-12, and no visib
 _GROUP = ShapeFilter(group=1)  # circles touch the floor and not each other
 
 
+def is_tip(scene: Scene, contact: Contact) -> bool:
+    """Whether a point of a turning body touches, and no rim."""
+    body = scene.bodies[contact.body]
+    return body.turns and body.radius is None
+
+
 def circle(contact: Contact, part: Part, body: Body) -> Circle:
     """The contact's shape: the disk itself, or the circle above the point."""
     if part.radius is None:
@@ -42,16 +48,35 @@ def above(point: Vector, angle: float) -> Vector:
     return (point[0] + math.sin(angle) * ABOVE, point[1] + math.cos(angle) * ABOVE)
 
 
-def follower(contact: Contact, part: Part, shape: Circle, step: float) -> Follow | None:
-    """Keeps the circle above the point of a body that turns."""
+def follower(
+    contact: Contact, part: Part, shape: Circle, step: float, *, reflects: bool
+) -> Follow | None:
+    """Keeps the circle above the point of a body that turns.
+
+    reflects: while it stays on the floor its elasticity is 1. A contact holds the velocity at the
+    new place alone, J(n+½) v(n+1) = 0, and the point's curved path then lifts it a little in each
+    step, until it opens and falls back. J(n+½) (v(n+1) + v(n)) = 0 leaves it on the floor.
+    """
     body = shape.body
     if part.radius is not None or not part.turns or body is None:
         return None
-    point = part.points[contact.at.point]
+    a, b = part.points[contact.at.point]
+    impact = now = contact.restitution
+    touched = False
 
     def follow(t: float) -> None:
-        turned = body.angle + step * body.angular_velocity
-        shape.unsafe_set_offset(above(point, turned))
+        nonlocal now, touched
+        angle = body.angle
+        if reflects:
+            # as pymunk found it in the step before; in the first step it strikes the floor
+            low = body.position.y + math.sin(angle) * a + math.cos(angle) * b
+            stays = touched and low < shape.radius - ABOVE
+            touched = True
+            if now != (1.0 if stays else impact):
+                shape.elasticity = now = 1.0 if stays else impact
+        turned = angle + step * body.angular_velocity
+        sin, cos = math.sin(turned), math.cos(turned)
+        shape.unsafe_set_offset((a + sin * ABOVE, b + cos * ABOVE))
 
     return follow
 

@@ -72,7 +72,8 @@ def _between(
 ) -> Callable[[int, int], None]:
     """A function that takes the steps from one number up to another."""
     one, midpoint = world.space.step, bool(numbers.get("time.midpoint"))
-    applied = forces(world, step, midpoint=midpoint, law=realised == "law")
+    reflects = bool(numbers.get("contact.reflects"))
+    applied = forces(world, step, midpoint=midpoint, law=realised == "law", reflects=reflects)
 
     def free(first: int, last: int) -> None:
         for _ in repeat(None, last - first):

@@ -9,7 +9,7 @@ from pymunk.shapes import Segment
 
 from ...cases.scene import Scene
 from ..engine import Start
-from .contact import ABOVE, closed
+from .contact import ABOVE, closed, is_tip
 from .force import script
 from .run import COLD
 from .scene import build
@@ -52,7 +52,7 @@ def text(
         "ground = space.static_body",
         "bodies = {}",
         *_bodies(world),
-        *_floor(world),
+        *_floor(world, reflects=bool(numbers.get("contact.reflects"))),
         *_constraints(world, numbers),
     ]
     if seed:
@@ -62,7 +62,7 @@ def text(
     if cold := numbers.get("start.iterations"):
         lines.append(f"    space.iterations = {cold} if n < {COLD} else {world.space.iterations}")
     lines += script(world, lambda body: _of(world, body), midpoint=bool(midpoint))
-    lines += _followers(world)
+    lines += _followers(world, numbers)
     position, angle = (" + h / 2 * body.velocity", " + h / 2 * body.angular_velocity")
     lines += [
         "    space.step(h)",
@@ -109,13 +109,13 @@ def _bodies(world: World) -> Iterator[str]:
         yield "space.add(body)"
 
 
-def _floor(world: World) -> Iterator[str]:
+def _floor(world: World, *, reflects: bool) -> Iterator[str]:
     for shape in world.space.static_body.shapes:
         assert isinstance(shape, Segment)
         yield ""
         yield f"floor = pymunk.Segment(ground, {written(shape.a)}, {written(shape.b)}, 0.0)"
         yield f"floor.friction = {shape.friction!r}"
-        if any(wheel.elasticity for wheel in world.wheels.values()):
+        if reflects or any(wheel.elasticity for wheel in world.wheels.values()):
             yield f"floor.elasticity = {shape.elasticity!r}"
         yield "space.add(floor)"
         yield "wheels = {}"
@@ -152,13 +152,18 @@ def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
             yield "space.add(joint)"
 
 
-def _followers(world: World) -> Iterator[str]:
-    """Keeps the circle of a turning body's point above it."""
+def _followers(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
+    """Keeps the circle of a turning body's point above it, see `follower`."""
     for contact in world.scene.contacts.values():
-        part = world.scene.bodies[contact.body]
-        if part.radius is None and part.turns:
-            body = _of(world, world.wheel(contact.name))
-            yield f"    turned = {body}.angle + h * {body}.angular_velocity"
-            a, b = part.points[contact.at.point]
-            offset = f"({a!r} + {ABOVE} * math.sin(turned), {b!r} + {ABOVE} * math.cos(turned))"
-            yield f"    wheels[{contact.name!r}].unsafe_set_offset({offset})"
+        if not is_tip(world.scene, contact):
+            continue
+        body, (a, b) = _of(world, world.wheel(contact.name)), world.local(contact.at)
+        wheel = f"wheels[{contact.name!r}]"
+        if numbers.get("contact.reflects"):
+            yield f"    low = pymunk.Vec2d({a!r}, {b!r}).rotated({body}.angle).y"
+            yield f"    low += {body}.position.y - {wheel}.radius + {ABOVE}"
+            yield "    stays = n > 0 and low < 0"
+            yield f"    {wheel}.elasticity = 1.0 if stays else {contact.restitution!r}"
+        yield f"    turned = {body}.angle + h * {body}.angular_velocity"
+        offset = f"({a!r} + {ABOVE} * math.sin(turned), {b!r} + {ABOVE} * math.cos(turned))"
+        yield f"    {wheel}.unsafe_set_offset({offset})"

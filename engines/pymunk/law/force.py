@@ -10,14 +10,19 @@ from .friction import laws
 Apply = Callable[[float], None]  # at time t [s]
 
 
-def forces(world: World, step: float, *, midpoint: bool, law: bool) -> list[Apply]:
-    """What has to be called before each step; law: whether friction is ours too."""
+def forces(world: World, step: float, *, midpoint: bool, law: bool, reflects: bool) -> list[Apply]:
+    """What has to be called before each step; law: whether friction is ours too.
+
+    reflects: whether a point stays on the floor as `follower` says.
+    """
     friction = laws(world, step) if law else []
-    return [*tells(world, step, midpoint=midpoint), *friction, *_followers(world, step)]
+    return [*tells(world, step, midpoint=midpoint), *friction, *_followers(world, step, reflects)]
 
 
-def _followers(world: World, step: float) -> list[Apply]:
+def _followers(world: World, step: float, reflects: bool) -> list[Apply]:
     scene = world.scene
-    contacts = scene.contacts.values()
-    found = [follower(c, scene.bodies[c.body], world.wheels[c.name], step) for c in contacts]
+    found = [
+        follower(c, scene.bodies[c.body], world.wheels[c.name], step, reflects=reflects)
+        for c in scene.contacts.values()
+    ]
     return [follow for follow in found if follow]
