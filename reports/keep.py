@@ -1,26 +1,52 @@
-"""The motions behind the rows, one CSV a case, for looking and plotting."""
+"""The motions behind the rows, for looking and plotting: two files a case, in full precision."""
 
+from dataclasses import asdict
 from pathlib import Path
 
 import pandas as pd
 
+from ..cases.case import Case
+from ..cases.observe import observe
 from ..cases.quantity import table
+from ..cases.trajectory import ANGLE, X, Y
+from .replace import replace
 from .suite import Report
 
 
 def keep(report: Report, folder: Path) -> None:
-    """One CSV a case: times, and each quantity of the reference and of every engine, side by side.
+    """`<case>.csv`: times, each observed quantity of the reference and of every engine side by
+    side, and the reference's poses. `<case>.events.csv`: the times of all events.
 
-    In full precision: these files are for looking and plotting, and are not committed.
+    Raises OSError: then the folder holds what it held.
     """
-    folder.mkdir(parents=True, exist_ok=True)
-    for case in {trial.case.name: trial.case for trial, _ in report.trials}.values():
-        columns = {"t": case.times}
-        trials = [(t, outcome) for t, outcome in report.trials if t.case.name == case.name]
-        for name in (name for name in case.allow if name in table(case.scene)):
-            columns[f"{name} reference"] = trials[0][0].wanted(name)
-            for trial, outcome in trials:
-                if name in outcome.samples:
-                    engine = f"{trial.engine.name}.{trial.engine.setting}.{trial.realised}"
-                    columns[f"{name} {engine}"] = outcome.samples[name]
-        pd.DataFrame(columns).to_csv(folder / f"{case.name}.csv", index=False)
+    texts: dict[str, str] = {}
+    for case in report.cases:
+        if case.name in report.solutions:
+            texts[f"{case.name}.csv"] = _motions(report, case).to_csv(index=False)
+            texts[f"{case.name}.events.csv"] = _events(report, case).to_csv(index=False)
+    replace(folder, texts)
+
+
+def _motions(report: Report, case: Case) -> pd.DataFrame:
+    reference = report.solutions[case.name].trajectory
+    columns = {"t [s]": case.times}
+    known = table(case.scene)
+    for name in (name for name in case.allow if name in known):
+        unit = known[name].unit
+        columns[f"{name} [{unit}] reference"] = observe(case.scene, reference, name)
+        for unit_of_work, outcome in report.outcomes:
+            engine = unit_of_work.pair.engine
+            if unit_of_work.pair.case.name == case.name and name in outcome.samples:
+                label = f"{engine.name}.{engine.setting}.{unit_of_work.realised}"
+                columns[f"{name} [{unit}] {label}"] = outcome.samples[name]
+    for body, states in reference.states.items():
+        for field, unit, column in (("x", "m", X), ("y", "m", Y), ("angle", "rad", ANGLE)):
+            columns.setdefault(f"{body}.{field} [{unit}] reference", states[:, column])
+    return pd.DataFrame(columns)
+
+
+def _events(report: Report, case: Case) -> pd.DataFrame:
+    told = ["engine", "setting", "realised", "event", "k", "time", "difference"]
+    rows = [asdict(instant) for instant in report.instants if instant.case == case.name]
+    frame = pd.DataFrame(rows, columns=told)
+    return frame.rename(columns={"time": "time [s]", "difference": "difference [s]"})

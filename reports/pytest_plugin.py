@@ -152,7 +152,7 @@ class ComparisonItem(CaseItem):
         from .row import AGREES, DEVIATES, FAILS
         from .show.terminal import line
 
-        row = next(row for row in self.report().comparisons if _key(row) == self.key)
+        row = _row(self.report(), self.key)
         if row.verdict == FAILS:
             place = f"{self.path}:{self.place('allow', row.quantity)}"
             raise RowError(f"{place}: {row.quantity}\n{_row_text(row)}")
@@ -161,6 +161,14 @@ class ComparisonItem(CaseItem):
 
     def reportinfo(self) -> tuple[Path, int, str]:
         return self.path, self.place("allow", self.key[-1]) - 1, f"case {self.name}"
+
+
+def _row(report: "Report", key: tuple[str, ...]) -> "Comparison":
+    """The row of that key. Raises RowError where the case has no reference, and so not all rows."""
+    for row in report.comparisons:
+        if _key(row) == key:
+            return row
+    raise RowError(f"{key[0]}: there is no reference: {report.lost[key[0]]}")
 
 
 def _key(row: "Comparison") -> tuple[str, ...]:
@@ -195,9 +203,11 @@ def measured(session: pytest.Session) -> "Report":
 
 
 def _measure(session: pytest.Session) -> "Report | Exception":
-    """Runs what is collected, on all cores."""
+    """Runs what is collected, on all cores, or takes it from the store: another worker of xdist
+    collects the same, waits, and finds it there."""
     from ..cases.mistake import CaseError
     from . import pool, suite
+    from .cache.store import usable
     from .selection import BOOK, choose_engines
 
     items = [item for item in session.items if isinstance(item, CaseItem)]
@@ -213,6 +223,7 @@ def _measure(session: pytest.Session) -> "Report | Exception":
             jobs=pool.workers(),
             progress=lambda *_: None,
             book=book,
+            store=usable(),
         )
     except CaseError as error:
         return error
