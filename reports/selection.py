@@ -34,6 +34,7 @@ def choose_cases(words: Sequence[str], *, known: Engines | None = ENGINES) -> li
     mistakes: list[Mistake] = []
     for word in words or shipped():
         try:
+            _nameable(word)
             for case in _cases(word, known):
                 other = Path(cases.setdefault(case.name, case).source.file)
                 if other.resolve() != Path(case.source.file).resolve():
@@ -44,6 +45,20 @@ def choose_cases(words: Sequence[str], *, known: Engines | None = ENGINES) -> li
     if mistakes:
         raise CaseError(mistakes)
     return list(cases.values())
+
+
+def _nameable(word: str) -> None:
+    """A case is called as its file is, and the name stands in tables and on terminals.
+
+    Raises CaseError: a spreadsheet computes what begins with =, +, - or @.
+    """
+    name = Path(word).stem
+    sound = name.isprintable() and (name[:1].isalnum() or name[:1] == "_")
+    if Path(word).is_file() and not sound:
+        what = (
+            "a case's file name should begin with a letter or a digit, and hold nothing unprintable"
+        )
+        raise CaseError([Mistake(word, 0, 0, "", what)])
 
 
 def _cases(word: str, known: Engines | None) -> list[Case]:
