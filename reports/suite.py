@@ -52,7 +52,7 @@ def measure(
     cases: Sequence[Case],
     engines: Sequence[Engine],
     *,
-    jobs: int,
+    jobs: int = 1,
     progress: Progress,
     book: bool = True,
     store: Store | None = None,

@@ -5,6 +5,7 @@ that is at work, named by its number.
 """
 
 import os
+import signal
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,7 +14,7 @@ from typing import Any
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Plan, Start
-from textmech.reports import cli, selection
+from textmech.reports import cli, ending, selection
 
 CASE = """\
 title: A free body that moves at constant velocity
@@ -54,6 +55,8 @@ class Endless:
 
 def main() -> None:
     """The command, which finds this engine and no other."""
+    for number in ending.known():  # of tests that run in the background some are ignored
+        signal.signal(number, signal.SIG_DFL)
     engine = Endless(Path(sys.argv.pop(1)))
     selection.choose_engines = lambda *_: [engine]
     cli.main()
