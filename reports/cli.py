@@ -1,23 +1,27 @@
 """The command `textmech`: run, check, list, show, bench."""
 
-import signal
 import sys
 import warnings
-from collections.abc import Callable
-from functools import partial
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from ..cases.mistake import CaseError, Mistake
+from . import ending
+from .show.say import prepare, say, tell
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from ..cases.case import Case
     from ..engines.engine import Engine
-    from .suite import Report
 
-FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
+FAILED, BAD_INPUT = 1, 2
+_DONE: list[str] = []  # what was written and kept so far: said if the rest is not
 
 allow_long = click.option(
     "--allow-long", is_flag=True, help="Do any amount of work, and not only what takes minutes."
@@ -26,24 +30,69 @@ allow_long = click.option(
 
 def main() -> None:
     """The entry point."""
-    signal.signal(signal.SIGTERM, _end)  # as Ctrl-C does: else the workers stay behind
+    ending.listen()
+    prepare()
     try:
         sys.exit(command(standalone_mode=False))  # an exit code, or None
     except click.ClickException as error:
-        error.show()
+        tell(f"Error: {error.format_message()}")
         sys.exit(BAD_INPUT)
     except (click.Abort, KeyboardInterrupt):
-        click.echo("\ninterrupted: nothing was written", err=True)
-        sys.exit(INTERRUPTED)
+        tell(f"\ninterrupted: {_done()}")
+        sys.exit(ending.INTERRUPTED)
     except CaseError as error:
-        click.echo(str(error), err=True)
+        tell(str(error))
         count = len(error.mistakes)
-        click.echo(f"{count} mistake{'s' if count > 1 else ''}; nothing was written", err=True)
+        tell(f"{count} mistake{'s' if count > 1 else ''}; {_done()}")
+        sys.exit(BAD_INPUT)
+    except OSError as error:
+        where = f"{error.filename}: " if error.filename else ""
+        tell(f"Error: {where}{error.strerror or error}; {_done()}")
         sys.exit(BAD_INPUT)
 
 
-def _end(*_: object) -> None:
-    raise KeyboardInterrupt
+def _done() -> str:
+    return "; ".join(_DONE) or "nothing was written"
+
+
+@contextmanager
+def _kept(stored: bool) -> Iterator[None]:
+    try:
+        yield
+    except KeyboardInterrupt:
+        if stored:
+            _DONE.append("nothing was written, but what was finished is kept for the next run")
+        raise
+
+
+def _write(frames: "Mapping[str, pd.DataFrame]", out: Path) -> None:
+    """Notes that they are there, if they are: an interruption may come after the last of them."""
+    from . import write
+
+    try:
+        write.write(frames, out)
+    finally:
+        if write.holds(frames, out):
+            _DONE.append(f"the reports are in {out}")
+
+
+class Folder(click.Path):
+    """A folder to write into, by a name that is not empty."""
+
+    def __init__(self) -> None:
+        super().__init__(file_okay=False, path_type=Path)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The folder, made where there was none: before the work, not after it."""
+        if not value:
+            self.fail("the folder's name is empty; the current one is '.'", param, ctx)
+        folder = Path(str(super().convert(value, param, ctx)))
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            TemporaryDirectory(prefix=".writing-", dir=folder).cleanup()
+        except OSError as error:
+            self.fail(f"cannot write to {folder}: {error.strerror}", param, ctx)
+        return folder
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -89,14 +138,26 @@ def command() -> None:
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default.")
 @click.option(
     "--out",
-    type=click.Path(file_okay=False, writable=True, path_type=Path),
+    type=Folder(),
     help="Where to write the CSV files. A full run writes the committed reports of a checkout by "
     "default, and outside of one ./textmech-reports; a partial run writes nothing.",
 )
 @click.option(
     "--keep",
-    type=click.Path(file_okay=False, path_type=Path),
-    help="Write the trajectories too, one CSV a case, reference and engines side by side.",
+    type=Folder(),
+    help="Write the trajectories too, one CSV a case, reference and engines side by side, and one "
+    "with the times of its events.",
+)
+@click.option(
+    "--no-cache",
+    is_flag=True,
+    help="Compute everything anew. Else results lie in $TEXTMECH_CACHE, by default "
+    "~/.cache/textmech, and are used while nothing they depend on has changed.",
+)
+@click.option(
+    "--cluster",
+    metavar="ADDRESS",
+    help="A Dask scheduler, as tcp://host:8786, whose workers do the work.",
 )
 @allow_long
 def run(
@@ -106,6 +167,8 @@ def run(
     jobs: int | None,
     out: Path | None,
     keep: Path | None,
+    no_cache: bool,
+    cluster: str | None,
     allow_long: bool,
 ) -> None:
     """Compare engines with the reference and report the differences.
@@ -114,71 +177,57 @@ def run(
     """
     from . import keep as kept
     from . import pool, suite, write
-    from .selection import choose_book, choose_engines, sound_cases
+    from .cache import store
+    from .cluster import executor
+    from .selection import choose_book, choose_engines, sound, sound_cases
     from .show import terminal
     from .trial.work import too_long
 
+    full = not (cases or names or settings)
+    if out is None and full:
+        out = Folder().convert(str(write.by_default()), None, None)
+    if out is not None and keep is not None and out.resolve() == keep.resolve():
+        raise click.UsageError("--out and --keep are one folder: a case may be called as a report")
     found, mistakes = sound_cases(cases, long=allow_long)
     with warnings.catch_warnings(record=True) as broken:
         engines = choose_engines(names, settings, long=allow_long)
     mistakes += too_long(found, engines)
-    chosen = _sound(found, mistakes)
+    chosen = sound(found, mistakes)
     if not chosen:
         raise CaseError(mistakes)
     if mistakes:
-        click.echo(_left_out(mistakes), err=True)
+        tell(_left_out(mistakes))
     for warning in broken:
-        click.echo(f"warning: {warning.message}", err=True)
+        tell(f"warning: {warning.message}")
     book = choose_book(names, settings)
     _answered(chosen, engines, book=book, named=bool(cases))
-    for folder in (out, keep):
-        if folder is not None:
-            _prepare(folder)  # before the work, not after it
-    with terminal.progress() as progress:
-        measure = partial(
-            suite.measure,
-            engines=engines,
+    used = None if no_cache else store.usable()
+    with terminal.progress() as progress, executor(cluster) as working, _kept(used is not None):
+        report = suite.measure(
+            chosen,
+            engines,
             jobs=jobs or pool.workers(),
             progress=progress,
             book=book,
+            store=used,
+            executor=working,
         )
-        report, unsolved = _each_for_itself(measure, chosen)
-    mistakes += unsolved
-    chosen = _sound(chosen, unsolved)
-    if out is None and not (cases or names or settings or mistakes):
-        out = write.by_default()
+    mistakes += report.mistakes
+    if used is not None:
+        used.trim()
+    if full and mistakes:
+        out = None  # what is left is no full run
     if out is not None:
-        write.write(write.tables(report, chosen), out)
+        _write(write.tables(report, report.cases), out)
     if keep is not None:
         kept.keep(report, keep)
+        _DONE.append(f"the trajectories are in {keep}")
     terminal.show(report, detailed=bool(cases), written=out)
     if mistakes:
-        click.echo(_left_out(mistakes), err=True)  # again: by now it has scrolled away
+        tell(_left_out(mistakes))  # again: by now it has scrolled away
         raise click.exceptions.Exit(BAD_INPUT)
     if report.fails:
         raise click.exceptions.Exit(FAILED)
-
-
-def _sound(cases: "list[Case]", mistakes: list[Mistake]) -> "list[Case]":
-    """The cases of the files without mistakes."""
-    mistaken = {mistake.file for mistake in mistakes}
-    return [case for case in cases if case.source.file not in mistaken]
-
-
-def _each_for_itself(
-    measure: "Callable[[list[Case]], Report]", cases: "list[Case]"
-) -> "tuple[Report, list[Mistake]]":
-    """The report, and the mistakes that only solving finds: they cost their own files.
-
-    All of these are found at once, so what is left is measured in one more go.
-    """
-    try:
-        return measure(cases), []
-    except CaseError as error:
-        left = _sound(cases, error.mistakes)
-        if not left or left == cases:
-            raise
-        return measure(left), error.mistakes
 
 
 def _left_out(mistakes: list[Mistake]) -> str:
@@ -196,14 +245,7 @@ def _answered(cases: "list[Case]", engines: "list[Engine]", *, book: bool, named
     if len(silent) == len(cases):
         raise click.UsageError(f"no row for {', '.join(silent)}: {what}")
     if named and silent:
-        click.echo(f"no row for {', '.join(silent)}: {what}", err=True)
-
-
-def _prepare(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise click.UsageError(f"cannot write to {folder}: {error.strerror}") from None
+        tell(f"no row for {', '.join(silent)}: {what}")
 
 
 @command.command()
@@ -217,10 +259,10 @@ def check(files: tuple[str, ...], allow_long: bool) -> None:
     from .trial.work import too_long
 
     mistakes: list[Mistake] = []
+    failed = False
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # an engine that is broken is no mistake of a case
         engines = choose_engines([], [])
-    failed = False
     for file in files:
         try:
             chosen = choose_cases([file], long=allow_long)
@@ -238,10 +280,10 @@ def check(files: tuple[str, ...], allow_long: bool) -> None:
         mistakes += found
         broken = [check for solution in solutions for check in solution.checks if not check.holds]
         if not found and not broken:
-            click.echo(f"{file}: {len(chosen)} case{'s' if len(chosen) > 1 else ''}, no mistakes")
+            say(f"{file}: {len(chosen)} case{'s' if len(chosen) > 1 else ''}, no mistakes")
         for check in broken:
             numbers = f"{check.difference:.2e} is above {check.bound:.1e}"
-            click.echo(f"{file}: FAILS: the reference's {check.name}: {numbers}")
+            say(f"{file}: FAILS: the reference's {check.name}: {numbers}")
         failed = failed or bool(broken)
     if mistakes:
         raise CaseError(mistakes)
@@ -257,7 +299,7 @@ def list_() -> None:
     cases = choose_cases([], known=None)
     width = max(len(case.name) for case in cases)
     for case in cases:
-        click.echo(f"{case.name:{width}}  {case.title}\n{'':{width}}    {case.origin}")
+        say(f"{case.name:{width}}  {case.title}\n{'':{width}}    {case.origin}")
 
 
 @command.command()
@@ -284,7 +326,7 @@ def show(case: str, name: str, allow_long: bool) -> None:
         raise click.UsageError(f"{name} is no engine, and has no file of its own")
     # Of a bare name the tuned setting, or what else the engine offers.
     engine = next((e for e in engines if e.setting == "tuned"), engines[0])
-    click.echo(script(chosen[0], engine), nl=False)
+    say(script(chosen[0], engine), nl=False)
 
 
 @command.command()
@@ -293,7 +335,7 @@ def bench() -> None:
     from .show.bench import table
 
     for line in table():
-        click.echo(line)
+        say(line)
 
 
 if __name__ == "__main__":

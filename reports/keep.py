@@ -1,32 +1,60 @@
-"""The motions behind the rows, one CSV a case, for looking and plotting."""
+"""The motions behind the rows, for looking and plotting: two files a case, in full precision."""
 
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
+from ..cases.case import Case
+from ..cases.observe import observe
 from ..cases.quantity import table
+from ..cases.trajectory import ANGLE, X, Y
+from .replace import replace
 from .suite import Report
 
 INSTANTS = 12  # decimals of a second: samples of two grids that are the same
 
 
 def keep(report: Report, folder: Path) -> None:
-    """One CSV a case: times, and each quantity of the reference and of every engine, side by side.
+    """`<case>.csv`: times, each observed quantity of the reference and of every engine side by
+    side, and the reference's poses. `<case>.events.csv`: the times of all events.
 
-    In full precision: these files are for looking and plotting, and are not committed.
+    Raises OSError: then the folder holds what it held.
     """
-    folder.mkdir(parents=True, exist_ok=True)
-    for case in {trial.case.name: trial.case for trial, _ in report.trials}.values():
-        columns: dict[str, pd.Series] = {}
-        trials = [(t, outcome) for t, outcome in report.trials if t.case.name == case.name]
-        for name in (name for name in case.allow if name in table(case.scene)):
-            for trial, outcome in trials:
-                times = np.round(trial.case.times, INSTANTS)
-                columns[f"{name} reference"] = pd.Series(trial.wanted(name), times).combine_first(
-                    columns.get(f"{name} reference", pd.Series(dtype=float))
-                )
-                if name in outcome.samples:
-                    engine = f"{trial.engine.name}.{trial.engine.setting}.{trial.realised}"
-                    columns[f"{name} {engine}"] = pd.Series(outcome.samples[name], times)
-        pd.DataFrame(columns).to_csv(folder / f"{case.name}.csv", index_label="t")
+    texts: dict[str, str] = {}
+    for case in report.cases:
+        if case.name in report.solutions:
+            texts[f"{case.name}.csv"] = _motions(report, case).to_csv(index=False)
+            texts[f"{case.name}.events.csv"] = _events(report, case).to_csv(index=False)
+    replace(folder, texts)
+
+
+def _motions(report: Report, case: Case) -> pd.DataFrame:
+    reference = report.solutions[case.name].trajectory
+    here = np.round(case.times, INSTANTS)
+    columns: dict[str, pd.Series] = {}
+    known = table(case.scene)
+    for name in (name for name in case.allow if name in known):
+        unit = known[name].unit
+        columns[f"{name} [{unit}] reference"] = pd.Series(
+            observe(case.scene, reference, name), here
+        )
+        for unit_of_work, outcome in report.outcomes:
+            engine = unit_of_work.pair.engine
+            if unit_of_work.pair.case.name == case.name and name in outcome.samples:
+                label = f"{engine.name}.{engine.setting}.{unit_of_work.realised}"
+                times = np.round(unit_of_work.case.times, INSTANTS)  # its own step's, if it has one
+                columns[f"{name} [{unit}] {label}"] = pd.Series(outcome.samples[name], times)
+    for body, states in reference.states.items():
+        for field, unit, column in (("x", "m", X), ("y", "m", Y), ("angle", "rad", ANGLE)):
+            values = pd.Series(states[:, column], here)
+            columns.setdefault(f"{body}.{field} [{unit}] reference", values)
+    return pd.DataFrame(columns).rename_axis("t [s]").reset_index()
+
+
+def _events(report: Report, case: Case) -> pd.DataFrame:
+    told = ["engine", "setting", "realised", "event", "k", "time", "difference"]
+    rows = [asdict(instant) for instant in report.instants if instant.case == case.name]
+    frame = pd.DataFrame(rows, columns=told)
+    return frame.rename(columns={"time": "time [s]", "difference": "difference [s]"})

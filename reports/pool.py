@@ -1,13 +1,16 @@
-"""Work in other processes, on all cores: a process that dies costs its own task only."""
+"""Work spread over an executor: a task that raises, or that dies, costs its own result only."""
 
 import os
-import signal
-import tempfile
+import threading
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
+from concurrent.futures import BrokenExecutor, Executor, Future, as_completed
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
+
+from .processes import ProcessDied, Processes
+
+_ONE = threading.Lock()  # engines have one set of callbacks a process
 
 
 @dataclass(frozen=True)
@@ -22,55 +25,50 @@ def workers() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
+@contextmanager
+def local(jobs: int) -> Iterator[Executor]:
+    """Processes of this machine, which end with the block in whatever way that ends."""
+    executor = Processes(jobs)
+    try:
+        yield executor
+    finally:
+        executor.shutdown(cancel_futures=True)
+
+
 def spread(
-    function: Callable[[Any], Any], tasks: Sequence[Any], *, jobs: int
+    function: Callable[[Any], Any], tasks: Sequence[Any], executor: Executor
 ) -> Iterator[tuple[int, Any]]:
     """(index, result) of every task as it is done; a result may be `Died`.
 
-    A death breaks the whole pool, and nobody can say which task it was: what is left then runs
-    one at a time, each in a process of its own.
+    executor: any of `concurrent.futures`, whose tasks and results cross into another process; a
+    cluster's own does a task again if it loses one of its machines.
     """
-    left = dict(enumerate(tasks))
+    futures: dict[Future, int] = {}
     try:
-        for index, result in _together(function, left, jobs):
-            del left[index]
-            yield index, result
-    except BrokenProcessPool:
-        for index, task in list(left.items()):
-            yield index, _alone(function, task)
-
-
-def _together(
-    function: Callable[[Any], Any], tasks: dict[int, Any], jobs: int
-) -> Iterator[tuple[int, Any]]:
-    with ProcessPoolExecutor(jobs, initializer=_elsewhere) as pool:
-        futures = {pool.submit(function, task): index for index, task in tasks.items()}
-        try:
-            for future in as_completed(futures):
-                yield futures[future], _result(future)
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
+        for index, task in enumerate(tasks):
+            futures[executor.submit(_alone, function, task)] = index
+        for future in as_completed(futures):
+            yield futures[future], _result(future)
+    finally:
+        for future in futures:
+            future.cancel()
 
 
 def _alone(function: Callable[[Any], Any], task: Any) -> Any:
-    with ProcessPoolExecutor(1, initializer=_elsewhere) as pool:
+    """One task at a time in a process, however many threads the executor has there."""
+    with _ONE:
         try:
-            return _result(pool.submit(function, task))
-        except BrokenProcessPool:
-            return Died("the process died")
+            return function(task)
+        except (Exception, SystemExit) as error:  # it must not cost the others their rows
+            return Died(f"{type(error).__name__}: {error}")
 
 
 def _result(future: Future) -> Any:
     try:
         return future.result()
-    except BrokenProcessPool:
-        raise
-    except (Exception, SystemExit) as error:  # one task must not cost the others their rows
+    except ProcessDied as died:
+        return Died(str(died))
+    except BrokenExecutor:
+        return Died("the process died")
+    except Exception as error:  # what the executor could not carry
         return Died(f"{type(error).__name__}: {error}")
-
-
-def _elsewhere() -> None:
-    """Engines write logs into the current folder: let it not be the user's."""
-    os.chdir(tempfile.gettempdir())
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)  # the parent's handler is not a worker's

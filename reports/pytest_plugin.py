@@ -6,7 +6,6 @@ lists some. Everything heavy is imported only then.
 
 from collections.abc import Iterator
 from fnmatch import fnmatch
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,11 +13,10 @@ import pytest
 
 if TYPE_CHECKING:
     from ..cases.case import Case
-    from ..cases.mistake import Mistake
     from .row import Certificate, Comparison
     from .suite import Report
 
-_REPORT = pytest.StashKey["tuple[Report, list[Mistake]]"]()
+_REPORT = pytest.StashKey["Report"]()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -126,8 +124,8 @@ class CaseItem(pytest.Item):
         """All rows. Raises RowError with the mistakes of its own file, if solving found some."""
         from ..cases.mistake import CaseError
 
-        report, mistakes = _found(self.session)
-        mine = [mistake for mistake in mistakes if mistake.file == self.case.source.file]
+        report = _found(self.session)
+        mine = [mistake for mistake in report.mistakes if mistake.file == self.case.source.file]
         if mine:
             raise RowError(str(CaseError(mine)))
         return report
@@ -175,7 +173,7 @@ class ComparisonItem(CaseItem):
         from .row import AGREES, DEVIATES, FAILS
         from .show.terminal import line
 
-        row = next(row for row in self.report().comparisons if _key(row) == self.key)
+        row = _row(self.report(), self.key)
         if row.verdict == FAILS:
             place = f"{self.path}:{self.place('allow', row.quantity)}"
             raise RowError(f"{place}: {row.quantity}\n{_row_text(row)}")
@@ -187,6 +185,14 @@ class ComparisonItem(CaseItem):
 
     def reportinfo(self) -> tuple[Path, int, str]:
         return self.path, self.place("allow", self.key[-1]) - 1, f"case {self.name}"
+
+
+def _row(report: "Report", key: tuple[str, ...]) -> "Comparison":
+    """The row of that key. Raises RowError where the case has no reference, and so not all rows."""
+    for row in report.comparisons:
+        if _key(row) == key:
+            return row
+    raise RowError(f"{key[0]}: there is no reference: {report.lost[key[0]]}")
 
 
 def _key(row: "Comparison") -> tuple[str, ...]:
@@ -212,23 +218,26 @@ def _certificate_text(row: "Certificate") -> str:
 
 def measured(session: pytest.Session) -> "Report":
     """All rows that were collected. Raises RowError where a file has mistakes."""
-    report, mistakes = _found(session)
-    if mistakes:
-        raise RowError("\n".join(map(str, mistakes)))
+    report = _found(session)
+    if report.mistakes:
+        raise RowError("\n".join(map(str, report.mistakes)))
     return report
 
 
-def _found(session: pytest.Session) -> "tuple[Report, list[Mistake]]":
+def _found(session: pytest.Session) -> "Report":
     """All rows that were collected, each simulation once in the session, and what could not be."""
     if _REPORT not in session.stash:
         session.stash[_REPORT] = _measure(session)
     return session.stash[_REPORT]
 
 
-def _measure(session: pytest.Session) -> "tuple[Report, list[Mistake]]":
-    """Runs what is collected, on all cores; a mistake that solving finds costs its own file."""
+def _measure(session: pytest.Session) -> "Report":
+    """Runs what is collected, on all cores, or takes it from the store: another worker of xdist
+    collects the same, waits, and finds it there. A mistake that solving finds costs its own file.
+    """
     from ..cases.mistake import CaseError
     from . import pool, suite
+    from .cache.store import usable
     from .selection import BOOK, choose_engines
 
     items = [item for item in session.items if isinstance(item, CaseItem)]
@@ -237,16 +246,14 @@ def _measure(session: pytest.Session) -> "tuple[Report, list[Mistake]]":
     book = any(name == BOOK for name, _ in used)
     names = [f"{name}.{setting}" for name, setting in sorted(used) if name != BOOK]
     engines = choose_engines(names, []) if names else []
-    measure = partial(
-        suite.measure,
-        engines=engines,
-        jobs=pool.workers(),
-        progress=lambda *_: None,
-        book=book,
-    )
     try:
-        return measure(list(cases.values())), []
+        return suite.measure(
+            list(cases.values()),
+            engines,
+            jobs=pool.workers(),
+            progress=lambda *_: None,
+            book=book,
+            store=usable(),
+        )
     except CaseError as error:
-        mistaken = {mistake.file for mistake in error.mistakes}
-        left = [case for case in cases.values() if case.source.file not in mistaken]
-        return measure(left), error.mistakes
+        return suite.Report(mistakes=error.mistakes)

@@ -7,14 +7,11 @@ it the old files count, after it the new ones, and whoever comes next can finish
 import os
 import shutil
 import tempfile
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 
-try:
-    import fcntl
-except ImportError:  # Windows locks no folder: two runs at once are the user's care there
-    fcntl = None
+from .lock import locked
 
 MAKING, DECIDED = ".writing-", ".written-"
 NEW, OLD, NAMES = "new", "old", "names"
@@ -26,7 +23,7 @@ def replace(folder: Path, texts: Mapping[str, str]) -> None:
     Raises OSError if the folder cannot take them: then it holds what it held.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    with _alone(folder):
+    with locked(folder):
         _settled(folder)
         try:
             _decide(folder, texts)
@@ -37,23 +34,8 @@ def replace(folder: Path, texts: Mapping[str, str]) -> None:
 def settle(folder: Path) -> None:
     """Finishes what an earlier process decided and could not finish, where that may be done."""
     if any(folder.glob(f"{DECIDED}*")):
-        with suppress(OSError), _alone(folder):
+        with suppress(OSError), locked(folder):
             _settled(folder)
-
-
-@contextmanager
-def _alone(folder: Path) -> Iterator[None]:
-    """Locks the folder itself: nothing is left behind, and a lock dies with its process."""
-    if fcntl is None:
-        yield
-        return
-    held = os.open(folder, os.O_RDONLY)
-    try:
-        with suppress(OSError):  # a network file system without locks
-            fcntl.flock(held, fcntl.LOCK_EX)
-        yield
-    finally:
-        os.close(held)
 
 
 def _decide(folder: Path, texts: Mapping[str, str]) -> None:

@@ -51,6 +51,7 @@ def sound_cases(
     mistakes: list[Mistake] = []
     for word in words or shipped():
         try:
+            _nameable(word)
             for case in _cases(word, known, long):
                 other = Path(cases.setdefault(case.name, case).source.file)
                 if other.resolve() != Path(case.source.file).resolve():
@@ -58,8 +59,27 @@ def sound_cases(
                     mistakes.append(Mistake(case.source.file, 0, 0, "", what))
         except CaseError as error:
             mistakes += error.mistakes
+    return sound(list(cases.values()), mistakes), mistakes
+
+
+def sound(cases: Sequence[Case], mistakes: Sequence[Mistake]) -> list[Case]:
+    """The cases of the files without mistakes."""
     mistaken = {mistake.file for mistake in mistakes}
-    return [c for c in cases.values() if c.source.file not in mistaken], mistakes
+    return [case for case in cases if case.source.file not in mistaken]
+
+
+def _nameable(word: str) -> None:
+    """A case is called as its file is, and the name stands in tables and on terminals.
+
+    Raises CaseError: a spreadsheet computes what begins with =, +, - or @.
+    """
+    name = Path(word).stem
+    sound = name.isprintable() and (name[:1].isalnum() or name[:1] == "_")
+    if Path(word).is_file() and not sound:
+        what = (
+            "a case's file name should begin with a letter or a digit, and hold nothing unprintable"
+        )
+        raise CaseError([Mistake(word, 0, 0, "", what)])
 
 
 def _cases(word: str, known: Engines | None, long: bool) -> list[Case]:

@@ -1,27 +1,33 @@
 """The one path: cases → references → trials → rows."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
+from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
+from math import inf
 from typing import Any
 
 from ..cases.case import Case
-from ..cases.mistake import CaseError
+from ..cases.mistake import CaseError, Mistake
 from ..cases.trajectory import Trajectory
-from ..engines.engine import Engine, Plan, Refusal, Start
+from ..engines.engine import Engine, Refusal
 from ..reference.solve import Solution, solve
-from . import pool
+from .cache.key import Keys
+from .cache.store import Store, passing
 from .events.times import never
-from .judge.compare import Outcome, compare, crashed
+from .judge.compare import Outcome, crashed
 from .judge.instants import of_reference
 from .judge.metric import told
+from .pool import Died, local, spread
 from .row import FAILS, Certificate, Comparison, Instant, Rungs
+from .selection import sound
 from .trial.book import producers
-from .trial.ladder import sampled
-from .trial.start import first
-from .trial.trial import Trial, ways, with_room
+from .trial.trial import Trial
+from .unit import Pair, Unit, planned, tried
 
 OF_BOUND = 0.1  # of what a check must keep: below it a difference is its rounding
 
+WAYS = 3  # at most, of one engine: its own elements, our law, our driver
 Progress = Callable[[str, int, int], None]
 """What is being done, how much is done, out of how much."""
 
@@ -35,7 +41,11 @@ class Report:
     certificates: list[Certificate] = field(default_factory=list)
     instants: list[Instant] = field(default_factory=list)
     equations: dict[str, set[str]] = field(default_factory=dict)  # case → executed equations
-    trials: list[tuple[Trial, Outcome]] = field(default_factory=list)
+    cases: list[Case] = field(default_factory=list)
+    solutions: dict[str, Solution] = field(default_factory=dict)
+    lost: dict[str, str] = field(default_factory=dict)  # case → why it has no reference
+    mistakes: list[Mistake] = field(default_factory=list)  # of files that are left out
+    outcomes: list[tuple[Unit, Outcome]] = field(default_factory=list)
 
     @property
     def fails(self) -> bool:
@@ -47,112 +57,139 @@ def measure(
     cases: Sequence[Case],
     engines: Sequence[Engine],
     *,
-    jobs: int,
+    jobs: int = 1,
     progress: Progress,
     book: bool = True,
+    store: Store | None = None,
+    executor: Executor | None = None,
 ) -> Report:
-    """Solves every case once and runs every trial once, on `jobs` processes.
+    """Solves every case once and runs every trial once, on `jobs` processes of this machine.
 
-    book: whether the book's own approximations stand beside the engines.
+    book: whether the book's own approximations stand beside the engines. store: where results are
+    kept as they come, and taken from if nothing that they depend on has changed; None: nowhere.
+    executor: any of `concurrent.futures`, a cluster's for instance, in place of the processes.
 
-    Raises CaseError with the mistakes of all cases that cannot be started.
+    A mistake that only solving finds costs its own file: `mistakes` of the report tells them.
+    Raises CaseError with the mistakes if no file is left.
     """
-    report = Report()
-    solutions = _solutions(cases, jobs, progress, report)
-    trials, lost = _trials(cases, engines, solutions, jobs, book=book)
-    outcomes = dict(_watched(compare, trials, jobs, "engines", progress))
-    ended = [*lost, *((trial, outcomes[index]) for index, trial in enumerate(trials))]
-    for trial, outcome in ended:
-        if isinstance(outcome, pool.Died):
-            outcome = crashed(trial, outcome.because)
-        outcome = _counted(outcome, solutions[trial.case.name])
-        report.comparisons += outcome.rows
-        report.rungs += outcome.rungs
-        report.instants += outcome.instants
-        report.trials.append((trial, outcome))
-    return report
+    keys, report = Keys.now(), Report(cases=list(cases))
+    beside = [(case, e) for case in cases for e in producers(case, engines, book=book)]
+    most = max(len(cases), WAYS * len(beside))
+    with (
+        nullcontext(store) if store else passing() as used,
+        used.alone(keys.run(beside), lambda: progress("another run has these", 0, 1)),
+        nullcontext(executor) if executor else local(min(jobs, most)) as working,
+    ):
+        run = _Run(working, progress, used, keys)
+        pairs = [Pair(case, engine, used, keys.solution(case)) for case, engine in beside]
+        _solve(cases, run, report)
+        _try([pair for pair in pairs if pair.case.name in report.solutions], run, report)
+        for pair in pairs:
+            if pair.case in report.cases and pair.case.name in report.lost:
+                _without_reference(pair, report)
+        return report
 
 
-def _trials(
-    cases: Sequence[Case],
-    engines: Sequence[Engine],
-    solutions: Mapping[str, Solution],
-    jobs: int,
-    *,
-    book: bool,
-) -> tuple[list[Trial], list[tuple[Trial, pool.Died]]]:
-    """Every way of every engine, and what died while it planned."""
-    trials: list[Trial] = []
-    lost: list[tuple[Trial, pool.Died]] = []
-    pairs = [(case, engine) for case in cases for engine in producers(case, engines, book=book)]
-    starts = {case.name: first(solutions[case.name].trajectory) for case in cases}
-    tasks = [(engine, case, starts[case.name]) for case, engine in pairs]
-    found = dict(pool.spread(_planned, tasks, jobs=jobs))
-    for index, (case, engine) in enumerate(pairs):
-        planned, reference = found[index], solutions[case.name].trajectory
-        if isinstance(planned, pool.Died):
-            gone = Refusal("native", planned.because)
-            lost.append((Trial(case, reference, engine, gone), planned))
+@dataclass(frozen=True)
+class _Run:
+    """What every phase needs."""
+
+    executor: Executor
+    progress: Progress
+    store: Store
+    keys: Keys
+
+    def results(
+        self, what: str, function: Callable[[Any], Any], tasks: Mapping[str, Any]
+    ) -> dict[str, Any]:
+        """By the tasks' keys: what is stored, and all else from the executor, stored at once."""
+        found = {key: kept for key in tasks if (kept := self.store.get(key)) is not None}
+        left = [key for key in tasks if key not in found]
+        self.progress(what, len(found), len(tasks))
+        for index, result in spread(function, [tasks[key] for key in left], self.executor):
+            key = left[index]
+            found[key] = result
+            if not isinstance(result, Died | CaseError) and self.keys.hold():
+                self.store.put(key, result)
+            self.progress(what, len(found), len(tasks))
+        return found
+
+
+def _solve(cases: Sequence[Case], run: _Run, report: Report) -> None:
+    tasks = {run.keys.solution(case): case for case in cases}
+    found = run.results("references", _solved, tasks)
+    answers = {case.name: found[run.keys.solution(case)] for case in cases}
+    report.mistakes += [m for case in cases for m in _wrong(case, answers[case.name])]
+    report.cases = sound(cases, report.mistakes)
+    if not report.cases:
+        raise CaseError(report.mistakes)
+    for case in report.cases:
+        answer = answers[case.name]
+        report.equations[case.name] = set()
+        if isinstance(answer, Died):
+            report.lost[case.name] = answer.because
+            report.certificates.append(_no_certificate(case))
         else:
-            how, own = planned
-            if own is not None:
-                case, reference = sampled(case, engine), own
-            trials += [Trial(case, reference, engine, way, own is not None) for way in how]
-    return trials, lost
-
-
-def _planned(
-    task: tuple[Engine, Case, Start],
-) -> tuple[tuple[Plan | Refusal, ...], Trajectory | None]:
-    """The engine's ways, and the reference's motion where its own step meets other samples."""
-    engine, case, start = task
-    found = with_room(ways(engine, case.scene, start), case, engine)
-    own = sampled(case, engine)
-    if own is case or all(isinstance(way, Refusal) for way in found):
-        return found, None
-    return found, solve(own).trajectory
-
-
-def _solutions(
-    cases: Sequence[Case], jobs: int, progress: Progress, report: Report
-) -> Mapping[str, Solution]:
-    solutions: dict[str, Solution] = {}
-    mistakes = []
-    found = dict(_watched(_solved, cases, jobs, "references", progress))
-    for index, case in enumerate(cases):
-        answer = found[index]
-        if isinstance(answer, CaseError):
-            mistakes += answer.mistakes
-        elif isinstance(answer, pool.Died):
-            raise RuntimeError(f"{case.name}: {answer.because}")
-        else:
-            solutions[case.name] = answer
+            report.solutions[case.name] = answer
             report.equations[case.name] = set(answer.equations)
             report.certificates += _certificates(case, answer)
             report.instants += of_reference(case, answer.trajectory)
-    if mistakes:
-        raise CaseError(mistakes)
-    return solutions
 
 
-def _watched(
-    function: Callable, tasks: Sequence, jobs: int, what: str, progress: Progress
-) -> Iterator[tuple[int, Any]]:
-    progress(what, 0, len(tasks))
-    for done, result in enumerate(pool.spread(function, tasks, jobs=jobs), start=1):
-        progress(what, done, len(tasks))
-        yield result
+def _wrong(case: Case, answer: Solution | CaseError | Died) -> list[Mistake]:
+    """What only solving finds."""
+    if isinstance(answer, CaseError):
+        return answer.mistakes
+    return [] if isinstance(answer, Died) else never(case, answer.trajectory)
+
+
+def _try(pairs: Sequence[Pair], run: _Run, report: Report) -> None:
+    """Every way of every engine; the longest first, or one core works alone at the end."""
+    asked = {run.keys.ways(pair.case, pair.engine): pair for pair in pairs}
+    ways = run.results("plans", planned, asked)
+    units: list[tuple[str, Unit]] = []
+    gone: dict[str, Died] = {}
+    for pair_key, pair in asked.items():
+        found = ways[pair_key]
+        for realised in ("native",) if isinstance(found, Died) else found:
+            key = run.keys.outcome(pair_key, realised)
+            units.append((key, Unit(pair, realised)))
+            if isinstance(found, Died):
+                gone[key] = found
+    longest = sorted(units, key=lambda unit: -unit[1].steps)
+    tasks = {key: unit for key, unit in longest if key not in gone}
+    outcomes = run.results("engines", tried, tasks) | gone
+    for key, unit in units:
+        _take(unit, outcomes[key], report)
+
+
+def _take(unit: Unit, outcome: Outcome | Died, report: Report) -> None:
+    solution = report.solutions[unit.pair.case.name]
+    if isinstance(outcome, Died):
+        refused = Refusal(unit.realised, outcome.because)
+        trial = Trial(unit.pair.case, solution.trajectory, unit.pair.engine, refused)
+        outcome = crashed(trial, outcome.because)
+    if not solution.holds:
+        outcome = _failing(outcome, _uncertified(solution))
+    report.comparisons += outcome.rows
+    report.rungs += outcome.rungs
+    report.instants += outcome.instants
+    report.outcomes.append((unit, outcome))
+
+
+def _without_reference(pair: Pair, report: Report) -> None:
+    """Its rows say so: nothing can be compared."""
+    because = f"there is no reference: {report.lost[pair.case.name]}"
+    nothing = Trajectory(pair.case.times, {}, {})
+    trial = Trial(pair.case, nothing, pair.engine, Refusal("native", because))
+    report.comparisons += _failing(crashed(trial, because), because).rows
 
 
 def _solved(case: Case) -> Solution | CaseError:
     try:
-        solution = solve(case)
+        return solve(case)
     except CaseError as error:
         return error
-    mistakes = never(case, solution.trajectory)
-    if mistakes:
-        return CaseError(mistakes)
-    return solution
 
 
 def _certificates(case: Case, solution: Solution) -> list[Certificate]:
@@ -172,15 +209,22 @@ def _certificates(case: Case, solution: Solution) -> list[Certificate]:
     ]
 
 
-def _counted(outcome: Outcome, solution: Solution) -> Outcome:
+def _no_certificate(case: Case) -> Certificate:
+    system = case.system or "generated"
+    return Certificate(
+        case.name, str(case.origin), system, "it is solved", inf, 0.0, None, "", FAILS
+    )
+
+
+def _uncertified(solution: Solution) -> str:
     """Against a reference that is not certified nothing can be judged."""
-    if solution.holds:
-        return outcome
     broken = next(check for check in solution.checks if not check.holds)
-    because = (
+    return (
         f"the reference is not certified: {broken.name} differs by {broken.difference:.2e}, "
         f"its bound is {broken.bound:.2e}"
     )
-    return replace(
-        outcome, rows=[replace(row, verdict=FAILS, because=because) for row in outcome.rows]
-    )
+
+
+def _failing(outcome: Outcome, because: str) -> Outcome:
+    rows = [replace(row, verdict=FAILS, because=because) for row in outcome.rows]
+    return replace(outcome, rows=rows)

@@ -70,6 +70,15 @@ def texts(frames: Mapping[str, pd.DataFrame]) -> dict[str, str]:
     return {name: f"{body}{footer(len(frames[name]), run)}\n" for name, body in bodies.items()}
 
 
+def holds(frames: Mapping[str, pd.DataFrame], folder: Path) -> bool:
+    """Whether the folder's reports are these."""
+    wanted = texts(frames)
+    return all(
+        (folder / name).is_file() and (folder / name).read_text(encoding="utf-8") == text
+        for name, text in wanted.items()
+    )
+
+
 def footer(rows: int, run: str) -> str:
     """The last line of a report."""
     return f"# {rows} rows of run {run}"

@@ -84,6 +84,7 @@ def project(tmp_path: Path) -> Path:
 def run(*words: object, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
     """As a user does, whose shell knows nothing of this checkout."""
     clean = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "PYTEST"))}
+    clean["TEXTMECH_CACHE"] = os.devnull  # nothing is stored, and nothing found
     done = subprocess.run(
         [*map(str, words)], capture_output=True, text=True, cwd=cwd, env=clean, check=False
     )

@@ -72,10 +72,26 @@ def markdown(lines: Sequence[Sequence[str]]) -> str:
     return "".join(f"| {' | '.join(line)} |\n" for line in (head, rule, *body))
 
 
-def aligned(lines: Sequence[Sequence[str]]) -> str:
-    """The table as the terminal shows it."""
+def fitting(lines: Sequence[Sequence[str]], width: int) -> str:
+    """The table as the terminal shows it; too wide for that, a case's engines one below another."""
+    table = _aligned(lines)
+    return table if all(len(line) <= width for line in table.splitlines()) else _stacked(lines)
+
+
+def _aligned(lines: Sequence[Sequence[str]]) -> str:
     widths = [max(len(line[i]) for line in lines) for i in range(len(lines[0]))]
     return "\n".join(
         "  ".join(f"{cell:{width}}" for cell, width in zip(line, widths, strict=True)).rstrip()
         for line in lines
     )
+
+
+def _stacked(lines: Sequence[Sequence[str]]) -> str:
+    (_, *columns), *body = lines
+    width = max(map(len, columns))
+    out: list[str] = []
+    for case, *cells in body:
+        out.append(case)
+        told = zip(columns, cells, strict=True)
+        out += [f"  {column:{width}}  {cell}" for column, cell in told if cell]
+    return "\n".join(out)

@@ -1,38 +1,44 @@
 """What a run shows on the terminal: progress while it works, a table at the end."""
 
+import shutil
 import sys
+import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from itertools import groupby
 from pathlib import Path
 
-import click
-
 from ..row import AGREES, FAILS, Certificate, Comparison
 from ..suite import Progress, Report
 from .notes import without_effect
-from .summary import aligned, summary
+from .say import say, tell
+from .summary import fitting, summary
+
+INTERVAL = 10.0  # s between two lines where no bar can be drawn
 
 
 @contextmanager
 def progress() -> Iterator[Progress]:
-    """A bar for each phase on the error stream; plain lines where that is no terminal."""
-    terminal = sys.stderr.isatty()
+    """A bar for each phase on the error stream; a line now and then where that is no terminal."""
+    terminal = sys.stderr is not None and sys.stderr.isatty()
+    last = [time.monotonic()]
 
     def show(what: str, done: int, total: int) -> None:
+        now = time.monotonic()
         if terminal:
             filled = 30 * done // max(total, 1)
             bar = "#" * filled + "." * (30 - filled)
-            click.echo(f"\r{what:12}[{bar}] {done}/{total}", nl=done == total, err=True)
-        elif done == total:
-            click.echo(f"{what}: {total} done", err=True)
+            tell(f"\r{what:12}[{bar}] {done}/{total}", nl=done == total)
+        elif done == total or now > last[0] + INTERVAL:
+            tell(f"{what}: {done} of {total} done")
+            last[0] = now
 
     try:
         yield show
     except BaseException:
         if terminal:
-            click.echo(err=True)  # the message that follows starts on a line of its own
+            tell()  # the message that follows starts on a line of its own
         raise
 
 
@@ -41,20 +47,21 @@ def show(report: Report, *, detailed: bool, written: Path | None) -> None:
     if detailed:
         _rows(report.comparisons)
         _known(report.certificates)
-    click.echo()
-    click.echo(aligned(summary(report.comparisons, report.rungs)))
-    click.echo()
+    say()
+    width = shutil.get_terminal_size().columns
+    say(fitting(summary(report.comparisons, report.rungs), width))
+    say()
     for check in report.certificates:
         if check.verdict == FAILS:
             numbers = f"{check.difference:.2e} is above {check.bound:.1e}"
-            click.echo(f"FAILS: {check.case}: the reference's {check.check}: {numbers}")
+            say(f"FAILS: {check.case}: the reference's {check.check}: {numbers}")
     _fails([row for row in report.comparisons if row.verdict == FAILS])
     for note in without_effect(report.comparisons):
-        click.echo(note)
+        say(note)
     counts = Counter(row.verdict.partition(":")[0] for row in report.comparisons)
-    click.echo(", ".join(f"{count} {word}" for word, count in counts.most_common()))
+    say(", ".join(f"{count} {word}" for word, count in counts.most_common()))
     if written is not None:
-        click.echo(f"written to {written}")
+        say(f"written to {written}")
 
 
 def _known(certificates: Sequence[Certificate]) -> None:
@@ -66,7 +73,7 @@ def _known(certificates: Sequence[Certificate]) -> None:
             if row.certified is not None
         ]
         if known:
-            click.echo(f"\n{case}: the reference is certified: {', '.join(known)}")
+            say(f"\n{case}: the reference is certified: {', '.join(known)}")
 
 
 def _fails(rows: Sequence[Comparison]) -> None:
@@ -75,18 +82,18 @@ def _fails(rows: Sequence[Comparison]) -> None:
         first, *others = group
         more = f" and {len(others)} more" if others else ""
         what = f"{first.engine}.{first.setting} {first.quantity}"
-        click.echo(f"FAILS: {case}: {what}{more}: {because}")
+        say(f"FAILS: {case}: {what}{more}: {because}")
 
 
 def _rows(comparisons: Sequence[Comparison]) -> None:
     for _, rows in groupby(comparisons, key=lambda r: (r.case, r.engine, r.setting, r.realised)):
         first, *others = rows
         how = "" if first.realised == "native" else f" ({first.realised})"
-        click.echo(f"\n{first.case} in {first.engine} {first.version} {first.setting}{how}")
+        say(f"\n{first.case} in {first.engine} {first.version} {first.setting}{how}")
         if first.protocol:
-            click.echo(f"  {first.protocol}")
+            say(f"  {first.protocol}")
         for row in (first, *others):
-            click.echo("  " + line(row))
+            say("  " + line(row))
 
 
 def line(row: Comparison) -> str:

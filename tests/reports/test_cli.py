@@ -1,40 +1,18 @@
 """The command as a user meets it: what it prints, where, and its exit codes."""
 
-import subprocess
-import sys
+import os
 from pathlib import Path
 
 import pytest
+from given.command import NEW, textmech
 
 from textmech.reports import write
 
-NEW = """\
-title: A bar that hangs on a cart
-scene:
-  points: {O: [0, 0]}
-  bodies:
-    cart: {block: {mass: 2.0, width: 0.3, height: 0.1}}
-    rod: {bar: {mass: 0.5, length: 0.6}}
-  joints:
-    rail: {slide: [ground.O, cart.center], along: [1, 0]}
-    hinge: {pin: [cart.center, rod.start]}
-initial: {cart: {x: 0}, rod: {angle: -40 deg}}
-duration: 0.4
-samples: 6
-step: {mujoco: 1.0e-3, pymunk: 1.0e-3}
-allow: {cart.x: 1.0e-2, rod.angle: 1.0e-2}
-"""
 
-
-def textmech(*words: object, folder: Path | None = None) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "textmech.reports.cli", *map(str, words)],
-        capture_output=True,
-        text=True,
-        cwd=folder,
-        timeout=120,
-        check=False,
-    )
+@pytest.fixture(autouse=True)
+def nothing_stored(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A folder that nobody can make: every run computes."""
+    monkeypatch.setenv("TEXTMECH_CACHE", os.devnull)
 
 
 @pytest.fixture
@@ -73,8 +51,18 @@ def test_out_and_keep_write_where_they_are_told(new: Path, tmp_path: Path) -> No
         "tolerance.csv",
     ]
     head, *rows = (tmp_path / "k" / "cart.csv").read_text().splitlines()
-    assert head.split(",")[:3] == ["t", "cart.x reference", "cart.x mujoco.tuned.native"]
+    assert head.split(",") == [
+        "t [s]",
+        "cart.x [m] reference",
+        "cart.x [m] mujoco.tuned.native",
+        "rod.angle [rad] reference",
+        "rod.angle [rad] mujoco.tuned.native",
+        *(f"{pose} reference" for pose in ("cart.y [m]", "cart.angle [rad]", "rod.x [m]")),
+        "rod.y [m] reference",
+    ]
     assert len(rows) == 6
+    events = (tmp_path / "k" / "cart.events.csv").read_text()
+    assert events == "engine,setting,realised,event,k,time [s],difference [s]\n"
 
 
 def test_a_verdict_that_fails_is_exit_code_1_and_is_named(new: Path) -> None:

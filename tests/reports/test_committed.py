@@ -3,6 +3,7 @@
 import pytest
 
 from textmech.reports import pool, suite, write
+from textmech.reports.cache.store import usable
 from textmech.reports.judge.rounding import EPSILON
 from textmech.reports.pytest_plugin import CaseItem, measured
 from textmech.reports.row import Certificate, Comparison, Instant, Rungs
@@ -25,7 +26,8 @@ def report(request: pytest.FixtureRequest) -> Report:
     items = {item.name for item in request.session.items if isinstance(item, CaseItem)}
     if all(f"{c.name}-{e.name}.{e.setting}-audit" in items for c in cases for e in engines):
         return measured(request.session)
-    return suite.measure(cases, engines, jobs=pool.workers(), progress=lambda *_: None)
+    jobs, store = pool.workers(), usable()
+    return suite.measure(cases, engines, jobs=jobs, progress=lambda *_: None, store=store)
 
 
 def test_tolerances_are_current(report: Report) -> None:

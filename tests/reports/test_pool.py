@@ -3,6 +3,10 @@
 import os
 import signal
 import sys
+import time
+from collections.abc import Callable
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from pathlib import Path
 
 import pytest
 
@@ -21,9 +25,10 @@ def work(task: int) -> int:
 
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_the_rest_goes_on(jobs: int) -> None:
-    found = dict(pool.spread(work, list(range(7)), jobs=jobs))
+    with pool.local(jobs) as executor:
+        found = dict(pool.spread(work, list(range(7)), executor))
     assert {i: r for i, r in found.items() if i not in (3, 5, 6)} == {0: 0, 1: 1, 2: 4, 4: 16}
-    assert found[3] == pool.Died("the process died")
+    assert found[3] == pool.Died("the process died (SIGKILL)")
     assert found[5] == pool.Died("ZeroDivisionError: five")
     assert found[6] == pool.Died("SystemExit: 0")
 
@@ -34,4 +39,76 @@ def where(_: int) -> str:
 
 def test_engines_do_not_write_into_the_users_folder(tmp_path, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)
-    assert dict(pool.spread(where, [0], jobs=1))[0] != str(tmp_path)
+    with pool.local(1) as executor:
+        assert dict(pool.spread(where, [0], executor))[0] != str(tmp_path)
+
+
+def end(how: str) -> str:
+    if how == "dies":
+        os.kill(os.getpid(), signal.SIGKILL)
+    if how == "leaves":
+        os._exit(0)
+    if how == "raises":
+        raise Strange("one", "two")
+    return how
+
+
+class Strange(Exception):
+    """One that is pickled and cannot be read back."""
+
+    def __init__(self, one: str, two: str) -> None:
+        super().__init__(one)
+
+
+def test_whatever_a_task_does_it_is_told_and_costs_no_other() -> None:
+    tasks = [*["dies", "leaves", "raises"] * 5, *map(str, range(20))]
+    with pool.local(2) as executor:
+        found = dict(pool.spread(end, tasks, executor))
+    told = {"dies": "SIGKILL", "leaves": "exit code 0", "raises": "one"}
+    for index, task in enumerate(tasks):
+        if task in told:
+            assert told[task] in found[index].because
+        else:
+            assert found[index] == task
+
+
+def meet(folder: Path) -> bool:
+    """Whether another task is at work at the same time."""
+    (folder / str(os.getpid())).touch()
+    until = time.monotonic() + 20
+    while len(list(folder.iterdir())) < 2 and time.monotonic() < until:
+        time.sleep(0.01)
+    return time.monotonic() < until
+
+
+def test_after_deaths_there_are_as_many_at_once(tmp_path: Path) -> None:
+    with pool.local(2) as executor:
+        list(pool.spread(end, ["dies"] * 3, executor))
+        assert dict(pool.spread(meet, [tmp_path] * 2, executor)) == {0: True, 1: True}
+
+
+@pytest.mark.parametrize("kind", [ThreadPoolExecutor, ProcessPoolExecutor])
+def test_any_executor_serves(kind: Callable[[int], Executor]) -> None:
+    with kind(3) as executor:
+        found = dict(pool.spread(work, [0, 1, 2, 4, 5, 6], executor))
+    assert [found[i] for i in range(4)] == [0, 1, 4, 16]
+    assert [found[4], found[5]] == [
+        pool.Died("ZeroDivisionError: five"),
+        pool.Died("SystemExit: 0"),
+    ]
+
+
+def test_in_threads_one_task_runs_at_a_time() -> None:
+    """Engines have one set of callbacks a process."""
+    shared: list[int] = []
+    with ThreadPoolExecutor(4) as executor:
+        found = dict(pool.spread(grown, [shared] * 8, executor))
+    assert set(found.values()) == {1}
+
+
+def grown(shared: list[int]) -> int:
+    """By how much the list grows while the task looks."""
+    before = len(shared)
+    shared.append(0)
+    time.sleep(0.01)
+    return len(shared) - before

@@ -3,6 +3,8 @@
 import os
 import signal
 from collections.abc import Callable
+from concurrent.futures import Executor
+from contextlib import AbstractContextManager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -13,8 +15,9 @@ from textmech.cases.case import Case
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 from textmech.engines.engine import Engine
-from textmech.reports import suite
-from textmech.reports.row import AGREES, DIVERGED, FAILS
+from textmech.reference.solve import Solution
+from textmech.reports import suite, write
+from textmech.reports.row import AGREES, DIVERGED, FAILS, Comparison
 from textmech.reports.suite import Report
 from textmech.reports.trial.trial import Trial
 
@@ -77,6 +80,56 @@ def test_all_cases_that_cannot_start_are_named_together(trial: Make, moving: Cas
     with pytest.raises(CaseError) as caught:
         measure([*broken, moving], [trial().engine])
     assert {mistake.file for mistake in caught.value.mistakes} == {"one.yaml", "two.yaml"}
+
+
+def overflow(case: Case) -> Solution:
+    raise OverflowError("too stiff")
+
+
+def exits(case: Case) -> Solution:
+    os._exit(0)
+
+
+@pytest.mark.parametrize(
+    ("ends", "words"), [(overflow, "OverflowError: too stiff"), (exits, "exit code 0")]
+)
+def test_a_lost_reference_costs_its_own_case(
+    trial: Make,
+    moving: Case,
+    ends: Callable[[Case], Solution],
+    words: str,
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+) -> None:
+    lost = replace(moving, name="lost")
+    solve = suite.solve
+    monkeypatch.setattr(suite, "solve", lambda case: (ends if case.name == "lost" else solve)(case))
+    report = measure([lost, moving], [trial().engine])
+    assert report.fails
+    rows = {row.case: row for row in report.comparisons if row.quantity == "ball.x"}
+    assert rows["moving"].verdict == AGREES
+    assert rows["lost"].verdict == FAILS
+    assert words in rows["lost"].because
+    checks = {row.case: row.verdict for row in report.certificates}
+    assert checks["lost"] == FAILS
+    write.write(write.tables(report, [lost, moving]), tmp_path)
+    read = {row.case: row for row in write.read(tmp_path / "tolerance.csv", Comparison)}
+    assert words in read["lost"].because
+
+
+def test_there_are_no_more_processes_than_tasks(
+    trial: Make, moving: Case, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[int] = []
+    local = suite.local
+
+    def noted(jobs: int) -> AbstractContextManager[Executor]:
+        asked.append(jobs)
+        return local(2)
+
+    monkeypatch.setattr(suite, "local", noted)
+    suite.measure([moving], [trial().engine], jobs=100_000, progress=lambda *_: None)
+    assert asked[0] <= 3
 
 
 def test_a_reference_that_is_not_certified_judges_nothing(

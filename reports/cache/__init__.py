@@ -1,0 +1,1 @@
+"""Results that need not be computed again: what they depend on, their form, and where they lie."""

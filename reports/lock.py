@@ -1,0 +1,33 @@
+"""A lock between processes, which dies with the one that holds it."""
+
+import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+try:
+    import fcntl
+except ImportError:  # Windows has none of this kind: two runs at once are the user's care there
+    fcntl = None
+
+
+@contextmanager
+def locked(path: Path, waiting: Callable[[], None] | None = None) -> Iterator[None]:
+    """Holds the folder, or the file, which is made; waits, and says so, while another does."""
+    if fcntl is None:
+        yield
+        return
+    held = os.open(path, os.O_RDONLY if path.is_dir() else os.O_RDWR | os.O_CREAT, 0o600)
+    try:
+        try:
+            fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            if waiting:
+                waiting()
+            fcntl.flock(held, fcntl.LOCK_EX)
+        except OSError:
+            pass  # a network file system without locks
+        yield
+    finally:
+        with suppress(OSError):
+            os.close(held)

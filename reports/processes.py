@@ -1,0 +1,155 @@
+"""Processes of this machine as an executor: a task whose process dies costs nobody but itself.
+
+`concurrent.futures.ProcessPoolExecutor` loses all tasks with one of its processes, and cannot end
+a task. Here each process has a thread that waits for it, knows its task, and replaces it.
+"""
+
+import multiprocessing
+import os
+import pickle
+import signal
+import tempfile
+import threading
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from contextlib import contextmanager
+from multiprocessing.connection import Connection, wait
+from queue import SimpleQueue
+from typing import Any
+
+from . import ending
+
+
+class ProcessDied(Exception):
+    """A task's process ended before the task did."""
+
+
+class Processes(Executor):
+    """So many processes, each with one task at a time."""
+
+    def __init__(self, jobs: int) -> None:
+        self._lock = threading.Lock()
+        self._ended = False
+        self._idle: SimpleQueue[_Process] = SimpleQueue()
+        self._all: set[_Process] = set()
+        for _ in range(jobs):  # before there are threads: a fork copies their locks as they are
+            self._idle.put(self._started())
+        self._threads = ThreadPoolExecutor(jobs)
+
+    def submit(self, fn: Callable, /, *args: Any, **kwargs: Any) -> Future:
+        """As any executor; a future may raise ProcessDied."""
+        return self._threads.submit(self._run, (fn, args, kwargs))
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """Ends all processes; with `cancel_futures` in the middle of their tasks."""
+        if not cancel_futures:
+            self._threads.shutdown(wait=wait)
+        with self._lock:
+            self._ended = True
+            for process in self._all:
+                process.kill()
+        self._threads.shutdown(wait=wait, cancel_futures=True)
+
+    def _started(self) -> "_Process":
+        with self._lock:
+            if self._ended:
+                raise ProcessDied("the run was ended")
+            process = _Process()
+            self._all.add(process)
+            return process
+
+    def _run(self, call: tuple[Callable, tuple, dict[str, Any]]) -> Any:
+        process = self._idle.get()
+        try:
+            return process.answer(call)
+        except ProcessDied:
+            with self._lock:
+                self._all.discard(process)
+            process = self._started()
+            raise
+        finally:
+            self._idle.put(process)
+
+
+class _Process:
+    """A process that answers one call after the other."""
+
+    def __init__(self) -> None:
+        self._here, there = multiprocessing.Pipe()
+        self._process = multiprocessing.Process(target=_serve, args=(there,), daemon=True)
+        self._killing = threading.Lock()
+        with _deaf():
+            self._process.start()
+        there.close()
+
+    def answer(self, call: tuple[Callable, tuple, dict[str, Any]]) -> Any:
+        """What the call returns or raises. Raises ProcessDied."""
+        try:
+            self._here.send(call)
+            wait([self._here, self._process.sentinel])
+            if not self._here.poll():
+                raise EOFError
+            value, error = self._here.recv()
+        except (EOFError, OSError):
+            self.kill()
+            raise ProcessDied(f"the process died ({self._how()})") from None
+        if error is not None:
+            raise error
+        return value
+
+    def kill(self) -> None:
+        """Ends it, whatever it does."""
+        with self._killing:
+            self._process.kill()
+            self._process.join()
+
+    def _how(self) -> str:
+        code = self._process.exitcode
+        assert code is not None  # it has been joined
+        return signal.Signals(-code).name if code < 0 else f"exit code {code}"
+
+
+@contextmanager
+def _deaf() -> Iterator[None]:
+    """A signal waits until the new process knows what to do with it; it inherits the waiting."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, ending.known())
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _serve(calls: Connection) -> None:
+    """What runs in the process: until its parent is gone."""
+    threading.Thread(target=_with_parent, daemon=True).start()
+    os.chdir(tempfile.gettempdir())  # engines write logs: let it not be the user's folder
+    for number in ending.known():  # the terminal's reach all: the parent decides
+        signal.signal(number, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, ending.known())
+    while True:
+        try:
+            received = calls.recv_bytes()
+        except EOFError:
+            return
+        value, error = None, None
+        try:
+            fn, args, kwargs = pickle.loads(received)  # from our own parent
+            value = fn(*args, **kwargs)
+        except BaseException as raised:  # sys.exit too is one task's
+            error = raised
+        try:
+            calls.send((value, error))
+        except Exception as unsent:  # what cannot be pickled
+            calls.send((None, RuntimeError(f"{type(unsent).__name__}: {unsent}")))
+
+
+def _with_parent() -> None:
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+    parent.join()
+    os._exit(1)

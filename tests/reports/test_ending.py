@@ -1,0 +1,98 @@
+"""A run that is told to end ends soon, with its workers, with one line, and leaves nothing."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from given import endless
+
+SOON = 4.0  # s: two are promised, of a machine that does nothing else
+ROOM = Path(__file__).parents[1]
+
+
+@pytest.fixture
+def run(tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
+    """A run of one case whose engine is at work and will not end."""
+    case, work = tmp_path / "moving.yaml", tmp_path / "work"
+    case.write_text(endless.CASE, encoding="utf-8")
+    work.mkdir()
+    words = [str(work), "run", str(case), "--out", str(tmp_path / "out")]
+    path = os.pathsep.join([str(ROOM), *sys.path])
+    cache = {"PYTHONPATH": path, "TEXTMECH_CACHE": str(tmp_path / "cache")}
+    process = subprocess.Popen(
+        [sys.executable, "-m", "given.endless", *words],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ | cache,
+        start_new_session=True,
+    )
+    try:
+        within(60.0, lambda: any(work.iterdir()))
+        yield process
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def within(seconds: float, holds: Callable[[], bool]) -> None:
+    end = time.monotonic() + seconds
+    while not holds():
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def alive(process: int) -> bool:
+    """Whether it runs; one that nobody has buried yet does not."""
+    try:
+        text = Path(f"/proc/{process}/stat").read_text(encoding="utf-8")
+    except OSError:
+        return False
+    return text.rpartition(") ")[2][0] != "Z"
+
+
+def at_work(folder: Path) -> list[int]:
+    return [int(file.name) for file in (folder / "work").iterdir()]
+
+
+@pytest.mark.parametrize(
+    ("number", "strike"),
+    [(signal.SIGINT, os.killpg), (signal.SIGTERM, os.kill), (signal.SIGHUP, os.killpg)],
+    ids=["Ctrl-C in its terminal", "kill", "its terminal is closed"],
+)
+def test_it_ends_soon_and_says_so(
+    run: subprocess.Popen[str],
+    number: signal.Signals,
+    strike: Callable[[int, int], None],
+    tmp_path: Path,
+) -> None:
+    workers = at_work(tmp_path)
+    assert any(map(alive, workers))
+    strike(run.pid, number)
+    _, said = run.communicate(timeout=SOON)
+    assert run.returncode == 130
+    assert said.count("interrupted:") == 1
+    assert "nothing was written" in said
+    assert "Traceback" not in said
+    assert not any(map(alive, workers))
+    assert list((tmp_path / "out").iterdir()) == []
+
+
+def test_told_twice_it_ends_without_a_traceback(run: subprocess.Popen[str], tmp_path: Path) -> None:
+    for _ in range(5):
+        os.killpg(run.pid, signal.SIGINT)
+    _, said = run.communicate(timeout=SOON)
+    assert run.returncode == 130
+    assert "Traceback" not in said
+    within(SOON, lambda: not any(map(alive, at_work(tmp_path))))
+
+
+def test_killed_it_leaves_no_workers(run: subprocess.Popen[str], tmp_path: Path) -> None:
+    workers = at_work(tmp_path)
+    run.kill()
+    within(SOON, lambda: not any(map(alive, workers)))

@@ -1,0 +1,117 @@
+"""What a disk, a terminal or a file name can do to a run: a message, and never a traceback."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from given.command import NEW
+
+from textmech.reports import cli, ending
+from textmech.reports.show.say import shown
+
+ONE = ("--engine", "mujoco.shipped")
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("TEXTMECH_CACHE", os.devnull)
+    (tmp_path / "cart.yaml").write_text(NEW, encoding="utf-8")
+    return tmp_path
+
+
+@pytest.fixture
+def said(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Callable[..., str]:
+    """What the command says that ends with bad input, run in this process."""
+    monkeypatch.chdir(folder)
+    monkeypatch.setattr(ending, "listen", lambda: None)
+    monkeypatch.setattr(cli, "_DONE", [])
+
+    def run(*words: str) -> str:
+        monkeypatch.setattr(sys, "argv", ["textmech", "run", *words, *ONE])
+        with pytest.raises(SystemExit) as ended:
+            cli.main()
+        assert ended.value.code == 2
+        return capsys.readouterr().err
+
+    return run
+
+
+NAMES = ["#h", "=cmd()", "+1", "-1", "@a", "b\033[31m", "b\n", os.fsdecode(b"b\xff")]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_name_that_no_table_can_hold_is_refused(
+    name: str, folder: Path, said: Callable[..., str]
+) -> None:
+    (folder / f"{name}.yaml").write_text(NEW, encoding="utf-8")
+    err = said(f"./{name}.yaml")
+    assert "name should begin with a letter" in err
+    assert "\033" not in err
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--out", ""], "name is empty"),
+        (["--keep", ""], "name is empty"),
+        (["--keep", "/proc"], "cannot write to /proc"),
+        (["--out", "cart.yaml"], "cart.yaml"),
+        (["--out", "o", "--keep", "o"], "one folder"),
+        (["a" * 300 + ".yaml"], "name too long"),
+    ],
+)
+def test_a_place_that_takes_nothing_is_said_before_the_work(
+    words: list[str], message: str, said: Callable[..., str]
+) -> None:
+    err = said("cart.yaml", *words)
+    assert message in err
+    assert "engines" not in err
+
+
+def test_a_folder_in_a_reports_place_costs_no_other_report(
+    folder: Path, said: Callable[..., str]
+) -> None:
+    (folder / "o" / "events.csv").mkdir(parents=True)
+    assert "events.csv: Is a directory; nothing was written" in said("cart.yaml", "--out", "o")
+    assert [file.name for file in (folder / "o").iterdir()] == ["events.csv"]
+
+
+def shell(script: str, folder: Path, **variables: str) -> subprocess.CompletedProcess[str]:
+    """The run by a shell, which does something to its streams."""
+    command = f"{sys.executable} -m textmech.reports.cli run cart.yaml {' '.join(ONE)} --out o"
+    return subprocess.run(
+        ["bash", "-o", "pipefail", "-c", script.replace("RUN", command)],
+        capture_output=True,
+        encoding="latin-1",
+        cwd=folder,
+        env=os.environ | variables,
+        check=False,
+    )
+
+
+@pytest.mark.parametrize(
+    ("script", "code"),
+    [("RUN 2>&-", 0), ("RUN >&- 2>&- <&-", 0), ("RUN | head -c 1", 0), ("RUN >/dev/full", 2)],
+)
+def test_a_stream_that_takes_nothing_costs_no_report(script: str, code: int, folder: Path) -> None:
+    done = shell(script, folder)
+    assert done.returncode == code
+    assert "Traceback" not in done.stderr
+    assert "Exception ignored" not in done.stderr
+    assert len(list((folder / "o").glob("*.csv"))) == 5
+    assert ("the reports are in o" in done.stderr) == (code == 2)
+
+
+def test_a_stream_without_the_letters_spells_them_out(folder: Path) -> None:
+    done = shell("RUN", folder, PYTHONIOENCODING="latin-1", PYTHONUTF8="0")
+    assert done.returncode == 0, done.stderr
+    assert r"h \u2264 0.002" in done.stdout  # ≤
+
+
+def test_control_characters_are_shown_and_not_sent() -> None:
+    assert shown("a\033[31m\0\x9b\n\tb×") == r"a\x1b[31m\x00\x9b" + "\n\tb×"
