@@ -2,30 +2,14 @@
 
 import sys
 import warnings
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
-from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
 
 import click
 
 from ..cases.mistake import CaseError, Mistake
 from . import ending
+from .command.done import done
+from .command.run import BAD_INPUT, FAILED, allow_long, run
 from .show.say import prepare, say, tell
-
-if TYPE_CHECKING:
-    import pandas as pd
-
-    from ..cases.case import Case
-    from ..engines.engine import Engine
-
-FAILED, BAD_INPUT = 1, 2
-_DONE: list[str] = []  # what was written and kept so far: said if the rest is not
-
-allow_long = click.option(
-    "--allow-long", is_flag=True, help="Do any amount of work, and not only what takes minutes."
-)
 
 
 def main() -> None:
@@ -38,61 +22,17 @@ def main() -> None:
         tell(f"Error: {error.format_message()}")
         sys.exit(BAD_INPUT)
     except (click.Abort, KeyboardInterrupt):
-        tell(f"\ninterrupted: {_done()}")
+        tell(f"\ninterrupted: {done()}")
         sys.exit(ending.INTERRUPTED)
     except CaseError as error:
         tell(str(error))
         count = len(error.mistakes)
-        tell(f"{count} mistake{'s' if count > 1 else ''}; {_done()}")
+        tell(f"{count} mistake{'s' if count > 1 else ''}; {done()}")
         sys.exit(BAD_INPUT)
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
-        tell(f"Error: {where}{error.strerror or error}; {_done()}")
+        tell(f"Error: {where}{error.strerror or error}; {done()}")
         sys.exit(BAD_INPUT)
-
-
-def _done() -> str:
-    return "; ".join(_DONE) or "nothing was written"
-
-
-@contextmanager
-def _kept(stored: bool) -> Iterator[None]:
-    try:
-        yield
-    except KeyboardInterrupt:
-        if stored:
-            _DONE.append("nothing was written, but what was finished is kept for the next run")
-        raise
-
-
-def _write(frames: "Mapping[str, pd.DataFrame]", out: Path) -> None:
-    """Notes that they are there, if they are: an interruption may come after the last of them."""
-    from . import write
-
-    try:
-        write.write(frames, out)
-    finally:
-        if write.holds(frames, out):
-            _DONE.append(f"the reports are in {out}")
-
-
-class Folder(click.Path):
-    """A folder to write into, by a name that is not empty."""
-
-    def __init__(self) -> None:
-        super().__init__(file_okay=False, path_type=Path)
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """The folder, made where there was none: before the work, not after it."""
-        if not value:
-            self.fail("the folder's name is empty; the current one is '.'", param, ctx)
-        folder = Path(str(super().convert(value, param, ctx)))
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            TemporaryDirectory(prefix=".writing-", dir=folder).cleanup()
-        except OSError as error:
-            self.fail(f"cannot write to {folder}: {error.strerror}", param, ctx)
-        return folder
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -119,133 +59,7 @@ def command() -> None:
     """
 
 
-@command.command()
-@click.argument("cases", nargs=-1, metavar="[CASES]...")
-@click.option(
-    "--engine",
-    "names",
-    multiple=True,
-    metavar="E",
-    help="An installed engine, as mujoco, pymunk; book; or with its setting, as mujoco.tuned.",
-)
-@click.option(
-    "--settings",
-    multiple=True,
-    metavar="shipped|tuned|FILE",
-    help="Only this setting; a FILE of your own engine options is a further column, with its name. "
-    "May be repeated.",
-)
-@click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default.")
-@click.option(
-    "--out",
-    type=Folder(),
-    help="Where to write the CSV files. A full run writes the committed reports of a checkout by "
-    "default, and outside of one ./textmech-reports; a partial run writes nothing.",
-)
-@click.option(
-    "--keep",
-    type=Folder(),
-    help="Write the trajectories too, one CSV a case, reference and engines side by side, and one "
-    "with the times of its events.",
-)
-@click.option(
-    "--no-cache",
-    is_flag=True,
-    help="Compute everything anew. Else results lie in $TEXTMECH_CACHE, by default "
-    "~/.cache/textmech, and are used while nothing they depend on has changed.",
-)
-@click.option(
-    "--cluster",
-    metavar="ADDRESS",
-    help="A Dask scheduler, as tcp://host:8786, whose workers do the work.",
-)
-@allow_long
-def run(
-    cases: tuple[str, ...],
-    names: tuple[str, ...],
-    settings: tuple[str, ...],
-    jobs: int | None,
-    out: Path | None,
-    keep: Path | None,
-    no_cache: bool,
-    cluster: str | None,
-    allow_long: bool,
-) -> None:
-    """Compare engines with the reference and report the differences.
-
-    A file with mistakes is left out: the other files run, and the exit code is 2.
-    """
-    from . import keep as kept
-    from . import pool, suite, write
-    from .cache import store
-    from .cluster import executor
-    from .selection import choose_book, choose_engines, sound, sound_cases
-    from .show import terminal
-    from .trial.work import too_long
-
-    full = not (cases or names or settings)
-    if out is None and full:
-        out = Folder().convert(str(write.by_default()), None, None)
-    if out is not None and keep is not None and out.resolve() == keep.resolve():
-        raise click.UsageError("--out and --keep are one folder: a case may be called as a report")
-    found, mistakes = sound_cases(cases, long=allow_long)
-    with warnings.catch_warnings(record=True) as broken:
-        engines = choose_engines(names, settings, long=allow_long)
-    mistakes += too_long(found, engines)
-    chosen = sound(found, mistakes)
-    if not chosen:
-        raise CaseError(mistakes)
-    if mistakes:
-        tell(_left_out(mistakes))
-    for warning in broken:
-        tell(f"warning: {warning.message}")
-    book = choose_book(names, settings)
-    _answered(chosen, engines, book=book, named=bool(cases))
-    used = None if no_cache else store.usable()
-    with terminal.progress() as progress, executor(cluster) as working, _kept(used is not None):
-        report = suite.measure(
-            chosen,
-            engines,
-            jobs=jobs or pool.workers(),
-            progress=progress,
-            book=book,
-            store=used,
-            executor=working,
-        )
-    mistakes += report.mistakes
-    if used is not None:
-        used.trim()
-    if full and mistakes:
-        out = None  # what is left is no full run
-    if out is not None:
-        _write(write.tables(report, report.cases), out)
-    if keep is not None:
-        kept.keep(report, keep)
-        _DONE.append(f"the trajectories are in {keep}")
-    terminal.show(report, detailed=bool(cases), written=out)
-    if mistakes:
-        tell(_left_out(mistakes))  # again: by now it has scrolled away
-        raise click.exceptions.Exit(BAD_INPUT)
-    if report.fails:
-        raise click.exceptions.Exit(FAILED)
-
-
-def _left_out(mistakes: list[Mistake]) -> str:
-    files = len({mistake.file for mistake in mistakes})
-    what = "1 file has mistakes and is" if files == 1 else f"{files} files have mistakes and are"
-    return f"{CaseError(mistakes)}\n{what} left out"
-
-
-def _answered(cases: "list[Case]", engines: "list[Engine]", *, book: bool, named: bool) -> None:
-    """Says which of the named cases nobody would answer; where that is all, it is a mistake."""
-    from .trial.book import producers
-
-    silent = [case.name for case in cases if not producers(case, engines, book=book)]
-    what = "the book approximates dry friction alone, in Examples 2.3 and 2.4"
-    if len(silent) == len(cases):
-        raise click.UsageError(f"no row for {', '.join(silent)}: {what}")
-    if named and silent:
-        tell(f"no row for {', '.join(silent)}: {what}")
+command.add_command(run)
 
 
 @command.command()

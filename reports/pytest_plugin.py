@@ -13,7 +13,7 @@ import pytest
 
 if TYPE_CHECKING:
     from ..cases.case import Case
-    from .row import Certificate, Comparison
+    from .row import Comparison
     from .suite import Report
 
 _REPORT = pytest.StashKey["Report"]()
@@ -148,11 +148,13 @@ class CertificateItem(CaseItem):
     """The reference's own certificate: every check of it."""
 
     def runtest(self) -> None:
+        from .show.text import certificate_text
+
         rows = [row for row in self.report().certificates if row.case == self.case.name]
         assert rows, "no certificate was made"
         broken = [row for row in rows if row.verdict == "FAILS"]
         if broken:
-            raise RowError("\n".join(_certificate_text(row) for row in broken))
+            raise RowError("\n".join(certificate_text(row) for row in broken))
 
     def reportinfo(self) -> tuple[Path, int, str]:
         return self.path, self.place("title") - 1, f"case {self.name}"
@@ -172,14 +174,15 @@ class ComparisonItem(CaseItem):
         from .committed import worse
         from .row import AGREES, DEVIATES, FAILS
         from .show.terminal import line
+        from .show.text import row_text
 
         row = _row(self.report(), self.key)
         if row.verdict == FAILS:
             place = f"{self.path}:{self.place('allow', row.quantity)}"
-            raise RowError(f"{place}: {row.quantity}\n{_row_text(row)}")
+            raise RowError(f"{place}: {row.quantity}\n{row_text(row)}")
         lost = worse(self.case, row)
         if lost:
-            raise RowError(f"{lost}\n{_row_text(row)}")
+            raise RowError(f"{lost}\n{row_text(row)}")
         if row.verdict not in (AGREES, DEVIATES):
             pytest.xfail(line(row))
 
@@ -197,23 +200,6 @@ def _row(report: "Report", key: tuple[str, ...]) -> "Comparison":
 
 def _key(row: "Comparison") -> tuple[str, ...]:
     return (row.case, row.engine, row.setting, row.realised, row.quantity)
-
-
-def _row_text(row: "Comparison") -> str:
-    from dataclasses import asdict
-
-    kept = {k: v for k, v in asdict(row).items() if v not in (None, "")}
-    return "\n".join(
-        f"  {name:9} {value:.3g}" if isinstance(value, float) else f"  {name:9} {value}"
-        for name, value in kept.items()
-    )
-
-
-def _certificate_text(row: "Certificate") -> str:
-    return (
-        f"{row.case}: the reference ({row.system}) is not certified: {row.check}: "
-        f"{row.difference:.2e} is above {row.bound:.2e}"
-    )
 
 
 def measured(session: pytest.Session) -> "Report":

@@ -32,6 +32,7 @@ ROOMS = {
         "suite",
         "write keep",
         "show",
+        "command",
         "cli pytest_plugin",
     ],
 }

@@ -1,0 +1,36 @@
+"""What a run has written so far: said if it is ended before the rest."""
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+DONE: list[str] = []  # in words, as it comes
+
+
+def done() -> str:
+    return "; ".join(DONE) or "nothing was written"
+
+
+@contextmanager
+def finished(stored: bool) -> Iterator[None]:
+    try:
+        yield
+    except KeyboardInterrupt:
+        if stored:
+            DONE.append("nothing was written, but what was finished is kept for the next run")
+        raise
+
+
+def written(frames: "Mapping[str, pd.DataFrame]", out: Path) -> None:
+    """Notes that they are there, if they are: an interruption may come after the last of them."""
+    from .. import write
+
+    try:
+        write.write(frames, out)
+    finally:
+        if write.holds(frames, out):
+            DONE.append(f"the reports are in {out}")
