@@ -50,7 +50,7 @@ class MuJoCo:
         refusal = unbuildable(scene) or uncompilable(scene, start, self._plan(scene, start))
         if refusal:
             return [Refusal("native", refusal)]
-        return [self._plan(scene, start, way) for way in ways(scene, tuned=self._tuned)]
+        return [self._plan(scene, start, way) for way in ways(scene, start, tuned=self._tuned)]
 
     def _plan(self, scene: Scene, start: Start, realised: Realised = "native") -> Plan:
         if self._tuned:

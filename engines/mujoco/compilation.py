@@ -12,6 +12,7 @@ from ...cases.scene import Scene
 from ..engine import Choice, Plan, Start
 from .law.settle import settle
 from .law.signal import installed
+from .law.touch import one_touch, touches
 from .run import listening, started
 from .scene import mjcf
 
@@ -47,6 +48,8 @@ def settled(
 ) -> tuple[mujoco.MjModel, mujoco.MjData, dict[str, float]]:
     """The same with its start, the keyframe, as deep in the floor as it is carried: depths [m]."""
     model, data = compiled(scene, start, step, plan)
+    if plan.realised == "law" and one_touch(scene):
+        touches(scene, model, data)  # friction of MuJoCo's own would press it into the floor
     depths = settle(scene, model, data, start)
     model.key_qpos[0], model.key_qvel[0] = data.qpos, data.qvel
     return model, data, depths

@@ -9,7 +9,8 @@ from ..engine import Choice, Plan, Realised, Start
 from ..law import one_number
 from .compilation import NOMINAL, settled
 from .contact import falls
-from .law.friction import one_slide, smooth_only
+from .law.friction import one_number, one_slide, smooth_only
+from .law.touch import one_touch
 from .scene import HEAVY
 from .settings import ties
 from .tree import driven
@@ -17,8 +18,10 @@ from .tree import driven
 Numbers = Callable[[float], Sequence[Choice]]
 
 
-def ways(scene: Scene, *, tuned: bool) -> tuple[Realised, ...]:
+def ways(scene: Scene, start: Start, *, tuned: bool) -> tuple[Realised, ...]:
     """MuJoCo's own elements; dry friction, of which it knows one number, in other ways too."""
+    if tuned and one_touch(scene) and not falls(scene, start):
+        return ("native", "law")
     if not tuned or not one_slide(scene):
         return ("native",)
     return ("native", "law") if smooth_only(scene) else ("native", "law", "driver")
@@ -49,8 +52,10 @@ def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> 
     words = []
     if any(driven(scene)):
         words.append(f"driven points are masses of {HEAVY:g} kg")
+    if plan.realised == "native":
+        words += one_number(scene)
     if plan.realised == "law":
-        when = "stage" if smooth_only(scene) else "step"
+        when = "stage" if smooth_only(scene) and not scene.contacts else "step"
         words.append(f"dry friction by our law before every {when}")
     if plan.realised == "driver":
         words.append("steps cut at the events of dry friction")

@@ -70,7 +70,7 @@ def simulate(
         _check(warnings, grid, record)
         each: dict[str, Array] = {}
         if record.felt is not None:
-            each = {name: contact_force(scene, record.felt, name) for name in touching}
+            each = {name: contact_force(scene, model, name, record.felt) for name in touching}
         elif every:
             each = read(scene, model, data, grid, record, touching, steps.recall)
         rows = record

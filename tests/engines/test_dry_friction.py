@@ -192,22 +192,22 @@ def test_the_smooth_law_slips_and_creeps(name: str) -> None:
     assert slip.max() <= SMOOTH.band
 
 
-# Contacts: both engines know one coefficient, and only pymunk's adapter has a law for two.
+# Contacts: both engines know one coefficient, and both adapters have a law for two.
 
 
+@pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("static", [0.6, 0.42])  # tan 25° = 0.466: it stays, it comes back
-def test_a_block_thrown_up_by_the_law_with_two_bounds(static: float) -> None:
+def test_a_block_thrown_up_by_the_law_with_two_bounds(static: float, name: str) -> None:
     beta, step, times = math.radians(25), 1e-4, np.linspace(0.0, 2.0, 21)
     scene = incline(BLOCK, touching("block", 0.4, static=static), slope=beta)
-    assert ways(TUNED["mujoco"], scene, RESTS) == ("native",)
-    assert ways(TUNED["pymunk"], scene, RESTS) == ("native", "law")
+    assert ways(TUNED[name], scene, RESTS) == ("native", "law")
     up, down = (G * (math.sin(beta) + sign * 0.4 * math.cos(beta)) for sign in (1, -1))
     stop, rest = 2.0 / up, np.maximum(times - 2.0 / up, 0.0)
     before = np.minimum(times, stop)
     x = -2.0 * before + up * before**2 / 2 + (static < 0.466) * down * rest**2 / 2
 
     def error(way: Realised) -> float:
-        run = moved(TUNED["pymunk"], scene, thrown(-2.0), times, step, realised=way)
+        run = moved(TUNED[name], scene, thrown(-2.0), times, step, realised=way)
         return np.abs(run.states["block"][:, X] - x).max()
 
     law, native = error("law"), error("native")

@@ -92,7 +92,10 @@ WAYS: dict[str, tuple[tuple[Scene, Start], dict[str, dict[str, tuple[int, int]]]
     "a floor": (FLOOR, {"mujoco": {"native": (1, 2)}, "pymunk": {"native": (1, 2)}}),
     "a floor with two coefficients": (
         TWO,
-        {"mujoco": {"native": (1, 2)}, "pymunk": {"native": (1, 2), "law": (2, 3)}},
+        {
+            "mujoco": {"native": (1, 2), "law": (1, 2)},
+            "pymunk": {"native": (1, 2), "law": (2, 3)},
+        },
     ),
 }
 
@@ -123,6 +126,30 @@ def test_the_protocol_says_what_is_done(name: str) -> None:
     scene = begun("rolling_wheel.pushed")
     assert planned(SHIPPED[name], *scene).protocol(1e-3) == ""
     assert re.fullmatch(PROTOCOL[name], planned(TUNED[name], *scene).protocol(1e-3))
+
+
+UNEVEN = guided(GROWING, SIX, Bounds(1.0, 3.0)), RESTS
+SAYS = {
+    "two coefficients": (
+        TWO,
+        "MuJoCo knows one coefficient of friction of touch: 0.3, the kinetic",
+    ),
+    "uneven": (UNEVEN, "MuJoCo knows one friction of guide: 2 N, the kinetic, and sharp"),
+}
+
+
+@pytest.mark.parametrize("setting", ["shipped", "tuned"])
+@pytest.mark.parametrize("what", SAYS)
+def test_mujoco_says_where_it_knows_one_number_of_friction(what: str, setting: str) -> None:
+    """In the row, and at the head of its file; our law needs no such words."""
+    engine = engines.make("mujoco", setting)
+    (scene, start), says = SAYS[what]
+    plan = planned(engine, scene, start)
+    assert says in plan.protocol(1e-3)
+    assert says in engine.script(scene, start, 1e-3, plan)
+    if setting == "tuned":
+        assert "MuJoCo knows" not in planned(engine, scene, start, "law").protocol(1e-3)
+    assert "MuJoCo knows" not in planned(engine, *FLOOR).protocol(1e-3)
 
 
 # pymunk tells the size of a joint's impulse.

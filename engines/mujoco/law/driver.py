@@ -15,7 +15,7 @@ def driven_step(slides: list[Slide], step: float) -> None:
     left = step
     while left > _SHORTEST * step:
         for slide in slides:
-            engage(slide)
+            slide.engage()
         taken = _until_event(model, data, slides, left)
         left -= taken
         for slide in slides:
@@ -25,14 +25,6 @@ def driven_step(slides: list[Slide], step: float) -> None:
 
 
 _SHORTEST = 1e-12  # of a step: what is left is rounding
-
-
-def engage(slide: Slide) -> None:
-    """Hold what sticks, push what slides."""
-    if slide.sense:
-        slide.push(-slide.sense * slide.brakes(slide.sense))
-    else:
-        slide.hold()
 
 
 def _passed(slide: Slide) -> float:

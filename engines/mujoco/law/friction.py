@@ -4,7 +4,8 @@ MuJoCo's `frictionloss` holds a joint with up to that force, and brakes it with 
 `bounded` sets the force before every step (the law); `driven_step` cuts the steps at the events.
 """
 
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import astuple, dataclass, field
 
 import mujoco
 import numpy as np
@@ -24,6 +25,7 @@ class Slide:
     sense: int = 0
     before: float | None = None  # the applied force [N] at the step before
     last: float = 0.0  # m/s, at the step before
+    steady: bool = True  # its bounds are always the same
     effort: Array = field(init=False)
 
     def __post_init__(self) -> None:
@@ -52,6 +54,22 @@ class Slide:
         """Friction holds, whatever it takes."""
         self.model.dof_frictionloss[self.dof] = self.holds
         self.data.qfrc_applied[self.dof] = 0.0
+
+    def remember(self) -> int:
+        """What a reading of this state needs."""
+        return self.sense
+
+    def recall(self, noted: int) -> None:
+        """Friction as it was."""
+        self.sense = noted
+        self.engage()
+
+    def engage(self) -> None:
+        """Hold what sticks, push what slides."""
+        if self.sense:
+            self.push(-self.sense * self.brakes(self.sense))
+        else:
+            self.hold()
 
     @property
     def holds(self) -> float:
@@ -93,3 +111,21 @@ def smooth_only(scene: Scene) -> bool:
     """Whether no slide ever sticks."""
     dry = [joint.dry_friction for joint in scene.joints.values() if joint.dry_friction is not None]
     return all(friction.smooth is not None for friction in dry)
+
+
+def one_number(scene: Scene) -> Iterator[str]:
+    """In words, where the scene has more numbers of friction than MuJoCo: it knows one of each."""
+    for joint in scene.joints.values():
+        dry = joint.dry_friction
+        if dry is None:
+            continue
+        numbers = {*astuple(dry.static), *astuple(dry.kinetic)}
+        if dry.smooth or len(numbers) > 1:
+            mean = (dry.kinetic.forward + dry.kinetic.backward) / 2
+            yield f"MuJoCo knows one friction of {joint.name}: {mean:g} N, the kinetic, and sharp"
+    for contact in scene.contacts.values():
+        if contact.switches and contact.static != contact.kinetic:
+            yield (
+                f"MuJoCo knows one coefficient of friction of {contact.name}: "
+                f"{contact.kinetic:g}, the kinetic"
+            )

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -9,9 +10,10 @@ from numpy.typing import NDArray
 
 from ....cases.scene import Scene
 from ...engine import Realised
-from .driver import driven_step, engage
+from .driver import driven_step
 from .friction import Slide, slides, smooth_only
 from .stiction import bounded
+from .touch import Touch, one_touch, touches
 
 
 @dataclass
@@ -20,14 +22,14 @@ class Steps:
 
     model: mujoco.MjModel
     data: mujoco.MjData
-    slides: list[Slide]
+    slides: list[Slide | Touch]
     take: Callable[[int], None]
-    noted: list[tuple[int, ...]] = field(default_factory=list)
+    noted: list[tuple[Any, ...]] = field(default_factory=list)
 
     def note(self) -> None:
         """Remember the senses of the slides."""
         if self.slides:
-            self.noted.append(tuple(slide.sense for slide in self.slides))
+            self.noted.append(tuple(slide.remember() for slide in self.slides))
 
     def keep(self, rows: NDArray[np.int64]) -> None:
         """Of all notes only some."""
@@ -36,15 +38,20 @@ class Steps:
 
     def recall(self, sample: int) -> None:
         """Friction as it was at a sample, for reading forces."""
-        for slide, sense in zip(self.slides, self.noted[sample] if self.noted else (), strict=True):
-            slide.sense = sense
-            engage(slide)
+        for slide, noted in zip(self.slides, self.noted[sample] if self.noted else (), strict=True):
+            slide.recall(noted)
 
 
 def stepping(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, realised: Realised) -> Steps:
     """Steps of the model's size; smooth friction is a callback and needs nothing here."""
-    ours = realised != "native" and not smooth_only(scene)
-    found = slides(scene, model, data) if ours else []
+    ours = realised != "native" and not (smooth_only(scene) and not one_touch(scene))
+    dry = slides(scene, model, data) if ours else []
+    touching = touches(scene, model, data) if ours else []
+    if touching:  # their friction at the first sample needs the normal force there
+        mujoco.mj_forward(model, data)
+        for touch in touching:
+            touch.applied()
+    found = [*dry, *touching]
     step = float(model.opt.timestep)
 
     def native(n: int) -> None:
@@ -58,7 +65,7 @@ def stepping(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, realised:
 
     def by_driver(n: int) -> None:
         for _ in range(n):
-            driven_step(found, step)
+            driven_step(dry, step)
 
     ways = {"law": by_law, "driver": by_driver}
     return Steps(model, data, found, ways[realised] if found else native)

@@ -7,15 +7,16 @@ reversal: `frictionloss` aims at v = 0, so it would push the other way before th
 import mujoco
 
 from .friction import Slide
+from .touch import Touch
 
 _FAR = 6  # steps to a stop: until then the force is the same all step long, whatever comes next
 
 
-def bounded(slide: Slide) -> None:
+def bounded(slide: Slide | Touch) -> None:
     """Set the friction of the step to come by (2.89)."""
     speed = slide.speed
     gained, slide.last = speed - slide.last, speed
-    if slide.sense and slide.sense * speed > _FAR * abs(gained) > 0:
+    if slide.steady and slide.sense and slide.sense * speed > _FAR * abs(gained) > 0:
         slide.push(-slide.sense * slide.brakes(slide.sense))
         slide.before = None
         return
@@ -34,7 +35,7 @@ def bounded(slide: Slide) -> None:
         slide.hold()
 
 
-def _sliding(slide: Slide, now: float, soon: float, mass: float) -> None:
+def _sliding(slide: Slide | Touch, now: float, soon: float, mass: float) -> None:
     """Brakes; if it stops within the step, it then rests or goes on the other way."""
     model, before = slide.model, slide.sense
     h, mean = model.opt.timestep, (now + soon) / 2
@@ -52,7 +53,7 @@ def _sliding(slide: Slide, now: float, soon: float, mass: float) -> None:
         slide.push(-mean - slide.speed * mass / h)
 
 
-def _breaking_loose(slide: Slide, now: float, soon: float) -> float:
+def _breaking_loose(slide: Slide | Touch, now: float, soon: float) -> float:
     """A constant force [N] with the impulse of holding first and braking then."""
     now, soon = slide.sense * now, slide.sense * soon
     static = slide.friction.static

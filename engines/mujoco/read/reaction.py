@@ -56,7 +56,18 @@ def _cross(a: Array, b: Array) -> Array:
     return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
 
 
-def contact_force(scene: Scene, felt: Array, name: str) -> Array:
-    """`touch.normal` or `touch.tangent` (N,) from the sensors' rows; what is in the air has 0."""
+def contact_force(
+    scene: Scene, model: mujoco.MjModel, name: str, felt: Array, pushed: Array | None = None
+) -> Array:
+    """`touch.normal` or `touch.tangent` (N,) from the sensors' rows; what is in the air has 0.
+
+    pushed: the rows of what our law pushes with in MuJoCo's place.
+    """
     part, _, field = name.rpartition(".")
-    return felt[:, 3 * list(scene.contacts).index(part) + (1 if field == "normal" else 0)]
+    column = 3 * list(scene.contacts).index(part)
+    if field == "normal":
+        return felt[:, column + 1]
+    x = mujoco.mj_name2id(model, _OBJECT.mjOBJ_JOINT, f"{scene.contacts[part].body}.x")
+    if pushed is None or x < 0:
+        return felt[:, column]
+    return felt[:, column] + pushed[:, model.jnt_dofadr[x]]

@@ -16,7 +16,8 @@ from .friction import SlideFriction
 from .reaction import contact_force, joint_force
 from .record import Record
 
-_FORCES = ("cfrc_int", "subtree_com", "site_xpos", "actuator_force", "efc_force", "sensordata")
+_TOUCHING = ("sensordata", "qfrc_applied")
+_FORCES = ("cfrc_int", "subtree_com", "site_xpos", "actuator_force", "efc_force", *_TOUCHING)
 
 
 def read(
@@ -33,7 +34,7 @@ def read(
         return {}
     dry = SlideFriction(scene, model, len(times))
     joints = any(name.partition(".")[0] in scene.joints for name in reactions)
-    wanted = _FORCES if joints else ("sensordata",)
+    wanted = _FORCES if joints else _TOUCHING
     seen = _seen(model, data, times, record, wanted, dry, recall)
     tree = spanning_tree(scene)
     found: dict[str, Array] = {}
@@ -45,7 +46,9 @@ def read(
             forces = joint_force(scene, tree, model, seen, scene.joints[part])
             found[name] = forces[("fx", "fy", "torque", "force").index(field)]
         else:
-            found[name] = contact_force(scene, seen["sensordata"], name)
+            found[name] = contact_force(
+                scene, model, name, seen["sensordata"], seen["qfrc_applied"]
+            )
     return found
 
 
