@@ -1,0 +1,86 @@
+"""Our laws on bodies that turn: at the middle of a step, at the places points have there."""
+
+import math
+
+import numpy as np
+import pytest
+from given.closed_motions import sliding_then_rolling
+from given.engine_scenes import RADIUS, WHEEL, G, incline, launched, machine, pin, touching
+from given.planning import TUNED, moved, planned
+from given.swings import generated
+
+from textmech.cases.scene import GROUND, Anchor, Damper, Scene
+from textmech.cases.shape import disk
+from textmech.cases.trajectory import ANGLE, OMEGA, VX, Array, X
+from textmech.engines.engine import Start
+from textmech.engines.pymunk.law.line import drifted
+from textmech.engines.pymunk.scene import build
+
+ENGINE = TUNED["pymunk"]
+STEPS = (2e-3, 1e-3, 5e-4)
+SLIPS = 1e-12  # m/s: rounding; measured 6e-14, and 9e-6 with the whole mass
+
+
+def order(scene: Scene, start: Start, times: Array, column: int) -> float:
+    """log2 of the ratio of neighbouring differences, by the law."""
+    a, b, c = (
+        moved(ENGINE, scene, start, times, h, realised="law").states["wheel"][:, column]
+        for h in STEPS
+    )
+    return math.log2(np.abs(a - b).max() / np.abs(b - c).max())
+
+
+def spun() -> tuple[Scene, Start]:
+    """A disk on an axle, braked by a damper between its rim and the ground."""
+    wheel = disk(name="wheel", mass=1.3, radius=RADIUS, points={"P": (0.2, 0.1)})
+    oil = Damper("oil", Anchor(GROUND, "Q"), Anchor("wheel", "P"), 4.0)
+    scene = machine([wheel], [pin("axle", "ground.O", "wheel.center")], forces=[oil])
+    return scene, {"wheel": (0.0, 0.0, 0.3, 0.0, 0.0, 20.0)}
+
+
+def test_a_damper_on_a_spinning_disk_is_of_second_order() -> None:
+    scene, start = spun()
+    times = np.linspace(0.0, 0.4, 5)
+    assert planned(ENGINE, scene, start, "law").held == (2, 3)
+    assert order(scene, start, times, ANGLE) == pytest.approx(2.0, abs=0.05)
+    exact = generated(scene, start, times).states["wheel"][:, ANGLE]
+    run = moved(ENGINE, scene, start, times, 1e-4, realised="law").states["wheel"][:, ANGLE]
+    assert np.abs(run - exact).max() < 1e-6
+
+
+def test_a_disk_rolls_when_the_law_has_slowed_it() -> None:
+    """With two coefficients; what resists at its rim is a third of its mass."""
+    v, omega, mu = 2.0, 20.0, 0.2
+    rolls = (v + RADIUS * omega) / (3 * mu * G)
+    times = np.linspace(0.0, 2.0, 41)
+    scene = incline(WHEEL, touching("wheel", mu, static=0.3))
+    run = moved(ENGINE, scene, launched(v, omega), times, 1e-4, realised="law").states["wheel"]
+    assert np.abs(run[:, X] - sliding_then_rolling(times, v, omega, mu)).max() < 1e-8
+    slip = run[:, VX] + RADIUS * run[:, OMEGA]
+    assert slip == pytest.approx(np.maximum(0.0, 3 * mu * G * (rolls - times)), abs=1e-11)
+
+
+def test_a_disk_slips_the_other_way_within_a_step() -> None:
+    """On a slope too steep to roll; the mean over that step needs the mass at its rim."""
+    beta, mu, times = math.radians(45), 0.2, np.linspace(0.0, 0.5, 11)
+    scene = incline(WHEEL, touching("wheel", mu, static=0.25), slope=beta)
+    run = moved(ENGINE, scene, launched(-1.0, -2.0), times, 1e-4, realised="law").states["wheel"]
+    pull, brake = G * math.sin(beta), mu * G * math.cos(beta)
+    turns = (1.0 + 2.0 * RADIUS) / (pull + 3 * brake)
+    before, after = np.minimum(times, turns), np.maximum(times - turns, 0.0)
+    speed = -1.0 + (pull + brake) * before + (pull - brake) * after
+    assert run[:, VX] == pytest.approx(speed, abs=SLIPS)
+
+
+def test_a_point_ahead_has_turned_with_its_body() -> None:
+    scene, start = spun()
+    world = build(scene, start, {}, "law")
+    lever, x, y, vx, vy = drifted(world, Anchor("wheel", "P"), 0.01)
+    turned = 0.3 + 20.0 * 0.01
+    wanted = (
+        0.2 * math.cos(turned) - 0.1 * math.sin(turned),
+        0.2 * math.sin(turned) + 0.1 * math.cos(turned),
+    )
+    assert lever == pytest.approx(wanted, abs=1e-15)
+    assert (x, y) == pytest.approx(wanted, abs=1e-15)
+    assert (vx, vy) == pytest.approx((-20.0 * wanted[1], 20.0 * wanted[0]), abs=1e-13)
