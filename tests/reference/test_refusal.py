@@ -20,7 +20,7 @@ def test_a_flat_parallelogram_ends_the_motion(tmp_path: Path) -> None:
     """There it can go on as a parallelogram or crossed: reported soon, and with the time."""
     begin = time.process_time()
     mistake = refused(scenes.typed(tmp_path, PARALLELOGRAM))
-    assert time.process_time() - begin < 2.0  # the integrators alone would creep on for minutes
+    assert time.process_time() - begin < 5.0  # the integrators alone would creep on for minutes
     assert mistake.where == "duration"
     told = float(mistake.what.split("t = ")[1].split(" s")[0])
     # four digits, and it stops a little before
