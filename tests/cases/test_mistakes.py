@@ -175,6 +175,23 @@ def test_no_case_at_all(tmp_path: Path, content: bytes, what: str) -> None:
     assert mistakes(tmp_path, content).mistakes[0].what.startswith(what)
 
 
+@pytest.mark.parametrize(
+    ("content", "place"),
+    [
+        (b"\xff", (1, 1)),
+        ("title: é\nscene: ".encode() + b"\xe9", (2, 8)),
+        (b"\xef\xbb\xbftitle: \xff", (1, 8)),
+        (b"title: a\r\nscene: \x07", (2, 8)),
+        (b"a: 1\n\nb: [\x00]", (3, 5)),
+    ],
+)
+def test_what_is_no_text_has_a_place(
+    tmp_path: Path, content: bytes, place: tuple[int, int]
+) -> None:
+    (mistake,) = mistakes(tmp_path, content).mistakes
+    assert (mistake.line, mistake.column) == place
+
+
 def test_no_file(tmp_path: Path) -> None:
     with pytest.raises(CaseError, match="is a directory; a case is one YAML file"):
         load(tmp_path)
