@@ -134,7 +134,7 @@ def _files(words: Sequence[str], taken: Set[str]) -> list[Path]:
         file = Path(word)
         other = files.setdefault(file.stem, file)
         if not word or file.is_dir():
-            what = "is no file; own settings are one YAML file"
+            what = "is no file; own settings are one YAML file" if word else "has no name"
         elif file.exists() and not NAME.fullmatch(file.stem):
             what = "its name is its column's: letters, digits, - and _, please"
         elif file.exists() and (file.stem in taken or file.stem in engines.SETTINGS):

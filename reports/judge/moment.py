@@ -30,7 +30,8 @@ class Moment:
 def moment(trial: Trial, samples: Array, wanted: Array, error: Error) -> Moment | None:
     """The instant at which alone the error is so large, or None."""
     words = _words(trial, float(trial.case.times[error.at]))
-    elsewhere = trial.away(BESIDE * trial.step)
+    beside = BESIDE * trial.step
+    elsewhere = trial.away(beside) & (trial.case.times >= beside - TOGETHER)
     elsewhere[0] = False
     if words is None or np.count_nonzero(elsewhere) < FEWEST:
         return None
@@ -44,7 +45,7 @@ def _words(trial: Trial, t: float) -> str | None:
         return "the first sample"
     near = [s for s in trial.reference.switches if abs(s - t) < BESIDE * trial.step]
     if not near:
-        return None
+        return "beside the start" if t < BESIDE * trial.step - TOGETHER else None
     switch = min(near, key=lambda s: abs(s - t))
     named = (name for name, times in trial.events.items() if _among(switch, times))
     return f"beside {next(named, 'a switch')} at {switch:.4g} s"

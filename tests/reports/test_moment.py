@@ -67,6 +67,17 @@ def test_an_error_that_lasts_is_not_the_first_samples(trial: Make) -> None:
     assert found.because == "the model: 0.5 remains for h → 0"
 
 
+def test_the_first_steps_are_the_start_too(trial: Make) -> None:
+    """With steps as large as the samples a contact that has to close takes several of them."""
+    coarse = {"setting": "shipped", "own_step": 0.04}
+    found = judged(trial(rate=0.0, **coarse), {0: 98.1, 1: 98.1, 2: 60.0})
+    assert found.because == "the first sample; elsewhere at most 0"
+    found = judged(trial(rate=0.0, **coarse), {1: 98.1, 2: 60.0})
+    assert found.because == "beside the start; elsewhere at most 0"
+    found = judged(trial(rate=0.0, **coarse), {1: 98.1, 4: 60.0})
+    assert found.because.startswith("the model")
+
+
 def test_what_is_beside_an_event_is_named_after_it(trial: Make, stopping: Case) -> None:
     made = trial(case=stopping, stops=(0.3, 0.7), rate=0.0, **SHIPPED)
     at = replace(made, reference=replace(made.reference, switches=np.array([0.401])))
