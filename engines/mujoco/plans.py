@@ -9,7 +9,7 @@ from ..engine import Choice, Plan, Realised, Start
 from ..law import one_number
 from .compilation import NOMINAL, settled
 from .contact import falls
-from .law.friction import one_number, one_slide, smooth_only
+from .law.friction import one_slide, smooth_only
 from .law.touch import one_touch
 from .scene import HEAVY
 from .settings import ties
@@ -52,8 +52,8 @@ def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> 
     words = []
     if any(driven(scene)):
         words.append(f"driven points are masses of {HEAVY:g} kg")
-    if plan.realised == "native":
-        words += one_number(scene)
+    if plan.simplified:
+        words.append(plan.simplified)
     if plan.realised == "law":
         when = "stage" if smooth_only(scene) and not scene.contacts else "step"
         words.append(f"dry friction by our law before every {when}")

@@ -3,11 +3,9 @@
 from ...cases.case import Deviation
 from ...engines.engine import Engine
 from .. import pins
-from ..committed import WORSE, before
 from ..row import AGREES, BEYOND, CHANGED, DEVIATES, FAILS
 from ..trial.trial import Trial
 from .convergence import ANOTHER, Convergence
-from .rounding import floor
 
 STAYS = 0.25  # of a declared deviation: what it may change and be the same one
 CERTAIN = 10  # uncertainties that a declared limit must stand above
@@ -46,11 +44,6 @@ def _broken(trial: Trial, quantity: str, largest: float, convergence: Convergenc
         return f"{largest:.3g} is above allow {allowed:.3g}"
     if reach is not None and not largest <= reach:
         return f"{largest:.3g} is above reach {reach:.3g}"
-    committed = before(trial.case, trial.key(quantity), trial.engine.version, trial.step)
-    if committed is not None and committed.verdict == AGREES and committed.largest is not None:
-        bar = WORSE * max(committed.largest, floor(trial, quantity, trial.step))
-        if not largest <= bar:
-            return f"{largest:.3g} is above {WORSE} × the committed {committed.largest:.3g}"
     if limit is not None and native:
         if convergence.limit is None:
             return f"no limit for h → 0 to hold against {limit:.3g}"

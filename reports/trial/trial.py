@@ -73,11 +73,6 @@ class Trial:
         assert isinstance(self.way, Plan)
         return self.way
 
-    def key(self, quantity: str) -> tuple[str, str, str, str, str]:
-        """What tells its row of a quantity from all others."""
-        engine = self.engine
-        return (self.case.name, engine.name, engine.setting, self.realised, quantity)
-
     def wanted(self, quantity: str) -> Array:
         """The reference's samples (N,)."""
         return observe(self.case.scene, self.reference, quantity)

@@ -4,8 +4,7 @@ MuJoCo's `frictionloss` holds a joint with up to that force, and brakes it with 
 `bounded` sets the force before every step (the law); `driven_step` cuts the steps at the events.
 """
 
-from collections.abc import Iterator
-from dataclasses import astuple, dataclass, field
+from dataclasses import dataclass, field
 
 import mujoco
 import numpy as np
@@ -111,21 +110,3 @@ def smooth_only(scene: Scene) -> bool:
     """Whether no slide ever sticks."""
     dry = [joint.dry_friction for joint in scene.joints.values() if joint.dry_friction is not None]
     return all(friction.smooth is not None for friction in dry)
-
-
-def one_number(scene: Scene) -> Iterator[str]:
-    """In words, where the scene has more numbers of friction than MuJoCo: it knows one of each."""
-    for joint in scene.joints.values():
-        dry = joint.dry_friction
-        if dry is None:
-            continue
-        numbers = {*astuple(dry.static), *astuple(dry.kinetic)}
-        if dry.smooth or len(numbers) > 1:
-            mean = (dry.kinetic.forward + dry.kinetic.backward) / 2
-            yield f"MuJoCo knows one friction of {joint.name}: {mean:g} N, the kinetic, and sharp"
-    for contact in scene.contacts.values():
-        if contact.switches and contact.static != contact.kinetic:
-            yield (
-                f"MuJoCo knows one coefficient of friction of {contact.name}: "
-                f"{contact.kinetic:g}, the kinetic"
-            )
