@@ -5,10 +5,11 @@ E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996)
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.linalg.lapack import dgetrf, dgetrs
+from scipy.linalg.lapack import dgetrf, dgetrs, zgetrf, zgetrs
 
 from .march import EPS, Integration, IntegrationError, Slope, Vector, integrate, rms, sizes
 from .radau import Collocation, lagrange, radau_table
@@ -35,12 +36,35 @@ def difference_jacobian(f: Slope, t: float, y: Vector, slope: Vector, size: Vect
 class _Factors:
     """The LU factors of a matrix; straight from LAPACK, whose wrappers cost more than the work."""
 
-    def __init__(self, matrix: Matrix) -> None:
-        self._lu, self._pivots, _ = dgetrf(matrix)
+    def __init__(self, matrix: Any) -> None:
+        factor, self._solve = (zgetrf, zgetrs) if matrix.dtype.kind == "c" else (dgetrf, dgetrs)
+        self._lu, self._pivots, _ = factor(matrix)
 
-    def solve(self, right: Vector) -> Vector:
+    def solve(self, right: Any) -> Any:
         """Not finite if the matrix was singular; the callers look at that anyway."""
-        return dgetrs(self._lu, self._pivots, right)[0]
+        return self._solve(self._lu, self._pivots, right)[0]
+
+
+class _Stages:
+    """1 − h A ⊗ J of all stages, as one matrix 1 − h λ J for each eigenvalue λ of A.
+
+    One matrix of s n rows would cost s³ n³; these are s n³ in all, half of them by conjugation.
+    """
+
+    def __init__(self, table: Collocation, scaled: Matrix) -> None:
+        one = np.eye(len(scaled))
+        self.table = table
+        self.factors = [
+            _Factors(one - (value if value.imag else value.real) * scaled)
+            for value in table.values.tolist()
+        ]
+
+    def solve(self, right: Matrix) -> Matrix:
+        """(s, n) for (s, n)."""
+        rows = self.table.into @ right
+        for k, (value, factors) in enumerate(zip(self.table.values, self.factors, strict=True)):
+            rows[k] = factors.solve(rows[k] if value.imag else rows[k].real)
+        return (self.table.back @ rows).real
 
 
 class Radau:
@@ -69,7 +93,8 @@ class Radau:
         self._fresh = False
         self._contraction = 0.0
         self._factored = 0.0  # step the factors below belong to
-        self._stage_factors = self._error_factors = _Factors(np.eye(1))
+        self._stages = _Stages(table, np.zeros((1, 1)))
+        self._error_factors = _Factors(np.eye(1))
 
     def begin(self, t: float, y: Vector) -> Vector:
         """Slope at the start; a step accepted before it becomes the one to extrapolate from."""
@@ -114,9 +139,11 @@ class Radau:
         if self._factored and abs(h / self._factored - 1.0) < 1e-3:
             return
         scaled = h * self._jacobian
-        coupled = np.kron(self.table.a, scaled)
-        self._stage_factors = _Factors(np.eye(len(coupled)) - coupled)
-        self._error_factors = _Factors(np.eye(len(scaled)) - self.table.gamma * scaled)
+        self._stages = _Stages(self.table, scaled)
+        if self.table.values[0].imag:
+            self._error_factors = _Factors(np.eye(len(scaled)) - self.table.gamma * scaled)
+        else:
+            self._error_factors = self._stages.factors[0]  # γ is the real eigenvalue
         self._factored = h
 
     def _guess(self, h: float, n: int) -> Matrix:
@@ -137,7 +164,7 @@ class Radau:
         for turn in range(ITERATIONS):
             slopes = np.array([self.f(at, y + part) for at, part in zip(moments, z, strict=True)])
             self.evaluations += len(moments)
-            change = self._stage_factors.solve((h * (a @ slopes) - z).ravel()).reshape(z.shape)
+            change = self._stages.solve(h * (a @ slopes) - z)
             z += change
             size = sizes(np.maximum(peak, np.abs(z).max(axis=0)), self.tolerance)
             now = rms(change / size)

@@ -6,6 +6,7 @@ E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996)
 
 from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,9 @@ class Collocation:
     The weights of the step itself are the last row of `a`, since the last node is 1.  The error
     estimate is `gamma` h f(t, y) + `error` . z, and `leading` . z measures the last term of the
     Taylor series that the stages resolve.
+
+    `values` are the eigenvalues of `a`, one of each pair, the real ones first; with the rows `into`
+    and the columns `back` a product a x is the real part of back (values * (into x)).
     """
 
     a: NDArray[np.float64]
@@ -26,6 +30,9 @@ class Collocation:
     gamma: float
     error: NDArray[np.float64]
     leading: NDArray[np.float64]
+    values: NDArray[np.complex128]
+    into: NDArray[np.complex128]
+    back: NDArray[np.complex128]
 
 
 def lagrange(nodes: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -61,6 +68,20 @@ def _gamma(a: NDArray[np.float64]) -> float:
     return float(abs(values[np.argmin(np.abs(values.imag))]))
 
 
+Spectrum = tuple[NDArray[np.complex128], NDArray[np.complex128], NDArray[np.complex128]]
+
+
+def _spectrum(a: NDArray[np.float64]) -> Spectrum:
+    """Eigenvalues without their conjugates, and what leads into their vectors and back."""
+    found: Any = np.linalg.eig(a.astype(np.complex128))
+    values, vectors = found
+    real = np.abs(values.imag) < 1e-8 * np.abs(values)  # pairs are far from it
+    values = np.where(real, values.real, values)
+    kept = [*np.flatnonzero(real), *np.flatnonzero(~real & (values.imag > 0.0))]
+    weights = np.where(real, 1.0, 2.0)  # Re(2 w) is w and its conjugate together
+    return values[kept], np.linalg.inv(vectors)[kept], (vectors * weights)[:, kept]
+
+
 @cache
 def radau_table(stages: int) -> Collocation:
     """The table for any number of stages from 1; odd numbers make the better error estimate."""
@@ -76,4 +97,5 @@ def radau_table(stages: int) -> Collocation:
     d = -gamma * lagrange(c, np.zeros(1))[0]
     # Applied to the increments themselves, d is a divided difference over 0 and the nodes: the
     # h^s term of the solution, with the factor the h^(s + 1) term has in the estimate.
-    return Collocation(a=a, c=c, gamma=gamma, error=np.linalg.solve(a.T, d), leading=d)
+    values, into, back = _spectrum(a)
+    return Collocation(a, c, gamma, np.linalg.solve(a.T, d), d, values, into, back)

@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 from given.problems import by_scipy
 
+from textmech.reference.integrators import implicit
 from textmech.reference.integrators.implicit import radau
 from textmech.reference.integrators.march import Vector
+from textmech.reference.integrators.radau import radau_table
 
 
 def prothero_robinson(t: float, y: Vector) -> Vector:
@@ -48,3 +50,13 @@ def test_a_given_jacobian_saves_evaluations():
     without = radau(van_der_pol, times, [2.0, 0.0])
     assert with_it.evaluations < without.evaluations
     assert np.abs(with_it.y - without.y).max() < 1e-10
+
+
+@pytest.mark.parametrize("stages", [1, 2, 5, 7])
+def test_stages_by_eigenvalues_are_those_of_the_whole_matrix(stages: int):
+    """1 − h A ⊗ J solved as one matrix of s n rows, and as s of n rows."""
+    table, random = radau_table(stages), np.random.default_rng(seed=1)
+    scaled, right = random.standard_normal((4, 4)), random.standard_normal((stages, 4))
+    whole = np.eye(4 * stages) - np.kron(table.a, scaled)
+    known = np.linalg.solve(whole, right.ravel()).reshape(right.shape)
+    np.testing.assert_allclose(implicit._Stages(table, scaled).solve(right), known, atol=1e-11)

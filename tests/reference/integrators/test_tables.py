@@ -51,3 +51,15 @@ def test_radau_with_three_stages_is_the_published_one():
     published = table.gamma / 3.0 * np.array([-13.0 - 7.0 * r, -13.0 + 7.0 * r, -1.0])
     assert np.abs(table.error - published).max() < 1e-13
     assert 1.0 / table.gamma == pytest.approx(3.0 + 3.0 ** (2 / 3) - 3.0 ** (1 / 3), abs=1e-13)
+
+
+@pytest.mark.parametrize("stages", [1, 2, 3, 5, 7])
+def test_the_spectrum_of_radau_is_its_matrix(stages: int):
+    """One eigenvalue of each pair, the real one first: γ, where the number of stages is odd."""
+    table = radau_table(stages)
+    assert len(table.values) == (stages + 1) // 2
+    back = (table.back * table.values) @ table.into
+    np.testing.assert_allclose(back.real, table.a, atol=1e-13)
+    if stages % 2:
+        assert table.values[0].imag == 0.0
+        assert table.values[0].real == pytest.approx(table.gamma, rel=1e-12)
