@@ -5,6 +5,7 @@ apart as the motion is sensitive: what that may be is a share of what the case a
 one answer may be little farther from the others than two integrators of one system are.
 """
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
@@ -55,20 +56,25 @@ def certify(
     if system is not generated:
         others["generated"], found["generated events"] = built.trajectory(times), built.followed
         far = difference(motion, others["generated"])
-        checks.append(Check("generated motion", far, max(GENERATED, LOOSER * apart)))
+        checks.append(Check("generated motion", far, max(GENERATED, _looser(apart))))
         checks += beside(written, built, generated, times)
-    own = max(_own(followed), LOOSER * apart)
+    own = max(_own(followed), _looser(apart))
     if (closed := _closed_form(system, times)) is not None:
         others["closed form"] = written.trajectory(times, closed)
         checks.append(Check("closed form", difference(motion, others["closed form"]), own))
     late = apart * float(times[-1] - times[0])
-    checks += _events(system, followed, found, LOOSER * late, float(times[-1]))
+    checks += _events(system, followed, found, _looser(late), float(times[-1]))
     checks += laws(written, generated, times)
     checks += _drift(system, times, followed, own)
     if len(system.modes) > 1 or any(system.guards(mode) for mode in followed.phases):
         checks.append(Check("modes possible", _impossible(system, times, followed), 0.0))
     late = worst([late, *(_apart(followed, other) for other in found.values())])
     return (*checks, *errors(case, motion, others, late))
+
+
+def _looser(apart: float) -> float:
+    """What another answer may be off, in whole powers of ten: its digits would be rounding's."""
+    return 10.0 ** math.ceil(math.log10(LOOSER * apart)) if 0.0 < apart < math.inf else 0.0
 
 
 def _own(followed: Followed) -> float:
