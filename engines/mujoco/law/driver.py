@@ -16,9 +16,9 @@ def driven_step(slides: list[Slide], step: float) -> None:
     while left > _SHORTEST * step:
         for slide in slides:
             slide.engage()
-        taken = _until_event(model, data, slides, left)
+        taken, over = _until_event(model, data, slides, left)
         left -= taken
-        for slide in slides:
+        for slide in slides if over else ():
             if _passed(slide) > 0:
                 _switch(slide)
     model.opt.timestep = step
@@ -39,18 +39,18 @@ def _passed(slide: Slide) -> float:
 
 def _until_event(
     model: mujoco.MjModel, data: mujoco.MjData, slides: list[Slide], longest: float
-) -> float:
-    """Step to the first event, or the longest way [s]; the event is just over."""
+) -> tuple[float, bool]:
+    """Step to the first event, just over it, or the longest way [s]; and which of the two."""
     kept = np.empty(mujoco.mj_stateSize(model, _STATE))
     mujoco.mj_getState(model, data, kept, _STATE)
 
     def over(length: float) -> bool:
         model.opt.timestep = length
         mujoco.mj_step(model, data)
-        return max(_passed(slide) for slide in slides) > 0
+        return any(_passed(slide) > 0 for slide in slides)
 
     if not over(longest):
-        return longest
+        return longest, False
     low, high = 0.0, longest
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
@@ -58,7 +58,7 @@ def _until_event(
         low, high = (low, middle) if over(middle) else (middle, high)
     mujoco.mj_setState(model, data, kept, _STATE)
     over(high)
-    return high
+    return high, True
 
 
 _STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)

@@ -29,6 +29,8 @@ class Slide:
 
     def __post_init__(self) -> None:
         self.dof = int(self.model.joint(self.joint.name).dofadr[0])
+        self._qvel, self._uncoupled = self.data.qvel, uncoupled(self.model, self.dof)
+        self._mass = 0.0
         self.unit = np.zeros((1, self.model.nv))
         self.unit[0, self.dof] = 1.0
         self.effort = np.zeros((1, self.model.nv))
@@ -42,7 +44,7 @@ class Slide:
 
     @property
     def speed(self) -> float:
-        return float(self.data.qvel[self.dof])
+        return self._qvel.item(self.dof)
 
     def push(self, force: float) -> None:
         """Friction is this force [N], and nothing holds."""
@@ -82,17 +84,23 @@ class Slide:
     def starts(self, applied: float) -> int:
         """In which sense a force starts it from rest."""
         force = dry_friction(self.friction, 0.0, applied)
-        return 0 if force == -applied else -int(np.sign(force))
+        return 0 if force == -applied else 1 if applied > 0 else -1
 
     def applied(self) -> tuple[float, float]:
         """Force along the slide [N] that would hold it at rest, and the mass [kg] it moves.
 
         Of the state that MuJoCo was last asked for.
         """
-        mujoco.mj_solveM(self.model, self.data, self.effort, self.unit)
-        mass = 1.0 / self.effort[0, self.dof]
-        pushed = self.data.qfrc_applied[self.dof]  # our friction
-        return float(mass * self.data.qacc_smooth[self.dof] - pushed), float(mass)
+        if not self._mass or not self._uncoupled:
+            mujoco.mj_solveM(self.model, self.data, self.effort, self.unit)
+            self._mass = 1.0 / self.effort.item(0, self.dof)
+        pushed = self.data.qfrc_applied.item(self.dof)  # our friction
+        return self._mass * self.data.qacc_smooth.item(self.dof) - pushed, self._mass
+
+
+def uncoupled(model: mujoco.MjModel, dof: int) -> bool:
+    """Whether the slide is a tree of its own: then its mass is always the same."""
+    return int(np.count_nonzero(model.dof_treeid == model.dof_treeid[dof])) == 1
 
 
 def slides(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> list[Slide]:

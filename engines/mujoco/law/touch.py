@@ -91,7 +91,7 @@ class Touch:
     def starts(self, applied: float) -> int:
         """In which sense a force starts it from rest."""
         force = dry_friction(self.friction, 0.0, applied)
-        return 0 if force == -applied else -1 if force > 0 else 1
+        return 0 if force == -applied else 1 if applied > 0 else -1
 
     def applied(self) -> tuple[float, float]:
         """Force along the floor [N] that would hold it at rest, and the mass [kg] it moves."""
