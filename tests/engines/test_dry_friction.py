@@ -8,17 +8,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from given.closed_motions import drawn, growing, to_and_fro
+from given.closed_motions import drawn, growing, sliding_then_rolling, to_and_fro
 from given.engine_scenes import (
     BLOCK,
     DRAWN,
     GROWING,
+    RADIUS,
     RESTS,
     SIX,
     THREE,
+    WHEEL,
     G,
     guided,
     incline,
+    launched,
     thrown,
     touching,
 )
@@ -27,7 +30,7 @@ from scipy.integrate import solve_ivp
 
 from textmech.cases.observe import observe
 from textmech.cases.scene import Anchor, Bounds, DryFriction, Push, Signal, Smooth
-from textmech.cases.trajectory import Array, X
+from textmech.cases.trajectory import OMEGA, VX, Array, X
 from textmech.engines.engine import Realised
 from textmech.engines.law import smooth_friction
 from textmech.engines.mujoco.law import stiction
@@ -213,3 +216,22 @@ def test_a_block_thrown_up_by_the_law_with_two_bounds(static: float, name: str) 
     law, native = error("law"), error("native")
     assert law < 0.4 * step**2 * up  # it stops within a step: h²/8 of the deceleration; 0.124
     assert native > 100 * law  # one bound: slides back, or turns back a step late
+
+
+# m of the way, and m/s of the slip that is left.
+ROLLED = {"mujoco": 1.3e-6, "pymunk": 5e-9}  # 4.4e-7, 1.7e-9
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_disk_slides_then_rolls_by_the_law_with_two_bounds(name: str) -> None:
+    """Its slip falls by 3 μ g, for it resists with a third of its mass."""
+    times, v, omega, mu = np.linspace(0.0, 3.0, 21), 2.0, 20.0, 0.2
+    scene = incline(WHEEL, touching("wheel", mu, static=0.4))
+    start, rolls = launched(v, omega), (v + RADIUS * omega) / (3 * mu * G)
+    run = moved(TUNED[name], scene, start, times, 1e-4, realised="law", record=True)
+    rows = run.states["wheel"]
+    error = np.abs(rows[:, X] - sliding_then_rolling(times, v, omega, mu)).max()
+    slip = observe(scene, every(run), "touch.slip")
+    assert error < ROLLED[name]
+    assert abs(rows[-1, VX] + RADIUS * rows[-1, OMEGA]) < ROLLED[name]
+    assert every(run).times[np.argmax(slip < 1e-3)] == pytest.approx(rolls, abs=2e-4)

@@ -22,7 +22,7 @@ from textmech.reference.system import Only
 TIMES = np.linspace(0.0, 0.2, 6)
 STEP = 1e-4
 SPECIFIC = 1e-12  # tolerance of the reference: far below every bound here
-SOFT = 4 * STEP  # what the pins' stiffness follows: slow against a step, fast against the motion
+SOFT = 2 * STEP  # what the pins' stiffness follows: slow against a step, fast against the motion
 # Largest difference of states and of forces, relative to their size, at the step.
 Near = tuple[float, float]
 TREE: dict[tuple[str, Realised], Near] = {

@@ -90,7 +90,7 @@ def test_tuned_numbers_follow_the_step_and_say_why() -> None:
     plan = planned(MuJoCo("tuned"), WHEEL, START)
     for step in (1e-4, 8e-4):
         numbers = {choice.name: choice.value for choice in plan.choices(step)}
-        assert numbers["connect.solref"] == [4 * step, 1.0]
+        assert numbers["connect.solref"] == [8 * step, 1.0]
         assert numbers["pair.solref"] == [2 * step, 1.0]
         assert plan.held_at(8e-4).choices(step) == plan.choices(8e-4)
     assert all(choice.because for choice in plan.choices(1e-4))
