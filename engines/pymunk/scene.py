@@ -155,8 +155,8 @@ def groove(world: World, joint: Joint) -> tuple[Vector, Vector, Vector]:
 def oblique(scene: Scene, joint: Joint) -> bool:
     """Whether a groove has to lie where K is oblique to it: beside a turning centre.
 
-    There the solver settles with the second point off the line by c h times its sliding speed: the
-    motion is of first order, and starts with a kick.
+    There the solver settles with the second point off the line by c h times its sliding speed,
+    unless it is told, see law/oblique.py; it is not told where that would feed on other joints.
     """
     if not joint.shifts or (not joint.turns and holds_angle(scene, joint)):
         return False
@@ -167,3 +167,10 @@ def oblique(scene: Scene, joint: Joint) -> bool:
         return False
     (x, y), (ux, uy) = scene.bodies[joint.a.body].points[joint.a.point], joint.along
     return abs(ux * y - uy * x) > 1e-12 * math.hypot(x, y)
+
+
+def carried_oblique(scene: Scene, joint: Joint) -> bool:
+    """Whether such a groove is on a body that another joint holds, whose impulses it then feels."""
+    held = {joint.a.body, joint.b.body} - {GROUND}
+    others = (other for other in scene.joints.values() if other is not joint)
+    return oblique(scene, joint) and any(held & {o.a.body, o.b.body} for o in others)

@@ -1,6 +1,7 @@
 """A scene as a stand-alone Python script, written from the very objects that would be stepped."""
 
 from collections.abc import Iterable, Iterator, Mapping
+from inspect import getsource
 from typing import Any
 
 from pymunk.body import Body
@@ -11,6 +12,7 @@ from ...cases.scene import Scene
 from ..engine import Start
 from .contact import ABOVE, closed, is_tip
 from .force import script
+from .law.oblique import straighten, told_aside
 from .run import COLD
 from .scene import build
 from .world import World
@@ -22,6 +24,13 @@ _ARGUMENTS: dict[type[Constraint], tuple[str, ...]] = {
     GearJoint: ("phase", "ratio"),
     DampedSpring: ("anchor_a", "anchor_b", "rest_length", "stiffness", "damping"),
 }
+_STRAIGHTEN = [
+    "from pymunk import Body, GrooveJoint, Vec2d",
+    "",
+    *getsource(straighten).splitlines(),
+    "",
+    "ends = {name: (groove.groove_a, groove.groove_b) for name, groove in grooves.items()}",
+]
 _SHIFT = """
 # pymunk drifts, then kicks: start h/2 back, so that forces act in the middle of a step.
 for body in bodies.values():
@@ -51,16 +60,22 @@ def text(
         *(f"{name} = {written(x)}" for name, x in numbers.items() if name.startswith("space.")),
         "ground = space.static_body",
         "bodies = {}",
+        "grooves = {}",
         *_bodies(world),
         *_floor(world, reflects=bool(numbers.get("contact.reflects"))),
         *_constraints(world, numbers),
     ]
+    bent = [joint.name for joint in scene.joints.values() if told_aside(scene, joint)]
+    if midpoint and bent:
+        lines += ["", *_STRAIGHTEN]
     if seed:
         lines += _seeds(world, start, seed)
     lines += [_SHIFT] if midpoint else []
     lines += ["\nfor n in range(steps):"]
     if cold := numbers.get("start.iterations"):
         lines.append(f"    space.iterations = {cold} if n < {COLD} else {world.space.iterations}")
+    if midpoint:
+        lines += [f"    straighten(grooves[{name!r}], *ends[{name!r}], h)" for name in bent]
     lines += script(world, lambda body: _of(world, body), midpoint=bool(midpoint))
     lines += _followers(world, numbers)
     position, angle = (" + h / 2 * body.velocity", " + h / 2 * body.angular_velocity")
@@ -149,6 +164,8 @@ def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
             for key, value in numbers.items():
                 if name in world.joints and key.startswith("constraint."):
                     yield f"joint.{key.removeprefix('constraint.')} = {written(value)}"
+            if isinstance(part, GrooveJoint):
+                yield f"grooves[{name!r}] = joint"
             yield "space.add(joint)"
 
 

@@ -91,6 +91,11 @@ def test_a_script_with_friction_makes_the_same_motion(what: str, engine: Engine)
     same(engine, *TOUCHED[what])
 
 
+@pytest.mark.parametrize("engine", SETTINGS, ids=words)
+def test_a_script_with_a_slot_makes_the_same_motion(engine: Engine) -> None:
+    same(engine, *given.in_a_slot())
+
+
 HOSTILE = 'a\nimport os\r--> <b/> <!-- --- \x00 \x1b[31m  \x85 \'""" end -'
 
 # What of a text is code.

@@ -46,14 +46,12 @@ scene:
 initial: {{arm: {{angle: -0.4, omega: 1.0}}, rod: {{x: 1.5, angle: 0.5, vx: 0.3, omega: -2}}}}
 """,
 }
-# rad, and m of the gap, at 1e-3 s. In MuJoCo a slide and a hinge of one body, to the error of RK4:
-# measured 2.5e-10, 9e-16. In pymunk a groove without a gear: beside turning centres it is oblique
-# to K, and of first order: measured 1.2e-2, 3.3e-2.
-NEAR = {"mujoco": (7e-10, 3e-15), "pymunk": (2e-2, 1e-1)}
-# Between two bodies that turn (the third scene) pymunk's projection feeds energy in, and no number
-# of sweeps or smaller step helps: a row says `diverged`.
-HOLDS = [(name, scene) for name in NAMES for scene in SCENES]
-HOLDS.remove(("pymunk", "a rod in the slot of an arm"))
+# rad, and m of the gap, at 1e-3 s, and the order. In MuJoCo a slide and a hinge of one body, to the
+# error of RK4: measured 2.5e-10, 9e-16. In pymunk a groove without a gear, oblique to K, whose ends
+# are told to make up for it: measured 6.3e-3 and 2.7e-2 where it turns fast. In the third scene
+# another joint feels them too: there 5 % of a gap is closed, of first order: measured 0.52, 0.9.
+NEAR = {"mujoco": (7e-10, 3e-15, 4), "pymunk": (2e-2, 6e-2, 2)}
+CARRIED = {"mujoco": NEAR["mujoco"], "pymunk": (1.5, 3.0, 1)}
 
 
 def solved(scene: str, tmp_path: Path) -> tuple[Scene, Start, Array, Array]:
@@ -63,19 +61,20 @@ def solved(scene: str, tmp_path: Path) -> tuple[Scene, Start, Array, Array]:
     return case.scene, first(motion), case.times, motion.states["rod"][:, ANGLE]
 
 
-@pytest.mark.parametrize(("name", "what"), HOLDS)
-def test_a_slot(name: str, what: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("what", SCENES)
+def test_a_slot(what: str, name: str, tmp_path: Path) -> None:
     scene, start, times, angles = solved(what, tmp_path)
+    angle_near, gap_near, order = (CARRIED if "arm" in what else NEAR)[name]
     engine, errors = TUNED[name], []
     for h in (1e-3, 5e-4):
         run = moved(engine, scene, start, times, h)
         errors.append(np.abs(run.states["rod"][:, ANGLE] - angles).max())
         gap = np.abs(observe(scene, run, "guide.gap")).max()
-        assert gap < NEAR[name][1]
-    assert errors[0] < NEAR[name][0]
-    order = planned(engine, scene, start).held[0]
-    assert order == {"mujoco": 4, "pymunk": 1}[name]
-    assert errors[0] / errors[1] == pytest.approx(2.0**order, rel=0.02)
+        assert gap < gap_near
+    assert errors[0] < angle_near
+    assert planned(engine, scene, start).held[0] == order
+    assert errors[0] / errors[1] == pytest.approx(2.0**order, rel=0.05)
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -114,6 +114,15 @@ def on_a_swing(kind: str) -> tuple[Scene, Start]:
     return scene, {"rod": state(0.45, 0.0, a, 0.0), "box": state(*center, a + 0.5, slip)}  # type: ignore[dict-item]
 
 
+def in_a_slot() -> tuple[Scene, Start]:
+    """A rod that hangs from a slot of the ground by its end, and swings."""
+    rod = replace(ROD, points={**ROD.points, "P": (-0.4, 0.05)})
+    guide = pin("guide", "ground.O", "rod.P", "slot", along=(0.8, 0.6))
+    cos, sin = math.cos(-1.0), math.sin(-1.0)
+    x, y = 0.4 * cos + 0.05 * sin, 0.4 * sin - 0.05 * cos
+    return machine([rod], [guide]), {"rod": (x, y, -1.0, 0.0, 0.0, 0.0)}
+
+
 # On the floor
 
 
