@@ -45,11 +45,14 @@ class Keys:
 
     def solution(self, case: Case) -> str:
         """Of a case's reference."""
-        return _word("solution", self.salt, _case(case), _code(REFERENCE), machine())
+        return _word("solution", self.salt, _case(case), self._code(REFERENCE), machine())
 
     def ways(self, case: Case, engine: Engine) -> str:
         """Of how an engine would run it."""
-        return _word("ways", self.solution(case), _engine(engine), _code(JUDGING))
+        return _word("ways", self.solution(case), _engine(engine), self._code(JUDGING))
+
+    def _code(self, places: tuple[str, ...]) -> str:
+        return _code(places, self.files)
 
     def outcome(self, ways: str, realised: str) -> str:
         """Of what it gave in one of the ways under that key."""
@@ -121,7 +124,9 @@ def _modules(place: Path) -> Iterable[Path]:
     return [place] if place.is_file() else sorted(place.parent.glob(place.name))
 
 
-def _code(places: Iterable[str]) -> str:
+@cache
+def _code(places: tuple[str, ...], seen: tuple[tuple[Path, int, int], ...]) -> str:
+    """Of code that was seen so: read once in a run."""
     return _hashed(path for place in places for path in _modules(ROOT / place))
 
 
