@@ -11,7 +11,7 @@ from given.planning import NAMES, TUNED, every, moved
 
 from textmech.cases.observe import observe
 from textmech.cases.scene import GroundPoint
-from textmech.cases.shape import bar
+from textmech.cases.shape import bar, rigid
 from textmech.cases.trajectory import ANGLE, OMEGA, VY, Y
 
 STEP = 1e-4
@@ -144,3 +144,19 @@ def test_a_bar_on_a_hinge_lands_with_its_tip(step: float, name: str) -> None:
     assert np.abs(rows[lands:, ANGLE] - lies).max() < LANDED[name].angle * step
     assert np.abs(rows[lands:, OMEGA]).max() < LANDED[name].omega * step
     assert run.reactions[wanted[0]][-1] == pytest.approx(G / 2, abs=LANDED[name].normal * step)
+
+
+@pytest.mark.parametrize("name", LANDED)
+@pytest.mark.parametrize("points", [2, 3, 4])
+def test_a_block_lands_on_several_points_and_lies(points: int, name: str) -> None:
+    """Their dampers add up: as stiff as one each, they would throw it about."""
+    feet = {f"P{i}": (x, -0.1) for i, x in enumerate(np.linspace(-0.4, 0.4, points).tolist())}
+    box = rigid(name="box", mass=2.0, inertia=0.1, points=feet)
+    scene = incline(box, *[touching("box", 2.0, point=foot) for foot in feet])
+    times, start = np.linspace(0.0, 1.0, 11), {"box": (0.0, 0.4, 0.2, 0.5, 0.0, 0.0)}
+    wanted = tuple(f"touch_{foot}.normal" for foot in feet)
+    run = moved(TUNED[name], scene, start, times, STEP, reactions=wanted)  # type: ignore[arg-type]
+    _, y, angle, *rates = run.states["box"][-1]
+    assert (y, angle) == pytest.approx((0.1, 0.0), abs=5 * STEP)
+    assert rates == pytest.approx([0.0] * 3, abs=1e-4)
+    assert sum(run.reactions[each][-1] for each in wanted) == pytest.approx(2 * G, abs=1e-3)
