@@ -132,9 +132,9 @@ UNEVEN = guided(GROWING, SIX, Bounds(1.0, 3.0)), RESTS
 SAYS = {
     "two coefficients": (
         TWO,
-        "MuJoCo knows one coefficient of friction of touch: 0.3, the kinetic",
+        "one number for friction: touch by its kinetic 0.3 (static 0.4)",
     ),
-    "uneven": (UNEVEN, "MuJoCo knows one friction of guide: 2 N, the kinetic, and sharp"),
+    "uneven": (UNEVEN, "one number for friction: guide, where there are several"),
 }
 
 
@@ -148,8 +148,8 @@ def test_mujoco_says_where_it_knows_one_number_of_friction(what: str, setting: s
     assert says in plan.protocol(1e-3)
     assert says in engine.script(scene, start, 1e-3, plan)
     if setting == "tuned":
-        assert "MuJoCo knows" not in planned(engine, scene, start, "law").protocol(1e-3)
-    assert "MuJoCo knows" not in planned(engine, *FLOOR).protocol(1e-3)
+        assert "one number" not in planned(engine, scene, start, "law").protocol(1e-3)
+    assert "one number" not in planned(engine, *FLOOR).protocol(1e-3)
 
 
 # pymunk tells the size of a joint's impulse.
