@@ -17,6 +17,7 @@ from .permanent import constraints
 from .rows import GAMMA, G
 
 TURNS = 2  # of refinement, each with the digits of the first solution: 10 of 16 may be lost
+UNEVEN = 1e3  # the heaviest mass beside the lightest: up to that one turn is enough
 CANCELS = 1e-15  # of one of two accelerations: what is left of them is their rounding
 
 
@@ -53,6 +54,8 @@ class Multibody(Mode):
         self._constraints = [*constraints(scene, self.where, start[0].tolist()), *held]
         self._owners = [c.part for c in self._constraints for _ in range(c.size)]
         self._r = len(self._owners)
+        masses = [mass.m for mass in self.masses.values()]
+        self._turns = TURNS if max(masses) > UNEVEN * min(masses) else min(TURNS, 1)
         self._braking = braking
         places = np.cumsum([0, *(c.size for c in self._constraints)]).tolist()
         self._coulomb = [(places[self._constraints.index(law.normal)], law) for law in coulomb]
@@ -101,11 +104,11 @@ class Multibody(Mode):
             return free, np.zeros(0)
         # With λ_t = factor λ_n (2.87) the force of a normal row leans against the slip.
         by_mass = self.columns(t, q, v, rows) / self._M
-        again, multipliers = self._factored(rows @ by_mass.T, gamma - rows @ free)
-        a = free + multipliers @ by_mass
-        for _ in range(TURNS):
-            change = again(gamma - rows @ a)
-            a, multipliers = a + change @ by_mass, multipliers + change
+        again, multipliers = self._factored(rows.dot(by_mass.T), gamma - rows.dot(free))
+        a = free + multipliers.dot(by_mass)
+        for _ in range(self._turns):
+            change = again(gamma - rows.dot(a))
+            a, multipliers = a + change.dot(by_mass), multipliers + change
         return _at_rest(a, free), multipliers
 
     def applied(self, t: float, q: Array, v: Array) -> Array:
