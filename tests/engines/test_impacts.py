@@ -147,15 +147,16 @@ def test_a_bar_on_a_hinge_lands_with_its_tip(step: float, name: str) -> None:
 
 
 @pytest.mark.parametrize("name", LANDED)
-@pytest.mark.parametrize("points", [2, 3, 4])
-def test_a_block_lands_on_several_points_and_lies(points: int, name: str) -> None:
-    """Their dampers add up: as stiff as one each, they would throw it about."""
+@pytest.mark.parametrize("points", [2, 4, 6])
+def test_a_block_lands_flat_on_several_points_and_lies(points: int, name: str) -> None:
+    """Their dampers add up: six, each as strong as one alone, throw it back by 0.7 m/s of 2.4."""
     feet = {f"P{i}": (x, -0.1) for i, x in enumerate(np.linspace(-0.4, 0.4, points).tolist())}
     box = rigid(name="box", mass=2.0, inertia=0.1, points=feet)
     scene = incline(box, *[touching("box", 2.0, point=foot) for foot in feet])
-    times, start = np.linspace(0.0, 1.0, 11), {"box": (0.0, 0.4, 0.2, 0.5, 0.0, 0.0)}
+    times, start = np.linspace(0.0, 1.0, 11), {"box": (0.0, 0.4, 0.0, 0.5, 0.0, 0.0)}
     wanted = tuple(f"touch_{foot}.normal" for foot in feet)
-    run = moved(TUNED[name], scene, start, times, STEP, reactions=wanted)  # type: ignore[arg-type]
+    run = moved(TUNED[name], scene, start, times, STEP, reactions=wanted, record=True)  # type: ignore[arg-type]
+    assert every(run).states["box"][:, VY].max() < 0.12  # measured 0.042
     _, y, angle, *rates = run.states["box"][-1]
     assert (y, angle) == pytest.approx((0.1, 0.0), abs=5 * STEP)
     assert rates == pytest.approx([0.0] * 3, abs=1e-4)
