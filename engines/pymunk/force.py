@@ -86,11 +86,13 @@ def load(world: World, name: str, step: float) -> Callable[[float, float], Load]
     """
     body, (gx, gy) = world.bodies[name], world.space.gravity
     forces = [f for f in world.scene.forces.values() if name in {p.body for p in f.refers()}]
+    loads = [(ELEMENTS[type(force)].load, force) for force in forces]
+    weight = body.mass * gx, body.mass * gy
 
     def acting(t: float, ahead: float) -> Load:
-        fx, fy, torque = body.mass * gx, body.mass * gy, 0.0
-        for force in forces:
-            x, y, turn = ELEMENTS[type(force)].load(world, force, name, t + ahead, ahead + step / 2)
+        (fx, fy), torque = weight, 0.0
+        for exerted, force in loads:
+            x, y, turn = exerted(world, force, name, t + ahead, ahead + step / 2)
             fx, fy, torque = fx + x, fy + y, torque + turn
         return fx, fy, torque
 

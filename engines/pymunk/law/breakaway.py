@@ -25,8 +25,9 @@ def bound(
     holds it, and the law's mean where it brakes. Only in a step that turns back without a rest
     may the mean push on, which no bound can.
     """
-    force = mean_friction(friction, speed, mass, applied, step)
-    stopping = -(applied(step / 2) + mass * speed / step)
+    middle = applied(step / 2)
+    force = _mean(friction, speed, mass, middle, applied, step)
+    stopping = -(middle + mass * speed / step)
     static = friction.static.forward if stopping < 0 else friction.static.backward
     if abs(force - stopping) <= AT_REST * static:
         return static, 0.0
@@ -41,7 +42,13 @@ def mean_friction(
 
     A part that stops goes on, or stays, by the force in the middle of the step.
     """
-    middle = applied(step / 2)
+    return _mean(friction, speed, mass, applied(step / 2), applied, step)
+
+
+def _mean(
+    friction: DryFriction, speed: float, mass: float, middle: float, applied: Applied, step: float
+) -> float:
+    """The same, for a force in the middle that is known already."""
     holding = max(friction.static.forward, friction.static.backward)
     if abs(speed) * mass <= AT_REST * holding * step:
         return _from_rest(friction, middle, applied(step))

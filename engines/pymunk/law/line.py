@@ -16,8 +16,14 @@ Load = tuple[float, float, float]
 
 def drifted(world: World, anchor: Anchor, drift: float) -> Point:
     """A point after `drift` seconds at the present velocities."""
+    if anchor.body == GROUND and anchor.point not in world.driven:
+        x, y = world.local(anchor)
+        return (x, y), x, y, 0.0, 0.0
     body, (a, b) = world.body(anchor), world.local(anchor)
-    (x, y), (vx, vy), omega = body.position, body.velocity, body.angular_velocity
+    (x, y), (vx, vy) = body.position, body.velocity
+    if not (a or b):  # a centre, or a driven point: turning does not move it
+        return (0.0, 0.0), x + drift * vx, y + drift * vy, vx, vy
+    omega = body.angular_velocity
     angle = body.angle + drift * omega
     cos, sin = math.cos(angle), math.sin(angle)
     rx, ry = cos * a - sin * b, sin * a + cos * b
