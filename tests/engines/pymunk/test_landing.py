@@ -4,12 +4,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from given.engine_scenes import WHEEL, G, incline, launched, touching
+from given.engine_scenes import WHEEL, G, incline, launched, machine, touching
 from given.planning import TUNED, every, moved
 from given.scenes import tail, typed
 
 from textmech.cases.case import Case
 from textmech.cases.observe import observe
+from textmech.cases.scene import Anchor, Push, Signal
+from textmech.cases.shape import bar
 from textmech.cases.trajectory import Trajectory, Y
 from textmech.reference.solve import solve
 from textmech.reports.events.times import engine_events, reference_events
@@ -126,3 +128,21 @@ def test_a_pin_and_the_floor_do_not_undo_each_other(tmp_path: Path) -> None:
     run = ran(case, exact, 1e-4, "tip.normal")
     assert off(case, run, exact, "rod.angle") < 8e-4  # 2.7e-4
     assert off(case, run, exact, "tip.normal") < 6e-3  # 1.8e-3
+
+
+def test_each_contact_reads_its_own_impulse() -> None:
+    """A bar on both ends, one of which is pushed down."""
+    rod = bar(name="rod", mass=2.0, length=0.8, points={})
+    ends = touching("rod", 0.3, point="start"), touching("rod", 0.3, point="end")
+    hand = Push("hand", Anchor("rod", "end"), Signal("constant", (0.0, -5.0)))
+    wanted = tuple(f"{end.name}.normal" for end in ends)
+    run = moved(
+        ENGINE,
+        machine([rod], contacts=ends, forces=[hand]),
+        {"rod": (0.0,) * 6},
+        np.linspace(0.0, 0.1, 6),
+        1e-4,
+        reactions=wanted,
+    )
+    for name, force in zip(wanted, (G, G + 5.0), strict=True):
+        assert run.reactions[name] == pytest.approx(force, abs=1e-6)
