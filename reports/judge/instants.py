@@ -86,7 +86,7 @@ def listed(trial: Trial, samples: Samples) -> list[Instant]:
             realised=trial.realised,
             event=event,
             k=k,
-            time=t,
+            time=_told(trial, event, t),
             difference=_told(trial, event, t - wanted[k - 1]) if k <= len(wanted) else None,
         )
         for event, wanted in ((name, times.tolist()) for name, times in trial.events.items())
@@ -94,8 +94,8 @@ def listed(trial: Trial, samples: Samples) -> list[Instant]:
     ]
 
 
-def _told(trial: Trial, event: str, difference: float) -> float:
-    return metric.told(difference, floor(trial, f"{event}.time", trial.step))
+def _told(trial: Trial, event: str, number: float) -> float:
+    return metric.told(number, floor(trial, f"{event}.time", trial.step))
 
 
 def of_reference(case: Case, reference: Trajectory) -> list[Instant]:
