@@ -12,6 +12,7 @@ from ..cases.case import Case
 from ..cases.find import find, shipped
 from ..cases.language.check.engines import Engines
 from ..cases.language.check.work import GO_ON
+from ..cases.language.grammar.number import SMALLEST
 from ..cases.language.read.document import read
 from ..cases.load import load
 from ..cases.mistake import CaseError, Mistake, Source, nearest
@@ -212,8 +213,8 @@ def read_settings(file: Path, offered: Sequence[str], *, long: bool = False) -> 
         elif not isinstance(options, Mapping):
             what = "should be a map of the engine's options, for instance {step: 1.0e-3}"
             mistakes.append(document.source.mistake((name,), what))
-        elif not long and (sweeps := [*_sweeps(document.source, name, options)]):
-            mistakes += sweeps
+        elif endless := [*_endless(document.source, name, options, long=long)]:
+            mistakes += endless
         else:
             mistakes += _options(document.source, (name, file.stem), options, found)
     if mistakes:
@@ -221,12 +222,20 @@ def read_settings(file: Path, offered: Sequence[str], *, long: bool = False) -> 
     return found
 
 
-def _sweeps(source: Source, name: str, options: Mapping[str, Any]) -> Iterator[Mistake]:
-    """Solvers that would sweep for hours: each engine calls the number of sweeps `…iterations`."""
-    for key, value in options.items():
-        if key.endswith("iterations") and isinstance(value, int | float) and value > SWEEPS:
+def _endless(
+    source: Source, name: str, options: Mapping[str, Any], *, long: bool
+) -> Iterator[Mistake]:
+    """Solvers that would sweep for hours (engines call their sweeps `…iterations`), and no steps.
+
+    How many steps there are is counted for each case.
+    """
+    numbers = {k: v for k, v in options.items() if isinstance(v, int | float)}
+    for key, value in numbers.items():
+        if key.endswith("iterations") and value > SWEEPS and not long:
             what = f"{value:g} iterations in each step, and the limit is {SWEEPS}: {GO_ON}"
             yield source.mistake((name, key), what)
+        elif key == "step" and 0 < value < SMALLEST:
+            yield source.mistake((name, key), f"must be at least {SMALLEST:g} s, is {value:g}")
 
 
 def _options(

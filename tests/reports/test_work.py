@@ -82,6 +82,14 @@ def test_endless_iterations_of_ones_own_are_said(tmp_path: Path, name: str) -> N
     assert "--allow-long" in mistake.what
 
 
+def test_an_own_step_that_is_none_is_said(tmp_path: Path) -> None:
+    """1 s over it is no double."""
+    file = tmp_path / "mine.yaml"
+    file.write_text("pymunk: {step: 5.0e-324}\n", encoding="utf-8")
+    with pytest.raises(CaseError, match=r"1:10: pymunk\.step: must be at least 1e-30 s"):
+        read_settings(file, [], long=True)
+
+
 def test_an_own_step_without_end_is_said(tmp_path: Path) -> None:
     file = tmp_path / "mine.yaml"
     file.write_text("mujoco: {step: 1.0e-9}\n", encoding="utf-8")
