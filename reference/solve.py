@@ -87,12 +87,15 @@ def _written(case: Case) -> System | None:
 def reactions_of(generated: Mechanism, found: Followed, followed: Followed) -> Beside:
     """The generated modes' reactions on the written motion, phase by phase.
 
-    With another count of phases there are none, and the certificate says why.
+    With another count of phases there are none, and the certificate says why; nor are there any in
+    a phase that only a second answer has.
     """
     if len(found.phases) != len(followed.phases):
         return lambda phase, t, poses: {}
 
     def reactions(phase: int, t: float, poses: Mapping[str, Pose]) -> Mapping[str, float]:
+        if phase >= len(found.phases):
+            return {}
         mode = generated.modes[found.phases[phase]]
         return mode.reactions(t, *generated.base.place(poses))
 

@@ -7,7 +7,8 @@ import pytest
 from given import scenes
 from given.typed_scenes import AT_REST
 
-from textmech.reference.solve import solve
+from textmech.reference.motion.follow import follow
+from textmech.reference.solve import reactions_of, solve
 
 
 @pytest.mark.parametrize("name", scenes.SHIPPED)
@@ -40,3 +41,14 @@ def test_a_particle_at_the_end_of_a_bar(tmp_path: Path, kind: str) -> None:
     J = 1.2 * 0.8**2 / 3 + 2 * 0.8**2
     alpha = -(0.6 + 2) * 9.80665 * 0.8 * np.cos(np.pi / 6) / J
     assert solution.trajectory.reactions["tip.fx"][0] == pytest.approx(2 * 0.8 * alpha * 0.5)
+
+
+def test_a_phase_of_the_second_answer_alone_has_no_reactions() -> None:
+    """Two integrators may find another count of phases: the certificate then says so."""
+    case = scenes.SHIPPED["growing_force"]
+    generated = scenes.mechanism(case)
+    found = follow(generated, case.times)
+    beside = reactions_of(generated, found, found)
+    poses = generated.base.poses(0.0, *generated.start()[1:])
+    assert beside(len(found.phases) - 1, 0.0, poses)
+    assert beside(len(found.phases), 0.0, poses) == {}

@@ -139,7 +139,7 @@ def test_each_contact_reads_its_own_impulse() -> None:
     run = moved(
         ENGINE,
         machine([rod], contacts=ends, forces=[hand]),
-        {"rod": (0.0,) * 6},
+        {"rod": (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)},
         np.linspace(0.0, 0.1, 6),
         1e-4,
         reactions=wanted,
