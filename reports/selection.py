@@ -2,7 +2,7 @@
 
 import re
 import warnings
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import fields
 from pathlib import Path
 from typing import Any, cast
@@ -11,16 +11,13 @@ from .. import engines
 from ..cases.case import Case
 from ..cases.find import find, shipped
 from ..cases.language.check.engines import Engines
-from ..cases.language.check.work import GO_ON
-from ..cases.language.grammar.number import SMALLEST
-from ..cases.language.read.document import read
 from ..cases.load import load
-from ..cases.mistake import CaseError, Mistake, Source, nearest
+from ..cases.mistake import CaseError, Mistake, nearest
 from ..engines.engine import Engine
 from ..reference.systems import SYSTEMS
+from .own_settings import read_settings
 
 BOOK = "book"
-SWEEPS = 10_000  # what a chain of 200 pins needs in pymunk; as shipped engines take 10 and 100
 NAME = re.compile(r"\w[\w-]*", re.ASCII)
 ENGINES = engines.Known()
 HANDWRITTEN = {
@@ -197,58 +194,3 @@ def _offered(word: str, offers: Mapping[str, Sequence[str]]) -> None:
     if dot and setting not in offers[name]:
         hint = nearest(word, [f"{name}.{offered}" for offered in offers[name]])
         raise CaseError([Mistake("--engine", 0, 0, word, f"no such engine{hint}")])
-
-
-def read_settings(file: Path, offered: Sequence[str], *, long: bool = False) -> dict[str, Engine]:
-    """A file of engine → options as engines with a setting of its name. Raises CaseError."""
-    if not file.exists() and file.suffix not in (".yaml", ".yml"):
-        hint = nearest(str(file), offered) or f"; {', '.join(offered)}, or a YAML file"
-        raise CaseError([Mistake("--settings", 0, 0, str(file), f"no such setting{hint}")])
-    document = read(file)
-    mistakes, found = list(document.mistakes), {}
-    for name, options in document.data.items():
-        if name not in engines.names():
-            what = f"no such engine{nearest(name, engines.names())}"
-            mistakes.append(document.source.mistake((name,), what))
-        elif not isinstance(options, Mapping):
-            what = "should be a map of the engine's options, for instance {step: 1.0e-3}"
-            mistakes.append(document.source.mistake((name,), what))
-        elif endless := [*_endless(document.source, name, options, long=long)]:
-            mistakes += endless
-        else:
-            mistakes += _options(document.source, (name, file.stem), options, found)
-    if mistakes:
-        raise CaseError(mistakes)
-    return found
-
-
-def _endless(
-    source: Source, name: str, options: Mapping[str, Any], *, long: bool
-) -> Iterator[Mistake]:
-    """Solvers that would sweep for hours (engines call their sweeps `…iterations`), and no steps.
-
-    How many steps there are is counted for each case.
-    """
-    numbers = {k: v for k, v in options.items() if isinstance(v, int | float)}
-    for key, value in numbers.items():
-        if key.endswith("iterations") and value > SWEEPS and not long:
-            what = f"{value:g} iterations in each step, and the limit is {SWEEPS}: {GO_ON}"
-            yield source.mistake((name, key), what)
-        elif key == "step" and 0 < value < SMALLEST:
-            yield source.mistake((name, key), f"must be at least {SMALLEST:g} s, is {value:g}")
-
-
-def _options(
-    source: Source, key: tuple[str, str], options: Mapping[str, Any], found: dict[str, Engine]
-) -> list[Mistake]:
-    name, setting = key
-    try:
-        found[name] = engines.make(name, setting, options)
-    except engines.Broken as broken:
-        return [source.mistake((name,), str(broken))]
-    except ValueError as error:
-        return [
-            source.mistake(tuple(place.split(".")), what)
-            for place, _, what in (line.partition(": ") for line in str(error).splitlines())
-        ]
-    return []

@@ -24,6 +24,7 @@ ROOMS = {
     ],
     "engines": ["engine law", "heading", "mujoco pymunk"],
     "reports": [
+        "own_settings",
         "row pins selection coverage events lock ending cluster pytest_short",
         "processes trial replace committed",
         "pool judge",

@@ -50,6 +50,7 @@ def changed(file: Path, case: Case, name: str, folder: Path) -> Case:
     return next(other for other in load(copy) if other.name == case.name)
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize(
     ("file", "name"), PARAMETERS, ids=[f"{file.stem}-{name}" for file, name in PARAMETERS]
 )

@@ -4,6 +4,7 @@ import math
 from collections import Counter
 from pathlib import Path
 
+import pytest
 from given.damage import damaged, numbers
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -40,6 +41,7 @@ def outcome(file: Path, content: bytes) -> str:
     return "refused"
 
 
+@pytest.mark.whole
 def test_a_damaged_file_is_loaded_or_refused_with_places(tmp_path: Path) -> None:
     seen: Counter[str] = Counter()
 
@@ -52,6 +54,7 @@ def test_a_damaged_file_is_loaded_or_refused_with_places(tmp_path: Path) -> None
     assert min(seen["loaded"], seen["refused"]) > N / 20  # or the damage is too small or too large
 
 
+@pytest.mark.whole
 def test_any_bytes_are_refused_with_places(tmp_path: Path) -> None:
     text = st.text(max_size=60).map(lambda text: text.encode("utf-8", "replace"))
 

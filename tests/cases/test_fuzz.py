@@ -4,6 +4,8 @@ import random
 import re
 from pathlib import Path
 
+import pytest
+
 from textmech.cases.find import shipped
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
@@ -21,6 +23,7 @@ def mangled(text: str, chance: random.Random) -> str:
     return "".join(tokens)
 
 
+@pytest.mark.whole
 def test_mangled(tmp_path: Path) -> None:
     chance = random.Random(1)
     texts = [path.read_text(encoding="utf-8") for path in shipped().values()]

@@ -9,7 +9,8 @@ from textmech.cases.case import Case
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 from textmech.engines.engine import Plan
-from textmech.reports.selection import choose_engines, read_settings
+from textmech.reports.own_settings import read_settings
+from textmech.reports.selection import choose_engines
 from textmech.reports.trial.ladder import ladders
 from textmech.reports.trial.start import assembled
 from textmech.reports.trial.trial import planned

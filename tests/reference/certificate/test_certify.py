@@ -115,6 +115,7 @@ def test_unbroken_systems_hold(case: Case) -> None:
     assert failing(case, written(case)) == set()
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("kind", BROKEN, ids=lambda kind: kind.__name__)
 def test_a_broken_system_is_seen(kind: type[Mode]) -> None:
     case, seen = BROKEN[kind]
@@ -142,6 +143,7 @@ def test_a_wrong_generated_answer_is_seen(change: str) -> None:
     assert {GENERATED, REACTIONS} <= failing(case, BarPendulum(**case.parameters))
 
 
+@pytest.mark.whole
 def test_nan_never_holds() -> None:
     """Python's max drops a NaN that does not come first."""
     assert not Check("any", float("nan"), 1.0).holds

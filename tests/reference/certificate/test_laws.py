@@ -74,12 +74,14 @@ allow: {left.angle: 1.0e-3}
 }
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("name", STILL)
 def test_what_lies_still_keeps_its_power_balance(tmp_path: Path, name: str) -> None:
     solution = solve(scenes.typed(tmp_path, STILL[name], tail=scenes.tail(2.0, 26)))
     assert [check for check in solution.checks if not check.holds] == []
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("name", STILL)
 def test_a_potential_that_is_wrong_is_seen_at_rest_too(
     tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch

@@ -62,6 +62,7 @@ def test_rows_of_what_never_switches(name: str) -> None:
     assert all(check.holds for check in checks.values())
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("name", SWITCHING)
 def test_rows_of_what_may_switch(tmp_path: Path, name: str) -> None:
     """Where nothing changes there is no row of events, but the modes are asked all the same."""

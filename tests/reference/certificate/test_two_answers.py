@@ -206,11 +206,13 @@ def test_every_check_of_a_shipped_case_is_here() -> None:
     assert {ERROR if name.startswith(ERROR) else name for name in names} == set(CHECKS)
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("name", CHECKS)
 def test_the_check_holds_where_nothing_is_wrong(tmp_path: Path, name: str, monkeypatch: Patch):
     assert found(tmp_path, CHECKS[name], None, monkeypatch)[name].holds
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("side", ["one", "other"])
 @pytest.mark.parametrize("name", CHECKS)
 def test_a_mistake_in_either_answer_is_seen(

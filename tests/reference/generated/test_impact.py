@@ -21,6 +21,7 @@ G = 9.80665
 SHORT = "duration: 0.25\nsamples: 6\n"
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize(
     "changed",
     [
@@ -96,6 +97,7 @@ allow: {leaning.x: 1.0e-3, lands.time: 1.0e-3}
 """
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("angle", [-0.758, -1.065, -0.418])
 @pytest.mark.parametrize("mu", [0.0, 0.3])
 def test_an_impact_does_not_concern_what_rests_apart(

@@ -26,6 +26,7 @@ def generated(tmp_path: Path, name: str) -> Solution:
     return solve(replace(case, events=case.events or SLIP))
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("name", written_scenes.WRITTEN)
 def test_hand_written_and_generated_answers_agree(tmp_path: Path, name: str) -> None:
     solution = solve(written_scenes.case(tmp_path, name))
@@ -44,6 +45,7 @@ def test_braking_by_its_closed_form(tmp_path: Path) -> None:
     assert abs(solution.trajectory.states["block"][-1, 3]) < 1e-15
 
 
+@pytest.mark.whole
 def test_backspin_by_its_closed_form(tmp_path: Path) -> None:
     """Slip v₀ + R ω₀ falls by 3 μ g: rolling starts with v = (2 v₀ − R ω₀)/3."""
     solution = generated(tmp_path, "backspin")
@@ -54,6 +56,7 @@ def test_backspin_by_its_closed_form(tmp_path: Path) -> None:
     assert solution.trajectory.states["wheel"][-1, 3] == pytest.approx((2 * v - 10) / 3, abs=1e-12)
 
 
+@pytest.mark.whole
 def test_published_times_of_example_2_4(tmp_path: Path) -> None:
     """Six digits: slip, stick, slip, stick."""
     times = boundaries(generated(tmp_path, "example 2.4").trajectory)
@@ -86,6 +89,7 @@ allow: {wheel.x: 1.0e-3, block.x: 1.0e-3}
 SMOOTH = "{static: 6, kinetic: 3, smooth: {band: 5.0e-4, sharpness: 1.0e5}}"
 
 
+@pytest.mark.whole
 def test_smooth_friction_may_stand_beside_a_contact(tmp_path: Path) -> None:
     """Two bodies that know nothing of each other move as each would alone.
 

@@ -44,6 +44,7 @@ def test_mutant_sign_of_kinetic_friction(tmp_path: Path, monkeypatch: pytest.Mon
     assert {"generated motion", "generated events"} <= failing(tmp_path, "braking")
 
 
+@pytest.mark.whole
 def test_mutant_without_sticking(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for module in (choosing, mechanism):
         monkeypatch.setattr(module, "REST", ("slides +", "slides -"))
@@ -66,6 +67,7 @@ def test_mutant_cone_ignored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     assert "generated motion" in failing(tmp_path, "too steep")
 
 
+@pytest.mark.whole
 def test_mutant_forward_for_backward(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A sign in (2.89): seen where the two bounds differ, not in Example 2.4."""
     margins = contact_modes.Sliding.margins

@@ -47,6 +47,7 @@ def test_long_double_pendulum_keeps_its_energy(method):
     assert np.abs(energy - energy[0]).max() < 1e-12 * abs(energy[0])
 
 
+@pytest.mark.whole
 def test_what_rounding_cuts_off_a_step_is_carried_on():
     """Steps of 1e-5 s, 20000 of them: a plain sum would be off by a hundred ulp and more."""
     times = np.linspace(0.0, 0.2, 20001)

@@ -85,6 +85,7 @@ def test_all_smooth_cases_are_here() -> None:
     assert len(SMOOTH) == 12
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("name", SMOOTH)
 def test_a_smooth_case_may_have_an_event(name: str) -> None:
     case = with_event(scenes.SHIPPED[name])

@@ -34,6 +34,7 @@ def stuck(case: Case) -> tuple[Mechanism, Stuck]:
     return mechanism, caught.value
 
 
+@pytest.mark.whole
 def test_a_flat_parallelogram(tmp_path: Path):
     mechanism, failure = stuck(scenes.typed(tmp_path, PARALLELOGRAM))
     [name] = mechanism.modes

@@ -26,6 +26,7 @@ def disk(e: float) -> BouncingDisk:
     return BouncingDisk(m=1.0, R=0.2, e=e, y0=0.7)
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("e", [0.001, 0.2, 0.5, 0.9])
 def test_a_disk_that_bounces_ever_lower_rests(e: float):
     times = np.linspace(0.0, 2 * limit(e), 41)

@@ -121,6 +121,7 @@ allow: {wheel.x: 1.0e-2}
     assert "wheel.angle is not determined" in refused(tmp_path, text).what
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("x", ["0.8", "0.79999999999"])
 def test_a_piston_given_at_its_dead_centre_leaves_the_crank_open(tmp_path: Path, x: str) -> None:
     text = SLIDER_CRANK + f"initial: {{piston: {{x: {x}}}}}\nnear: {{crank: {{angle: 0}}}}\n"

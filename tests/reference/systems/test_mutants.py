@@ -91,6 +91,7 @@ def test_every_parameter_has_a_mutant():
     assert planted | DROPS_OUT == {(name, key) for name in PARAMETER for key in PARAMETERS[name]}
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize(("name", "parameter", "law"), flat(PARAMETER))
 def test_parameter_off_in_the_explicit_accelerations(name: str, parameter: str, law: Law):
     system = only(name)
@@ -113,6 +114,7 @@ def test_parameter_that_drops_out(parameter: str):
         assert system.reactions(t, q, v) == off.reactions(t, q, v)
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("name", PARAMETER)
 def test_sign_of_gravity(name: str):
     system = only(name)

@@ -25,6 +25,7 @@ def test_smooth_mode_within_its_band_is_the_printed_law(name: str):
         assert written == pytest.approx(printed, abs=2e-9)
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("name", ["smooth_dynamometer", "smooth_growing_force"])
 def test_smooth_law_by_stiff_integrators(name: str):
     system, times = example(name), np.linspace(0.0, 10.0, 51)
@@ -41,6 +42,7 @@ def test_smooth_law_by_stiff_integrators(name: str):
     assert np.abs(found.y - other.y.T).max() <= 1e-9
 
 
+@pytest.mark.whole
 def test_smooth_law_is_another_model():
     """Erratum 15: it never rests, and by 10 s it is 7.6e-4 m from the exact law."""
     times = np.linspace(0.0, 10.0, 2001)
