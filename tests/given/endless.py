@@ -58,7 +58,7 @@ def main() -> None:
     for number in ending.known():  # of tests that run in the background some are ignored
         signal.signal(number, signal.SIG_DFL)
     engine = Endless(Path(sys.argv.pop(1)))
-    selection.choose_engines = lambda *_: [engine]
+    selection.choose_engines = lambda *_, **__: [engine]
     cli.main()
 
 
