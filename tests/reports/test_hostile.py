@@ -10,6 +10,7 @@ import pytest
 from given.command import NEW
 
 from textmech.reports import cli, ending
+from textmech.reports.command import done
 from textmech.reports.show.say import shown
 
 ONE = ("--engine", "mujoco.shipped")
@@ -29,7 +30,7 @@ def said(
     """What the command says that ends with bad input, run in this process."""
     monkeypatch.chdir(folder)
     monkeypatch.setattr(ending, "listen", lambda: None)
-    monkeypatch.setattr(cli, "_DONE", [])
+    monkeypatch.setattr(done, "DONE", [])
 
     def run(*words: str) -> str:
         monkeypatch.setattr(sys, "argv", ["textmech", "run", *words, *ONE])
