@@ -1,5 +1,6 @@
 """The reports as tables and as CSV files: sorted, counted, each named after its run."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, fields
 from hashlib import sha256
@@ -20,6 +21,7 @@ HERE = Path(__file__).parent
 ELSEWHERE = Path("textmech-reports")
 NAMES = ("tolerance.csv", "convergence.csv", "events.csv", "reference.csv", "coverage.csv")
 KEYS = ("case", "engine", "setting", "realised", "ladder", "quantity", "check", "event", "k")
+KNOWN = 1e-6  # of `allow`: the least certified error that is written
 NUMBERS = ".3g"  # three digits: more would be noise from one machine to the next
 RUN = 12  # letters of a run's name: two runs never share them
 TIMES = ".9g"  # of an event's time: its difference is a thousandth of a step
@@ -38,10 +40,29 @@ def tables(report: Report, cases: Sequence[Case]) -> dict[str, pd.DataFrame]:
         _table(report.comparisons, Comparison),
         _table(report.rungs, Rungs),
         _table(report.instants, Instant),
-        _table(report.certificates, Certificate),
+        _table(_as_known(report.certificates, cases), Certificate),
         coverage(cases, report.equations),
     )
     return dict(zip(NAMES, found, strict=True))
+
+
+def _as_known(rows: Sequence[Certificate], cases: Sequence[Case]) -> list[Certificate]:
+    """Certified errors up to the next power of ten, and none below a millionth of `allow`.
+
+    What is smaller is rounding's, and another on another machine; a run's own rows tell it all.
+    """
+    allowed = {
+        (c.name, f"error of {name}"): allow for c in cases for name, allow in c.allow.items()
+    }
+    found = []
+    for row in rows:
+        if row.certified is not None:
+            least = KNOWN * (allowed.get((row.case, row.check)) or 0.0)
+            at_least = max(row.certified, least)
+            known = 10.0 ** math.ceil(math.log10(at_least)) if at_least else 0.0
+            row = Certificate(**{**asdict(row), "certified": known})
+        found.append(row)
+    return found
 
 
 def _table(rows: Sequence[Any], kind: type) -> pd.DataFrame:

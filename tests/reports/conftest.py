@@ -121,6 +121,13 @@ class Fake:
         return Trajectory(every, {"ball": ball}, {})
 
 
+@pytest.fixture(autouse=True)
+def nothing_remembered(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a test of the plug-in plants must be computed, and be remembered by nobody."""
+    if "pytester" in request.fixturenames:
+        monkeypatch.setenv("TEXTMECH_CACHE", "/dev/null")
+
+
 @pytest.fixture(scope="session")
 def moving(tmp_path_factory: pytest.TempPathFactory) -> Case:
     """The free body's case."""

@@ -77,8 +77,11 @@ def test_all_cases_that_cannot_start_are_named_together(trial: Make, moving: Cas
         replace(moving, name=name, initial={}, source=replace(moving.source, file=f"{name}.yaml"))
         for name in ("one", "two")
     ]
+    report = measure([*broken, moving], [trial().engine])
+    assert {mistake.file for mistake in report.mistakes} == {"one.yaml", "two.yaml"}
+    assert {row.case for row in report.comparisons} == {moving.name}  # theirs alone is lost
     with pytest.raises(CaseError) as caught:
-        measure([*broken, moving], [trial().engine])
+        measure(broken, [trial().engine])
     assert {mistake.file for mistake in caught.value.mistakes} == {"one.yaml", "two.yaml"}
 
 
