@@ -65,6 +65,7 @@ def test_these_are_the_ways(name: str) -> None:
     assert ways(TUNED[name], guided(GROWING), RESTS) == ("native", *ours)
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize(("name", "way"), ROWS)
 def test_block_under_a_growing_force(name: str, way: Realised) -> None:
     """It slips at t = 6 s."""
@@ -110,6 +111,7 @@ def _slips_inside(name: str, way: Realised, b: float) -> Array:
     return run.states["block"][:, X]
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize(("name", "way"), ROWS)
 def test_block_drawn_by_a_spring(name: str, way: Realised) -> None:
     """It sticks, slips from 1.5 s on, is at rest from 4.790543662 s, and slips again."""
@@ -152,6 +154,7 @@ def test_a_block_turns_back_without_a_rest(name: str, way: Realised) -> None:
 ONE = {"mujoco": 3e-6, "pymunk": 1e-15}
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("name", NAMES)
 def test_the_engine_alone_has_one_bound(name: str) -> None:
     """It breaks loose at 3 N; where that is the only bound, it does as our law."""
@@ -173,6 +176,7 @@ SMOOTH = Smooth(5e-4, 1e5)
 SMOOTHLY = {"mujoco": (1e-9, 1.2e-8), "pymunk": (2e-8, 4e-5)}  # measured 3e-10, 4e-9; 7e-9, 1.3e-5
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("name", NAMES)
 def test_the_smooth_law_slips_and_creeps(name: str) -> None:
     scene, times = guided(DRAWN, smooth=SMOOTH), np.linspace(0.0, 6.0, 61)

@@ -58,6 +58,7 @@ def same(engine: Engine, scene: Scene, start: Start) -> None:
         assert ends[body] == pytest.approx(wanted, rel=near, abs=near)
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("engine", SETTINGS, ids=words)
 @pytest.mark.parametrize("name", CASES)
 def test_a_cases_script_makes_the_same_motion(name: str, engine: Engine) -> None:

@@ -141,6 +141,7 @@ def test_of_two_watches_the_inner_one_looks() -> None:
     assert inner == {"2.82"}
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("name", scenes.SHIPPED)
 def test_claimed_equations_are_executed(name: str) -> None:
     missing = set(scenes.SHIPPED[name].origin.equations) - scenes.solved(name).equations

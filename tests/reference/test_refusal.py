@@ -16,6 +16,7 @@ from textmech.reference.refusal import refusals
 from textmech.reference.solve import solve
 
 
+@pytest.mark.whole
 def test_a_flat_parallelogram_ends_the_motion(tmp_path: Path) -> None:
     """There it can go on as a parallelogram or crossed: reported soon, and with the time."""
     begin = time.process_time()

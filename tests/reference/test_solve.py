@@ -24,6 +24,7 @@ def test_shipped_case_is_certified(name: str) -> None:
         assert found.get(check, 0.0) < 1e-9
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("name", AT_REST)
 def test_what_rests_is_certified(tmp_path: Path, name: str) -> None:
     """At rest only rounding moves: no check may be relative to that."""
@@ -31,6 +32,7 @@ def test_what_rests_is_certified(tmp_path: Path, name: str) -> None:
     assert [check for check in solution.checks if not check.holds] == []
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("kind", ["pin", "weld"])
 def test_a_particle_at_the_end_of_a_bar(tmp_path: Path, kind: str) -> None:
     text = AT_REST["hanging bar"].replace("bodies: {", "bodies: {dot: {particle: {mass: 2}}, ")

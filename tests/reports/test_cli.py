@@ -26,6 +26,7 @@ def reports() -> dict[str, bytes]:
     return {file.name: file.read_bytes() for file in write.HERE.glob("*.csv")}
 
 
+@pytest.mark.whole
 def test_a_case_of_ones_own_runs_in_both_engines_and_writes_nothing(new: Path) -> None:
     before = reports()
     done = textmech("run", new, folder=new.parent)
@@ -38,6 +39,7 @@ def test_a_case_of_ones_own_runs_in_both_engines_and_writes_nothing(new: Path) -
     assert [file.name for file in new.parent.iterdir()] == ["cart.yaml"]
 
 
+@pytest.mark.whole
 def test_out_and_keep_write_where_they_are_told(new: Path, tmp_path: Path) -> None:
     done = textmech(
         "run", new, "--engine", "mujoco.tuned", "--out", "o", "--keep", "k", folder=tmp_path
@@ -65,6 +67,7 @@ def test_out_and_keep_write_where_they_are_told(new: Path, tmp_path: Path) -> No
     assert events == "engine,setting,realised,event,k,time [s],difference [s]\n"
 
 
+@pytest.mark.whole
 def test_a_verdict_that_fails_is_exit_code_1_and_is_named(new: Path) -> None:
     new.write_text(NEW.replace("rod.angle: 1.0e-2", "rod.angle: 1.0e-12"), encoding="utf-8")
     done = textmech("run", new, "--engine", "mujoco.tuned")
@@ -72,6 +75,7 @@ def test_a_verdict_that_fails_is_exit_code_1_and_is_named(new: Path) -> None:
     assert "FAILS: cart: mujoco.tuned rod.angle" in done.stdout
 
 
+@pytest.mark.whole
 def test_a_verdict_that_fails_is_exit_code_1_though_it_is_written(new: Path) -> None:
     new.write_text(NEW.replace("cart.x: 1.0e-2", "cart.x: 1.0e-8"), encoding="utf-8")
     done = textmech("run", new, "--engine", "pymunk.tuned", "--out", "o", folder=new.parent)
@@ -79,6 +83,7 @@ def test_a_verdict_that_fails_is_exit_code_1_though_it_is_written(new: Path) -> 
     assert (new.parent / "o" / "tolerance.csv").is_file()
 
 
+@pytest.mark.whole
 def test_an_unknown_tolerance_is_never_written_but_said(new: Path) -> None:
     new.write_text(NEW.replace("rod.angle: 1.0e-2", "rod.angle: unknown"), encoding="utf-8")
     done = textmech("run", new, "--engine", "mujoco.tuned")
@@ -87,6 +92,7 @@ def test_an_unknown_tolerance_is_never_written_but_said(new: Path) -> None:
     assert "unknown" in new.read_text()
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -114,6 +120,7 @@ def test_bad_input_is_exit_code_2_and_says_what_would_be_right(
     assert reports() == before
 
 
+@pytest.mark.whole
 def test_check_names_all_mistakes_of_all_files_with_their_places(new: Path) -> None:
     text = NEW.replace("mass: 2.0", "mass: -2.0").replace("[cart.center, rod", "[carrt.center, rod")
     new.write_text(text, encoding="utf-8")
@@ -127,12 +134,14 @@ def test_check_names_all_mistakes_of_all_files_with_their_places(new: Path) -> N
     assert "other.yaml" in done.stderr
 
 
+@pytest.mark.whole
 def test_check_of_sound_files(new: Path) -> None:
     done = textmech("check", new)
     assert (done.returncode, done.stderr) == (0, "")
     assert "1 case, no mistakes" in done.stdout
 
 
+@pytest.mark.whole
 def test_two_files_of_one_name_are_refused(new: Path) -> None:
     other = new.parent / "other" / new.name
     other.parent.mkdir()
@@ -143,6 +152,7 @@ def test_two_files_of_one_name_are_refused(new: Path) -> None:
     assert textmech("check", new, new).returncode == 0
 
 
+@pytest.mark.whole
 def test_own_settings_are_a_further_column(new: Path) -> None:
     file = new.with_name("mine.yaml")
     file.write_text("mujoco: {step: 4.0e-3, integrator: implicitfast}\n", encoding="utf-8")
@@ -155,6 +165,7 @@ def test_own_settings_are_a_further_column(new: Path) -> None:
     ]
 
 
+@pytest.mark.whole
 def test_the_own_settings_of_the_readme(new: Path) -> None:
     readme = Path(write.HERE.parent / "README.md").read_text(encoding="utf-8")
     own = next(block for block in readme.split("```") if block.startswith("yaml\nmujoco: {step"))
@@ -165,6 +176,7 @@ def test_the_own_settings_of_the_readme(new: Path) -> None:
     assert {"mujoco.mine", "pymunk.mine"} <= set(done.stdout.split())
 
 
+@pytest.mark.whole
 def test_what_moves_late_is_no_mistake(new: Path) -> None:
     """Under a force that grows from zero nothing is to be seen in the first samples."""
     new.write_text(
@@ -186,6 +198,7 @@ allow: {dot.x: 1.0e-3}
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -206,6 +219,7 @@ def test_bad_settings_are_exit_code_2(new: Path, text: str, message: str) -> Non
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.whole
 def test_list_names_every_case_with_its_source() -> None:
     done = textmech("list")
     assert done.returncode == 0
@@ -213,6 +227,7 @@ def test_list_names_every_case_with_its_source() -> None:
     assert "figure 2.3" in done.stdout
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("engine", ["mujoco", "mujoco.shipped", "pymunk", "pymunk.shipped"])
 def test_show_is_ready_to_paste(engine: str) -> None:
     done = textmech("show", "double_pendulum", "--engine", engine)
@@ -225,6 +240,7 @@ def test_show_is_ready_to_paste(engine: str) -> None:
         mujoco.MjModel.from_xml_string(done.stdout)  # pyright: ignore[reportAttributeAccessIssue]
 
 
+@pytest.mark.whole
 def test_the_number_of_workers_does_not_change_the_rows(new: Path, tmp_path: Path) -> None:
     for jobs in ("1", "2"):
         assert textmech("run", new, "--jobs", jobs, "--out", tmp_path / jobs).returncode == 0

@@ -39,6 +39,7 @@ def files(tmp_path: Path) -> Path:
     return tmp_path
 
 
+@pytest.mark.whole
 def test_a_mistake_costs_its_own_file(files: Path) -> None:
     names = ("bad.yaml", "good.yaml", "long.yaml", "still.yaml")
     done = textmech(files, "run", *names, "--engine", "mujoco.tuned")
@@ -51,12 +52,14 @@ def test_a_mistake_costs_its_own_file(files: Path) -> None:
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.whole
 def test_without_a_sound_file_nothing_runs(files: Path) -> None:
     done = textmech(files, "run", "bad.yaml", "long.yaml")
     assert (done.returncode, done.stdout) == (2, "")
     assert "2 mistakes; nothing was written" in done.stderr or "3 mistakes" in done.stderr
 
 
+@pytest.mark.whole
 def test_check_says_what_would_take_for_ever_and_allow_long_goes_on(files: Path) -> None:
     done = textmech(files, "check", "long.yaml", "good.yaml")
     assert done.returncode == 2
@@ -80,6 +83,7 @@ def test_check_says_no_mistakes_only_where_nothing_fails(
     assert "no mistakes" not in done.output
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize(
     "name",
     ["#h.yaml", "=cmd().yaml", "@x.yaml", "a\nb.yaml", "esc\x1b[31m.yaml", "l" * 150 + ".yaml"],
@@ -93,6 +97,7 @@ def test_a_name_that_reports_cannot_carry_is_a_mistake(files: Path, name: str) -
     assert "\x1b" not in done.stderr
 
 
+@pytest.mark.whole
 def test_names_that_no_file_can_have(files: Path) -> None:
     for name in ("n" * 300 + ".yaml", b"\xff\xfe.yaml", ""):
         done = textmech(files, "check", name)
@@ -100,6 +105,7 @@ def test_names_that_no_file_can_have(files: Path) -> None:
         assert "Traceback" not in done.stderr
 
 
+@pytest.mark.whole
 def test_a_name_that_is_not_utf8(files: Path) -> None:
     name = b"caf\xe9.yaml"
     with open(os.path.join(os.fsencode(files), name), "wb") as file:

@@ -31,6 +31,7 @@ def report(request: pytest.FixtureRequest) -> Report:
     return suite.measure(cases, engines, jobs=jobs, progress=lambda *_: None, store=store)
 
 
+@pytest.mark.whole
 def test_tolerances_are_current(report: Report) -> None:
     committed = {key(row): row for row in write.read(write.HERE / "tolerance.csv", Comparison)}
     assert {key(row) for row in report.comparisons} == set(committed)

@@ -27,6 +27,7 @@ def written(folder: Path, environment: dict[str, str]) -> dict[str, bytes]:
     return {file.name: file.read_bytes() for file in folder.iterdir()}
 
 
+@pytest.mark.whole
 @pytest.mark.skipif(sys.platform != "linux", reason="the variables are those of linux on x86-64")
 def test_other_vector_units_write_the_same_bytes(tmp_path: Path) -> None:
     here, there = written(tmp_path / "here", {}), written(tmp_path / "there", OTHER)

@@ -34,6 +34,7 @@ def run(pytester: pytest.Pytester, change: str, engine: str = "mujoco.shipped") 
     return pytester.runpytest_subprocess("swing.yaml", "--textmech-engine", engine)
 
 
+@pytest.mark.whole
 def test_a_reference_that_is_not_certified_is_red(pytester: pytest.Pytester) -> None:
     change = "import textmech.reference.certificate.agreement as a; a.Check.holds = False\n"
     done = run(pytester, change)
@@ -42,12 +43,14 @@ def test_a_reference_that_is_not_certified_is_red(pytester: pytest.Pytester) -> 
     done.stdout.fnmatch_lines(["*the reference (generated) is not certified*"])
 
 
+@pytest.mark.whole
 def test_an_audit_that_fails_is_red(pytester: pytest.Pytester) -> None:
     done = run(pytester, "import textmech.reports.judge.compare as c; c.EQUAL = -1.0\n")
     done.assert_outcomes(passed=1, failed=1, xfailed=1)
     done.stdout.fnmatch_lines(["*: audit*", "*FAILS*"])
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize(
     ("version", "largest", "verdict", "red"),
     [

@@ -39,6 +39,7 @@ def differing(a: mujoco.MjModel, b: mujoco.MjModel) -> list[str]:
     return [name for (name, x), (_, y) in both if not np.array_equal(x, y)]
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("case", CASES.values(), ids=list(CASES))
 def test_it_equals_the_compiled_script_field_by_field(case: Case) -> None:
     start = assembled(case)
@@ -68,6 +69,7 @@ def test_a_step_that_is_not_written_is_seen() -> None:
     assert differing(a, c) == ["opt.timestep"]
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("name", ["four_bar", "rolling_wheel.pushed"])
 def test_a_trial_compiles_once(name: str) -> None:
     case = CASES[name]

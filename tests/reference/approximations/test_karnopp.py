@@ -38,6 +38,7 @@ def test_karnopp_taken_literally_keeps_its_speed_while_it_sticks():
     assert np.abs(found.y - exact.y)[:, 0].max() == pytest.approx(8.7e-4, rel=0.01)
 
 
+@pytest.mark.whole
 def test_boxcar_form_approaches_karnopp_taken_literally():
     times = np.linspace(0.0, 10.0, 101)
     known = follow(_karnopp(literal=True, Delta=5e-4), times).y

@@ -110,6 +110,7 @@ BROKEN: dict[type[Mode], tuple[Case, set[str]]] = {
 }
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("case", [PENDULUM, SPRING], ids=lambda case: case.name)
 def test_unbroken_systems_hold(case: Case) -> None:
     assert failing(case, written(case)) == set()
@@ -127,6 +128,7 @@ def test_a_sloppy_integrator_is_seen() -> None:
     assert ANGLE in failing(PENDULUM, system, tolerance=1e-6)
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("change", ["gravity", "inertia", "mass"])
 def test_a_wrong_generated_answer_is_seen(change: str) -> None:
     """The mistake is in the scene here: the written system does not look there."""

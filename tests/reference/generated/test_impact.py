@@ -65,6 +65,7 @@ def test_a_disk_that_lands_turning_rolls_or_slides_by_the_cone() -> None:
         assert land.mode_after == ("touch sticks" if rolls else "touch slides +")
 
 
+@pytest.mark.whole
 def test_painleve_is_refused(tmp_path: Path) -> None:
     """1 + 3 cos² − 3 μ sin cos < 0 from μ = 1.35 on, pushed into the floor: no motion at all."""
     solve(rod(tmp_path, mu=1.3, vx=-1))

@@ -36,6 +36,7 @@ def test_hand_written_and_generated_answers_agree(tmp_path: Path, name: str) -> 
     assert ("generated events" in names) == (name not in WITHOUT_CHANGES)
 
 
+@pytest.mark.whole
 def test_braking_by_its_closed_form(tmp_path: Path) -> None:
     """(2.87) v₀/(μ g) and v₀²/(2 μ g); stiction above friction changes nothing."""
     solution = generated(tmp_path, "braking")
@@ -63,6 +64,7 @@ def test_published_times_of_example_2_4(tmp_path: Path) -> None:
     assert times == pytest.approx([1.5, 4.790544, 6.290544, 9.581087], abs=1e-6)
 
 
+@pytest.mark.whole
 def test_events_stand_twice_in_the_record(tmp_path: Path) -> None:
     solution = generated(tmp_path, "elastic")
     record = solution.trajectory.record

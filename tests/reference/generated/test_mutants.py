@@ -52,6 +52,7 @@ def test_mutant_without_sticking(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     assert failing(tmp_path, "backspin")
 
 
+@pytest.mark.whole
 def test_mutant_restitution_ignored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     class Dead(impact.Meeting):
         def __init__(self, element, normal, tangent, after, strikes) -> None:  # type: ignore[no-untyped-def]

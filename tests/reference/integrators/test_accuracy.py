@@ -27,6 +27,7 @@ def test_the_error_follows_the_tolerance(method):
         assert np.abs(y[-1] - exact).max() < 100.0 * tolerance
 
 
+@pytest.mark.whole
 def test_double_pendulum_against_each_other_and_scipy():
     times, start = np.linspace(0.0, 5.0, 26), [1.0, 0.5, 0.0, 0.0]
     explicit = dormand_prince(double_pendulum, times, start, tolerance=1e-14)
@@ -38,6 +39,7 @@ def test_double_pendulum_against_each_other_and_scipy():
     assert np.abs(explicit.y - theirs).max() < 1e-5
 
 
+@pytest.mark.whole
 @BOTH
 def test_long_double_pendulum_keeps_its_energy(method):
     y = method(double_pendulum, [0.0, 10.0, 20.0], [1.0, 0.5, 0.0, 0.0], tolerance=1e-14).y

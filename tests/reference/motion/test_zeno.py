@@ -91,6 +91,7 @@ def test_zeno_sequence_that_the_motion_does_not_reach_is_none():
     )
 
 
+@pytest.mark.whole
 def test_more_events_than_anyone_wants_end_with_a_message(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(event, "MOST", 30)
     beats = Watched([("beats", lambda t, x, v: math.cos(100 * t))], Still())

@@ -44,6 +44,7 @@ def test_missing_stick_mode_is_seen(name: str):
         event_errors(system, mutant(system, guards=guards), duration(name))
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("name", ["growing_force", "dynamometer"])
 def test_sign_in_2_89_is_seen(name: str):
     """Friction that drives instead of braking; and the bound of the other side."""

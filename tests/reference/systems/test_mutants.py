@@ -152,6 +152,7 @@ def test_wrong_branch_of_the_four_bar():
     assert_seen(laws.start, "four_bar", mutant(system, start=lambda self: (mirrored, v)))
 
 
+@pytest.mark.whole
 def test_missing_centrifugal_terms():
     for name in ("double_pendulum", "four_bar", "rhombus"):
         system = only(name)
