@@ -11,8 +11,13 @@ reports: $(READY)
 test: $(READY)
 	$(VENV)/bin/pytest
 
-# What a change of one file needs; the tests marked `whole` solve or run all shipped cases.
-quick: lint
+# What a change of one file needs: its style and types, and the tests of its room but for those
+# marked `whole`, which solve or run all shipped cases or take long.
+quick: $(READY)
+	$(VENV)/bin/ruff check .
+	$(VENV)/bin/ruff format --check .
+	mkdir -p $(VENV)/typing && ln -sfn ../.. $(VENV)/typing/textmech
+	$(VENV)/bin/pyright $$($(VENV)/bin/python tests/touched.py --files)
 	$(VENV)/bin/pytest -q -m "not whole" $$($(VENV)/bin/python tests/touched.py)
 
 lint: $(READY)

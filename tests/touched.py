@@ -1,6 +1,10 @@
-"""Which tests mirror what differs from the last commit: their paths, for `make quick`."""
+"""Which tests mirror what differs from the last commit: their paths, for `make quick`.
+
+With `--files`: which programs differ, for the type checker.
+"""
 
 import subprocess
+import sys
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
@@ -25,12 +29,16 @@ def mirror(file: Path) -> Path | None:
     return None
 
 
-def main() -> None:
+def main(*words: str) -> None:
     """Prints them; a folder once, and not what lies in it again."""
+    if "--files" in words:
+        files = [str(f) for f in changed() if f.suffix == ".py" and (ROOT / f).exists()]
+        print(*files or ALWAYS)  # of no file the type checker would take all
+        return
     found = {path for file in changed() if (path := mirror(file)) is not None}
     alone = [path for path in found if not found & set(path.parents)]
     print(*ALWAYS, *sorted(map(str, alone)))
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:])
