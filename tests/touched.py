@@ -18,26 +18,26 @@ def changed() -> list[Path]:
     return [Path(line[3:].strip('"')) for line in lines.splitlines()]
 
 
-def mirror(file: Path) -> Path | None:
-    """The test itself, or the nearest folder of tests that mirrors the file's own."""
+def mirror(file: Path) -> list[Path]:
+    """The test itself, or those that lie in the nearest folder of tests that mirrors its own."""
     if file.parts[0] == "tests":
         is_test = file.name.startswith("test_") and (ROOT / file).exists()
-        return file if is_test else None
+        return [file] if is_test else []
     for folder in (file.parent, *file.parent.parents):
-        if folder.parts and (ROOT / "tests" / folder).is_dir():
-            return "tests" / folder
-    return None
+        tests = sorted((ROOT / "tests" / folder).glob("test_*.py"))
+        if folder.parts and tests:
+            return [test.relative_to(ROOT) for test in tests]
+    return []
 
 
 def main(*words: str) -> None:
-    """Prints them; a folder once, and not what lies in it again."""
+    """Prints them, each once."""
     if "--files" in words:
         files = [str(f) for f in changed() if f.suffix == ".py" and (ROOT / f).exists()]
         print(*files or ALWAYS)  # of no file the type checker would take all
         return
-    found = {path for file in changed() if (path := mirror(file)) is not None}
-    alone = [path for path in found if not found & set(path.parents)]
-    print(*ALWAYS, *sorted(map(str, alone)))
+    found = {str(test) for file in changed() for test in mirror(file)}
+    print(*ALWAYS, *sorted(found - set(ALWAYS)))
 
 
 if __name__ == "__main__":
