@@ -5,6 +5,7 @@ Examples 2.3 (a growing force) and 2.4 (drawn by a spring), and the smooth law o
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -97,7 +98,12 @@ def test_it_slips_inside_a_step(name: str, way: Realised, b: float) -> None:
 
 def test_a_step_that_holds_to_its_end_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     """3 N too much for a part s = 0.8 or 0.4 of a step; with b = 1 N/s there is no such part."""
-    monkeypatch.setattr(stiction, "_breaking_loose", lambda slide, now, soon: abs(now + soon) / 2)
+
+    def holds(slide: Any, now: float, soon: float) -> float:
+        limit = slide.friction.static.forward
+        return slide.brakes(slide.sense) if slide.sense * now >= limit else abs(now + soon) / 2
+
+    monkeypatch.setattr(stiction, "_breaking_loose", holds)
     bound = NEAR["mujoco", "law"].growing
     assert np.abs(_slips_inside("mujoco", "law", 1.0) - growing(EIGHT)).max() < bound
     for b in (1.0007, 0.99):
