@@ -6,15 +6,13 @@ near what is measured, no bar is typed by the suite, and no verdict depends on a
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-
-import pandas as pd
 
 from ..cases.case import Case
 from ..cases.find import shipped
 from .row import AGREES, BEYOND, CHANGED, CRASHED, DEVIATES, DIVERGED, FAILS, Comparison
+from .write import read
 
 FILE = Path(__file__).parent / "tolerance.csv"
 WORSE = 10  # × what was committed; another processor changes a third beside an event, see the tests
@@ -27,36 +25,20 @@ LADDER = (AGREES, DEVIATES, BEYOND, CHANGED, "refused", DIVERGED, CRASHED, FAILS
 Key = tuple[str, str, str, str, str]
 
 
-@dataclass(frozen=True)
-class Committed:
-    """What a row said: the engine's version, its step [s], the largest error, the verdict."""
-
-    version: str
-    step: float | None
-    largest: float | None
-    verdict: str
-
-
 @cache
-def rows() -> Mapping[Key, Committed]:
+def rows() -> Mapping[Key, Comparison]:
     """By case, engine, setting, realised, quantity; empty where no reports are committed."""
     if not FILE.is_file():
         return {}
-    frame = pd.read_csv(FILE, dtype=str, comment="#", keep_default_na=False)
-    found: dict[Key, Committed] = {}
-    for record in frame.to_dict("records"):
-        text = {str(name): str(value) for name, value in record.items()}
-        key = (text["case"], text["engine"], text["setting"], text["realised"], text["quantity"])
-        step, largest = _number(text["step"]), _number(text["largest"])
-        found[key] = Committed(text["version"], step, largest, text["verdict"])
-    return found
+    return {key_of(row): row for row in read(FILE, Comparison)}
 
 
-def _number(text: str) -> float | None:
-    return float(text) if text else None
+def key_of(row: Comparison) -> Key:
+    """What names a row."""
+    return row.case, row.engine, row.setting, row.realised, row.quantity
 
 
-def before(case: Case, key: Key, version: str, step: float | None) -> Committed | None:
+def before(case: Case, key: Key, version: str, step: float | None) -> Comparison | None:
     """What was committed of the same question, or None: another case, version or step."""
     found = rows().get(key)
     file = shipped().get(case.name.partition(".")[0])
@@ -71,8 +53,7 @@ def before(case: Case, key: Key, version: str, step: float | None) -> Committed 
 
 def worse(case: Case, row: Comparison) -> str:
     """How a row is worse than the committed one, in words; or nothing."""
-    key = (row.case, row.engine, row.setting, row.realised, row.quantity)
-    found = before(case, key, row.version, row.step)
+    found = before(case, key_of(row), row.version, row.step)
     if found is None:
         return ""
     if _rank(row.verdict) > _rank(found.verdict):

@@ -180,7 +180,10 @@ class ComparisonItem(CaseItem):
         if row.verdict == FAILS:
             place = f"{self.path}:{self.place('allow', row.quantity)}"
             raise RowError(f"{place}: {row.quantity}\n{row_text(row)}")
-        lost = worse(self.case, row)
+        try:
+            lost = worse(self.case, row)
+        except ValueError as cut:
+            raise RowError(str(cut)) from None
         if lost:
             raise RowError(f"{lost}\n{row_text(row)}")
         if row.verdict not in (AGREES, DEVIATES):
@@ -192,14 +195,12 @@ class ComparisonItem(CaseItem):
 
 def _row(report: "Report", key: tuple[str, ...]) -> "Comparison":
     """The row of that key. Raises RowError where the case has no reference, and so not all rows."""
+    from .committed import key_of
+
     for row in report.comparisons:
-        if _key(row) == key:
+        if key_of(row) == key:
             return row
     raise RowError(f"{key[0]}: there is no reference: {report.lost[key[0]]}")
-
-
-def _key(row: "Comparison") -> tuple[str, ...]:
-    return (row.case, row.engine, row.setting, row.realised, row.quantity)
 
 
 def measured(session: pytest.Session) -> "Report":

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, fields
+from dataclasses import replace as changed
 from hashlib import sha256
 from io import StringIO
 from pathlib import Path
@@ -12,6 +13,7 @@ import numpy as np
 import pandas as pd
 
 from ..cases.case import Case
+from ..reference.certificate.errors import ERROR, asked
 from .coverage import coverage
 from .replace import replace, settle
 from .row import Certificate, Comparison, Instant, Rungs
@@ -21,7 +23,7 @@ HERE = Path(__file__).parent
 ELSEWHERE = Path("textmech-reports")
 NAMES = ("tolerance.csv", "convergence.csv", "events.csv", "reference.csv", "coverage.csv")
 KEYS = ("case", "engine", "setting", "realised", "ladder", "quantity", "check", "event", "k")
-KNOWN = 1e-6  # of `allow`: the least certified error that is written
+KNOWN = 1e-6  # of the smallest `allow` or `reach`: the least certified error that is written
 NUMBERS = ".3g"  # three digits: more would be noise from one machine to the next
 RUN = 12  # letters of a run's name: two runs never share them
 TIMES = ".9g"  # of an event's time: its difference is a thousandth of a step
@@ -47,22 +49,26 @@ def tables(report: Report, cases: Sequence[Case]) -> dict[str, pd.DataFrame]:
 
 
 def _as_known(rows: Sequence[Certificate], cases: Sequence[Case]) -> list[Certificate]:
-    """Certified errors up to the next power of ten, and none below a millionth of `allow`.
+    """Certified errors up to the next power of ten, and none below a millionth of what is asked.
 
     What is smaller is rounding's, and another on another machine; a run's own rows tell it all.
     """
-    allowed = {
-        (c.name, f"error of {name}"): allow for c in cases for name, allow in c.allow.items()
+    least = {
+        (case.name, f"{ERROR}{name}"): KNOWN * (asked(case, name) or 0.0)
+        for case in cases
+        for name in case.allow
     }
-    found = []
-    for row in rows:
-        if row.certified is not None:
-            least = KNOWN * (allowed.get((row.case, row.check)) or 0.0)
-            at_least = max(row.certified, least)
-            known = 10.0 ** math.ceil(math.log10(at_least)) if at_least else 0.0
-            row = Certificate(**{**asdict(row), "certified": known})
-        found.append(row)
-    return found
+    return [
+        row
+        if row.certified is None
+        else changed(row, certified=_known(row.certified, least.get((row.case, row.check), 0.0)))
+        for row in rows
+    ]
+
+
+def _known(error: float, least: float) -> float:
+    at_least = max(error, least)
+    return 10.0 ** math.ceil(math.log10(at_least)) if at_least else 0.0
 
 
 def _table(rows: Sequence[Any], kind: type) -> pd.DataFrame:

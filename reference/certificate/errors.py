@@ -28,7 +28,7 @@ def errors(
     known = table(case.scene)
     times = {name: q for name, q in event_quantities(case.events).items() if q.field == "time"}
     for name in case.allow:
-        bars = dict(_bars(case, name))
+        least = asked(case, name)
         if name in known:
             own = observe(case.scene, motion, name)
             found = [np.abs(own - observe(case.scene, other, name)) for other in others.values()]
@@ -37,9 +37,13 @@ def errors(
             error, unit = max(EPS * float(motion.times[-1]), apart), times[name].unit
         else:
             continue  # a count: the changes of mode are compared by name and number
-        if bars:
-            smallest = min(bars.values())
-            yield Check(f"{ERROR}{name}", error / smallest, SHARE, error, unit)
+        if least is not None:
+            yield Check(f"{ERROR}{name}", error / least, SHARE, error, unit)
+
+
+def asked(case: Case, name: str) -> float | None:
+    """The smallest `allow` or `reach` of a quantity, or None if nothing bounds it."""
+    return min((bar for _, bar in _bars(case, name)), default=None)
 
 
 def beyond(case: Case, checks: Sequence[Check]) -> list[Mistake]:

@@ -20,10 +20,13 @@ allow: {rod.angle: 1.0e-6}
 FORKED = "import multiprocessing; multiprocessing.set_start_method('fork')\n"
 WORSE = """\
 from pathlib import Path
+from dataclasses import fields
 from textmech.reports import committed
+from textmech.reports.row import Comparison
 key = ("swing", "mujoco", "shipped", "native", "rod.angle")
-said = committed.Committed({version!r}, 0.002, {largest}, {verdict!r})
-committed.rows = lambda: {{key: said}}
+said = dict.fromkeys(field.name for field in fields(Comparison))
+said |= dict(version={version!r}, step=0.002, largest={largest}, verdict={verdict!r})
+committed.rows = lambda: {{key: Comparison(**said)}}
 committed.shipped = lambda: {{"swing": Path("swing.yaml")}}
 """
 
