@@ -31,3 +31,17 @@ def locked(path: Path, waiting: Callable[[], None] | None = None) -> Iterator[No
     finally:
         with suppress(OSError):
             os.close(held)
+
+
+def abandoned(path: Path) -> bool:
+    """Whether nobody holds the folder any more; False where locks cannot tell."""
+    if fcntl is None:
+        return False
+    with suppress(OSError):
+        held = os.open(path, os.O_RDONLY)
+        try:
+            fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        finally:
+            os.close(held)
+        return True
+    return False

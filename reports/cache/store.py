@@ -1,7 +1,9 @@
 """Where results lie: one file each, whole or not there, and the least used go first."""
 
 import os
+import shutil
 import tempfile
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass
@@ -10,12 +12,14 @@ from pathlib import Path
 from typing import Any
 from zipfile import BadZipFile
 
-from ..lock import locked
+from ..lock import abandoned, locked
 from .form import packed, unpacked
 
 LIMIT = 500_000_000  # bytes, some ten full runs with different code
 FOLDER = "TEXTMECH_CACHE"  # the variable that names another folder
 MAKING = ".making-"
+PASSING = "textmech-run-"
+NEW = 60.0  # s: a folder may be made, and not yet held
 DIGEST = sha256().digest_size
 
 
@@ -37,9 +41,20 @@ def usable() -> "Store | None":
 
 @contextmanager
 def passing() -> Iterator["Store"]:
-    """A store for one run, of which nothing stays."""
-    with tempfile.TemporaryDirectory(prefix="textmech-") as folder:
-        yield Store(Path(folder))
+    """A store for one run, of which nothing stays; what killed runs left behind goes too."""
+    _sweep(Path(tempfile.gettempdir()))
+    with tempfile.TemporaryDirectory(prefix=PASSING) as made:
+        folder = Path(made)
+        with locked(folder):
+            yield Store(folder)
+
+
+def _sweep(among: Path) -> None:
+    for folder in among.glob(f"{PASSING}*"):
+        with suppress(OSError):  # another's, or gone
+            old = time.time() - folder.stat().st_mtime > NEW
+            if old and abandoned(folder):
+                shutil.rmtree(folder, ignore_errors=True)
 
 
 @dataclass(frozen=True)

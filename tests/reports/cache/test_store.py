@@ -1,7 +1,10 @@
 """A stored result is whole or not there, and there are never too many."""
 
 import os
+import sys
+import tempfile
 from pathlib import Path
+from subprocess import PIPE, Popen
 
 import pytest
 
@@ -85,3 +88,32 @@ def test_where_none_can_be_kept_there_is_none(
     (tmp_path / "file").touch()
     monkeypatch.setenv(store.FOLDER, str(tmp_path / "file" / "cache"))
     assert store.usable() is None
+
+
+HELD = """\
+import sys
+from textmech.reports.cache.store import passing
+with passing() as kept:
+    print(kept.folder, flush=True)
+    sys.stdin.read()
+"""
+
+
+def test_what_a_killed_run_left_goes_with_the_next(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    monkeypatch.setattr(store, "NEW", -1.0)
+    with Popen([sys.executable, "-c", HELD], stdin=PIPE, stdout=PIPE, text=True) as other:
+        assert other.stdout
+        folder = Path(other.stdout.readline().strip())
+        with store.passing() as kept:
+            assert folder.is_dir()  # held by a run
+        assert not kept.folder.exists()
+        other.kill()
+        other.wait()
+    assert folder.is_dir()
+    with store.passing() as kept:
+        assert not folder.exists()
+        assert kept.folder.is_dir()
