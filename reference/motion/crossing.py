@@ -15,6 +15,7 @@ TOGETHER = 1e-12  # s: how well an event is located, so closer ones are one inst
 ROOT = 1e-15  # s: what the root-finder is asked for, to keep the promise above
 INSIDE = (0.25, 0.5, 0.75)  # of a step: a guard turns no faster than the motion, at most once
 TOUCH = 1e-10  # of its values around: what falls no deeper has touched zero, and not fallen
+TURN = 1e-6  # of its bracket: a dip's bottom known so well is known to 1e-12 of the dip's size
 HALVINGS = 40  # of a step, in search of the rise of a guard that begins at zero: to 1e-12 of it
 
 Within = Callable[[float], Array]
@@ -110,7 +111,10 @@ def _near(
         return None
     left, right = points[max(low - 1, 0)], points[min(low + 1, len(points) - 1)]
     turn = minimize_scalar(
-        lambda at: sign * g(at), bounds=(left, right), method="bounded", options={"xatol": TOGETHER}
+        lambda at: sign * g(at),
+        bounds=(left, right),
+        method="bounded",
+        options={"xatol": TURN * (right - left)},
     )
     if sign > 0.0:
         return (left, float(turn.x)) if turn.fun <= 0.0 else None
