@@ -13,14 +13,12 @@ from ...cases.scene import Scene
 from ..engine import Choice, Start
 from .contact import is_tip
 from .rehearsal import most_halving
-from .scene import carried_oblique
 
 ENOUGH = 10  # halvings in a step: 1e-3 of an error is left, and what was cached rings for 3 steps
 COLD = 30  # halvings of what starts from nothing: 1e-9 of it is left
 LEAST = 30  # sweeps, which cost little beside the rest of a step
 MOST = 3000  # sweeps in a step: 0.1 ms for each joint
 FEWEST = 4  # halvings at the worst pose met, below which a later one may be unstable
-CARRIED = 0.05  # of a gap: an oblique groove on a jointed body; measured: whole ones are unstable
 COLDEST = 100_000  # sweeps in each of the first steps
 SMALLEST = 1e-300  # of error_bias: a double below is 0, which is the other recipe
 
@@ -29,18 +27,16 @@ SMALLEST = 1e-300  # of error_bias: a double below is 0, which is the other reci
 class Holding:
     """What holds a scene's joints. halving: sweeps that halve an error of theirs.
 
-    impacts: whether something may strike the floor, where cached impulses are of no use. carried:
-    whether there is an oblique groove on a body that another joint holds.
+    impacts: whether something may strike the floor, where cached impulses are of no use.
     """
 
     halving: float
     impacts: bool
-    carried: bool = False
 
     @property
     def biased(self) -> bool:
         """Whether only a share of each gap can be closed."""
-        return self.carried or FEWEST * self.halving > MOST
+        return FEWEST * self.halving > MOST
 
     def choices(self, step: float) -> Sequence[Choice]:
         """The numbers for a step [s], which error_bias follows where only a share is closed."""
@@ -67,11 +63,10 @@ class Holding:
                 "closes 6.3 h of it, and takes kinetic energy of first order with it"
             )
             return Choice("constraint.error_bias", 0.0, because)
-        share = min(CARRIED if self.carried else 1.0, 2 ** (MOST / (FEWEST * self.halving)) - 1)
+        share = min(1.0, 2 ** (MOST / (FEWEST * self.halving)) - 1)
         bias = max(SMALLEST, (1 - share) ** (1 / step))
-        because = f"a step can close {1 - bias**step:.2g} of a gap, and stays stable"
-        if not self.carried:
-            because = f"with {MOST} sweeps {because}"
+        part = f"{1 - bias**step:.2g} of a gap"
+        because = f"with {MOST} sweeps a step can close {part}, and stays stable"
         return Choice("constraint.error_bias", bias, because)
 
 
@@ -82,5 +77,4 @@ def holding(scene: Scene, start: Start) -> Holding | None:
     if not scene.joints and not tips and len(contacts) < 2:
         return None
     impacts = any(contact.switches for contact in contacts)
-    carried = any(carried_oblique(scene, joint) for joint in scene.joints.values())
-    return Holding(most_halving(scene, start), impacts, carried)
+    return Holding(most_halving(scene, start), impacts)

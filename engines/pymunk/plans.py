@@ -11,7 +11,6 @@ from ..law import one_number
 from .contact import closed
 from .law.friction import ruled
 from .recipe import Recipe
-from .scene import carried_oblique
 
 
 def ways(scene: Scene) -> tuple[Realised, ...]:
@@ -65,8 +64,7 @@ def _spoilt(scene: Scene, realised: Realised) -> bool:
     damped = native and any(damper.damping for damper in scene.dampers())
     brakes = native and any(joint.dry_friction for joint in scene.joints.values())
     met = native and any(contact.switches for contact in scene.contacts.values())
-    carried = any(carried_oblique(scene, joint) for joint in scene.joints.values())
-    return damped or brakes or met or carried
+    return damped or brakes or met
 
 
 def _withheld(scene: Scene) -> dict[str, str]:

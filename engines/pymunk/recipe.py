@@ -1,6 +1,7 @@
 """The tuned recipe: each number with its reason, as attributes of pymunk's Space and constraints.
 
-`start.seed`, `start.iterations` and `time.midpoint` are what is done around the engine, see run.py.
+`start.seed`, `start.iterations`, `slot.across` and `time.midpoint` are what is done around the
+engine, see run.py and slot.py.
 """
 
 from collections.abc import Sequence
@@ -10,6 +11,7 @@ from ...cases.scene import GROUND, Contact, Scene
 from ..engine import Choice, Start
 from .contact import is_tip
 from .holding import Holding, holding
+from .scene import oblique
 
 _MIDPOINT = Choice(
     "time.midpoint",
@@ -28,6 +30,12 @@ _REFLECTS = Choice(
     True,
     "a bar's end that stays on the floor has elasticity 1: else its curved path opens the contact "
     "every few steps, and its force is 0 in some and the double in others",
+)
+_ACROSS = Choice(
+    "slot.across",
+    True,
+    "a groove that lies oblique to what the solver inverts lets its point cross it while it "
+    "slides; a pin joint across the groove, carried along it, does not",
 )
 _LANDING = Choice(
     "space.collision_bias",
@@ -73,6 +81,8 @@ def recipe(scene: Scene, start: Start) -> Recipe:
         always.append(_TIP_SLOP if tips else _SLOP)
         always += [_REFLECTS] if tips else []
         always += [_LANDING] if all(_rises(scene, contact) for contact in contacts) else []
+    if any(oblique(scene, joint) for joint in scene.joints.values()):
+        always.append(_ACROSS)
     return Recipe(tuple(always), holding(scene, start))
 
 

@@ -12,7 +12,7 @@ from .sweeps import halving
 SECONDS, POSES = 1.0, 20  # measured: machines need up to 6 × the sweeps of their start within 1 s
 STEP = 2e-3  # s
 # Its own bias closes 1.2 % of a gap in such a step: with it so many sweeps hold what needs 5000.
-NUMBERS = {"space.iterations": 100}
+NUMBERS = {"space.iterations": 100, "slot.across": True}
 
 
 def most_halving(scene: Scene, start: Start) -> float:

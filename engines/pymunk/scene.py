@@ -17,6 +17,7 @@ from ...cases.scene import GROUND, Anchor, DryFriction, Joint, Scene, Vector
 from ..engine import Realised, Start
 from .contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle
 from .force import lines
+from .slot import line, pinned
 from .world import World
 
 # Half the length [m] of the floor, and of a slide's groove, which pymunk wants finite. Every step
@@ -33,7 +34,7 @@ def build(scene: Scene, start: Start, numbers: Mapping[str, Any], realised: Real
     world = World(scene, space, numbers.get("ground.reach", NEAR))
     _bodies(world, start)
     _contacts(world)
-    _joints(world, start)
+    _joints(world, start, across=bool(numbers.get("slot.across")))
     lines(world, realised)
     joints = [part for parts in world.joints.values() for part in parts]
     for name, value in numbers.items():
@@ -70,12 +71,19 @@ def _contacts(world: World) -> None:
         world.space.add(world.wheels[contact.name])
 
 
-def _joints(world: World, start: Start) -> None:
-    """In the order of the case file: another order is another order of the solver's sweeps."""
+def _joints(world: World, start: Start, *, across: bool) -> None:
+    """In the order of the case file: another order is another order of the solver's sweeps.
+
+    across: whether an oblique groove is a pin joint.
+    """
     for joint in world.scene.joints.values():
         a, b = world.body(joint.a), world.body(joint.b)
         if joint.shifts:
-            parts: list[Constraint] = [GrooveJoint(a, b, *groove(world, joint))]
+            first, last, anchor = groove(world, joint)
+            parts: list[Constraint] = [GrooveJoint(a, b, first, last, anchor)]
+            if across and oblique(world.scene, joint):
+                world.slots[joint.name] = cut = line(first, last)
+                parts = [pinned(a, b, cut, anchor)]
         else:
             parts = [PivotJoint(a, b, world.local(joint.a), world.local(joint.b))]
         if not joint.turns and holds_angle(world.scene, joint):
@@ -155,8 +163,8 @@ def groove(world: World, joint: Joint) -> tuple[Vector, Vector, Vector]:
 def oblique(scene: Scene, joint: Joint) -> bool:
     """Whether a groove has to lie where K is oblique to it: beside a turning centre.
 
-    There the solver settles with the second point off the line by c h times its sliding speed,
-    unless it is told, see law/oblique.py; it is not told where that would feed on other joints.
+    There the solver settles with the second point off the line by c h times its sliding speed, and
+    with other joints nowhere near it; see slot.py.
     """
     if not joint.shifts or (not joint.turns and holds_angle(scene, joint)):
         return False
@@ -167,10 +175,3 @@ def oblique(scene: Scene, joint: Joint) -> bool:
         return False
     (x, y), (ux, uy) = scene.bodies[joint.a.body].points[joint.a.point], joint.along
     return abs(ux * y - uy * x) > 1e-12 * math.hypot(x, y)
-
-
-def carried_oblique(scene: Scene, joint: Joint) -> bool:
-    """Whether such a groove is on a body that another joint holds, whose impulses it then feels."""
-    held = {joint.a.body, joint.b.body} - {GROUND}
-    others = (other for other in scene.joints.values() if other is not joint)
-    return oblique(scene, joint) and any(held & {o.a.body, o.b.body} for o in others)

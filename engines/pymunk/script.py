@@ -5,31 +5,43 @@ from inspect import getsource
 from typing import Any
 
 from pymunk.body import Body
-from pymunk.constraints import Constraint, DampedSpring, GearJoint, GrooveJoint, PivotJoint
+from pymunk.constraints import (
+    Constraint,
+    DampedSpring,
+    GearJoint,
+    GrooveJoint,
+    PinJoint,
+    PivotJoint,
+)
 from pymunk.shapes import Segment
 
 from ...cases.scene import Scene
 from ..engine import Start
 from .contact import ABOVE, closed, is_tip
 from .force import script
-from .law.oblique import straighten, told_aside
 from .run import COLD
 from .scene import build
+from .slot import LENGTH, carried
 from .world import World
 from .written import written
 
 _ARGUMENTS: dict[type[Constraint], tuple[str, ...]] = {
     PivotJoint: ("anchor_a", "anchor_b"),
     GrooveJoint: ("groove_a", "groove_b", "anchor_b"),
+    PinJoint: ("anchor_a", "anchor_b"),
     GearJoint: ("phase", "ratio"),
     DampedSpring: ("anchor_a", "anchor_b", "rest_length", "stiffness", "damping"),
 }
-_STRAIGHTEN = [
-    "from pymunk import Body, GrooveJoint, Vec2d",
+_CARRIED = [
+    "from collections.abc import Callable",
     "",
-    *getsource(straighten).splitlines(),
+    "from pymunk import Constraint, PinJoint, Space, Vec2d",
     "",
-    "ends = {name: (groove.groove_a, groove.groove_b) for name, groove in grooves.items()}",
+    f"LENGTH = {LENGTH!r}",
+    "",
+    "",
+    *getsource(carried).splitlines(),
+    "",
 ]
 _SHIFT = """
 # pymunk drifts, then kicks: start h/2 back, so that forces act in the middle of a step.
@@ -60,22 +72,17 @@ def text(
         *(f"{name} = {written(x)}" for name, x in numbers.items() if name.startswith("space.")),
         "ground = space.static_body",
         "bodies = {}",
-        "grooves = {}",
+        *(["", *_CARRIED] if world.slots else []),
         *_bodies(world),
         *_floor(world, reflects=bool(numbers.get("contact.reflects"))),
         *_constraints(world, numbers),
     ]
-    bent = [joint.name for joint in scene.joints.values() if told_aside(scene, joint)]
-    if midpoint and bent:
-        lines += ["", *_STRAIGHTEN]
     if seed:
         lines += _seeds(world, start, seed)
     lines += [_SHIFT] if midpoint else []
     lines += ["\nfor n in range(steps):"]
     if cold := numbers.get("start.iterations"):
         lines.append(f"    space.iterations = {cold} if n < {COLD} else {world.space.iterations}")
-    if midpoint:
-        lines += [f"    straighten(grooves[{name!r}], *ends[{name!r}], h)" for name in bent]
     lines += script(world, lambda body: _of(world, body), midpoint=bool(midpoint))
     lines += _followers(world, numbers)
     position, angle = (" + h / 2 * body.velocity", " + h / 2 * body.angular_velocity")
@@ -164,8 +171,11 @@ def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
             for key, value in numbers.items():
                 if name in world.joints and key.startswith("constraint."):
                     yield f"joint.{key.removeprefix('constraint.')} = {written(value)}"
-            if isinstance(part, GrooveJoint):
-                yield f"grooves[{name!r}] = joint"
+            if isinstance(part, PinJoint):
+                cut = world.slots[name]
+                yield f"joint.distance = {LENGTH!r}"
+                point, along = (f"Vec2d{written(v)}" for v in (cut.point, cut.along))
+                yield f"joint.pre_solve = carried({point}, {along})"
             yield "space.add(joint)"
 
 

@@ -11,7 +11,8 @@ from collections.abc import Iterator
 
 import numpy as np
 from pymunk.body import Body
-from pymunk.constraints import Constraint, GearJoint, GrooveJoint, PivotJoint
+from pymunk.constraints import Constraint, GearJoint, GrooveJoint, PinJoint, PivotJoint
+from pymunk.space import Space
 from pymunk.vec2d import Vec2d
 
 from ...cases.trajectory import Array
@@ -54,7 +55,7 @@ def _steps(world: World) -> Iterator[tuple[Array, Array, Array]]:
         rows = _moves(columns, len(weights), body, place) * weights
         yield rows, np.diag(1 / np.sum(rows**2, axis=1)), rows
     for joint in world.space.constraints:
-        found = _joint(joint, columns, len(weights))
+        found = _joint(world.space, joint, columns, len(weights))
         if found is not None:
             rows, normal = found[0] * weights, found[1]
             yield rows, normal @ np.linalg.inv(rows @ rows.T), normal @ rows
@@ -70,7 +71,7 @@ def _columns(world: World) -> tuple[Columns, Array]:
     return columns, np.array(weights)
 
 
-def _joint(joint: Constraint, columns: Columns, n: int) -> tuple[Array, Array] | None:
+def _joint(space: Space, joint: Constraint, columns: Columns, n: int) -> tuple[Array, Array] | None:
     """The relative velocities that it measures, and the normals along which it acts."""
     a, b = joint.a, joint.b
     if isinstance(joint, GearJoint):
@@ -87,6 +88,13 @@ def _joint(joint: Constraint, columns: Columns, n: int) -> tuple[Array, Array] |
         here = there + b.position - a.position
         along = (joint.groove_b - joint.groove_a).rotated(a.angle).normalized()
         normal = np.array([[-along.y, along.x]])
+    elif isinstance(joint, PinJoint):
+        if joint.pre_solve:
+            joint.pre_solve(joint, space)  # across its slot at this pose
+        there, here = joint.anchor_b.rotated(b.angle), joint.anchor_a.rotated(a.angle)
+        across = there + b.position - a.position - here
+        rows = _moves(columns, n, b, there) - _moves(columns, n, a, here)
+        return np.array([across.normalized()]) @ rows, np.eye(1)
     else:
         return None  # a spring is not swept
     return _moves(columns, n, b, there) - _moves(columns, n, a, here), normal

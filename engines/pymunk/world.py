@@ -8,6 +8,7 @@ from pymunk.shapes import Circle
 from pymunk.space import Space
 
 from ...cases.scene import GROUND, Anchor, Scene, Vector
+from .slot import Line
 
 
 @dataclass(frozen=True)
@@ -16,6 +17,7 @@ class World:
 
     A joint's first constraint carries its force. reach: half the length [m] of the floor and of
     grooves of the ground. driven: the driven points' bodies. brakes: the friction joints of slides.
+    slots: the lines that pin joints hold.
     """
 
     scene: Scene
@@ -26,6 +28,7 @@ class World:
     joints: dict[str, tuple[Constraint, ...]] = field(default_factory=dict)
     brakes: dict[str, GrooveJoint] = field(default_factory=dict)
     lines: dict[str, DampedSpring] = field(default_factory=dict)
+    slots: dict[str, Line] = field(default_factory=dict)
     wheels: dict[str, Circle] = field(default_factory=dict)
 
     def body(self, anchor: Anchor) -> Body:

@@ -6,7 +6,6 @@ from ..contact import follower
 from ..force import tells
 from ..world import World
 from .friction import laws
-from .oblique import straightened
 
 Apply = Callable[[float], None]  # at time t [s]
 
@@ -17,8 +16,7 @@ def forces(world: World, step: float, *, midpoint: bool, law: bool, reflects: bo
     reflects: whether a point stays on the floor as `follower` says.
     """
     friction = laws(world, step) if law else []
-    told = [*tells(world, step, midpoint=midpoint), *friction, *_followers(world, step, reflects)]
-    return [*told, *(straightened(world, step) if midpoint else [])]
+    return [*tells(world, step, midpoint=midpoint), *friction, *_followers(world, step, reflects)]
 
 
 def _followers(world: World, step: float, reflects: bool) -> list[Apply]:

@@ -9,11 +9,12 @@ from collections.abc import Iterator
 
 import numpy as np
 from pymunk.body import Body
-from pymunk.constraints import GrooveJoint, PivotJoint
+from pymunk.constraints import GrooveJoint, PinJoint, PivotJoint
 
 from ....cases.trajectory import Array
 from ...engine import Diverged
 from ..scene import reach
+from ..slot import line
 from ..sweeps import halving
 from ..world import World
 
@@ -83,15 +84,20 @@ def _held(world: World, rows: Array, times: Array, step: float) -> None:
 def _left(world: World, rows: Array, times: Array, step: float) -> list[Array]:
     """(N,) [m/s] of each joint that holds a point."""
     return [
-        _missing(world, part, rows, times, step)
-        for parts in world.joints.values()
+        _missing(world, name, part, rows, times, step)
+        for name, parts in world.joints.items()
         for part in parts
-        if isinstance(part, PivotJoint | GrooveJoint)
+        if isinstance(part, PivotJoint | GrooveJoint | PinJoint)
     ]
 
 
 def _missing(
-    world: World, joint: PivotJoint | GrooveJoint, rows: Array, times: Array, step: float
+    world: World,
+    name: str,
+    joint: PivotJoint | GrooveJoint | PinJoint,
+    rows: Array,
+    times: Array,
+    step: float,
 ) -> Array:
     share = 1 - joint.error_bias**step
     a, b = (_motion(world, body, rows, times) for body in (joint.a, joint.b))
@@ -100,9 +106,9 @@ def _missing(
         ra = _turned(a, joint.anchor_a)
         gap = b[:2] + rb - a[:2] - ra
         return np.hypot(*(_speed(b, rb) - _speed(a, ra) + share / step * gap))
-    along = (joint.groove_b - joint.groove_a).normalized()
-    normal = _turned(a, (-along.y, along.x))
-    gap = np.sum(normal * (b[:2] + rb - a[:2] - _turned(a, joint.groove_a)), axis=0)
+    cut = world.slots[name] if isinstance(joint, PinJoint) else line(joint.groove_a, joint.groove_b)
+    normal = _turned(a, cut.across)
+    gap = np.sum(normal * (b[:2] + rb - a[:2] - _turned(a, cut.point)), axis=0)
     ra = b[:2] + rb - a[:2] - normal * gap
     closing = np.sum(normal * (_speed(b, rb) - _speed(a, ra)), axis=0)
     return np.abs(closing + share / step * gap)
