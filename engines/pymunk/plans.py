@@ -11,6 +11,7 @@ from ..law import one_number
 from .contact import closed
 from .law.friction import ruled
 from .recipe import Recipe
+from .scene import oblique
 
 
 def ways(scene: Scene) -> tuple[Realised, ...]:
@@ -77,10 +78,12 @@ def _withheld(scene: Scene) -> dict[str, str]:
 
 
 def _words(scene: Scene, start: Start, recipe: Recipe, step: float) -> str:
-    """The half step along the velocities, and how deep a contact is started in the floor."""
+    """The half step along the velocities, contacts' depth at the start, and what holds a slot."""
     numbers = named(recipe(step))
     words = [f"started {step / 2:g} s back, positions read {step / 2:g} s ahead"]
     if touching := closed(scene, start):
         bodies = ", ".join(dict.fromkeys(contact.body for contact in touching))
         words.append(f"{bodies} started {numbers['start.seed']:g} m in the floor")
+    if slots := [joint.name for joint in scene.joints.values() if oblique(scene, joint)]:
+        words.append(f"{', '.join(slots)} held across by a pin joint that is carried along")
     return "; ".join(words)
