@@ -10,6 +10,7 @@ from functools import cached_property
 from typing import Any
 
 from ...cases.scene import Anchor
+from .assembled import Rows
 from .coordinates import Attached, Coordinates, moved
 from .rows import Term
 
@@ -45,7 +46,7 @@ class Constraint:
 
     def places(self, t: Any, q: Numbers) -> list[Any]:
         """What each row is the rate of [m or rad], (r,)."""
-        ends = [moved(end, t, q, q) for end in self._ends]
+        ends = [moved(end, t, q, q) for end in self.attached]
         return [sum(term.place(ends) for term in terms) for terms in self.rows]
 
     def f(self, t: Any, q: Numbers) -> list[Any]:
@@ -54,20 +55,9 @@ class Constraint:
             return []
         return [place - at for place, at in zip(self.places(t, q), self.held, strict=True)]
 
-    def numbers(self, t: Any, q: Numbers, v: Numbers) -> list[list[Any]]:
-        """(2.15) f_a, g and γ: r rows of n + 2 numbers, f_a q̇ᵃ = g and f_a q̈ᵃ = γ."""
-        ends = [moved(end, t, q, v) for end in self._ends]
-        found, columns = [], len(q) + 2
-        for terms in self.rows:
-            row = [0.0] * columns
-            for term in terms:
-                term.add(ends, row)
-            found.append(row)
-        return found
-
     def reactions(self, t: float, q: Numbers, multipliers: Numbers) -> dict[str, float]:
         """(2.60) R_a = λ_b f_aᵇ: a force λ u along the direction of its row, or a moment λ."""
-        ends = [moved(end, t, q, q) for end in self._ends]
+        ends = [moved(end, t, q, q) for end in self.attached]
         found: dict[str, float] = {}
         for terms, names, force in zip(self.rows, self.names, multipliers, strict=True):
             u = terms[0].direction(ends)
@@ -77,5 +67,16 @@ class Constraint:
         return found
 
     @cached_property
-    def _ends(self) -> list[Attached]:
+    def alone(self) -> Rows:
+        """Its rows without those of others."""
+        return assembled([self], self.where)
+
+    @cached_property
+    def attached(self) -> list[Attached]:
+        """The points of `ends` on their bodies."""
         return [self.where.attached[end.body, end.point] for end in self.ends]
+
+
+def assembled(parts: Sequence[Constraint], where: Coordinates) -> Rows:
+    """The rows of all parts, in their order."""
+    return Rows([(c.attached, terms) for c in parts for terms in c.rows], len(where.masses))

@@ -8,12 +8,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from ...cases.scene import CENTER, Contact, Joint
 from .constraint import Constraint
 from .coordinates import Coordinates
-from .rows import FIRST, GAMMA, SECOND, Along, G, Line, Turning, X, Y
+from .rows import FIRST, SECOND, Along, Line, Turning, X, Y
 
 
 def normal(contact: Contact, where: Coordinates) -> Constraint:
@@ -59,5 +57,5 @@ class Braking:
 
 def row(part: Constraint, t: float, q: Any, v: Any) -> tuple[Any, float, float]:
     """f_a (n,), g and γ of a constraint of one row."""
-    (numbers,) = part.numbers(t, q.tolist(), v.tolist())
-    return np.array(numbers[:G]), numbers[G], numbers[GAMMA]
+    f, g, gamma = part.alone(t, q, v)
+    return f[0], g[0], gamma[0]

@@ -1,20 +1,19 @@
 """Any planar scene as a Mode, in maximal coordinates with multipliers (2.60)."""
 
-from collections.abc import Callable, Mapping, Sequence
-from itertools import chain
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from scipy.linalg.lapack import dgesv, dgetrs, dposv, dpotrs
 
 from ...cases.scene import Scene
 from ..system import Array, Mass, Mode, Pose, Vector
 from .action import act, dissipation, other, potential
-from .constraint import Constraint
+from .banded import band
+from .constraint import Constraint, assembled
 from .contact import Braking, Coulomb, row
 from .coordinates import Coordinates
+from .factors import Dependent, Held, full
 from .permanent import constraints
-from .rows import GAMMA, G
 
 TURNS = 2  # of refinement, each with the digits of the first solution: 10 of 16 may be lost
 UNEVEN = 1e3  # the heaviest mass beside the lightest: up to that one turn is enough
@@ -59,6 +58,11 @@ class Multibody(Mode):
         self._braking = braking
         places = np.cumsum([0, *(c.size for c in self._constraints)]).tolist()
         self._coulomb = [(places[self._constraints.index(law.normal)], law) for law in coulomb]
+        self.assembled = assembled(self._constraints, self.where)
+        self.band = None if coulomb else band(self.assembled, self._M)
+        changing = [law.tangent.alone for _, law in self._coulomb]
+        self._constant = all(rows.constant for rows in (self.assembled, *changing))
+        self._always: Held | None = None
         self._weight = np.zeros(len(self._M))
         for body in scene.bodies.values():
             xy, _ = self.where.columns[body.name]
@@ -98,17 +102,14 @@ class Multibody(Mode):
         is larger than the rod's own.  What the rows leave of f_a q̈ᵃ = γ is solved for again, which
         gives back the digits (refinement): it is the nearest q̈, in M, that meets the rows.
         """
-        rows, _, gamma = self.rows(t, q.tolist(), v.tolist(), float)
-        free = self.applied(t, q, v) / self._M
+        held, free = self._held(t, q, v), self.applied(t, q, v) / self._M
         if not self._r:
             return free, np.zeros(0)
-        # With λ_t = factor λ_n (2.87) the force of a normal row leans against the slip.
-        by_mass = self.columns(t, q, v, rows) / self._M
-        again, multipliers = self._factored(rows.dot(by_mass.T), gamma - rows.dot(free))
-        a = free + multipliers.dot(by_mass)
+        multipliers = held.solve(held.gamma - held.along(free))
+        a = free + held.pulled(multipliers)
         for _ in range(self._turns):
-            change = again(gamma - rows.dot(a))
-            a, multipliers = a + change.dot(by_mass), multipliers + change
+            change = held.solve(held.gamma - held.along(a))
+            a, multipliers = a + held.pulled(change), multipliers + change
         return _at_rest(a, free), multipliers
 
     def applied(self, t: float, q: Array, v: Array) -> Array:
@@ -121,17 +122,22 @@ class Multibody(Mode):
             Q += brake.force(t, q, v) * row(brake.along, t, q, v)[0]
         return Q
 
-    def _factored(self, matrix: Array, right: Array) -> tuple[Callable[[Array], Array], Array]:
-        """How to solve with the matrix of the multipliers again, and the first solution."""
-        if self._coulomb:
-            factors, pivots, solution, fails = dgesv(matrix, right)
-            again = lambda right: dgetrs(factors, pivots, right)[0]  # noqa: E731
-        else:
-            factors, solution, fails = dposv(matrix, right)
-            again = lambda right: dpotrs(factors, right)[0]  # noqa: E731
-        if fails:  # not positive definite, or singular: the rows depend on each other
-            raise SingularPose(self._owners[fails - 1])
-        return again, solution
+    def _held(self, t: float, q: Array, v: Array) -> Held:
+        """The rows and their factors; where no row changes with the state, those of the first."""
+        if self._always is not None:
+            return self._always
+        try:
+            if self.band is not None:
+                return self.band.held(t, q, v)
+            rows, _, gamma = self.rows(t, q, v)
+            # With λ_t = factor λ_n (2.87) the force of a normal row leans against the slip.
+            by_mass = self.columns(t, q, v, rows) / self._M
+            found = full(rows, gamma, by_mass, leans=bool(self._coulomb))
+        except Dependent as dependent:
+            raise SingularPose(self._owners[dependent.row]) from dependent
+        if self._constant:
+            self._always = found
+        return found
 
     def columns(self, t: float, q: Array, v: Array, rows: Array) -> Array:
         """What a unit of each multiplier exerts, (r, n): its row and its friction (2.87)."""
@@ -142,13 +148,9 @@ class Multibody(Mode):
             columns[at] += law.factor * row(law.tangent, t, q, v)[0]
         return columns
 
-    def rows(self, t: Any, q: Sequence[Any], v: Sequence[Any], dtype: Any) -> tuple[Any, Any, Any]:
+    def rows(self, t: Any, q: Vector, v: Vector) -> tuple[Vector, Vector, Vector]:
         """(2.15) f_a (r, n) and g (r,), and γ (r,) of f_a q̈ᵃ = γ."""
-        rows = [row for c in self._constraints for row in c.numbers(t, q, v)]
-        columns = len(self._M) + 2
-        numbers = np.fromiter(chain.from_iterable(rows), dtype, self._r * columns)
-        numbers = numbers.reshape(self._r, columns)
-        return numbers[:, :G], numbers[:, G], numbers[:, GAMMA]
+        return self.assembled(t, q, v)
 
     def terms(self, t: float, q: Array, v: Array) -> tuple[float, float]:
         """The largest acceleration [m/s² or rad/s²] and power [W] that one force gives alone.
@@ -225,11 +227,11 @@ class Multibody(Mode):
 
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) the rows f_aᵇ, (r, n)."""
-        return self.rows(t, q.tolist(), q.tolist(), np.result_type(q, t))[0]
+        return self.rows(t, q, q)[0]
 
     def g(self, t: Any, q: Vector) -> Vector:
         """(2.15) the right side f_aᵇ q̇ᵃ = gᵇ of driven points, (r,)."""
-        return self.rows(t, q.tolist(), q.tolist(), np.result_type(q, t))[1]
+        return self.rows(t, q, q)[1]
 
 
 def _add(found: dict[str, float], more: Mapping[str, float]) -> None:

@@ -1,22 +1,29 @@
 """The three terms that rows of constraints are sums of: `Along`, `Turning` and `Line`.
 
-Each is the rate of a `place`, written in the coordinates as f_a q̇ᵃ − g (2.15). A term adds to a row
-of n + 2 numbers: f_a, then g, then the γ of f_a q̈ᵃ = γ. Terms are linear in their direction or
-axis: its opposite makes a difference of two terms, a factor weighs them.
+Each is the rate of a `place`, written in the coordinates as f_a q̇ᵃ − g (2.15); `assembled` adds
+them up.  Terms are linear in their direction or axis: its opposite makes a difference of two terms,
+a factor weighs them.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 from ...cases.scene import Vector
-from .coordinates import Point, trigonometry
+from .coordinates import Attached, Point, trigonometry
 
 Ends = Sequence[Point]  # the points of one constraint; its terms name them by their place here
 Direction = tuple[Any, Any]
-G, GAMMA = -2, -1  # where g and γ stand in a row
 FIRST, SECOND = 0, 1  # the ends of a joint; a contact has one
 X, Y = (1.0, 0.0), (0.0, 1.0)
+
+
+class Assembly(Protocol):
+    """Rows that terms are added to, each of the i-th at the points on their bodies."""
+
+    def along(self, i: int, p: Attached, u: Vector) -> None: ...
+    def turning(self, i: int, p: Attached, axis: float) -> None: ...
+    def line(self, i: int, a: Attached, b: Attached, u: Vector) -> None: ...
 
 
 @dataclass(frozen=True)
@@ -36,12 +43,9 @@ class Along:
         """u, in ground axes."""
         return self.u
 
-    def add(self, ends: Ends, row: list[Any]) -> None:
-        """(2.15) u·ṙ_p with ṙ_p = ṙ_c + ω × d: f = (u, d × u); of a ground point g = −u·ṙ_p.
-
-        Differentiated by (2.7), u·r̈_p = f_a q̈ᵃ + u·(ω × ḋ) with ḋ = ω × d: γ = ω² u·d.
-        """
-        _add(ends[self.p], self.u, row)
+    def enter(self, i: int, ends: Sequence[Attached], rows: Assembly) -> None:
+        """Adds it to the i-th row."""
+        rows.along(i, ends[self.p], self.u)
 
 
 @dataclass(frozen=True)
@@ -60,11 +64,9 @@ class Turning:
         """A moment has no direction in the plane."""
         return 0.0, 0.0
 
-    def add(self, ends: Ends, row: list[Any]) -> None:
-        """(2.15) ω = φ̇: f = the axis, at φ; γ = 0; what has no angle does not turn."""
-        phi = ends[self.p].phi
-        if phi is not None:
-            row[phi] += self.axis
+    def enter(self, i: int, ends: Sequence[Attached], rows: Assembly) -> None:
+        """Adds it to the i-th row."""
+        rows.turning(i, ends[self.p], self.axis)
 
 
 @dataclass(frozen=True)
@@ -86,22 +88,26 @@ class Line:
         cos, sin = trigonometry(ends[self.a].angle)
         return cos * self.u[0] - sin * self.u[1], sin * self.u[0] + cos * self.u[1]
 
-    def add(self, ends: Ends, row: list[Any]) -> None:
-        """(2.15) u·Δ̇ + u̇·Δ: f of b less that of a as `Along` u, and u × Δ at φ_a: u̇ = ω_a × u.
+    def enter(self, i: int, ends: Sequence[Attached], rows: Assembly) -> None:
+        """Adds it to the i-th row."""
+        rows.line(i, ends[self.a], ends[self.b], self.u)
 
-        Differentiated again that is u·Δ̈ + 2 u̇·Δ̇ + ü·Δ, with u̇·Δ̇ = ω_a (u × Δ̇) and
-        ü = ω̇_a × u − ω_a² u: γ has −2 ω_a (u × Δ̇) + ω_a² u·Δ beside what a and b have by `Along`.
+    def numbers(self, a: Point, b: Point) -> tuple[Any, ...]:
+        """(2.15) u·Δ̇ + u̇·Δ: f of a and of b (x, y and φ of each), g, and γ.
+
+        They are f of b less that of a as `Along` u has it, (u, d × u), and u × Δ at φ_a, since
+        u̇ = ω_a × u.  Differentiated again that is u·Δ̈ + 2 u̇·Δ̇ + ü·Δ, with u̇·Δ̇ = ω_a (u × Δ̇)
+        and ü = ω̇_a × u − ω_a² u: γ has −2 ω_a (u × Δ̇) + ω_a² u·Δ beside the ω² u·d of `Along`.
         """
-        a, b, u = ends[self.a], ends[self.b], self.direction(ends)
-        _add(b, u, row)
-        _add(a, opposite(u), row)
-        if a.phi is None:
-            return
-        x, y = b.r[0] - a.r[0], b.r[1] - a.r[1]
-        x_dot, y_dot = b.r_dot[0] - a.r_dot[0], b.r_dot[1] - a.r_dot[1]
-        row[a.phi] += u[0] * y - u[1] * x
-        row[GAMMA] -= 2 * a.omega * (u[0] * y_dot - u[1] * x_dot)
-        row[GAMMA] += a.omega * a.omega * (u[0] * x + u[1] * y)
+        x, y = self.direction((a, b))
+        gap = b.r[0] - a.r[0], b.r[1] - a.r[1]
+        gap_dot = b.r_dot[0] - a.r_dot[0], b.r_dot[1] - a.r_dot[1]
+        f_a = a.d[1] * x - a.d[0] * y + x * gap[1] - y * gap[0]
+        f_b = b.d[0] * y - b.d[1] * x
+        g = 0.0 if b.xy is not None else -(x * b.r_dot[0] + y * b.r_dot[1])
+        turning = a.omega * a.omega * (x * (gap[0] - a.d[0]) + y * (gap[1] - a.d[1]))
+        gamma = turning - 2 * a.omega * (x * gap_dot[1] - y * gap_dot[0])
+        return -x, -y, f_a, x, y, f_b, g, gamma + b.omega * b.omega * (x * b.d[0] + y * b.d[1])
 
 
 Term = Along | Turning | Line
@@ -110,16 +116,3 @@ Term = Along | Turning | Line
 def opposite(u: Direction) -> Direction:
     """−u."""
     return -u[0], -u[1]
-
-
-def _add(p: Point, u: Direction, row: list[Any]) -> None:
-    """u·ṙ_p, u held for the moment: the derivation is that of `Along`."""
-    (x, y), (_, r_dot, (dx, dy), omega, _, xy, phi) = u, p
-    if xy is None:
-        row[G] -= x * r_dot[0] + y * r_dot[1]
-        return
-    row[xy] += x
-    row[xy + 1] += y
-    if phi is not None:
-        row[phi] += dx * y - dy * x
-        row[GAMMA] += omega * omega * (x * dx + y * dy)

@@ -58,7 +58,7 @@ class SmoothMultibody(Multibody):
 
     def _still(self, t: float, q: Array, v: Array, a: Array) -> Array:
         """f_a q̈ᵃ = γ without the rounding of forces that cancel: a block held at rest has q̈ = 0."""
-        rows, _, gamma = self._resting.rows(t, q.tolist(), v.tolist(), float)
+        rows, _, gamma = self._resting.rows(t, q, v)
         held = rows.T @ np.linalg.solve(rows @ rows.T, gamma)
         free = np.linalg.svd(rows)[2][len(rows) :]  # directions that the rows leave
         weighed = free * self._M

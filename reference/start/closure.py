@@ -11,10 +11,10 @@ import numpy as np
 
 from ...cases.case import Case, Placement
 from ...cases.scene import Anchor, Vector
-from ..generated.constraint import Constraint
+from ..generated.constraint import Constraint, assembled
 from ..generated.coordinates import Coordinates
 from ..generated.permanent import constraints
-from ..generated.rows import FIRST, Along, G, X, Y
+from ..generated.rows import FIRST, Along, X, Y
 from ..system import Array
 
 POSITIONS = {"x": 0, "y": 1, "angle": 2}
@@ -87,11 +87,9 @@ class Closure:
 
         What a residual of 1 means: 1 rad for a held angle, else the mechanism's size [m].
         """
-        still = [0.0] * self.n
-        found = [row for c in parts for row in c.numbers(0.0, q.tolist(), still)]
-        numbers = np.array(found).reshape(len(found), self.n + 2)
+        f, g, _ = assembled(parts, self.where)(0.0, q, np.zeros(self.n))
         units = np.array([1.0 if angle else self.size for c in parts for angle in c.angular])
-        return numbers[:, :G] * self.units / units[:, None], numbers[:, G] / units
+        return f * self.units / units[:, None], g / units
 
     def _size(self) -> float:
         """The largest length [m] on a body, wherever the scene stands; without one, the reach."""

@@ -13,8 +13,10 @@ from textmech.cases import shape
 from textmech.cases.scene import GROUND, Anchor, Body, GroundPoint, Joint, Scene, Spring
 from textmech.reference.generated import mode as module
 from textmech.reference.generated.action import pulls
+from textmech.reference.generated.assembled import Levers
+from textmech.reference.generated.coordinates import Point
 from textmech.reference.generated.mode import Multibody
-from textmech.reference.generated.rows import GAMMA, Along, Line
+from textmech.reference.generated.rows import Line
 from textmech.reference.system import Array
 
 
@@ -52,33 +54,29 @@ def without_moment(force: Any, where: Any, t: Any, q: Any, v: Any, Q: Any) -> No
 original = module.act
 
 
-def convective(kind: type) -> Callable[..., None]:
-    """A term with γ of the wrong sign: in a pin that is all of ω² d."""
-    add = kind.add
-
-    def wrong(self: Any, ends: Any, row: list[Any]) -> None:
-        before = row[GAMMA]
-        add(self, ends, row)
-        row[GAMMA] -= 2 * (row[GAMMA] - before)
-
-    return wrong
+def convective(self: Levers, t: Any, q: Any, v: Any) -> list[Any]:
+    """The levers with γ of the wrong sign: in a pin that is all of ω² d."""
+    cross, gamma = levers(self, t, q, v)
+    return [cross, -gamma]
 
 
-def cross(a: Any, b: Any) -> Any:
-    return a[0] * b[1] - a[1] * b[0]
+levers = Levers.__call__
 
 
-def without_coriolis(add: Callable[..., None]) -> Callable[..., None]:
-    """The term of a slide without 2 ω u·Δ̇."""
+def opposite_gamma(self: Line, a: Point, b: Point) -> tuple[Any, ...]:
+    """A slide with γ of the wrong sign."""
+    *f, gamma = line(self, a, b)
+    return *f, -gamma
 
-    def wrong(self: Any, ends: Any, row: list[Any]) -> None:
-        add(self, ends, row)
-        a, b = ends
-        n = self.direction(ends)
-        if a.phi is not None:
-            row[GAMMA] += 2 * a.omega * cross(n, np.subtract(b.r_dot, a.r_dot))
 
-    return wrong
+def without_coriolis(self: Line, a: Point, b: Point) -> tuple[Any, ...]:
+    """A slide without 2 ω u·Δ̇."""
+    *f, gamma = line(self, a, b)
+    u, slip = self.direction((a, b)), np.subtract(b.r_dot, a.r_dot)
+    return *f, gamma + 2 * a.omega * (u[0] * slip[1] - u[1] * slip[0])
+
+
+line = Line.numbers
 
 
 def mutated(kind: type[Multibody] = Multibody) -> Multibody:
@@ -124,18 +122,18 @@ def test_law_sees_a_lost_moment(law: Law, monkeypatch: pytest.MonkeyPatch) -> No
 
 
 @pytest.mark.parametrize(
-    ("kind", "wrong"),
+    ("kind", "name", "wrong"),
     [
-        (Along, convective(Along)),
-        (Line, convective(Line)),
-        (Line, without_coriolis(Line.add)),
+        (Levers, "__call__", convective),
+        (Line, "numbers", opposite_gamma),
+        (Line, "numbers", without_coriolis),
     ],
     ids=["sign of ω² d in a pin", "sign of γ in a slide", "no Coriolis term in a slide"],
 )
 def test_lagrange_sees_a_wrong_convective_term(
-    kind: type, wrong: Callable[..., None], monkeypatch: pytest.MonkeyPatch
+    kind: type, name: str, wrong: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The power balance cannot: reactions do no work, however large they are."""
-    monkeypatch.setattr(kind, "add", wrong)
+    monkeypatch.setattr(kind, name, wrong)
     assert seen(lagrangian, mutated()) > 1e-4
     assert seen(balance, mutated()) < EXACT

@@ -5,8 +5,9 @@ import pytest
 
 from textmech.cases import shape
 from textmech.cases.scene import GROUND, Anchor, GroundPoint, Scene
+from textmech.reference.generated.assembled import G, Rows
 from textmech.reference.generated.coordinates import Coordinates
-from textmech.reference.generated.rows import Along, G, Line, Term, Turning
+from textmech.reference.generated.rows import Along, Line, Term, Turning
 from textmech.reference.system import Array
 
 P, Q = np.array([0.3, 0.2]), np.array([-0.2, 0.4])  # on the bar and on the block, in body axes
@@ -40,9 +41,9 @@ def E(phi: float) -> Array:
 
 def row(term: Term, ends: tuple[Anchor, ...], t: float, q: Array, v: Array) -> Array:
     """f_a, g and γ, (n + 2,)."""
-    numbers = [0.0] * (len(q) + 2)
-    term.add([WHERE.point(end, t, q.tolist(), v.tolist()) for end in ends], numbers)
-    return np.array(numbers)
+    points = [WHERE.attached[end.body, end.point] for end in ends]
+    (f,), (g,), (gamma,) = Rows([(points, (term,))], len(q))(t, q, v)
+    return np.array([*f, g, gamma])
 
 
 @pytest.fixture(params=range(10))

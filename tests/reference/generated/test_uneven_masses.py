@@ -38,7 +38,7 @@ allow: {bob.y: 1.0e-3}
 
 def exact(mode: Multibody, t: float, q: Array, v: Array) -> Array:
     """(2.60) M q̈ − f_aᵇ λ_b = Q, f_aᵇ q̈ᵃ = γᵇ with fifty digits, from the same numbers."""
-    rows, _, gamma = mode.rows(t, q.tolist(), v.tolist(), float)
+    rows, _, gamma = mode.rows(t, q, v)
     n, r = len(q), len(rows)
     matrix, right = mpmath.zeros(n + r, n + r), mpmath.zeros(n + r, 1)
     Q = mode.applied(t, q, v)

@@ -1,0 +1,160 @@
+"""The rows of many constraints at once: f_a, g and γ of f_a q̇ᵃ = g (2.15) and f_a q̈ᵃ = γ.
+
+What does not change with the state stands in them from the beginning: of a pin all but the columns
+of the angles.  The rest are levers, the points off the centre of a body that turns, and lines, the
+directions that turn with a body; all of a kind are computed together.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ...cases.scene import Vector
+from ..system import Array
+from .coordinates import Attached, moved
+from .rows import FIRST, SECOND, Line, Term, opposite
+
+G, GAMMA = -2, -1  # where g and γ stand in a row of n + 2 numbers
+NOWHERE = -1  # the target of what a particle or a point of the ground has no column for
+
+Row = tuple[Sequence[Attached], Sequence[Term]]
+"""The points that the terms name by their place here, and the terms."""
+Lever = tuple[int, Attached, Vector]
+"""The number of its row, the point, and the direction u."""
+Turn = tuple[int, Attached, Attached, Vector]
+"""The number of its row, the points a and b, and the direction u in the axes of a."""
+
+
+class Rows:
+    """Rows of n + 2 numbers, as functions of t, q (n,) and v (n,), real or complex."""
+
+    def __init__(self, rows: Sequence[Row], n: int) -> None:
+        self._fixed = np.zeros((len(rows), n + 2))
+        self._levers: list[Lever] = []
+        self._turns: list[Turn] = []
+        for i, (ends, terms) in enumerate(rows):
+            for term in terms:
+                term.enter(i, ends, self)
+        self._kinds: list[Levers | Lines] = []
+        if self._levers:
+            self._kinds.append(Levers(self._levers, n + 2))
+        if self._turns:
+            self._kinds.append(Lines(self._turns, n + 2))
+        self._target()
+        self._keep()
+
+    @property
+    def size(self) -> int:
+        """The number r of rows."""
+        return len(self._fixed)
+
+    @property
+    def constant(self) -> bool:
+        """Whether they are the same at every state."""
+        return not self._kinds
+
+    def __call__(self, t: Any, q: Any, v: Any) -> tuple[Any, Any, Any]:
+        """(2.15) f_a (r, n) and g (r,), and γ (r,) of f_a q̈ᵃ = γ."""
+        numbers = self._fixed.astype(np.result_type(t, q, v))
+        if self._kinds:
+            numbers.reshape(-1)[self._targets] = self._changing(t, q, v)
+        return numbers[:, :G], numbers[:, G], numbers[:, GAMMA]
+
+    def entries(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
+        """(2.15) Those of the f_a that `pattern` names, and γ (r,)."""
+        numbers = self._kept.copy()
+        if self._kinds:
+            numbers[self._places] = self._changing(t, q, v)
+        return numbers[: len(self.pattern[0])], numbers[-self.size :]
+
+    def _changing(self, t: Any, q: Any, v: Any) -> Any:
+        values = np.concatenate([values for kind in self._kinds for values in kind(t, q, v)])
+        return self._standing + np.add.reduceat(values[self._order], self._starts)
+
+    def along(self, i: int, p: Attached, u: Vector) -> None:
+        """(2.15) u·ṙ_p with ṙ_p = ṙ_c + ω × d: f = (u, d × u); of a ground point g = −u·ṙ_p."""
+        if p.xy is None:
+            self._fixed[i, G] -= u[0] * p.velocity[0] + u[1] * p.velocity[1]
+            return
+        self._fixed[i, p.xy : p.xy + 2] += u
+        if p.phi is not None and p.at is not None:
+            self._levers.append((i, p, u))
+
+    def turning(self, i: int, p: Attached, axis: float) -> None:
+        """(2.15) ω = φ̇: f = the axis, at φ; γ = 0; what has no angle does not turn."""
+        if p.phi is not None:
+            self._fixed[i, p.phi] += axis
+
+    def line(self, i: int, a: Attached, b: Attached, u: Vector) -> None:
+        """`Along` u, if a does not turn; else one of those that are computed at each state."""
+        if a.phi is None:
+            self.along(i, b, u)
+            self.along(i, a, opposite(u))
+        else:
+            self._turns.append((i, a, b, u))
+
+    def _target(self) -> None:
+        """Sorts the changing numbers by where they go: those for one place are added up."""
+        targets = np.concatenate([np.zeros(0, int), *(kind.targets for kind in self._kinds)])
+        order = np.argsort(targets, kind="stable")
+        self._order = order[np.searchsorted(targets[order], 0) :]
+        self._targets, self._starts = np.unique(targets[self._order], return_index=True)
+        self._standing = self._fixed.reshape(-1)[self._targets]
+
+    def _keep(self) -> None:
+        """Where the f_a are not always zero: these numbers stand without the others, then γ."""
+        r, width = self._fixed.shape
+        numbers = self._fixed != 0.0
+        numbers.reshape(-1)[self._targets] = True
+        self.pattern = row, column = np.nonzero(numbers[:, :G])
+        kept = np.concatenate([row * width + column, np.arange(r) * width + width + GAMMA])
+        places = np.full(self._fixed.size, len(row))  # of a changing g, which is not asked for
+        places[kept] = np.arange(len(kept)) + (np.arange(len(kept)) >= len(row))
+        self._places = places[self._targets]
+        self._kept = np.insert(self._fixed.reshape(-1)[kept], len(row), 0.0)
+
+
+class Levers:
+    """What `Along` has beside its constants, for all points p with a lever d = E x from c to p."""
+
+    def __init__(self, levers: Sequence[Lever], width: int) -> None:
+        rows, points, directions = zip(*levers, strict=True)
+        row, self._phi = np.array(rows), np.array([p.phi for p in points])
+        (x, y), (ux, uy) = np.transpose([p.at for p in points]), np.transpose(directions)
+        self._cross, self._dot = x * uy - y * ux, x * ux + y * uy
+        self.targets = np.concatenate([row * width + self._phi, (row + 1) * width + GAMMA])
+
+    def __call__(self, t: Any, q: Any, v: Any) -> list[Any]:
+        """(2.15) d × u at φ; differentiated by (2.7), u·r̈_p = f_a q̈ᵃ + u·(ω × ḋ): γ = ω² u·d.
+
+        d × u = cos φ (x × u) − sin φ x·u and u·d = cos φ x·u + sin φ (x × u).
+        """
+        phi, omega = q[self._phi], v[self._phi]
+        cos, sin = np.cos(phi), np.sin(phi)
+        return [
+            cos * self._cross - sin * self._dot,
+            omega * omega * (cos * self._dot + sin * self._cross),
+        ]
+
+
+class Lines:
+    """`Line` for all a on bodies that turn, b being anywhere."""
+
+    def __init__(self, turns: Sequence[Turn], width: int) -> None:
+        self._turns = [(a, b, Line(FIRST, SECOND, u)) for _, a, b, u in turns]
+        self.targets = np.array([self._places(*turn[:3], width) for turn in turns]).ravel()
+
+    def _places(self, row: int, a: Attached, b: Attached, width: int) -> list[int]:
+        """Where the numbers of `Line.numbers` stand."""
+        columns = [a.xy, _next(a.xy), a.phi, b.xy, _next(b.xy), b.phi, width + G, width + GAMMA]
+        return [NOWHERE if at is None else row * width + at for at in columns]
+
+    def __call__(self, t: Any, q: Any, v: Any) -> list[Any]:
+        """One by one: there are few."""
+        q, v = q.tolist(), v.tolist()
+        return [line.numbers(moved(a, t, q, v), moved(b, t, q, v)) for a, b, line in self._turns]
+
+
+def _next(column: int | None) -> int | None:
+    return None if column is None else column + 1
