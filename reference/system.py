@@ -88,7 +88,7 @@ class Mode:
         return None
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
-        """Kinetic energy [J]."""
+        """Kinetic energy [J]; of v (n, K) at once, K of them (K,)."""
         raise NotImplementedError
 
     def U(self, t: Any, q: Vector) -> Any:

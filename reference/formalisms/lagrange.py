@@ -36,8 +36,8 @@ def momentum(system: Mode, t: Any, q: Any, v: Any) -> Any:
     Its width is the largest rate: beside a much larger or smaller one T would lose its digits.
     """
     h = float(np.max(np.abs(np.real(v)), initial=0.0)) or 1.0
-    steps = h * np.eye(len(v))
-    return np.array([(system.T(t, q, v + e) - system.T(t, q, v - e)) / (2 * h) for e in steps])
+    rates, steps = np.asarray(v)[:, None], h * np.eye(len(v))  # a column for each difference
+    return (system.T(t, q, rates + steps) - system.T(t, q, rates - steps)) / (2 * h)
 
 
 def mass_matrix(system: Mode, t: float, q: Array) -> Array:

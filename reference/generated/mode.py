@@ -192,7 +192,7 @@ class Multibody(Mode):
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ Σ m ṙ_c² + ½ Σ J ω² [J]."""
-        return 0.5 * np.sum(self._M * v * v)
+        return 0.5 * self._M.dot(v * v)
 
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = −Σ m g·r_c + Σ ½ c (λ − λ₀)² [J]."""
