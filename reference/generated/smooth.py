@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -33,7 +34,8 @@ class SmoothMultibody(Multibody):
         braking: Sequence[Braking] = (),
         coulomb: Sequence[Coulomb] = (),
     ) -> None:
-        self._slides = slides
+        self._laws = [_dry(slide.friction) for slide in slides]
+        self._parts: tuple[Array, Array] | None = None  # of rows that are always the same
         self._rests = [slide.tangent for slide in slides]
         resting = [*held, *self._rests]
         self._resting = Multibody(scene, start, held=resting, braking=braking, coulomb=coulomb)
@@ -44,25 +46,26 @@ class SmoothMultibody(Multibody):
         """(2.60) at rest along the slides, and with F_a + F_fr along them: q̈ and λ are sums."""
         a, multipliers = self._resting.solve(t, q, v)
         a = self._still(t, q, v, a)
-        r, along = len(self.f_a(t, q)), np.zeros(len(q))
+        along = np.zeros(len(q))
         for k, part in enumerate(self._rests):
             f, g, _ = row(part, t, q, v)
-            F_a = -float(multipliers[r + k])
-            along += _left(self._slides[k].friction, float(f @ v) - g, F_a) * f
-        rows, free = self.f_a(t, q), along / self._M
-        if not r:
+            F_a = -float(multipliers[self._r + k])
+            along += _left(*self._laws[k], float(f @ v) - g, F_a) * f
+        free = along / self._M
+        if not self._r:
             return a + free, multipliers[:0]
-        by_mass = self.columns(t, q, v, rows) / self._M
-        more = np.linalg.solve(rows @ by_mass.T, -rows @ free)
-        return a + free + more @ by_mass, multipliers[:r] + more
+        held = self._held(t, q, v)
+        more = held.solve(-held.along(free))
+        return a + free + held.pulled(more), multipliers[: self._r] + more
 
     def _still(self, t: float, q: Array, v: Array, a: Array) -> Array:
         """f_a q̈ᵃ = γ without the rounding of forces that cancel: a block held at rest has q̈ = 0."""
         rows, _, gamma = self._resting.rows(t, q, v)
-        held = rows.T @ np.linalg.solve(rows @ rows.T, gamma)
-        free = np.linalg.svd(rows)[2][len(rows) :]  # directions that the rows leave
-        weighed = free * self._M
-        return held + free.T @ np.linalg.solve(weighed @ free.T, weighed @ (a - held))
+        by_rows, beside = self._parts or _split(rows, self._M)
+        if self._resting.assembled.constant:
+            self._parts = by_rows, beside
+        held = by_rows @ gamma
+        return held + beside @ (a - held)
 
     def _friction(self, k: int) -> Callable[[float, Array, Array], float]:
         """(2.95) F_fr of the k-th slide; F_a is what would hold it at rest."""
@@ -71,7 +74,7 @@ class SmoothMultibody(Multibody):
             multipliers = self._resting.solve(t, q, v)[1]
             F_a = -float(multipliers[len(multipliers) - len(self._rests) + k])
             f, g, _ = row(self._rests[k], t, q, v)
-            F, law = _dry(self._slides[k].friction)
+            F, law = self._laws[k]
             return float(smooth(F, law.band, law.sharpness, float(f @ v) - g, F_a))
 
         return force
@@ -82,9 +85,17 @@ def _dry(friction: DryFriction) -> tuple[Dry, Smooth]:
     return dry(friction), friction.smooth
 
 
-def _left(friction: DryFriction, v: float, F_a: float) -> float:
+def _split(rows: Array, M: Array) -> tuple[Array, Array]:
+    """What makes q̈ of γ, (n, r), and of any q̈ its part where the rows leave it free, (n, n)."""
+    free = np.linalg.svd(rows)[2][len(rows) :]
+    weighed = free * M
+    by_rows: Any = rows.T @ np.linalg.inv(rows @ rows.T)
+    beside: Any = free.T @ np.linalg.solve(weighed @ free.T, weighed)
+    return by_rows, beside
+
+
+def _left(F: Dry, law: Smooth, v: float, F_a: float) -> float:
     """(2.95) F_a + F_fr = F_a (1 − h_v h_F) + F₋ {…} − F₊ {…} [N], h = 1 − below − above."""
-    F, law = _dry(friction)
     slower, faster = _outside(law.sharpness, v, law.band, law.band)
     weaker, stronger = _outside(law.sharpness, F_a, F.Fs_minus, F.Fs_plus)
     inside = 1.0 - slower - faster
