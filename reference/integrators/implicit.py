@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.linalg.lapack import dgetrf, dgetrs, zgetrf, zgetrs
 
 from .march import EPS, Integration, IntegrationError, Slope, Vector, integrate, rms, sizes
-from .radau import Collocation, lagrange, radau_table
+from .radau import Collocation, radau_table
 
 Matrix = NDArray[np.float64]
 Jacobian = Callable[[float, Vector], Matrix]
@@ -20,6 +20,7 @@ Jacobian = Callable[[float, Vector], Matrix]
 ITERATIONS = 15  # slower than this, a new Jacobian or a smaller step is the better bargain
 SLOW = 0.01  # contraction of the iteration beyond which the next step gets a new Jacobian
 ROUNDING = 100.0 * EPS  # corrections this small that no longer shrink are rounding
+FEW = 64  # rows of all stages: their one matrix is solved with faster than several smaller ones
 FAR = 3.0  # do not extrapolate the stages to a step this many times longer than the last
 
 
@@ -45,8 +46,21 @@ class _Factors:
         return self._solve(self._lu, self._pivots, right)[0]
 
 
-class _Stages:
-    """1 − h A ⊗ J of all stages, as one matrix 1 − h λ J for each eigenvalue λ of A.
+class _Whole:
+    """1 − h A ⊗ J of all stages, as one matrix of s n rows: cheapest where these are few."""
+
+    def __init__(self, table: Collocation, scaled: Matrix) -> None:
+        rows = len(table.c) * len(scaled)
+        blocks = np.multiply.outer(table.a, scaled).transpose(0, 2, 1, 3)
+        self._factors = _Factors(np.eye(rows) - blocks.reshape(rows, rows))
+
+    def solve(self, right: Matrix) -> Matrix:
+        """(s, n) for (s, n)."""
+        return self._factors.solve(right.ravel()).reshape(right.shape)
+
+
+class _ByEigenvalues:
+    """The same as one matrix 1 − h λ J for each eigenvalue λ of A.
 
     One matrix of s n rows would cost s³ n³; these are s n³ in all, half of them by conjugation.
     """
@@ -65,6 +79,12 @@ class _Stages:
         for k, (value, factors) in enumerate(zip(self.table.values, self.factors, strict=True)):
             rows[k] = factors.solve(rows[k] if value.imag else rows[k].real)
         return (self.table.back @ rows).real
+
+
+def _stages(table: Collocation, scaled: Matrix) -> _Whole | _ByEigenvalues:
+    """What solves the equations of all stages together."""
+    few = len(table.c) * len(scaled) <= FEW
+    return _Whole(table, scaled) if few else _ByEigenvalues(table, scaled)
 
 
 class Radau:
@@ -93,7 +113,7 @@ class Radau:
         self._fresh = False
         self._contraction = 0.0
         self._factored = 0.0  # step the factors below belong to
-        self._stages = _Stages(table, np.zeros((1, 1)))
+        self._stages = _stages(table, np.zeros((1, 1)))
         self._error_factors = _Factors(np.eye(1))
 
     def begin(self, t: float, y: Vector) -> Vector:
@@ -139,21 +159,16 @@ class Radau:
         if self._factored and abs(h / self._factored - 1.0) < 1e-3:
             return
         scaled = h * self._jacobian
-        self._stages = _Stages(self.table, scaled)
-        if self.table.values[0].imag:
-            self._error_factors = _Factors(np.eye(len(scaled)) - self.table.gamma * scaled)
-        else:
-            self._error_factors = self._stages.factors[0]  # γ is the real eigenvalue
+        self._stages = _stages(self.table, scaled)
+        self._error_factors = _Factors(np.eye(len(scaled)) - self.table.gamma * scaled)
         self._factored = h
 
     def _guess(self, h: float, n: int) -> Matrix:
         """Stage increments from the last step's polynomial, continued; zero where that is wild."""
         if self._last is None or h > FAR * self._last[0]:
             return np.zeros((len(self.table.c), n))
-        ratio = h / self._last[0]
-        nodes = np.append(0.0, self.table.c)
-        values = lagrange(nodes, 1.0 + ratio * self.table.c)[:, 1:] @ self._last[1]
-        return values - self._last[1][-1]
+        length, z = self._last
+        return self.table.continued(h / length) @ z - z[-1]
 
     def _solve(self, t: float, y: Vector, h: float, peak: Vector) -> Matrix | None:
         """Simplified Newton iteration on the stage increments; None if it does not contract."""
@@ -162,7 +177,7 @@ class Radau:
         z = self._guess(h, len(y))
         before = math.inf
         for turn in range(ITERATIONS):
-            slopes = np.array([self.f(at, y + part) for at, part in zip(moments, z, strict=True)])
+            slopes = np.array([self.f(at, row) for at, row in zip(moments, y + z, strict=True)])
             self.evaluations += len(moments)
             change = self._stages.solve(h * (a @ slopes) - z)
             z += change

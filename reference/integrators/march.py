@@ -104,6 +104,7 @@ class _Walker:
     peak: Vector
     wanted: float
     noise: Vector
+    quiet: bool = True  # nothing is known of any noise
 
     def step(self, target: float) -> Step:
         """Take one step towards `target`, landing on it exactly with the last."""
@@ -140,21 +141,24 @@ class _Walker:
                 return
         self.method.evaluations += POINTS
         if found is not None:
-            self.noise = found
+            self.noise, self.quiet = found, False
 
     def _floor(self, h: float) -> Vector:
         """The size at which the tolerance is what rounding of the slopes does to a step of h."""
         return ROUNDED * h / self.method.tolerance * self.noise
 
+    def _audible(self, peak: Vector, h: float) -> Vector:
+        """The peaks, and at least that size."""
+        return peak if self.quiet else np.maximum(peak, self._floor(h))
+
     def _try(self, h: float) -> tuple[float, tuple[Vector, Vector, Vector], Exception | None]:
         try:
             with np.errstate(all="ignore"):  # overflow shows as a step that is not finite
-                floor = self._floor(h)
-                measured = np.maximum(self.peak, floor)
+                measured = self._audible(self.peak, h)
                 total = self.method.attempt(self.t, self.y, h, measured) + self.low
                 y = self.y + total
                 peak = np.maximum(self.peak, np.abs(y))
-                size = sizes(np.maximum(peak, floor), self.method.tolerance)
+                size = sizes(self._audible(peak, h), self.method.tolerance)
                 error = self.method.error(size)
                 return error, (y, total - (y - self.y), peak), None
         except (ArithmeticError, ValueError) as problem:  # as of math.exp or math.sqrt, too far out
@@ -164,7 +168,8 @@ class _Walker:
         self, h: float, factor: float, t: float, tried: tuple[Vector, Vector, Vector], rejected: int
     ) -> Step:
         y, low, peak = tried
-        done = Step(self.t, self.y, h, t, y, rejected, self._floor(h))
+        floor = self.noise if self.quiet else self._floor(h)
+        done = Step(self.t, self.y, h, t, y, rejected, floor)
         # A step cut short by a sample says little about how far the method could have gone.
         self.wanted = max(h * factor, self.wanted) if factor == GROW else h * factor
         self.t, self.y, self.low, self.peak = t, y, low, peak

@@ -34,6 +34,16 @@ class Collocation:
     into: NDArray[np.complex128]
     back: NDArray[np.complex128]
 
+    def continued(self, ratio: float) -> NDArray[np.float64]:
+        """(s, s) What makes of a step's increments those of its polynomial in the next step.
+
+        The next step is `ratio` times as long, and all of its nodes lie beyond those of the last:
+        with x their places, ℓ_i(x) = ω(x) w_i / (x - x_i), ω being the product of all x - x_j.
+        """
+        nodes, weights = _barycentric(len(self.c))
+        gaps = (1.0 + ratio * self.c)[:, None] - nodes
+        return (gaps.prod(axis=1)[:, None] * weights / gaps)[:, 1:]
+
 
 def lagrange(nodes: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.float64]:
     """Values of the Lagrange polynomials of `nodes` (columns) at the points `at` (rows).
@@ -51,6 +61,14 @@ def _nodes(stages: int) -> NDArray[np.float64]:
     if stages == 1:
         return np.ones(1)
     return np.append((1.0 + roots_jacobi(stages - 1, 1.0, 0.0)[0]) / 2.0, 1.0)
+
+
+@cache
+def _barycentric(stages: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """0 and the nodes x_i, and w_i: one over the product of all x_i - x_j, j other than i."""
+    nodes = np.append(0.0, _nodes(stages))
+    gaps = nodes[:, None] - nodes + np.eye(len(nodes))
+    return nodes, 1.0 / gaps.prod(axis=1)
 
 
 def _stage_matrix(c: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -54,10 +54,22 @@ def test_a_given_jacobian_saves_evaluations():
 
 
 @pytest.mark.parametrize("stages", [1, 2, 5, 7])
-def test_stages_by_eigenvalues_are_those_of_the_whole_matrix(stages: int):
+def test_stages_are_solved_by_eigenvalues_as_in_one_matrix(stages: int):
     """1 − h A ⊗ J solved as one matrix of s n rows, and as s of n rows."""
     table, random = radau_table(stages), np.random.default_rng(seed=1)
     scaled, right = random.standard_normal((4, 4)), random.standard_normal((stages, 4))
     whole = np.eye(4 * stages) - np.kron(table.a, scaled)
     known = np.linalg.solve(whole, right.ravel()).reshape(right.shape)
-    np.testing.assert_allclose(implicit._Stages(table, scaled).solve(right), known, atol=1e-11)
+    for way in (implicit._ByEigenvalues, implicit._Whole):
+        np.testing.assert_allclose(way(table, scaled).solve(right), known, atol=1e-11)
+
+
+@pytest.mark.parametrize("ratio", [0.01, 0.7, 1.0, 2.9])
+def test_a_polynomial_is_continued(ratio: float):
+    """Of increments that are the powers of the nodes, those of the next step are powers as well."""
+    table = radau_table(5)
+    rounding = 1e-14 * np.abs(table.continued(ratio)).max()
+    for power in range(1, 6):
+        known = (1.0 + ratio * table.c) ** power - 1.0
+        found = table.continued(ratio) @ table.c**power - 1.0
+        np.testing.assert_allclose(found, known, rtol=0.0, atol=rounding)
