@@ -123,6 +123,15 @@ def test_other_words(tmp_path: Path) -> None:
     assert case.rests
 
 
+def test_a_direction_is_a_unit_vector(tmp_path: Path) -> None:
+    """A groove `along: [3, 4]` is not five times as long, nor its friction five times as strong."""
+    path = tmp_path / "own.yaml"
+    slide = "slide: [plate.P, box.center], along: [3, -4]"
+    path.write_text(EVERYTHING.replace("weld: [plate.P, box.center], angle: 0.5 turn", slide))
+    (case,) = load(path)
+    assert case.scene.joints["fast"].along == pytest.approx((0.6, -0.8), rel=1e-15)
+
+
 @pytest.mark.parametrize(
     ("text", "unit", "value"),
     [

@@ -1,8 +1,10 @@
-"""What an impact must not do: stick by the static cone."""
+"""What an impact must not do: stick by the static cone, or create energy."""
 
 import numpy as np
 import pytest
 from given import scenes
+from given.refused import refused
+from given.rod import rod
 
 from textmech.reference.motion.follow import follow
 
@@ -25,3 +27,11 @@ def test_an_impulse_sticks_by_the_kinetic_cone(tmp_path, share: float):
     left = max(share - 0.1, 0.0) * down
     np.testing.assert_allclose(landing.after[2], left, atol=1e-12)
     assert landing.mode_after == ("touch slides +" if left else "touch sticks")
+
+
+@pytest.mark.parametrize("vx", [0.3, 0.6])
+def test_an_impact_that_would_create_energy_is_refused(tmp_path, vx: float):
+    """v_n⁺ = −v_n⁻ and a tip that friction stops: what turns the bar to do so is work of nobody."""
+    mistake = refused(rod(tmp_path, y=0.05, e=1, mu=3, vx=vx))
+    assert mistake.where == "scene.contacts.tip.friction"
+    assert mistake.what == "the impact would create energy"
