@@ -15,6 +15,7 @@ from .tree import (
     Branch,
     Tree,
     built_as,
+    called,
     coordinate,
     coordinates,
     driven,
@@ -112,7 +113,7 @@ def _bodies(world: ET.Element, scene: Scene, tree: Tree, numbers: dict[str, obje
         elements[element.attrib["name"]] = element
     for branch in tree.branches:
         body = scene.bodies[branch.body]
-        element = ET.SubElement(elements[branch.parent], "body", name=body.name)
+        element = ET.SubElement(elements[branch.parent], "body", name=called(body.name))
         elements[body.name] = element
         _hang(element, scene, branch, _of(numbers, "slide"))
         if branch.joint is None and out:
@@ -233,9 +234,9 @@ def _start(
         point = scene.points[name.partition(".")[2]]
         pairs[name] = list(zip(point.at, point.velocity, strict=True))
     for branch in tree.branches:
-        pairs[branch.body] = coordinates(scene, tree, branch, start)
+        pairs[called(branch.body)] = coordinates(scene, tree, branch, start)
         if branch.joint is None and out:
-            pairs[branch.body].append((0.0, 0.0))
+            pairs[called(branch.body)].append((0.0, 0.0))
     flat = [
         pair
         for element in root.iter("body")  # document order is depth first

@@ -84,6 +84,11 @@ def freedoms(scene: Scene, branch: Branch) -> list[Freedom]:
     return shift + turn if branch.forward else turn + shift
 
 
+def called(body: str) -> str:
+    """MuJoCo's name of a body: its own `world` cannot be another's."""
+    return f"{body}." if body == "world" else body  # no name of a case ends in a dot
+
+
 def coordinate(joint: Joint, freedom: Freedom) -> str:
     """MuJoCo's joint for a freedom: the joint's name, and for the turn of a slot one more."""
     return f"{joint.name}.turn" if freedom == "turn" and joint.shifts else joint.name

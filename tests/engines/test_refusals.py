@@ -57,9 +57,6 @@ REFUSED = {
     ("mujoco", "engine: MuJoCo does not take the scene: .*mjMINVAL"): machine(
         [rigid(name="dust", mass=1e-9, inertia=1e-18, points={})]
     ),
-    ("mujoco", "engine: MuJoCo does not take the scene: .*world"): machine(
-        [replace(ROD, name="world")]
-    ),
     ("mujoco", "adapter: first is not the only contact of wheel"): machine(
         [WHEEL], contacts=[replace(ROLLS, name=name) for name in ("first", "second")]
     ),
@@ -110,9 +107,11 @@ def wheel_and_rod(name: str) -> tuple[Scene, Start]:
     return machine([wheel, ROD], pins, contacts=[contact]), begin  # type: ignore[return-value]
 
 
-def plainly_named(engine: Engine) -> Array:
-    """How the disk moves under a name that nobody else has."""
-    return moved(engine, *wheel_and_rod("wheel"), TENTH, 1e-3).states["wheel"]
+def named(engine: Engine, name: str) -> tuple[Array, Array]:
+    """How the disk of that name moves, and the force by which it holds the rod."""
+    wanted = ("start_.force",)
+    found = moved(engine, *wheel_and_rod(name), TENTH, 1e-3, reactions=wanted)
+    return found.states[name], found.reactions["start_.force"]
 
 
 @pytest.mark.parametrize("engine", SETTINGS, ids=words)
@@ -121,8 +120,8 @@ def test_odd_names(name: str, engine: Engine) -> None:
     """A body, and a joint or contact beside it, may be called what an engine's file also uses."""
     scene, begin = wheel_and_rod(name)
     assert refused(engine, scene) is None
-    found = moved(engine, scene, begin, TENTH, 1e-3)
-    assert np.array_equal(found.states[name], plainly_named(engine))
+    for odd, plain in zip(named(engine, name), named(engine, "wheel"), strict=True):
+        assert np.array_equal(odd, plain)
     assert engine.script(scene, begin, 1e-3, planned(engine, scene, begin))
     wanted = engine.measure(*wheel_and_rod("wheel"))
     renamed = {key.replace("wheel.", f"{name}."): number for key, number in wanted.items()}

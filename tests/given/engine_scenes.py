@@ -33,7 +33,9 @@ BLOCK = particle(name="block", mass=1.3)
 WHEEL = disk(name="wheel", mass=1.3, radius=RADIUS, points={})
 ROLLS = Contact("touch", Anchor("wheel", "center"), 0.5, 0.5, ideal="rolling")
 ORIGIN = Anchor(GROUND, "O")
-ODD_NAMES = ("floor", "ground_link", "groundhog", "start", "center", "x", "textmech", "space", "h")
+ODD_NAMES = (
+    "floor", "ground_link", "groundhog", "start", "center", "x", "textmech", "space", "h", "world",
+)  # fmt: skip
 """Of bodies: what the engines' files also use."""
 
 

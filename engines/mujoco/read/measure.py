@@ -4,14 +4,14 @@ import mujoco
 
 from ....cases.scene import Scene
 from ..force import numbers
-from ..tree import driven
+from ..tree import called, driven
 
 
 def measured(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, float]:
     """The physics that MuJoCo holds, see `Engine.measure`."""
     found = {"gravity.x": model.opt.gravity[0], "gravity.y": model.opt.gravity[1]}
     for body in scene.bodies.values():
-        number = model.body(body.name).id
+        number = model.body(called(body.name)).id
         found[f"{body.name}.mass"] = model.body_mass[number]
         if body.turns:
             found[f"{body.name}.inertia"] = model.body_inertia[number, 2]

@@ -8,7 +8,7 @@ import numpy as np
 from ....cases.scene import Anchor, Joint, Scene
 from ....cases.trajectory import Array
 from ..force import outer
-from ..tree import Tree
+from ..tree import Tree, called
 
 Seen = Mapping[str, Array]
 _OBJECT = mujoco.mjtObj
@@ -23,7 +23,7 @@ def joint_force(
         fx, fy = -seen["efc_force"][:, first : first + 2].T  # MuJoCo counts the first part's
         return fx, fy, np.zeros_like(fx), np.hypot(fx, fy)
     branch = next(b for b in tree.branches if b.joint is joint)
-    body = mujoco.mj_name2id(model, _OBJECT.mjOBJ_BODY, branch.body)
+    body = mujoco.mj_name2id(model, _OBJECT.mjOBJ_BODY, called(branch.body))
     at = _site(model, seen, joint.b)
     # cfrc_int is what holds the subtree together with its parent: the joint's force, and what
     # actuators do to the subtree, which MuJoCo counts as done through the joints. Tendons it
