@@ -13,6 +13,7 @@ from ..cases.observe import observe
 from ..cases.quantity import table
 from ..cases.trajectory import ALIKE, Array, Trajectory
 from .generated.mechanism import Mechanism
+from .motion.bodies import Answer
 from .start.closure import Closure
 from .system import Pose, System
 
@@ -56,6 +57,20 @@ def _otherwise(
                 f"scene with {b[row, i]:.6g}: leave out `system`, then the scene alone answers"
             )
             yield case.mistake(("initial", name, *([FIELDS[i]] if given else [])), what)
+
+
+def check_shares(case: Case, built: Answer) -> None:
+    """Raises CaseError with the forces that are asked for, where only their sum is determined."""
+    modes = [built.system.modes[name] for name in dict.fromkeys(built.followed.modes)]
+    shared = {name for mode in modes for name in mode.undetermined}
+    asked = [(("allow", name), name) for name in case.allow]
+    asked += [(("events", name), event.quantity) for name, event in case.events.items()]
+    what = (
+        "{} is not determined: several points of the body stick there, and only the sum of their "
+        "frictions is known; leave it out"
+    )
+    if found := [case.mistake(path, what.format(name)) for path, name in asked if name in shared]:
+        raise CaseError(found)
 
 
 def check_premises(case: Case, motion: Trajectory, happened: Collection[str | None]) -> None:

@@ -19,7 +19,7 @@ from .coverage import look, noting
 from .generated.mechanism import Mechanism
 from .motion.bodies import Answer, Beside
 from .motion.follow import Followed, follow
-from .premises import check_premises, check_start
+from .premises import check_premises, check_shares, check_start
 from .refusal import bounded, refusals
 from .start.assembly import assemble
 from .start.closure import Closure
@@ -62,6 +62,7 @@ def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
         followed = follow(system, case.times, every=bool(case.events))
         found = followed if system is generated else follow(generated, case.times)
         built = Answer(generated, found)
+        check_shares(case, built)
         beside = reactions_of(generated, found, followed)
         answer = built if system is generated else Answer(system, followed, beside)
         look()

@@ -66,6 +66,7 @@ class Mode:
     coordinates: tuple[str, ...]
     masses: Mapping[str, Mass]
     stiff: bool = False  # whether an explicit integrator would creep
+    undetermined: Sequence[str] = ()  # reactions of which equilibrium knows a sum only
 
     def start(self) -> tuple[Array, Array]:
         """q (n,) and v (n,) at t = 0, of a mode that is a whole system (`Only`)."""

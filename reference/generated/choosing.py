@@ -10,6 +10,7 @@ from .contact import row
 from .element import REST, Element, State, sign, sliding
 from .mode import SingularPose
 from .modes import Modes
+from .sharing import one_slip
 
 After = tuple[str, Array, Array]
 """A mode's name, q and v with which it begins."""
@@ -65,6 +66,8 @@ def settled(modes: Modes, choices: Sequence[Options], t: float, q: Array, v: Arr
     """
     found: list[tuple[State, ...]] = []
     for states in itertools.product(*choices):
+        if not one_slip(modes.elements, states):
+            continue
         after = _projected(modes, states, t, q, v)
         if _agrees(modes, states, choices, t, *after):
             found.append(states)

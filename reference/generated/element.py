@@ -60,7 +60,13 @@ class Element:
     only: State | None = None  # its one state
     frictionless: bool = False  # nothing to stick by: then it slides, whichever way
     kinetic: float = 0.0  # coefficient of a contact that slides
+    static: float = 0.0  # of one that sticks
     restitution: float = 0.0
+
+    @property
+    def body(self) -> str:
+        """The one that slips."""
+        return self.tangent.ends[-1].body
 
     def held(self, state: State) -> list[Constraint]:
         """The constraints of the state."""
@@ -96,9 +102,7 @@ class Smoothed(Element):
 
 @dataclass(frozen=True, kw_only=True)
 class Touching(Element):
-    """A contact that opens, slides and sticks; `static` is its coefficient of stiction."""
-
-    static: float
+    """A contact that opens, slides and sticks."""
 
     def held(self, state: State) -> list[Constraint]:
         """Nothing, the floor, or the floor and no slip."""

@@ -6,13 +6,14 @@ Coulomb's law (2.87): within the cone it stops the slip, else it is μ times the
 """
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..system import Array
 from .element import REST, Element, State, sign
+from .sharing import one_slip
 
 CONE = 1e-12  # of the impulse: an impulse that needs all of the cone sticks
 ROUNDING = 1e-12  # of the velocities
@@ -50,7 +51,10 @@ def impact(
 
     Raises NoImpact.
     """
+    elements = [meeting.element for meeting in meetings]
     for states in itertools.product(*_choices(meetings)):
+        if not one_slip(elements, states):
+            continue
         found = _tried(M, joints, meetings, v, states)
         if found is not None:
             if M @ found**2 > (1 + GAIN) * (M @ v**2) and not any(row.g for row in joints):
@@ -76,6 +80,7 @@ def _tried(
     columns: list[Array] = []
     after: list[float] = []
     normals: list[int | None] = []  # where each contact's normal row stands
+    stuck: dict[str, int] = {}  # and the row of no slip of each body that sticks
     for joint in joints:
         rows.append(joint.f)
         columns.append(joint.f)
@@ -89,7 +94,9 @@ def _tried(
         rows.append(meeting.normal.f)
         columns.append(meeting.normal.f + lean * meeting.tangent.f)
         after.append(meeting.after)
-        if state == "sticks":
+        body = meeting.element.body
+        if state == "sticks" and body not in stuck:  # its other points do not slip either
+            stuck[body] = len(rows)
             rows.append(meeting.tangent.f)
             columns.append(meeting.tangent.f)
             after.append(0.0)
@@ -107,21 +114,25 @@ def _tried(
         if at is None:
             if meeting.normal.f @ v_after < -small:
                 return None
-        elif not _lawful(meeting, state, impulse[at : at + 2], v_after, small, nothing):
+        elif impulse[at] < -nothing or sign(state) * (meeting.tangent.f @ v_after) < -small:
             return None
-    return v_after
+    return v_after if _held(meetings, normals, stuck, impulse, nothing) else None
 
 
-def _lawful(
-    meeting: Meeting, state: State, impulse: Array, v: Array, small: float, nothing: float
+def _held(
+    meetings: Sequence[Meeting],
+    normals: Sequence[int | None],
+    stuck: Mapping[str, int],
+    impulse: Array,
+    nothing: float,
 ) -> bool:
-    """(2.87) for impulses: the floor pushes, within the cone or against the slip.
+    """(2.87) for impulses: what sticks is within the cone, the points of one body together.
 
     A contact that the impact does not concern gets an impulse of rounding, of either sign.
     """
-    if impulse[0] < -nothing:
-        return False
-    if state == "sticks":
-        cone = (1 + CONE) * meeting.element.kinetic * impulse[0]
-        return bool(abs(impulse[1]) <= cone + nothing)
-    return bool(sign(state) * (meeting.tangent.f @ v) >= -small)
+    for body, row in stuck.items():
+        pairs = [(m.element, at) for m, at in zip(meetings, normals, strict=True)]
+        cone = sum(e.kinetic * impulse[at] for e, at in pairs if at is not None and e.body == body)
+        if abs(impulse[row]) > (1 + CONE) * cone + nothing:
+            return False
+    return True

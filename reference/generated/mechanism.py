@@ -14,6 +14,7 @@ from .choosing import After, Options, closed, opening, painleve, settled, stayin
 from .element import REST, Element, State, sign
 from .landing import STILL, landed
 from .modes import Modes, rate
+from .sharing import beside
 
 CLOSED = 1e-9  # of the scene's size: a start this close to the floor stands on it
 PIECES = 16  # of the shortest period of a force: a guard at rest sees nothing else of time
@@ -99,7 +100,8 @@ class Mechanism(System):
 
         def then(t: float, q: Array, v: Array) -> After:
             choices = staying(self.built, mode)
-            choices[i] = (*choice, *opening(self.elements[i])) if choice == REST else choice
+            for k in beside(self.elements, self.built.states[mode], i):
+                choices[k] = (*choice, *opening(self.elements[k])) if choice == REST else choice
             return settled(self.built, choices, t, q, v)
 
         return then

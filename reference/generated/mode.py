@@ -14,6 +14,7 @@ from .contact import Braking, Coulomb, row
 from .coordinates import Coordinates
 from .factors import Dependent, Held, full
 from .permanent import constraints
+from .sharing import Shared
 
 TURNS = 2  # of refinement, each with the digits of the first solution: 10 of 16 may be lost
 UNEVEN = 1e3  # the heaviest mass beside the lightest: up to that one turn is enough
@@ -32,7 +33,7 @@ class Multibody(Mode):
 
     q holds x, y, angle of each body in the scene's order (a particle has no angle).
     `held` are constraints beside those of the joints, `braking` and `coulomb` what slides with dry
-    friction: the mode of a scene that switches.
+    friction: the mode of a scene that switches. `shared`: what sticks by several points of a body.
     """
 
     def __init__(
@@ -43,6 +44,7 @@ class Multibody(Mode):
         held: Sequence[Constraint] = (),
         braking: Sequence[Braking] = (),
         coulomb: Sequence[Coulomb] = (),
+        shared: Sequence[Shared] = (),
     ) -> None:
         self.scene = scene
         self.where = Coordinates(scene)
@@ -55,7 +57,8 @@ class Multibody(Mode):
         self._r = len(self._owners)
         masses = [mass.m for mass in self.masses.values()]
         self._turns = TURNS if max(masses) > UNEVEN * min(masses) else min(TURNS, 1)
-        self._braking = braking
+        self._braking, self._shared = braking, shared
+        self.undetermined = tuple(name for share in shared for name in share.forces)
         places = np.cumsum([0, *(c.size for c in self._constraints)]).tolist()
         self._coulomb = [(places[self._constraints.index(law.normal)], law) for law in coulomb]
         self.assembled = assembled(self._constraints, self.where)
@@ -78,11 +81,9 @@ class Multibody(Mode):
 
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) R_a = λ_b f_aᵇ: the force of the first part on the second, by quantity."""
-        multipliers = self.solve(t, q, v)[1].tolist()
-        at, numbers = 0, q.tolist()
-        found: dict[str, float] = {}
-        for contact in self.scene.contacts.values():
-            found |= {f"{contact.name}.normal": 0.0, f"{contact.name}.tangent": 0.0}
+        at, numbers, multipliers = 0, q.tolist(), self.solve(t, q, v)[1].tolist()
+        of_floor = ("normal", "tangent")
+        found = {f"{name}.{way}": 0.0 for name in self.scene.contacts for way in of_floor}
         for c in self._constraints:
             _add(found, c.reactions(t, numbers, multipliers[at : at + c.size]))
             at += c.size
@@ -93,6 +94,8 @@ class Multibody(Mode):
         for joint in self.scene.joints.values():
             if not joint.turns:  # a particle takes no moment
                 found.setdefault(f"{joint.name}.torque", 0.0)
+        for shared in self._shared:
+            found |= shared.divided(found)
         return found
 
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:

@@ -10,6 +10,7 @@ from .constraint import Constraint
 from .contact import row
 from .element import Element, Smoothed, State, elements
 from .mode import Multibody
+from .sharing import shares
 from .smooth import SmoothMultibody
 
 ROUNDING = 1e-10  # of the accelerations that the forces give alone
@@ -42,15 +43,22 @@ class Modes(Mapping[str, Multibody]):
 
     def _build(self, states: tuple[State, ...]) -> Multibody:
         pairs = list(zip(self.elements, states, strict=True))
-        held = [part for e, s in pairs for part in e.held(s)]
+        shared = list(shares(self.elements, states))
+        again = {name for share in shared for name in share.contacts[1:]}
+        held = [
+            part for e, s in pairs for part in e.held(s) if part is e.normal or e.name not in again
+        ]
         braking = [brake for e, s in pairs for brake in e.braking(s)]
         coulomb = [law for e, s in pairs for law in e.coulomb(s)]
         smooth = [e for e in self.elements if isinstance(e, Smoothed)]
         if smooth:
             return SmoothMultibody(
-                self.scene, self.start, smooth, held=held, braking=braking, coulomb=coulomb
-            )
-        return Multibody(self.scene, self.start, held=held, braking=braking, coulomb=coulomb)
+                self.scene, self.start, smooth,
+                held=held, braking=braking, coulomb=coulomb, shared=shared,
+            )  # fmt: skip
+        return Multibody(
+            self.scene, self.start, held=held, braking=braking, coulomb=coulomb, shared=shared
+        )
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._built)

@@ -13,6 +13,7 @@ from .constraint import Constraint
 from .contact import Braking, Coulomb, row
 from .element import Smoothed, dry
 from .mode import Multibody
+from .sharing import Shared
 
 
 class SmoothMultibody(Multibody):
@@ -33,6 +34,7 @@ class SmoothMultibody(Multibody):
         held: Sequence[Constraint] = (),
         braking: Sequence[Braking] = (),
         coulomb: Sequence[Coulomb] = (),
+        shared: Sequence[Shared] = (),
     ) -> None:
         self._laws = [_dry(slide.friction) for slide in slides]
         self._parts: tuple[Array, Array] | None = None  # of rows that are always the same
@@ -40,7 +42,9 @@ class SmoothMultibody(Multibody):
         resting = [*held, *self._rests]
         self._resting = Multibody(scene, start, held=resting, braking=braking, coulomb=coulomb)
         smooth = [Braking(part, self._friction(k)) for k, part in enumerate(self._rests)]
-        super().__init__(scene, start, held=held, braking=[*braking, *smooth], coulomb=coulomb)
+        super().__init__(
+            scene, start, held=held, braking=[*braking, *smooth], coulomb=coulomb, shared=shared
+        )
 
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
         """(2.60) at rest along the slides, and with F_a + F_fr along them: q̈ and λ are sums."""

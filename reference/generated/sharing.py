@@ -1,0 +1,68 @@
+"""Contacts of one body that are closed together: one slip, and a friction that they share.
+
+Points of a rigid body on the floor have one height, and by (2.6) one slip: they stick together or
+slide together. Where they stick, equilibrium knows the sum of their friction forces and not the
+share of each: the row of no slip holds once.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from .element import Element, State
+
+
+@dataclass(frozen=True)
+class Shared:
+    """The sticking contacts of one body by name, with their coefficients of stiction.
+
+    The first one's row holds; its multiplier is the sum of all their friction forces.
+    """
+
+    contacts: tuple[str, ...]
+    static: tuple[float, ...]
+
+    @property
+    def forces(self) -> tuple[str, ...]:
+        """The reactions of which only the sum is determined."""
+        return tuple(f"{name}.tangent" for name in self.contacts)
+
+    def divided(self, forces: Mapping[str, float]) -> dict[str, float]:
+        """(2.89) each takes a part as μ_s F_N, so that all break loose at one force [N]."""
+        both = zip(self.contacts, self.static, strict=True)
+        bounds = [mu_s * max(forces[f"{name}.normal"], 0.0) for name, mu_s in both]
+        total, most = forces[self.forces[0]], sum(bounds)
+        parts = [bound / most if most else 1.0 / len(bounds) for bound in bounds]
+        return dict(zip(self.forces, [part * total for part in parts], strict=True))
+
+
+def one_slip(elements: Sequence[Element], states: Sequence[State]) -> bool:
+    """Whether the closed contacts of each body do alike; what has no friction has no choice."""
+    found: dict[str, State] = {}
+    for e, state in zip(elements, states, strict=True):
+        if _rubs(e, state) and found.setdefault(e.body, state) != state:
+            return False
+    return True
+
+
+def beside(elements: Sequence[Element], states: Sequence[State], i: int) -> list[int]:
+    """Element i, and the contacts of its body that slip or stick with it."""
+    mine = elements[i]
+    if not _rubs(mine, states[i]):
+        return [i]
+    pairs = enumerate(zip(elements, states, strict=True))
+    return [k for k, (e, state) in pairs if _rubs(e, state) and e.body == mine.body]
+
+
+def shares(elements: Sequence[Element], states: Sequence[State]) -> Iterator[Shared]:
+    """The contacts that stick by more than one point of a body."""
+    groups: dict[str, list[Element]] = {}
+    for e, state in zip(elements, states, strict=True):
+        if _rubs(e, state) and state == "sticks":
+            groups.setdefault(e.body, []).append(e)
+    for group in groups.values():
+        if len(group) > 1:
+            yield Shared(tuple(e.name for e in group), tuple(e.static for e in group))
+
+
+def _rubs(e: Element, state: State) -> bool:
+    return e.normal is not None and not e.only and not e.frictionless and state != "open"

@@ -1,0 +1,100 @@
+"""A bar that lies on two points: they have one slip, and where they stick a sum of frictions."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from given import scenes
+from given.refused import refused
+
+from textmech.cases.case import Case
+from textmech.reference.motion.follow import follow
+from textmech.reference.solve import solve
+
+G = 9.80665
+LIES = """\
+scene:
+  bodies: {{bar: {{bar: {{mass: 1, length: 1}}}}}}
+  contacts:
+    a: {{between: [bar.start, ground.floor], friction: {a}}}
+    b: {{between: [bar.end, ground.floor], friction: {b}}}
+  forces: {{pull: {{push: bar.center, {pull}}}}}
+initial: {{bar: {{start: [0, 0], angle: 0, vx: {vx}}}}}
+allow: {{bar.x: 1.0e-3{more}}}
+"""
+FALLS = """\
+scene:
+  bodies: {{bar: {{bar: {{mass: 1, length: 1}}}}}}
+  contacts:
+    a: {{between: [bar.start, ground.floor], friction: {mu}}}
+    b: {{between: [bar.end, ground.floor], friction: {mu}}}
+initial: {{bar: {{start: [0, 0], angle: 10 deg, omega: 0}}}}
+events: {{lands: {{b.gap: falls to zero}}}}
+allow: {{bar.y: 1.0e-3, a.normal: 1.0e-3}}
+"""
+
+
+def lying(tmp_path: Path, pull: str, *, a: float = 0.3, b: float = 0.3, vx: float = 0.0,
+          more: str = "") -> Case:  # fmt: skip
+    text = LIES.format(pull=pull, a=a, b=b, vx=vx, more=more)
+    return scenes.typed(tmp_path, text, tail=scenes.tail(0.6, 7))
+
+
+def changes(case: Case) -> list[tuple[float, str]]:
+    """When the mode changes, and what comes then."""
+    found = follow(scenes.mechanism(case), case.times)
+    return [(change.time, change.mode_after) for change in found.changes]
+
+
+@pytest.mark.parametrize("vx", [1.0, -1.0])
+@pytest.mark.parametrize(("a", "b"), [(0.3, 0.3), (0.5, 0.1), (0.1, 0.5)])
+def test_both_stop_at_once(tmp_path: Path, a: float, b: float, vx: float):
+    """At |v| / (μ g), μ their mean; and then one holds what the other leaves."""
+    ((t, mode),) = changes(lying(tmp_path, "constant: [0, 0]", a=a, b=b, vx=vx))
+    assert t == pytest.approx(1 / (0.3 * G), abs=1e-12)
+    assert mode == "a sticks, b sticks"
+
+
+@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize(("a", "b"), [(0.1, 0.1), (0.17, 0.03)])
+def test_both_break_loose_at_the_sum(tmp_path: Path, a: float, b: float, way: int):
+    """(2.89) At 10 t = (μ_a + μ_b) m g/2, and not where the first has all that it can bear."""
+    ((t, mode),) = changes(lying(tmp_path, f"ramp: [{10 * way}, 0]", a=a, b=b))
+    sign = "+" if way > 0 else "-"
+    assert (mode, t) == (f"a slides {sign}, b slides {sign}", pytest.approx(0.01 * G, abs=1e-12))
+
+
+def test_a_force_to_and_fro_below_the_sum_moves_nothing(tmp_path: Path):
+    shake = "sine: {amplitude: [2.9, 0], angular_frequency: 20}"
+    assert changes(lying(tmp_path, shake, a=0.5, b=0.1)) == []
+
+
+@pytest.mark.parametrize(("push", "a"), [(5.0, 5 - 0.3 * G), (2.0, 0.0)])
+def test_from_rest_the_sum_decides(tmp_path: Path, push: float, a: float):
+    case = lying(tmp_path, f"constant: [{push}, 0]")
+    x = follow(scenes.mechanism(case), case.times).y[:, 0]
+    np.testing.assert_allclose(x - 0.5, a * case.times**2 / 2, atol=1e-13)
+
+
+@pytest.mark.whole
+@pytest.mark.parametrize("mu", [1.2, 0.6])
+def test_a_bar_that_falls_flat_rests(tmp_path: Path, mu: float):
+    case = scenes.typed(tmp_path, FALLS.format(mu=mu), tail=scenes.tail(0.6, 7))
+    solution = solve(case)
+    assert [check for check in solution.checks if not check.holds] == []
+    normal = solution.trajectory.reactions["a.normal"]
+    assert normal[-1] == pytest.approx(G / 2, abs=1e-12)
+
+
+def test_what_is_not_determined_cannot_be_asked_for(tmp_path: Path):
+    mistake = refused(lying(tmp_path, "constant: [1, 0]", vx=1.0, more=", b.tangent: 1.0e-3"))
+    assert mistake.where == "allow.b.tangent"
+    assert "only the sum of their frictions is known" in mistake.what
+
+
+@pytest.mark.whole
+def test_while_both_slide_their_frictions_are_known(tmp_path: Path):
+    case = lying(tmp_path, "constant: [5, 0]", b=0.1, more=", b.tangent: 1.0e-3")
+    forces = solve(case).trajectory.reactions
+    np.testing.assert_allclose(forces["a.tangent"], -0.15 * G, atol=1e-12)
+    np.testing.assert_allclose(forces["b.tangent"], -0.05 * G, atol=1e-12)
