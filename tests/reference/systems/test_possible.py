@@ -22,7 +22,7 @@ def test_friction_cone_is_not_ignored():
 
 def test_contact_that_is_open_or_penetrates_is_said():
     disk = example("bouncing_disk")
-    assert "below the floor" in str(disk.possible("flight", 0.0, np.array([0.19]), np.zeros(1)))
+    assert "below the floor" in str(disk.possible("flight", 0.0, np.array([-0.01]), np.zeros(1)))
     block = example("sliding_block", beta=math.radians(100))
     assert "would have to pull" in str(block.possible("down", 0.0, np.zeros(1), np.zeros(1)))
     wheel, q = example("sliding_disk", beta=math.radians(100)), np.array([0.0, 0.25, 0.0])
