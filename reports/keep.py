@@ -40,12 +40,12 @@ def _motions(report: Report, case: Case) -> pd.DataFrame:
         columns[f"{name} [{unit}] reference"] = pd.Series(
             observe(case.scene, reference, name), here
         )
-        for unit_of_work, outcome in report.outcomes:
-            engine = unit_of_work.pair.engine
-            if unit_of_work.pair.case.name == case.name and name in outcome.samples:
-                label = f"{engine.name}.{engine.setting}.{unit_of_work.realised}"
-                times = np.round(unit_of_work.case.times, INSTANTS)  # its own step's, if it has one
-                columns[f"{name} [{unit}] {label}"] = pd.Series(outcome.samples[name], times)
+        for one in report.tried:
+            engine = one.pair.engine
+            if one.pair.case.name == case.name and name in one.outcome.samples:
+                label = f"{engine.name}.{engine.setting}.{one.realised}"
+                times = np.round(one.pair.sampled.times, INSTANTS)  # its own step's, if it has one
+                columns[f"{name} [{unit}] {label}"] = pd.Series(one.outcome.samples[name], times)
     for body, states in reference.states.items():
         for field, unit, column in (("x", "m", X), ("y", "m", Y), ("angle", "rad", ANGLE)):
             values = pd.Series(states[:, column], here)

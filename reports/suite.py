@@ -1,11 +1,10 @@
 """The one path: cases → references → trials → rows."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from concurrent.futures import Executor
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from math import inf
-from typing import Any
 
 from ..cases.case import Case
 from ..cases.mistake import CaseError, Mistake
@@ -18,18 +17,18 @@ from .events.times import never
 from .judge.compare import Outcome, crashed
 from .judge.instants import of_reference
 from .judge.metric import told
-from .pool import Died, local, spread
+from .pool import Died, local
+from .results import Progress, Results
 from .row import FAILS, Certificate, Comparison, Instant, Rungs
 from .selection import sound
 from .trial.book import producers
 from .trial.trial import Trial
-from .unit import Pair, Unit, planned, tried
+from .trials import Tried, tried
+from .unit import Pair
 
 OF_BOUND = 0.1  # of what a check must keep: below it a difference is its rounding
 
-WAYS = 3  # at most, of one engine: its own elements, our law, our driver
-Progress = Callable[[str, int, int], None]
-"""What is being done, how much is done, out of how much."""
+RUNS = 30  # about, of an engine on a case: three ways, two ladders, five rungs
 
 
 @dataclass
@@ -45,7 +44,7 @@ class Report:
     solutions: dict[str, Solution] = field(default_factory=dict)
     lost: dict[str, str] = field(default_factory=dict)  # case → why it has no reference
     mistakes: list[Mistake] = field(default_factory=list)  # of files that are left out
-    outcomes: list[tuple[Unit, Outcome]] = field(default_factory=list)
+    tried: list[Tried] = field(default_factory=list)
 
     @property
     def fails(self) -> bool:
@@ -74,51 +73,29 @@ def measure(
     """
     keys, report = Keys.now(), Report(cases=list(cases))
     beside = [(case, e) for case in cases for e in producers(case, engines, book=book)]
-    most = max(len(cases), WAYS * len(beside))
+    most = max(len(cases), RUNS * len(beside))
     with (
         nullcontext(store) if store else passing() as used,
         used.alone(keys.run(beside), lambda: progress("another run has these", 0, 1)),
         nullcontext(executor) if executor else local(min(jobs, most)) as working,
     ):
-        run = _Run(working, progress, used, keys)
+        results = Results(working, progress, used, keys)
         pairs = [Pair(case, engine, used, keys.solution(case)) for case, engine in beside]
-        _solve(cases, run, report)
-        _try([pair for pair in pairs if pair.case.name in report.solutions], run, report)
+        _solve(cases, results, report)
+        known = [pair for pair in pairs if pair.case.name in report.solutions]
+        references = {name: solved.trajectory for name, solved in report.solutions.items()}
+        for one in tried(known, references, results):
+            _take(one, report)
         for pair in pairs:
             if pair.case in report.cases and pair.case.name in report.lost:
                 _without_reference(pair, report)
         return report
 
 
-@dataclass(frozen=True)
-class _Run:
-    """What every phase needs."""
-
-    executor: Executor
-    progress: Progress
-    store: Store
-    keys: Keys
-
-    def results(
-        self, what: str, function: Callable[[Any], Any], tasks: Mapping[str, Any]
-    ) -> dict[str, Any]:
-        """By the tasks' keys: what is stored, and all else from the executor, stored at once."""
-        found = {key: kept for key in tasks if (kept := self.store.get(key)) is not None}
-        left = [key for key in tasks if key not in found]
-        self.progress(what, len(found), len(tasks))
-        for index, result in spread(function, [tasks[key] for key in left], self.executor):
-            key = left[index]
-            found[key] = result
-            if not isinstance(result, Died | CaseError) and self.keys.hold():
-                self.store.put(key, result)
-            self.progress(what, len(found), len(tasks))
-        return found
-
-
-def _solve(cases: Sequence[Case], run: _Run, report: Report) -> None:
-    tasks = {run.keys.solution(case): case for case in cases}
-    found = run.results("references", _solved, tasks)
-    answers = {case.name: found[run.keys.solution(case)] for case in cases}
+def _solve(cases: Sequence[Case], results: Results, report: Report) -> None:
+    keys = {case.name: results.keys.solution(case) for case in cases}
+    found = results.of("references", _solved, {keys[case.name]: case for case in cases})
+    answers = {case.name: found[keys[case.name]] for case in cases}
     report.mistakes += [m for case in cases for m in _wrong(case, answers[case.name])]
     report.cases = sound(cases, report.mistakes)
     if not report.cases:
@@ -143,38 +120,15 @@ def _wrong(case: Case, answer: Solution | CaseError | Died) -> list[Mistake]:
     return [] if isinstance(answer, Died) else never(case, answer.trajectory)
 
 
-def _try(pairs: Sequence[Pair], run: _Run, report: Report) -> None:
-    """Every way of every engine; the longest first, or one core works alone at the end."""
-    asked = {run.keys.ways(pair.case, pair.engine): pair for pair in pairs}
-    ways = run.results("plans", planned, asked)
-    units: list[tuple[str, Unit]] = []
-    gone: dict[str, Died] = {}
-    for pair_key, pair in asked.items():
-        found = ways[pair_key]
-        for realised in ("native",) if isinstance(found, Died) else found:
-            key = run.keys.outcome(pair_key, realised)
-            units.append((key, Unit(pair, realised)))
-            if isinstance(found, Died):
-                gone[key] = found
-    longest = sorted(units, key=lambda unit: -unit[1].steps)
-    tasks = {key: unit for key, unit in longest if key not in gone}
-    outcomes = run.results("engines", tried, tasks) | gone
-    for key, unit in units:
-        _take(unit, outcomes[key], report)
-
-
-def _take(unit: Unit, outcome: Outcome | Died, report: Report) -> None:
-    solution = report.solutions[unit.pair.case.name]
-    if isinstance(outcome, Died):
-        refused = Refusal(unit.realised, outcome.because)
-        trial = Trial(unit.pair.case, solution.trajectory, unit.pair.engine, refused)
-        outcome = crashed(trial, outcome.because)
+def _take(one: Tried, report: Report) -> None:
+    solution = report.solutions[one.pair.case.name]
+    outcome = one.outcome
     if not solution.holds:
         outcome = _failing(outcome, _uncertified(solution))
     report.comparisons += outcome.rows
     report.rungs += outcome.rungs
     report.instants += outcome.instants
-    report.outcomes.append((unit, outcome))
+    report.tried.append(replace(one, outcome=outcome))
 
 
 def _without_reference(pair: Pair, report: Report) -> None:

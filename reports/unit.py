@@ -1,5 +1,6 @@
-"""A unit of work: one engine on one case in one way, small enough to be sent anywhere."""
+"""Units of work, small enough to be sent anywhere: a case's ways, one run, a pair's rows."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -9,11 +10,15 @@ from ..engines.engine import Engine, Plan, Realised, Refusal
 from ..reference.solve import Solution, solve
 from .cache.store import Store
 from .judge.compare import Outcome, compare
-from .trial.ladder import judged_step, sampled
+from .trial.ladder import sampled
+from .trial.rung import Climbed, Rung
+from .trial.simulate import At, gathered, rungs
 from .trial.start import first
 from .trial.trial import Trial, ways, with_room
 
 AT_HAND = 8  # references that a process remembers: it meets the ways of one case one after another
+
+Way = Plan | Refusal
 
 
 @dataclass(frozen=True)
@@ -29,44 +34,57 @@ class Pair:
         """From the store; where that has none, as on a machine that does not share it, anew."""
         return _at_hand(self.store, self.key) or solve(self.case).trajectory
 
+    @property
+    def sampled(self) -> Case:
+        """The case with the samples that the engine's own step meets."""
+        return sampled(self.case, self.engine)
+
 
 @dataclass(frozen=True)
 class Unit:
     """One of the ways in which the engine runs the case, or refuses to."""
 
     pair: Pair
-    realised: Realised
+    way: Way
 
     @property
-    def case(self) -> Case:
-        """The case with the samples that the engine's own step meets."""
-        return sampled(self.pair.case, self.pair.engine)
+    def realised(self) -> Realised:
+        """`native`, `law` or `driver`."""
+        return self.way.realised
 
-    @property
-    def steps(self) -> float:
-        """About how many the finest rung takes."""
-        return self.case.duration / judged_step(self.case, self.pair.engine)
+    def rungs(self, reference: Trajectory) -> dict[At, Rung]:
+        """What has to be run, each on its own; the reference of the case's own samples will do."""
+        if isinstance(self.way, Refusal):
+            return {}
+        return rungs(Trial(self.pair.sampled, reference, self.pair.engine, self.way))
 
 
-def planned(pair: Pair) -> tuple[Realised, ...]:
+@dataclass(frozen=True)
+class Climb:
+    """A unit and what its rungs gave."""
+
+    unit: Unit
+    found: Mapping[At, Climbed]
+
+
+def planned(pair: Pair) -> tuple[Way, ...]:
     """In which ways the engine runs the case, or refuses to."""
-    return tuple(way.realised for way in _ways(pair, pair.reference()))
-
-
-def tried(unit: Unit) -> Outcome:
-    """The unit's rows: plans again, as a plan is made of functions and cannot lie in a store."""
-    pair = unit.pair
-    case, reference = pair.case, pair.reference()
-    way = next(way for way in _ways(pair, reference) if way.realised == unit.realised)
-    own = unit.case is not case and not isinstance(way, Refusal)
-    if own:
-        case, reference = unit.case, solve(unit.case).trajectory
-    return compare(Trial(case, reference, pair.engine, way, sampled=own))
-
-
-def _ways(pair: Pair, reference: Trajectory) -> tuple[Plan | Refusal, ...]:
-    found = ways(pair.engine, pair.case.scene, first(reference))
+    found = ways(pair.engine, pair.case.scene, first(pair.reference()))
     return with_room(found, pair.case, pair.engine)
+
+
+def judged(climb: Climb) -> Outcome:
+    """The unit's rows."""
+    pair, way = climb.unit.pair, climb.unit.way
+    reference = pair.reference()
+    if isinstance(way, Refusal):
+        return compare(Trial(pair.case, reference, pair.engine, way))
+    case = pair.sampled
+    own = case is not pair.case
+    if own:
+        reference = solve(case).trajectory
+    trial = Trial(case, reference, pair.engine, way, sampled=own)
+    return compare(trial, gathered(trial, climb.found))
 
 
 @lru_cache(AT_HAND)

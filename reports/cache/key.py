@@ -58,6 +58,10 @@ class Keys:
         """Of what it gave in one of the ways under that key."""
         return _word("outcome", ways, realised)
 
+    def rung(self, outcome: str, ladder: str, step: float) -> str:
+        """Of one run behind that outcome."""
+        return _word("rung", outcome, ladder, repr(step))
+
     def run(self, pairs: Iterable[tuple[Case, Engine]]) -> str:
         """Of all together: two runs with this key compute the same."""
         return _word("run", *(self.ways(case, engine) for case, engine in pairs))

@@ -4,7 +4,7 @@ import os
 import shutil
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from hashlib import sha256
@@ -89,6 +89,12 @@ class Store:
             except BaseException:
                 Path(made).unlink(missing_ok=True)
                 raise
+
+    def drop(self, keys: Iterable[str]) -> None:
+        """Forgets what is in other results by now."""
+        for key in keys:
+            with suppress(OSError):
+                self._path(key).unlink()
 
     @contextmanager
     def alone(self, key: str, waiting: Callable[[], None]) -> Iterator[None]:

@@ -12,7 +12,8 @@ from ...engines.engine import Refusal
 from ..row import AGREES, CRASHED, DIVERGED, FAILS, Comparison, Instant, Rungs
 from ..trial.audit import EQUAL, audit
 from ..trial.ladder import Ladder
-from ..trial.simulate import Runs, Samples, simulate
+from ..trial.rung import Samples
+from ..trial.simulate import Runs, simulate
 from ..trial.trial import Trial, judged_names
 from . import instants, metric
 from .cause import cause
@@ -36,17 +37,15 @@ class Outcome:
     instants: list[Instant] = field(default_factory=list)
 
 
-def compare(trial: Trial) -> Outcome:
-    """Runs the engine and judges every observed quantity."""
-    names = judged_names(trial.case)
+def compare(trial: Trial, runs: Runs | None = None) -> Outcome:
+    """Judges every observed quantity of the runs; without them it runs the engine."""
     if isinstance(trial.way, Refusal):
-        return Outcome([row(trial, name, f"refused: {trial.way.because}") for name in names])
-    withheld = {name: _withheld(trial, name) for name in names}
+        why = f"refused: {trial.way.because}"
+        return Outcome([row(trial, name, why) for name in judged_names(trial.case)])
     rows = [_audit(trial)]
-    rows += [row(trial, name, f"refused: {why}") for name, why in withheld.items() if why]
-    motion = tuple(n for n, why in withheld.items() if not why and not _of_event(trial, n))
-    events = tuple(n for n, why in withheld.items() if not why and _of_event(trial, n))
-    runs = simulate(trial, motion)
+    rows += [row(trial, name, f"refused: {why}") for name, why in trial.withheld.items()]
+    motion, events = trial.motion, trial.instants
+    runs = runs or simulate(trial)
     if runs.judged is None:
         return Outcome(rows + _diverged(trial, (*motion, *events), runs.lost))
     held = {name: _study(trial, list(runs.ladders)[-1], runs, name) for name in motion}
@@ -62,17 +61,6 @@ def compare(trial: Trial) -> Outcome:
     told, ladders = instants.judge(trial, events, runs, runs.judged)
     listed = instants.listed(trial, runs.judged)
     return Outcome(rows + told, climbed + ladders, runs.judged, listed)
-
-
-def _of_event(trial: Trial, name: str) -> bool:
-    return trial.quantity(name).kind == "event"
-
-
-def _withheld(trial: Trial, name: str) -> str | None:
-    """Why the engine does not tell the quantity, or that of the event."""
-    if _of_event(trial, name):
-        name = trial.case.events[name.rpartition(".")[0]].quantity
-    return trial.plan.withheld.get(name)
 
 
 def crashed(trial: Trial, because: str) -> Outcome:

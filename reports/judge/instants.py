@@ -9,7 +9,8 @@ from ...cases.trajectory import Array, Trajectory
 from ..events.times import reference_events
 from ..row import Comparison, Instant, Rungs
 from ..trial.ladder import Ladder
-from ..trial.simulate import Runs, Samples
+from ..trial.rung import Samples
+from ..trial.simulate import Runs
 from ..trial.trial import Trial
 from . import metric
 from .cause import cause

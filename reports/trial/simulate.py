@@ -1,21 +1,18 @@
 """All runs of a trial: each rung of each ladder once."""
 
 from collections.abc import Mapping
-from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
 
-from ...cases.observe import observe
-from ...cases.trajectory import Array, Trajectory
-from ...engines.engine import Diverged, Plan
-from ..events.times import engine_events
-from .ladder import Ladder, ladders, wanted_reactions
+from .ladder import Ladder, ladders
+from .rung import Climbed, Rung, Samples, climbed
 from .trial import Trial
 
 RUNAWAY = 1e6  # × the motion's size: finite, but no motion any more
 
-Samples = Mapping[str, Array]
+At = tuple[str, float]
+"""A ladder's name and a step [s]: where a rung belongs."""
 
 
 @dataclass(frozen=True)
@@ -31,58 +28,44 @@ class Runs:
     finer: str = ""
 
 
-def simulate(trial: Trial, names: tuple[str, ...]) -> Runs:
-    """Runs the engine from the reference's first row.
+def rungs(trial: Trial) -> dict[At, Rung]:
+    """All that has to be run, from the reference's first row."""
+    bounds = {
+        name: RUNAWAY * max(1.0, float(np.max(np.abs(trial.wanted(name))))) for name in trial.motion
+    }
+    case, engine, start = trial.case, trial.engine, trial.start
+    return {
+        (ladder.name, h): Rung(case, engine, start, ladder.plan(trial.plan), h, bounds)
+        for ladder in ladders(case, engine, trial.plan)
+        for h in reversed(ladder.steps)
+    }
+
+
+def gathered(trial: Trial, found: Mapping[At, Climbed]) -> Runs:
+    """The rungs by their ladders.
 
     Rungs that diverge are left out, and what is coarser than they are; the judged run stays.
     """
     judged: Samples | None = None
-    climbed: dict[Ladder, dict[float, Samples]] = {}
+    kept: dict[Ladder, dict[float, Samples]] = {}
     lost = finer = ""
     for ladder in ladders(trial.case, trial.engine, trial.plan):
-        climbed[ladder] = {}
-        plan = ladder.plan(trial.plan)
+        kept[ladder] = {}
         for h in reversed(ladder.steps):
-            try:
-                climbed[ladder][h] = _run(trial, names, h, plan)
-            except Diverged as gone:
-                climbed[ladder].clear()
+            samples = found[ladder.name, h]
+            if isinstance(samples, str):
+                kept[ladder].clear()
                 if h < trial.step:
-                    finer = f"h = {h:.3g} s: {gone}"
+                    finer = f"h = {h:.3g} s: {samples}"
                 elif h == trial.step:
-                    lost = lost or str(gone)
+                    lost = lost or samples
             else:
-                if h == trial.step and len(climbed) == 1:  # the plan's first ladder is judged
-                    judged = climbed[ladder][h]
-    return Runs(judged, climbed, lost, finer)
+                kept[ladder][h] = samples
+                if h == trial.step and len(kept) == 1:  # the plan's first ladder is judged
+                    judged = samples
+    return Runs(judged, kept, lost, finer)
 
 
-def _run(trial: Trial, names: tuple[str, ...], step: float, plan: Plan) -> Samples:
-    scene, events = trial.case.scene, trial.case.events
-    wanted = dict.fromkeys((*names, *(event.quantity for event in events.values())))
-    trajectory = trial.engine.run(
-        scene,
-        trial.start,
-        trial.case.times,
-        step,
-        plan,
-        reactions=wanted_reactions(scene, wanted),
-        record=bool(events),
-    )
-    samples = {name: observe(scene, trajectory, name) for name in names}
-    for name, values in samples.items():
-        size = max(1.0, float(np.max(np.abs(trial.wanted(name)))))
-        if not np.all(np.abs(values) < RUNAWAY * size):
-            raise Diverged(f"{name} reaches {np.max(np.abs(values)):.1g}")
-    return {**samples, **_events(trial, trajectory)}
-
-
-def _events(trial: Trial, trajectory: Trajectory) -> Samples:
-    """Times (K,) of every event that can be read from the engine's record, as `event.time`."""
-    found = {}
-    for name, event in trial.case.events.items():
-        if trajectory.record is not None:
-            with suppress(KeyError):  # a reaction that is not recorded at every step
-                times = engine_events(trial.case.scene, trajectory.record, event)
-                found[f"{name}.time"] = times
-    return found
+def simulate(trial: Trial) -> Runs:
+    """All rungs, one after the other."""
+    return gathered(trial, {at: climbed(rung) for at, rung in rungs(trial).items()})

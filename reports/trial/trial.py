@@ -78,6 +78,34 @@ class Trial:
         return observe(self.case.scene, self.reference, quantity)
 
     @cached_property
+    def withheld(self) -> dict[str, str]:
+        """Those judged that the engine does not tell, or not what an event is of, and why."""
+        of = {name: self._told_by(name) for name in judged_names(self.case)}
+        whys = self.plan.withheld
+        return {name: whys[told_by] for name, told_by in of.items() if told_by in whys}
+
+    def _told_by(self, name: str) -> str:
+        """The quantity itself, or that of the event."""
+        return self.case.events[name.rpartition(".")[0]].quantity if self._dated(name) else name
+
+    def _dated(self, name: str) -> bool:
+        return self.quantity(name).kind == "event"
+
+    @property
+    def motion(self) -> tuple[str, ...]:
+        """The judged quantities that the engine tells at every sample."""
+        return tuple(name for name in self._told if not self._dated(name))
+
+    @property
+    def instants(self) -> tuple[str, ...]:
+        """What is judged of the events that the engine tells."""
+        return tuple(name for name in self._told if self._dated(name))
+
+    @property
+    def _told(self) -> list[str]:
+        return [name for name in judged_names(self.case) if name not in self.withheld]
+
+    @cached_property
     def events(self) -> dict[str, Array]:
         """The reference's times (K,) of every event of the case."""
         record = self.reference.record

@@ -1,5 +1,8 @@
 """What was finished is not done again: not by the next run, and not beside a planted mistake."""
 
+import os
+import signal
+from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -12,10 +15,15 @@ from textmech.reports import suite, unit, write
 from textmech.reports.cache.key import Keys
 from textmech.reports.cache.store import Store
 from textmech.reports.judge.compare import Outcome
+from textmech.reports.row import FAILS
 from textmech.reports.suite import Report
+from textmech.reports.trial import rung
 from textmech.reports.trial.trial import Trial
 
 Make = Callable[..., Trial]
+
+RUNGS = 4  # of a tuned engine on the case: 1, 2, 4 and 8 ms
+DOWN = 5  # of an engine with a step of its own
 
 
 def measure(cases: list[Case], engines: list[Engine], store: Store | None) -> Report:
@@ -29,7 +37,7 @@ def store(tmp_path: Path) -> Store:
 
 
 @pytest.fixture
-def done(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Callable[[], list[str]]:
+def done(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Callable[[], dict[str, int]]:
     """What was computed, in whatever process, since the last question."""
     log = tmp_path / "log"
     log.touch()
@@ -44,9 +52,10 @@ def done(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Callable[[], list[s
 
     monkeypatch.setattr(suite, "solve", noted(suite.solve, "solve"))
     monkeypatch.setattr(unit, "compare", noted(unit.compare, "compare"))
+    monkeypatch.setattr(rung, "_run", noted(rung._run, "run"))
 
-    def asked() -> list[str]:
-        found = sorted(log.read_text(encoding="utf-8").split())
+    def asked() -> dict[str, int]:
+        found = Counter(log.read_text(encoding="utf-8").split())
         log.write_text("", encoding="utf-8")
         return found
 
@@ -58,60 +67,105 @@ def rows(report: Report, cases: list[Case]) -> dict[str, str]:
 
 
 def test_a_second_run_computes_nothing_and_says_the_same(
-    trial: Make, moving: Case, store: Store, done: Callable[[], list[str]]
+    trial: Make, moving: Case, store: Store, done: Callable[[], dict[str, int]]
 ) -> None:
     engines: list[Engine] = [trial().engine, trial(setting="shipped", own_step=1e-3).engine]
     first = measure([moving], engines, store)
-    assert done() == ["compare", "compare", "solve"]
+    assert done() == {"solve": 1, "run": RUNGS + DOWN, "compare": 2}
     second = measure([moving], engines, store)
-    assert done() == []
+    assert done() == {}
     assert rows(first, [moving]) == rows(second, [moving])
 
 
 def test_without_a_store_nothing_is_kept(
-    trial: Make, moving: Case, done: Callable[[], list[str]]
+    trial: Make, moving: Case, done: Callable[[], dict[str, int]]
 ) -> None:
     for _ in range(2):
         measure([moving], [trial().engine], None)
-        assert done() == ["compare", "solve"]
+        assert done() == {"solve": 1, "run": RUNGS, "compare": 1}
 
 
 def test_one_changed_engine_is_done_alone(
-    trial: Make, moving: Case, store: Store, done: Callable[[], list[str]]
+    trial: Make, moving: Case, store: Store, done: Callable[[], dict[str, int]]
 ) -> None:
     other = trial(setting="shipped", own_step=1e-3).engine
     measure([moving], [trial().engine, other], store)
     done()
     measure([moving], [trial(rate=2.0).engine, other], store)
-    assert done() == ["compare"]
+    assert done() == {"run": RUNGS, "compare": 1}
 
 
+@pytest.mark.parametrize(
+    ("phase", "finished", "left"),
+    [
+        ("engines", 2 * DOWN + 1, {"run": RUNGS - 1, "compare": 3}),
+        ("rows", 2, {"compare": 1}),
+    ],
+)
 def test_an_interrupted_run_goes_on_where_it_was(
-    trial: Make, moving: Case, store: Store, done: Callable[[], list[str]]
+    trial: Make,
+    moving: Case,
+    store: Store,
+    done: Callable[[], dict[str, int]],
+    phase: str,
+    finished: int,
+    left: dict[str, int],
 ) -> None:
-    engines: list[Engine] = [trial(setting=name).engine for name in ("tuned", "shipped", "own")]
+    """In the middle of a ladder: each of its rungs is kept as it comes."""
+    shipped: list[Engine] = [trial(setting=n, own_step=1e-3).engine for n in ("shipped", "own")]
+    engines = [*shipped, trial().engine]
 
-    def strike(what: str, finished: int, total: int) -> None:
-        if what == "engines" and finished == 2:
+    def strike(what: str, so_far: int, total: int) -> None:
+        if what == phase and so_far == finished:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
         suite.measure([moving], engines, jobs=1, progress=strike, book=False, store=store)
     done()
     report = measure([moving], engines, store)
-    assert done() == ["compare"]
+    assert done() == left
     assert rows(report, [moving]) == rows(measure([moving], engines, None), [moving])
 
 
+def test_of_rungs_that_are_judged_nothing_stays(trial: Make, moving: Case, store: Store) -> None:
+    measure([moving], [trial().engine], store)
+    kept = [path for path in store.folder.glob("??/*") if path.stat().st_size]
+    assert len(kept) == 3  # the reference, the ways, the rows
+
+
+def die(step: float) -> None:
+    if step == 2e-3:
+        os.kill(os.getpid(), signal.SIGKILL)
+
+
+def test_a_rung_that_died_is_run_again_alone(
+    trial: Make,
+    moving: Case,
+    store: Store,
+    done: Callable[[], dict[str, int]],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    run = rung._run
+    with monkeypatch.context() as patch:
+        patch.setattr(rung, "_run", lambda one: die(one.step) or run(one))
+        report = measure([moving], [trial().engine], store)
+    assert {row.verdict for row in report.comparisons} == {FAILS}
+    assert "crashed: the process died (SIGKILL)" in report.comparisons[0].because
+    done()
+    report = measure([moving], [trial().engine], store)
+    assert done() == {"run": 1, "compare": 1}
+    assert rows(report, [moving]) == rows(measure([moving], [trial().engine], None), [moving])
+
+
 def test_a_damaged_entry_is_computed_again(
-    trial: Make, moving: Case, store: Store, done: Callable[[], list[str]]
+    trial: Make, moving: Case, store: Store, done: Callable[[], dict[str, int]]
 ) -> None:
     first = measure([moving], [trial().engine], store)
     done()
     for path in store.folder.glob("??/*"):
         path.write_bytes(path.read_bytes()[:-1])
     second = measure([moving], [trial().engine], store)
-    assert done() == ["compare", "solve"]
+    assert done() == {"solve": 1, "run": RUNGS, "compare": 1}
     assert rows(first, [moving]) == rows(second, [moving])
 
 
@@ -119,7 +173,7 @@ def test_what_died_or_was_computed_by_changed_code_is_not_kept(
     trial: Make,
     moving: Case,
     store: Store,
-    done: Callable[[], list[str]],
+    done: Callable[[], dict[str, int]],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     with monkeypatch.context() as patch:
@@ -131,8 +185,8 @@ def test_what_died_or_was_computed_by_changed_code_is_not_kept(
         measure([moving], [trial().engine], store)
     done()
     measure([moving], [trial().engine], store)
-    assert done() == ["compare"]
+    assert done() == {"compare": 1}
 
 
-def lose(_: Trial) -> Outcome:
+def lose(*_: object) -> Outcome:
     raise ZeroDivisionError

@@ -1,0 +1,75 @@
+"""One run of a trial: a rung of a ladder, which needs nothing but itself."""
+
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...cases.case import Case
+from ...cases.observe import observe
+from ...cases.trajectory import Array, Trajectory
+from ...engines.engine import Diverged, Engine, Plan, Start
+from ..events.times import engine_events
+from .ladder import wanted_reactions
+
+Samples = Mapping[str, Array]
+Climbed = Samples | str
+"""Of one rung, or why it has none."""
+
+
+@dataclass(frozen=True)
+class Rung:
+    """One run: the engine with a plan at a step [s]. It is pickled, and needs no reference.
+
+    bounds: what is read, and how large it may become and still be a motion.
+    """
+
+    case: Case
+    engine: Engine
+    start: Start
+    plan: Plan
+    step: float
+    bounds: Mapping[str, float]
+
+    @property
+    def steps(self) -> float:
+        """How many the engine takes."""
+        return self.case.duration / self.step
+
+
+def climbed(rung: Rung) -> Climbed:
+    """The run's samples, or in words why it has none."""
+    try:
+        return _run(rung)
+    except Diverged as gone:
+        return str(gone)
+
+
+def _run(rung: Rung) -> Samples:
+    case, scene = rung.case, rung.case.scene
+    wanted = dict.fromkeys((*rung.bounds, *(event.quantity for event in case.events.values())))
+    trajectory = rung.engine.run(
+        scene,
+        rung.start,
+        case.times,
+        rung.step,
+        rung.plan,
+        reactions=wanted_reactions(scene, wanted),
+        record=bool(case.events),
+    )
+    samples = {name: observe(scene, trajectory, name) for name in rung.bounds}
+    for name, most in rung.bounds.items():
+        if not np.all(np.abs(samples[name]) < most):
+            raise Diverged(f"{name} reaches {np.max(np.abs(samples[name])):.1g}")
+    return {**samples, **_events(case, trajectory)}
+
+
+def _events(case: Case, trajectory: Trajectory) -> Samples:
+    """Times (K,) of every event that can be read from the engine's record, as `event.time`."""
+    found = {}
+    for name, event in case.events.items():
+        if trajectory.record is not None:
+            with suppress(KeyError):  # a reaction that is not recorded at every step
+                found[f"{name}.time"] = engine_events(case.scene, trajectory.record, event)
+    return found
