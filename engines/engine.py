@@ -45,6 +45,7 @@ class Plan:
 
     held: exponents of h in the error's expansion while every other number stays the same.
     following: the same while numbers tied to the step follow it; None: no number is tied.
+    alike: whether those numbers make no difference to the motion: then one ladder tells it all.
     numbers: the setting's numbers, for the step [s] that tied ones follow.
     protocol: what is done to start and readout at a step [s], in a few words with sizes.
     simplified: what of the scene is left out, in words: it is named where the model differs.
@@ -58,6 +59,7 @@ class Plan:
     protocol: Callable[[float], str] = as_it_is
     withheld: Mapping[str, str] = field(default_factory=dict)
     simplified: str = ""
+    alike: bool = False
     kept: float | None = None  # s: tied numbers keep what they are at this step
 
     def choices(self, step: float) -> Sequence[Choice]:

@@ -12,7 +12,7 @@ from .contact import falls
 from .law.friction import one_slide, smooth_only
 from .law.touch import one_touch
 from .scene import HEAVY
-from .settings import ties
+from .settings import only_slides, ties
 from .tree import driven
 
 Numbers = Callable[[float], Sequence[Choice]]
@@ -41,6 +41,7 @@ def plan(scene: Scene, start: Start, realised: Realised, numbers: Numbers, *, tu
         realised,
         held=(1, 2) if first else (4, 5),
         following=following if tuned and ties(scene) else None,
+        alike=realised != "native" and only_slides(scene),  # what our law holds lies still
         numbers=numbers,
         simplified=one_number(scene) if realised == "native" else "",
     )

@@ -87,6 +87,11 @@ def ties(scene: Scene) -> bool:
     return bool(_soft(scene))
 
 
+def only_slides(scene: Scene) -> bool:
+    """Whether they are those of dry slides alone."""
+    return _soft(scene) == ["slide"]
+
+
 def _soft(scene: Scene) -> list[str]:
     """The groups of soft constraints in the scene."""
     loops = ["connect"] if spanning_tree(scene).loops else []

@@ -67,7 +67,8 @@ def ladders(case: Case, engine: Engine, plan: Plan) -> Iterator[Ladder]:
     steps = tuple(_upward(h, case.interval))
     if plan.following is not None:
         yield Ladder("following", steps)
-    yield Ladder("held", steps)
+    if plan.following is None or not plan.alike:
+        yield Ladder("held", steps)
 
 
 def _upward(h: float, interval: float) -> Iterator[float]:

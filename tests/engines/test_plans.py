@@ -3,6 +3,7 @@
 import pickle
 import re
 
+import numpy as np
 import pytest
 from given.engine_scenes import (
     BLOCK,
@@ -36,6 +37,35 @@ def test_a_plan_crosses_into_a_process(name: str, engine: Engine) -> None:
         assert other.choices(1e-3) == plan.choices(1e-3)
         assert other.protocol(1e-3) == plan.protocol(1e-3)
         assert (other.exponents, other.withheld) == (plan.exponents, plan.withheld)
+
+
+ROUNDING = 1e-9  # m, rad, m/s: what a stop that differs in its last digits may leave
+
+
+@pytest.mark.parametrize("name", ["anisotropic_drift", "dynamometer", "dynamometer_smooth"])
+def test_tied_numbers_that_are_said_to_make_no_difference_make_none(name: str) -> None:
+    """Under our law and driver MuJoCo's friction holds what lies still: how softly is all one."""
+    ours = [plan for plan in TUNED["mujoco"].plans(*begun(name)) if plan.realised != "native"]
+    for plan in ours:
+        assert isinstance(plan, Plan)
+        assert plan.alike
+        assert softened(name, plan) < ROUNDING
+
+
+def test_a_difference_of_tied_numbers_would_be_seen() -> None:
+    plan = planned(TUNED["mujoco"], *begun("four_bar"))
+    assert not plan.alike
+    assert softened("four_bar", plan) > 1e3 * ROUNDING
+
+
+def softened(name: str, plan: Plan) -> float:
+    """How far the motion is another with the numbers of a ladder's largest step, two above."""
+    times, step = np.arange(0, 1.6, 0.016), 4e-4
+    one, other = (
+        TUNED["mujoco"].run(*begun(name), times, step, each, reactions=())
+        for each in (plan, plan.held_at(4 * step))
+    )
+    return max(float(np.max(np.abs(one.states[b] - other.states[b]))) for b in one.states)
 
 
 @pytest.mark.parametrize("engine", SETTINGS, ids=words)

@@ -161,6 +161,13 @@ def test_both_ladders_only_where_a_number_follows_the_step(trial: Make) -> None:
     }
 
 
+def test_one_ladder_where_the_numbers_that_follow_make_no_difference(trial: Make) -> None:
+    made = trial(follows=True)
+    alike = replace(made, way=replace(made.plan, alike=True))
+    assert {r.ladder for r in compare(alike).rungs} == {"following"}
+    assert row(compare(alike)).verdict == AGREES
+
+
 def test_a_crash_fails_but_for_a_users_own_numbers(trial: Make) -> None:
     assert row(crashed(trial(), "the process died")).verdict == FAILS
     assert row(crashed(trial(setting="own"), "the process died")).verdict == "crashed"
