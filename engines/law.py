@@ -83,17 +83,29 @@ def smooth_friction(
     friction: DryFriction, speed: float, applied: float, *, smooth: Smooth
 ) -> float:
     """(2.95) The same with every switch blown up to tanh [N]; inside the band nothing rests."""
-    a = smooth.sharpness
+    return smooth_under(friction, smooth, applied)(speed)
+
+
+def smooth_under(friction: DryFriction, smooth: Smooth, applied: float) -> Callable[[float], float]:
+    """(2.95) By the speed [m/s] alone, under one applied force [N].
+
+    tanh is odd: two of them say on which side of both bounds of a band a number lies. They are
+    what the law costs, at every stage of every step.
+    """
+    a, band = smooth.sharpness, smooth.band
     kinetic, static = friction.kinetic, friction.static
+    above = math.tanh(a * (applied + static.backward))
+    below = math.tanh(a * (static.forward - applied))
+    held, forward, backward = (above + below) / 2, (1 - below) / 2, (1 - above) / 2
 
-    def inside(low: float, high: float, x: float) -> float:
-        return (math.tanh(a * (x - low)) + math.tanh(a * (high - x))) / 2
+    def force(speed: float) -> float:
+        above, below = math.tanh(a * (speed + band)), math.tanh(a * (band - speed))
+        creeps = (above + below) / 2
+        brakes = kinetic.backward * ((1 - above) / 2 + creeps * backward)
+        return (
+            brakes
+            - kinetic.forward * ((1 - below) / 2 + creeps * forward)
+            - applied * (creeps * held)
+        )
 
-    def above(low: float, x: float) -> float:
-        return (1 + math.tanh(a * (x - low))) / 2
-
-    band = inside(-smooth.band, smooth.band, speed)
-    holding = band * inside(-static.backward, static.forward, applied)
-    forward = above(smooth.band, speed) + band * above(static.forward, applied)
-    backward = above(smooth.band, -speed) + band * above(static.backward, -applied)
-    return kinetic.backward * backward - kinetic.forward * forward - applied * holding
+    return force

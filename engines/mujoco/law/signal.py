@@ -40,18 +40,39 @@ def installed(control: Control | None) -> Iterator[None]:
         mujoco.set_mjcb_control(before)
 
 
+def bound(bind: Callable[[mujoco.MjData], Callable[[], None]]) -> Control:
+    """A callback that takes MuJoCo's arrays once: to fetch one at every stage costs half a law."""
+    known: mujoco.MjData | None = None
+    apply: Callable[[], None] = _nothing
+
+    def control(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        nonlocal known, apply
+        if data is not known:
+            known, apply = data, bind(data)
+        apply()
+
+    return control
+
+
+def _nothing() -> None:
+    """Before there are data."""
+
+
 def _control(scene: Scene) -> Control | None:
     sines = [
         (i, law.angular_frequency, law.phase)
         for i, law in enumerate(laws(scene))
         if law.law == "sine"
     ]
-    if not sines:
-        return None
 
-    def control(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        t, controls = data.time, data.ctrl
-        for i, frequency, phase in sines:
-            controls[i] = math.sin(frequency * t + phase)
+    def bind(data: mujoco.MjData) -> Callable[[], None]:
+        controls = data.ctrl
 
-    return control
+        def control() -> None:
+            t = data.time
+            for i, frequency, phase in sines:
+                controls[i] = math.sin(frequency * t + phase)
+
+        return control
+
+    return bound(bind) if sines else None

@@ -1,18 +1,17 @@
 """The book's smooth friction (2.95) on a slide, at every RK4 stage in MuJoCo's callback."""
 
 from collections.abc import Callable
-from functools import partial
 
 import mujoco
 import numpy as np
 
 from ....cases.scene import DryFriction, Scene
 from ....cases.trajectory import Array
-from ...law import smooth_friction
+from ...law import smooth_under
 from .friction import uncoupled
-from .signal import Control
+from .signal import Control, bound
 
-Acting = Callable[[mujoco.MjData], float]
+Acting = Callable[[], float]
 """All generalized force along the slide [N] but its friction, before MuJoCo has added it up."""
 
 
@@ -30,43 +29,47 @@ def _friction(model: mujoco.MjModel, name: str, friction: DryFriction) -> Contro
     model.dof_frictionloss[dof] = 0.0
     band = friction.smooth
     assert band is not None
-    acting = _alone(model, dof) if uncoupled(model, dof) else _among(model, dof)
-    law = partial(smooth_friction, friction, smooth=band)
+    acts = _alone if uncoupled(model, dof) else _among
 
-    def control(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        data.qfrc_applied[dof] = law(data.qvel.item(dof), acting(data))
+    def bind(data: mujoco.MjData) -> Callable[[], None]:
+        acting, rates, forces = acts(model, data, dof), data.qvel, data.qfrc_applied
 
-    return control
+        def control() -> None:
+            forces[dof] = smooth_under(friction, band, acting())(rates.item(dof))
+
+        return control
+
+    return bound(bind)
 
 
-def _alone(model: mujoco.MjModel, dof: int) -> Acting:
+def _alone(model: mujoco.MjModel, data: mujoco.MjData, dof: int) -> Acting:
     """A callback runs at every stage: no array is made here, and no number taken twice."""
     actuators = [
         (actuator, int(model.actuator_actadr[actuator])) for actuator in range(int(model.nu))
     ]
+    passive, bias, activations, controls = data.qfrc_passive, data.qfrc_bias, data.act, data.ctrl
+    counts, starts = data.moment_rownnz, data.moment_rowadr
+    columns, moments = data.moment_colind, data.actuator_moment
 
-    def acting(data: mujoco.MjData) -> float:
-        force = data.qfrc_passive.item(dof) - data.qfrc_bias.item(dof)
-        if actuators:
-            counts, starts = data.moment_rownnz, data.moment_rowadr
-            columns, moments = data.moment_colind, data.actuator_moment
-            for actuator, state in actuators:
-                first = starts.item(actuator)
-                for k in range(first, first + counts.item(actuator)):
-                    if columns.item(k) == dof:
-                        size = data.act.item(state) if state >= 0 else data.ctrl.item(actuator)
-                        force += size * moments.item(k)
+    def acting() -> float:
+        force = passive.item(dof) - bias.item(dof)
+        for actuator, state in actuators:
+            first = starts.item(actuator)
+            for k in range(first, first + counts.item(actuator)):
+                if columns.item(k) == dof:
+                    size = activations.item(state) if state >= 0 else controls.item(actuator)
+                    force += size * moments.item(k)
         return force
 
     return acting
 
 
-def _among(model: mujoco.MjModel, dof: int) -> Acting:
+def _among(model: mujoco.MjModel, data: mujoco.MjData, dof: int) -> Acting:
     """Through the mass matrix: what acts on others moves the slide too."""
     unit, effort = np.zeros((1, model.nv)), np.zeros((1, model.nv))
     unit[0, dof] = 1.0
 
-    def acting(data: mujoco.MjData) -> float:
+    def acting() -> float:
         mujoco.mj_solveM(model, data, effort, unit)
         share = effort[0] / effort[0, dof]  # of each generalized force, along the slide
         return float(share @ (data.qfrc_passive - data.qfrc_bias + _actuated(model, data)))

@@ -8,7 +8,7 @@ whole step.
 from collections.abc import Callable
 
 from ....cases.scene import Bounds, DryFriction, Smooth
-from ...law import dry_friction, smooth_friction
+from ...law import dry_friction, smooth_under
 
 Applied = Callable[[float], float]
 """What else acts along the friction [N], so many seconds after the step's start."""
@@ -99,9 +99,7 @@ def smooth_mean(
 
     The solution of m (v − v₀) = h (F_a + F_fr((v₀ + v)/2, F_a)) nearest to the present speed.
     """
-
-    def force(mean: float) -> float:
-        return smooth_friction(friction, mean, applied, smooth=smooth)
+    force = smooth_under(friction, smooth, applied)
 
     def left(mean: float) -> float:
         return 2 * mass * (mean - speed) - step * (applied + force(mean))
