@@ -18,7 +18,7 @@ from ...cases.force import Damper, Force, Push, Spring, Torque
 from ...cases.signal import Signal
 from ..engine import Realised
 from ..law import value
-from .law.line import Load, drifted, pull, told
+from .law.line import Exerted, Load, drifting, pull, told
 from .world import World
 from .written import written
 
@@ -32,11 +32,11 @@ class Element:
 
     line: the numbers of its DampedSpring, and back: what the audit reads of one. tell: the force
     that is given before each step of `step` s, `drift` s ahead (0: at the present place); of what
-    has a line too, only where we realise its law. load: what it exerts on a body at t + ahead,
-    `drift` s from its present place. script: the same as lines of Python.
+    has a line too, only where we realise its law. load: what it exerts on a body, by the body's
+    name. script: the same as lines of Python.
     """
 
-    load: Callable[[World, Any, str, float, float], Load]
+    load: Callable[[World, Any, str], Exerted]
     line: Callable[[Any], dict[str, float]] | None = None
     numbers: Callable[[DampedSpring], dict[str, float]] = lambda line: {}
     tell: Callable[[World, Any, float, float], Apply] | None = None
@@ -86,13 +86,13 @@ def load(world: World, name: str, step: float) -> Callable[[float, float], Load]
     """
     body, (gx, gy) = world.bodies[name], world.space.gravity
     forces = [f for f in world.scene.forces.values() if name in {p.body for p in f.refers()}]
-    loads = [(ELEMENTS[type(force)].load, force) for force in forces]
+    loads = [ELEMENTS[type(force)].load(world, force, name) for force in forces]
     weight = body.mass * gx, body.mass * gy
 
     def acting(t: float, ahead: float) -> Load:
         (fx, fy), torque = weight, 0.0
-        for exerted, force in loads:
-            x, y, turn = exerted(world, force, name, t + ahead, ahead + step / 2)
+        for exerted in loads:
+            x, y, turn = exerted(t + ahead, ahead + step / 2)
             fx, fy, torque = fx + x, fy + y, torque + turn
         return fx, fy, torque
 
@@ -123,10 +123,15 @@ def _push(world: World, force: Push, step: float, drift: float) -> Apply:
     return apply
 
 
-def _push_load(world: World, force: Push, name: str, t: float, drift: float) -> Load:
-    fx, fy = value(force.signal, t)
-    (rx, ry), *_ = drifted(world, force.at, drift)
-    return fx, fy, rx * fy - ry * fx
+def _push_load(world: World, force: Push, name: str) -> Exerted:
+    place = drifting(world, force.at)
+
+    def exerted(t: float, drift: float) -> Load:
+        fx, fy = value(force.signal, t)
+        (rx, ry), *_ = place(drift)
+        return fx, fy, rx * fy - ry * fx
+
+    return exerted
 
 
 def _push_script(
@@ -148,8 +153,8 @@ def _torque(world: World, force: Torque, step: float, drift: float) -> Apply:
     return apply
 
 
-def _torque_load(world: World, force: Torque, name: str, t: float, drift: float) -> Load:
-    return 0.0, 0.0, value(force.signal, t)[0]
+def _torque_load(world: World, force: Torque, name: str) -> Exerted:
+    return lambda t, drift: (0.0, 0.0, value(force.signal, t)[0])
 
 
 def _torque_script(

@@ -6,17 +6,23 @@ So every step is smooth: what sticks is held, what slides is pushed by a constan
 import mujoco
 import numpy as np
 
+from ....cases.trajectory import Array
 from .friction import Slide
 
 
-def driven_step(slides: list[Slide], step: float) -> None:
-    """One step, cut at every event in it."""
+def room(model: mujoco.MjModel) -> Array:
+    """For the state before a step, which is taken again where an event lies in it."""
+    return np.empty(mujoco.mj_stateSize(model, _STATE))
+
+
+def driven_step(slides: list[Slide], step: float, kept: Array) -> None:
+    """One step, cut at every event in it; kept: its `room`."""
     model, data = slides[0].model, slides[0].data
     left = step
     while left > _SHORTEST * step:
         for slide in slides:
             slide.engage()
-        taken, over = _until_event(model, data, slides, left)
+        taken, over = _until_event(model, data, slides, left, kept)
         left -= taken
         for slide in slides if over else ():
             if _passed(slide) > 0:
@@ -38,10 +44,13 @@ def _passed(slide: Slide) -> float:
 
 
 def _until_event(
-    model: mujoco.MjModel, data: mujoco.MjData, slides: list[Slide], longest: float
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    slides: list[Slide],
+    longest: float,
+    kept: Array,
 ) -> tuple[float, bool]:
     """Step to the first event, just over it, or the longest way [s]; and which of the two."""
-    kept = np.empty(mujoco.mj_stateSize(model, _STATE))
     mujoco.mj_getState(model, data, kept, _STATE)
 
     def over(length: float) -> bool:

@@ -16,7 +16,11 @@ from ...law import dry_friction
 
 @dataclass
 class Slide:
-    """One slide with dry friction: 0 while it sticks, else the sign of its speed."""
+    """One slide with dry friction: 0 while it sticks, else the sign of its speed.
+
+    MuJoCo's arrays are fetched once, and what its coefficients give is worked out once: it is asked
+    before every step.
+    """
 
     model: mujoco.MjModel
     data: mujoco.MjData
@@ -25,12 +29,19 @@ class Slide:
     before: float | None = None  # the applied force [N] at the step before
     last: float = 0.0  # m/s, at the step before
     steady: bool = True  # its bounds are always the same
+    friction: DryFriction = field(init=False)
     effort: Array = field(init=False)
 
     def __post_init__(self) -> None:
+        assert self.joint.dry_friction is not None
+        self.friction = self.joint.dry_friction
         self.dof = int(self.model.joint(self.joint.name).dofadr[0])
         self._qvel, self._uncoupled = self.data.qvel, uncoupled(self.model, self.dof)
-        self._mass = 0.0
+        self._loss, self._pushed = self.model.dof_frictionloss, self.data.qfrc_applied
+        self._free, self._mass = self.data.qacc_smooth, 0.0
+        static = self.friction.static
+        self._holds = 2 * max(static.forward, static.backward)  # N, more than it has to at rest
+        self._brakes = {s: abs(dry_friction(self.friction, s, 0.0)) for s in (1, -1)}
         self.unit = np.zeros((1, self.model.nv))
         self.unit[0, self.dof] = 1.0
         self.effort = np.zeros((1, self.model.nv))
@@ -38,23 +49,18 @@ class Slide:
         self.last = self.speed
 
     @property
-    def friction(self) -> DryFriction:
-        assert self.joint.dry_friction is not None
-        return self.joint.dry_friction
-
-    @property
     def speed(self) -> float:
         return self._qvel.item(self.dof)
 
     def push(self, force: float) -> None:
         """Friction is this force [N], and nothing holds."""
-        self.model.dof_frictionloss[self.dof] = 0.0
-        self.data.qfrc_applied[self.dof] = force
+        self._loss[self.dof] = 0.0
+        self._pushed[self.dof] = force
 
     def hold(self) -> None:
         """Friction holds, whatever it takes."""
-        self.model.dof_frictionloss[self.dof] = self.holds
-        self.data.qfrc_applied[self.dof] = 0.0
+        self._loss[self.dof] = self._holds
+        self._pushed[self.dof] = 0.0
 
     def remember(self) -> int:
         """What a reading of this state needs."""
@@ -72,14 +78,9 @@ class Slide:
         else:
             self.hold()
 
-    @property
-    def holds(self) -> float:
-        """More than what it has to hold at rest [N]."""
-        return 2 * max(self.friction.static.forward, self.friction.static.backward)
-
     def brakes(self, sense: int) -> float:
         """The size of the friction force [N] that slides this way."""
-        return abs(dry_friction(self.friction, sense, 0.0))
+        return self._brakes[sense]
 
     def starts(self, applied: float) -> int:
         """In which sense a force starts it from rest."""
@@ -94,8 +95,8 @@ class Slide:
         if not self._mass or not self._uncoupled:
             mujoco.mj_solveM(self.model, self.data, self.effort, self.unit)
             self._mass = 1.0 / self.effort.item(0, self.dof)
-        pushed = self.data.qfrc_applied.item(self.dof)  # our friction
-        return self._mass * self.data.qacc_smooth.item(self.dof) - pushed, self._mass
+        pushed = self._pushed.item(self.dof)  # our friction
+        return self._mass * self._free.item(self.dof) - pushed, self._mass
 
 
 def uncoupled(model: mujoco.MjModel, dof: int) -> bool:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ....cases.scene import Scene
 from ...engine import Realised
-from .driver import driven_step
+from .driver import driven_step, room
 from .friction import Slide, slides, smooth_only
 from .stiction import bounded
 from .touch import Touch, one_touch, touches
@@ -29,7 +29,7 @@ class Steps:
     def note(self) -> None:
         """Remember the senses of the slides."""
         if self.slides:
-            self.noted.append(tuple(slide.remember() for slide in self.slides))
+            self.noted.append(tuple([slide.remember() for slide in self.slides]))
 
     def keep(self, rows: NDArray[np.int64]) -> None:
         """Of all notes only some."""
@@ -63,9 +63,11 @@ def stepping(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, realised:
                 bounded(slide)
             mujoco.mj_step(model, data)
 
+    kept = room(model)
+
     def by_driver(n: int) -> None:
         for _ in range(n):
-            driven_step(dry, step)
+            driven_step(dry, step, kept)
 
     ways = {"law": by_law, "driver": by_driver}
     return Steps(model, data, found, ways[realised] if found else native)

@@ -12,31 +12,44 @@ Point = tuple[Vector, float, float, float, float]
 """Lever from the centre of mass; x, y, vx, vy; all in ground axes."""
 Load = tuple[float, float, float]
 """fx, fy [N] and torque [N m] about a body's centre of mass."""
+Exerted = Callable[[float, float], Load]
+"""At a time t [s], `drift` s from the present place. It is asked before every step."""
 
 
-def drifted(world: World, anchor: Anchor, drift: float) -> Point:
-    """A point after `drift` seconds at the present velocities."""
+def drifting(world: World, anchor: Anchor) -> Callable[[float], Point]:
+    """A point after so many seconds at the present velocities."""
     if anchor.body == GROUND and anchor.point not in world.driven:
         x, y = world.local(anchor)
-        return (x, y), x, y, 0.0, 0.0
+        rests = (x, y), x, y, 0.0, 0.0
+        return lambda drift: rests
     body, (a, b) = world.body(anchor), world.local(anchor)
-    (x, y), (vx, vy) = body.position, body.velocity
-    if not (a or b):  # a centre, or a driven point: turning does not move it
+
+    def centre(drift: float) -> Point:
+        (x, y), (vx, vy) = body.position, body.velocity
         return (0.0, 0.0), x + drift * vx, y + drift * vy, vx, vy
-    omega = body.angular_velocity
-    angle = body.angle + drift * omega
-    cos, sin = math.cos(angle), math.sin(angle)
-    rx, ry = cos * a - sin * b, sin * a + cos * b
-    return (rx, ry), x + drift * vx + rx, y + drift * vy + ry, vx - omega * ry, vy + omega * rx
+
+    def point(drift: float) -> Point:
+        (x, y), (vx, vy), omega = body.position, body.velocity, body.angular_velocity
+        angle = body.angle + drift * omega
+        cos, sin = math.cos(angle), math.sin(angle)
+        rx, ry = cos * a - sin * b, sin * a + cos * b
+        return (rx, ry), x + drift * vx + rx, y + drift * vy + ry, vx - omega * ry, vy + omega * rx
+
+    return point if a or b else centre  # turning does not move a centre, or a driven point
 
 
-def pull(world: World, line: Line, name: str, t: float, drift: float) -> Load:
-    """What the line exerts on the body `name` at one of its ends, `drift` s from now."""
-    here, there = (line.a, line.b) if line.a.body == name else (line.b, line.a)
-    (rx, ry), xa, ya, vxa, vya = drifted(world, here, drift)
-    _, xb, yb, vxb, vyb = drifted(world, there, drift)
-    px, py = _along(line, xb - xa, yb - ya, vxb - vxa, vyb - vya)
-    return px, py, rx * py - ry * px
+def pull(world: World, line: Line, name: str) -> Exerted:
+    """What the line exerts on the body `name` at one of its ends."""
+    ends = (line.a, line.b) if line.a.body == name else (line.b, line.a)
+    here, there = (drifting(world, end) for end in ends)
+
+    def exerted(t: float, drift: float) -> Load:
+        (rx, ry), xa, ya, vxa, vya = here(drift)
+        _, xb, yb, vxb, vyb = there(drift)
+        px, py = _along(line, xb - xa, yb - ya, vxb - vxa, vyb - vya)
+        return px, py, rx * py - ry * px
+
+    return exerted
 
 
 def told(world: World, line: Line, step: float) -> Callable[[float], None]:
