@@ -13,7 +13,7 @@ from textmech.cases.scene import GROUND, Anchor, Damper, Scene
 from textmech.cases.shape import disk
 from textmech.cases.trajectory import ANGLE, OMEGA, VX, Array, X
 from textmech.engines.engine import Start
-from textmech.engines.pymunk.law.line import drifted
+from textmech.engines.pymunk.law.line import drifting
 from textmech.engines.pymunk.scene import build
 
 ENGINE = TUNED["pymunk"]
@@ -75,7 +75,7 @@ def test_a_disk_slips_the_other_way_within_a_step() -> None:
 def test_a_point_ahead_has_turned_with_its_body() -> None:
     scene, start = spun()
     world = build(scene, start, {}, "law")
-    lever, x, y, vx, vy = drifted(world, Anchor("wheel", "P"), 0.01)
+    lever, x, y, vx, vy = drifting(world, Anchor("wheel", "P"))(0.01)
     turned = 0.3 + 20.0 * 0.01
     wanted = (
         0.2 * math.cos(turned) - 0.1 * math.sin(turned),
