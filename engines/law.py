@@ -21,7 +21,22 @@ def value(signal: Signal, t: float) -> tuple[float, ...]:
         factor = math.sin(signal.angular_frequency * t + signal.phase)
     else:
         factor = t if signal.law == "ramp" else 1.0
-    return tuple(amplitude * factor for amplitude in signal.amplitude)
+    return tuple([amplitude * factor for amplitude in signal.amplitude])
+
+
+def in_time(signal: Signal) -> Callable[[float], tuple[float, ...]]:
+    """`value` of one law, for a loop: what does not change is looked up once."""
+    amplitude, frequency, phase = signal.amplitude, signal.angular_frequency, signal.phase
+    if signal.law == "constant":
+        return lambda t: amplitude
+    if signal.law == "ramp":
+        return lambda t: tuple([size * t for size in amplitude])
+
+    def sine(t: float) -> tuple[float, ...]:
+        factor = math.sin(frequency * t + phase)
+        return tuple([size * factor for size in amplitude])
+
+    return sine
 
 
 def tension(force: Line, length: float, rate: float) -> float:

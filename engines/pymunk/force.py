@@ -17,7 +17,7 @@ from pymunk.constraints import DampedSpring
 from ...cases.force import Damper, Force, Push, Spring, Torque
 from ...cases.signal import Signal
 from ..engine import Realised
-from ..law import value
+from ..law import in_time, value
 from .law.line import Exerted, Load, drifting, pull, told
 from .world import World
 from .written import written
@@ -112,15 +112,20 @@ def script(world: World, of: Callable[[Body], str], *, midpoint: bool) -> Iterat
 
 def _push(world: World, force: Push, step: float, drift: float) -> Apply:
     body, (a, b) = world.body(force.at), world.local(force.at)
+    pushed, ahead = in_time(force.signal), drift / 2
 
     def apply(t: float) -> None:
         angle = body.angle + drift * body.angular_velocity
         cos, sin = math.cos(angle), math.sin(angle)
         lever = (cos * a - sin * b, sin * a + cos * b)
-        f = value(force.signal, t + drift / 2)
-        body.apply_force_at_world_point((f[0], f[1]), body.position + lever)
+        fx, fy = pushed(t + ahead)
+        body.apply_force_at_world_point((fx, fy), body.position + lever)
 
-    return apply
+    def central(t: float) -> None:  # as most are: turning does not move a centre
+        fx, fy = pushed(t + ahead)
+        body.apply_force_at_world_point((fx, fy), body.position)
+
+    return apply if a or b else central
 
 
 def _push_load(world: World, force: Push, name: str) -> Exerted:
@@ -138,17 +143,20 @@ def _push_script(
     world: World, force: Push, of: Callable[[Body], str], midpoint: bool
 ) -> Iterator[str]:
     yield f"    body = {of(world.body(force.at))}"
-    turn = "body.angle + h * body.angular_velocity" if midpoint else "body.angle"
-    yield f"    lever = pymunk.Vec2d{written(world.local(force.at))}.rotated({turn})"
+    place = "body.position"
+    if any(world.local(force.at)):
+        turn = "body.angle + h * body.angular_velocity" if midpoint else "body.angle"
+        yield f"    lever = pymunk.Vec2d{written(world.local(force.at))}.rotated({turn})"
+        place += " + lever"
     pair = ", ".join(_in_time(force.signal))
-    yield f"    body.apply_force_at_world_point(({pair}), body.position + lever)"
+    yield f"    body.apply_force_at_world_point(({pair}), {place})"
 
 
 def _torque(world: World, force: Torque, step: float, drift: float) -> Apply:
-    body = world.bodies[force.body]
+    body, turned, ahead = world.bodies[force.body], in_time(force.signal), drift / 2
 
     def apply(t: float) -> None:
-        body.torque += value(force.signal, t + drift / 2)[0]
+        body.torque += turned(t + ahead)[0]
 
     return apply
 

@@ -86,13 +86,18 @@ def _between(
                 apply(t)
             one(step)
 
+    take = forced if applied else free
+    if keep is None:
+        return take
+
     def kept(first: int, last: int) -> None:
-        assert keep
         for i in range(first, last):
-            t = i * step
-            for apply in applied:
-                apply(t)
+            take(i, i + 1)
+            keep()
+
+    def kept_free(first: int, last: int) -> None:
+        for _ in repeat(None, last - first):
             one(step)
             keep()
 
-    return kept if keep else forced if applied else free
+    return kept if applied else kept_free

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from textmech.cases.scene import Anchor, Bounds, Damper, DryFriction, Signal, Smooth, Spring
-from textmech.engines.law import dry_friction, smooth_friction, tension, value
+from textmech.engines.law import dry_friction, in_time, smooth_friction, tension, value
 
 TABLE = json.loads((Path(__file__).parent / "law_table.json").read_text())
 ENDS = (Anchor("ground", "O"), Anchor("mass", "center"))
@@ -22,6 +22,7 @@ def test_signal(row: dict[str, Any]) -> None:
         phase=row.get("phase", 0.0),
     )
     assert value(signal, row["t"]) == pytest.approx(tuple(row["value"]), rel=1e-12, abs=1e-15)
+    assert in_time(signal)(row["t"]) == value(signal, row["t"])
 
 
 @pytest.mark.parametrize("row", TABLE["springs"], ids=str)

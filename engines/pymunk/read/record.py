@@ -4,7 +4,8 @@ It must cost little beside the step itself: pymunk copies all bodies in one call
 the other, and what the copies mean is worked out when the run is over.
 """
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 
 import numpy as np
 from pymunk.batch import BodyFields, Buffer, get_space_bodies
@@ -12,6 +13,7 @@ from pymunk.batch import BodyFields, Buffer, get_space_bodies
 from ....cases.observe import observe
 from ....cases.trajectory import Array, Trajectory
 from ..world import World
+from .copies import copier
 
 _STATE = BodyFields.POSITION | BodyFields.ANGLE | BodyFields.VELOCITY | BodyFields.ANGULAR_VELOCITY
 _BUFFER = Buffer()  # one for all runs: pymunk never frees a buffer's memory
@@ -19,19 +21,17 @@ _BUFFER = Buffer()  # one for all runs: pymunk never frees a buffer's memory
 
 @dataclass(frozen=True)
 class Record:
-    """Steps that are recorded; `trajectory` is what they were."""
+    """Steps that are recorded: `keep` keeps the present states, `trajectory` is what they were."""
 
     world: World
     step: float
     midpoint: bool
+    keep: Callable[[], None] = field(init=False)
 
     def __post_init__(self) -> None:
         _BUFFER.clear()
+        object.__setattr__(self, "keep", copier(self.world.space, _STATE, _BUFFER))
         self.keep()
-
-    def keep(self) -> None:
-        """Keeps the present states."""
-        get_space_bodies(self.world.space, _STATE, _BUFFER)
 
     def trajectory(self) -> Trajectory:
         """A row for the start and for each step, and one in the middle of a step that bounces.

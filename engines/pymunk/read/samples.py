@@ -9,11 +9,12 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pymunk.batch import BodyFields, Buffer, get_space_bodies
+from pymunk.batch import BodyFields, Buffer
 
 from ....cases.trajectory import Array, Trajectory
 from ..run import Steps
 from ..world import World
+from .copies import copier
 from .health import sound
 from .impulse import impulses
 
@@ -49,14 +50,14 @@ def sampled(
     stops, weights = _weights(samples, midpoint)
     known, wanted = set(samples.tolist()), set(stops.ravel().tolist() if reactions else ())
     kept: list[list[float]] = []
-    read = impulses(world, reactions)
+    read, copy = impulses(world, reactions), copier(world.space, _FIELDS, _BUFFER)
     _BUFFER.clear()
     now = 0
     for stop in sorted(known | wanted):
         run(stop - now)
         now = stop
         if stop in known:
-            get_space_bodies(world.space, _FIELDS, _BUFFER)  # behind the earlier samples
+            copy()  # behind the earlier samples
         if stop in wanted:
             kept.append(read())
     rows = _states(world, times)
