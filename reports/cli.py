@@ -7,6 +7,7 @@ import click
 
 from ..cases.mistake import CaseError, Mistake
 from . import ending
+from .command.bench import bench
 from .command.done import done
 from .command.run import BAD_INPUT, FAILED, allow_long, run
 from .show.say import prepare, say, tell
@@ -60,6 +61,7 @@ def command() -> None:
 
 
 command.add_command(run)
+command.add_command(bench)
 
 
 @command.command()
@@ -141,15 +143,6 @@ def show(case: str, name: str, allow_long: bool) -> None:
     # Of a bare name the tuned setting, or what else the engine offers.
     engine = next((e for e in engines if e.setting == "tuned"), engines[0])
     say(script(chosen[0], engine), nl=False)
-
-
-@command.command()
-def bench() -> None:
-    """What the adapters cost: ratios to the engines' bare loops, and to scipy's integrator."""
-    from .show.bench import table
-
-    for line in table():
-        say(line)
 
 
 if __name__ == "__main__":

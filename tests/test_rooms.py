@@ -33,7 +33,7 @@ ROOMS = {
         "trials",
         "suite",
         "write keep",
-        "show committed",
+        "show committed bench",
         "command",
         "cli pytest_plugin",
     ],

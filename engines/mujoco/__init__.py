@@ -9,17 +9,15 @@ import mujoco
 
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
-from ..engine import Plan, Realised, Refusal, Start
+from ..engine import Plain, Plan, Realised, Refusal, Start
 from ..heading import heading
 from . import options, settings
 from .compilation import NOMINAL, compiled, settled, timestep
-from .law.signal import signals
-from .law.smooth import smooth
-from .law.stepping import stepping
+from .plain import plain
 from .plans import plan, ways
 from .read.measure import measured
 from .refuse import unbuildable, uncompilable
-from .run import listening, simulate
+from .run import simulate
 from .script import text
 
 
@@ -97,14 +95,8 @@ class MuJoCo:
             scene, model, data, start, times, reactions, realised=plan.realised, every=record
         )
 
-    def loop(self, scene: Scene, start: Start, step: float, plan: Plan) -> Callable[[int], None]:
-        """MuJoCo's bare loop, with the same callbacks installed."""
-        model, data, _ = self._placed(scene, start, step, plan)
-        steps = stepping(scene, model, data, plan.realised)
-        laws = smooth(scene, model) if plan.realised == "law" else []
-
-        def take(n: int) -> None:
-            with listening(), signals(scene, laws):
-                steps.take(n)
-
-        return take
+    def plain(
+        self, scene: Scene, start: Start, step: float, plan: Plan
+    ) -> Callable[[float], Plain] | None:
+        """`mj_step(model, data, n)` on the file of `show`, or our law's force before each step."""
+        return plain(scene, start, plan, self.script(scene, start, step, plan))

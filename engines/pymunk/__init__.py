@@ -9,9 +9,10 @@ import pymunk
 
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
-from ..engine import Plan, Realised, Refusal, Start
+from ..engine import Plain, Plan, Realised, Refusal, Start
 from ..heading import heading
 from . import plans, settings
+from .plain import plain
 from .plans import named
 from .read.health import Left
 from .read.measure import measured
@@ -87,11 +88,11 @@ class Pymunk:
         except Left:
             return again(numbers | {"ground.reach": FAR})
 
-    def loop(self, scene: Scene, start: Start, step: float, plan: Plan) -> Callable[[int], None]:
-        """pymunk's bare loop on the same world, with the same forces."""
-        numbers = named(plan.choices(step))
-        world = placed(scene, start, step, numbers, plan.realised)
-        return stepper(world, step, numbers, plan.realised)
+    def plain(
+        self, scene: Scene, start: Start, step: float, plan: Plan
+    ) -> Callable[[float], Plain] | None:
+        """`space.step(h)` in a Python loop, after the script's lines of `show`."""
+        return plain(scene, start, step, plan)
 
 
 def _run(

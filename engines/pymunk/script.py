@@ -58,7 +58,8 @@ def text(
     head: what the scene is, as comments.
     """
     world = build(scene, start, numbers, "native")
-    midpoint, seed = numbers.get("time.midpoint"), numbers.get("start.seed")
+    midpoint = numbers.get("time.midpoint")
+    position, angle = (" + h / 2 * body.velocity", " + h / 2 * body.angular_velocity")
     lines = [
         *(f"# {line}" for line in head),
         "import math",
@@ -67,6 +68,23 @@ def text(
         "",
         f"h = {step!r}  # s",
         f"steps = {max(1, round(1 / step))}",
+        *building(world, start, numbers),
+        "\nfor n in range(steps):",
+        *_sweeps(world, numbers),
+        *before_each(world, numbers),
+        "    space.step(h)",
+        "",
+        "for name, body in bodies.items():",
+        f"    x, y = body.position{position if midpoint else ''}",
+        f"    angle = body.angle{angle if midpoint else ''}",
+        "    print(name, x, y, angle, *body.velocity, body.angular_velocity)",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def building(world: World, start: Start, numbers: Mapping[str, Any]) -> list[str]:
+    """What builds `space`, `bodies` and `wheels`, where h is the step [s]."""
+    lines = [
         "space = pymunk.Space()",
         f"space.gravity = {written(world.space.gravity)}",
         *(f"{name} = {written(x)}" for name, x in numbers.items() if name.startswith("space.")),
@@ -77,24 +95,22 @@ def text(
         *_floor(world, reflects=bool(numbers.get("contact.reflects"))),
         *_constraints(world, numbers),
     ]
+    midpoint, seed = numbers.get("time.midpoint"), numbers.get("start.seed")
     if seed:
         lines += _seeds(world, start, seed)
-    lines += [_SHIFT] if midpoint else []
-    lines += ["\nfor n in range(steps):"]
+    return lines + ([_SHIFT] if midpoint else [])
+
+
+def before_each(world: World, numbers: Mapping[str, Any]) -> list[str]:
+    """What is done before step n, indented."""
+    midpoint = bool(numbers.get("time.midpoint"))
+    lines = script(world, lambda body: _of(world, body), midpoint=midpoint)
+    return [*lines, *_followers(world, numbers)]
+
+
+def _sweeps(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
     if cold := numbers.get("start.iterations"):
-        lines.append(f"    space.iterations = {cold} if n < {COLD} else {world.space.iterations}")
-    lines += script(world, lambda body: _of(world, body), midpoint=bool(midpoint))
-    lines += _followers(world, numbers)
-    position, angle = (" + h / 2 * body.velocity", " + h / 2 * body.angular_velocity")
-    lines += [
-        "    space.step(h)",
-        "",
-        "for name, body in bodies.items():",
-        f"    x, y = body.position{position if midpoint else ''}",
-        f"    angle = body.angle{angle if midpoint else ''}",
-        "    print(name, x, y, angle, *body.velocity, body.angular_velocity)",
-    ]
-    return "\n".join(lines) + "\n"
+        yield f"    space.iterations = {cold} if n < {COLD} else {world.space.iterations}"
 
 
 def _seeds(world: World, start: Start, seed: float) -> list[str]:

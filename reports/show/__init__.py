@@ -1,1 +1,1 @@
-"""What a person sees: terminal, summary, scripts, the benchmark."""
+"""What a person sees: terminal, summary, scripts."""

@@ -1,0 +1,108 @@
+"""The benchmark as a table of 80 columns, and as CSV."""
+
+import csv
+import io
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import astuple, fields
+from inspect import cleandoc
+from itertools import chain, groupby
+from textwrap import fill
+
+import numpy as np
+
+from ...engines.engine import Engine, Loop
+from .adapters import Amount, Row
+from .integrators import Compared
+from .turns import Ratio
+
+AIMS = {"native": 1.05, "law": 1.05, "driver": 1.05, "recorded": 1.3, "building": 1.3}
+"""Ratios of a run's ways, of recording every step, and of building a ladder."""
+REFERENCE_AIM = 0.5
+
+HEAD = (
+    "CPU time over the plainest loop a user would write for the same motion: in turns, the median "
+    "of {rounds} rounds, ± half of what the middle half of them spans. Both sides build their "
+    "scene and take {count} steps over the case's duration. The loop keeps nothing; a run reads "
+    "states and forces, at samples, or at every step too. Building: without a step, for a ladder "
+    "of {rungs} steps. Apart: the ends of the two motions."
+)
+
+
+def head(amount: Amount, rungs: int, engines: Iterable[Engine]) -> str:
+    """What is compared, each engine's plain loop in its own words, and the columns."""
+    count = amount.steps * amount.samples
+    loops = {e.name: cleandoc(e.plain.__doc__ or "") for e in engines if isinstance(e, Loop)}
+    told = [fill(f"  {name}: {text}", 80, subsequent_indent="    ") for name, text in loops.items()]
+    columns = f"{'a step':>8}{f'{amount.steps} a sample':>13}{'every step':>13}{'building':>12}"
+    said = fill(HEAD.format(rounds=amount.rounds, count=count, rungs=rungs), 80)
+    return "\n".join([said, *told, "", f"{'':27}{columns}{'apart':>7}"])
+
+
+def line(row: Row) -> str:
+    """One plan."""
+    name = f"  {row.engine}.{row.setting}"
+    name += "" if row.realised == "native" else f" ({row.realised})"
+    if row.because:
+        told = f", {row.apart:.0e} apart" if row.differs else ""
+        return f"{name:27} {row.because}{told}"
+    ratios = f"{row.samples!s:>13}{row.recorded!s:>13}{row.building!s:>12}"
+    apart = f"{row.apart:.0e}" if row.apart else "0"
+    return f"{name:27}{row.step * 1e6:5.1f} µs{ratios}{apart:>7}"
+
+
+def summary(rows: Sequence[Row]) -> Iterator[str]:
+    """By engine: the median, and the largest, of each kind of ratio."""
+    yield f"{'median (largest)':17}" + "".join(f"{kind:>12}" for kind in AIMS)
+    yield f"{'aim':17}" + "".join(f"{f'{aim:.2f}':>12}" for aim in AIMS.values())
+    measured = [row for row in rows if not row.because]
+    for engine, found in groupby(sorted(measured, key=_engine), key=_engine):
+        ratios = list(found)
+        cells = (_cell([ratio.median for ratio in _kind(ratios, kind)]) for kind in AIMS)
+        yield f"{engine:17}" + "".join(f"{cell:>12}" for cell in cells)
+
+
+def _engine(row: Row) -> str:
+    return row.engine
+
+
+def _kind(rows: Iterable[Row], kind: str) -> Iterator[Ratio]:
+    for row in rows:
+        if kind == "recorded" and row.realised != "native":
+            continue  # there it would be the law's cost again
+        found = getattr(row, kind, row.samples if row.realised == kind else None)
+        if found is not None:
+            yield found
+
+
+def _cell(ratios: list[float]) -> str:
+    return f"{np.median(ratios):.2f} ({max(ratios):.2f})" if ratios else "–"
+
+
+def reference(rows: Iterable[Compared]) -> Iterator[str]:
+    """Our integrators beside scipy's."""
+    yield f"{'the reference':24}{'error':>8}{'ours':>12}{'over the best of scipy':>32}"
+    yield f"{'aim':24}{'':20}{REFERENCE_AIM:>25.2f}"
+    for row in rows:
+        against = f"{row.best} {row.ratio}" if row.ratio else row.best
+        yield f"  {row.case:22}{row.error:8.0e}{row.ours * 1e3:9.1f} ms{against:>32}"
+
+
+_RATIOS = ("samples", "recorded", "building")
+
+
+def as_csv(rows: Iterable[Row]) -> str:
+    """The adapters' rows, each ratio as its median and its spread."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    names = [field.name for field in fields(Row)]
+    pairs = ((name, f"{name}_spread") if name in _RATIOS else (name,) for name in names)
+    writer.writerow(chain.from_iterable(pairs))
+    for row in rows:
+        writer.writerow(chain.from_iterable(_cells(getattr(row, name), name) for name in names))
+    return text.getvalue()
+
+
+def _cells(value: object, name: str) -> Sequence[object]:
+    if name in _RATIOS:
+        return [f"{x:.3g}" for x in astuple(value)] if isinstance(value, Ratio) else ["", ""]
+    return [f"{value:.3g}" if isinstance(value, float) else value]

@@ -1,0 +1,129 @@
+"""A run is compared with the plain loop of the same motion, and with no other."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from given.planning import CASES, SHIPPED, TUNED, planned
+
+from textmech.cases.case import Case
+from textmech.cases.friction import Bounds
+from textmech.cases.scene import Scene
+from textmech.engines.engine import Engine, Loop, Plain, Plan, Start
+from textmech.reports.bench.adapters import Amount, Pair, one_of_each_file, rows
+
+FEW = Amount(steps=4, samples=5, rounds=1)
+
+
+def briefly(name: str, duration: float) -> Case:
+    return replace(CASES[name], duration=duration)
+
+
+@pytest.mark.parametrize("engine", [*SHIPPED.values(), *TUNED.values()], ids=str)
+@pytest.mark.parametrize("name", ["four_bar", "rolling_wheel.pushed", "towed_pendulum"])
+def test_a_plain_loop_makes_the_adapters_motion(name: str, engine: Engine) -> None:
+    """To the last bits: it takes the same steps."""
+    (row,) = [r for r in rows(briefly(name, 0.02), [engine], FEW) if r.realised == "native"]
+    assert row.apart < 1e-12
+    assert not row.because
+    assert row.samples
+    assert row.recorded
+    assert row.building
+
+
+LAWS = [
+    ("growing_force", "mujoco", {"law", "driver"}),  # breaks loose at 6 s
+    ("growing_force", "pymunk", {"law"}),
+    ("spring_mass_damper.underdamped", "pymunk", {"law"}),
+]
+
+
+@pytest.mark.parametrize(("name", "engine", "ways"), LAWS)
+def test_the_force_of_the_present_instant_is_of_first_order(
+    name: str, engine: str, ways: set[str]
+) -> None:
+    found = rows(CASES[name], [TUNED[engine]], replace(FEW, steps=200))
+    told = [row for row in found if row.realised != "native"]
+    assert {row.realised for row in told} == ways
+    for row in told:
+        assert not row.because
+        assert row.apart < 0.05
+
+
+HEAVIER = 1.001
+LOOSER = 0.9
+
+
+def heavier(scene: Scene) -> Scene:
+    x, y = scene.gravity
+    return replace(scene, gravity=(x, HEAVIER * y))
+
+
+def looser(scene: Scene) -> Scene:
+    guide = scene.joints["guide"]
+    assert guide.dry_friction
+    static = Bounds(*(LOOSER * bound for bound in (guide.dry_friction.static.forward,) * 2))
+    dry = replace(guide.dry_friction, static=static)
+    return replace(scene, joints={"guide": replace(guide, dry_friction=dry)})
+
+
+class Other:
+    """An engine whose plain loop is of another scene."""
+
+    def __init__(self, engine: Engine, other: Callable[[Scene], Scene]) -> None:
+        self.engine, self.other = engine, other
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.engine, name)
+
+    def plain(
+        self, scene: Scene, start: Start, step: float, plan: Plan
+    ) -> Callable[[float], Plain] | None:
+        changed = self.other(scene)
+        assert isinstance(self.engine, Loop)
+        other = planned(self.engine, changed, start, plan.realised)
+        return self.engine.plain(changed, start, step, other)
+
+
+@pytest.mark.parametrize("name", TUNED)
+def test_another_motion_is_not_compared(name: str) -> None:
+    other: Any = Other(TUNED[name], heavier)
+    (row,) = rows(briefly("four_bar", 0.2), [other], FEW)
+    assert row.differs
+    assert row.because == "the plain loop makes another motion"
+    assert row.apart > 1e-6
+    assert row.samples is None
+
+
+@pytest.mark.parametrize("name", TUNED)
+def test_nor_is_another_law(name: str) -> None:
+    """It breaks loose earlier, at any step."""
+    other: Any = Other(TUNED[name], looser)
+    found = rows(CASES["growing_force"], [other], replace(FEW, steps=200))
+    told = [row for row in found if row.realised != "native"]
+    assert told
+    assert all(row.differs for row in told)
+
+
+def test_what_has_no_plain_loop_says_so() -> None:
+    found = list(rows(briefly("dynamometer_smooth", 0.1), [TUNED["pymunk"]], FEW))
+    assert [row.realised for row in found if row.because] == ["law"]
+    assert not any(row.differs for row in found)
+
+
+@pytest.mark.parametrize("name", ["four_bar", "growing_force"])  # with gravity, and without
+def test_no_round_finds_its_scene_built(name: str) -> None:
+    case, engine = CASES[name], SHIPPED["mujoco"]
+    assert isinstance(engine, Loop)
+    pair = Pair(case, {}, engine, Plan("native", held=(1,)), FEW)
+    seen = [pair.unseen(k).gravity for k in range(5)]
+    assert len({case.scene.gravity, *seen}) == 6
+    for x, y in seen:
+        assert (x, y) == pytest.approx(case.scene.gravity, rel=1e-14, abs=1e-200)
+
+
+def test_every_shipped_file_is_measured_once() -> None:
+    files = [case.source.file for case in one_of_each_file()]
+    assert len(files) == len(set(files))
+    assert set(files) == {case.source.file for case in CASES.values()}

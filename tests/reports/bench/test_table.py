@@ -1,0 +1,92 @@
+"""The table is read in a terminal of 80 columns, the CSV by a spreadsheet."""
+
+import csv
+import io
+import re
+from pathlib import Path
+
+import pytest
+from given.command import NEW, textmech
+from given.planning import SETTINGS, words
+
+from textmech.reports.bench import adapters, table
+from textmech.reports.bench.adapters import Row
+from textmech.reports.bench.integrators import Compared
+from textmech.reports.bench.turns import Ratio
+from textmech.reports.command import bench
+
+RATIO = r" +(?P<{}>[\d.]+) ±[\d.]+"
+LINE = re.compile(
+    r"  (?P<who>\w+\.\w+) +(?P<step>[\d.]+) µs"
+    + "".join(RATIO.format(name) for name in ("samples", "recorded", "building"))
+    + r" +(?P<apart>\S+)"
+)
+
+
+@pytest.fixture
+def cart(tmp_path: Path) -> Path:
+    file = tmp_path / "cart.yaml"
+    file.write_text(NEW, encoding="utf-8")
+    return file
+
+
+def test_a_case_of_ones_own_is_measured(cart: Path) -> None:
+    done = textmech("bench", cart, "--rounds", 1, "--steps", 2)
+    assert done.returncode == 0, done.stderr
+    lines = done.stdout.splitlines()
+    assert max(map(len, lines)) <= 80
+    assert "mujoco: `mj_step(model, data, n)`" in done.stdout
+    assert "cart" in lines
+    found = [m.groupdict() for line in lines if (m := LINE.fullmatch(line))]
+    assert [row["who"] for row in found] == [words(engine) for engine in SETTINGS]
+    for row in found:
+        assert float(row["apart"]) < 1e-12
+        assert all(float(row[name]) > 0 for name in ("samples", "recorded", "building", "step"))
+    assert lines[-4].split() == ["median", "(largest)", *table.AIMS]
+    assert [line.split()[0] for line in lines[-3:]] == ["aim", "mujoco", "pymunk"]
+
+
+def test_the_same_as_csv(cart: Path) -> None:
+    words = ("bench", cart, "--engine", "pymunk.tuned", "--rounds", 1, "--steps", 1, "--csv")
+    (row,) = csv.DictReader(io.StringIO(textmech(*words).stdout))
+    assert (row["case"], row["engine"], row["setting"]) == ("cart", "pymunk", "tuned")
+    assert float(row["samples"]) > 0
+    assert float(row["samples_spread"]) == 0  # of one round
+
+
+ANOTHER = "the plain loop makes another motion"
+OTHER = Row("cart", "toy", "tuned", "law", apart=0.03, because=ANOTHER)
+
+
+def test_another_motion_is_said_and_fails(monkeypatch: pytest.MonkeyPatch, cart: Path) -> None:
+    assert table.line(OTHER) == f"  toy.tuned (law)           {ANOTHER}, 3e-02 apart"
+    monkeypatch.setattr(adapters, "rows", lambda *given: [OTHER])
+    with pytest.raises(SystemExit) as ended:
+        bench.bench.main([str(cart)], standalone_mode=True)
+    assert ended.value.code == 1
+
+
+def measured(setting: str, realised: str, size: float) -> Row:
+    of = {name: Ratio(size, 0.0) for name in ("samples", "recorded", "building")}
+    return Row("a", "toy", setting, realised, 1e-6, **of, apart=0.0)  # type: ignore[arg-type]
+
+
+def test_the_summary_has_each_kind_once() -> None:
+    """What a law costs is no cost of recording; what was not compared is in none."""
+    found = [measured("shipped", "native", 1.0), measured("tuned", "native", 1.2)]
+    found += [measured("tuned", "law", 3.0), OTHER]
+    assert [line.split() for line in table.summary(found)][2] == [
+        "toy", "1.10", "(1.20)", "3.00", "(3.00)", "–", "1.10", "(1.20)", "1.20", "(3.00)",
+    ]  # fmt: skip
+
+
+def test_the_reference_says_which_of_scipys_was_best() -> None:
+    rows = [
+        Compared("four_bar", 1e-9, 0.02, "LSODA", Ratio(0.6, 0.01)),
+        Compared("rhombus", 1e-9, 0.02, "none of scipy's reaches it", None),
+    ]
+    lines = list(table.reference(rows))
+    assert max(map(len, lines)) <= 80
+    assert lines[1].split() == ["aim", "0.50"]
+    assert lines[2].split() == ["four_bar", "1e-09", "20.0", "ms", "LSODA", "0.60", "±0.01"]
+    assert lines[3].endswith("none of scipy's reaches it")
