@@ -4,8 +4,11 @@ Inert unless a case file is named on the command line, or `textmech_cases` in th
 lists some. Everything heavy is imported only then.
 """
 
+import shutil
+import tempfile
 from collections.abc import Iterator
 from fnmatch import fnmatch
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +20,7 @@ if TYPE_CHECKING:
     from .suite import Report
 
 _REPORT = pytest.StashKey["Report"]()
+_SHARED = "textmech_shared"  # what a worker of xdist is told: the session's own folder
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -44,6 +48,17 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         action="store_true",
         help="do any amount of work, and not only what takes minutes",
     )
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_configure_node(node: Any) -> None:
+    """Tells each worker of xdist a folder that all of them share, if any makes it, until the end.
+
+    There they find what one of them has computed where nothing may be remembered for longer.
+    """
+    folder = Path(tempfile.gettempdir()) / f"textmech-{node.workerinput['testrunuid']}"
+    node.workerinput[_SHARED] = str(folder)
+    node.config.add_cleanup(partial(shutil.rmtree, folder, ignore_errors=True))
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
@@ -219,28 +234,11 @@ def _found(session: pytest.Session) -> "Report":
 
 
 def _measure(session: pytest.Session) -> "Report":
-    """Runs what is collected, on all cores, or takes it from the store: another worker of xdist
-    collects the same, waits, and finds it there. A mistake that solving finds costs its own file.
-    """
-    from ..cases.mistake import CaseError
-    from . import pool, suite
-    from .cache.store import usable
-    from .selection import BOOK, choose_engines
+    """Runs what is collected, or takes it from another worker of xdist, which collects the same."""
+    from .session import rows
 
     items = [item for item in session.items if isinstance(item, CaseItem)]
     cases = {item.case.name: item.case for item in items}
-    used = {item.key[1:3] for item in items if isinstance(item, ComparisonItem)}
-    book = any(name == BOOK for name, _ in used)
-    names = [f"{name}.{setting}" for name, setting in sorted(used) if name != BOOK]
-    engines = choose_engines(names, []) if names else []
-    try:
-        return suite.measure(
-            list(cases.values()),
-            engines,
-            jobs=pool.workers(),
-            progress=lambda *_: None,
-            book=book,
-            store=usable(),
-        )
-    except CaseError as error:
-        return suite.Report(mistakes=error.mistakes)
+    used = {".".join(item.key[1:3]) for item in items if isinstance(item, ComparisonItem)}
+    shared = getattr(session.config, "workerinput", {}).get(_SHARED)
+    return rows(list(cases.values()), sorted(used), shared)

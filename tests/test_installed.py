@@ -11,23 +11,11 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
+from given.swing import SWING
 
 ROOT = Path(__file__).parents[1]
 OURS = ("cases", "reference", "engines", "reports")
 NAMES = {"textmech", "__editable__"}  # what an installed suite leaves beside other packages
-
-CASE = """\
-title: A bar that swings
-scene:
-  points: {O: [0, 0]}
-  bodies: {rod: {bar: {mass: 0.5, length: 0.6}}}
-  joints: {hinge: {pin: [ground.O, rod.start]}}
-initial: {rod: {angle: -40 deg}}
-duration: 0.4
-samples: 6
-step: {mujoco: 1.0e-3, pymunk: 1.0e-3}
-allow: {rod.angle: 1.0e-2}
-"""
 
 
 @pytest.fixture(scope="module")
@@ -77,7 +65,7 @@ def project(tmp_path: Path) -> Path:
         (tmp_path / name / "__init__.py").write_text(f"MINE = {name!r}\n", encoding="utf-8")
     uses = "\n".join(f"    import {name}\n    assert {name}.MINE == {name!r}" for name in OURS)
     (tmp_path / "test_mine.py").write_text(f"def test_mine():\n{uses}\n", encoding="utf-8")
-    (tmp_path / "swing.yaml").write_text(CASE, encoding="utf-8")
+    (tmp_path / "swing.yaml").write_text(SWING, encoding="utf-8")
     return tmp_path
 
 

@@ -32,7 +32,7 @@ ROOMS = {
         "unit results",
         "trials",
         "suite",
-        "write keep",
+        "write keep session",
         "show committed bench",
         "command",
         "cli pytest_plugin",

@@ -5,23 +5,12 @@ from pathlib import Path
 import pandas as pd
 import pytest
 from click.testing import CliRunner, Result
+from given.swing import SWING
 
 from textmech.reports import write
 from textmech.reports.cli import command
 from textmech.reports.row import Comparison
 
-SWING = """\
-title: A bar that swings, and turns
-scene:
-  points: {O: [0, 0]}
-  bodies: {rod: {bar: {mass: 0.5, length: 0.6}}}
-  joints: {hinge: {pin: [ground.O, rod.start]}}
-initial: {rod: {angle: -40 deg}}
-duration: 0.4
-samples: 6
-step: 1.0e-3
-allow: {rod.angle: 1.0e-2}
-"""
 GAME = "mujoco: {step: 0.016666666666666666}\npymunk: {step: 0.016666666666666666}\n"
 
 

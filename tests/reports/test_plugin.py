@@ -1,26 +1,14 @@
 """The pytest plug-in, as it behaves in somebody else's project."""
 
 import pytest
+from given.swing import SWING, swing
 
 pytest_plugins = ["pytester"]
-
-CASE = """\
-title: A bar that swings
-scene:
-  points: {O: [0, 0]}
-  bodies: {rod: {bar: {mass: 0.5, length: 0.6}}}
-  joints: {hinge: {pin: [ground.O, rod.start]}}
-initial: {rod: {angle: -40 deg}}
-duration: 0.4
-samples: 6
-step: {mujoco: 1.0e-3, pymunk: 1.0e-3}
-allow: {rod.angle: 1.0e-2}
-"""
 
 
 @pytest.fixture
 def project(pytester: pytest.Pytester) -> pytest.Pytester:
-    pytester.makefile(".yaml", swing=CASE)
+    pytester.makefile(".yaml", swing=SWING)
     pytester.makepyfile("def test_own(): pass")
     return pytester
 
@@ -51,7 +39,7 @@ def test_configured_files_are_compared(project: pytest.Pytester) -> None:
 
 @pytest.mark.whole
 def test_a_failure_prints_the_row_and_the_files_line(project: pytest.Pytester) -> None:
-    project.makefile(".yaml", swing=CASE.replace("rod.angle: 1.0e-2", "rod.angle: 1.0e-12"))
+    project.makefile(".yaml", swing=swing("1.0e-12"))
     done = project.runpytest_subprocess("swing.yaml", "--textmech-engine", "mujoco.tuned")
     done.assert_outcomes(passed=2, failed=1)
     done.stdout.fnmatch_lines(["*swing.yaml:10: rod.angle", "*verdict*FAILS*"])
@@ -62,7 +50,7 @@ def test_a_failure_prints_the_row_and_the_files_line(project: pytest.Pytester) -
 def test_a_finding_is_an_expected_failure_with_the_row_as_its_reason(
     project: pytest.Pytester,
 ) -> None:
-    project.makefile(".yaml", swing=CASE.replace("rod.angle: 1.0e-2", "rod.angle: 1.0e-6"))
+    project.makefile(".yaml", swing=swing("1.0e-6"))
     done = project.runpytest_subprocess("swing.yaml", "-rx", "--textmech-engine", "mujoco.shipped")
     done.assert_outcomes(passed=2, xfailed=1)
     done.stdout.fnmatch_lines(["*rod.angle*allowed 1.0e-06*beyond*"])
@@ -70,7 +58,7 @@ def test_a_finding_is_an_expected_failure_with_the_row_as_its_reason(
 
 @pytest.mark.whole
 def test_mistakes_of_a_file_are_shown_as_they_are(project: pytest.Pytester) -> None:
-    project.makefile(".yaml", swing=CASE.replace("mass: 0.5", "mas: 0.5"))
+    project.makefile(".yaml", swing=SWING.replace("mass: 0.5", "mas: 0.5"))
     done = project.runpytest_subprocess("swing.yaml")
     done.assert_outcomes(errors=1)
     done.stdout.fnmatch_lines(["*swing.yaml:4:*did you mean 'mass'?*"])
@@ -86,7 +74,7 @@ def test_a_case_that_is_not_there_does_not_look_like_a_pass(project: pytest.Pyte
 @pytest.mark.whole
 def test_two_files_of_one_name_do_not_share_their_rows(project: pytest.Pytester) -> None:
     strict = project.mkdir("strict") / "swing.yaml"
-    strict.write_text(CASE.replace("rod.angle: 1.0e-2", "rod.angle: 1.0e-12"), encoding="utf-8")
+    strict.write_text(swing("1.0e-12"), encoding="utf-8")
     done = project.runpytest_subprocess("strict/swing.yaml", "swing.yaml")
     assert done.ret == pytest.ExitCode.USAGE_ERROR
     done.stderr.fnmatch_lines(["*have one name*"])

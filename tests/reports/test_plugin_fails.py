@@ -1,21 +1,10 @@
 """What must be red in pytest: a reference, an audit, and a row that got worse."""
 
 import pytest
+from given.swing import swing
 
 pytest_plugins = ["pytester"]
 
-CASE = """\
-title: A bar that swings
-scene:
-  points: {O: [0, 0]}
-  bodies: {rod: {bar: {mass: 0.5, length: 0.6}}}
-  joints: {hinge: {pin: [ground.O, rod.start]}}
-initial: {rod: {angle: -40 deg}}
-duration: 0.4
-samples: 6
-step: {mujoco: 1.0e-3, pymunk: 1.0e-3}
-allow: {rod.angle: 1.0e-6}
-"""
 # `spawn` would lose what a conftest changed: the workers of these runs are forks.
 FORKED = "import multiprocessing; multiprocessing.set_start_method('fork')\n"
 WORSE = """\
@@ -32,7 +21,7 @@ committed.shipped = lambda: {{"swing": Path("swing.yaml")}}
 
 
 def run(pytester: pytest.Pytester, change: str, engine: str = "mujoco.shipped") -> pytest.RunResult:
-    pytester.makefile(".yaml", swing=CASE)
+    pytester.makefile(".yaml", swing=swing("1.0e-6"))
     pytester.makeconftest(FORKED + change)
     return pytester.runpytest_subprocess("swing.yaml", "--textmech-engine", engine)
 
