@@ -5,15 +5,14 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from given import scenes
 from given.one_number import one_number
 
 from textmech.cases.case import Case
 from textmech.cases.find import shipped
 from textmech.cases.load import load
 from textmech.cases.observe import observe
-from textmech.reference.solve import solve
 from textmech.reports.events.times import reference_events
-from textmech.reports.selection import HANDWRITTEN
 
 Applied = Callable[[float, float], float]
 NARROW = 1.03  # high over low: 1 % to either side, and what was rounded
@@ -25,10 +24,6 @@ ONE = {
     "dynamometer_smooth": 3.0,
     "anisotropic_drift": 2.5,
 }
-
-
-def case_of(name: str) -> Case:
-    return load(shipped()[name], systems=HANDWRITTEN)[0]
 
 
 def applied(case: Case) -> Applied:
@@ -43,7 +38,7 @@ def applied(case: Case) -> Applied:
 
 def expected(case: Case) -> dict[str, float]:
     """How far the motion with one number of friction is from the case's own."""
-    wanted = solve(case).trajectory
+    wanted = scenes.solved(case.name).trajectory
     bound = ONE[case.name]
     x, v, slips, stops = one_number(applied(case), case.parameters["m"], bound, case.times)
     off = {
@@ -64,7 +59,7 @@ def expected(case: Case) -> dict[str, float]:
 @pytest.mark.whole
 @pytest.mark.parametrize("name", ONE)
 def test_one_number_of_friction_costs_what_is_declared(name: str) -> None:
-    case = case_of(name)
+    case = scenes.SHIPPED[name]
     off = expected(case)
     declared = {
         (setting, quantity): deviation.by
