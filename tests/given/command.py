@@ -1,8 +1,16 @@
-"""The command in a process of its own, and a case of a user's for it."""
+"""The command, in this process or in one of its own, and a case of a user's for it."""
 
+import os
 import subprocess
 import sys
+from contextlib import redirect_stderr, redirect_stdout
+from io import BytesIO, TextIOWrapper
 from pathlib import Path
+
+import pytest
+
+from textmech.reports import cli, ending
+from textmech.reports.command import done
 
 NEW = """\
 title: A bar that hangs on a cart
@@ -23,6 +31,26 @@ allow: {cart.x: 1.0e-2, rod.angle: 1.0e-2}
 
 
 def textmech(*words: object, folder: Path | None = None) -> subprocess.CompletedProcess[str]:
+    """All that the command does, but for its signals; what it does not catch is raised."""
+    out, err = (TextIOWrapper(BytesIO(), encoding="utf-8", write_through=True) for _ in range(2))
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(out), redirect_stderr(err):
+        patch.setattr(sys, "argv", line := ["textmech", *map(_argument, words)])
+        patch.setattr(ending, "listen", lambda: None)
+        patch.setattr(done, "DONE", [])
+        if folder:
+            patch.chdir(folder)
+        with pytest.raises(SystemExit) as ended:
+            cli.main()
+    said = [stream.buffer.getvalue().decode() for stream in (out, err)]
+    return subprocess.CompletedProcess(line, int(ended.value.code or 0), *said)
+
+
+def _argument(word: object) -> str:
+    return os.fsdecode(word) if isinstance(word, bytes) else str(word)
+
+
+def process(*words: object, folder: Path | None = None) -> subprocess.CompletedProcess[str]:
+    """The command as a user's shell starts it."""
     return subprocess.run(
         [sys.executable, "-m", "textmech.reports.cli", *map(str, words)],
         capture_output=True,

@@ -1,33 +1,18 @@
 """What a mistake in one file costs: its own file, and the exit code of the command."""
 
 import os
-import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from given.command import textmech
 from given.pendulum import pendulum
 
 from textmech.cases.case import Case
 from textmech.reference import solve
 from textmech.reference.certificate.agreement import Check
 from textmech.reports.cli import command
-
-
-def textmech(
-    folder: Path, *words: str | bytes, env: dict[str, str] | None = None
-) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "textmech.reports.cli", *words],
-        capture_output=True,
-        text=True,
-        cwd=folder,
-        env={**os.environ, **(env or {})},
-        timeout=120,
-        check=False,
-    )
 
 
 @pytest.fixture
@@ -42,30 +27,29 @@ def files(tmp_path: Path) -> Path:
 @pytest.mark.whole
 def test_a_mistake_costs_its_own_file(files: Path) -> None:
     names = ("bad.yaml", "good.yaml", "long.yaml", "still.yaml")
-    done = textmech(files, "run", *names, "--engine", "mujoco.tuned")
+    done = textmech("run", *names, "--engine", "mujoco.tuned", folder=files)
     assert done.returncode == 2
     assert "good in mujoco" in done.stdout
     assert "bad.yaml:4:" in done.stderr
     assert "long.yaml:10:1: step: " in done.stderr
     assert "still.yaml:11:9: allow.rod.angle: never moves" in done.stderr  # only solving tells
     assert "3 files have mistakes and are left out" in done.stderr
-    assert "Traceback" not in done.stderr
 
 
 @pytest.mark.whole
 def test_without_a_sound_file_nothing_runs(files: Path) -> None:
-    done = textmech(files, "run", "bad.yaml", "long.yaml")
+    done = textmech("run", "bad.yaml", "long.yaml", folder=files)
     assert (done.returncode, done.stdout) == (2, "")
     assert "2 mistakes; nothing was written" in done.stderr or "3 mistakes" in done.stderr
 
 
 @pytest.mark.whole
 def test_check_says_what_would_take_for_ever_and_allow_long_goes_on(files: Path) -> None:
-    done = textmech(files, "check", "long.yaml", "good.yaml")
+    done = textmech("check", "long.yaml", "good.yaml", folder=files)
     assert done.returncode == 2
     assert "good.yaml: 1 case, no mistakes" in done.stdout
     assert "--allow-long" in done.stderr
-    assert textmech(files, "check", "--allow-long", "long.yaml").returncode == 0
+    assert textmech("check", "--allow-long", "long.yaml", folder=files).returncode == 0
 
 
 def test_check_says_no_mistakes_only_where_nothing_fails(
@@ -90,19 +74,17 @@ def test_check_says_no_mistakes_only_where_nothing_fails(
 )
 def test_a_name_that_reports_cannot_carry_is_a_mistake(files: Path, name: str) -> None:
     (files / name).write_text(pendulum(), encoding="utf-8")
-    done = textmech(files, "check", name)
+    done = textmech("check", name, folder=files)
     assert done.returncode == 2
     assert "name" in done.stderr
-    assert "Traceback" not in done.stderr
     assert "\x1b" not in done.stderr
 
 
 @pytest.mark.whole
 def test_names_that_no_file_can_have(files: Path) -> None:
     for name in ("n" * 300 + ".yaml", b"\xff\xfe.yaml", ""):
-        done = textmech(files, "check", name)
+        done = textmech("check", name, folder=files)
         assert done.returncode == 2, name
-        assert "Traceback" not in done.stderr
 
 
 @pytest.mark.whole
@@ -110,7 +92,6 @@ def test_a_name_that_is_not_utf8(files: Path) -> None:
     name = b"caf\xe9.yaml"
     with open(os.path.join(os.fsencode(files), name), "wb") as file:
         file.write(pendulum().encode())
-    done = textmech(files, "check", name)
+    done = textmech("check", name, folder=files)
     assert done.returncode == 2
     assert "caf\\udce9" in done.stderr
-    assert "Traceback" not in done.stderr

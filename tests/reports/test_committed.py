@@ -50,6 +50,7 @@ def test_tolerances_are_current(report: Report) -> None:
         assert near(row.final, before.final, floor, spread), key(row)
 
 
+@pytest.mark.whole
 def test_orders_and_limits_are_current(report: Report) -> None:
     committed = {
         (*key(row), row.ladder): row for row in write.read(write.HERE / "convergence.csv", Rungs)
@@ -69,6 +70,7 @@ def test_orders_and_limits_are_current(report: Report) -> None:
             assert near(row.order, before.order, ORDER), key(row)
 
 
+@pytest.mark.whole
 def test_events_are_current(report: Report) -> None:
     committed = {instant(row): row for row in write.read(write.HERE / "events.csv", Instant)}
     assert {instant(row) for row in report.instants} == set(committed)
@@ -78,6 +80,7 @@ def test_events_are_current(report: Report) -> None:
         assert abs(row.time - before.time) <= AFTER_EVENTS * off + FLOOR, instant(row)
 
 
+@pytest.mark.whole
 def test_certificates_are_current(report: Report) -> None:
     rows = write.read(write.HERE / "reference.csv", Certificate)
     committed = {(row.case, row.check): row for row in rows}
@@ -92,12 +95,14 @@ def test_certificates_are_current(report: Report) -> None:
             assert row.certified <= LOST * before.certified, row.check
 
 
+@pytest.mark.whole
 def test_coverage_is_current(report: Report) -> None:
     now = write.tables(report, choose_cases([]))["coverage.csv"]
     text = now.to_csv(index=False, lineterminator="\n") + f"# {len(now)} rows of run "
     assert (write.HERE / "coverage.csv").read_text(encoding="utf-8").startswith(text)
 
 
+@pytest.mark.whole
 def test_every_equation_that_a_case_names_is_executed_by_it(report: Report) -> None:
     for case in choose_cases([]):
         missing = set(case.origin.equations) - report.equations[case.name]

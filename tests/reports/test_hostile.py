@@ -7,10 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from given.command import NEW
+from given.command import NEW, textmech
 
-from textmech.reports import cli, ending
-from textmech.reports.command import done
 from textmech.reports.show.say import shown
 
 ONE = ("--engine", "mujoco.shipped")
@@ -24,20 +22,13 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.fixture
-def said(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> Callable[..., str]:
-    """What the command says that ends with bad input, run in this process."""
-    monkeypatch.chdir(folder)
-    monkeypatch.setattr(ending, "listen", lambda: None)
-    monkeypatch.setattr(done, "DONE", [])
+def said(folder: Path) -> Callable[..., str]:
+    """What the command says that ends with bad input."""
 
     def run(*words: str) -> str:
-        monkeypatch.setattr(sys, "argv", ["textmech", "run", *words, *ONE])
-        with pytest.raises(SystemExit) as ended:
-            cli.main()
-        assert ended.value.code == 2
-        return capsys.readouterr().err
+        done = textmech("run", *words, *ONE, folder=folder)
+        assert done.returncode == 2
+        return done.stderr
 
     return run
 
