@@ -1,6 +1,7 @@
 """The pytest plug-in, as it behaves in somebody else's project."""
 
 import pytest
+from given.inner import inner
 from given.swing import SWING, swing
 
 pytest_plugins = ["pytester"]
@@ -15,13 +16,13 @@ def project(pytester: pytest.Pytester) -> pytest.Pytester:
 
 @pytest.mark.whole
 def test_it_is_inert_in_other_projects(project: pytest.Pytester) -> None:
-    project.runpytest_subprocess().assert_outcomes(passed=1)
+    inner(project).assert_outcomes(passed=1)
 
 
 @pytest.mark.whole
 def test_other_projects_may_have_an_engine_option(project: pytest.Pytester) -> None:
     project.makeconftest("def pytest_addoption(parser): parser.addoption('--engine')")
-    project.runpytest_subprocess("--engine", "x").assert_outcomes(passed=1)
+    inner(project, "--engine", "x").assert_outcomes(passed=1)
 
 
 @pytest.mark.whole
@@ -34,13 +35,13 @@ def test_a_named_file_is_compared(project: pytest.Pytester) -> None:
 @pytest.mark.whole
 def test_configured_files_are_compared(project: pytest.Pytester) -> None:
     project.makeini("[pytest]\ntextmech_cases = sw*.yaml")
-    project.runpytest_subprocess("--textmech-engine", "mujoco.tuned").assert_outcomes(passed=4)
+    inner(project, "--textmech-engine", "mujoco.tuned").assert_outcomes(passed=4)
 
 
 @pytest.mark.whole
 def test_a_failure_prints_the_row_and_the_files_line(project: pytest.Pytester) -> None:
     project.makefile(".yaml", swing=swing("1.0e-12"))
-    done = project.runpytest_subprocess("swing.yaml", "--textmech-engine", "mujoco.tuned")
+    done = inner(project, "swing.yaml", "--textmech-engine", "mujoco.tuned")
     done.assert_outcomes(passed=2, failed=1)
     done.stdout.fnmatch_lines(["*swing.yaml:10: rod.angle", "*verdict*FAILS*"])
     assert "Traceback" not in done.stdout.str()
@@ -51,7 +52,7 @@ def test_a_finding_is_an_expected_failure_with_the_row_as_its_reason(
     project: pytest.Pytester,
 ) -> None:
     project.makefile(".yaml", swing=swing("1.0e-6"))
-    done = project.runpytest_subprocess("swing.yaml", "-rx", "--textmech-engine", "mujoco.shipped")
+    done = inner(project, "swing.yaml", "-rx", "--textmech-engine", "mujoco.shipped")
     done.assert_outcomes(passed=2, xfailed=1)
     done.stdout.fnmatch_lines(["*rod.angle*allowed 1.0e-06*beyond*"])
 
@@ -59,14 +60,14 @@ def test_a_finding_is_an_expected_failure_with_the_row_as_its_reason(
 @pytest.mark.whole
 def test_mistakes_of_a_file_are_shown_as_they_are(project: pytest.Pytester) -> None:
     project.makefile(".yaml", swing=SWING.replace("mass: 0.5", "mas: 0.5"))
-    done = project.runpytest_subprocess("swing.yaml")
+    done = inner(project, "swing.yaml")
     done.assert_outcomes(errors=1)
     done.stdout.fnmatch_lines(["*swing.yaml:4:*did you mean 'mass'?*"])
 
 
 @pytest.mark.whole
 def test_a_case_that_is_not_there_does_not_look_like_a_pass(project: pytest.Pytester) -> None:
-    done = project.runpytest_subprocess("swing.yaml", "--textmech-case", "swung")
+    done = inner(project, "swing.yaml", "--textmech-case", "swung")
     assert done.ret == pytest.ExitCode.USAGE_ERROR
     done.stderr.fnmatch_lines(["*no such case*swung*"])
 
@@ -75,6 +76,6 @@ def test_a_case_that_is_not_there_does_not_look_like_a_pass(project: pytest.Pyte
 def test_two_files_of_one_name_do_not_share_their_rows(project: pytest.Pytester) -> None:
     strict = project.mkdir("strict") / "swing.yaml"
     strict.write_text(swing("1.0e-12"), encoding="utf-8")
-    done = project.runpytest_subprocess("strict/swing.yaml", "swing.yaml")
+    done = inner(project, "strict/swing.yaml", "swing.yaml")
     assert done.ret == pytest.ExitCode.USAGE_ERROR
     done.stderr.fnmatch_lines(["*have one name*"])

@@ -1,12 +1,13 @@
 """What must be red in pytest: a reference, an audit, and a row that got worse."""
 
 import pytest
+from given.inner import inner
 from given.swing import swing
 
 pytest_plugins = ["pytester"]
 
 # `spawn` would lose what a conftest changed: the workers of these runs are forks.
-FORKED = "import multiprocessing; multiprocessing.set_start_method('fork')\n"
+FORKED = "import multiprocessing; multiprocessing.set_start_method('fork', force=True)\n"
 WORSE = """\
 from pathlib import Path
 from dataclasses import fields
@@ -23,7 +24,7 @@ committed.shipped = lambda: {{"swing": Path("swing.yaml")}}
 def run(pytester: pytest.Pytester, change: str, engine: str = "mujoco.shipped") -> pytest.RunResult:
     pytester.makefile(".yaml", swing=swing("1.0e-6"))
     pytester.makeconftest(FORKED + change)
-    return pytester.runpytest_subprocess("swing.yaml", "--textmech-engine", engine)
+    return inner(pytester, "swing.yaml", "--textmech-engine", engine)
 
 
 @pytest.mark.whole

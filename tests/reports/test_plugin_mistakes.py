@@ -1,6 +1,7 @@
 """The plug-in where a file has mistakes, or asks for endless work."""
 
 import pytest
+from given.inner import inner
 from given.pendulum import pendulum
 
 pytest_plugins = ["pytester"]
@@ -11,7 +12,7 @@ ONLY = ("--textmech-engine", "mujoco.tuned")
 @pytest.mark.whole
 def test_a_mistake_that_solving_finds_costs_its_own_file(pytester: pytest.Pytester) -> None:
     pytester.makefile(".yaml", good=pendulum(), still=pendulum(angle="-90 deg"))
-    done = pytester.runpytest_subprocess("good.yaml", "still.yaml", *ONLY)
+    done = inner(pytester, "good.yaml", "still.yaml", *ONLY)
     done.assert_outcomes(passed=3, failed=3)  # each: the reference, the audit, the angle
     done.stdout.fnmatch_lines(["*still.yaml:11:9: allow.rod.angle: never moves*"])
 
@@ -19,10 +20,8 @@ def test_a_mistake_that_solving_finds_costs_its_own_file(pytester: pytest.Pytest
 @pytest.mark.whole
 def test_endless_work_is_said_and_allow_long_goes_on(pytester: pytest.Pytester) -> None:
     pytester.makefile(".yaml", slow=pendulum(step=1e-9))
-    done = pytester.runpytest_subprocess("slow.yaml", *ONLY)
+    done = inner(pytester, "slow.yaml", *ONLY)
     done.assert_outcomes(errors=1)
     done.stdout.fnmatch_lines(["*slow.yaml:10:1: step: *--textmech-allow-long*"])
-    done = pytester.runpytest_subprocess(
-        "slow.yaml", "--textmech-allow-long", "--collect-only", "-q", *ONLY
-    )
+    done = inner(pytester, "slow.yaml", "--textmech-allow-long", "--collect-only", "-q", *ONLY)
     done.stdout.fnmatch_lines(["slow.yaml::slow-mujoco.tuned-rod.angle"])
