@@ -11,6 +11,7 @@ from textmech.reference.motion.follow import follow
 from textmech.reference.solve import reactions_of, solve
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("name", scenes.SHIPPED)
 def test_shipped_case_is_certified(name: str) -> None:
     """And a hand-written motion is the generated one, whatever the certificate asks of it."""

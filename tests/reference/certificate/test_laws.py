@@ -24,7 +24,7 @@ scene:
     rail:
       {slide: [ground.O, m.center], along: [1, 0], dry_friction: {static: 3, kinetic: 2}}
   forces: {coil: {spring: [ground.Q, m.center], stiffness: 30, rest_length: 1}}
-initial: {m: {x: 0.5, vx: 0}}
+initial: {m: {x: 0.2, vx: 0}}
 allow: {m.x: 1.0e-3}
 """,
     "a bar that has toppled": """\

@@ -201,6 +201,7 @@ def _gravity(check: Check) -> tuple[bool, float]:
     return not check.holds, check.difference
 
 
+@pytest.mark.whole
 def test_every_check_of_a_shipped_case_is_here() -> None:
     names = {c.name for name in scenes.SHIPPED for c in scenes.solved(name).checks}
     assert {ERROR if name.startswith(ERROR) else name for name in names} == set(CHECKS)

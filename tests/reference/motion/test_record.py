@@ -47,7 +47,7 @@ class Watched(System):
 def with_event(case: Case) -> Case:
     """An event on the first place or velocity that falls through zero; a wheel gets a rim point.
 
-    What only creeps to its rest gets one that never happens.
+    The case ends after the second time. What only creeps to its rest gets one that never happens.
     """
     bodies = {
         name: replace(body, points={**body.points, "P": (-body.radius, 0.0)})
@@ -61,9 +61,17 @@ def with_event(case: Case) -> Case:
         if quantity.kind in ("coordinate", "velocity") and quantity.part not in case.scene.forces:
             u = observe(case.scene, motion, name)
             size = np.max(np.abs(u))
-            if np.any((u[:-1] > 1e-6 * size) & (u[1:] < -1e-6 * size)):
-                return replace(case, events={"turns": Event(name, "falls to zero")})
-    return replace(case, events={"turns": Event("mass.vy", "falls to zero")})
+            falls = np.flatnonzero((u[:-1] > 1e-6 * size) & (u[1:] < -1e-6 * size))
+            if len(falls):
+                return until(case, name, int(falls[:2][-1]) + 2)
+    return until(case, "mass.vy", len(case.times) // 4)
+
+
+def until(case: Case, name: str, last: int) -> Case:
+    """The case with the event, as far as its sample of this number."""
+    event = {"turns": Event(name, "falls to zero")}
+    last = min(last, len(case.times) - 1)
+    return replace(case, events=event, duration=float(case.times[last]), samples=last + 1)
 
 
 def located(case: Case) -> list[float]:
