@@ -9,11 +9,11 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
+from given import scenes
 from given.planning import CASES, planned
 
 from textmech.cases.case import Case
 from textmech.engines.mujoco import MuJoCo, compilation
-from textmech.reference.solve import solve
 from textmech.reports.judge.compare import compare
 from textmech.reports.trial.start import assembled, first
 from textmech.reports.trial.trial import Trial
@@ -73,7 +73,7 @@ def test_a_step_that_is_not_written_is_seen() -> None:
 @pytest.mark.parametrize("name", ["four_bar", "rolling_wheel.pushed"])
 def test_a_trial_compiles_once(name: str) -> None:
     case = CASES[name]
-    reference = solve(case).trajectory
+    reference = scenes.solved(name).trajectory
     compilation._model.cache_clear()
     trial = Trial(case, reference, TUNED, planned(TUNED, case.scene, first(reference)))
     assert len({row.ladder for row in compare(trial).rungs}) == 2
