@@ -5,6 +5,7 @@ added up in another order, and differ in their last bits.
 """
 
 import os
+import platform
 import subprocess
 import sys
 from pathlib import Path
@@ -19,6 +20,11 @@ OTHER = {
 # A driven cart, of which one verdict hung on rounding; a wheel; a fall with an event; no loop near
 # its dead point, where rounding grows a thousandfold.
 CASES = ("towed_pendulum", "rolling_wheel.pushed", "bouncing_disk.plastic")
+ELSEWHERE = pytest.mark.xfail(
+    (sys.platform, platform.machine()) != ("linux", "x86_64"),
+    reason="the variables are those of linux on x86-64: a run would be compared with itself",
+    run=False,
+)
 
 
 def written(folder: Path, environment: dict[str, str]) -> dict[str, bytes]:
@@ -27,8 +33,8 @@ def written(folder: Path, environment: dict[str, str]) -> dict[str, bytes]:
     return {file.name: file.read_bytes() for file in folder.iterdir()}
 
 
+@ELSEWHERE
 @pytest.mark.whole
-@pytest.mark.skipif(sys.platform != "linux", reason="the variables are those of linux on x86-64")
 def test_other_vector_units_write_the_same_bytes(tmp_path: Path) -> None:
     here, there = written(tmp_path / "here", {}), written(tmp_path / "there", OTHER)
     assert set(here) == set(there)
@@ -37,6 +43,7 @@ def test_other_vector_units_write_the_same_bytes(tmp_path: Path) -> None:
         assert [pair for pair in lines if pair[0] != pair[1]] == [], name
 
 
+@ELSEWHERE
 def test_the_other_machine_is_another_one() -> None:
     """Else the test above compares a run with itself."""
     code = (
