@@ -9,7 +9,7 @@ reports: $(READY)
 	$(VENV)/bin/textmech run
 
 test: $(READY)
-	$(VENV)/bin/pytest -n auto
+	$(VENV)/bin/pytest -n auto --dist worksteal
 
 # What a change of one file needs: its style and types, and the tests of its room but for those
 # marked `whole`, which solve or run all shipped cases or take long.

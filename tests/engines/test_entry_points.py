@@ -3,9 +3,14 @@
 import os
 import subprocess
 import sys
+import warnings
 from pathlib import Path
 
 import pytest
+from given import command
+from given.forked import forked
+
+from textmech import engines
 
 CASE = """\
 title: A ball that falls
@@ -44,7 +49,16 @@ def python(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
 
 
 def textmech(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
-    return python(folder, "-m", "textmech.reports.cli", *words)
+    """The command where no engine has been asked for yet, in a fork."""
+
+    def run() -> subprocess.CompletedProcess[str]:
+        sys.path.insert(0, str(folder / "path"))
+        for kept in (engines._found, engines._maker):
+            kept.cache_clear()
+        warnings.simplefilter("default")  # here they are errors
+        return command.textmech(*words, folder=folder)
+
+    return forked(run)
 
 
 @pytest.mark.whole

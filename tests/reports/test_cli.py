@@ -67,7 +67,6 @@ def test_out_and_keep_write_where_they_are_told(new: Path, tmp_path: Path) -> No
     assert events == "engine,setting,realised,event,k,time [s],difference [s]\n"
 
 
-@pytest.mark.whole
 def test_a_verdict_that_fails_is_exit_code_1_and_is_named(new: Path) -> None:
     new.write_text(NEW.replace("rod.angle: 1.0e-2", "rod.angle: 1.0e-12"), encoding="utf-8")
     done = textmech("run", new, "--engine", "mujoco.tuned")
@@ -83,7 +82,6 @@ def test_a_verdict_that_fails_is_exit_code_1_though_it_is_written(new: Path) -> 
     assert (new.parent / "o" / "tolerance.csv").is_file()
 
 
-@pytest.mark.whole
 def test_an_unknown_tolerance_is_never_written_but_said(new: Path) -> None:
     new.write_text(NEW.replace("rod.angle: 1.0e-2", "rod.angle: unknown"), encoding="utf-8")
     done = textmech("run", new, "--engine", "mujoco.tuned")
@@ -92,7 +90,6 @@ def test_an_unknown_tolerance_is_never_written_but_said(new: Path) -> None:
     assert "unknown" in new.read_text()
 
 
-@pytest.mark.whole
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -119,7 +116,6 @@ def test_bad_input_is_exit_code_2_and_says_what_would_be_right(
     assert reports() == before
 
 
-@pytest.mark.whole
 def test_check_names_all_mistakes_of_all_files_with_their_places(new: Path) -> None:
     text = NEW.replace("mass: 2.0", "mass: -2.0").replace("[cart.center, rod", "[carrt.center, rod")
     new.write_text(text, encoding="utf-8")
@@ -133,7 +129,6 @@ def test_check_names_all_mistakes_of_all_files_with_their_places(new: Path) -> N
     assert "other.yaml" in done.stderr
 
 
-@pytest.mark.whole
 def test_check_of_sound_files(new: Path) -> None:
     done = textmech("check", new)
     assert (done.returncode, done.stderr) == (0, "")
@@ -197,7 +192,6 @@ allow: {dot.x: 1.0e-3}
     assert done.returncode == 0, done.stderr
 
 
-@pytest.mark.whole
 @pytest.mark.parametrize(
     ("text", "message"),
     [

@@ -24,7 +24,6 @@ def files(tmp_path: Path) -> Path:
     return tmp_path
 
 
-@pytest.mark.whole
 def test_a_mistake_costs_its_own_file(files: Path) -> None:
     names = ("bad.yaml", "good.yaml", "long.yaml", "still.yaml")
     done = textmech("run", *names, "--engine", "mujoco.tuned", folder=files)
@@ -36,14 +35,12 @@ def test_a_mistake_costs_its_own_file(files: Path) -> None:
     assert "3 files have mistakes and are left out" in done.stderr
 
 
-@pytest.mark.whole
 def test_without_a_sound_file_nothing_runs(files: Path) -> None:
     done = textmech("run", "bad.yaml", "long.yaml", folder=files)
     assert (done.returncode, done.stdout) == (2, "")
     assert "2 mistakes; nothing was written" in done.stderr or "3 mistakes" in done.stderr
 
 
-@pytest.mark.whole
 def test_check_says_what_would_take_for_ever_and_allow_long_goes_on(files: Path) -> None:
     done = textmech("check", "long.yaml", "good.yaml", folder=files)
     assert done.returncode == 2
@@ -67,7 +64,6 @@ def test_check_says_no_mistakes_only_where_nothing_fails(
     assert "no mistakes" not in done.output
 
 
-@pytest.mark.whole
 @pytest.mark.parametrize(
     "name",
     ["#h.yaml", "=cmd().yaml", "@x.yaml", "a\nb.yaml", "esc\x1b[31m.yaml", "l" * 150 + ".yaml"],
@@ -80,14 +76,12 @@ def test_a_name_that_reports_cannot_carry_is_a_mistake(files: Path, name: str) -
     assert "\x1b" not in done.stderr
 
 
-@pytest.mark.whole
 def test_names_that_no_file_can_have(files: Path) -> None:
     for name in ("n" * 300 + ".yaml", b"\xff\xfe.yaml", ""):
         done = textmech("check", name, folder=files)
         assert done.returncode == 2, name
 
 
-@pytest.mark.whole
 def test_a_name_that_is_not_utf8(files: Path) -> None:
     name = b"caf\xe9.yaml"
     with open(os.path.join(os.fsencode(files), name), "wb") as file:
