@@ -14,7 +14,7 @@ from ..integrators.implicit import Radau
 from ..integrators.march import IntegrationError, Method, Slope, Step, march
 from ..integrators.radau import radau_table
 from ..system import Array, Guard, Mode, System
-from .crossing import INSIDE, TOGETHER, Within, first
+from .crossing import INSIDE, TOGETHER, Within, clear, first
 from .stuck import Stuck, Watched, slope
 from .zeno import MOST, ZenoError, accumulation, ends_here, settles
 
@@ -140,12 +140,16 @@ class _Walk:
         for step in march(method, self._stops(guards), self.now):
             self.steps += 1
             state = _within(step, probe)
-            looks = bool(guards) or (self.every and not mode.stiff)
             length = step.t_next - step.t
+            looks = self.every and not mode.stiff
+            if guards and not looks:  # a stiff state may turn faster than the cubic
+                sure = not begins and not mode.stiff
+                looks = not (sure and clear(guards, f, step.t, length, step.y, step.y_next))
             points = [0.0, *(part * length for part in INSIDE if looks), length]
             states = [state(at) for at in points]
             spent = self.spent if begins else None
-            found = first(guards, step.t, points, states, state, begins=begins, spent=spent)
+            near = guards if looks else ()
+            found = first(near, step.t, points, states, state, begins=begins, spent=spent)
             if found is not None:
                 i, after = found
                 self._note(step.t, [part * after for part in (*INSIDE, 1.0)], state)
