@@ -5,14 +5,13 @@ E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996)
 
 import math
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.linalg.lapack import dgetrf, dgetrs, zgetrf, zgetrs
 
 from .march import EPS, Integration, IntegrationError, Slope, Vector, integrate, rms, sizes
 from .radau import Collocation, radau_table
+from .stages import Factors, stage_factors
 
 Matrix = NDArray[np.float64]
 Jacobian = Callable[[float, Vector], Matrix]
@@ -20,7 +19,6 @@ Jacobian = Callable[[float, Vector], Matrix]
 ITERATIONS = 15  # slower than this, a new Jacobian or a smaller step is the better bargain
 SLOW = 0.01  # contraction of the iteration beyond which the next step gets a new Jacobian
 ROUNDING = 100.0 * EPS  # corrections this small that no longer shrink are rounding
-FEW = 64  # rows of all stages: their one matrix is solved with faster than several smaller ones
 FAR = 3.0  # do not extrapolate the stages to a step this many times longer than the last
 
 
@@ -32,59 +30,6 @@ def difference_jacobian(f: Slope, t: float, y: Vector, slope: Vector, size: Vect
         moved[i] += step
         columns.append((f(t, moved) - slope) / (moved[i] - y[i]))
     return np.array(columns).T
-
-
-class _Factors:
-    """The LU factors of a matrix; straight from LAPACK, whose wrappers cost more than the work."""
-
-    def __init__(self, matrix: Any) -> None:
-        factor, self._solve = (zgetrf, zgetrs) if matrix.dtype.kind == "c" else (dgetrf, dgetrs)
-        self._lu, self._pivots, _ = factor(matrix)
-
-    def solve(self, right: Any) -> Any:
-        """Not finite if the matrix was singular; the callers look at that anyway."""
-        return self._solve(self._lu, self._pivots, right)[0]
-
-
-class _Whole:
-    """1 − h A ⊗ J of all stages, as one matrix of s n rows: cheapest where these are few."""
-
-    def __init__(self, table: Collocation, scaled: Matrix) -> None:
-        rows = len(table.c) * len(scaled)
-        blocks = np.multiply.outer(table.a, scaled).transpose(0, 2, 1, 3)
-        self._factors = _Factors(np.eye(rows) - blocks.reshape(rows, rows))
-
-    def solve(self, right: Matrix) -> Matrix:
-        """(s, n) for (s, n)."""
-        return self._factors.solve(right.ravel()).reshape(right.shape)
-
-
-class _ByEigenvalues:
-    """The same as one matrix 1 − h λ J for each eigenvalue λ of A.
-
-    One matrix of s n rows would cost s³ n³; these are s n³ in all, half of them by conjugation.
-    """
-
-    def __init__(self, table: Collocation, scaled: Matrix) -> None:
-        one = np.eye(len(scaled))
-        self.table = table
-        self.factors = [
-            _Factors(one - (value if value.imag else value.real) * scaled)
-            for value in table.values.tolist()
-        ]
-
-    def solve(self, right: Matrix) -> Matrix:
-        """(s, n) for (s, n)."""
-        rows = self.table.into @ right
-        for k, (value, factors) in enumerate(zip(self.table.values, self.factors, strict=True)):
-            rows[k] = factors.solve(rows[k] if value.imag else rows[k].real)
-        return (self.table.back @ rows).real
-
-
-def _stages(table: Collocation, scaled: Matrix) -> _Whole | _ByEigenvalues:
-    """What solves the equations of all stages together."""
-    few = len(table.c) * len(scaled) <= FEW
-    return _Whole(table, scaled) if few else _ByEigenvalues(table, scaled)
 
 
 class Radau:
@@ -113,8 +58,8 @@ class Radau:
         self._fresh = False
         self._contraction = 0.0
         self._factored = 0.0  # step the factors below belong to
-        self._stages = _stages(table, np.zeros((1, 1)))
-        self._error_factors = _Factors(np.eye(1))
+        self._stages = stage_factors(table, np.zeros((1, 1)))
+        self._error_factors = Factors(np.eye(1))
 
     def begin(self, t: float, y: Vector) -> Vector:
         """Slope at the start; a step accepted before it becomes the one to extrapolate from."""
@@ -159,8 +104,8 @@ class Radau:
         if self._factored and abs(h / self._factored - 1.0) < 1e-3:
             return
         scaled = h * self._jacobian
-        self._stages = _stages(self.table, scaled)
-        self._error_factors = _Factors(np.eye(len(scaled)) - self.table.gamma * scaled)
+        self._stages = stage_factors(self.table, scaled)
+        self._error_factors = Factors(np.eye(len(scaled)) - self.table.gamma * scaled)
         self._factored = h
 
     def _guess(self, h: float, n: int) -> Matrix:

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from given.problems import by_scipy
 
-from textmech.reference.integrators import implicit
 from textmech.reference.integrators.implicit import radau
 from textmech.reference.integrators.march import Vector
 from textmech.reference.integrators.radau import radau_table
+from textmech.reference.integrators.stages import ByEigenvalues, Whole
 
 
 def prothero_robinson(t: float, y: Vector) -> Vector:
@@ -60,7 +60,7 @@ def test_stages_are_solved_by_eigenvalues_as_in_one_matrix(stages: int):
     scaled, right = random.standard_normal((4, 4)), random.standard_normal((stages, 4))
     whole = np.eye(4 * stages) - np.kron(table.a, scaled)
     known = np.linalg.solve(whole, right.ravel()).reshape(right.shape)
-    for way in (implicit._ByEigenvalues, implicit._Whole):
+    for way in (ByEigenvalues, Whole):
         np.testing.assert_allclose(way(table, scaled).solve(right), known, atol=1e-11)
 
 

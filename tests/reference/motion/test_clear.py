@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from given.watched import Oscillator, Watched
+from given.watched import Oscillator, Plain, Watched
 
 from textmech.reference.integrators.explicit import DormandPrince
 from textmech.reference.motion import crossing
@@ -50,7 +50,7 @@ def test_what_is_no_number_is_not_clear():
     assert not is_clear(lambda t, x, v: math.nan, 0.0, 0.1)
 
 
-def attempts(monkeypatch: pytest.MonkeyPatch, g: G) -> tuple[int, int]:
+def attempts(monkeypatch: pytest.MonkeyPatch, g: Plain) -> tuple[int, int]:
     """Steps of the motion, and attempts of the integrator for them."""
     calls, attempt = [0], DormandPrince.attempt
 
