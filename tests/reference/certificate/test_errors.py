@@ -16,7 +16,8 @@ from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
 from textmech.cases.observe import observe
 from textmech.cases.quantity import table
-from textmech.reference.certificate.errors import EPS, ERROR, SHARE
+from textmech.reference.certificate.agreement import Check
+from textmech.reference.certificate.errors import EPS, ERROR, SHARE, beyond
 from textmech.reference.formalisms import lagrange
 from textmech.reference.solve import Solution, solve
 
@@ -143,3 +144,32 @@ def test_the_share_is_one_per_cent(tmp_path: Path, part: float) -> None:
     else:
         with pytest.raises(CaseError, match="asks more than can be certified"):
             asked()
+
+
+KNOWN = Check(f"{ERROR}bar.angle", 0.5, SHARE, 5e-3, "rad")
+LATE = Check("implicit integrator: events", 1e-3, 1e-10)
+OTHERWISE = Check("generated events", math.inf, 1e-10)
+NEVER = Check(f"{ERROR}turns.time", math.inf, SHARE, math.inf, "s")
+
+
+@pytest.mark.parametrize("broken", [[KNOWN, LATE], [KNOWN, LATE, OTHERWISE, NEVER]])
+def test_events_of_a_motion_that_is_not_known_are_no_second_mistake(
+    tmp_path: Path, broken: list[Check]
+) -> None:
+    """A chaotic motion that switches: it is told at `allow`, and no row of events FAILS."""
+    case = replace(pendulum(tmp_path, {}), allow={"bar.angle": 1e-2, "turns.time": 1e-3})
+    places = [mistake.where for mistake in beyond(case, broken)]
+    assert places == [f"allow.{c.name.removeprefix(ERROR)}" for c in broken if c in (KNOWN, NEVER)]
+    assert all("a shorter duration" in mistake.what for mistake in beyond(case, broken))
+
+
+@pytest.mark.parametrize(
+    "broken",
+    [[LATE], [OTHERWISE, NEVER], [NEVER], [KNOWN, Check("generated motion", 1.0, 1e-9)],
+     [KNOWN, LATE, Check("closed form", 1.0, 1e-12)]],
+)  # fmt: skip
+def test_answers_that_differ_in_a_motion_that_is_known_are_no_mistake_of_the_case(
+    tmp_path: Path, broken: list[Check]
+) -> None:
+    case = replace(pendulum(tmp_path, {}), allow={"bar.angle": 1e-2, "turns.time": 1e-3})
+    assert beyond(case, broken) == []
