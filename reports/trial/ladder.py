@@ -8,6 +8,7 @@ from ...cases.scene import Scene
 from ...engines.engine import Engine, Plan
 
 COARSEST = 8e-3  # s: larger steps are of no use to anyone who controls a body
+SIZED = 4  # rungs, by which errors are seen to fall; with two exponents Romberg takes three
 RUNGS_DOWN = 5  # from an engine's own step: enough for Romberg and three orders
 USUAL = 1e-4  # s, where a case names no step: with it most shipped cases reach their textbook
 WHOLE = 1e-9  # steps: a ratio that is whole up to rounding
@@ -59,16 +60,19 @@ def sampled(case: Case, engine: Engine) -> Case:
 
 
 def ladders(case: Case, engine: Engine, plan: Plan) -> Iterator[Ladder]:
-    """The plan's ladders for the case, the judged step's first."""
+    """The plan's ladders for the case, the judged step's first; the second begins a rung above."""
     h = judged_step(case, engine)
     if engine.own_step is not None:
         yield Ladder("held", tuple(h / 2**k for k in reversed(range(RUNGS_DOWN))))
         return
     steps = tuple(_upward(h, case.interval))
-    if plan.following is not None:
-        yield Ladder("following", steps)
-    if plan.following is None or not plan.alike:
+    if plan.following is None:
         yield Ladder("held", steps)
+        return
+    yield Ladder("following", steps)
+    if not plan.alike:
+        # The finest rung is half of the work, and the numbers held are those of the largest.
+        yield Ladder("held", steps[1:] if len(steps) > SIZED else steps)
 
 
 def _upward(h: float, interval: float) -> Iterator[float]:

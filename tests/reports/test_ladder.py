@@ -77,3 +77,17 @@ def test_only_tied_numbers_climb_twice(trial: Make, moving: Case) -> None:
         found = list(ladders(moving, made.engine, made.plan))
         assert [ladder.name for ladder in found] == names
         assert found[-1].plan(made.plan).kept == found[-1].steps[-1]
+
+
+@pytest.mark.parametrize(("step", "first", "second"), [(1e-3, 4, 4), (5e-4, 5, 4), (2.5e-4, 6, 5)])
+def test_the_second_ladder_begins_a_rung_above_where_four_are_left(
+    trial: Make, moving: Case, step: float, first: int, second: int
+) -> None:
+    """Half of the work is its finest rung; three rungs have no size that falls."""
+    made = trial(case=replace(moving, step=step), follows=True)
+    following, held = ladders(made.case, made.engine, made.plan)
+    assert (len(following.steps), len(held.steps)) == (first, second)
+    assert following.steps[0] == step
+    assert following.steps[first - second :] == held.steps
+    (alone,) = ladders(made.case, made.engine, trial().plan)
+    assert alone.steps == following.steps
