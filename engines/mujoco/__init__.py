@@ -12,7 +12,7 @@ from ...cases.trajectory import Array, Trajectory
 from ..engine import Plain, Plan, Realised, Refusal, Start
 from ..heading import heading
 from . import options, settings
-from .compilation import NOMINAL, compiled, settled, timestep
+from .compilation import NOMINAL, compiled, lent, settled, timestep
 from .plain import plain
 from .plans import plan, ways
 from .read.measure import measured
@@ -90,10 +90,10 @@ class MuJoCo:
         record: bool = False,
     ) -> Trajectory:
         """The motion, stepped by `mj_step(model, data, n)` between samples or steps."""
-        model, data, _ = self._placed(scene, start, step, plan)
-        return simulate(
-            scene, model, data, start, times, reactions, realised=plan.realised, every=record
-        )
+        with lent(scene, start, step, plan, settles=self._tuned) as (model, data):
+            return simulate(
+                scene, model, data, start, times, reactions, realised=plan.realised, every=record
+            )
 
     def plain(
         self, scene: Scene, start: Start, step: float, plan: Plan

@@ -4,11 +4,15 @@ The copy holds, field by field, what compiling the script of that step gives (te
 """
 
 import copy
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import lru_cache
 
 import mujoco
 
 from ...cases.scene import Scene
+from ...cases.trajectory import Array
 from ..engine import Choice, Plan, Start
 from .law.settle import settle
 from .law.signal import installed
@@ -25,6 +29,8 @@ _HELD = {
     "pair.solreffriction": "pair_solreffriction",
     "slide.solreffriction": "dof_solref",
 }
+# What else a run writes: friction by our laws, and the start in the floor.
+_WRITTEN = (*_HELD.values(), "dof_frictionloss", "pair_friction", "key_qpos", "key_qvel")
 
 
 def compiled(
@@ -35,12 +41,9 @@ def compiled(
     Raises ValueError with what MuJoCo does not take.
     """
     nominal = plan.numbers(NOMINAL)
-    model = copy.copy(_model(mjcf(scene, start, [timestep(NOMINAL), *nominal])))
-    model.opt.timestep = step
-    for choice, before in zip(plan.choices(step), nominal, strict=True):
-        if choice.value != before.value:
-            _write(scene, model, choice)
-    return started(model)
+    model, data = started(copy.copy(_model(_text(scene, start, nominal))))
+    _number(scene, model, step, plan, nominal)
+    return model, data
 
 
 def settled(
@@ -48,11 +51,55 @@ def settled(
 ) -> tuple[mujoco.MjModel, mujoco.MjData, dict[str, float]]:
     """The same with its start, the keyframe, as deep in the floor as it is carried: depths [m]."""
     model, data = compiled(scene, start, step, plan)
+    return model, data, _settle(scene, model, data, start, plan)
+
+
+@dataclass(frozen=True)
+class _Built:
+    """A scene's model and data; fields: what a run may write into the model, as compiled."""
+
+    text: str
+    model: mujoco.MjModel
+    data: mujoco.MjData
+    fields: Mapping[str, Array]
+
+
+_SHELF: list[_Built] = []  # one at most, while nobody runs it
+
+
+@contextmanager
+def lent(
+    scene: Scene, start: Start, step: float, plan: Plan, *, settles: bool
+) -> Iterator[tuple[mujoco.MjModel, mujoco.MjData]]:
+    """What `compiled` gives, or `settled`, for one run: the next rung is lent the same.
+
+    A copy of a model and new data cost as much as compiling it. What a failing run leaves behind
+    is not used again.
+    """
+    nominal = plan.numbers(NOMINAL)
+    text = _text(scene, start, nominal)
+    built = _SHELF.pop() if _SHELF else None
+    if built is None or built.text != text:
+        model, data = started(copy.copy(_model(text)))
+        built = _Built(text, model, data, {name: getattr(model, name).copy() for name in _WRITTEN})
+    for name, values in built.fields.items():
+        getattr(built.model, name)[:] = values
+    _number(scene, built.model, step, plan, nominal)
+    mujoco.mj_resetDataKeyframe(built.model, built.data, 0)
+    if settles:
+        _settle(scene, built.model, built.data, start, plan)
+    yield built.model, built.data
+    _SHELF[:] = [built]
+
+
+def _settle(
+    scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, start: Start, plan: Plan
+) -> dict[str, float]:
     if plan.realised == "law" and one_touch(scene):
         touches(scene, model, data)  # friction of MuJoCo's own would press it into the floor
     depths = settle(scene, model, data, start)
     model.key_qpos[0], model.key_qvel[0] = data.qpos, data.qvel
-    return model, data, depths
+    return depths
 
 
 def timestep(step: float) -> Choice:
@@ -60,10 +107,24 @@ def timestep(step: float) -> Choice:
     return Choice("option.timestep", step, "the case's step")
 
 
+def _text(scene: Scene, start: Start, nominal: Sequence[Choice]) -> str:
+    return mjcf(scene, start, [timestep(NOMINAL), *nominal])
+
+
 @lru_cache(maxsize=1)  # the rungs of a trial follow each other
 def _model(text: str) -> mujoco.MjModel:
     with listening(), installed(None):
         return mujoco.MjModel.from_xml_string(text)
+
+
+def _number(
+    scene: Scene, model: mujoco.MjModel, step: float, plan: Plan, nominal: Sequence[Choice]
+) -> None:
+    """The step, and what of the numbers is not as it was compiled."""
+    model.opt.timestep = step
+    for choice, before in zip(plan.choices(step), nominal, strict=True):
+        if choice.value != before.value:
+            _write(scene, model, choice)
 
 
 def _write(scene: Scene, model: mujoco.MjModel, choice: Choice) -> None:

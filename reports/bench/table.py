@@ -52,13 +52,13 @@ def line(row: Row) -> str:
 
 def summary(rows: Sequence[Row]) -> Iterator[str]:
     """By engine: the median, and the largest, of each kind of ratio."""
-    yield f"{'median (largest)':17}" + "".join(f"{kind:>12}" for kind in AIMS)
-    yield f"{'aim':17}" + "".join(f"{f'{aim:.2f}':>12}" for aim in AIMS.values())
+    yield f"{'median (most)':15}" + "".join(f"{kind:>13}" for kind in AIMS)
+    yield f"{'aim':15}" + "".join(f"{f'{aim:.2f}':>13}" for aim in AIMS.values())
     measured = [row for row in rows if not row.because]
     for engine, found in groupby(sorted(measured, key=_engine), key=_engine):
         ratios = list(found)
         cells = (_cell([ratio.median for ratio in _kind(ratios, kind)]) for kind in AIMS)
-        yield f"{engine:17}" + "".join(f"{cell:>12}" for cell in cells)
+        yield f"{engine:15}" + "".join(f"{cell:>13}" for cell in cells)
 
 
 def _engine(row: Row) -> str:

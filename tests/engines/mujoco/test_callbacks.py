@@ -94,7 +94,9 @@ def test_a_script_does_not_reset_what_blows_up(
         moved(engine, stiff, begin, np.linspace(0, 100.0, 11), 0.1)
     plan = planned(engine, stiff, begin)
     assert isinstance(engine, Loop)
-    engine.loop(stiff, begin, 0.1, plan)(1000)
+    loop = engine.plain(stiff, begin, 0.1, plan)
+    assert loop
+    loop(0.1).take(1000)
     model, _ = loaded(engine.script(stiff, begin, 0.1, plan))
     assert model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_AUTORESET
     assert not list(tmp_path.iterdir())

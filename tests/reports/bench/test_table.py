@@ -42,7 +42,7 @@ def test_a_case_of_ones_own_is_measured(cart: Path) -> None:
     for row in found:
         assert float(row["apart"]) < 1e-12
         assert all(float(row[name]) > 0 for name in ("samples", "recorded", "building", "step"))
-    assert lines[-4].split() == ["median", "(largest)", *table.AIMS]
+    assert lines[-4].split() == ["median", "(most)", *table.AIMS]
     assert [line.split()[0] for line in lines[-3:]] == ["aim", "mujoco", "pymunk"]
 
 
