@@ -2,7 +2,7 @@
 
 import cmath
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -91,6 +91,16 @@ class Coordinates:
             )
             for name, (xy, phi) in self.columns.items()
         }
+
+    def place(self, poses: Mapping[str, Pose]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """q and v (n,) of given poses."""
+        q, v = np.zeros(len(self.masses)), np.zeros(len(self.masses))
+        for name, (xy, phi) in self.columns.items():
+            x, y, angle, vx, vy, omega = poses[name]
+            q[xy : xy + 2], v[xy : xy + 2] = (x, y), (vx, vy)
+            if phi is not None:
+                q[phi], v[phi] = angle, omega
+        return q, v
 
     @cached_property
     def attached(self) -> dict[tuple[str, str], Attached]:

@@ -183,13 +183,7 @@ class Multibody(Mode):
 
     def place(self, poses: Mapping[str, Pose]) -> tuple[Array, Array]:
         """q and v of given poses: how another system's motion is read in these coordinates."""
-        q, v = np.zeros(len(self._M)), np.zeros(len(self._M))
-        for name, (xy, phi) in self.where.columns.items():
-            x, y, angle, vx, vy, omega = poses[name]
-            q[xy : xy + 2], v[xy : xy + 2] = (x, y), (vx, vy)
-            if phi is not None:
-                q[phi], v[phi] = angle, omega
-        return q, v
+        return self.where.place(poses)
 
     # The ingredients: the same mechanism from its energies and residuals alone.
 
