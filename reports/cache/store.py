@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 from ..lock import abandoned, locked
 from .form import packed, unpacked
@@ -72,7 +71,7 @@ class Store:
                 raise ValueError("cut or changed")
             os.utime(path)  # used now
             return unpacked(data[DIGEST:])
-        except (OSError, ValueError, KeyError, TypeError, BadZipFile):
+        except (OSError, ValueError, KeyError, TypeError):
             return None
 
     def put(self, key: str, value: Any) -> None:
