@@ -11,6 +11,7 @@ from fnmatch import fnmatch
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from uuid import uuid4
 
 import pytest
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from .suite import Report
 
 _REPORT = pytest.StashKey["Report"]()
+_FOLDER = pytest.StashKey[Path]()
 _SHARED = "textmech_shared"  # what a worker of xdist is told: the session's own folder
 
 
@@ -56,9 +58,11 @@ def pytest_configure_node(node: Any) -> None:
 
     There they find what one of them has computed where nothing may be remembered for longer.
     """
-    folder = Path(tempfile.gettempdir()) / f"textmech-{node.workerinput['testrunuid']}"
-    node.workerinput[_SHARED] = str(folder)
-    node.config.add_cleanup(partial(shutil.rmtree, folder, ignore_errors=True))
+    stash = node.config.stash
+    if _FOLDER not in stash:
+        stash[_FOLDER] = Path(tempfile.gettempdir()) / f"textmech-{uuid4().hex}"
+        node.config.add_cleanup(partial(shutil.rmtree, stash[_FOLDER], ignore_errors=True))
+    node.workerinput[_SHARED] = str(stash[_FOLDER])
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
