@@ -8,11 +8,11 @@ import numpy as np
 from ...cases.scene import Scene
 from ..system import Array, Mass, Mode, Pose, Vector
 from .action import act, dissipation, other, potential
-from .banded import band
 from .constraint import Constraint, assembled
 from .contact import Braking, Coulomb, row
 from .coordinates import Coordinates
-from .factors import Dependent, Held, full
+from .factors import Dependent, Held
+from .holding import Holding
 from .permanent import constraints
 from .sharing import Shared
 
@@ -61,11 +61,8 @@ class Multibody(Mode):
         self.undetermined = tuple(name for share in shared for name in share.forces)
         places = np.cumsum([0, *(c.size for c in self._constraints)]).tolist()
         self._coulomb = [(places[self._constraints.index(law.normal)], law) for law in coulomb]
-        self.assembled = assembled(self._constraints, self.where)
-        self.band = None if coulomb else band(self.assembled, self._M)
-        changing = [law.tangent.alone for _, law in self._coulomb]
-        self._constant = all(rows.constant for rows in (self.assembled, *changing))
-        self._always: Held | None = None
+        rows = assembled(self._constraints, self.where)
+        self.holding = Holding(rows, self._M, self._coulomb)
         self._weight = np.zeros(len(self._M))
         for body in scene.bodies.values():
             xy, _ = self.where.columns[body.name]
@@ -126,34 +123,15 @@ class Multibody(Mode):
         return Q
 
     def _held(self, t: float, q: Array, v: Array) -> Held:
-        """The rows and their factors; where no row changes with the state, those of the first."""
-        if self._always is not None:
-            return self._always
+        """The rows at a state, with their factors."""
         try:
-            if self.band is not None:
-                return self.band.held(t, q, v)
-            rows, _, gamma = self.rows(t, q, v)
-            # With λ_t = factor λ_n (2.87) the force of a normal row leans against the slip.
-            by_mass = self.columns(t, q, v, rows) / self._M
-            found = full(rows, gamma, by_mass, leans=bool(self._coulomb))
+            return self.holding.at(t, q, v)
         except Dependent as dependent:
             raise SingularPose(self._owners[dependent.row]) from dependent
-        if self._constant:
-            self._always = found
-        return found
-
-    def columns(self, t: float, q: Array, v: Array, rows: Array) -> Array:
-        """What a unit of each multiplier exerts, (r, n): its row and its friction (2.87)."""
-        if not self._coulomb:
-            return rows
-        columns = rows.copy()
-        for at, law in self._coulomb:
-            columns[at] += law.factor * row(law.tangent, t, q, v)[0]
-        return columns
 
     def rows(self, t: Any, q: Vector, v: Vector) -> tuple[Vector, Vector, Vector]:
         """(2.15) f_a (r, n) and g (r,), and γ (r,) of f_a q̈ᵃ = γ."""
-        return self.assembled(t, q, v)
+        return self.holding.rows(t, q, v)
 
     def terms(self, t: float, q: Array, v: Array) -> tuple[float, float]:
         """The largest acceleration [m/s² or rad/s²] and power [W] that one force gives alone.

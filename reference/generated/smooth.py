@@ -66,7 +66,7 @@ class SmoothMultibody(Multibody):
         """f_a q̈ᵃ = γ without the rounding of forces that cancel: a block held at rest has q̈ = 0."""
         rows, _, gamma = self._resting.rows(t, q, v)
         by_rows, beside = self._parts or _split(rows, self._M)
-        if self._resting.assembled.constant:
+        if self._resting.holding.rows.constant:
             self._parts = by_rows, beside
         held = by_rows @ gamma
         return held + beside @ (a - held)

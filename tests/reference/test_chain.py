@@ -6,8 +6,9 @@ from pathlib import Path
 import pytest
 
 from textmech.cases.load import load
-from textmech.reference.generated import mode as module
+from textmech.reference.generated import holding
 from textmech.reference.generated.banded import Band
+from textmech.reference.generated.mode import Multibody
 from textmech.reference.integrators import implicit
 from textmech.reference.solve import Solution, solve
 
@@ -40,10 +41,10 @@ def solved(folder: Path, bars: int, count: pytest.MonkeyPatch) -> tuple[Solution
 
         count.setattr(owner, name, again)
 
-    counted(module.Multibody, "accelerations")
+    counted(Multibody, "accelerations")
     counted(implicit, "difference_jacobian")
     counted(implicit, "stage_factors")
-    counted(module, "full")
+    counted(holding, "full")
     counted(Band, "held")
     file = folder / "chain.yaml"
     file.write_text(chain(bars), encoding="utf-8")

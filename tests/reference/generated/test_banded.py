@@ -66,7 +66,7 @@ def difference(found: State) -> float:
 
 
 def test_the_band_gives_what_the_whole_matrix_gives(found: State):
-    assert band(found[0].assembled, np.array(found[0].where.masses)) is not None
+    assert band(found[0].holding.rows, np.array(found[0].where.masses)) is not None
     assert difference(found) < EXACT
 
 
@@ -74,8 +74,8 @@ def test_entries_are_those_of_the_rows(found: State):
     """What is computed for the band alone, and what `rows` gives to everybody else."""
     mechanism, t, q, v = found
     f, g, gamma = mechanism.rows(t, q, v)
-    entries, same = mechanism.assembled.entries(t, q, v)
-    row, column = mechanism.assembled.pattern
+    entries, same = mechanism.holding.rows.entries(t, q, v)
+    row, column = mechanism.holding.rows.pattern
     written = np.zeros_like(f)
     written[row, column] = entries
     np.testing.assert_array_equal(written, f)
@@ -117,9 +117,9 @@ def test_the_joint_that_holds_nothing_is_named():
 def test_a_mistake_in_the_band_is_seen(lost: str):
     """Each entry beside the right one, or each product beside its place."""
     found = made("shuffled")
-    held = found[0].band
+    held = found[0].holding.band
     assert held is not None
-    found[0].band = replace(held, **{lost: np.roll(getattr(held, lost), 1)})
+    found[0].holding.band = replace(held, **{lost: np.roll(getattr(held, lost), 1)})
     with suppress(SingularPose):
         assert difference(found) > 1e-6
 
@@ -127,7 +127,7 @@ def test_a_mistake_in_the_band_is_seen(lost: str):
 def test_work_grows_with_the_length():
     """Twice the bars are twice the products, and the band is no wider: r steps, not r³."""
     lengths = {n: (np.zeros(3 * n), np.zeros(3 * n)) for n in (20, 40)}
-    short, long = (Multibody(chain(n)[0], start).band for n, start in lengths.items())
+    short, long = (Multibody(chain(n)[0], start).holding.band for n, start in lengths.items())
     assert short is not None
     assert long is not None
     assert len(long.one) < 2.1 * len(short.one)
