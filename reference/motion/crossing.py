@@ -35,6 +35,14 @@ def clear(guards: Sequence[Guard], f: Slope, t: float, h: float, y0: Array, y1: 
     what a guard changes off (measured): enough to say that nothing is near. What is near has its
     states computed.
     """
+    try:
+        with np.errstate(all="ignore"):  # beyond a pole the cubic may be anywhere
+            return _clear(guards, f, t, h, y0, y1)
+    except (ArithmeticError, ValueError):
+        return False
+
+
+def _clear(guards: Sequence[Guard], f: Slope, t: float, h: float, y0: Array, y1: Array) -> bool:
     k0, k1, near = h * f(t, y0), h * f(t + h, y1), guards
     for points, margin in LOOKS:
         rows = []

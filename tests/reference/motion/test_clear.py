@@ -50,6 +50,14 @@ def test_what_is_no_number_is_not_clear():
     assert not is_clear(lambda t, x, v: math.nan, 0.0, 0.1)
 
 
+def test_what_cannot_be_computed_is_not_clear():
+    def g(t: float, x: Array, v: Array) -> float:
+        return math.sqrt(x[0] - 0.5)
+
+    assert is_clear(g, 0.0, 0.1)
+    assert not is_clear(g, 1.0, 0.1)
+
+
 def attempts(monkeypatch: pytest.MonkeyPatch, g: Plain) -> tuple[int, int]:
     """Steps of the motion, and attempts of the integrator for them."""
     calls, attempt = [0], DormandPrince.attempt
