@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, fields
+from dataclasses import fields
 from dataclasses import replace as changed
 from hashlib import sha256
 from io import StringIO
@@ -73,7 +73,8 @@ def _known(error: float, least: float) -> float:
 
 def _table(rows: Sequence[Any], kind: type) -> pd.DataFrame:
     columns = [column.name for column in fields(kind)]
-    frame = pd.DataFrame([asdict(row) for row in rows], columns=columns)
+    cells = [[getattr(row, column) for column in columns] for row in rows]
+    frame = pd.DataFrame(cells, columns=columns)
     keys = [key for key in KEYS if key in columns]
     return frame.sort_values(keys, kind="stable", ignore_index=True)
 

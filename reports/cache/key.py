@@ -3,8 +3,8 @@
 import os
 import platform
 import sys
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, fields, is_dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, fields, is_dataclass
 from functools import cache, partial
 from hashlib import sha256
 from pathlib import Path
@@ -32,6 +32,7 @@ class Keys:
 
     files: tuple[tuple[Path, int, int], ...]  # each file of code, when it was changed, its size
     salt: str  # of code that is newer than the process: nobody else has this word
+    _described: dict[int, tuple[object, str]] = field(default_factory=dict, compare=False)
 
     @staticmethod
     def now() -> "Keys":
@@ -48,11 +49,23 @@ class Keys:
 
     def solution(self, case: Case) -> str:
         """Of a case's reference."""
-        return _word("solution", self.salt, _case(case), self._code(REFERENCE), machine())
+        return _word(
+            "solution", self.salt, self._once(case, _case), self._code(REFERENCE), machine()
+        )
 
     def ways(self, case: Case, engine: Engine) -> str:
         """Of how an engine would run it."""
-        return _word("ways", self.solution(case), _engine(engine), self._code(JUDGING))
+        told = self._once(engine, _engine)
+        return _word("ways", self.solution(case), told, self._code(JUDGING))
+
+    def _once(self, thing: Any, describe: Callable[[Any], str]) -> str:
+        """A case meets every engine, and an engine every case: each is described once in a run."""
+        if id(thing) not in self._described:
+            self._described[id(thing)] = (
+                thing,
+                describe(thing),
+            )  # kept, so that its id stays its own
+        return self._described[id(thing)][1]
 
     def _code(self, places: tuple[str, ...]) -> str:
         return _code(places, self.files)

@@ -1,8 +1,11 @@
 """The short table: one row a case, one column an engine's setting."""
 
 from collections.abc import Iterator, Sequence
+from typing import TypeVar
 
 from ..row import CHANGED, FAILS, Comparison, Rungs
+
+Row = TypeVar("Row", Comparison, Rungs)
 
 
 def summary(comparisons: Sequence[Comparison], rungs: Sequence[Rungs]) -> list[list[str]]:
@@ -12,14 +15,21 @@ def summary(comparisons: Sequence[Comparison], rungs: Sequence[Rungs]) -> list[l
     """
     columns = sorted({_column(row) for row in comparisons}, key=_by_engine)
     lines = [["case", *columns]]
+    rows = _by_cell([row for row in comparisons if row.quantity != "audit"])
+    ladders = _by_cell(rungs)
     for case in sorted({row.case for row in comparisons}):
-        line = [case]
-        for column in columns:
-            rows = [r for r in comparisons if (r.case, _column(r)) == (case, column)]
-            ladder = [r for r in rungs if (r.case, _column(r)) == (case, column)]
-            line.append("; ".join(_cell([r for r in rows if r.quantity != "audit"], ladder)))
-        lines.append(line)
+        cells = [(case, column) for column in columns]
+        told = ("; ".join(_cell(rows.get(c, []), ladders.get(c, []))) for c in cells)
+        lines.append([case, *told])
     return lines
+
+
+def _by_cell(rows: Sequence[Row]) -> dict[tuple[str, str], list[Row]]:
+    """By case and column."""
+    found: dict[tuple[str, str], list[Row]] = {}
+    for row in rows:
+        found.setdefault((row.case, _column(row)), []).append(row)
+    return found
 
 
 def _column(row: Comparison | Rungs) -> str:
