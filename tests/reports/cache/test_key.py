@@ -73,6 +73,12 @@ def test_the_way_it_is_realised_counts() -> None:
     assert keys.outcome("w", "law") != keys.outcome("w", "native")
 
 
+def test_a_rungs_ladder_and_step_count() -> None:
+    keys = Keys((), "")
+    rungs = [("following", 1e-3), ("held", 1e-3), ("held", 1e-3 * (1 + 2**-52))]
+    assert len({keys.rung("o", *rung) for rung in rungs}) == 3
+
+
 @pytest.mark.parametrize(
     ("file", "reference", "outcome"),
     [
@@ -138,6 +144,9 @@ def test_code_that_changes_meanwhile_is_noticed(code: Path) -> None:
     keys = Keys.now()
     assert keys.hold()
     (code / "cases" / "observe.py").write_text("", encoding="utf-8")
+    assert not keys.hold()
+    keys = Keys.now()
+    (code / "cases" / "observe.py").unlink()
     assert not keys.hold()
 
 
