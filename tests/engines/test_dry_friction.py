@@ -87,6 +87,7 @@ def test_block_under_a_growing_force(name: str, way: Realised) -> None:
 INSIDE = {"law": 3 / 8, "driver": 0.0}
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("b", [1.0007, 0.99])
 @pytest.mark.parametrize(("name", "way"), ROWS)
 def test_it_slips_inside_a_step(name: str, way: Realised, b: float) -> None:
@@ -208,6 +209,7 @@ def test_the_smooth_law_slips_and_creeps(name: str) -> None:
 # Contacts: both engines know one coefficient, and both adapters have a law for two.
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("static", [0.6, 0.42])  # tan 25° = 0.466: it stays, it comes back
 def test_a_block_thrown_up_by_the_law_with_two_bounds(static: float, name: str) -> None:
@@ -232,6 +234,7 @@ def test_a_block_thrown_up_by_the_law_with_two_bounds(static: float, name: str) 
 ROLLED = {"mujoco": 1.3e-6, "pymunk": 5e-9}  # 4.4e-7, 1.7e-9
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize("name", NAMES)
 def test_a_disk_slides_then_rolls_by_the_law_with_two_bounds(name: str) -> None:
     """Its slip falls by 3 μ g, for it resists with a third of its mass."""
