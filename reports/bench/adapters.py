@@ -9,7 +9,7 @@ import numpy as np
 from ...cases.case import Case
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
-from ...engines.engine import Diverged, Engine, Loop, Plain, Plan, Realised, Start
+from ...engines.engine import Diverged, Engine, Loop, Plain, Plan, Realised, Refusal, Start
 from ..selection import choose_cases
 from ..trial.ladder import wanted_reactions
 from ..trial.start import assembled
@@ -67,27 +67,28 @@ def one_of_each_file() -> list[Case]:
 
 
 def rows(case: Case, engines: list[Engine], amount: Amount) -> Iterator[Row]:
-    """Each plan of the engines that have a plain loop."""
+    """Each way of the engines that have a plain loop."""
     start = assembled(case)
     for engine in engines:
         if isinstance(engine, Loop):
-            for plan in engine.plans(case.scene, start):
-                if isinstance(plan, Plan):
-                    yield _row(Pair(case, start, engine, plan, amount))
+            for way in engine.plans(case.scene, start):
+                head = Row(case.name, engine.name, engine.setting, way.realised)
+                if isinstance(way, Refusal):
+                    yield replace(head, because=f"refused: {way.because}")
+                    continue
+                try:
+                    yield _row(head, Pair(case, start, engine, way, amount))
+                except Diverged as gone:
+                    yield replace(head, because=str(gone))
 
 
-def _row(pair: "Pair") -> Row:
-    plan = pair.plan
-    head = Row(pair.case.name, pair.engine.name, pair.engine.setting, plan.realised)
+def _row(head: Row, pair: "Pair") -> Row:
     if pair.plain() is None:
         return replace(head, because="nobody has written a plain loop for it")
-    try:
-        apart = pair.apart(1)
-        same = apart <= ROUNDED
-        if not same and plan.realised != "native":
-            same = FALLS * apart <= pair.apart(COARSER)
-    except Diverged as gone:
-        return replace(head, because=str(gone))
+    apart = pair.apart(1)
+    same = apart <= ROUNDED
+    if not same and head.realised != "native":
+        same = FALLS * apart <= pair.apart(COARSER)
     if not same:
         return replace(head, apart=apart, because="the plain loop makes another motion")
     plain, samples, recorded = turns([pair.loop, pair.run, pair.record], pair.amount.rounds)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import astuple, fields
 from inspect import cleandoc
 from itertools import chain, groupby
-from textwrap import fill
+from textwrap import fill, shorten
 
 import numpy as np
 
@@ -44,7 +44,7 @@ def line(row: Row) -> str:
     name += "" if row.realised == "native" else f" ({row.realised})"
     if row.because:
         told = f", {row.apart:.0e} apart" if row.differs else ""
-        return f"{name:27} {row.because}{told}"
+        return f"{name:27} {shorten(row.because + told, 52, placeholder=' …')}"
     ratios = f"{row.samples!s:>13}{row.recorded!s:>13}{row.building!s:>12}"
     apart = f"{row.apart:.0e}" if row.apart else "0"
     return f"{name:27}{row.step * 1e6:5.1f} µs{ratios}{apart:>7}"

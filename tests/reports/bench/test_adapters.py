@@ -10,7 +10,8 @@ from given.planning import CASES, SHIPPED, TUNED, planned
 from textmech.cases.case import Case
 from textmech.cases.friction import Bounds
 from textmech.cases.scene import Scene
-from textmech.engines.engine import Engine, Loop, Plain, Plan, Start
+from textmech.cases.trajectory import Trajectory
+from textmech.engines.engine import Diverged, Engine, Loop, Plain, Plan, Refusal, Start
 from textmech.reports.bench.adapters import Amount, Pair, one_of_each_file, rows
 
 FEW = Amount(steps=4, samples=5, rounds=1)
@@ -110,6 +111,31 @@ def test_what_has_no_plain_loop_says_so() -> None:
     found = list(rows(briefly("dynamometer_smooth", 0.1), [TUNED["pymunk"]], FEW))
     assert [row.realised for row in found if row.because] == ["law"]
     assert not any(row.differs for row in found)
+
+
+class Refusing(Other):
+    """An engine that cannot."""
+
+    def plans(self, scene: Scene, start: Start) -> list[Refusal]:
+        return [Refusal("native", "engine: no joints")]
+
+
+class Torn(Other):
+    """An engine that flies apart."""
+
+    def run(self, *given: Any, **named: Any) -> Trajectory:
+        raise Diverged("not finite from t = 0.1 s on")
+
+
+@pytest.mark.parametrize(
+    ("kind", "said"),
+    [(Refusing, "refused: engine: no joints"), (Torn, "not finite from t = 0.1 s on")],
+)
+def test_what_cannot_be_run_is_a_row_that_says_so(kind: type[Other], said: str) -> None:
+    engine: Any = kind(SHIPPED["pymunk"], heavier)
+    (row,) = rows(briefly("four_bar", 0.2), [engine], FEW)
+    assert row.because == said
+    assert not row.differs
 
 
 @pytest.mark.parametrize("name", ["four_bar", "growing_force"])  # with gravity, and without

@@ -6,7 +6,8 @@ import re
 from pathlib import Path
 
 import pytest
-from given.command import NEW, textmech
+from click.testing import CliRunner, Result
+from given.command import NEW
 from given.planning import SETTINGS, words
 
 from textmech.reports.bench import adapters, table
@@ -30,9 +31,14 @@ def cart(tmp_path: Path) -> Path:
     return file
 
 
+def measure(*words: object) -> Result:
+    """What `textmech bench` does in this process."""
+    return CliRunner().invoke(bench.bench, [str(word) for word in words])
+
+
 def test_a_case_of_ones_own_is_measured(cart: Path) -> None:
-    done = textmech("bench", cart, "--rounds", 1, "--steps", 2)
-    assert done.returncode == 0, done.stderr
+    done = measure(cart, "--rounds", 1, "--steps", 2)
+    assert done.exit_code == 0, done.output
     lines = done.stdout.splitlines()
     assert max(map(len, lines)) <= 80
     assert "mujoco: `mj_step(model, data, n)`" in done.stdout
@@ -47,8 +53,8 @@ def test_a_case_of_ones_own_is_measured(cart: Path) -> None:
 
 
 def test_the_same_as_csv(cart: Path) -> None:
-    words = ("bench", cart, "--engine", "pymunk.tuned", "--rounds", 1, "--steps", 1, "--csv")
-    (row,) = csv.DictReader(io.StringIO(textmech(*words).stdout))
+    done = measure(cart, "--engine", "pymunk.tuned", "--rounds", 1, "--steps", 1, "--csv")
+    (row,) = csv.DictReader(io.StringIO(done.stdout))
     assert (row["case"], row["engine"], row["setting"]) == ("cart", "pymunk", "tuned")
     assert float(row["samples"]) > 0
     assert float(row["samples_spread"]) == 0  # of one round
@@ -61,9 +67,19 @@ OTHER = Row("cart", "toy", "tuned", "law", apart=0.03, because=ANOTHER)
 def test_another_motion_is_said_and_fails(monkeypatch: pytest.MonkeyPatch, cart: Path) -> None:
     assert table.line(OTHER) == f"  toy.tuned (law)           {ANOTHER}, 3e-02 apart"
     monkeypatch.setattr(adapters, "rows", lambda *given: [OTHER])
-    with pytest.raises(SystemExit) as ended:
-        bench.bench.main([str(cart)], standalone_mode=True)
-    assert ended.value.code == 1
+    assert measure(cart).exit_code == 1
+
+
+def test_a_long_reason_stays_in_the_terminal() -> None:
+    row = Row("cart", "toy", "tuned", "native", because="refused: adapter: " + 30 * "too long ")
+    assert len(table.line(row)) <= 80
+    assert "refused: adapter: too long" in table.line(row)
+
+
+def test_the_book_has_no_loop() -> None:
+    done = measure("growing_force", "--engine", "book")
+    assert done.exit_code == 2
+    assert "no engine below them" in done.output
 
 
 def measured(setting: str, realised: str, size: float) -> Row:
