@@ -86,13 +86,15 @@ def _between(
                 apply(t)
             one(step)
 
-    take = forced if applied else free
     if keep is None:
-        return take
+        return forced if applied else free
 
     def kept(first: int, last: int) -> None:
         for i in range(first, last):
-            take(i, i + 1)
+            t = i * step
+            for apply in applied:
+                apply(t)
+            one(step)
             keep()
 
     def kept_free(first: int, last: int) -> None:
