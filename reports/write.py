@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 
 from ..cases.case import Case
-from ..reference.certificate.errors import ERROR, asked
+from ..reference.certificate.errors import ERROR
 from .coverage import coverage
 from .replace import replace, settle
 from .row import Certificate, Comparison, Instant, Rungs
@@ -23,7 +23,7 @@ HERE = Path(__file__).parent
 ELSEWHERE = Path("textmech-reports")
 NAMES = ("tolerance.csv", "convergence.csv", "events.csv", "reference.csv", "coverage.csv")
 KEYS = ("case", "engine", "setting", "realised", "ladder", "quantity", "check", "event", "k")
-KNOWN = 1e-6  # of the smallest `allow` or `reach`: the least certified error that is written
+KNOWN = 1e-6  # of `allow`: the least certified error that is written
 NUMBERS = ".3g"  # three digits: more would be noise from one machine to the next
 RUN = 12  # letters of a run's name: two runs never share them
 TIMES = ".9g"  # of an event's time: its difference is a thousandth of a step
@@ -49,14 +49,14 @@ def tables(report: Report, cases: Sequence[Case]) -> dict[str, pd.DataFrame]:
 
 
 def _as_known(rows: Sequence[Certificate], cases: Sequence[Case]) -> list[Certificate]:
-    """Certified errors up to the next power of ten, and none below a millionth of what is asked.
+    """Certified errors up to the next power of ten, and none below a millionth of `allow`.
 
     What is smaller is rounding's, and another on another machine; a run's own rows tell it all.
     """
     least = {
-        (case.name, f"{ERROR}{name}"): KNOWN * (asked(case, name) or 0.0)
+        (case.name, f"{ERROR}{name}"): KNOWN * (allow or 0.0)
         for case in cases
-        for name in case.allow
+        for name, allow in case.allow.items()
     }
     return [
         row

@@ -29,6 +29,7 @@ class Slide:
     before: float | None = None  # the applied force [N] at the step before
     last: float = 0.0  # m/s, at the step before
     steady: bool = True  # its bounds are always the same
+    weakens: float = 0.0  # N: how much they fall in a step
     friction: DryFriction = field(init=False)
     effort: Array = field(init=False)
 

@@ -28,7 +28,9 @@ def bounded(slide: Slide | Touch) -> None:
         slide.sense = 0
     if slide.sense:
         _sliding(slide, now, soon, mass)
-    elif sense := slide.starts(now) or slide.starts(soon):
+        return
+    soon += slide.weakens if now > 0 else -slide.weakens  # as if the bound stayed
+    if sense := slide.starts(now) or slide.starts(soon):
         slide.sense = sense
         slide.push(-sense * _breaking_loose(slide, now, soon))
     else:

@@ -40,12 +40,14 @@ class Touch:
         self.turn = int(self.model.joint(f"{body}.angle").dofadr[0]) if self.radius else None
         self.last = self.speed
         self.sense = 0 if abs(self.last) < _STILL else 1 if self.last > 0 else -1
-        self.normal = self.pushed = 0.0
+        self.normal = self.normal_before = self.pushed = 0.0
         self.recall((self.sense, 0.0))
 
     @property
     def friction(self) -> DryFriction:
-        static, kinetic = (mu * self.normal for mu in (self.contact.static, self.contact.kinetic))
+        static = self.contact.static * self.normal
+        middle = self.normal + (self.normal - self.normal_before) / 2  # of the step that it brakes
+        kinetic = self.contact.kinetic * middle
         return DryFriction(Bounds(static, static), Bounds(kinetic, kinetic))
 
     @property
@@ -72,6 +74,7 @@ class Touch:
     def recall(self, noted: tuple[int, float]) -> None:
         """Friction as it was."""
         self.sense, self.normal = noted
+        self.normal_before = self.normal
         if self.sense:
             self.push(-self.sense * self.brakes(self.sense))
         else:
@@ -93,9 +96,16 @@ class Touch:
         force = dry_friction(self.friction, 0.0, applied)
         return 0 if force == -applied else 1 if applied > 0 else -1
 
+    @property
+    def weakens(self) -> float:
+        """How much [N] the bound of static friction falls in a step."""
+        return self.contact.static * (self.normal_before - self.normal)
+
     def applied(self) -> tuple[float, float]:
         """Force along the floor [N] that would hold it at rest, and the mass [kg] it moves."""
-        along, self.normal = self.data.sensordata[0], float(self.data.sensordata[1])
+        along, normal = self.data.sensordata[0], float(self.data.sensordata[1])
+        self.normal_before = normal if self.before is None else self.normal
+        self.normal = normal
         slip = self._lowest(self.data.qacc)
         return self.mass * slip - float(along) - self.pushed, self.mass
 

@@ -5,6 +5,7 @@ pymunk holds with it, or brakes. `ruled` says where the law is known beforehand:
 nothing else joins or touches.
 """
 
+import math
 from collections.abc import Callable
 from functools import partial
 
@@ -97,9 +98,11 @@ def _contact(world: World, contact: Contact, step: float) -> Told:
     turn = radius / part.inertia if part.inertia else 0.0  # slip per angular impulse
     mass = 1 / (1 / part.mass + radius * turn)
 
-    def along(t: float, ahead: float) -> float:
-        fx, _, torque = acting(t, ahead)
-        return mass * (fx / part.mass + turn * torque)
+    def along(t: float, normal: float, ahead: float) -> float:
+        """With what static friction has lost by then, so that its bound is that of the middle."""
+        fx, fy, torque = acting(t, ahead)
+        force = mass * (fx / part.mass + turn * torque)
+        return force + math.copysign(contact.static * (normal + fy), force)
 
     def exact(t: float) -> None:
         shape.friction = contact.kinetic
@@ -111,7 +114,7 @@ def _contact(world: World, contact: Contact, step: float) -> Told:
             Bounds(contact.static * normal, contact.static * normal),
             Bounds(contact.kinetic * normal, contact.kinetic * normal),
         )
-        limit, push = bound(both, slip, mass, partial(along, t), step)
+        limit, push = bound(both, slip, mass, partial(along, t, normal), step)
         shape.friction = limit / normal
         if push:
             body.apply_force_at_world_point((push, 0.0), body.position - (0.0, radius))
