@@ -14,9 +14,10 @@ from ..reference.solve import Solution, solve
 from .cache.key import Keys
 from .cache.store import Store, passing
 from .events.times import never
-from .judge.compare import Outcome, crashed
+from .judge.compare import crashed
 from .judge.instants import of_reference
 from .judge.metric import told
+from .judge.uncertified import failing, uncertified
 from .pool import Died, local
 from .results import Progress, Results
 from .row import FAILS, Certificate, Comparison, Instant, Rungs
@@ -124,7 +125,7 @@ def _take(one: Tried, report: Report) -> None:
     solution = report.solutions[one.pair.case.name]
     outcome = one.outcome
     if not solution.holds:
-        outcome = _failing(outcome, _uncertified(solution))
+        outcome = failing(outcome, uncertified(solution))
     report.comparisons += outcome.rows
     report.rungs += outcome.rungs
     report.instants += outcome.instants
@@ -136,7 +137,7 @@ def _without_reference(pair: Pair, report: Report) -> None:
     because = f"there is no reference: {report.lost[pair.case.name]}"
     nothing = Trajectory(pair.case.times, {}, {})
     trial = Trial(pair.case, nothing, pair.engine, Refusal("native", because))
-    report.comparisons += _failing(crashed(trial, because), because).rows
+    report.comparisons += failing(crashed(trial, because), because).rows
 
 
 def _solved(case: Case) -> Solution | CaseError:
@@ -168,17 +169,3 @@ def _no_certificate(case: Case) -> Certificate:
     return Certificate(
         case.name, str(case.origin), system, "it is solved", inf, 0.0, None, "", FAILS
     )
-
-
-def _uncertified(solution: Solution) -> str:
-    """Against a reference that is not certified nothing can be judged."""
-    broken = next(check for check in solution.checks if not check.holds)
-    return (
-        f"the reference is not certified: {broken.name} differs by {broken.difference:.2e}, "
-        f"its bound is {broken.bound:.2e}"
-    )
-
-
-def _failing(outcome: Outcome, because: str) -> Outcome:
-    rows = [replace(row, verdict=FAILS, because=because) for row in outcome.rows]
-    return replace(outcome, rows=rows)

@@ -10,6 +10,7 @@ from ..engines.engine import Engine, Plan, Realised, Refusal
 from ..reference.solve import Solution, solve
 from .cache.store import Store
 from .judge.compare import Outcome, compare
+from .judge.uncertified import failing, uncertified
 from .trial.ladder import sampled
 from .trial.rung import Climbed, Rung
 from .trial.simulate import At, gathered, rungs
@@ -80,11 +81,13 @@ def judged(climb: Climb) -> Outcome:
     if isinstance(way, Refusal):
         return compare(Trial(pair.case, reference, pair.engine, way))
     case = pair.sampled
-    own = case is not pair.case
-    if own:
-        reference = solve(case).trajectory
-    trial = Trial(case, reference, pair.engine, way, sampled=own)
-    return compare(trial, gathered(trial, climb.found))
+    if case is pair.case:
+        trial = Trial(case, reference, pair.engine, way)
+        return compare(trial, gathered(trial, climb.found))
+    solution = solve(case)
+    trial = Trial(case, solution.trajectory, pair.engine, way, sampled=True)
+    outcome = compare(trial, gathered(trial, climb.found))
+    return outcome if solution.holds else failing(outcome, uncertified(solution))
 
 
 @lru_cache(AT_HAND)

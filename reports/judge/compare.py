@@ -95,7 +95,7 @@ def _audit(trial: Trial) -> Comparison:
 def _judged(trial: Trial, name: str, runs: Runs, samples: Array, held: Convergence) -> Comparison:
     wanted = trial.wanted(name)
     error = metric.error(samples, wanted)
-    why = cause(held, runs.finer, trial.plan.simplified)
+    why = cause(_telling(trial, name, runs, error.largest, held), runs.finer, trial.plan.simplified)
     at = moment(trial, samples, wanted, error)
     least = floor(trial, name, trial.step)
     if at is not None:
@@ -106,6 +106,17 @@ def _judged(trial: Trial, name: str, runs: Runs, samples: Array, held: Convergen
             why = f"{why}: {cause(others, runs.finer, trial.plan.simplified)}"
     when = float(trial.case.times[error.at])
     return judged(trial, name, verdict(trial, name, error.largest, held, why), error, when)
+
+
+def _telling(trial: Trial, name: str, runs: Runs, largest: float, held: Convergence) -> Convergence:
+    """The ladder that tells a cause: the held one, which parts step and model.
+
+    With the numbers of its coarsest step the model may be further off than the judged run is. That
+    explains nothing, and the ladder whose numbers follow is asked.
+    """
+    if len(runs.ladders) == 1 or not (held.limit or 0.0) > largest:
+        return held
+    return _study(trial, next(iter(runs.ladders)), runs, name)
 
 
 def _study(

@@ -161,6 +161,15 @@ def test_both_ladders_only_where_a_number_follows_the_step(trial: Make) -> None:
     }
 
 
+def test_a_held_limit_that_is_further_off_than_the_run_is_no_cause(trial: Make) -> None:
+    """The model of the coarsest step's numbers is 0.096 off, and the run is 0.013."""
+    found = row(compare(trial(follows=True, model=1.2e-2)))
+    assert found.largest == pytest.approx(1.3e-2, rel=1e-9)
+    assert "the step: it falls with order 1.0" in found.because
+    held = row(compare(trial(model=1.2e-2)))
+    assert "the model: 0.012 remains" in held.because
+
+
 def test_one_ladder_where_the_numbers_that_follow_make_no_difference(trial: Make) -> None:
     made = trial(follows=True)
     alike = replace(made, way=replace(made.plan, alike=True))

@@ -10,12 +10,15 @@ import pytest
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
-from textmech.reports import suite
+from textmech.reference.solve import Solution, solve
+from textmech.reports import suite, unit
+from textmech.reports.cache.store import Store
 from textmech.reports.row import AGREES, BEYOND, FAILS, Comparison
 from textmech.reports.selection import choose_engines
 from textmech.reports.show.notes import without_effect
 from textmech.reports.show.summary import summary
 from textmech.reports.trial.ladder import judged_step, sampled
+from textmech.reports.trial.rung import climbed
 from textmech.reports.trial.trial import Trial
 
 Make = Callable[..., Trial]
@@ -90,6 +93,25 @@ def test_a_games_step_is_judged_as_it_is(moving: Case, trial: Make) -> None:
     assert row.when == pytest.approx(1.0)
     assert row.verdict == BEYOND
     assert row.protocol == "31 samples at whole steps of its own"
+
+
+def test_its_own_samples_need_a_certified_reference(
+    moving: Case, trial: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(case: Case) -> Solution:
+        found = solve(case)
+        return replace(found, checks=(replace(found.checks[0], difference=1.0),))
+
+    monkeypatch.setattr(unit, "solve", broken)  # the case's own samples are solved by the suite
+    engine, store = own(trial, 1 / 60), Store(Path(moving.source.file).parent)
+    pair = unit.Pair(moving, engine, store, "none")
+    (way,) = unit.planned(pair)
+    one = unit.Unit(pair, way)
+    rungs = one.rungs(pair.reference())
+    climb = unit.Climb(one, {at: climbed(rung) for at, rung in rungs.items()})
+    rows = unit.judged(climb).rows
+    assert {row.verdict for row in rows} == {FAILS}
+    assert all("the reference is not certified" in row.because for row in rows)
 
 
 def test_a_step_that_leaves_no_room_is_refused(moving: Case, trial: Make) -> None:
