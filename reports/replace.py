@@ -68,9 +68,17 @@ def _settle(folder: Path) -> None:
     """With the lock, what stands there belongs to nobody any more."""
     for decided in folder.glob(f"{DECIDED}*"):
         _finish(decided, folder)
-        shutil.rmtree(decided, ignore_errors=True)
+        _swept(decided)
     for made in folder.glob(f"{MAKING}*"):
-        shutil.rmtree(made, ignore_errors=True)
+        _swept(made)
+
+
+def _swept(folder: Path) -> None:
+    try:
+        shutil.rmtree(folder, ignore_errors=True)
+    except OSError as error:  # of a folder that it closes twice when it is interrupted there
+        if isinstance(error.__context__, KeyboardInterrupt):
+            raise error.__context__ from None
 
 
 def _finish(decided: Path, folder: Path) -> None:

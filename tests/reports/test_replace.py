@@ -2,6 +2,7 @@
 
 import multiprocessing
 import os
+import shutil
 import signal
 from collections.abc import Callable
 from pathlib import Path
@@ -118,3 +119,24 @@ def test_two_at_once_are_one_after_the_other(folder: Path) -> None:
         assert process.exitcode == 0
     assert len(set(found(folder).values())) == 1
     assert set(found(folder)) == set(NEW)
+
+
+def test_an_interruption_while_it_sweeps_is_not_lost(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Python's rmtree, interrupted as it closes a folder, closes it again: that is an OSError."""
+    whole, calls = shutil.rmtree, [0]
+
+    def closing_twice(path: Path, **words: bool) -> None:
+        calls[0] += 1
+        if calls[0] > 1:
+            return whole(path, **words)
+        try:
+            raise KeyboardInterrupt
+        finally:
+            os.close(10_000)
+
+    monkeypatch.setattr(shutil, "rmtree", closing_twice)
+    with pytest.raises(KeyboardInterrupt):
+        replace(folder, NEW)
+    assert found(folder) == NEW
