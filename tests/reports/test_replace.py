@@ -6,6 +6,7 @@ import shutil
 import signal
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -127,10 +128,11 @@ def test_an_interruption_while_it_sweeps_is_not_lost(
     """Python's rmtree, interrupted as it closes a folder, closes it again: that is an OSError."""
     whole, calls = shutil.rmtree, [0]
 
-    def closing_twice(path: Path, **words: bool) -> None:
+    def closing_twice(path: Path, **words: Any) -> None:
         calls[0] += 1
         if calls[0] > 1:
-            return whole(path, **words)
+            whole(path, **words)
+            return
         try:
             raise KeyboardInterrupt
         finally:
