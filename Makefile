@@ -18,7 +18,7 @@ quick: $(READY)
 	$(VENV)/bin/ruff format --check .
 	mkdir -p $(VENV)/typing && ln -sfn ../.. $(VENV)/typing/textmech
 	$(VENV)/bin/pyright $$($(VENV)/bin/python tests/touched.py --files)
-	$(VENV)/bin/pytest -q -m "not whole" $$($(VENV)/bin/python tests/touched.py)
+	$(VENV)/bin/pytest -q -n auto -m "not whole" $$($(VENV)/bin/python tests/touched.py)
 
 lint: $(READY)
 	$(VENV)/bin/ruff check .
