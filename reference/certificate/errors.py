@@ -28,7 +28,7 @@ def errors(
     known = table(case.scene)
     times = {name: q for name, q in event_quantities(case.events).items() if q.field == "time"}
     for name in case.allow:
-        least = asked(case, name)
+        least = _least(case, name)
         if name in known:
             own = observe(case.scene, motion, name)
             found = [np.abs(own - observe(case.scene, other, name)) for other in others.values()]
@@ -41,7 +41,7 @@ def errors(
             yield Check(f"{ERROR}{name}", error / least, SHARE, error, unit)
 
 
-def asked(case: Case, name: str) -> float | None:
+def _least(case: Case, name: str) -> float | None:
     """The smallest `allow` or `reach` of a quantity, or None if nothing bounds it."""
     return min((bar for _, bar in _bars(case, name)), default=None)
 

@@ -5,18 +5,12 @@ import warnings
 import click
 
 from ..show.say import say
-from .run import FAILED, allow_long
+from .run import FAILED, allow_long, named_cases, named_engines
 
 
 @click.command()
-@click.argument("cases", nargs=-1, metavar="[CASES]...")
-@click.option(
-    "--engine",
-    "names",
-    multiple=True,
-    metavar="E",
-    help="An installed engine, as mujoco, pymunk; or with its setting, as mujoco.tuned.",
-)
+@named_cases
+@named_engines()
 @click.option(
     "--rounds",
     type=click.IntRange(min=1),

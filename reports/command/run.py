@@ -1,8 +1,9 @@
 """`textmech run`."""
 
 import warnings
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -16,20 +17,27 @@ if TYPE_CHECKING:
     from ...engines.engine import Engine
 
 FAILED, BAD_INPUT = 1, 2
+named_cases = click.argument("cases", nargs=-1, metavar="[CASES]...")
 allow_long = click.option(
     "--allow-long", is_flag=True, help="Do any amount of work, and not only what takes minutes."
 )
 
 
+def named_engines(beside: str = "") -> Callable[[Any], Any]:
+    """The option that chooses engines; beside: what else it takes."""
+    return click.option(
+        "--engine",
+        "names",
+        multiple=True,
+        metavar="E",
+        help=f"An installed engine, as mujoco, pymunk; {beside}or with its setting, as "
+        "mujoco.tuned.",
+    )
+
+
 @click.command()
-@click.argument("cases", nargs=-1, metavar="[CASES]...")
-@click.option(
-    "--engine",
-    "names",
-    multiple=True,
-    metavar="E",
-    help="An installed engine, as mujoco, pymunk; book; or with its setting, as mujoco.tuned.",
-)
+@named_cases
+@named_engines("book; ")
 @click.option(
     "--settings",
     multiple=True,
