@@ -103,12 +103,20 @@ def _judged(trial: Trial, name: str, runs: Runs, samples: Array, held: Convergen
         why = f"{at.words}; elsewhere at most {told(rest, least):.2g}"
         if not rest <= (trial.allowed(name) or np.inf):
             others = _study(trial, list(runs.ladders)[-1], runs, name, at.elsewhere)
+            others = _telling(trial, name, runs, rest, others, at.elsewhere)
             why = f"{why}: {cause(others, runs.finer, trial.plan.simplified)}"
     when = float(trial.case.times[error.at])
     return judged(trial, name, verdict(trial, name, error.largest, held, why), error, when)
 
 
-def _telling(trial: Trial, name: str, runs: Runs, largest: float, held: Convergence) -> Convergence:
+def _telling(
+    trial: Trial,
+    name: str,
+    runs: Runs,
+    largest: float,
+    held: Convergence,
+    among: NDArray[np.bool_] | None = None,
+) -> Convergence:
     """The ladder that tells a cause: the held one, which parts step and model.
 
     With the numbers of its coarsest step the model may be further off than the judged run is. That
@@ -116,7 +124,7 @@ def _telling(trial: Trial, name: str, runs: Runs, largest: float, held: Converge
     """
     if len(runs.ladders) == 1 or not (held.limit or 0.0) > largest:
         return held
-    return _study(trial, next(iter(runs.ladders)), runs, name)
+    return _study(trial, next(iter(runs.ladders)), runs, name, among)
 
 
 def _study(

@@ -98,3 +98,9 @@ def test_an_error_elsewhere_has_its_own_cause(trial: Make) -> None:
     found = judged(trial(rate=20.0, **SHIPPED), {0: 98.1})
     words = "the first sample; elsewhere at most 0.02: the step: it falls with order 1.0"
     assert found.because.startswith(words)
+
+
+def test_elsewhere_too_a_held_limit_beyond_the_error_is_no_cause(trial: Make) -> None:
+    found = judged(trial(follows=True, model=1.2e-2), {0: 98.1})
+    words = "the first sample; elsewhere at most 0.013: the step: it falls with order 1.0"
+    assert words in found.because
