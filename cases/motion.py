@@ -2,10 +2,10 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from .body import Body
 from .point import GROUND, Anchor, GroundPoint
 from .trajectory import ANGLE, OMEGA, Array, Trajectory
 
@@ -14,12 +14,12 @@ from .trajectory import ANGLE, OMEGA, Array, Trajectory
 class Motion:
     """The samples of a scene's bodies and ground points."""
 
-    bodies: Mapping[str, Body]
+    bodies: Mapping[str, Any]  # of the plane or of space
     points: Mapping[str, GroundPoint]
     trajectory: Trajectory
 
     def point(self, anchor: Anchor) -> Array:
-        """(N, 4): x, y, vx, vy of a point (2.1), (2.6)."""
+        """(N, 4): x, y, vx, vy of a point (2.1), (2.6); in space (N, 6)."""
         if anchor.body == GROUND:
             return self.points[anchor.point].states(self.trajectory.times)
         states = self.trajectory.states[anchor.body]
@@ -27,9 +27,9 @@ class Motion:
 
     def line(self, a: Anchor, b: Anchor) -> tuple[Array, Array]:
         """Length (N,) of the line from a to b, and its rate (zero where the length is zero)."""
-        d = self.point(b) - self.point(a)
-        length = np.hypot(d[:, 0], d[:, 1])
-        rate = (d[:, 0] * d[:, 2] + d[:, 1] * d[:, 3]) / np.where(length > 0, length, 1.0)
+        place, velocity = np.hsplit(self.point(b) - self.point(a), 2)
+        length = np.sqrt(np.sum(place * place, axis=1))
+        rate = np.sum(place * velocity, axis=1) / np.where(length > 0, length, 1.0)
         return length, rate
 
     def turned(self, body: str) -> tuple[Array | float, Array | float]:

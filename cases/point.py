@@ -42,14 +42,14 @@ class GroundPoint:
 
     @property
     def driven(self) -> bool:
-        return self.velocity != (0.0, 0.0)
+        return any(self.velocity)
 
     def position(self, t: float) -> Vector:
         """Position [m] at time t [s]."""
         return (self.at[0] + self.velocity[0] * t, self.at[1] + self.velocity[1] * t)
 
     def states(self, times: Array) -> Array:
-        """(N, 4): x, y, vx, vy at the times [s]."""
+        """(N, 4): x, y, vx, vy at the times [s]; in space (N, 6)."""
         velocity = np.asarray(self.velocity)
         position = np.asarray(self.at) + velocity * times[:, None]
         return np.hstack([position, np.broadcast_to(velocity, position.shape)])

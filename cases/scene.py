@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from .body import Body
 from .contact import Contact
 from .force import Damper, Force, Push, Spring, Torque, of
+from .frame import PLANE, Frame
 from .friction import Bounds, DryFriction, Smooth
 from .joint import Joint
 from .point import CENTER, FLOOR, GROUND, Anchor, GroundPoint, Vector
@@ -27,6 +28,7 @@ __all__ = [
     "Damper",
     "DryFriction",
     "Force",
+    "Frame",
     "GroundPoint",
     "Joint",
     "Push",
@@ -51,6 +53,7 @@ class Scene:
     joints: Mapping[str, Joint]
     contacts: Mapping[str, Contact]
     forces: Mapping[str, Force]
+    frame: Frame = PLANE
 
     def elements(self) -> Iterator[Body | Joint | Contact | Force]:
         """All that has a name, quantities and numbers."""

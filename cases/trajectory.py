@@ -8,8 +8,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-X, Y, ANGLE, VX, VY, OMEGA = range(6)  # the columns of a body's states
-ALIKE = {"m": [X, Y], "m/s": [VX, VY], "rad": [ANGLE], "rad/s": [OMEGA]}  # those of a unit
+X, Y, ANGLE, VX, VY, OMEGA = range(6)  # the columns of a body's states in the plane
 
 
 @dataclass(frozen=True)
@@ -17,7 +16,8 @@ class Trajectory:
     """Samples of a motion.
 
     times: (N,) s. states: body → (N, 6), the columns x, y, angle, vx, vy, omega of its centre
-    of mass. reactions: quantity (`pin.fx`, `touch.normal`) → (N,), as the producer gives them.
+    of mass; in space (N, 13), the columns r, unit quaternion, v and ω in body axes, as `SPACE` has
+    them. reactions: quantity (`pin.fx`, `touch.normal`) → (N,), as the producer gives them.
     record: every step of a motion that switches, from which event times are read. phase: in the
     reference's record, the number of the smooth piece that a row belongs to; an event stands there
     twice, as the last row of one piece and the first of the next. switches: (K,) s, when the

@@ -11,7 +11,7 @@ from ..cases.case import Case
 from ..cases.mistake import CaseError, Mistake
 from ..cases.observe import observe
 from ..cases.quantity import table
-from ..cases.trajectory import ALIKE, Array, Trajectory
+from ..cases.trajectory import Array, Trajectory
 from .generated.mechanism import Mechanism
 from .motion.bodies import Answer
 from .start.closure import Closure
@@ -147,7 +147,10 @@ def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:
             continue
         samples = observe(case.scene, motion, name)
         # a place held at 0 trembles by rounding, which is small only beside the other bodies'
-        size = max(np.max(np.abs(samples)), np.max(np.abs(states[:, ALIKE[quantity.unit]])))
+        size = max(
+            np.max(np.abs(samples)),
+            np.max(np.abs(states[:, case.scene.frame.alike(quantity.unit)])),
+        )
         still = np.ptp(samples) <= STILL * size
         if still and not claimed:
             what = f"never moves: it stays {samples[0]:.6g}; leave it out, or say what is claimed: "

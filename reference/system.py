@@ -16,7 +16,10 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Vector = NDArray[Any]  # real, or complex while a derivative is taken
-Pose = tuple[Any, Any, Any, Any, Any, Any]  # x, y, angle, vx, vy, omega of a centre of mass
+Pose = tuple[Any, ...]
+"""A body's state, as the columns of `cases.frame` have it: of the centre of mass x, y, angle, vx,
+vy, omega; in space r, the unit quaternion (w, x, y, z) from body to ground axes, v in ground axes
+and ω in body axes."""
 
 MOVING = "moving"  # the mode of a system that has only one
 
@@ -28,10 +31,13 @@ EARLY, LAST = 5e-7, 5e-8  # of the duration: Δ, or d where that is larger; shor
 
 @dataclass(frozen=True)
 class Mass:
-    """m [kg], and J [kg m²] about the centre of mass; J is None for a particle."""
+    """m [kg], and J [kg m²] about the centre of mass; J is None for a particle.
+
+    In space J is (3, 3), in body axes (2.30).
+    """
 
     m: float
-    J: float | None
+    J: Any
 
 
 @dataclass(frozen=True)
@@ -61,7 +67,11 @@ class Cut:
 
 
 class Mode:
-    """Defaults for a mechanism with n coordinates q, rates v = q̇ and r constraints."""
+    """Defaults for a mechanism with coordinates q, velocities v (n,) and r constraints.
+
+    q̇ = N(t, q) v + n₀(t, q); most have v = q̇.  A quaternion has four coordinates and three
+    velocities, a sleigh may go with its forward velocity alone.
+    """
 
     coordinates: tuple[str, ...]
     masses: Mapping[str, Mass]
@@ -73,8 +83,17 @@ class Mode:
         raise NotImplementedError
 
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
-        """q̈ (n,), derived by hand."""
+        """v̇ (n,), derived by hand: q̈, where v = q̇."""
         raise NotImplementedError
+
+    def rates(self, t: Any, q: Vector, v: Vector) -> Vector:
+        """q̇ = N v + n₀ (m,), m coordinates; v itself unless a mode says otherwise."""
+        return v
+
+    def parted(self, y: Array) -> tuple[Array, Array]:
+        """q (m,) and v (n,) of y = (q, v)."""
+        m = len(self.coordinates)
+        return y[:m], y[m:]
 
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R_k(q), E_k(q) and their rates, for each body by its name in the scene."""
@@ -89,7 +108,7 @@ class Mode:
         return None
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
-        """Kinetic energy [J]; of v (n, K) at once, K of them (K,)."""
+        """Kinetic energy [J] of the rates q̇, which v stands for here; of (m, K) at once (K,)."""
         raise NotImplementedError
 
     def U(self, t: Any, q: Vector) -> Any:

@@ -32,8 +32,8 @@ def beside(written: Answer, built: Answer, generated: Mechanism, times: Array) -
         return
     moved, held, condition = [], [], 1.0
     for t, phase, y in zip(times.tolist(), followed.phase.tolist(), followed.y, strict=True):
-        q, v = np.split(y, 2)
         mode, other = written.system.modes[followed.phases[phase]], generated.modes[phases[phase]]
+        q, v = mode.parted(y)
         place = generated.base.place(mode.poses(t, q, v))
         a = _accelerations(mode, generated.base, t, q, v)
         size = max(worst(np.abs(a)), generated.base.terms(t, *place)[0]) or 1.0

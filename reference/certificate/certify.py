@@ -143,9 +143,10 @@ def _drift(system: System, times: Array, followed: Followed, bound: float) -> It
     """Residual of (2.14) along the motion, where there is one, relative to the coordinates."""
     look()
     samples = list(zip(times.tolist(), followed.modes, followed.y, strict=True))
-    found = [system.modes[mode].f(t, np.split(y, 2)[0]) for t, mode, y in samples]
+    found = [system.modes[mode].f(t, system.modes[mode].parted(y)[0]) for t, mode, y in samples]
     if any(len(residual) for residual in found):
-        size = worst(np.abs(followed.y[:, : followed.y.shape[1] // 2]).ravel()) or 1.0
+        places = np.concatenate([system.modes[mode].parted(y)[0] for _, mode, y in samples])
+        size = worst(np.abs(places)) or 1.0
         largest = worst(worst(np.abs(residual)) for residual in found)
         yield Check("constraint drift", largest / size, bound)
 
@@ -154,4 +155,5 @@ def _impossible(system: System, times: Array, followed: Followed) -> int:
     """At how many samples the mode contradicts friction, contact or the direction of sliding."""
     look()
     rows = zip(times.tolist(), followed.modes, followed.y, strict=True)
-    return sum(system.possible(mode, t, *np.split(y, 2)) is not None for t, mode, y in rows)
+    states = [(mode, t, *system.modes[mode].parted(y)) for t, mode, y in rows]
+    return sum(system.possible(*state) is not None for state in states)

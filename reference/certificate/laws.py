@@ -54,7 +54,7 @@ def _speeds(answer: Answer, base: Multibody, times: Array) -> Array:
     """The largest |v| of a kind, and at least what goes through its size, or 1 rad, in the time."""
     modes = (answer.system.modes[name] for name in answer.followed.modes)
     rows = zip(modes, times.tolist(), answer.followed.y, strict=True)
-    places = [base.place(mode.poses(t, *np.split(y, 2))) for mode, t, y in rows]
+    places = [base.place(mode.poses(t, *mode.parted(y))) for mode, t, y in rows]
     q, v = (np.abs(np.array(part)) for part in zip(*places, strict=True))
     duration, turning = float(times[-1] - times[0]), base.where.turning
     least = np.where(turning, 1.0, worst(q[:, ~turning].ravel())) / duration
@@ -69,10 +69,10 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
     those that each force alone would give, since at rest the forces cancel but for rounding.
     """
     look()
-    bound = len(mode.f_a(0.0, y[0, : y.shape[1] // 2])) > 0
+    bound = len(mode.f_a(0.0, mode.parted(y[0])[0])) > 0
     sizes, powers, derived, balances, unbalanced, forces = [], [], [], [], [], []
     for t, row in zip(times.tolist(), y, strict=True):
-        q, v = np.split(row, 2)
+        q, v = mode.parted(row)
         a = mode.accelerations(t, q, v)
         alone = scale.largest(mode, t, q, v)
         sizes += [worst(np.abs(a)), alone[0]]

@@ -24,7 +24,7 @@ class Answer:
     beside: Beside = lambda phase, t, poses: {}
 
     def trajectory(self, times: Array, y: Array | None = None) -> Trajectory:
-        """The samples; of another motion y (N, 2n) through the same phases, if given.
+        """The samples; of another motion y (N, ·) through the same phases, if given.
 
         Raises Stuck at a sample where reactions are not determined.
         """
@@ -42,8 +42,8 @@ class Answer:
         states: dict[str, list[Any]] = {}
         reactions: list[Mapping[str, float]] = []
         for t, phase, y in rows:
-            q, v = np.split(y, 2)
             mode = self.system.modes[self.followed.phases[phase]]
+            q, v = mode.parted(y)
             poses = mode.poses(t, q, v)
             times.append(t)
             for name, pose in poses.items():

@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
-from ..system import Array, Guard
+from ..system import Array
 
 TOGETHER = 1e-12  # s: how well an event is located, so closer ones are one instant
 ROOT = 1e-15  # s: what the root-finder is asked for, to keep the promise above
@@ -23,12 +23,14 @@ HALVINGS = 40  # of a step, in search of the rise of a guard that begins at zero
 LOOKS = (((0.0, *INSIDE, 1.0), 1.0), (tuple(k / 8 for k in range(9)), 0.1))
 
 Slope = Callable[[float, Array], Array]
-"""t, y (2n,) → ẏ."""
+"""t, y → ẏ."""
+Fall = Callable[[float, Array], float]
+"""t, y → g of a guard."""
 Within = Callable[[float], Array]
-"""h → y (2n,) after a step of that length."""
+"""h → y after a step of that length."""
 
 
-def clear(guards: Sequence[Guard], f: Slope, t: float, h: float, y0: Array, y1: Array) -> bool:
+def clear(guards: Sequence[Fall], f: Slope, t: float, h: float, y0: Array, y1: Array) -> bool:
     """Whether all guards stay clear of zero in the step from y0 at t to y1 at t + h.
 
     The states inside are those of the cubic through both ends and their slopes, which is 1e-4 of
@@ -42,13 +44,13 @@ def clear(guards: Sequence[Guard], f: Slope, t: float, h: float, y0: Array, y1: 
         return False
 
 
-def _clear(guards: Sequence[Guard], f: Slope, t: float, h: float, y0: Array, y1: Array) -> bool:
+def _clear(guards: Sequence[Fall], f: Slope, t: float, h: float, y0: Array, y1: Array) -> bool:
     k0, k1, near = h * f(t, y0), h * f(t + h, y1), guards
     for points, margin in LOOKS:
         rows = []
         for s in points:
             y = y0 + s * ((y1 - y0) * s * (3 - 2 * s) + (1 - s) * (k0 * (1 - s) - k1 * s))
-            rows.append([guard.g(t + s * h, *np.split(y, 2)) for guard in near])
+            rows.append([guard(t + s * h, y) for guard in near])
         both = zip(near, zip(*rows, strict=True), strict=True)
         near = [guard for guard, values in both if not _far(values, margin)]
         if not near:
@@ -62,7 +64,7 @@ def _far(values: Sequence[float], margin: float) -> bool:
 
 
 def first(
-    guards: Sequence[Guard],
+    guards: Sequence[Fall],
     t: float,
     points: list[float],
     states: Sequence[Array],
@@ -78,12 +80,12 @@ def first(
     """
     found = None
     # All guards at one state: they ask for the same forces.
-    asked = [(t + at, *np.split(y, 2)) for at, y in zip(points, states, strict=True)]
-    rows = [[guard.g(*at) for guard in guards] for at in asked]
+    asked = zip(points, states, strict=True)
+    rows = [[guard(t + at, y) for guard in guards] for at, y in asked]
     for i, guard in enumerate(guards):
 
-        def g(at: float, guard: Guard = guard) -> float:
-            return guard.g(t + at, *np.split(state(at), 2))
+        def g(at: float, guard: Fall = guard) -> float:
+            return guard(t + at, state(at))
 
         values = [row[i] for row in rows]
         at = crossing(g, points, values, begins=begins, spent=i == spent)

@@ -14,7 +14,7 @@ from ..integrators.implicit import Radau
 from ..integrators.march import IntegrationError, Method, Slope, Step, march
 from ..integrators.radau import radau_table
 from ..system import Array, Guard, Mode, System
-from .crossing import INSIDE, TOGETHER, Within, clear, first
+from .crossing import INSIDE, TOGETHER, Fall, Within, clear, first
 from .stuck import Stuck, Watched, slope
 from .zeno import MOST, ZenoError, accumulation, ends_here, settles
 
@@ -34,7 +34,7 @@ def either(mode: Mode, f: Slope, n: int, *, tolerance: float = TOLERANCE) -> Met
 
 @dataclass(frozen=True)
 class Change:
-    """The k-th event of its name, from 1: states y (2n,) just before and just after it."""
+    """The k-th event of its name, from 1: states y just before and just after it."""
 
     name: str | None  # None for a change of mode that nobody observes
     k: int
@@ -46,12 +46,12 @@ class Change:
 
 
 Kept = tuple[float, int, Array]
-"""t, the number of the phase, y (2n,)."""
+"""t, the number of the phase, y."""
 
 
 @dataclass(frozen=True)
 class Followed:
-    """States y (N, 2n) at the samples, and the changes of mode in order.
+    """States y (N, ·), (q, v) each, at the samples, and the changes of mode in order.
 
     A phase lasts from one change to the next; `phase` (N,) numbers it at each sample and `phases`
     names its mode. rows: the accepted steps with three states inside each, if they were asked for;
@@ -134,6 +134,7 @@ class _Walk:
 
     def _walk(self, mode: Mode, f: Slope) -> None:
         guards = self.system.guards(self.phases[-1])
+        falls = [_falling(mode, guard) for guard in guards]
         method, probe = self.by(mode, f, len(self.now)), self.by(mode, slope(mode), len(self.now))
         begins = True
         look()
@@ -144,11 +145,11 @@ class _Walk:
             looks = self.every and not mode.stiff
             if guards and not looks:  # a stiff state may turn faster than the cubic
                 sure = not begins and not mode.stiff
-                looks = not (sure and clear(guards, f, step.t, length, step.y, step.y_next))
+                looks = not (sure and clear(falls, f, step.t, length, step.y, step.y_next))
             points = [0.0, *(part * length for part in INSIDE if looks), length]
             states = [state(at) for at in points]
             spent = self.spent if begins else None
-            near = guards if looks else ()
+            near = falls if looks else ()
             found = first(near, step.t, points, states, state, begins=begins, spent=spent)
             if found is not None:
                 i, after = found
@@ -195,10 +196,11 @@ class _Walk:
     def _switch(self, guard: Guard, i: int, t: float, before: Array) -> None:
         look()
         ended = self.phases[-1]
-        mode, q, v = guard.then(t, *np.split(before, 2))
+        parted = self.system.modes[ended].parted(before)
+        mode, q, v = guard.then(t, *parted)
         name = guard.event or f"{ended} to {mode}"
         if self._piles_up(name, t, refused=guard.at_last is None) and guard.at_last is not None:
-            mode, q, v = guard.at_last(t, *np.split(before, 2))
+            mode, q, v = guard.at_last(t, *parted)
         self.spent = i if mode == ended else None
         after = np.concatenate([q, v])
         k = len(self.fired[name])
@@ -223,6 +225,10 @@ class _Walk:
                 name, t, f"happens without end before {limit:.6g} s (a Zeno sequence), seen"
             )
         return False
+
+
+def _falling(mode: Mode, guard: Guard) -> Fall:
+    return lambda t, y: guard.g(t, *mode.parted(y))
 
 
 def _within(step: Step, probe: Method) -> Within:

@@ -15,16 +15,16 @@ class Stuck(Exception):
     def __init__(self, reason: str, mode: Mode, time: float, y: Array) -> None:
         super().__init__(reason)
         self.mode, self.time = mode, time
-        self.q, self.v = np.split(y, 2)
+        self.q, self.v = mode.parted(y)
 
 
 def slope(mode: Mode) -> Slope:
-    """ẏ = (v, q̈(t, q, v)) of y = (q, v)."""
+    """ẏ = (q̇, v̇(t, q, v)) of y = (q, v)."""
+    n = len(mode.coordinates)
 
     def f(t: float, y: Vector) -> Vector:
-        n = len(y) // 2
         y_dot = np.empty_like(y)
-        y_dot[:n] = y[n:]
+        y_dot[:n] = mode.rates(t, y[:n], y[n:])
         y_dot[n:] = mode.accelerations(t, y[:n], y[n:])
         return y_dot
 

@@ -14,7 +14,7 @@ from ...cases.mistake import Mistake
 from ...cases.observe import observe
 from ...cases.quantity import table
 from ...cases.scene import Scene
-from ...cases.trajectory import ALIKE, Array, Trajectory
+from ...cases.trajectory import Array, Trajectory
 from .passages import passages
 from .rests import LOW, rests
 
@@ -45,7 +45,7 @@ def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
 def _peers(scene: Scene, record: Trajectory, name: str) -> float:
     """The largest of all places, rates or forces of the scene: what trembles is small beside it."""
     quantity = table(scene)[name]
-    columns = ALIKE.get(quantity.unit, [])
+    columns = scene.frame.alike(quantity.unit)
     peers = [states[:, columns] for states in record.states.values()]
     if quantity.kind == "force":
         peers += list(record.reactions.values())

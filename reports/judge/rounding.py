@@ -7,7 +7,6 @@ places by m/h².
 
 import numpy as np
 
-from ...cases.trajectory import ALIKE
 from ..trial.trial import Trial
 
 EPSILON = 2.2e-16
@@ -37,6 +36,6 @@ def _size(trial: Trial, name: str) -> float:
 
 def _largest(trial: Trial, unit: str) -> float:
     """Of all places or rates of the motion that have the unit; 0 for any other unit."""
-    columns = ALIKE.get(unit, [])
+    columns = trial.case.scene.frame.alike(unit)
     states = trial.reference.states.values()
     return max((float(np.max(np.abs(s[:, columns]), initial=0.0)) for s in states), default=0.0)

@@ -12,7 +12,7 @@ from textmech.reference.motion import crossing
 from textmech.reference.motion import follow as module
 from textmech.reference.motion.crossing import clear
 from textmech.reference.motion.follow import follow
-from textmech.reference.system import Array, Guard
+from textmech.reference.system import Array
 
 G = Callable[[float, Array, Array], float]
 
@@ -24,9 +24,8 @@ def swing(t: float) -> Array:
 
 def is_clear(g: G, begin: float, h: float) -> bool:
     """Of one guard in a step of that motion."""
-    guard = Guard("g", g, lambda t, q, v: ("on", q, v))
     f = lambda t, y: np.array([y[1], -y[0]])  # noqa: E731
-    return clear([guard], f, begin, h, swing(begin), swing(begin + h))
+    return clear([lambda t, y: g(t, *np.split(y, 2))], f, begin, h, swing(begin), swing(begin + h))
 
 
 @pytest.mark.parametrize("h", [0.1, 0.4, 0.8])

@@ -1,0 +1,94 @@
+"""Rigid bodies in space. Lengths on a body are in body axes from its centre of mass."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from ..frame import SPACE
+from ..kind import Fields
+from ..point import CENTER
+from ..trajectory import Array
+from .rotation import Vector3, turned
+
+_POINT: Fields = {
+    "x": ("m", "coordinate"),
+    "y": ("m", "coordinate"),
+    "z": ("m", "coordinate"),
+    "vx": ("m/s", "velocity"),
+    "vy": ("m/s", "velocity"),
+    "vz": ("m/s", "velocity"),
+    "speed": ("m/s", "velocity"),
+}
+_TURNING: Fields = {
+    "attitude": ("rad", "coordinate"),  # its error is the angle between two attitudes
+    "omega_1": ("rad/s", "velocity"),  # in body axes
+    "omega_2": ("rad/s", "velocity"),
+    "omega_3": ("rad/s", "velocity"),
+}
+Tensor = tuple[float, float, float, float, float, float]
+"""J₁₁, J₂₂, J₃₃, J₁₂, J₁₃, J₂₃ about the centre of mass, in body axes: the entries of the matrix,
+so that products of inertia carry the minus sign (2.32)."""
+
+
+@dataclass(frozen=True)
+class SpatialBody:
+    """A rigid body. A particle has no inertia and no attitude.
+
+    axle: the axis (a unit vector in body axes) about which a disk's rim of `radius` is round; a
+    body with a radius and without an axle is round in all directions: a sphere.
+    """
+
+    name: str
+    shape: Literal["bar", "disk", "block", "sphere", "particle", "rigid"]
+    mass: float
+    inertia: Tensor | None
+    points: Mapping[str, Vector3]
+    radius: float | None = None
+    axle: Vector3 | None = None
+
+    @property
+    def turns(self) -> bool:
+        return self.inertia is not None
+
+    @property
+    def tensor(self) -> Array:
+        """J (3, 3) [kg m²] in body axes about the centre of mass; zero of a particle."""
+        if self.inertia is None:
+            return np.zeros((3, 3))
+        a, b, c, d, e, f = self.inertia
+        return np.array([[a, d, e], [d, b, f], [e, f, c]])
+
+    def quantities(self) -> dict[str, Fields]:
+        """Its fields, and those of each of its points."""
+        own = {**_POINT, **(_TURNING if self.turns else {})}
+        return {self.name: own, **{f"{self.name}.{point}": _POINT for point in self.points}}
+
+    def numbers(self) -> dict[str, float]:
+        """mass [kg] and, if it turns, the six of the tensor [kg m²]."""
+        names = [f"inertia_{ik}" for ik in ("11", "22", "33", "12", "13", "23")]
+        return {"mass": self.mass} | dict(zip(names, self.inertia or (), strict=False))
+
+    def observe(self, states: Array, point: str, field: str) -> Array:
+        """(N,) a field of the point ("": of itself), from its states (N, 13).
+
+        Of `attitude` (N, 4): the quaternion.
+        """
+        if field == "attitude":
+            return states[:, SPACE.attitude]
+        if field in _TURNING:
+            return states[:, SPACE.spin][:, int(field[-1]) - 1]
+        p = self.point(states, point or CENTER)
+        if field == "speed":
+            return np.linalg.norm(p[:, 3:], axis=1)
+        return p[:, ("x", "y", "z", "vx", "vy", "vz").index(field)]
+
+    def point(self, states: Array, point: str) -> Array:
+        """(N, 6): place and velocity of a point (2.1), (2.6), in ground axes."""
+        x, q = np.asarray(self.points[point]), states[:, SPACE.attitude]
+        place, velocity = states[:, SPACE.place], states[:, SPACE.velocity]
+        if not self.turns or not x.any():
+            return np.hstack([place, velocity])
+        moving = turned(q, np.cross(states[:, SPACE.spin], x))
+        return np.hstack([place + turned(q, x), velocity + moving])

@@ -1,0 +1,135 @@
+"""Joint coordinates in space, from the attitudes of both parts: shifts, then up to three turns."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..trajectory import Array
+from .rotation import Vector3, about, inverse, product, turned
+
+
+def orthogonal(vectors: Sequence[Vector3]) -> list[Array]:
+    """Orthonormal vectors that span the same, by Gram and Schmidt."""
+    found: list[Array] = []
+    for vector in vectors:
+        rest = np.asarray(vector, dtype=float)
+        for known in found:
+            rest = rest - (rest @ known) * known
+        found.append(rest / np.linalg.norm(rest))
+    return found
+
+
+def across(vectors: Sequence[Vector3]) -> list[Array]:
+    """Orthonormal vectors that complete what the given ones span to all of space."""
+    known = orthogonal(vectors)
+    found: list[Array] = []
+    for _ in range(3 - len(known)):
+        rests = [e - sum((e @ u) * u for u in (*known, *found)) for e in np.eye(3)]
+        best = max(rests, key=lambda rest: float(rest @ rest))
+        found.append(best / np.linalg.norm(best))
+    return found
+
+
+def shifted(
+    axes: Sequence[Vector3], d: Array, d_dot: Array, q: Array, omega: Array
+) -> tuple[Array, Array]:
+    """(N, K) each: how far a point is along axes of the first part, and how fast.
+
+    d, d_dot (N, 3): from the first point to the second, in ground axes; q, omega: of the first.
+    """
+    if not axes:
+        return np.zeros((len(d), 0)), np.zeros((len(d), 0))
+    back = inverse(q)
+    local = turned(back, d)
+    rate = turned(back, d_dot) - np.cross(omega, local)
+    solve = np.linalg.pinv(np.array(axes, dtype=float).T)
+    return local @ solve.T, rate @ solve.T
+
+
+def turned_by(
+    axes: Sequence[Vector3], q_a: Array, omega_a: Array, q_b: Array, omega_b: Array
+) -> tuple[Array, Array]:
+    """(N, K) each: the angles [rad] of up to three successive turns, and their rates.
+
+    Each axis stands in the axes that the turns before it leave. Of three the middle one lies
+    between the ends of its half turn (gimbal lock at both).
+    """
+    n = len(q_a)
+    between = product(inverse(q_a), q_b)
+    if not axes:
+        return np.zeros((n, 0)), np.zeros((n, 0))
+    angles = _angles([np.asarray(axis, dtype=float) for axis in axes], between)
+    relative = turned(between, omega_b) - omega_a  # ω of b against a, in the axes of a
+    rates = np.empty_like(angles)
+    for k in range(n):
+        columns, so_far = [], np.array([1.0, 0.0, 0.0, 0.0])
+        for axis, angle in zip(axes, angles[k], strict=True):
+            columns.append(turned(so_far, axis))
+            so_far = product(so_far, np.array(about(axis, float(angle))))
+        rates[k] = np.linalg.lstsq(np.array(columns).T, relative[k], rcond=None)[0]
+    return angles, rates
+
+
+def _angles(axes: Sequence[Array], between: Array) -> Array:
+    """(N, K) of one, two or three turns that make the quaternion between the parts."""
+    if len(axes) == 1:
+        return twist(between, axes[0])[:, None]
+    if len(axes) == 2:
+        # Only the first turn moves the second axis, and only the second what is held in b.
+        first = _swing(axes[0], axes[1], turned(between, axes[1]))
+        rest = product(_turn(axes[0], -first), between)
+        return np.column_stack([first, twist(rest, axes[1])])
+    return _three(axes, between)
+
+
+def _three(axes: Sequence[Array], between: Array) -> Array:
+    """The middle turn from how the last axis stands to the first; then as with two."""
+    a, b, c = axes
+    n = len(between)
+    last = turned(between, c)  # the third axis, in the axes of the first part
+    # a · (turn of b by β) c = a · last: A cos β + B sin β + C
+    along = (a @ b) * (b @ c)
+    A, B = a @ c - along, a @ np.cross(b, c)
+    size, phase = math.hypot(A, B), math.atan2(B, A)
+    beta = np.arccos(np.clip((last @ a - along) / size, -1.0, 1.0))
+    found = []
+    for middle in (phase + beta, phase - beta):
+        middle = np.remainder(middle + math.pi, math.tau) - math.pi
+        tilted = turned(_turn(b, middle), c)
+        first = np.array([_swing(a, tilted[k], last[k : k + 1])[0] for k in range(n)])
+        rest = product(_turn(b, -middle), product(_turn(a, -first), between))
+        found.append(np.column_stack([first, middle, twist(rest, c)]))
+    # Of the two ways the one whose middle turn is nearer to zero; they meet at gimbal lock.
+    nearer = np.abs(found[0][:, 1]) <= np.abs(found[1][:, 1])
+    return np.where(nearer[:, None], found[0], found[1])
+
+
+def _turn(axis: Array, angle: Array) -> Array:
+    """(N, 4) about one axis by angles (N,)."""
+    unit = axis / np.linalg.norm(axis)
+    return np.column_stack([np.cos(angle / 2), np.sin(angle / 2)[:, None] * unit])
+
+
+def twist(q: Array, axis: Array) -> Array:
+    """(N,) [rad] the angle of a turn about an axis; of any other attitude its part about it."""
+    unit = axis / np.linalg.norm(axis)
+    angle = 2 * np.arctan2(q[:, 1:] @ unit, q[:, 0])
+    return np.remainder(angle + math.pi, math.tau) - math.pi
+
+
+def _swing(axis: Array, before: Array, after: Array) -> Array:
+    """(N,) [rad] the turn about the axis that brings a vector to where it is, (N, 3)."""
+    flat = before - (before @ axis) * axis
+    across = np.cross(axis, flat)
+    return np.arctan2(after @ across, after @ flat)
+
+
+def counted(angle: Array, rate: Array, times: Array) -> Array:
+    """(N,) the angle with its turns counted: the rates say which turn comes next.
+
+    Between samples it moves by the mean of both rates times the interval, to less than half a turn.
+    """
+    expected = 0.5 * (rate[1:] + rate[:-1]) * np.diff(times)
+    missing = np.round((expected - np.diff(angle)) / math.tau)
+    return angle + math.tau * np.concatenate([[0.0], np.cumsum(missing)])

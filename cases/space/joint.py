@@ -1,0 +1,155 @@
+"""Joints in space: each is the freedoms that it leaves, in their order from the first part on."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from ..frame import SPACE
+from ..kind import Fields
+from ..motion import Motion
+from ..point import GROUND, Anchor
+from ..trajectory import Array
+from . import chain
+from .rotation import UPRIGHT, Vector3, turned
+
+_FORCES: Fields = {
+    "fx": ("N", "force"),  # what the first part exerts on the second, in ground axes
+    "fy": ("N", "force"),
+    "fz": ("N", "force"),
+    "force": ("N", "force"),  # its magnitude
+    "gap": ("m", "residual"),  # constraint drift
+}
+_MOMENTS: Fields = {
+    "mx": ("N m", "force"),  # the same about the second point
+    "my": ("N m", "force"),
+    "mz": ("N m", "force"),
+    "moment": ("N m", "force"),
+}
+
+
+@dataclass(frozen=True)
+class Freedom:
+    """One turn about an axis, one shift along it, or all three turns of a ball.
+
+    The axis is a unit vector in the axes that are left after the freedoms before it: those of the
+    first part, for the first turn and for all shifts. name: as it is observed and started, `angle`
+    of a hinge, `theta` of a joint with named freedoms; "" where it cannot be.
+    """
+
+    kind: Literal["shift", "turn", "ball"]
+    axis: Vector3 = (0.0, 0.0, 0.0)
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class SpatialJoint:
+    """What joins a point of one part to a point of another, and leaves some freedoms.
+
+    Shifts come before turns; without a turn the axes of both parts are parallel. What is not left
+    free is held.
+    """
+
+    name: str
+    kind: Literal["hinge", "ball", "universal", "slide", "weld", "freedoms"]
+    a: Anchor
+    b: Anchor
+    freedoms: tuple[Freedom, ...]
+
+    @property
+    def word(self) -> str:
+        """The key under which a case file names its two points."""
+        return "of" if self.kind == "freedoms" else self.kind
+
+    @property
+    def shifts(self) -> tuple[Freedom, ...]:
+        return tuple(f for f in self.freedoms if f.kind == "shift")
+
+    @property
+    def turns(self) -> tuple[Freedom, ...]:
+        """Up to three turns in their order, or one ball."""
+        return tuple(f for f in self.freedoms if f.kind != "shift")
+
+    @property
+    def holds_attitude(self) -> bool:
+        """Whether it leaves fewer than three turns."""
+        return len(self.turns) < 3 and not any(f.kind == "ball" for f in self.freedoms)
+
+    @property
+    def named(self) -> tuple[Freedom, ...]:
+        """Those that can be observed and started by their names."""
+        return tuple(f for f in self.freedoms if f.name)
+
+    def refers(self) -> tuple[Anchor, ...]:
+        """The points it joins, in the order of the file."""
+        return (self.a, self.b)
+
+    def quantities(self) -> dict[str, Fields]:
+        """Its reactions, its gap, and its coordinates with their rates."""
+        coordinates: dict[str, tuple[str, str]] = {}
+        for freedom in self.named:
+            unit = "m" if freedom.kind == "shift" else "rad"
+            coordinates[freedom.name] = (unit, "coordinate")
+            coordinates[rate_of(freedom.name)] = (f"{unit}/s", "velocity")
+        moments = _MOMENTS if self.holds_attitude else {}
+        return {self.name: {**_FORCES, **moments, **coordinates}}  # type: ignore[dict-item]
+
+    def numbers(self) -> dict[str, float]:
+        return {}
+
+    def observe(self, motion: Motion, field: str) -> Array:
+        """(N,) what follows from the states and the given reactions; else KeyError."""
+        if field in ("force", "moment"):
+            names = [f"{self.name}.{field[0]}{axis}" for axis in "xyz"]
+            return np.linalg.norm([motion.reaction(name) for name in names], axis=0)
+        if field == "gap":
+            return self._gap(motion)
+        names = [f.name for f in self.freedoms]
+        rates = [rate_of(f.name) if f.name else "" for f in self.freedoms]
+        if field not in (*names, *rates):
+            raise KeyError(f"{self.name}.{field}")
+        coordinates, velocities = self.coordinates(motion)
+        if field in rates:
+            return velocities[:, rates.index(field)]
+        i = names.index(field)
+        if self.freedoms[i].kind == "shift":
+            return coordinates[:, i]
+        return chain.counted(coordinates[:, i], velocities[:, i], motion.trajectory.times)
+
+    def _gap(self, motion: Motion) -> Array:
+        """How far the second point is from where the freedoms let it be [m]."""
+        d = (motion.point(self.b) - motion.point(self.a))[:, :3]
+        q, _ = axes_of(motion, self.a.body)
+        for freedom in chain.orthogonal([f.axis for f in self.shifts]):
+            u = turned(q, freedom)
+            d = d - np.sum(d * u, axis=1, keepdims=True) * u
+        return np.linalg.norm(d, axis=1)
+
+    def coordinates(self, motion: Motion) -> tuple[Array, Array]:
+        """(N, K) the place [m or rad, −π to π] of each freedom, and its rate; nan of a ball."""
+        first, second = (axes_of(motion, at.body) for at in (self.a, self.b))
+        d = motion.point(self.b) - motion.point(self.a)
+        shifts = chain.shifted([f.axis for f in self.shifts], d[:, :3], d[:, 3:], *first)
+        if any(f.kind == "ball" for f in self.freedoms):
+            turns = np.full((2, len(d), 1), np.nan)
+        else:
+            turns = chain.turned_by([f.axis for f in self.turns], *first, *second)
+        both = [np.hstack(pair) for pair in zip(shifts, turns, strict=True)]
+        return both[0], both[1]
+
+
+def rate_of(name: str) -> str:
+    """`angle` → `omega`, `theta` → `theta_dot`."""
+    return "omega" if name == "angle" else f"{name}_dot"
+
+
+def axes_of(motion: Motion, body: str) -> tuple[Array, Array]:
+    """Attitude (N, 4) and ω (N, 3), in its own axes, of a part; the ground's axes stand still.
+
+    A particle has no axes of its own: its states hold the ground's.
+    """
+    n = len(motion.trajectory.times)
+    if body == GROUND:
+        return np.tile(UPRIGHT, (n, 1)), np.zeros((n, 3))
+    states = motion.trajectory.states[body]
+    return states[:, SPACE.attitude], states[:, SPACE.spin]

@@ -1,0 +1,66 @@
+"""Attitudes as unit quaternions (w, x, y, z) that turn body axes into ground axes.
+
+For derived quantities and for engines; the reference has its own (reference/laws/rotation.py).
+All take any number of rows: (…, 4), (…, 3).
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..trajectory import Array
+
+Vector3 = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+
+UPRIGHT: Quaternion = (1.0, 0.0, 0.0, 0.0)
+
+
+def matrix(q: Array) -> Array:
+    """(…, 3, 3) whose columns are the body axes in ground axes, whatever the length of q."""
+    w, x, y, z = np.moveaxis(np.asarray(q, dtype=float), -1, 0) / np.linalg.norm(q, axis=-1)
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+
+
+def turned(q: Array, vector: Any) -> Array:
+    """(…, 3) in ground axes of a vector (3,) or (…, 3) in body axes."""
+    return np.einsum("...ij,...j->...i", matrix(q), np.asarray(vector, dtype=float))
+
+
+def product(a: Array, b: Array) -> Array:
+    """(…, 4): first turned by b, then by a."""
+    aw, ax, ay, az = np.moveaxis(np.asarray(a, dtype=float), -1, 0)
+    bw, bx, by, bz = np.moveaxis(np.asarray(b, dtype=float), -1, 0)
+    return np.stack(
+        [
+            aw * bw - ax * bx - ay * by - az * bz,
+            aw * bx + ax * bw + ay * bz - az * by,
+            aw * by - ax * bz + ay * bw + az * bx,
+            aw * bz + ax * by - ay * bx + az * bw,
+        ],
+        axis=-1,
+    )
+
+
+def inverse(q: Array) -> Array:
+    """(…, 4) of a unit quaternion."""
+    return np.asarray(q, dtype=float) * np.array([1.0, -1.0, -1.0, -1.0])
+
+
+def about(axis: Vector3, angle: float) -> Quaternion:
+    """Turned by an angle [rad] about an axis of any length but zero."""
+    size = math.sqrt(sum(x * x for x in axis))
+    sin = math.sin(angle / 2) / size
+    return math.cos(angle / 2), axis[0] * sin, axis[1] * sin, axis[2] * sin
+
+
+def angle_between(a: Array, b: Array) -> Array:
+    """(…,) [rad] from 0 to π: of the turn that leads from one attitude to the other."""
+    d = product(inverse(a), b)
+    return 2 * np.arctan2(np.linalg.norm(d[..., 1:], axis=-1), np.abs(d[..., 0]))
