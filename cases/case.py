@@ -32,10 +32,15 @@ class Origin:
 
 @dataclass(frozen=True)
 class Placement:
-    """What the case file gives of one body's start: coordinates, rates and placed points."""
+    """What the case file gives of the start of one body, or in space of one joint.
+
+    given: coordinates and rates by name, as x, vx, omega_1 of a body, angle and omega of a hinge.
+    attitude: a unit quaternion, of a body in space or of a ball's second part against its first.
+    """
 
     given: Mapping[str, float] = field(default_factory=dict)  # x, y, angle, vx, vy, omega
     points: Mapping[str, Vector] = field(default_factory=dict)
+    attitude: tuple[float, float, float, float] | None = None
 
 
 @dataclass(frozen=True)

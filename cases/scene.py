@@ -5,7 +5,7 @@ counter-clockwise, SI units. What a scene is made of can be imported from here.
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from .body import Body
 from .contact import Contact
@@ -53,7 +53,7 @@ class Scene:
     joints: Mapping[str, Joint]
     contacts: Mapping[str, Contact]
     forces: Mapping[str, Force]
-    frame: Frame = PLANE
+    frame: Frame = field(default=PLANE, kw_only=True)
 
     def elements(self) -> Iterator[Body | Joint | Contact | Force]:
         """All that has a name, quantities and numbers."""

@@ -1,10 +1,11 @@
 """The scene of Definition 2.1 in space as data. z is up, SI units."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ..frame import SPACE, Frame
 from ..scene import Scene
+from ..signal import Signal
 from .body import SpatialBody
 from .contact import SpatialContact
 from .joint import SpatialJoint
@@ -22,4 +23,7 @@ class SpatialScene(Scene):
     bodies: Mapping[str, SpatialBody]  # pyright: ignore[reportIncompatibleVariableOverride]
     joints: Mapping[str, SpatialJoint]  # pyright: ignore[reportIncompatibleVariableOverride]
     contacts: Mapping[str, SpatialContact]  # pyright: ignore[reportIncompatibleVariableOverride]
-    frame: Frame = SPACE
+    drives: Mapping[str, Signal] = field(default_factory=dict)
+    """Prescribed rates [rad/s, m/s] of joints' freedoms, by the quantity: `q1.omega`,
+    `upright.theta_dot`."""
+    frame: Frame = field(default=SPACE, kw_only=True)
