@@ -5,7 +5,7 @@ counter-clockwise, SI units. What a scene is made of can be imported from here.
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from .body import Body
 from .contact import Contact
@@ -53,7 +53,11 @@ class Scene:
     joints: Mapping[str, Joint]
     contacts: Mapping[str, Contact]
     forces: Mapping[str, Force]
-    frame: Frame = field(default=PLANE, kw_only=True)
+
+    @property
+    def frame(self) -> Frame:
+        """Of the plane, or of space."""
+        return PLANE
 
     def elements(self) -> Iterator[Body | Joint | Contact | Force]:
         """All that has a name, quantities and numbers."""

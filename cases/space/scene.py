@@ -26,4 +26,8 @@ class SpatialScene(Scene):
     drives: Mapping[str, Signal] = field(default_factory=dict)
     """Prescribed rates [rad/s, m/s] of joints' freedoms, by the quantity: `q1.omega`,
     `upright.theta_dot`."""
-    frame: Frame = field(default=SPACE, kw_only=True)
+
+    @property
+    def frame(self) -> Frame:
+        """Of space."""
+        return SPACE
