@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Frame:
     """The axes of the ground, and where place, attitude, velocity and ω stand in a state."""
 
@@ -38,3 +38,8 @@ class Frame:
 
 PLANE = Frame(("x", "y"), slice(0, 2), slice(2, 3), slice(3, 5), slice(5, 6))
 SPACE = Frame(("x", "y", "z"), slice(0, 3), slice(3, 7), slice(7, 10), slice(10, 13))
+
+
+def frame_of(width: int) -> Frame:
+    """The frame in which a body's states have so many columns."""
+    return {frame.width: frame for frame in (PLANE, SPACE)}[width]

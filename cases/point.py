@@ -50,6 +50,6 @@ class GroundPoint:
 
     def states(self, times: Array) -> Array:
         """(N, 4): x, y, vx, vy at the times [s]; in space (N, 6)."""
-        velocity = np.asarray(self.velocity)
+        velocity = np.asarray(self.velocity) if self.driven else np.zeros(len(self.at))
         position = np.asarray(self.at) + velocity * times[:, None]
         return np.hstack([position, np.broadcast_to(velocity, position.shape)])

@@ -8,24 +8,29 @@ from collections.abc import Collection, Iterator, Mapping
 import numpy as np
 
 from ..cases.case import Case
+from ..cases.difference import apart
+from ..cases.frame import PLANE, SPACE
 from ..cases.mistake import CaseError, Mistake
 from ..cases.observe import observe
 from ..cases.quantity import table
 from ..cases.trajectory import Array, Trajectory
-from .generated.mechanism import Mechanism
+from .generated.either import Generated
 from .motion.bodies import Answer
-from .start.closure import Closure
+from .start.sizes import size_of
 from .system import Pose, System
 
 STILL = 1e-9  # of the motion's size: smaller changes are no motion
 OPEN = 1e-9  # of the mechanism's size: nearer than that, a contact starts closed
 ROUNDING = 1e-12  # of the normal force: a wheel that needs no friction rolls without any
 START = 1e-12  # of the sizes: two derivations of one start differ by rounding
-FIELDS = ("x", "y", "angle", "vx", "vy", "omega")
-UNITS = ("m", "m", "rad", "m/s", "m/s", "rad/s")
+PLACES = ("x", "y", "z", "attitude", "attitude", "attitude", "attitude")
+RATES = ("vx", "vy", "vz", "omega_1", "omega_2", "omega_3")
+FIELDS = {PLANE: ("x", "y", "angle", "vx", "vy", "omega"), SPACE: (*PLACES, *RATES)}
+UNITS = {"x": "m", "y": "m", "z": "m", "angle": "rad", "attitude": "1"}
+UNITS |= {"vx": "m/s", "vy": "m/s", "vz": "m/s"} | dict.fromkeys(("omega", *RATES[3:]), "rad/s")
 
 
-def check_start(case: Case, system: System, generated: Mechanism) -> None:
+def check_start(case: Case, system: System, generated: Generated) -> None:
     """Raises CaseError with what a hand-written system starts otherwise than the scene does."""
     mode, *state = system.start()
     own = system.modes[mode].poses(0.0, *state)
@@ -38,25 +43,32 @@ def _otherwise(
     case: Case, own: Mapping[str, Pose], assembled: Mapping[str, Pose]
 ) -> Iterator[Mistake]:
     """At what the file gives; at the body, if it gives nothing of what differs."""
-    names = list(assembled)
+    names, frame = list(assembled), case.scene.frame
+    fields = FIELDS[frame]
     a, b = (np.array([poses[name] for name in names], float) for poses in (own, assembled))
+    if frame is SPACE:  # a quaternion and its opposite are the same attitude
+        same = np.sum(a[:, frame.attitude] * b[:, frame.attitude], axis=1, keepdims=True) >= 0
+        a[:, frame.attitude] *= np.where(same, 1.0, -1.0)
     size = np.max(np.abs(b), axis=0)
-    kinds = {(0, 1): Closure(case).size, (2,): 1.0, (3, 4): 0.0, (5,): 0.0}
-    least = {i: max(least, *size[[*kind]]) for kind, least in kinds.items() for i in kind}
+    kinds = [(frame.place, size_of(case)), (frame.attitude, 1.0)]
+    kinds += [(frame.velocity, 0.0), (frame.spin, 0.0)]
+    columns = range(frame.width)
+    least = {i: max(least, *size[kind]) for kind, least in kinds for i in columns[kind]}
     for row, name in enumerate(names):
-        apart = [abs(a[row, i] - b[row, i]) for i in range(len(FIELDS))]
+        apart = [abs(a[row, i] - b[row, i]) for i in columns]
         differ = [i for i, d in enumerate(apart) if not d <= START * least[i]]
         given = (
-            [i for i in differ if FIELDS[i] in case.initial[name].given]
+            [i for i in differ if fields[i] in case.initial[name].given]
             if name in case.initial
             else []
         )
         for i in given or sorted(differ, key=lambda i: -apart[i])[:1]:
             what = (
-                f"{case.system} starts {name} with {FIELDS[i]} = {a[row, i]:.6g} {UNITS[i]}, the "
+                f"{case.system} starts {name} with {fields[i]} = {a[row, i]:.6g} "
+                f"{UNITS[fields[i]]}, the "
                 f"scene with {b[row, i]:.6g}: leave out `system`, then the scene alone answers"
             )
-            yield case.mistake(("initial", name, *([FIELDS[i]] if given else [])), what)
+            yield case.mistake(("initial", name, *([fields[i]] if given else [])), what)
 
 
 def check_shares(case: Case, built: Answer) -> None:
@@ -93,7 +105,7 @@ def _unsaid(case: Case, motion: Trajectory, happened: Collection[str | None]) ->
     One that has not landed by the end is no mistake: there is nothing to say yet.
     """
     said = {event.quantity for event in case.events.values()}
-    size = Closure(case).size
+    size = size_of(case)
     for name, contact in case.scene.contacts.items():
         gap = float(observe(case.scene, motion, f"{name}.gap")[0])
         lands = contact.ideal is None and f"{name} lands" in happened
@@ -114,7 +126,7 @@ def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         if contact.ideal is None:
             continue
         normal = motion.reactions[f"{contact.name}.normal"]
-        tangent = np.abs(motion.reactions[f"{contact.name}.tangent"])
+        tangent = _along_floor(motion, contact.name)
         fails = (normal <= 0) | (tangent > (contact.friction + ROUNDING) * normal)
         if not np.any(fails):
             continue
@@ -128,6 +140,13 @@ def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
                 f"it would slip; {_needed(normal, tangent)}"
             )
         yield case.mistake(("scene", "contacts", contact.name, "ideal"), what)
+
+
+def _along_floor(motion: Trajectory, contact: str) -> Array:
+    """(N,) how large the floor's friction is [N]."""
+    if f"{contact}.tangent" in motion.reactions:
+        return np.abs(motion.reactions[f"{contact}.tangent"])
+    return np.hypot(*(motion.reactions[f"{contact}.{axis}"] for axis in ("fx", "fy")))
 
 
 def _needed(normal: Array, tangent: Array) -> str:
@@ -151,10 +170,17 @@ def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:
             np.max(np.abs(samples)),
             np.max(np.abs(states[:, case.scene.frame.alike(quantity.unit)])),
         )
-        still = np.ptp(samples) <= STILL * size
+        moved = _moved(samples)
+        still = moved <= STILL * size
         if still and not claimed:
-            what = f"never moves: it stays {samples[0]:.6g}; leave it out, or say what is claimed: "
+            at = "as it is" if samples.ndim > 1 else f"{samples[0]:.6g}"
+            what = f"never moves: it stays {at}; leave it out, or say what is claimed: "
             yield case.mistake(("allow", name), f"{what}`stays: [{name}]`, or `rests: true` of all")
         elif claimed and not still:
-            what = f"moves by {np.ptp(samples):.3g} {quantity.unit}"
+            what = f"moves by {moved:.3g} {quantity.unit}"
             yield case.mistake(("stays", case.stays.index(name)), what)
+
+
+def _moved(samples: Array) -> float:
+    """How far a quantity goes; of an attitude, from where it began."""
+    return float(np.ptp(samples) if samples.ndim == 1 else np.max(apart(samples, samples[:1])))

@@ -15,14 +15,17 @@ from ..cases.case import Case
 from ..cases.force import Force
 from ..cases.language.check.work import GO_ON
 from ..cases.mistake import CaseError, Mistake
-from .generated.action import ends_meet
+from ..cases.space.scene import SpatialScene
 from .generated.choosing import Undetermined
-from .generated.mechanism import BadStart, Mechanism
+from .generated.either import Generated
+from .generated.mechanism import BadStart
 from .integrators.budget import Endless, budget
 from .motion.stuck import Stuck
 from .motion.zeno import ZenoError
 from .start.closure import Closure
 from .start.positions import rank
+from .start.sizes import size_of
+from .start.space.closure import SpatialClosure
 from .system import Array
 
 MOST = 5e6  # evaluations: the largest shipped case takes 4e4 and 8 s, so this is a quarter hour
@@ -49,7 +52,7 @@ def bounded(case: Case) -> Iterator[None]:
 
 
 @contextmanager
-def refusals(case: Case, generated: Mechanism) -> Iterator[None]:
+def refusals(case: Case, generated: Generated) -> Iterator[None]:
     """Turns what stops the motion into CaseError."""
     try:
         yield
@@ -57,7 +60,7 @@ def refusals(case: Case, generated: Mechanism) -> Iterator[None]:
         raise CaseError([_mistake(case, generated, failure)]) from failure
 
 
-def _mistake(case: Case, generated: Mechanism, failure: Exception) -> Mistake:
+def _mistake(case: Case, generated: Generated, failure: Exception) -> Mistake:
     match failure:
         case BadStart():
             return case.mistake(("initial",), str(failure))
@@ -77,24 +80,29 @@ def _mistake(case: Case, generated: Mechanism, failure: Exception) -> Mistake:
     return case.mistake(("duration",), what)
 
 
-def _line(case: Case, generated: Mechanism, t: float, q: Array) -> str | None:
-    within, where = SHORT * Closure(case).size, generated.base.where
-    for force in case.scene.forces.values():
-        if ends_meet(force, where, t, q.tolist(), within):
-            return f"{force.name} has no length there, and so no direction"
-    return None
+def _line(case: Case, generated: Generated, t: float, q: Array) -> str | None:
+    name = generated.base.without_direction(t, q, SHORT * size_of(case))
+    return None if name is None else f"{name} has no length there, and so no direction"
 
 
 def _constraint(case: Case, q: Array) -> str | None:
+    part = _dependent(case, q)
+    return part and (
+        f"in this position what {part} holds is held by the others already, so that "
+        "neither its reaction nor the way on is determined"
+    )
+
+
+def _dependent(case: Case, q: Array) -> str | None:
+    """The first part that holds what others nearly hold already."""
+    if isinstance(case.scene, SpatialScene):
+        return SpatialClosure(case, case.scene).dependent(q, DEPENDENT)
     closure = Closure(case)
     rows = np.zeros((0, closure.n))
     for c in closure.parts:
         rows = np.vstack([rows, closure.rows([c], q)])
         if rank(rows, DEPENDENT) < len(rows):
-            return (
-                f"in this position what {c.part} holds is held by the others already, so that "
-                "neither its reaction nor the way on is determined"
-            )
+            return c.part
     return None
 
 

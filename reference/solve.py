@@ -11,18 +11,22 @@ import numpy as np
 from ..cases.case import Case
 from ..cases.mistake import CaseError
 from ..cases.quantity import table
+from ..cases.space.scene import SpatialScene
 from ..cases.trajectory import Trajectory
 from .certificate.agreement import Check
 from .certificate.certify import certify
 from .certificate.errors import beyond
 from .coverage import look, noting
+from .generated.either import Generated
 from .generated.mechanism import Mechanism
+from .generated.space.mechanism import SpatialMechanism
 from .motion.bodies import Answer, Beside
 from .motion.follow import Followed, follow
 from .premises import check_premises, check_shares, check_start
 from .refusal import bounded, refusals
 from .start.assembly import assemble
-from .start.closure import Closure
+from .start.sizes import size_of
+from .start.space.assembly import assemble_in_space
 from .system import Pose, System
 from .systems import written as written_system
 
@@ -54,7 +58,7 @@ def solve(case: Case) -> Solution:
 
 def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
     written = _written(case)
-    generated = Mechanism(case.scene, assemble(case), Closure(case).size)
+    generated = _generated(case)
     with refusals(case, generated):
         system = written or generated
         if written:
@@ -77,6 +81,13 @@ def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
     return motion, checks
 
 
+def _generated(case: Case) -> Generated:
+    """The mechanism of the scene. Raises CaseError for a start that cannot be assembled."""
+    if isinstance(case.scene, SpatialScene):
+        return SpatialMechanism(case.scene, assemble_in_space(case, case.scene))
+    return Mechanism(case.scene, assemble(case), size_of(case))
+
+
 def _written(case: Case) -> System | None:
     """The hand-written system, if there is one. Raises CaseError for what it says it cannot be."""
     try:
@@ -85,7 +96,7 @@ def _written(case: Case) -> System | None:
         raise CaseError([case.mistake(("parameters",), f"{case.system}: {error}")]) from error
 
 
-def reactions_of(generated: Mechanism, found: Followed, followed: Followed) -> Beside:
+def reactions_of(generated: Generated, found: Followed, followed: Followed) -> Beside:
     """The generated modes' reactions on the written motion, phase by phase.
 
     With another count of phases there are none, and the certificate says why; nor are there any in

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...cases.frame import SPACE, frame_of
 from ...cases.trajectory import Trajectory
 from ..system import Array
 
@@ -50,9 +51,14 @@ def difference(one: Trajectory, other: Trajectory) -> float:
     """
     a, b = (np.concatenate([motion.states[name] for name in one.states]) for motion in (one, other))
     duration = float(one.times[-1] - one.times[0])
-    size = worst(np.abs(a[:, [0, 1]]).ravel())
-    groups = {(0, 1): 0.0, (2,): 1.0, (3, 4): size / duration, (5,): 1.0 / duration}
-    return worst(relative(a[:, [*g]], b[:, [*g]], least=least) for g, least in groups.items())
+    frame = frame_of(a.shape[1])
+    size = worst(np.abs(a[:, frame.place]).ravel())
+    if frame is SPACE:  # a quaternion and its opposite are the same attitude
+        same = np.sum(a[:, frame.attitude] * b[:, frame.attitude], axis=1, keepdims=True) >= 0
+        b[:, frame.attitude] *= np.where(same, 1.0, -1.0)
+    groups = [(frame.place, 0.0), (frame.attitude, 1.0)]
+    groups += [(frame.velocity, size / duration), (frame.spin, 1.0 / duration)]
+    return worst(relative(a[:, g], b[:, g], least=least) for g, least in groups)
 
 
 def times_apart(one: Sequence[float], other: Sequence[float]) -> float:

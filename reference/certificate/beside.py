@@ -10,8 +10,7 @@ import numpy as np
 
 from ..coverage import look
 from ..formalisms.derivative import along
-from ..generated.mechanism import Mechanism
-from ..generated.mode import Multibody
+from ..generated.either import Base, Generated
 from ..motion.bodies import Answer
 from ..system import Array, Mode
 from .agreement import Check, worst
@@ -21,7 +20,7 @@ EPS = float(np.finfo(np.float64).eps)
 DIGITS = 100  # times ε and the condition of its equations: what these lose
 
 
-def beside(written: Answer, built: Answer, generated: Mechanism, times: Array) -> Iterator[Check]:
+def beside(written: Answer, built: Answer, generated: Generated, times: Array) -> Iterator[Check]:
     """Accelerations, and reactions where the system knows its own; phase by phase.
 
     With another count of phases there is nothing to compare: the events say so.
@@ -48,20 +47,18 @@ def beside(written: Answer, built: Answer, generated: Mechanism, times: Array) -
         yield Check("generated reactions", worst(held), bound)
 
 
-def _accelerations(mode: Mode, base: Multibody, t: float, q: Array, v: Array) -> Array:
+def _accelerations(mode: Mode, base: Base, t: float, q: Array, v: Array) -> Array:
     """(n,) of the bodies: the change of the velocities that the system's poses have."""
     a = mode.accelerations(t, q, v)
 
     def velocities(t: object, q: Array, v: Array) -> Array:
-        poses = mode.poses(t, q, v)
-        return np.array([poses[name][3:] for name in base.where.columns])
+        return base.where.velocities(mode.poses(t, q, v))
 
-    rates: Array = along(velocities, (t, q, v), (1.0, v, a))
-    names = base.where.columns
-    return base.place({name: (0, 0, 0, *rate) for name, rate in zip(names, rates, strict=True)})[1]
+    rates: Array = along(velocities, (t, q, v), (1.0, mode.rates(t, q, v), a))
+    return rates
 
 
-def _condition(rows: Array, base: Multibody) -> float:
+def _condition(rows: Array, base: Base) -> float:
     """Of the equations for the multipliers, in units in which each row has the size 1."""
     if not len(rows):
         return 1.0

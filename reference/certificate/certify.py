@@ -14,7 +14,7 @@ import numpy as np
 from ...cases.case import Case
 from ...cases.trajectory import Trajectory
 from ..coverage import look
-from ..generated.mechanism import Mechanism
+from ..generated.either import Generated
 from ..integrators.implicit import Radau
 from ..integrators.march import Method, Slope
 from ..integrators.radau import radau_table
@@ -39,7 +39,11 @@ QUARTERS = 4  # steps a sample at least: longer ones, of order 13, lose up to tw
 
 
 def certify(
-    case: Case, written: Answer, built: Answer, generated: Mechanism, motion: Trajectory
+    case: Case,
+    written: Answer,
+    built: Answer,
+    generated: Generated,
+    motion: Trajectory,
 ) -> tuple[Check, ...]:
     """All checks that apply to the case.
 

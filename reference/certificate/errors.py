@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from ...cases.case import Case
+from ...cases.difference import apart
 from ...cases.mistake import Mistake
 from ...cases.observe import observe
 from ...cases.quantity import event_quantities, table
@@ -18,12 +19,12 @@ ERROR = "error of "
 
 
 def errors(
-    case: Case, motion: Trajectory, others: Mapping[str, Trajectory], apart: float
+    case: Case, motion: Trajectory, others: Mapping[str, Trajectory], late: float
 ) -> Iterator[Check]:
     """The share of the smallest `allow` or `reach` that each quantity's own error takes.
 
     The error is the largest difference to any other answer, and at least the rounding of a double.
-    apart: how well the times of events are known [s].
+    late: how well the times of events are known [s].
     """
     known = table(case.scene)
     times = {name: q for name, q in event_quantities(case.events).items() if q.field == "time"}
@@ -31,10 +32,13 @@ def errors(
         least = _least(case, name)
         if name in known:
             own = observe(case.scene, motion, name)
-            found = [np.abs(own - observe(case.scene, other, name)) for other in others.values()]
-            error, unit = worst([EPS * worst(np.abs(own)), *map(worst, found)]), known[name].unit
+            found = [apart(own, observe(case.scene, other, name)) for other in others.values()]
+            error, unit = (
+                worst([EPS * worst(np.abs(own).ravel()), *map(worst, found)]),
+                known[name].unit,
+            )
         elif name in times:
-            error, unit = max(EPS * float(motion.times[-1]), apart), times[name].unit
+            error, unit = max(EPS * float(motion.times[-1]), late), times[name].unit
         else:
             continue  # a count: the changes of mode are compared by name and number
         if least is not None:

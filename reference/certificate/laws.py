@@ -10,8 +10,7 @@ import numpy as np
 
 from ..coverage import look
 from ..formalisms import energy, lagrange, newton_euler
-from ..generated.mechanism import Mechanism
-from ..generated.mode import Multibody
+from ..generated.either import Base, Generated
 from ..motion.bodies import Answer
 from ..system import Array, Mode
 from .agreement import Check, gravest, worst
@@ -23,7 +22,7 @@ LAW = 1e-12  # of the largest term: the laws are algebra, only rounding may diff
 class Scale:
     """The same bodies in maximal coordinates, and how fast each coordinate is in the motion."""
 
-    base: Multibody
+    base: Base
     speeds: Array  # (n,) m/s or rad/s
 
     def largest(self, mode: Mode, t: float, q: Array, v: Array) -> tuple[float, float]:
@@ -38,7 +37,7 @@ class Scale:
         return self.base.terms(t, *place)[0], worst((forces + held) * self.speeds)
 
 
-def laws(answer: Answer, generated: Mechanism, times: Array) -> Iterator[Check]:
+def laws(answer: Answer, generated: Generated, times: Array) -> Iterator[Check]:
     """The laws of every mode along its own part of the motion; the worst of each."""
     found: dict[str, list[Check]] = {}
     followed, written = answer.followed, answer.system is not generated
@@ -50,7 +49,7 @@ def laws(answer: Answer, generated: Mechanism, times: Array) -> Iterator[Check]:
     yield from map(gravest, found.values())
 
 
-def _speeds(answer: Answer, base: Multibody, times: Array) -> Array:
+def _speeds(answer: Answer, base: Base, times: Array) -> Array:
     """The largest |v| of a kind, and at least what goes through its size, or 1 rad, in the time."""
     modes = (answer.system.modes[name] for name in answer.followed.modes)
     rows = zip(modes, times.tolist(), answer.followed.y, strict=True)

@@ -102,6 +102,13 @@ class Coordinates:
                 q[phi], v[phi] = angle, omega
         return q, v
 
+    def velocities(self, poses: Mapping[str, Pose]) -> Any:
+        """v (n,) of given poses, real or complex."""
+        found: list[Any] = []
+        for name, (_, phi) in self.columns.items():
+            found += poses[name][3 : 5 if phi is None else 6]
+        return np.array(found)
+
     @cached_property
     def attached(self) -> dict[tuple[str, str], Attached]:
         """Each point on its body, by the names of body and point."""

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...cases.scene import Scene
 from ..system import Array, Mass, Mode, Pose, Vector
-from .action import act, dissipation, other, potential
+from .action import act, dissipation, ends_meet, other, potential
 from .constraint import Constraint, assembled
 from .contact import Braking, Coulomb, row
 from .coordinates import Coordinates
@@ -162,6 +162,12 @@ class Multibody(Mode):
     def place(self, poses: Mapping[str, Pose]) -> tuple[Array, Array]:
         """q and v of given poses: how another system's motion is read in these coordinates."""
         return self.where.place(poses)
+
+    def without_direction(self, t: float, q: Array, within: float) -> str | None:
+        """The first force along a line that is shorter than that [m]."""
+        forces = self.scene.forces.values()
+        meet = (f.name for f in forces if ends_meet(f, self.where, t, q.tolist(), within))
+        return next(meet, None)
 
     # The ingredients: the same mechanism from its energies and residuals alone.
 

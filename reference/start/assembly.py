@@ -6,12 +6,15 @@ Positions by Newton's method from a guess, rates by linear algebra.
 import numpy as np
 
 from ...cases.case import Case
+from ...cases.space.scene import SpatialScene
 from ..generated.coordinates import Coordinates
+from ..generated.space.coordinates import SpatialCoordinates
 from ..system import Array, Pose
 from . import refusal
 from .closure import Closure
 from .positions import RANK, positions, rank
 from .rates import rates
+from .space.assembly import assemble_in_space
 
 
 def assemble(case: Case) -> tuple[Array, Array]:
@@ -27,7 +30,10 @@ def assemble(case: Case) -> tuple[Array, Array]:
 
 
 def start_poses(case: Case) -> dict[str, Pose]:
-    """x, y, angle, vx, vy, omega of each body at t = 0. Raises CaseError as `assemble` does."""
+    """The state of each body at t = 0, as its frame has it. Raises CaseError as `assemble` does."""
+    if isinstance(case.scene, SpatialScene):
+        q, v = assemble_in_space(case, case.scene)
+        return SpatialCoordinates(case.scene).poses(q, v)
     return Coordinates(case.scene).poses(*assemble(case))
 
 

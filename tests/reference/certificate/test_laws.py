@@ -8,6 +8,7 @@ from given import scenes, written_scenes
 from given.certified import certified
 
 from textmech.reference.certificate import laws
+from textmech.reference.generated.mode import Multibody
 from textmech.reference.solve import solve
 from textmech.reference.system import Array, Mode
 from textmech.reference.systems import written
@@ -87,8 +88,8 @@ def test_a_potential_that_is_wrong_is_seen_at_rest_too(
     tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """1e-8 N and N m more along all coordinates: accelerations show it where nothing has power."""
-    U = laws.Multibody.U
-    monkeypatch.setattr(laws.Multibody, "U", lambda self, t, q: U(self, t, q) + 1e-8 * np.sum(q))
+    U = Multibody.U
+    monkeypatch.setattr(Multibody, "U", lambda self, t, q: U(self, t, q) + 1e-8 * np.sum(q))
     solution = solve(scenes.typed(tmp_path, STILL[name], tail=scenes.tail(2.0, 26)))
     broken = {check.name for check in solution.checks if not check.holds}
     assert any(law.startswith("accelerations by Lagrange") for law in broken)

@@ -1,0 +1,9 @@
+"""A mechanism generated from a scene, in the plane or in space, and what holds in all its modes."""
+
+from .mechanism import Mechanism
+from .mode import Multibody
+from .space.mechanism import SpatialMechanism
+from .space.mode import SpatialMultibody
+
+Generated = Mechanism | SpatialMechanism
+Base = Multibody | SpatialMultibody

@@ -1,0 +1,182 @@
+"""Any scene in space as a Mode, in maximal coordinates with multipliers (2.60)."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from scipy.linalg.lapack import dgetrf, dgetrs
+
+from ....cases.space.scene import SpatialScene
+from ...system import Array, Mass, Mode, Pose, Vector
+from .action import Actions
+from .assembled import SpatialRows
+from .attitude import cross, spin
+from .coordinates import SpatialCoordinates
+from .held import held
+from .kinematics import Layout
+
+TURNS = 1  # of refinement: what the factors lose of a light body beside a heavy one comes back
+
+
+class SpatialMultibody(Mode):
+    """(2.23), (2.33) of all bodies, held together by multipliers.
+
+    q holds r and a unit quaternion of each body in the scene's order, v holds ṙ and ω in body
+    axes; a particle has neither quaternion nor ω.
+    """
+
+    stiff = False
+    undetermined: Sequence[str] = ()
+
+    def __init__(self, scene: SpatialScene, start: tuple[Array, Array]) -> None:
+        self.scene = scene
+        self.where = SpatialCoordinates(scene)
+        self.coordinates = self.where.names
+        self.masses = {
+            b.name: Mass(b.mass, b.tensor if b.turns else None) for b in scene.bodies.values()
+        }
+        self._start = start
+        self.layout = Layout(self.where)
+        self.constraints = SpatialRows(held(scene), self.layout)
+        self._actions = Actions(self.layout)
+        n, r = self.where.size, self.constraints.size
+        self._saddle = np.zeros((n + r, n + r))
+        self._saddle[:n, :n] = self.where.M
+        self._weight = np.zeros(n)
+        for body in scene.bodies.values():
+            at = self.where.columns[body.name].r_dot
+            self._weight[at : at + 3] = body.mass * np.asarray(scene.gravity)
+        turning = [(self.where.columns[b.name].omega, b.tensor) for b in scene.bodies.values()]
+        tensors = [J for at, J in turning if at is not None]
+        self._J = np.array(tensors).reshape(-1, 3, 3)
+
+    def start(self) -> tuple[Array, Array]:
+        """The assembled start."""
+        return self._start
+
+    def rates(self, t: Any, q: Vector, v: Vector) -> Vector:
+        """(2.5), (2.6) q̇ (m,): ṙ, and ½ q ∘ (0, ω)."""
+        return self.where.rates(q, v)
+
+    def accelerations(self, t: float, q: Array, v: Array) -> Array:
+        """(2.60) M v̇ = Q + λ_b f_aᵇ with f_aᵇ v̇ᵃ = γᵇ, (n,)."""
+        return self.solve(t, q, v)[0]
+
+    def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
+        """(2.60) v̇ (n,) and the multipliers (r,).
+
+        M alone may be singular, as of a slender bar, which its neighbours keep from turning about
+        itself: so both are solved for at once.
+        """
+        n, bodies = self.where.size, self.layout.bodies(q, v)
+        rows, _, gamma = self.constraints.at(t, bodies)
+        matrix = self._saddle.copy()
+        matrix[n:, :n], matrix[:n, n:] = rows, rows.T
+        right = np.concatenate([self._applied(t, v, bodies), gamma])
+        lu, pivots, _ = dgetrf(matrix.T)  # symmetric: its transpose needs no copy
+        found, _ = dgetrs(lu, pivots, right)
+        for _ in range(TURNS):
+            found = found + dgetrs(lu, pivots, right - matrix.dot(found))[0]
+        return found[:n], -found[n:]
+
+    def _applied(self, t: float, v: Array, bodies: Any) -> Array:
+        """(2.60) Q (n,): weights, forces, and −ω × J ω of (2.33)."""
+        Q = self._weight.copy()
+        self._gyroscopic(v, Q)
+        for alone in self._actions.alone(t, bodies, len(Q)):
+            Q += alone
+        return Q
+
+    def _gyroscopic(self, v: Array, Q: Array) -> None:
+        if len(self._J):
+            omega = v[self.where.spins]
+            Q[self.where.spins] -= cross(omega, np.matmul(self._J, omega[:, :, None])[:, :, 0])
+
+    def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
+        """(2.60) R_a = λ_b f_aᵇ: the forces and moments of first parts on second, by quantity."""
+        bodies = self.layout.bodies(q, v)
+        found = self.constraints.reactions(t, bodies, self.solve(t, q, v)[1])
+        for joint in self.scene.joints.values():
+            names = ("fx", "fy", "fz", *(("mx", "my", "mz") if joint.holds_attitude else ()))
+            found = {f"{joint.name}.{name}": 0.0 for name in names} | found
+        return found
+
+    def rows(self, t: Any, q: Vector, v: Vector) -> tuple[Vector, Vector, Vector]:
+        """(2.15) f_a (r, n) and g (r,), and γ (r,) of f_a v̇ᵃ = γ."""
+        return self.constraints.at(t, self.layout.bodies(q, v))
+
+    def _each(self, t: float, q: Array, v: Array) -> Iterator[Array]:
+        yield self._weight
+        turning = np.zeros(self.where.size)
+        self._gyroscopic(v, turning)
+        yield turning
+        yield from self._actions.alone(t, self.layout.bodies(q, v), self.where.size)
+
+    def largest(self, t: float, q: Array, v: Array) -> Array:
+        """The largest force [N] or moment [N m] along each velocity that comes from one force."""
+        return np.max(np.abs(list(self._each(t, q, v))), axis=0)
+
+    def terms(self, t: float, q: Array, v: Array) -> tuple[float, float]:
+        """The largest acceleration [m/s² or rad/s²] and power [W] that one force gives alone."""
+        largest, turning = self.largest(t, q, v), self.where.turning
+        powers = [
+            np.max(largest[kind], initial=0.0) * np.max(np.abs(v[kind]), initial=0.0)
+            for kind in (turning, ~turning)
+        ]
+        return float(np.max(largest / np.array(self.where.masses))), float(np.max(powers))
+
+    def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
+        """(2.8) R_k, E_k: the coordinates themselves, quaternions with the length 1."""
+        return self.where.poses(q, v)
+
+    def place(self, poses: Mapping[str, Pose]) -> tuple[Any, Any]:
+        """q and v of given poses: how another system's motion is read in these coordinates."""
+        return self.where.place(poses)
+
+    def without_direction(self, t: float, q: Array, within: float) -> str | None:
+        """The first force along a line that is shorter than that [m]."""
+        return self._actions.meets(t, self.layout.bodies(q, np.zeros(self.where.size)), within)
+
+    # The ingredients: the same mechanism from its energies and residuals alone.
+
+    def T(self, t: Any, q: Vector, v: Vector) -> Any:
+        """(2.54) T = ½ Σ m ṙ_c² + ½ Σ ω·J ω [J] of the rates q̇ (m,) or (m, K)."""
+        energy: Any = 0.0
+        for name, at in self.where.columns.items():
+            mass, r_dot = self.masses[name], v[at.r : at.r + 3]
+            energy = energy + 0.5 * mass.m * (r_dot * r_dot).sum(axis=0)
+            if at.attitude is not None:
+                span = slice(at.attitude, at.attitude + 4)
+                omega = spin(q[span], v[span])
+                energy = energy + 0.5 * (omega * np.tensordot(mass.J, omega, 1)).sum(axis=0)
+        return energy
+
+    def U(self, t: Any, q: Vector) -> Any:
+        """(2.45) U = −Σ m g·r_c + Σ ½ c (λ − λ₀)² [J]."""
+        energy: Any = 0.0
+        for name, at in self.where.columns.items():
+            r, m = q[at.r : at.r + 3], self.masses[name].m
+            energy = energy - m * sum(g * x for g, x in zip(self.scene.gravity, r, strict=True))
+        still = np.zeros(self.where.size)
+        return energy + self._actions.potential(t, self.layout.bodies(q, still))
+
+    def D(self, t: Any, q: Vector, v: Vector) -> Any:
+        """(2.46) D = Σ ½ d λ̇² [W], λ̇ = Δ·Δ̇/λ, of the velocities v (n,)."""
+        return 0.0 * v[0] + self._actions.dissipation(t, self.layout.bodies(q, v))
+
+    def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
+        """(2.50) Q_a of pushes and torques, along the velocities v, (n,)."""
+        kind = np.result_type(q, v, np.asarray(t))
+        return self._actions.other(t, self.layout.bodies(q, v), self.where.size, kind)
+
+    def f(self, t: Any, q: Vector) -> Vector:
+        """(2.14) the residuals of what is holonomic, (≤ r,)."""
+        return self.constraints.f(t, self.layout.bodies(q, np.zeros(self.where.size)))
+
+    def f_a(self, t: Any, q: Vector) -> Vector:
+        """(2.15) the rows f_aᵇ, (r, n), of the velocities v."""
+        return self.rows(t, q, np.zeros(self.where.size))[0]
+
+    def g(self, t: Any, q: Vector) -> Vector:
+        """(2.15) the right side f_aᵇ vᵃ = gᵇ of driven points and rates, (r,)."""
+        return self.rows(t, q, np.zeros(self.where.size))[1]

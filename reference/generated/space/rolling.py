@@ -1,0 +1,156 @@
+"""Rows of what rolls without slip on the floor z = 0, and of prescribed rates."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ....cases.signal import Signal
+from .attitude import cross
+from .held import Drive, Rim
+from .kinematics import Bodies, Layout, back, carried
+from .rows import Slots, targets
+
+UP = np.array([0.0, 0.0, 1.0])
+
+
+class Rims:
+    """`Rim`: ṙ_c + ω × ρ = 0, ρ from the centre to the lowest point (2.19).
+
+    ρ = −R (z − (z·n) n)/√(1 − (z·n)²), n the axle; of a sphere ρ = −R z.
+    """
+
+    def __init__(self, parts: Sequence[Rim], layout: Layout, first: int) -> None:
+        self.size, n, slots = 3 * len(parts), layout.where.size, Slots.of(layout)
+        self._body = np.array([layout.numbers[p.body] for p in parts], np.intp)
+        self._R = np.array([p.radius for p in parts])[:, None]
+        self._rim = np.array([p.axle is not None for p in parts])[:, None]
+        self._axle = np.array([p.axle or (0.0, 0.0, 0.0) for p in parts], float)
+        self.rows = first + np.arange(self.size).reshape(-1, 3)
+        omegas = np.repeat(slots.omega[self._body][:, None], 3, axis=1)
+        self.targets = targets(self.rows, omegas, n).ravel()
+        self._r_dot = slots.r_dot[self._body]
+
+    def constants(self, rows: Any) -> None:
+        for k, begin in enumerate(self._r_dot.tolist()):
+            rows[self.rows[k], begin + np.arange(3)] = 1.0
+
+    def arm(self, bodies: Bodies) -> tuple[Any, Any]:
+        """ρ and its rate (K, 3): n turns with the body, and the lowest point with n."""
+        n = carried(bodies.R[self._body], self._axle)
+        n_dot = cross(bodies.spin[self._body], n)
+        z, z_dot = n[:, 2:], n_dot[:, 2:]
+        size = np.sqrt(1 - z * z)
+        steep = (UP - z * n) / size
+        steep_dot = (-z_dot * n - z * n_dot) / size + steep * (z * z_dot) / (1 - z * z)
+        return -self._R * steep, -self._R * np.where(self._rim, steep_dot, 0.0)
+
+    def values(self, t: Any, bodies: Bodies) -> tuple[list[Any], Any, Any]:
+        """f = (1, −[ρ]× E); d/dt of it leaves ω × ρ̇ beside the accelerations."""
+        rho, rho_dot = self.arm(bodies)
+        R = bodies.R[self._body]
+        blocks = np.stack([cross(rho, np.broadcast_to(e, rho.shape)) for e in np.eye(3)], axis=1)
+        gamma = -cross(bodies.spin[self._body], rho_dot)
+        return [np.matmul(blocks, R).ravel()], np.zeros(self.size), gamma.ravel()
+
+    def places(self, t: Any, bodies: Bodies) -> Any:
+        """The height of the lowest point; along the floor only rates are known."""
+        low = bodies.r[self._body] + self.arm(bodies)[0]
+        low[:, :2] = np.nan
+        return low.ravel()
+
+
+class Drives:
+    """`Drive`: m·(ω_b − ω_a) = g(t) of a turn, d/dt u·Δ = g(t) of a shift.
+
+    Of two turns about n₁, fixed in a, and n₂, fixed in b, with n₁·n₂ = c, ω_rel = θ̇₁ n₁ + θ̇₂ n₂
+    and m₁ = (n₁ − c n₂)/(1 − c²); of one m = n.
+    """
+
+    def __init__(self, parts: Sequence[Drive], layout: Layout, first: int) -> None:
+        self.size, n, slots = len(parts), layout.where.size, Slots.of(layout)
+        self._parts = parts
+        numbers = layout.numbers
+        self._a, self._b = (
+            np.array([numbers[e.body] for e in ends], np.intp)
+            for ends in ([p.a for p in parts], [p.b for p in parts])
+        )
+        self._points = tuple(
+            layout.attached(ends) for ends in ([p.a for p in parts], [p.b for p in parts])
+        )
+        first_axes = [p.turns[0] if p.turns else (0.0, 0.0, 0.0) for p in parts]
+        last_axes = [p.turns[-1] if p.turns else (0.0, 0.0, 0.0) for p in parts]
+        self._first, self._last = np.array(first_axes, float), np.array(last_axes, float)
+        self._weights = np.array([_weights(p) for p in parts], float).reshape(-1, 2, 1)
+        self._shift = np.array([_dual(p) for p in parts], float).reshape(-1, 3)
+        rows = first + np.arange(self.size)
+        begins = [at[e] for e in (self._a, self._b) for at in (slots.r_dot, slots.omega)]
+        self.targets = np.concatenate([targets(rows, begin, n).ravel() for begin in begins])
+
+    def constants(self, rows: Any) -> None:
+        """None."""
+
+    def axes(self, bodies: Bodies) -> tuple[Any, Any]:
+        """m and ṁ (size, 3) in ground axes; 0 of a shift."""
+        first = carried(bodies.R[self._a], self._first)
+        last = carried(bodies.R[self._b], self._last)
+        spin = bodies.spin
+        one, two = self._weights[:, 0], self._weights[:, 1]
+        m = one * first + two * last
+        return m, one * cross(spin[self._a], first) + two * cross(spin[self._b], last)
+
+    def direction(self, bodies: Bodies) -> Any:
+        """(size, 3) u of a shift in ground axes; 0 of a turn."""
+        return carried(bodies.R[self._a], self._shift)
+
+    def values(self, t: Any, bodies: Bodies) -> tuple[list[Any], Any, Any]:
+        """γ = ġ − ṁ·(ω_b − ω_a) of a turn; of a shift as `Lines` has it."""
+        R_a, R_b, spin = bodies.R[self._a], bodies.R[self._b], bodies.spin
+        omega_a, omega_b = spin[self._a], spin[self._b]
+        m, m_dot = self.axes(bodies)
+        u = self.direction(bodies)
+        a, b = (points.at(t, bodies) for points in self._points)
+        gap, gap_dot, u_dot = b.r - a.r, b.r_dot - a.r_dot, cross(omega_a, u)
+        beside = m_dot * (omega_b - omega_a) + 2 * u_dot * gap_dot
+        beside = beside + cross(omega_a, u_dot) * gap + u * (b.turning - a.turning)
+        laws = [_law(p.rate, t) for p in self._parts]
+        g = np.array([law[0] for law in laws])
+        g = g + (u * (self._points[0].velocity - self._points[1].velocity)).sum(axis=1)
+        gamma = np.array([law[1] for law in laws]) - beside.sum(axis=1)
+        at_a = back(R_a, cross(u, gap) - cross(a.d, u) - m)
+        at_b = back(R_b, cross(b.d, u) + m)
+        return [-u.ravel(), at_a.ravel(), u.ravel(), at_b.ravel()], g, gamma
+
+    def places(self, t: Any, bodies: Bodies) -> Any:
+        """Only rates are known."""
+        return np.full(self.size, np.nan)
+
+
+def _weights(drive: Drive) -> tuple[float, float]:
+    """Of the first and the last axis in m."""
+    if drive.shift is not None:
+        return 0.0, 0.0
+    if len(drive.turns) == 1:
+        return 1.0, 0.0
+    c = float(np.dot(drive.turns[0], drive.turns[1]))
+    own, other = 1 / (1 - c * c), -c / (1 - c * c)
+    return (own, other) if drive.number == 0 else (other, own)
+
+
+def _dual(drive: Drive) -> Any:
+    """The vector whose product with a sum of shifts is the driven one's share."""
+    if drive.shift is None:
+        return np.zeros(3)
+    axes = np.array(drive.shifts, float)
+    return np.linalg.pinv(axes.T)[drive.shifts.index(drive.shift)]
+
+
+def _law(signal: Signal, t: Any) -> tuple[Any, Any]:
+    """g and ġ of a named law in time."""
+    (A,) = signal.amplitude
+    if signal.law == "constant":
+        return A, 0.0
+    if signal.law == "ramp":
+        return A * t, A
+    w, at = signal.angular_frequency, signal.angular_frequency * t + signal.phase
+    return A * np.sin(at), A * w * np.cos(at)

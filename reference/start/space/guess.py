@@ -1,0 +1,94 @@
+"""A first guess of all places: along a tree of joints from the ground, at given coordinates."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ....cases.case import Placement
+from ....cases.scene import GROUND, Anchor
+from ....cases.space.joint import SpatialJoint
+from ....cases.space.rotation import UPRIGHT, about, inverse, product, turned
+from ....cases.space.scene import SpatialScene
+from ...generated.space.coordinates import SpatialCoordinates
+from ...system import Array
+
+Pose = tuple[Array, Array]  # r (3,) and the quaternion (4,)
+
+
+def laid_out(
+    where: SpatialCoordinates,
+    given: Mapping[str, Placement],
+    seeds: Mapping[str, Mapping[str, float]],
+) -> Array:
+    """q (m,): bodies that are placed, then those that hang on them, then the rest at the origin.
+
+    seeds: coordinates of joints that nobody gives; what is in neither is 0.
+    """
+    scene = where.scene
+    known: dict[str, Pose] = {GROUND: (np.zeros(3), np.array(UPRIGHT))}
+    for name in scene.bodies:
+        placement = given.get(name)
+        if placement is not None and (placement.attitude is not None or placement.points):
+            known[name] = _placed(scene, name, placement)
+    while len(known) <= len(scene.bodies):
+        found = _next(scene, known, given, seeds)
+        if found is None:
+            name = next(name for name in scene.bodies if name not in known)
+            found = name, _placed(scene, name, given.get(name, Placement()))
+        known[found[0]] = found[1]
+    poses = {name: (*r, *e, *np.zeros(6)) for name, (r, e) in known.items() if name != GROUND}
+    return where.place(poses)[0]
+
+
+def _placed(scene: SpatialScene, name: str, placement: Placement) -> Pose:
+    e = np.array(placement.attitude or UPRIGHT)
+    r = np.array([placement.given.get(axis, 0.0) for axis in "xyz"])
+    for point, place in placement.points.items():
+        r = np.array(place) - turned(e, scene.bodies[name].points[point])
+    return r, e
+
+
+def _next(
+    scene: SpatialScene,
+    known: Mapping[str, Pose],
+    given: Mapping[str, Placement],
+    seeds: Mapping[str, Mapping[str, float]],
+) -> tuple[str, Pose] | None:
+    """A body that hangs on a known one."""
+    for joint in scene.joints.values():
+        a, b = joint.a.body in known, joint.b.body in known
+        if a == b:
+            continue
+        placement = given.get(joint.name, Placement())
+        values = {**seeds.get(joint.name, {}), **placement.given}
+        shift, turn = _moved(joint, values, placement.attitude)
+        if a:
+            r, e = known[joint.a.body]
+            own = product(e, turn)
+            at = r + turned(e, _local(scene, joint.a) + shift)
+            return joint.b.body, (at - turned(own, _local(scene, joint.b)), own)
+        r, e = known[joint.b.body]
+        own = product(e, inverse(turn))
+        at = r + turned(e, _local(scene, joint.b))
+        return joint.a.body, (at - turned(own, _local(scene, joint.a) + shift), own)
+    return None
+
+
+def _moved(
+    joint: SpatialJoint, values: Mapping[str, float], attitude: tuple[float, ...] | None
+) -> tuple[Array, Array]:
+    """The shift (3,) in the axes of the first part, and the turn of the second (4,)."""
+    shift, turn = np.zeros(3), np.array(attitude or UPRIGHT)
+    for i, freedom in enumerate(joint.freedoms):
+        value = values.get(freedom.name or f"#{i}", 0.0)
+        if freedom.kind == "shift":
+            shift = shift + value * np.array(freedom.axis)
+        elif freedom.kind == "turn":
+            turn = product(turn, np.array(about(freedom.axis, value)))
+    return shift, turn
+
+
+def _local(scene: SpatialScene, anchor: Anchor) -> Array:
+    if anchor.body == GROUND:
+        return np.array(scene.points[anchor.point].at)
+    return np.array(scene.bodies[anchor.body].points[anchor.point])

@@ -1,0 +1,121 @@
+"""The positions at the start in space: Newton's method from a guess, and other ways to assemble."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from ....cases.case import Case, Placement
+from ...system import Array
+from . import refusal
+from .closure import SpatialClosure, least, null
+from .guess import laid_out
+
+CLOSED = 1e-12  # residual in sizes or rad; Newton reaches rounding or fails
+SEEDS = 40  # starts from which other assemblies are looked for
+SAME = 1e-6  # solutions nearer than this (in sizes and rad) are the same one
+STEPS = 50  # of Newton: quadratic, more only where nothing closes
+LONGEST = 1.0  # size or rad in one step
+NO_STEP = 1e-16  # of sizes and rad
+
+Seeds = Mapping[str, Mapping[str, float]]
+
+
+def positions(closure: SpatialClosure) -> Array:
+    """q (m,) that satisfies all equations.
+
+    Raises CaseError if there is none, more than one to choose from, or a coordinate is left open.
+    """
+    placed = _together(closure.case)
+    nearest: tuple[float, Array] | None = None
+    ways: list[Array] = []
+    for seeds in _seeds(closure):
+        q, gap = _newton(closure, laid_out(closure.where, placed, seeds))
+        if nearest is None or gap < nearest[0]:
+            nearest = gap, q
+        if gap < CLOSED and all(_apart(closure, q, other) > SAME for other in ways):
+            ways.append(q)
+        if ways and (closure.case.near or not _loops(closure)):
+            break
+    assert nearest is not None
+    if not ways:
+        raise refusal.cannot_close(closure, nearest[1])
+    loose = null(closure.equations(ways[0])[1], closure.where.size)
+    if len(loose):
+        raise refusal.open_ended(closure, ways[0], loose)
+    if len(ways) > 1:
+        raise refusal.several_ways(closure, ways)
+    return ways[0]
+
+
+def _together(case: Case) -> dict[str, Placement]:
+    """What is given, and beside it what is near."""
+    both = {**case.near, **case.initial}
+    for name in case.near.keys() & case.initial.keys():
+        near, given = case.near[name], case.initial[name]
+        both[name] = replace(
+            given,
+            given={**near.given, **given.given},
+            points={**near.points, **given.points},
+            attitude=given.attitude or near.attitude,
+        )
+    return both
+
+
+def _loops(closure: SpatialClosure) -> bool:
+    """Whether joints close loops, or points are placed: then there may be several ways."""
+    bodies, joints = len(closure.scene.bodies), len(closure.scene.joints)
+    return (
+        joints > bodies
+        or any(p.points for p in closure.case.initial.values())
+        or (len(closure.scene.contacts) > 0)
+    )
+
+
+def _seeds(closure: SpatialClosure) -> Iterator[Seeds]:
+    """Coordinates of joints: none, and then anywhere."""
+    yield {}
+    rng = np.random.default_rng(seed=1)  # any: the same starts in every run
+    for _ in range(SEEDS):
+        yield {
+            joint.name: {
+                freedom.name or f"#{i}": float(rng.uniform(-np.pi, np.pi))
+                for i, freedom in enumerate(joint.freedoms)
+                if freedom.kind == "turn"
+            }
+            for joint in closure.scene.joints.values()
+        }
+
+
+def _newton(closure: SpatialClosure, q: Array) -> tuple[Array, float]:
+    """The root near the guess, and the residual that is left, in sizes or rad."""
+    for _ in range(STEPS):
+        residual, rows, _ = closure.equations(q)
+        if np.max(np.abs(residual), initial=0.0) < 1e-3 * CLOSED:
+            break
+        change = least(rows, residual)
+        largest = float(np.max(np.abs(change), initial=0.0))
+        if largest < NO_STEP:
+            break
+        q = _moved(closure, q, -change * closure.units * min(1.0, LONGEST / largest))
+    residual = closure.equations(q)[0]
+    return q, float(np.max(np.abs(residual), initial=0.0))
+
+
+def _moved(closure: SpatialClosure, q: Array, change: Array) -> Array:
+    """q after a small move (n,); quaternions keep the length 1."""
+    q = q + closure.where.rates(q, change)
+    for at in closure.where.attitudes:
+        q[at] /= np.linalg.norm(q[at])
+    return q
+
+
+def _apart(closure: SpatialClosure, a: Array, b: Array) -> float:
+    """The largest difference of two solutions, in sizes and rad."""
+    one, other = (closure.where.poses(q, np.zeros(closure.where.size)) for q in (a, b))
+    far = 0.0
+    for name in one:
+        p, s = np.array(one[name][:7], float), np.array(other[name][:7], float)
+        turned = 2 * np.arccos(min(1.0, abs(float(p[3:] @ s[3:]))))
+        far = max(far, float(np.max(np.abs(p[:3] - s[:3]))) / closure.size, turned)
+    return far

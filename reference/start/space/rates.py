@@ -1,0 +1,73 @@
+"""The rates at the start in space: what is given, and what the constraints make of it."""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from ....cases.space.joint import rate_of
+from ...system import Array
+from . import refusal
+from .closure import SpatialClosure, least, null, rank
+from .given import Equation
+from .positions import CLOSED
+
+
+def rates(closure: SpatialClosure, q: Array) -> Array:
+    """v (n,) with f_a v = g (2.15); what nobody gives and nothing determines of joints is 0.
+
+    Raises CaseError if the given rates violate a constraint, or leave others open.
+    """
+    rows, g, _ = closure.mode.rows(0.0, q, np.zeros(closure.where.size))
+    found = list(closure.given.rates(closure.case.initial, q))
+    rows = np.vstack([rows, *(e.row for e in found)])
+    right = np.concatenate([g, [-e.residual for e in found]])
+    names = [*closure.constraints.owners, *(e.name for e in found)]
+    still = _still(closure, found)
+    if not _violated(rows, right, still):
+        return still
+    rows, right, names = _at_rest(closure, q, rows, right, names)
+    units = closure.units
+    v = units * least(rows * units, right)
+    v = v + units * least(rows * units, right - rows @ v)
+    if _violated(rows, right, v):
+        raise refusal.rates_violate(closure.case, names[int(np.argmax(np.abs(rows @ v - right)))])
+    loose = null(rows * units, closure.where.size)
+    if len(loose):
+        raise refusal.rates_open(closure, loose)
+    return v
+
+
+def _at_rest(
+    closure: SpatialClosure, q: Array, rows: Array, right: Array, names: list[str]
+) -> tuple[Array, Array, list[str]]:
+    """With them, one by one, the joints' rates that are still open: they are 0."""
+    units = closure.units
+    for equation in _joints(closure, q):
+        more = np.vstack([rows, equation.row])
+        if rank(more * units) > rank(rows * units):
+            rows, right, names = more, np.append(right, 0.0), [*names, equation.name]
+    return rows, right, names
+
+
+def _joints(closure: SpatialClosure, q: Array) -> Iterator[Equation]:
+    for joint in closure.scene.joints.values():
+        for freedom, _, row in closure.given.coordinates(joint, q):
+            if freedom.name:
+                yield Equation(f"{joint.name}.{rate_of(freedom.name)}", 0.0, row)
+
+
+def _still(closure: SpatialClosure, found: Sequence[Equation]) -> Array:
+    """What is given of bodies, and 0."""
+    v = np.zeros(closure.where.size)
+    for equation in found:
+        at = np.flatnonzero(equation.row)
+        if len(at) == 1:
+            v[at[0]] = -equation.residual / equation.row[at[0]]
+    return v
+
+
+def _violated(rows: Array, right: Array, v: Array) -> bool:
+    """Whether what is left of (2.15) is more than rounding."""
+    residual = rows @ v - right
+    scale = max(np.max(np.abs(rows * v), initial=0.0), np.max(np.abs(right), initial=0.0))
+    return bool(np.max(np.abs(residual), initial=0.0) > CLOSED * scale)
