@@ -12,8 +12,8 @@ from ..cases.trajectory import Array, Trajectory
 
 Realised = Literal["native", "law", "driver"]
 """The engine's own force elements; our force law in a callback; our driver around the step."""
-Start = Mapping[str, tuple[float, float, float, float, float, float]]
-"""body → x, y, angle, vx, vy, omega of its centre of mass."""
+Start = Mapping[str, tuple[float, ...]]
+"""body → x, y, angle, vx, vy, omega of its centre of mass; in space the 13 columns of `SPACE`."""
 
 
 class Diverged(RuntimeError):
@@ -114,7 +114,8 @@ class Engine(Protocol):
     def measure(self, scene: Scene, start: Start) -> Mapping[str, float]:
         """Physics read back from the engine before any step and before any seed or shift.
 
-        `gravity.x`, `gravity.y`, `<body>.mass`, `<body>.inertia` (turning bodies),
+        `gravity.x`, `gravity.y`, `<body>.mass`, `<body>.inertia` (turning bodies; in space
+        `gravity.z`, `momentum.z` too, and `<body>.inertia_11` … `inertia_23`),
         `<contact>.friction`, `<joint>.friction_forward|friction_backward`, `<spring>.stiffness`,
         `<spring>.rest_length`, `<damper>.damping`, `energy.kinetic`, `momentum.x`, `momentum.y`,
         as far as the engine knows them.

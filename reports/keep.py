@@ -7,12 +7,20 @@ import numpy as np
 import pandas as pd
 
 from ..cases.case import Case
+from ..cases.difference import apart
+from ..cases.frame import PLANE, SPACE
 from ..cases.observe import observe
 from ..cases.quantity import table
-from ..cases.trajectory import ANGLE, X, Y
+from ..cases.trajectory import Array
 from .replace import replace
 from .suite import Report
 
+POSES = {
+    PLANE: [("x", "m", 0), ("y", "m", 1), ("angle", "rad", 2)],
+    SPACE: [*zip("xyz", "mmm", range(3), strict=True)]
+    + [(f"quaternion_{part}", "1", 3 + i) for i, part in enumerate("wxyz")],
+}
+"""What is told of every body, with its unit and its column."""
 INSTANTS = 12  # decimals of a second: samples of two grids that are the same
 
 
@@ -38,19 +46,27 @@ def _motions(report: Report, case: Case) -> pd.DataFrame:
     for name in (name for name in case.allow if name in known):
         unit = known[name].unit
         columns[f"{name} [{unit}] reference"] = pd.Series(
-            observe(case.scene, reference, name), here
+            _turned(observe(case.scene, reference, name)), here
         )
         for one in report.tried:
             engine = one.pair.engine
             if one.pair.case.name == case.name and name in one.outcome.samples:
                 label = f"{engine.name}.{engine.setting}.{one.realised}"
                 times = np.round(one.pair.sampled.times, INSTANTS)  # its own step's, if it has one
-                columns[f"{name} [{unit}] {label}"] = pd.Series(one.outcome.samples[name], times)
+                samples = one.outcome.samples[name]
+                if samples.ndim > 1:  # an attitude: by how much it is off the reference
+                    label, samples = f"{label} off", np.linalg.norm(samples, axis=1)
+                columns[f"{name} [{unit}] {label}"] = pd.Series(samples, times)
     for body, states in reference.states.items():
-        for field, unit, column in (("x", "m", X), ("y", "m", Y), ("angle", "rad", ANGLE)):
+        for field, unit, column in POSES[case.scene.frame]:
             values = pd.Series(states[:, column], here)
             columns.setdefault(f"{body}.{field} [{unit}] reference", values)
     return pd.DataFrame(columns).rename_axis("t [s]").reset_index()
+
+
+def _turned(samples: Array) -> Array:
+    """Numbers as they are; of an attitude the angle from where it began."""
+    return samples if samples.ndim == 1 else apart(samples, samples[:1])
 
 
 def _events(report: Report, case: Case) -> pd.DataFrame:

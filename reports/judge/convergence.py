@@ -93,7 +93,7 @@ def study(
     value, uncertainty = _romberg(rungs, exponents)
     enlarged = floor * _amplified(exponents)
     uncertainty = max(uncertainty, enlarged, _noise(rungs))
-    off = float(np.max(np.abs(value - reference)))
+    off = metric.largest(value - reference)
     settled = _settled(off, uncertainty, allow)
     limit = metric.told(off, enlarged), metric.told_uncertainty(uncertainty, enlarged)
     if settled is None:
@@ -165,14 +165,14 @@ def _told(orders: Sequence[float]) -> Orders:
 
 def _orders(rungs: Sequence[Array], floor: float) -> list[float]:
     """log₂ of the ratios of neighbouring differences, the last three, finest first."""
-    d = [float(np.max(np.abs(b - a))) for a, b in itertools.pairwise(rungs)]
+    d = [metric.largest(b - a) for a, b in itertools.pairwise(rungs)]
     pairs = itertools.pairwise(d)
     return [math.log2(coarse / fine) for fine, coarse in pairs if fine > floor][:LAST]
 
 
 def _noise(rungs: Sequence[Array]) -> float:
     """The finest difference, if it is no smaller than the next: then it is not the step's."""
-    fine, coarse = (float(np.max(np.abs(b - a))) for a, b in itertools.pairwise(rungs[:3]))
+    fine, coarse = (metric.largest(b - a) for a, b in itertools.pairwise(rungs[:3]))
     return fine if fine > NOISE * coarse else 0.0
 
 
@@ -186,4 +186,4 @@ def _romberg(rungs: Sequence[Array], exponents: Sequence[int]) -> tuple[Array, f
         column = [
             (weight * fine - coarse) / (weight - 1) for fine, coarse in itertools.pairwise(column)
         ]
-    return column[0], float(np.max(np.abs(column[0] - before)))
+    return column[0], metric.largest(column[0] - before)

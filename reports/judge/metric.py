@@ -21,11 +21,21 @@ class Error:
 
 
 def error(samples: Array, reference: Array) -> Error:
-    """Of samples (N,) against the reference (N,)."""
-    d = np.abs(samples - reference)
+    """Of samples (N,) against the reference (N,); of attitudes (N, 3) each."""
+    d = sizes(samples - reference)
     largest = float(np.max(d))
     first = int(np.argmax(~(d < AS_LARGE * largest)))  # of NaN nothing is smaller
     return Error(largest, float(np.sqrt(np.mean(d * d))), float(d[-1]), first)
+
+
+def sizes(d: Array) -> Array:
+    """(N,) of differences (N,), or of turns (N, 3) the angles."""
+    return np.abs(d) if d.ndim == 1 else np.linalg.norm(d, axis=1)
+
+
+def largest(d: Array) -> float:
+    """The largest of them."""
+    return float(np.max(sizes(d)))
 
 
 def told(number: float, floor: float) -> float:

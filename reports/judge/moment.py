@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ...cases.trajectory import Array
 from ..trial.trial import Trial
 from .convergence import FEWEST
-from .metric import Error
+from .metric import Error, largest
 
 BESIDE = 4  # steps: within so many an engine sees an impact, an onset, a stop
 ELSEWHERE = 0.5  # of the largest error: if it is nowhere else so large, the instant is its place
@@ -35,7 +35,7 @@ def moment(trial: Trial, samples: Array, wanted: Array, error: Error) -> Moment 
     elsewhere[0] = False
     if words is None or np.count_nonzero(elsewhere) < FEWEST:
         return None
-    others = float(np.max(np.abs(samples - wanted)[elsewhere]))
+    others = largest((samples - wanted)[elsewhere])
     return Moment(words, elsewhere) if others <= ELSEWHERE * error.largest else None
 
 

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 
 from ...cases.observe import observe
 from ...cases.scene import Scene
+from ...cases.space.scene import SpatialScene
 from ...cases.trajectory import Trajectory
 from .trial import Trial
 
@@ -14,10 +15,11 @@ NOTHING = EQUAL / 10  # its last bits are another machine's
 
 def expected(scene: Scene, start: Trajectory) -> dict[str, float]:
     """What `Engine.measure` should find, from the scene and the start."""
-    numbers = {"gravity.x": scene.gravity[0], "gravity.y": scene.gravity[1]}
+    axes = scene.frame.axes
+    numbers = {f"gravity.{axis}": g for axis, g in zip(axes, scene.gravity, strict=True)}
     for element in scene.elements():
         numbers |= {f"{element.name}.{key}": x for key, x in element.numbers().items()}
-    for name in ("energy.kinetic", "momentum.x", "momentum.y"):
+    for name in ("energy.kinetic", *(f"momentum.{axis}" for axis in axes)):
         numbers[name] = float(observe(scene, start, name)[0])
     return numbers
 
@@ -49,6 +51,19 @@ def _sizes(scene: Scene, wanted: Mapping[str, float]) -> dict[str, float]:
     mass = sum(body.mass for body in scene.bodies.values())
     momentum = math.sqrt(2 * mass * wanted["energy.kinetic"])
     gravity = math.hypot(*scene.gravity)
-    return {"gravity.x": gravity, "gravity.y": gravity} | dict.fromkeys(
-        ("momentum.x", "momentum.y"), momentum
-    )
+    sizes = {"gravity": gravity, "momentum": momentum}
+    vectors = {f"{name}.{axis}": x for name, x in sizes.items() for axis in scene.frame.axes}
+    return vectors | _tensors(scene)
+
+
+def _tensors(scene: Scene) -> dict[str, float]:
+    """Of a tensor's entries the largest: products of inertia may be zero."""
+    if not isinstance(scene, SpatialScene):
+        return {}
+    return {
+        f"{name}.{key}": max(map(abs, body.inertia))
+        for name, body in scene.bodies.items()
+        if body.inertia is not None
+        for key in body.numbers()
+        if key.startswith("inertia")
+    }

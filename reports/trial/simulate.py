@@ -60,6 +60,7 @@ def gathered(trial: Trial, found: Mapping[At, Climbed]) -> Runs:
                 elif h == trial.step:
                     lost = lost or samples
             else:
+                samples = {name: trial.read(name, rows) for name, rows in samples.items()}
                 kept[ladder][h] = samples
                 if h == trial.step and len(kept) == 1:  # the plan's first ladder is judged
                     judged = samples

@@ -7,10 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...cases.case import Case
+from ...cases.difference import from_reference
 from ...cases.observe import observe
 from ...cases.quantity import Quantity, event_quantities, table
 from ...cases.scene import Scene
-from ...cases.trajectory import VX, VY, Array, Trajectory, X, Y
+from ...cases.trajectory import Array, Trajectory
 from ...engines.engine import Engine, Plan, Realised, Refusal, Start
 from ..events.times import reference_events
 from .ladder import judged_step
@@ -74,8 +75,15 @@ class Trial:
         return self.way
 
     def wanted(self, quantity: str) -> Array:
-        """The reference's samples (N,)."""
-        return observe(self.case.scene, self.reference, quantity)
+        """The reference's samples (N,); of an attitude no turn, (N, 3)."""
+        samples = observe(self.case.scene, self.reference, quantity)
+        return from_reference(samples, samples)
+
+    def read(self, quantity: str, samples: Array) -> Array:
+        """A run's samples beside `wanted`: of an attitude the turn from the reference's."""
+        if samples.ndim == 1:  # numbers, and times of events
+            return samples
+        return from_reference(samples, observe(self.case.scene, self.reference, quantity))
 
     @cached_property
     def withheld(self) -> dict[str, str]:
@@ -132,9 +140,10 @@ class Trial:
 
     def size(self, name: str) -> float:
         """How large the quantity is; a residual, meant to be zero, has the size of its motion."""
-        size = float(np.max(np.abs(self.wanted(name))))
+        wanted = self.wanted(name)
+        size = float(np.max(np.abs(wanted))) if wanted.ndim == 1 else 1.0  # rad
         if self.quantity(name).kind == "residual":
-            columns = [X, Y] if self.quantity(name).unit == "m" else [VX, VY]
+            columns = self.case.scene.frame.alike(self.quantity(name).unit)
             states = np.concatenate(list(self.reference.states.values()))
             size = max(size, float(np.max(np.abs(states[:, columns]))))
         return size
