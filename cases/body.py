@@ -1,5 +1,6 @@
 """Rigid bodies. Lengths on a body are in body axes from its centre of mass."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
@@ -46,6 +47,15 @@ class Body:
     def numbers(self) -> dict[str, float]:
         """mass [kg] and, if it turns, inertia [kg m²]."""
         return {"mass": self.mass} | ({} if self.inertia is None else {"inertia": self.inertia})
+
+    def mobility(self, point: str) -> float:
+        """1/m + d²/J [1/kg]: how easily the point of the free body moves across its arm d."""
+        d = math.hypot(*self.points[point])
+        return 1 / self.mass + (d**2 / self.inertia if self.inertia else 0.0)
+
+    def about(self, point: str) -> float:
+        """J + m d² [kg m²] about the point."""
+        return (self.inertia or 0.0) + self.mass * math.hypot(*self.points[point]) ** 2
 
     def observe(self, states: Array, point: str, field: str) -> Array:
         """(N,) a field of the point ("": of itself), from its states (N, 6)."""

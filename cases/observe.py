@@ -6,9 +6,11 @@ itself (tests/cases/test_observe.py), because a mistake here would cancel in eve
 
 import numpy as np
 
+from .frame import SPACE
 from .motion import Motion
 from .quantity import table
 from .scene import Scene
+from .space import momentum as spatial
 from .trajectory import OMEGA, VX, VY, Array, Trajectory, X, Y
 
 
@@ -41,6 +43,10 @@ def _energy(scene: Scene, trajectory: Trajectory, field: str) -> Array:
     potential = np.zeros_like(trajectory.times)
     for body in scene.bodies.values():
         s = trajectory.states[body.name]
+        if scene.frame is SPACE:
+            kinetic += spatial.kinetic(body, s)  # type: ignore[arg-type]
+            potential -= body.mass * s[:, SPACE.place] @ scene.gravity
+            continue
         kinetic += 0.5 * body.mass * (s[:, VX] ** 2 + s[:, VY] ** 2)
         kinetic += 0.5 * (body.inertia or 0.0) * s[:, OMEGA] ** 2
         potential -= body.mass * (scene.gravity[0] * s[:, X] + scene.gravity[1] * s[:, Y])
@@ -55,7 +61,9 @@ def _momentum(scene: Scene, trajectory: Trajectory, field: str) -> Array:
     total = np.zeros_like(trajectory.times)
     for body in scene.bodies.values():
         s = trajectory.states[body.name]
-        if field == "angular":
+        if scene.frame is SPACE:
+            total += spatial.momentum(body, s)[field]  # type: ignore[arg-type]
+        elif field == "angular":
             total += body.mass * (s[:, X] * s[:, VY] - s[:, Y] * s[:, VX])
             total += (body.inertia or 0.0) * s[:, OMEGA]
         else:

@@ -19,6 +19,10 @@ _MOMENTUM: Fields = {
     "y": ("kg m/s", "momentum"),
     "angular": ("kg m²/s", "momentum"),  # about the origin
 }
+_SPATIAL_MOMENTUM: Fields = {
+    **dict.fromkeys("xyz", ("kg m/s", "momentum")),
+    **{f"angular_{axis}": ("kg m²/s", "momentum") for axis in "xyz"},  # about the origin
+}
 _EVENT: Fields = {
     "time": ("s", "event"),
     "count": ("1", "event"),  # how often it happens
@@ -42,7 +46,10 @@ def table(scene: Scene) -> dict[str, Quantity]:
     parts: dict[str, Fields] = {}
     for element in scene.elements():
         parts |= element.quantities()
-    return _named(parts | {"energy": _ENERGY, "momentum": _MOMENTUM})
+    for joint, exerted in scene.driven().items():
+        parts[joint] = {**parts[joint], **exerted}
+    momentum = _MOMENTUM if scene.frame.dimension == 2 else _SPATIAL_MOMENTUM
+    return _named(parts | {"energy": _ENERGY, "momentum": momentum})
 
 
 def event_quantities(events: Iterable[str]) -> dict[str, Quantity]:

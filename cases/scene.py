@@ -13,6 +13,7 @@ from .force import Damper, Force, Push, Spring, Torque, of
 from .frame import PLANE, Frame
 from .friction import Bounds, DryFriction, Smooth
 from .joint import Joint
+from .kind import Fields
 from .point import CENTER, FLOOR, GROUND, Anchor, GroundPoint, Vector
 from .signal import Signal
 
@@ -58,6 +59,10 @@ class Scene:
     def frame(self) -> Frame:
         """Of the plane, or of space."""
         return PLANE
+
+    def driven(self) -> Mapping[str, Fields]:
+        """By joint, what prescribed rates exert; in the plane none are prescribed."""
+        return {}
 
     def elements(self) -> Iterator[Body | Joint | Contact | Force]:
         """All that has a name, quantities and numbers."""

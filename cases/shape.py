@@ -39,9 +39,14 @@ def particle(*, name: str, mass: Mass) -> Body:
     return Body(name, "particle", mass, None, {CENTER: (0.0, 0.0)})
 
 
-def rigid(*, name: str, mass: Mass, inertia: Inertia, points: Points) -> Body:
-    """Any rigid body, by its mass and its inertia about the centre of mass."""
-    return Body(name, "rigid", mass, inertia, {CENTER: (0.0, 0.0), **points})
+def rigid(
+    *, name: str, mass: Mass, inertia: Inertia, points: Points, radius: Length | None = None
+) -> Body:
+    """Any rigid body, by its mass and its inertia about the centre of mass; round, if it says so.
+
+    A ring has J = m R².
+    """
+    return Body(name, "rigid", mass, inertia, {CENTER: (0.0, 0.0), **points}, radius=radius)
 
 
 SHAPES: dict[str, Callable[..., Body]] = {

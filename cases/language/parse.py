@@ -7,8 +7,10 @@ from typing import Any
 from pydantic import ValidationError
 
 from ..mistake import Path
+from .grammar.field import in_space
 from .grammar.file import File
 from .grammar.number import names
+from .grammar.space.file import SpatialFile
 
 Finding = tuple[Path, str]  # where, and what is wrong there
 
@@ -26,6 +28,8 @@ _HOLLOW: dict[str, Any] = {
     "allow": {"-": 1.0},
 }
 
+
+_ALONE = (("gravity",), ("incline",), ("space",), ("drive",))  # of the scene: none names a part
 
 NAMED = ("bodies", "joints", "contacts", "forces")  # one set of names: they address quantities
 
@@ -46,8 +50,7 @@ class Parsed:
     def shaken(self) -> bool:
         """Whether whole sections of the scene are unsound: then nothing can refer to a part."""
         return any(
-            path[0] == "scene" and len(path) < 3 and path[1:] not in (("gravity",), ("incline",))
-            for path in self.broken
+            path[0] == "scene" and len(path) < 3 and path[1:] not in _ALONE for path in self.broken
         )
 
     def hides(self, word: str, sections: tuple[str, ...] = NAMED) -> bool:
@@ -63,12 +66,13 @@ class Parsed:
 def parse(data: Mapping[str, Any]) -> Parsed:
     """The file's models, with as much of the file as is sound."""
     known = names(data.get("parameters"))
+    model: type[File] = SpatialFile if _spatial(data) else File
     rest = _copy(data)
     findings: list[Finding] = []
     broken: set[Path] = set()
     while True:
         try:
-            file = File.model_validate(rest, context=known)
+            file = model.model_validate(rest, context=known)
             return Parsed(file, tuple(findings), frozenset(broken))
         except ValidationError as error:
             first = not broken
@@ -82,10 +86,17 @@ def parse(data: Mapping[str, Any]) -> Parsed:
             rest = {**{k: v for k, v in _HOLLOW.items() if (k,) in broken}, **rest}
 
 
+def _spatial(data: Mapping[str, Any]) -> bool:
+    """Whether the file says that its scene is in space."""
+    scene = data.get("scene")
+    return isinstance(scene, dict) and in_space(scene.get("space"))
+
+
 def _path(loc: tuple[str | int, ...]) -> Path:
     """pydantic's location without the names it gives to the branches of a choice."""
-    if loc[0] == "scene":
-        loc = (*loc[:3], *(word for word in loc[3:] if not str(word).startswith("<")))
+    if loc[0] in ("scene", "initial", "near"):
+        named = 2 if loc[1:2] == ("gravity",) else 3  # so many words are keys, whatever they are
+        loc = (*loc[:named], *(word for word in loc[named:] if not str(word).startswith("<")))
     if loc[0] == "step":
         loc = (loc[0], *loc[2:])
     return loc[:-1] if len(loc) > 1 and loc[-1] == "[key]" else loc

@@ -6,22 +6,37 @@ from typing import Any
 
 from ..case import Case, Deviation, Event, Origin, Placement
 from ..mistake import Source
-from ..scene import STANDARD_GRAVITY, Scene, Vector
-from .grammar.file import File, Near
-
-_COORDINATES = ("x", "y", "angle", "vx", "vy", "omega")
+from ..scene import STANDARD_GRAVITY, Scene
+from ..space.scene import SpatialScene
+from .grammar.file import File
+from .grammar.space.scene import SpatialScene as SpatialWords
 
 
 def resolve_scene(file: File) -> Scene:
     """The scene, with its references as they stand (check/links.py checks them)."""
-    s = file.scene
+    s: Any = file.scene
+    if s.space is not None:
+        return _in_space(s)
     return Scene(
-        gravity=_gravity(s.gravity, s.incline),
+        gravity=_gravity(s.gravity, s.incline, (1.0, 0.0), (0.0, -1.0)),
         points=s.points,
         bodies=_named(s.bodies),
         joints=_named(s.joints),
         contacts=_named(s.contacts),
         forces=_named(s.forces),
+    )
+
+
+def _in_space(s: SpatialWords) -> SpatialScene:
+    bodies = _named(s.bodies)
+    return SpatialScene(
+        gravity=_gravity(s.gravity, s.incline, (1.0, 0.0, 0.0), (0.0, 0.0, -1.0)),
+        points=s.points,
+        bodies=bodies,
+        joints=_named(s.joints),
+        contacts={name: contact.named(name, bodies) for name, contact in s.contacts.items()},
+        forces=_named(s.forces),
+        drives={rate: drive.signal for rate, drive in s.drive.items()},
     )
 
 
@@ -73,19 +88,19 @@ def resolve_case(name: str, file: File, scene: Scene, source: Source, *, long: b
     )
 
 
-def _gravity(gravity: str | None, incline: float | None) -> Vector:
-    if gravity == "none":
-        return (0.0, 0.0)
-    if incline is None:
-        return (0.0, -STANDARD_GRAVITY)
-    return (STANDARD_GRAVITY * sin(incline), -STANDARD_GRAVITY * cos(incline))
+def _gravity(
+    given: Any, incline: float | None, slope: tuple[float, ...], down: tuple[float, ...]
+) -> Any:
+    """A vector of its own, or so strong, from straight down towards x by the incline."""
+    if isinstance(given, tuple):
+        return given
+    g = STANDARD_GRAVITY if given is None else given
+    along, across = g * sin(incline or 0.0), g * cos(incline or 0.0)
+    return tuple(along * x + across * d + 0.0 for x, d in zip(slope, down, strict=True))
 
 
-def _placements(places: Mapping[str, Near]) -> dict[str, Placement]:
+def _placements(places: Mapping[str, Any]) -> dict[str, Placement]:
     return {
-        body: Placement(
-            given={c: v for c in _COORDINATES if (v := getattr(place, c, None)) is not None},
-            points=dict(place.places),
-        )
-        for body, place in places.items()
+        name: Placement(dict(place.given), dict(place.places), place.attitude)
+        for name, place in places.items()
     }

@@ -10,6 +10,7 @@ from ..frame import SPACE
 from ..kind import Fields
 from ..point import CENTER
 from ..trajectory import Array
+from . import chain
 from .rotation import Vector3, turned
 
 _POINT: Fields = {
@@ -69,6 +70,19 @@ class SpatialBody:
         """mass [kg] and, if it turns, the six of the tensor [kg m²]."""
         names = [f"inertia_{ik}" for ik in ("11", "22", "33", "12", "13", "23")]
         return {"mass": self.mass} | dict(zip(names, self.inertia or (), strict=False))
+
+    def mobility(self, point: str) -> float:
+        """The largest of 1/m + d̃ᵀ J⁻¹ d̃ [1/kg]: how easily the point of the free body moves."""
+        d = np.cross(np.eye(3), self.points[point])
+        turning = d.T @ np.linalg.pinv(self.tensor, hermitian=True) @ d
+        return 1 / self.mass + float(np.linalg.eigvalsh(turning)[-1])
+
+    def about(self, point: str) -> float:
+        """The least moment of inertia [kg m²] about an axis through the point across its arm d."""
+        d = np.asarray(self.points[point], dtype=float)
+        across = np.array(chain.across([self.points[point]] if d.any() else []))
+        least = float(np.linalg.eigvalsh(across @ self.tensor @ across.T)[0])
+        return max(least, 0.0) + self.mass * float(d @ d)
 
     def observe(self, states: Array, point: str, field: str) -> Array:
         """(N,) a field of the point ("": of itself), from its states (N, 13).

@@ -26,6 +26,8 @@ _MOMENTS: Fields = {
     "mz": ("N m", "force"),
     "moment": ("N m", "force"),
 }
+HELD = (*_FORCES, *_MOMENTS)
+"""What can be observed of any joint: no freedom has these names."""
 
 
 @dataclass(frozen=True)
@@ -79,6 +81,11 @@ class SpatialJoint:
     def named(self) -> tuple[Freedom, ...]:
         """Those that can be observed and started by their names."""
         return tuple(f for f in self.freedoms if f.name)
+
+    @property
+    def rates(self) -> dict[str, Freedom]:
+        """The named freedoms by the names of their rates, which can be prescribed."""
+        return {rate_of(f.name): f for f in self.named}
 
     def refers(self) -> tuple[Anchor, ...]:
         """The points it joins, in the order of the file."""
@@ -141,6 +148,16 @@ class SpatialJoint:
 def rate_of(name: str) -> str:
     """`angle` → `omega`, `theta` → `theta_dot`."""
     return "omega" if name == "angle" else f"{name}_dot"
+
+
+def effort_of(freedom: Freedom) -> str:
+    """What a drive exerts along a freedom: `torque` of a hinge, `theta_torque`, `x_force`.
+
+    On the second part, along the freedom [N, N m].
+    """
+    if freedom.name == "angle":
+        return "torque"
+    return f"{freedom.name}_{'force' if freedom.kind == 'shift' else 'torque'}"
 
 
 def axes_of(motion: Motion, body: str) -> tuple[Array, Array]:

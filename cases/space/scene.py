@@ -4,11 +4,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from ..frame import SPACE, Frame
+from ..kind import Fields
 from ..scene import Scene
 from ..signal import Signal
 from .body import SpatialBody
 from .contact import SpatialContact
-from .joint import SpatialJoint
+from .joint import SpatialJoint, effort_of
 from .rotation import Vector3
 
 
@@ -31,3 +32,14 @@ class SpatialScene(Scene):
     def frame(self) -> Frame:
         """Of space."""
         return SPACE
+
+    def driven(self) -> dict[str, Fields]:
+        """By joint, what the prescribed rates exert: `q1` → `torque`."""
+        found: dict[str, dict[str, tuple[str, str]]] = {}
+        for quantity in self.drives:
+            part, _, rate = quantity.rpartition(".")
+            if part in self.joints and rate in self.joints[part].rates:
+                freedom = self.joints[part].rates[rate]
+                unit = "N" if freedom.kind == "shift" else "N m"
+                found.setdefault(part, {})[effort_of(freedom)] = (unit, "force")
+        return found  # type: ignore[return-value]

@@ -1,4 +1,4 @@
-"""cases/README.md says what the grammar and the table of quantities say."""
+"""cases/README.md says what the grammar and the table of quantities say, but for space."""
 
 import re
 from inspect import signature
@@ -18,7 +18,10 @@ from textmech.cases.scene import DryFriction as Dry
 from textmech.cases.scene import Joint as Connection
 from textmech.cases.scene import Scene as Resolved
 
-README = Path(shape.__file__).with_name("README.md").read_text(encoding="utf-8")
+WHOLE = Path(shape.__file__).with_name("README.md").read_text(encoding="utf-8")
+PLANE, _, _rest = WHOLE.partition("## Space\n")
+SPACE, _, _rest = _rest.partition("## Variants\n")
+README = PLANE + _rest
 
 
 def test_example_loads(tmp_path: Path) -> None:
@@ -53,7 +56,7 @@ def test_quantities() -> None:
         },
         forces={"line": Spring("line", a, b, 1.0, 1.0)},
     )
-    rows = re.findall(r"^\| (`[a-z]+\..*?) \| (.*?) \|", README, flags=re.MULTILINE)
+    rows = re.findall(r"^\| (`[a-z]+\..*?) \| (.*?) \|", PLANE, flags=re.MULTILINE)
     said = {name: unit for names, unit in rows for name in re.findall(r"`(.*?)`", names)}
     quantities = table(scene) | event_quantities(["event"])
     known = {name: q.unit for name, q in quantities.items() if ".center." not in name}

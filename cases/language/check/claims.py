@@ -30,7 +30,8 @@ def _events(parsed: Parsed, scene: Scene, seen: Mapping[str, Quantity]) -> Itera
 def _marks(scene: Scene, quantity: Quantity) -> bool:
     """Whether something happens at its zero: of an energy that is arbitrary, drift is numerical."""
     drift = quantity.field == "drift" or (quantity.field == "gap" and quantity.part in scene.joints)
-    return quantity.kind not in ("energy", "momentum") and not drift
+    turned = quantity.field == "attitude"
+    return quantity.kind not in ("energy", "momentum") and not drift and not turned
 
 
 def _bounds(parsed: Parsed, known: Mapping[str, Quantity]) -> Iterator[Finding]:
@@ -104,6 +105,8 @@ def _unknown(
         yield path, f"{part!r} is no event{hint}"
     elif field in ("friction", "slip") and f"{part}.torque" in known:  # a slide without it
         yield path, f"{part!r} has no `dry_friction`, so no {name!r}"
+    elif field == "angle" and f"{part}.attitude" in known:
+        yield path, f"a body in space has no angle; its quantity is '{part}.attitude'"
     else:
         yield path, f"unknown quantity {name!r}{nearest(name, known)}"
 

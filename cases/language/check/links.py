@@ -6,16 +6,19 @@ from ...mistake import Path, nearest
 from ...scene import CENTER, FLOOR, GROUND, Anchor, Force, Joint, Scene
 from ..grammar.file import Near
 from ..parse import NAMED, Finding, Parsed
+from .space.spatial import spatial
 from .touch import touches
 
 _TAKEN = ("x", "y", "angle", "vx", "vy", "omega", "speed")  # `crank.x` is a quantity
+_TAKEN_IN_SPACE = (*_TAKEN, "z", "vz", "attitude", "omega_1", "omega_2", "omega_3")
 
 
 def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     """Every mistake in how the sound parts of the scene refer to each other."""
     spec = parsed.file.scene
-    if spec.gravity is not None and spec.incline is not None:
-        yield ("scene", "incline"), "cannot stand beside `gravity: none`"
+    if spec.incline is not None and (spec.gravity == 0 or isinstance(spec.gravity, tuple)):
+        own = "a vector `gravity`" if isinstance(spec.gravity, tuple) else "`gravity: none`"
+        yield ("scene", "incline"), f"cannot stand beside {own}"
     if not spec.bodies and not parsed.lacks("scene"):
         yield ("scene", "bodies"), "should not be empty"
     for path, before in twice(parsed, scene):
@@ -28,6 +31,9 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         yield from _refers(parsed, scene, path, force)
         if what := force.unfit(scene.bodies):
             yield path, what
+    if scene.frame.dimension == 3:
+        yield from spatial(parsed, scene)
+        return
     yield from touches(parsed, scene)
     for key in ("initial", "near"):
         yield from _placed(parsed, scene, key, getattr(parsed.file, key))
@@ -46,12 +52,13 @@ def twice(parsed: Parsed, scene: Scene) -> Iterator[tuple[Path, str]]:
 
 
 def _points(parsed: Parsed) -> Iterator[Finding]:
+    taken = _TAKEN if parsed.file.scene.space is None else _TAKEN_IN_SPACE
     if FLOOR in parsed.file.scene.points:
         yield ("scene", "points", FLOOR), f"the name {FLOOR!r} is taken"
     for name, body in parsed.file.scene.bodies.items():
         ends = ("start", "end") if body.word == "bar" else ()
         for point in getattr(body, "points", {}):
-            if point in (CENTER, *ends, *_TAKEN):
+            if point in (CENTER, *ends, *taken):
                 yield ("scene", "bodies", name, "points", point), f"the name {point!r} is taken"
 
 

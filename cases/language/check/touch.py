@@ -24,7 +24,7 @@ def touches(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
             yield (*path, "between", 0), what
         elif at in first:
             yield (*path, "between", 0), f"{touching!r} already touches in {first[at]!r}"
-        elif contact.ideal == "rolling" and body.shape != "disk":
+        elif contact.ideal == "rolling" and body.radius is None:
             yield (*path, "ideal"), f"{part!r} is a {body.shape}; only a disk rolls"
         first.setdefault(at, name)
         if floor != f"{GROUND}.{FLOOR}":
@@ -33,9 +33,9 @@ def touches(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
 
 def _cannot_touch(body: Body, point: str) -> str | None:
     """Why this point of the body ("": none is named) cannot touch the floor, or None."""
-    if body.shape in ("disk", "particle"):
+    if body.radius is not None or body.shape == "particle":
         if point:
-            with_it = "with its rim" if body.shape == "disk" else "as a point"
+            with_it = "as a point" if body.radius is None else "with its rim"
             return f"{body.name!r} is a {body.shape} and touches {with_it}: write {body.name!r}"
         return None
     if body.shape != "bar":

@@ -12,6 +12,7 @@ from ...mistake import Path
 from ...scene import Anchor, Body, Scene
 from ..grammar.file import File
 from ..parse import Finding
+from .space.work import spins
 
 VARIANTS = 100  # each is solved and run; a sweep of more is several files
 PARTS = 300  # bodies, joints, contacts, forces: a chain of 100 bars has 200 and takes 13 s
@@ -61,7 +62,7 @@ def _rates(scene: Scene) -> Iterator[tuple[float, Path]]:
         if body is None or at.point not in body.points:
             return 0.0
         # What is jointed moves others: to call it free would see a fast swing that is none.
-        return 1 / heaviest if at.body in jointed else _free(body, at.point)
+        return 1 / heaviest if at.body in jointed else body.mobility(at.point)
 
     for name, force in scene.forces.items():
         swings, decays = force.pace(mobility)
@@ -73,6 +74,9 @@ def _rates(scene: Scene) -> Iterator[tuple[float, Path]]:
 
 def _spins(file: File, scene: Scene) -> Iterator[tuple[float, Path]]:
     """How fast what turns about a pin is set off; what is free only turns, which costs nothing."""
+    if scene.frame.dimension == 3:
+        yield from spins(file, scene)
+        return
     for at in _pins(scene):
         start = file.initial.get(at.body)
         if start is not None and start.omega is not None and any(_arm(scene, at)):
@@ -85,16 +89,11 @@ def _pins(scene: Scene) -> Iterator[Anchor]:
         yield from (at for at in joint.refers() if joint.turns and at.body in scene.bodies)
 
 
-def _arm(scene: Scene, at: Anchor) -> tuple[float, float]:
+def _arm(scene: Scene, at: Anchor) -> tuple[float, ...]:
     return scene.bodies[at.body].points.get(at.point, (0.0, 0.0))
-
-
-def _free(body: Body, point: str) -> float:
-    """1/m + d²/J [1/kg], how easily the point of a free body moves across its arm d."""
-    return 1 / body.mass + (hypot(*body.points[point]) ** 2 / body.inertia if body.inertia else 0.0)
 
 
 def _pendulum(body: Body, point: str, g: float) -> float:
     """√(m g d/(J + m d²)) [rad/s], the body hung up at the point."""
     d = hypot(*body.points.get(point, (0.0, 0.0)))
-    return sqrt(body.mass * g * d / ((body.inertia or 0.0) + body.mass * d * d)) if d else 0.0
+    return sqrt(body.mass * g * d / body.about(point)) if d else 0.0

@@ -6,7 +6,6 @@ from typing import Annotated, Any, ClassVar
 from pydantic import Field, create_model
 
 from ... import shape
-from ...scene import Body as Noun
 from .element import keys, numbers
 from .part import Name, OneOf, Part, Position
 
@@ -15,9 +14,9 @@ class Shaped(Part):
     """A shape's word with its measures."""
 
     word: ClassVar[str]
-    makes: ClassVar[Callable[..., Noun]]
+    makes: ClassVar[Callable[..., Any]]
 
-    def named(self, name: str) -> Noun:
+    def named(self, name: str) -> Any:
         """The body."""
         return type(self).makes(name=name, **dict(getattr(self, self.word)))
 
@@ -29,18 +28,26 @@ class WithPoints(Shaped):
         {}, description="points of the body, in its axes from its centre of mass"
     )
 
-    def named(self, name: str) -> Noun:
+    def named(self, name: str) -> Any:
         measures = dict(getattr(self, self.word))
         return type(self).makes(name=name, points=self.points, **measures)
 
 
-def _body(word: str, makes: Callable[..., Noun]) -> type[Shaped]:
-    base = WithPoints if "points" in keys(makes) else Shaped
-    measures: dict[str, Any] = {word: (numbers(makes, without=("name", "points")), ...)}
-    model = create_model(f"{word.capitalize()}Body", __base__=base, **measures)
+def body(
+    word: str,
+    makes: Callable[..., Any],
+    *,
+    with_points: type[Shaped] = WithPoints,
+    prefix: str = "",
+) -> type[Shaped]:
+    """The model of a body, written as its shape's word with its measures."""
+    base = with_points if "points" in keys(makes) else Shaped
+    inner = numbers(makes, without=("name", "points"), prefix=prefix)
+    measures: dict[str, Any] = {word: (inner, ...)}
+    model = create_model(f"{prefix}{word.capitalize()}Body", __base__=base, **measures)
     model.word, model.makes = word, makes
     return model
 
 
-KINDS = {word: _body(word, makes) for word, makes in shape.SHAPES.items()}
+KINDS = {word: body(word, makes) for word, makes in shape.SHAPES.items()}
 Body = Annotated[Shaped, OneOf("shape", KINDS)]

@@ -52,27 +52,31 @@ def element(
     base: type[Element] = Element,
     without: Collection[str] = (),
     needs: Collection[str] = (),
+    axes: int | None = None,
 ) -> type[Element]:
     """The model of what `makes` makes, written under `word`.
 
-    It has no keys `without`, and no default for what it `needs`.
+    It has no keys `without`, and no default for what it `needs`. axes: along how many its law in
+    time acts, if not as in the plane.
     """
-    asked = keys(makes)
+    asked, title = keys(makes), f"{word.capitalize()}{axes or ''}"
     asked |= {key: (asked[key][0], ...) for key in needs}
     refers = Pair if "b" in asked else Point if "at" in asked else Name
     left = {key: asked[key] for key in asked if key not in (*REFERS, "name", *without)}
     if "signal" in left:
-        base, left = InTime, left | law(word, left.pop("signal")[0])
+        base, left = InTime, left | law(title, left.pop("signal")[0], axes)
     fields: dict[str, Any] = {word: (refers, ...), **left}
-    model = create_model(word.capitalize(), __base__=base, __doc__=_said(makes), **fields)
+    model = create_model(title, __base__=base, __doc__=_said(makes), **fields)
     model.word, model.makes = word, makes
     return model
 
 
-def numbers(makes: Callable[..., Any], *, without: Collection[str] = ()) -> type[Part]:
+def numbers(
+    makes: Callable[..., Any], *, without: Collection[str] = (), prefix: str = ""
+) -> type[Part]:
     """The model of a map with all that `makes` asks for, but for `without`."""
     fields: dict[str, Any] = {k: field for k, field in keys(makes).items() if k not in without}
-    name = makes.__name__.capitalize()
+    name = prefix + makes.__name__.capitalize()
     return create_model(name, __base__=Part, __doc__=_said(makes), **fields)
 
 

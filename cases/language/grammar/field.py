@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
-from .number import Amount, Names, NumberMistake, amount, number
+from .number import Amount, Names, NumberMistake, amount, number, shown
 from .words import wrong
 
 LITERAL_OR_UNIT = "a number in SI, or a quantity with its unit as text (`30 deg`)"
@@ -86,6 +86,35 @@ class Literal(Plain):
 
     def schema(self) -> dict[str, Any]:
         return {"anyOf": [{"type": "number"}, {"type": "string"}], "description": LITERAL_OR_UNIT}
+
+
+@dataclass(frozen=True)
+class AnyUnit(Plain):
+    """A number whose unit is known when the scene is: see where it is checked."""
+
+    def check(self, value: object, known: Names) -> Amount:
+        return number(value, None, known) or Amount(float("nan"))
+
+    def schema(self) -> dict[str, Any]:
+        return {"anyOf": [{"type": "number"}, {"type": "string"}], "description": NUMBER}
+
+
+@dataclass(frozen=True)
+class Space(Plain):
+    """`space: 3`; a scene in the plane does not say it."""
+
+    def check(self, value: object, known: Names) -> int:
+        if in_space(value):
+            return 3
+        raise wrong(f"should be 3, is {shown(value)}; a scene in the plane has no `space`")
+
+    def schema(self) -> dict[str, Any]:
+        return {"const": 3}
+
+
+def in_space(value: object) -> bool:
+    """Whether the value of `space` says so."""
+    return type(value) is int and value == 3
 
 
 @dataclass(frozen=True)

@@ -7,13 +7,14 @@ from pydantic import ConfigDict, Field, Tag
 from .body import Body
 from .contact import Contact
 from .event import Event, Quantity
-from .field import Bound, In, Literal
+from .field import Bound, In, Literal, Space
 from .force import Force
+from .gravity import Gravity
 from .ground import GroundPoint
 from .joint import Joint
 from .number import Amount
 from .part import Angle, Name, Part, Position, plain_or_map
-from .text import Place, Text, Word, equation, label, no_formula
+from .text import Place, Text, equation, label, no_formula
 from .words import wrong
 
 WAYS = ("", ".law", ".driver", ".limit")  # after an engine's name: which of its rows
@@ -31,6 +32,10 @@ Step = Annotated[
 ]
 
 
+GRAVITY = "`none` (a scene seen from above), how strong it is [m/s²], or a vector of its own"
+INCLINE = "turns gravity, never the ground: x points down the slope"
+
+
 class Source(Part):
     """Where in the book the case comes from, as text: "2.10" is not 2.1."""
 
@@ -44,12 +49,9 @@ class Source(Part):
 class Scene(Part):
     """Bodies and what joins, touches and drives them."""
 
-    gravity: Annotated[str, Word("gravity", ("none",))] | None = Field(
-        None, description="`none`: a scene seen from above"
-    )
-    incline: Angle | None = Field(
-        None, description="turns gravity, never the ground: x points down the slope"
-    )
+    space: Annotated[int, Space()] | None = Field(None, description="3: a scene in space")
+    gravity: Gravity | None = Field(None, description=GRAVITY)
+    incline: Angle | None = Field(None, description=INCLINE)
     points: dict[Name, GroundPoint] = Field({}, description="points of the ground")
     bodies: dict[Name, Body]
     joints: dict[Name, Joint] = Field({})
@@ -71,6 +73,16 @@ class Near(Part):
     def places(self) -> dict[str, tuple[float, float]]:
         """Where points of the body are."""
         return self.__pydantic_extra__
+
+    @property
+    def given(self) -> dict[str, float]:
+        """Coordinates and rates by name."""
+        numbers = {key: getattr(self, key) for key in type(self).model_fields}
+        return {key: number for key, number in numbers.items() if number is not None}
+
+    @property
+    def attitude(self) -> None:
+        """None in the plane, where a body has an angle."""
 
 
 class Initial(Near):

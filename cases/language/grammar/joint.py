@@ -41,4 +41,8 @@ def _joint(kind: str) -> type[Element]:
 
 
 KINDS = {kind: _joint(kind) for kind in FREEDOMS}
-Joint = Annotated[Element, OneOf("joint", KINDS)]
+IN_SPACE = {
+    "hinge": "in the plane it is `pin`",
+    **dict.fromkeys(("ball", "universal", "freedoms"), "it joins parts in space (`space: 3`)"),
+}
+Joint = Annotated[Element, OneOf("joint", KINDS, IN_SPACE)]

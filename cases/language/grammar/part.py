@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated, Any, Self, Union
 
 from pydantic import (
@@ -31,15 +31,16 @@ Pair = tuple[Point, Point]
 Position = tuple[Annotated[float, In("m")], Annotated[float, In("m")]]
 
 
-def _unit(value: tuple[float, float]) -> tuple[float, float]:
+def unit(value: tuple[float, ...]) -> tuple[float, ...]:
+    """The vector of length 1 that points the same way."""
     length = math.hypot(*value)
     if length == 0:
-        raise wrong("should be a direction, is [0, 0]")
-    return value[0] / length, value[1] / length
+        raise wrong(f"should be a direction, is [{', '.join('0' for _ in value)}]")
+    return tuple(x / length for x in value)
 
 
 Direction = Annotated[
-    tuple[Annotated[float, In("1")], Annotated[float, In("1")]], AfterValidator(_unit)
+    tuple[Annotated[float, In("1")], Annotated[float, In("1")]], AfterValidator(unit)
 ]
 
 
@@ -62,6 +63,11 @@ def plain_or_map() -> Discriminator:
     return Discriminator(lambda value: "<map>" if isinstance(value, dict) else "<plain>")
 
 
+def plain_or_list() -> Discriminator:
+    """Picks between a value tagged `<plain>` and a list tagged `<list>`."""
+    return Discriminator(lambda value: "<list>" if isinstance(value, tuple) else "<plain>")
+
+
 @dataclass(frozen=True, eq=False)
 class Made:
     """Marks a noun that is written as something plainer, from which it is made."""
@@ -78,26 +84,31 @@ class Made:
 
 @dataclass(frozen=True, eq=False)
 class OneOf:
-    """Marks what is written as one of some models, told apart by the word that each has alone."""
+    """Marks what is written as one of some models, told apart by the word that each has alone.
+
+    elsewhere: what to say of words that have no model here, but in other scenes.
+    """
 
     kind: str
     models: Mapping[str, type[Part]]
+    elsewhere: Mapping[str, str] = field(default_factory=dict)
 
     def __get_pydantic_core_schema__(
         self, source: object, handler: GetCoreSchemaHandler
     ) -> CoreSchema:
         tagged: Any = [Annotated[model, Tag(f"<{word}>")] for word, model in self.models.items()]
         return handler.generate_schema(
-            Annotated[Union[tuple(tagged)], _by_key(self.kind, *self.models)]  # noqa: UP007
+            Annotated[Union[tuple(tagged)], _by_key(self)]  # noqa: UP007
         )
 
 
-def _by_key(kind: str, *words: str) -> Discriminator:
+def _by_key(choice: OneOf) -> Discriminator:
     """By one key, so that a mistake is told of the model that was meant."""
+    words = list(choice.models)
 
     def tag(value: object) -> str | None:
         present = [word for word in words if isinstance(value, dict) and word in value]
         return f"<{present[0]}>" if len(present) == 1 else None
 
-    choice = {"kind": kind, "words": list(words)}
-    return Discriminator(tag, "choice", "one of {words}", choice)
+    context: dict[str, Any] = {"kind": choice.kind, "words": words, "elsewhere": choice.elsewhere}
+    return Discriminator(tag, "choice", "one of {words}", context)

@@ -4,13 +4,15 @@
 """
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from pydantic.json_schema import GenerateJsonSchema, JsonSchemaMode
+from pydantic.json_schema import GenerateJsonSchema, models_json_schema
 from pydantic_core import core_schema
 
 from .file import File
+from .space.file import SpatialFile
 
 SCHEMA = Path(__file__).parents[2] / "case.schema.json"
 
@@ -29,15 +31,33 @@ class _Plain(GenerateJsonSchema):
         made = super().dict_schema(schema)
         return made | {"additionalProperties": False} if "patternProperties" in made else made
 
-    def generate(self, schema: Any, mode: JsonSchemaMode = "validation") -> dict[str, Any]:
-        return _without_titles(super().generate(schema, mode))
+
+_IN_SPACE = {"required": ["scene"], "properties": {"scene": {"required": ["space"]}}}
 
 
 def text() -> str:
-    """The schema as it stands in cases/case.schema.json."""
+    """The schema as it stands in cases/case.schema.json.
+
+    What may stand in a file depends on whether its scene says `space: 3`.
+    """
     head = {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "textmech case"}
-    schema = File.model_json_schema(schema_generator=_Plain)
+    made, definitions = models_json_schema(
+        [(File, "validation"), (SpatialFile, "validation")], schema_generator=_Plain
+    )
+    known = _without_titles(definitions["$defs"])
+    plane, space = (known.pop(_name(made[model, "validation"])) for model in (File, SpatialFile))
+    apart = [key for key, value in plane["properties"].items() if value != space["properties"][key]]
+    both = {key: {} if key in apart else value for key, value in plane["properties"].items()}
+    of_plane, of_space = (
+        {"properties": {key: one["properties"][key] for key in apart}} for one in (plane, space)
+    )
+    choice = {"if": _IN_SPACE, "then": of_space, "else": of_plane}
+    schema = {"$defs": known, **plane, "properties": both, **choice}
     return json.dumps(head | schema, indent=1, ensure_ascii=False) + "\n"
+
+
+def _name(reference: Mapping[str, Any]) -> str:
+    return str(reference["$ref"]).rpartition("/")[2]
 
 
 def _without_titles(schema: Any) -> Any:

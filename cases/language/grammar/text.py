@@ -91,6 +91,13 @@ def reference(word: str) -> str | None:
     return f"should be body.point or ground.point, is {word!r}"
 
 
+def rate(word: str) -> str | None:
+    """What is wrong with the form of a reference to a rate."""
+    if re.fullmatch(rf"{IDENTIFIER}\.{IDENTIFIER}", word):
+        return None
+    return f"should be joint.rate (`q1.omega`), is {word!r}"
+
+
 def no_formula(words: str) -> str | None:
     """What is wrong with words that fill a cell of a report."""
     if words[0] in "=+-@":

@@ -32,11 +32,15 @@ def in_words(error: ValidationError, keys: Sequence[str], given: object) -> Vali
     absent = [key for key in keys if key not in present]  # no misspelt key means one that is there
     errors: list[dict[str, Any]] = [dict(e) for e in error.errors(include_url=False)]
     misspelt = {hint for e in errors if (hint := _meant(e, keys, absent))}
+    lengths: dict[Any, int] = {}  # of fixed lists that are too short: each missing entry is told
+    for e in errors:
+        if e["type"] == "missing" and isinstance(e["loc"][-1], int):
+            lengths[e["loc"][:-1]] = max(lengths.get(e["loc"][:-1], 0), e["loc"][-1] + 1)
     details = [
         InitErrorDetails(type=wrong(what), loc=loc, input=e["input"])
         for e in errors
         if not (e["type"] == "missing" and e["loc"][-1] in misspelt)
-        for loc, what in _said(e, keys, absent)
+        for loc, what in _said(e, keys, absent, lengths)
     ]
     return ValidationError.from_exception_data(error.title, details)
 
@@ -55,7 +59,10 @@ def _meant(error: Mapping[str, Any], keys: Sequence[str], absent: Sequence[str])
 
 
 def _said(
-    error: Mapping[str, Any], keys: Sequence[str], absent: Sequence[str]
+    error: Mapping[str, Any],
+    keys: Sequence[str],
+    absent: Sequence[str],
+    lengths: Mapping[Any, int],
 ) -> Iterator[tuple[Any, str]]:
     value: Any = error["input"]
     loc, kind = error["loc"], error["type"]
@@ -68,16 +75,13 @@ def _said(
         close = nearest(loc[0], absent)
         yield loc, f"unknown key {loc[0]!r}{close if 'did you mean' in close else listed(keys)}"
     elif kind == "choice":
-        yield from _choice(loc, value, context["kind"], context["words"])
+        yield from _choice(loc, value, **context)
     elif kind == "missing":
         last = loc[-1]
         if isinstance(last, str):
             yield loc, f"missing key {last!r}"
         else:
-            yield (
-                loc[:-1],
-                f"should be a list of 2, has {len(value or ())}",
-            )  # every fixed list is a pair
+            yield loc[:-1], f"should be a list of {lengths[loc[:-1]]}, has {len(value or ())}"
     elif kind == "too_short":
         yield loc, "should not be empty"
     elif kind == "too_long":
@@ -91,7 +95,11 @@ def _said(
 
 
 def _choice(
-    loc: tuple[Any, ...], value: object, kind: str, words: list[str]
+    loc: tuple[Any, ...],
+    value: object,
+    kind: str,
+    words: list[str],
+    elsewhere: Mapping[str, str],
 ) -> Iterator[tuple[Any, str]]:
     if not isinstance(value, dict):
         yield loc, f"should be a map with one of {', '.join(words)}, is {shown(value)}"
@@ -102,6 +110,8 @@ def _choice(
         yield loc, f"has two kinds of {kind}: {' and '.join(present)}"
     elif not value:
         yield loc, f"is empty; a {kind} is one of {', '.join(words)}"
+    elif foreign := [key for key in value if key in elsewhere]:
+        yield (*loc, foreign[0]), f"unknown {kind} {foreign[0]!r}; {elsewhere[foreign[0]]}"
     else:
         key = close[0] if close else next(iter(value))
         known = f" There are {', '.join(words)}" if close else ""

@@ -1,0 +1,43 @@
+"""Prescribed rates against the freedoms that joints name."""
+
+from collections.abc import Iterator
+
+from ....mistake import nearest
+from ....space.scene import SpatialScene
+from ...grammar.number import NumberMistake, fitting
+from ...grammar.space.drive import Drive
+from ...parse import Finding, Parsed
+
+
+def drives(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
+    """Every mistake in the sound drives."""
+    written: dict[str, Drive] = getattr(parsed.file.scene, "drive")  # noqa: B009  # in space only
+    for quantity, drive in written.items():
+        path = ("scene", "drive", quantity)
+        part, _, rate = quantity.rpartition(".")
+        if part not in scene.joints:
+            if not parsed.hides(part, ("joints",)):
+                hint = nearest(part, parsed.names("joints", scene.joints))
+                yield path, f"unknown joint {part!r}{hint}"
+            continue
+        rates = scene.joints[part].rates
+        if rate not in rates:
+            yield path, _no_rate(scene, part, rate)
+            continue
+        unit = "m/s" if rates[rate].kind == "shift" else "rad/s"
+        key = () if drive.law == "constant" else (drive.law,)
+        try:
+            fitting(drive.amount, f"{unit}²" if drive.law == "ramp" else unit)
+        except NumberMistake as mistake:
+            yield (*path, *key), str(mistake)
+
+
+def _no_rate(scene: SpatialScene, part: str, rate: str) -> str:
+    rates = scene.joints[part].rates
+    for name, freedom in rates.items():
+        if freedom.name == rate:
+            return f"{rate!r} is a coordinate; a drive prescribes its rate, '{part}.{name}'"
+    if not rates:
+        return f"{part!r} has no freedom with a name, and so no rate to prescribe"
+    known = [f"{part}.{name}" for name in rates]
+    return f"{part!r} has no rate {rate!r}{nearest(f'{part}.{rate}', known)}"

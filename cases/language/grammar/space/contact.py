@@ -1,0 +1,45 @@
+"""Contacts in space as a case file writes them: what rolls on the floor without slip."""
+
+from collections.abc import Mapping
+from typing import Annotated, Any
+
+from pydantic import Field, model_validator
+
+from ....point import anchor
+from ....space.body import SpatialBody
+from ....space.contact import SpatialContact
+from ..friction import Coefficient
+from ..part import Part
+from ..text import Text, Word
+from ..words import wrong
+
+_ONLY = "in space a contact only rolls (slipping in two directions has no finite set of modes)"
+
+
+class Rolling(Part):
+    """A disk's rim or a sphere on the floor z = 0."""
+
+    between: tuple[Annotated[str, Text()], Annotated[str, Text()]] = Field(
+        description="a disk or a sphere, then ground.floor"
+    )
+    friction: Coefficient
+    ideal: Annotated[str, Word("ideal", ("rolling",))] = Field(
+        description="what the reference assumes, and checks at every sample"
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _only_rolls(cls, value: Any) -> Any:
+        if isinstance(value, dict) and "restitution" in value:
+            raise wrong(f"has a `restitution`: {_ONLY}, and has no impacts")
+        if isinstance(value, dict) and isinstance(value.get("friction"), dict):
+            raise wrong(f"has a map as `friction`: {_ONLY}, and takes one number")
+        if isinstance(value, dict) and "ideal" not in value and "between" in value:
+            raise wrong(f"needs `ideal: rolling`: {_ONLY}")
+        return value
+
+    def named(self, name: str, bodies: Mapping[str, SpatialBody]) -> SpatialContact:
+        """The contact; of a body with an axle, by its rim."""
+        at = anchor(self.between[0])
+        body = bodies.get(at.body)
+        return SpatialContact(name, at, self.friction, body is not None and body.axle is not None)

@@ -1,0 +1,13 @@
+"""Forces in space as a case file writes them: those of the plane, along three axes."""
+
+from typing import Annotated
+
+from ....force import FORCES
+from .. import force as plane
+from ..element import Element, element
+from ..part import OneOf
+
+ALONG_THREE_AXES = ("push", "torque")
+KINDS: dict[str, type[Element]] = {word: plane.KINDS[word] for word in ("spring", "damper")}
+KINDS |= {word: element(word, FORCES[word], axes=3) for word in ALONG_THREE_AXES}
+Force = Annotated[Element, OneOf("force", KINDS)]

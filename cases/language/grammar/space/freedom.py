@@ -1,0 +1,95 @@
+"""The freedoms that a joint names: shifts along axes, then turns about axes, in their order."""
+
+from itertools import pairwise
+from typing import Annotated, Any, ClassVar
+
+import numpy as np
+from pydantic import AfterValidator, Field
+
+from ....space.joint import HELD, Freedom, effort_of, rate_of
+from ....space.rotation import Vector3
+from ..part import OneOf, Part
+from ..text import IDENTIFIER, Text, label
+from ..words import wrong
+from .vector import Direction
+
+PARALLEL = 1e-9  # sine of an angle: axes are typed with up to ten digits
+
+Label = Annotated[str, Text(label, f"^{IDENTIFIER}$")]
+
+
+class Left(Part):
+    """One freedom, written as what would leave just it, with its axis."""
+
+    word: ClassVar[str]
+    kind: ClassVar[Any]
+
+    def named(self, name: str) -> Freedom:
+        """The freedom."""
+        return Freedom(self.kind, getattr(self, self.word), name)
+
+
+class FreeShift(Left):
+    """A shift along an axis of the first part."""
+
+    word, kind = "slide", "shift"
+    slide: Direction
+
+
+class FreeTurn(Left):
+    """A turn about an axis, which stands in the axes that the freedoms before it leave."""
+
+    word, kind = "hinge", "turn"
+    hinge: Direction
+
+
+def parallel(a: Vector3, b: Vector3) -> bool:
+    """Whether two unit vectors lie on one line."""
+    return float(np.linalg.norm(np.cross(a, b))) < PARALLEL
+
+
+def _freedoms(written: dict[str, Left]) -> tuple[Freedom, ...]:
+    """In the order of the file; a mistake where they are no coordinates."""
+    freedoms = tuple(left.named(name) for name, left in written.items())
+    shifts = [f for f in freedoms if f.kind == "shift"]
+    turns = [f for f in freedoms if f.kind == "turn"]
+    for f, g in pairwise(freedoms):
+        if (f.kind, g.kind) == ("turn", "shift"):
+            raise wrong(f"{g.name!r} slides and stands after the hinge {f.name!r}: slides first")
+    for kind, some in (("slides", shifts), ("hinges", turns)):
+        if len(some) > 3:
+            raise wrong(f"has {len(some)} {kind}, and at most 3 are independent")
+    for i, f in enumerate(shifts):
+        if _spanned(f.axis, [g.axis for g in shifts[:i]]):
+            raise wrong(f"{f.name!r} slides where those before it already let it")
+    for f, g in pairwise(turns):
+        if parallel(f.axis, g.axis):
+            raise wrong(f"{f.name!r} and {g.name!r} turn about the same axis")
+    _no_name_twice(freedoms)
+    return freedoms
+
+
+def _spanned(axis: Vector3, others: list[Vector3]) -> bool:
+    """Whether the others, which are independent, span the axis too."""
+    if not others or not np.isfinite([axis, *others]).all():
+        return False
+    rest = np.array(axis) - np.linalg.pinv(np.array(others)) @ np.array(others) @ np.array(axis)
+    return float(np.linalg.norm(rest)) < PARALLEL
+
+
+def _no_name_twice(freedoms: tuple[Freedom, ...]) -> None:
+    """Coordinates, rates and what drives exert are quantities, as the joint's reactions are."""
+    taken = dict.fromkeys(HELD, "")
+    for f in freedoms:
+        for name in (f.name, rate_of(f.name), effort_of(f)):
+            if name in taken:
+                by = f" by {taken[name]!r}" if taken[name] else ""
+                raise wrong(f"{f.name!r} needs the name {name!r}, which is taken{by}")
+        taken |= dict.fromkeys((f.name, rate_of(f.name), effort_of(f)), f.name)
+
+
+Freedoms = Annotated[
+    dict[Label, Annotated[Left, OneOf("freedom", {"slide": FreeShift, "hinge": FreeTurn})]],
+    Field(min_length=1),
+    AfterValidator(_freedoms),
+]

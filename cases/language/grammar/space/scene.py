@@ -1,0 +1,33 @@
+"""A scene in space as a case file writes it."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from ..field import Space
+from ..file import GRAVITY, INCLINE
+from ..part import Angle, Name, Part
+from ..text import IDENTIFIER, Text, rate
+from .body import Body
+from .contact import Rolling
+from .drive import Driven
+from .force import Force
+from .ground import GroundPoint
+from .joint import Joint
+from .vector import Gravity
+
+Rate = Annotated[str, Text(rate, rf"^{IDENTIFIER}\.{IDENTIFIER}$", "joint.rate, as q1.omega")]
+
+
+class SpatialScene(Part):
+    """Bodies in space, and what joins, touches and drives them."""
+
+    space: Annotated[int, Space()] = 3
+    gravity: Gravity | None = Field(None, description=GRAVITY)
+    incline: Angle | None = Field(None, description=f"about y; {INCLINE}")
+    points: dict[Name, GroundPoint] = Field({}, description="points of the ground")
+    bodies: dict[Name, Body]
+    joints: dict[Name, Joint] = Field({})
+    contacts: dict[Name, Rolling] = Field({})
+    forces: dict[Name, Force] = Field({})
+    drive: dict[Rate, Driven] = Field({}, description="prescribed rates of joints' freedoms")

@@ -1,0 +1,97 @@
+"""Masses, tensors and points of the shapes that a case in space can name.
+
+Shared by the generated reference and the engines, so it is tested by itself against integrals
+over the shape (tests/cases/space/test_shape.py). Hand-written systems carry their own.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Annotated
+
+from pydantic import AfterValidator
+
+from ..language.grammar.field import In
+from ..language.grammar.part import Length, Mass
+from ..language.grammar.space.vector import Direction
+from ..point import CENTER
+from .body import SpatialBody, Tensor
+from .rotation import Vector3
+from .tensor import possible
+
+Points = Mapping[str, Vector3]
+_Moment = Annotated[float, In("kg m²")]
+Inertia = Annotated[
+    tuple[_Moment, _Moment, _Moment, _Moment, _Moment, _Moment], AfterValidator(possible)
+]
+_AT_CENTER = {CENTER: (0.0, 0.0, 0.0)}
+
+
+def bar(*, name: str, mass: Mass, length: Length, points: Points) -> SpatialBody:
+    """Slender bar along its own x from `start` to `end`: J = m l²/12 diag(0, 1, 1)."""
+    J = mass * length**2 / 12
+    ends = {"start": (-length / 2, 0.0, 0.0), "end": (length / 2, 0.0, 0.0)}
+    tensor = (0.0, J, J, 0.0, 0.0, 0.0)
+    return SpatialBody(name, "bar", mass, tensor, {**_AT_CENTER, **ends, **points})
+
+
+def disk(*, name: str, mass: Mass, radius: Length, axle: Direction, points: Points) -> SpatialBody:
+    """Thin homogeneous disk about its axle u: J = m R²/4 (1 + u uᵀ)."""
+    tensor = _about(axle, mass * radius**2 / 4, mass * radius**2 / 2)
+    return SpatialBody(name, "disk", mass, tensor, {**_AT_CENTER, **points}, radius, axle)
+
+
+def sphere(*, name: str, mass: Mass, radius: Length, points: Points) -> SpatialBody:
+    """Homogeneous ball: J = 2/5 m R² 1."""
+    J = 2 * mass * radius**2 / 5
+    tensor = (J, J, J, 0.0, 0.0, 0.0)
+    return SpatialBody(name, "sphere", mass, tensor, {**_AT_CENTER, **points}, radius)
+
+
+def block(
+    *, name: str, mass: Mass, size: tuple[Length, Length, Length], points: Points
+) -> SpatialBody:
+    """Homogeneous cuboid with edges a, b, c along its axes: J₁₁ = m (b² + c²)/12."""
+    a, b, c = (x * x for x in size)
+    k = mass / 12
+    tensor = (k * (b + c), k * (a + c), k * (a + b), 0.0, 0.0, 0.0)
+    return SpatialBody(name, "block", mass, tensor, {**_AT_CENTER, **points})
+
+
+def particle(*, name: str, mass: Mass) -> SpatialBody:
+    """Point mass: no inertia, no attitude."""
+    return SpatialBody(name, "particle", mass, None, _AT_CENTER)
+
+
+def rigid(
+    *,
+    name: str,
+    mass: Mass,
+    inertia: Inertia,
+    points: Points,
+    radius: Length | None = None,
+    axle: Direction | None = None,
+) -> SpatialBody:
+    """Any rigid body, by its mass and its tensor J₁₁, J₂₂, J₃₃, J₁₂, J₁₃, J₂₃ (2.32).
+
+    With a radius it is round about its axle, or in all directions if it has none.
+    """
+    return SpatialBody(name, "rigid", mass, inertia, {**_AT_CENTER, **points}, radius, axle)
+
+
+def _about(axis: Vector3, across: float, along: float) -> Tensor:
+    """A tensor with equal moments across an axis: J = J⊥ 1 + (J∥ − J⊥) u uᵀ."""
+    u, v, w = axis
+    d = along - across
+    return (
+        across + d * u * u,
+        across + d * v * v,
+        across + d * w * w,
+        d * u * v,
+        d * u * w,
+        d * v * w,
+    )
+
+
+SHAPES: dict[str, Callable[..., SpatialBody]] = {
+    make.__name__: make for make in (bar, disk, sphere, block, particle, rigid)
+}
+"""By the word of the case file."""

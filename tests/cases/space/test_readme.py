@@ -1,0 +1,64 @@
+"""cases/README.md says of space what its grammar and its table of quantities say."""
+
+import re
+from inspect import signature
+from pathlib import Path
+
+from textmech.cases import find
+from textmech.cases.language.grammar.space import body, force, freedom, joint
+from textmech.cases.language.grammar.space.contact import Rolling
+from textmech.cases.language.grammar.space.scene import SpatialScene as Words
+from textmech.cases.language.grammar.space.start import Start, Turn
+from textmech.cases.load import load
+from textmech.cases.quantity import table
+from textmech.cases.scene import Anchor, Signal, Spring
+from textmech.cases.space import shape
+from textmech.cases.space.contact import SpatialContact
+from textmech.cases.space.joint import Freedom, SpatialJoint
+from textmech.cases.space.scene import SpatialScene
+
+README = Path(find.__file__).with_name("README.md").read_text(encoding="utf-8")
+SPACE = README.partition("## Space\n")[2].partition("## Variants\n")[0]
+A, B = Anchor("ground", "O"), Anchor("body", "point")
+
+
+def test_example_loads(tmp_path: Path) -> None:
+    path = tmp_path / "example.yaml"
+    path.write_text(re.findall(r"```yaml\n(.*?)```", SPACE, flags=re.DOTALL)[0])
+    (case,) = load(path)
+    assert case.scene.frame.dimension == 3
+
+
+def test_every_key_is_explained() -> None:
+    code = re.findall(r"```yaml\n(.*?)```|`([^`]+)`", README, flags=re.DOTALL)
+    said = set(re.findall(r"[a-zA-Z_]+", " ".join(block + word for block, word in code)))
+    models = [Words, Rolling, Start, Turn, freedom.FreeShift, freedom.FreeTurn]
+    for kinds in (body.KINDS, joint.KINDS, force.KINDS):
+        models += kinds.values()
+    for model in models:
+        assert set(model.model_fields) <= said, model
+    for noun in shape.SHAPES.values():
+        assert set(signature(noun).parameters) - {"name"} <= said, noun
+
+
+def test_quantities() -> None:
+    tensor = (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)
+    freedoms = (
+        Freedom("shift", (1.0, 0.0, 0.0), "s"),
+        Freedom("turn", (0.0, 0.0, 1.0), "theta"),
+    )
+    body = shape.rigid(name="body", mass=1, inertia=tensor, points={"point": (0.0, 0.0, 0.0)})
+    one = Signal("constant", (1.0,))
+    scene = SpatialScene(
+        gravity=(0.0, 0.0, 0.0),
+        points={},
+        bodies={"body": body},
+        joints={"joint": SpatialJoint("joint", "freedoms", A, B, freedoms)},
+        contacts={"contact": SpatialContact("contact", Anchor("body", "center"), 1.0, rim=True)},
+        forces={"line": Spring("line", A, B, 1.0, 1.0)},
+        drives={"joint.s_dot": one, "joint.theta_dot": one},
+    )
+    rows = re.findall(r"^\| (`[a-z]+\..*?) \| (.*?) \|", SPACE, flags=re.MULTILINE)
+    said = {name: unit for names, unit in rows for name in re.findall(r"`(.*?)`", names)}
+    known = {name: q.unit for name, q in table(scene).items() if ".center." not in name}
+    assert said == known
