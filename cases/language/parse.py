@@ -7,7 +7,6 @@ from typing import Any
 from pydantic import ValidationError
 
 from ..mistake import Path
-from .grammar.field import in_space
 from .grammar.file import File
 from .grammar.number import names
 from .grammar.space.file import SpatialFile
@@ -87,9 +86,9 @@ def parse(data: Mapping[str, Any]) -> Parsed:
 
 
 def _spatial(data: Mapping[str, Any]) -> bool:
-    """Whether the file says that its scene is in space."""
+    """Whether the file says that its scene is in space, be it wrongly."""
     scene = data.get("scene")
-    return isinstance(scene, dict) and in_space(scene.get("space"))
+    return isinstance(scene, dict) and scene.get("space", 2) != 2
 
 
 def _path(loc: tuple[str | int, ...]) -> Path:

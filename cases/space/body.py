@@ -12,6 +12,7 @@ from ..point import CENTER
 from ..trajectory import Array
 from . import chain
 from .rotation import Vector3, turned
+from .tensor import Tensor, matrix
 
 _POINT: Fields = {
     "x": ("m", "coordinate"),
@@ -28,9 +29,6 @@ _TURNING: Fields = {
     "omega_2": ("rad/s", "velocity"),
     "omega_3": ("rad/s", "velocity"),
 }
-Tensor = tuple[float, float, float, float, float, float]
-"""J₁₁, J₂₂, J₃₃, J₁₂, J₁₃, J₂₃ about the centre of mass, in body axes: the entries of the matrix,
-so that products of inertia carry the minus sign (2.32)."""
 
 
 @dataclass(frozen=True)
@@ -56,10 +54,7 @@ class SpatialBody:
     @property
     def tensor(self) -> Array:
         """J (3, 3) [kg m²] in body axes about the centre of mass; zero of a particle."""
-        if self.inertia is None:
-            return np.zeros((3, 3))
-        a, b, c, d, e, f = self.inertia
-        return np.array([[a, d, e], [d, b, f], [e, f, c]])
+        return np.zeros((3, 3)) if self.inertia is None else matrix(self.inertia)
 
     def quantities(self) -> dict[str, Fields]:
         """Its fields, and those of each of its points."""

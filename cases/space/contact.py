@@ -67,7 +67,7 @@ class SpatialContact:
     def observe(self, motion: Motion, field: str) -> Array:
         """(N,) of the body's lowest point; else KeyError.
 
-        along, side: of the force (fx, fy), along the track z × axle, on which a disk whose axle
+        along, side: of the force (fx, fy), along the track axle × z, on which a disk whose axle
         points to the left rolls forward, and along the axle's shadow on the floor.
         """
         if field in ("along", "side"):

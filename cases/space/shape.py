@@ -13,9 +13,9 @@ from ..language.grammar.field import In
 from ..language.grammar.part import Length, Mass
 from ..language.grammar.space.vector import Direction
 from ..point import CENTER
-from .body import SpatialBody, Tensor
+from .body import SpatialBody
 from .rotation import Vector3
-from .tensor import possible
+from .tensor import Tensor, possible
 
 Points = Mapping[str, Vector3]
 _Moment = Annotated[float, In("kg m²")]

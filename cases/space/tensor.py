@@ -6,7 +6,10 @@ import numpy as np
 
 from ..language.grammar.words import wrong
 from ..trajectory import Array
-from .body import Tensor
+
+Tensor = tuple[float, float, float, float, float, float]
+"""J₁₁, J₂₂, J₃₃, J₁₂, J₁₃, J₂₃ about the centre of mass, in body axes: the entries of the matrix,
+so that products of inertia carry the minus sign (2.32)."""
 
 ROUNDING = 1e-9  # of the largest principal moment: tensors are typed with up to ten digits
 

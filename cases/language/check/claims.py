@@ -105,6 +105,8 @@ def _unknown(
         yield path, f"{part!r} is no event{hint}"
     elif field in ("friction", "slip") and f"{part}.torque" in known:  # a slide without it
         yield path, f"{part!r} has no `dry_friction`, so no {name!r}"
+    elif _undriven(known, part, field):
+        yield path, f"no `drive` prescribes the rate, so no {name!r}"
     elif field == "angle" and f"{part}.attitude" in known:
         yield path, f"a body in space has no angle; its quantity is '{part}.attitude'"
     else:
@@ -115,4 +117,17 @@ def _hidden(parsed: Parsed, name: str) -> bool:
     """Whether the part or event that the quantity is of may be there, but is unsound."""
     part, field = name.split(".")[0], name.split(".")[-1]
     unsound = not parsed.broken.isdisjoint({("events",), ("events", part)})
-    return parsed.hides(part) or (field in EVENT_FIELDS and unsound)
+    undriven = any(path[:2] == ("scene", "drive") for path in parsed.broken)
+    return (
+        parsed.hides(part)
+        or (field in EVENT_FIELDS and unsound)
+        or (field.endswith(("force", "torque")) and undriven)
+    )
+
+
+def _undriven(known: Mapping[str, Quantity], part: str, field: str) -> bool:
+    """Whether a joint would have this quantity if its freedom were driven."""
+    coordinate, _, effort = field.rpartition("_")
+    coordinate = coordinate or "angle"
+    joint = f"{part}.gap" in known and f"{part}.{coordinate}" in known
+    return joint and effort in ("force", "torque")

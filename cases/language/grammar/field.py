@@ -104,17 +104,12 @@ class Space(Plain):
     """`space: 3`; a scene in the plane does not say it."""
 
     def check(self, value: object, known: Names) -> int:
-        if in_space(value):
+        if type(value) is int and value == 3:
             return 3
         raise wrong(f"should be 3, is {shown(value)}; a scene in the plane has no `space`")
 
     def schema(self) -> dict[str, Any]:
         return {"const": 3}
-
-
-def in_space(value: object) -> bool:
-    """Whether the value of `space` says so."""
-    return type(value) is int and value == 3
 
 
 @dataclass(frozen=True)

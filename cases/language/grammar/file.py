@@ -49,6 +49,8 @@ class Source(Part):
 class Scene(Part):
     """Bodies and what joins, touches and drives them."""
 
+    elsewhere = {"drive": "rates are prescribed in space (`space: 3`)"}  # noqa: RUF012
+
     space: Annotated[int, Space()] | None = Field(None, description="3: a scene in space")
     gravity: Gravity | None = Field(None, description=GRAVITY)
     incline: Angle | None = Field(None, description=INCLINE)
@@ -119,6 +121,8 @@ def _overlay_schema(schema: dict[str, Any]) -> None:
 
 class File(Part):
     """A case: one claim about the motion of one scene."""
+
+    elsewhere = {"drive": "it stands in `scene`"}  # noqa: RUF012  # a ClassVar of Part
 
     title: Annotated[str, Text()]
     source: Source = Source()

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Annotated, Any, Self, Union
+from typing import Annotated, Any, ClassVar, Self, Union
 
 from pydantic import (
     AfterValidator,
@@ -48,6 +48,8 @@ class Part(BaseModel):
     """A map with exactly these keys."""
 
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True)
+    elsewhere: ClassVar[Mapping[str, str]] = {}
+    """What to say of keys that are none here, but stand in other places."""
 
     @model_validator(mode="wrap")
     @classmethod
@@ -55,7 +57,7 @@ class Part(BaseModel):
         try:
             return check(value)
         except ValidationError as error:
-            raise in_words(error, tuple(cls.model_fields), value) from None
+            raise in_words(error, tuple(cls.model_fields), value, cls.elsewhere) from None
 
 
 def plain_or_map() -> Discriminator:

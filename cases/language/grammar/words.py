@@ -26,8 +26,13 @@ def wrong(what: str) -> PydanticCustomError:
     return PydanticCustomError("plain", "{what}", {"what": what})
 
 
-def in_words(error: ValidationError, keys: Sequence[str], given: object) -> ValidationError:
-    """The same error of a model with these keys, in plain words; `given` is what it was given."""
+def in_words(
+    error: ValidationError, keys: Sequence[str], given: object, elsewhere: Mapping[str, str]
+) -> ValidationError:
+    """The same error of a model with these keys, in plain words; `given` is what it was given.
+
+    elsewhere: what to say of keys that stand in other places.
+    """
     present = given if isinstance(given, Mapping) else {}
     absent = [key for key in keys if key not in present]  # no misspelt key means one that is there
     errors: list[dict[str, Any]] = [dict(e) for e in error.errors(include_url=False)]
@@ -40,7 +45,7 @@ def in_words(error: ValidationError, keys: Sequence[str], given: object) -> Vali
         InitErrorDetails(type=wrong(what), loc=loc, input=e["input"])
         for e in errors
         if not (e["type"] == "missing" and e["loc"][-1] in misspelt)
-        for loc, what in _said(e, keys, absent, lengths)
+        for loc, what in _said(e, keys, absent, lengths, elsewhere)
     ]
     return ValidationError.from_exception_data(error.title, details)
 
@@ -63,6 +68,7 @@ def _said(
     keys: Sequence[str],
     absent: Sequence[str],
     lengths: Mapping[Any, int],
+    elsewhere: Mapping[str, str],
 ) -> Iterator[tuple[Any, str]]:
     value: Any = error["input"]
     loc, kind = error["loc"], error["type"]
@@ -71,6 +77,8 @@ def _said(
         yield loc, NO_VALUE
     elif kind == "plain":
         yield loc, context["what"]
+    elif _unknown(error, keys) and loc[0] in elsewhere:
+        yield loc, f"unknown key {loc[0]!r}; {elsewhere[loc[0]]}"
     elif _unknown(error, keys):
         close = nearest(loc[0], absent)
         yield loc, f"unknown key {loc[0]!r}{close if 'did you mean' in close else listed(keys)}"

@@ -33,7 +33,7 @@ def _of_body(path: Path, body: SpatialBody, start: Start, *, rates: bool) -> Ite
     units = {**_PLACES, **(_RATES if rates else {})}
     keys = [*units, "attitude", *(["omega"] if rates else [])]
     given = [*start.entries, *([] if start.attitude is None else ["attitude"])]
-    for key in (key for key in given if key in _TURNING and not body.turns):
+    for key in (key for key in given if key in keys and key in _TURNING and not body.turns):
         yield (*path, key), f"{body.name!r} is a particle and cannot turn"
     for key, entry in start.entries.items():
         if key in units:

@@ -7,12 +7,13 @@ from functools import reduce
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import ConfigDict, Field, Tag
+from pydantic import BeforeValidator, ConfigDict, Field, Tag
 
 from ....space.rotation import Quaternion, Vector3, about, product
 from ..field import AnyUnit
-from ..number import Amount
+from ..number import Amount, shown
 from ..part import Angle, Made, Part, plain_or_list
+from ..words import wrong
 from .vector import Direction
 
 _Amount = Annotated[Amount, AnyUnit()]
@@ -40,14 +41,18 @@ def _attitude(turns: tuple[Any, ...]) -> Quaternion:
     return w, x, y, z
 
 
+def _turns(value: Any) -> Any:
+    each = value if isinstance(value, tuple) and value else (value,)
+    if all(isinstance(turn, dict) for turn in each):
+        return value
+    raise wrong(f"should be {{axis: [x, y, z], angle: …}} or a list of them, is {shown(value)}")
+
+
 Attitude = Annotated[
     Annotated[Quaternion, Made(Turn, lambda turn: _attitude((turn,))), Tag("<plain>")]
-    | Annotated[
-        Quaternion,
-        Made(Annotated[tuple[Turn, ...], Field(min_length=1)], _attitude),
-        Tag("<list>"),
-    ],
+    | Annotated[Quaternion, Made(tuple[Turn, ...], _attitude), Tag("<list>")],
     plain_or_list(),
+    BeforeValidator(_turns),
 ]
 
 
