@@ -42,12 +42,15 @@ class Mass:
 
 @dataclass(frozen=True)
 class Load:
-    """An applied force [N] at a point of a free-cut body, and a moment [N m]."""
+    """An applied force [N] at a point of a free-cut body, and a moment [N m].
+
+    All in ground axes; the moment is a vector in space.
+    """
 
     body: str
-    at: tuple[float, float]
-    force: tuple[float, float]
-    moment: float = 0.0
+    at: tuple[float, ...]
+    force: tuple[float, ...]
+    moment: float | tuple[float, ...] = 0.0
 
 
 @dataclass(frozen=True)
@@ -55,22 +58,26 @@ class Cut:
     """Where bodies are cut free: unknown reactions along `directions` at a point.
 
     The reaction acts on body b, its opposite on body a (None is the ground). `names` are the
-    quantities its components are observed as; `moment` adds an unknown reaction moment.
+    quantities its components are observed as; `moment` adds an unknown reaction moment, or in space
+    `moments` one about each of these directions: forces first, then moments. All in ground axes.
     """
 
     names: tuple[str, ...]
     a: str | None
     b: str
-    at: tuple[float, float]
-    directions: tuple[tuple[float, float], ...] = ((1.0, 0.0), (0.0, 1.0))
+    at: tuple[float, ...]
+    directions: tuple[tuple[float, ...], ...] = ((1.0, 0.0), (0.0, 1.0))
     moment: bool = False
+    moments: tuple[tuple[float, ...], ...] = ()
 
 
 class Mode:
     """Defaults for a mechanism with coordinates q, velocities v (n,) and r constraints.
 
     q̇ = N(t, q) v + n₀(t, q); most have v = q̇.  A quaternion has four coordinates and three
-    velocities, a sleigh may go with its forward velocity alone.
+    velocities, a sleigh may go with its forward velocity alone.  T is a function of all the rates
+    q̇ (m,), as in the book; forces and constraints go with v: D is a function of v and gives the
+    force −∂D/∂v, Q₄ (n,) does the power Q₄ · v, and rows f_a act on v.
     """
 
     coordinates: tuple[str, ...]
@@ -108,7 +115,7 @@ class Mode:
         return None
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
-        """Kinetic energy [J] of the rates q̇, which v stands for here; of (m, K) at once (K,)."""
+        """Kinetic energy [J] of the rates q̇ (m,), here called v; of (m, K) at once (K,)."""
         raise NotImplementedError
 
     def U(self, t: Any, q: Vector) -> Any:
@@ -116,19 +123,19 @@ class Mode:
         return 0.0
 
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
-        """Dissipation function [W] of the forces of class 2 (2.46)."""
+        """Dissipation function [W] of the forces of class 2 (2.46), of v (n,)."""
         return 0.0
 
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
-        """Generalized forces of class 4 (2.50), (n,)."""
-        return np.zeros(len(q))
+        """Generalized forces of class 4 (2.50), (n,): what does the power Q₄ · v."""
+        return np.zeros(len(v))
 
     def f(self, t: Any, q: Vector) -> Vector:
         """Residuals (2.14) of the holonomic constraints, (≤ r,)."""
         return np.zeros(0)
 
     def f_a(self, t: Any, q: Vector) -> Vector:
-        """Rows (r, n) of the constraints (2.15), f_a q̇ᵃ = g."""
+        """Rows (r, n) of the constraints (2.15), f_a v = g."""
         return np.zeros((0, len(q)))
 
     def g(self, t: Any, q: Vector) -> Vector:

@@ -19,7 +19,8 @@ ROOMS = {
     ],
     "reference": [
         "system coverage integrators",
-        "laws formalisms",
+        "laws",
+        "formalisms",
         "systems generated motion",
         "start",
         "approximations certificate premises refusal",

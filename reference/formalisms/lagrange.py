@@ -1,62 +1,99 @@
-"""Lagrange's equations of the 2nd kind (2.44), and with multipliers (2.60), from T, U, D, Q₄."""
+"""Lagrange's equations of the 2nd kind (2.44), and with multipliers (2.60), from T, U, D, Q₄.
+
+Where q̇ = N v + n₀ they are Hamel's: those of the rates q̇ (m,), seen along the columns of N,
+
+    Nᵀ (d/dt ∂T/∂q̇ − ∂T/∂q + ∂U/∂q) = Q + λ_b f_aᵇ,
+
+all of its n rows at once. N = 1 gives the book's form, N = (1, α) Voronets' equations (2.66), a
+unit quaternion with ω in body axes Euler's (2.33).
+"""
 
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from ..system import Array, Mode
+from ..system import Array, Mode, Vector
 from .derivative import along
 
 
 def multipliers(system: Mode, t: float, q: Array, v: Array) -> tuple[Array, Array]:
-    """(2.60) d/dt ∂T/∂q̇ᵃ − ∂T/∂qᵃ = Q_a + λ_b f_aᵇ with f_a q̇ᵃ = g: q̈ (n,), λ (r,).
+    """(2.60) d/dt ∂T/∂q̇ᵃ − ∂T/∂qᵃ = Q_a + λ_b f_aᵇ with f_a v = g: v̇ (n,), λ (r,).
 
-    The constraint is differentiated once: f_a q̈ᵃ = ġ − ḟ_a q̇ᵃ. Without constraints it is (2.44).
+    The constraint is differentiated once: f_a v̇ = ġ − ḟ_a v. Without constraints it is (2.44).
     """
-    rows = np.asarray(system.f_a(t, q), dtype=np.float64)
-    n, r = len(q), len(rows)
-    matrix = np.block([[mass_matrix(system, t, q), -rows.T], [rows, np.zeros((r, r))]])
+    n = len(v)
+    rows = np.asarray(constraint_rows(system, t, q, n), dtype=np.float64)
+    r = len(rows)
+    matrix = np.block([[inertia(system, t, q, v), -rows.T], [rows, np.zeros((r, r))]])
     right = np.concatenate([forces(system, t, q, v), constraint_acceleration(system, t, q, v)])
     solution: Any = np.linalg.solve(matrix, right)
     return solution[:n], solution[n:]
 
 
 def accelerations(system: Mode, t: float, q: Array, v: Array) -> Array:
-    """(2.44) d/dt ∂T/∂q̇ᵃ − ∂T/∂qᵃ = Q_a: q̈ (n,). Raises ValueError if there are constraints."""
+    """(2.44) d/dt ∂T/∂q̇ᵃ − ∂T/∂qᵃ = Q_a: v̇ (n,). Raises ValueError if there are constraints."""
     if len(system.f_a(t, q)):
         raise ValueError("the coordinates are constrained: use multipliers (2.60)")
-    q_ddot: Any = np.linalg.solve(mass_matrix(system, t, q), forces(system, t, q, v))
-    return q_ddot
+    v_dot: Any = np.linalg.solve(inertia(system, t, q, v), forces(system, t, q, v))
+    return v_dot
 
 
-def momentum(system: Mode, t: Any, q: Any, v: Any) -> Any:
-    """p_a = ∂T/∂q̇ᵃ (n,): the central difference is exact, because T is quadratic in q̇.
+def momentum(system: Mode, t: Any, q: Any, q_dot: Any) -> Any:
+    """p_a = ∂T/∂q̇ᵃ (m,): the central difference is exact, because T is quadratic in q̇.
 
     Its width is the largest rate: beside a much larger or smaller one T would lose its digits.
     """
-    h = float(np.max(np.abs(np.real(v)), initial=0.0)) or 1.0
-    rates, steps = np.asarray(v)[:, None], h * np.eye(len(v))  # a column for each difference
+    h = float(np.max(np.abs(np.real(q_dot)), initial=0.0)) or 1.0
+    rates, steps = np.asarray(q_dot)[:, None], h * np.eye(len(q_dot))  # a column each
     return (system.T(t, q, rates + steps) - system.T(t, q, rates - steps)) / (2 * h)
 
 
 def mass_matrix(system: Mode, t: float, q: Array) -> Array:
-    """M_ab (n, n) of T = ½ M_ab q̇ᵃ q̇ᵇ + …, by polarisation: column b is p(e_b) − p(0)."""
+    """M_ab (m, m) of T = ½ M_ab q̇ᵃ q̇ᵇ + …, by polarisation: column b is p(e_b) − p(0)."""
     still = momentum(system, t, q, np.zeros(len(q)))
     return np.stack([momentum(system, t, q, e) - still for e in np.eye(len(q))], axis=1)
 
 
+def inertia(system: Mode, t: float, q: Array, v: Array) -> Array:
+    """Nᵀ M N (n, n): what Lagrange's equations multiply v̇ with."""
+    M, N = mass_matrix(system, t, q), rate_matrix(system, t, q, v)
+    return M if N is None else N.T @ M @ N
+
+
+def rate_matrix(system: Mode, t: Any, q: Vector, v: Vector) -> Vector | None:
+    """N (m, n) of q̇ = N v + n₀, or None where q̇ is v itself."""
+    if system.rates(t, q, v) is v:
+        return None
+    still = system.rates(t, q, np.zeros(len(v)))
+    return np.stack([system.rates(t, q, e) - still for e in np.eye(len(v))], axis=1)
+
+
 def forces(system: Mode, t: float, q: Array, v: Array) -> Array:
-    """Q_a + ∂T/∂qᵃ − (d/dt ∂T/∂q̇ᵃ at q̈ = 0), (n,), Q_a from (2.45), (2.46) and (2.50)."""
-    drift = derivative(lambda t, q: momentum(system, t, q, v), (t, q), (1.0, v))
-    conservative = gradient(lambda q: system.T(t, q, v) - system.U(t, q), q)
+    """Q_a + ∂T/∂qᵃ − (d/dt ∂T/∂q̇ᵃ at v̇ = 0) along N, (n,): Q_a from (2.45), (2.46), (2.50)."""
+    q_dot, N = system.rates(t, q, v), rate_matrix(system, t, q, v)
+    drift = derivative(
+        lambda t, q: momentum(system, t, q, system.rates(t, q, v)), (t, q), (1.0, q_dot)
+    )
+    conservative = gradient(lambda q: system.T(t, q, q_dot) - system.U(t, q), q)
+    if N is not None:
+        conservative, drift = N.T @ conservative, N.T @ drift
     dissipative = gradient(lambda v: system.D(t, q, v), v)
     return conservative - dissipative + np.asarray(system.Q4(t, q, v), dtype=np.float64) - drift
 
 
+def constraint_rows(system: Mode, t: Any, q: Vector, n: int) -> Vector:
+    """f_a (r, n) for n velocities; without constraints a mode does not know how many they are."""
+    return np.reshape(system.f_a(t, q), (-1, n))
+
+
 def constraint_acceleration(system: Mode, t: float, q: Array, v: Array) -> Array:
-    """ġ − ḟ_a q̇ᵃ (r,): what f_a q̈ᵃ must be."""
-    return derivative(lambda t, q: system.g(t, q) - system.f_a(t, q) @ v, (t, q), (1.0, v))
+    """ġ − ḟ_a v (r,): what f_a v̇ must be."""
+
+    def slip(t: Any, q: Any) -> Any:
+        return system.g(t, q) - constraint_rows(system, t, q, len(v)) @ v
+
+    return derivative(slip, (t, q), (1.0, system.rates(t, q, v)))
 
 
 def gradient(function: Callable[[Any], Any], at: Array) -> Array:

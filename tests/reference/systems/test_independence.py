@@ -13,8 +13,9 @@ SYSTEMS = sorted(
 )  # fmt: skip
 ALLOWED = {
     *("numpy", "scipy.special", "math", "dataclasses", "typing", "collections.abc"),
-    # The shape of an answer, and the book's laws of friction: no mechanics of a scene.
-    *("..system", "..mode", "..laws.friction", ".stick_slip"),
+    # The shape of an answer, and the book's laws of friction and of turning axes: no mechanics of a
+    # scene.
+    *("..system", "..mode", "..laws.friction", "..laws.rotation", ".stick_slip"),
 }
 
 
