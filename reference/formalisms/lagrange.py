@@ -40,19 +40,29 @@ def accelerations(system: Mode, t: float, q: Array, v: Array) -> Array:
 
 
 def momentum(system: Mode, t: Any, q: Any, q_dot: Any) -> Any:
-    """p_a = ∂T/∂q̇ᵃ (m,): the central difference is exact, because T is quadratic in q̇.
+    """p_a = ∂T/∂q̇ᵃ (m,)."""
+    return slope(system.T, t, q, q_dot)
+
+
+def slope(T: Callable[..., Any], t: Any, q: Any, q_dot: Any) -> Any:
+    """∂T/∂q̇ of any T(t, q, q̇): the central difference is exact, because T is quadratic in q̇.
 
     Its width is the largest rate: beside a much larger or smaller one T would lose its digits.
     """
     h = float(np.max(np.abs(np.real(q_dot)), initial=0.0)) or 1.0
     rates, steps = np.asarray(q_dot)[:, None], h * np.eye(len(q_dot))  # a column each
-    return (system.T(t, q, rates + steps) - system.T(t, q, rates - steps)) / (2 * h)
+    return (T(t, q, rates + steps) - T(t, q, rates - steps)) / (2 * h)
 
 
 def mass_matrix(system: Mode, t: float, q: Array) -> Array:
-    """M_ab (m, m) of T = ½ M_ab q̇ᵃ q̇ᵇ + …, by polarisation: column b is p(e_b) − p(0)."""
-    still = momentum(system, t, q, np.zeros(len(q)))
-    return np.stack([momentum(system, t, q, e) - still for e in np.eye(len(q))], axis=1)
+    """M_ab (m, m) of T = ½ M_ab q̇ᵃ q̇ᵇ + …."""
+    return curvature(system.T, t, q, len(q))
+
+
+def curvature(T: Callable[..., Any], t: float, q: Array, n: int) -> Array:
+    """∂²T/∂q̇ᵃ∂q̇ᵇ (n, n) by polarisation: column b is p(e_b) − p(0)."""
+    still = slope(T, t, q, np.zeros(n))
+    return np.stack([slope(T, t, q, e) - still for e in np.eye(n)], axis=1)
 
 
 def inertia(system: Mode, t: float, q: Array, v: Array) -> Array:

@@ -1,0 +1,49 @@
+"""Chaplygin's equations (2.67): where nothing depends on q^{a2} the others move as if alone."""
+
+from typing import Any
+
+import numpy as np
+
+from ..system import Array, Mode
+from .dependent import dependent
+from .lagrange import constraint_rows, curvature, derivative, gradient, momentum, slope
+from .voronets import slopes_of
+
+ROUNDING = 1e-14  # of the largest derivative: what is below it comes from terms that cancel
+
+
+def accelerations(system: Mode, t: float, q: Array, v: Array) -> Array | None:
+    """(2.67) d/dt ∂T'/∂q̇ − ∂T'/∂q = Π + ∂T/∂q̇^{a2} (∂α_{a1}/∂q^d − ∂α_d/∂q^{a1}) q̇^d, of a1.
+
+    v̇ (n,), or None where it does not apply: T and the constraints depend on too many coordinates.
+    Of α and γ that depend on time or a right side there is ∂α_{a1}/∂t − ∂γ/∂q^{a1} more.
+    """
+    by = dependent(system, t, q, len(v), ignorable(system, t, q, v))
+    if by is None or not len(by.a2):
+        return None
+    q_dot = system.rates(t, q, v)
+    independent = q_dot[by.a1]
+    alone = np.zeros(len(q))  # q^{a2} stays where it is: it is not asked for
+    alone[by.a1] = independent
+    drift = derivative(lambda t, q: slope(by.T, t, q, independent), (t, q), (1.0, alone))
+    of_alpha, of_gamma = slopes_of(by.alpha, t, q), slopes_of(by.gamma, t, q)
+    turned = of_alpha[..., by.a1] - np.swapaxes(of_alpha[..., by.a1], 1, 2)
+    driven = derivative(lambda t: by.alpha(t, q), (t,), (1.0,)) - of_gamma[:, by.a1]
+    right = gradient(lambda q: by.T(t, q, independent), q)[by.a1] + by.forces(t, q, v) - drift
+    right = right + momentum(system, t, q, q_dot)[by.a2] @ (turned @ independent + driven)
+    q_ddot: Any = np.linalg.solve(curvature(by.T, t, q, len(by.a1)), right)
+    return by.changed(t, q, v, q_ddot)
+
+
+def ignorable(system: Mode, t: float, q: Array, v: Array) -> list[int]:
+    """The coordinates on which neither T nor the constraints depend, as far as this state tells."""
+    n = len(v)
+
+    def ingredients(q: Any) -> Any:
+        q_dot = system.rates(t, q, v)
+        parts = [system.T(t, q, q_dot), momentum(system, t, q, q_dot), q_dot]
+        parts += [constraint_rows(system, t, q, n) @ e for e in np.eye(n)]
+        return np.concatenate([np.atleast_1d(part) for part in (*parts, system.g(t, q))])
+
+    slopes = np.abs([derivative(ingredients, (q,), (e,)) for e in np.eye(len(q))])
+    return np.flatnonzero(np.all(slopes <= ROUNDING * slopes.max(axis=0), axis=1)).tolist()

@@ -1,0 +1,140 @@
+"""Rates that others determine: q̇^{a2} = α^{a2}_{a1} q̇^{a1} + γ^{a2} (2.61), erratum 13.
+
+What binds the rates is f_a v = g, and q̇ = N v + n₀ where v is not q̇ itself: the rates of a unit
+quaternion are bound, too.  Which are the dependent ones is free where the others determine them:
+they are chosen so that this is as well conditioned as can be, or told.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import qr
+
+from ..system import Array, Mode, Vector
+from .lagrange import constraint_rows, derivative, gradient, rate_matrix
+
+Places = NDArray[np.int64]
+REGULAR = 1e-6  # of the largest pivot: what a smaller one determines has lost half of its digits
+
+
+@dataclass(frozen=True)
+class Dependent:
+    """a1 (k,) independent rates, a2 (m − k,) those that depend on them.
+
+    `bound` (r,) are as many velocities, for which f_a v = g is solved.
+    """
+
+    system: Mode
+    n: int
+    bound: Places
+    a1: Places
+    a2: Places
+
+    def alpha(self, t: Any, q: Vector) -> Vector:
+        """(2.61) α (m − k, k) of q̇^{a2} = α^{a2}_{a1} q̇^{a1} + γ^{a2}."""
+        return self.solved(t, q)[0]
+
+    def gamma(self, t: Any, q: Vector) -> Vector:
+        """γ (m − k,) of q̇^{a2} = α^{a2}_{a1} q̇^{a1} + γ^{a2}: 0 if all f_a v = 0."""
+        return self.solved(t, q)[1]
+
+    def solved(self, t: Any, q: Vector) -> tuple[Vector, Vector]:
+        """α and γ, of q̇ = B w + b with its rows a1 solved for w."""
+        B, b = self.admissible(t, q)
+        alpha = np.linalg.solve(B[self.a1].T, B[self.a2].T).T
+        return alpha, b[self.a2] - alpha @ b[self.a1]
+
+    def rates(self, t: Any, q: Vector, independent: Vector) -> Vector:
+        """q̇ (m,) or (m, K) of the independent rates (k,) or (k, K)."""
+        alpha, gamma = self.solved(t, q)
+        gamma = gamma if np.ndim(independent) == 1 else gamma[:, None]
+        q_dot = np.concatenate([independent, alpha @ independent + gamma])
+        return q_dot[np.argsort(np.concatenate([self.a1, self.a2]))]
+
+    def velocities(self, t: Any, q: Vector, independent: Vector) -> Vector:
+        """v (n,) of the independent rates (k,)."""
+        V, v_0 = self._free(t, q)
+        B, b = self.admissible(t, q)
+        return V @ np.linalg.solve(B[self.a1], independent - b[self.a1]) + v_0
+
+    def T(self, t: Any, q: Vector, independent: Vector) -> Any:
+        """(2.63) T' = T(t, q, q̇^{a1}, α q̇^{a1} + γ) [J]: T with the constraints put in."""
+        return self.system.T(t, q, self.rates(t, q, independent))
+
+    def ways(self, t: float, q: Array) -> Array:
+        """∂v/∂q̇^{a1} (n, k): f_a ∂v/∂q̇^{a1} = 0."""
+        B, _ = self.admissible(t, q)
+        return self._free(t, q)[0] @ np.linalg.inv(B[self.a1])
+
+    def forces(self, t: float, q: Array, v: Array) -> Array:
+        """(2.78) Π_{a1} = Q_{a1} + Q_{a2} α^{a2}_{a1} (k,), Q of (2.45), (2.46) and (2.50)."""
+        slopes = gradient(lambda q: self.system.U(t, q), q)
+        along = np.asarray(self.system.Q4(t, q, v), dtype=np.float64)
+        along = along - gradient(lambda v: self.system.D(t, q, v), v)
+        conservative = slopes[self.a1] + slopes[self.a2] @ self.alpha(t, q)
+        return self.ways(t, q).T @ along - conservative
+
+    def changed(self, t: float, q: Array, v: Array, independent: Array) -> Array:
+        """v̇ (n,) of the accelerations q̈^{a1} (k,)."""
+        q_dot = self.system.rates(t, q, v)
+        at, direction = (t, q, q_dot[self.a1]), (1.0, q_dot, independent)
+        return derivative(self.velocities, at, direction)
+
+    def admissible(self, t: Any, q: Vector) -> tuple[Vector, Vector]:
+        """q̇ = B w + b, of the same w."""
+        V, v_0 = self._free(t, q)
+        N = rate_matrix(self.system, t, q, np.zeros(self.n))
+        if N is None:
+            return V, v_0
+        return N @ V, N @ v_0 + self.system.rates(t, q, np.zeros(self.n))
+
+    def _free(self, t: Any, q: Vector) -> tuple[Vector, Vector]:
+        """v = V w + v₀ for w of those velocities that are not bound."""
+        rows, g = constraint_rows(self.system, t, q, self.n), np.asarray(self.system.g(t, q))
+        free = np.setdiff1d(np.arange(self.n), self.bound)
+        solved = np.linalg.solve(rows[:, self.bound], np.column_stack([-rows[:, free], g]))
+        V = np.zeros((self.n, len(free)), solved.dtype)
+        v_0 = np.zeros(self.n, solved.dtype)
+        V[free, np.arange(len(free))] = 1.0
+        V[self.bound], v_0[self.bound] = solved[:, :-1], solved[:, -1]
+        return V, v_0
+
+
+def dependent(
+    system: Mode, t: float, q: Array, n: int, among: Sequence[int] | None = None
+) -> Dependent | None:
+    """The rates that depend on the others, of n velocities: the best conditioned `among` some.
+
+    None if the others do not determine as many of those, if constraints say the same twice, or if
+    nothing is left free.
+    """
+    rows = np.asarray(constraint_rows(system, t, q, n), dtype=np.float64)
+    bound, independent = _pivots(rows)
+    if not independent:
+        return None
+    found = Dependent(system, n, np.sort(bound), np.arange(n), np.arange(0))
+    B = np.asarray(found.admissible(t, q)[0], dtype=np.float64)
+    m, k = B.shape
+    allowed = np.arange(m) if among is None else np.asarray(among, dtype=np.int64)
+    across = np.linalg.svd(B)[0][:, k:].T  # (m − k, m): along these q̇ cannot be
+    chosen, regular = _pivots(across[:, allowed])
+    if k == 0 or not regular:
+        return None
+    a2 = np.sort(allowed[chosen])
+    return replace(found, a1=np.setdiff1d(np.arange(m), a2), a2=a2)
+
+
+def _pivots(rows: Array) -> tuple[Places, bool]:
+    """The best r columns of the rows (r, m), and whether they are regular."""
+    r, m = rows.shape
+    if r == 0:
+        return np.arange(0), True
+    if r > m:
+        return np.arange(0), False
+    triangle: Any
+    order: Any
+    _, triangle, order = qr(rows, mode="economic", pivoting=True)
+    return order[:r], bool(abs(triangle[-1, r - 1]) > REGULAR * abs(triangle[0, 0]))

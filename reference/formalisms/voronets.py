@@ -1,0 +1,61 @@
+"""Voronets' equations (2.66): the multipliers are gone, and only independent rates are left.
+
+They hold for constraints with a right side, too, with one term more (erratum 13), and where the
+constraints depend on time. ∂T/∂q̇^{a2} is that of the full T, with the constraints put in after.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ..system import Array, Mode
+from .dependent import Dependent, dependent
+from .lagrange import curvature, derivative, gradient, momentum, slope
+
+
+def accelerations(
+    system: Mode, t: float, q: Array, v: Array, among: Sequence[int] | None = None
+) -> Array | None:
+    """(2.66) d/dt ∂T'/∂q̇^{a1} − ∂T'/∂q^{a1} − ∂T'/∂q^{a2} α = Π_{a1} + ∂T/∂q̇^{a2} (β q̇^d + …).
+
+    v̇ (n,), or None where no rate depends on others, as everywhere where q̇ = v is free. The
+    dependent ones are chosen `among` some, or all; None, too, if those cannot be it.
+    """
+    by = dependent(system, t, q, len(v), among)
+    if by is None or not len(by.a2):
+        return None
+    q_dot = system.rates(t, q, v)
+    independent = q_dot[by.a1]
+    drift = derivative(lambda t, q: slope(by.T, t, q, independent), (t, q), (1.0, q_dot))
+    slopes = gradient(lambda q: by.T(t, q, independent), q)
+    right = slopes[by.a1] + slopes[by.a2] @ by.alpha(t, q) + by.forces(t, q, v)
+    p_2 = momentum(system, t, q, q_dot)[by.a2]
+    right = right + p_2 @ (beta(by, t, q) @ independent + drives(by, t, q)) - drift
+    q_ddot: Any = np.linalg.solve(curvature(by.T, t, q, len(by.a1)), right)
+    return by.changed(t, q, v, q_ddot)
+
+
+def beta(by: Dependent, t: float, q: Array) -> Array:
+    """(2.65) β^{a2}_{a1 d} = ∂α_{a1}/∂q^d + ∂α_{a1}/∂q^c α^c_d − ∂α_d/∂q^{a1} − ∂α_d/∂q^c α^c_{a1}.
+
+    (m − k, k, k), skew in the last two.
+    """
+    slopes = slopes_of(by.alpha, t, q)
+    turned = slopes[..., by.a1] + slopes[..., by.a2] @ by.alpha(t, q)
+    return turned - np.swapaxes(turned, 1, 2)
+
+
+def drives(by: Dependent, t: float, q: Array) -> Array:
+    """∂α_{a1}/∂q^c γ^c − ∂γ/∂q^{a1} − ∂γ/∂q^c α^c_{a1} + ∂α_{a1}/∂t (erratum 13): (m − k, k)."""
+    alpha, gamma = by.alpha(t, q), by.gamma(t, q)
+    of_alpha, of_gamma = slopes_of(by.alpha, t, q), slopes_of(by.gamma, t, q)
+    changed = derivative(lambda t: by.alpha(t, q), (t,), (1.0,))
+    return of_alpha[..., by.a2] @ gamma - of_gamma[:, by.a1] - of_gamma[:, by.a2] @ alpha + changed
+
+
+def slopes_of(function: Any, t: float, q: Array) -> Array:
+    """(…, m): ∂/∂q of an array that depends on t and q."""
+    return np.stack(
+        [derivative(lambda q: function(t, q), (q,), (e,)) for e in np.eye(len(q))], axis=-1
+    )
