@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..system import Array, Cut, Load, Mass, Mode, Pose, Vector
+from .elliptic import jacobi
 
 G = 9.80665  # m/s²
 
@@ -82,21 +83,3 @@ class BarPendulum(Mode):
     def cuts(self, t: float, q: Array) -> list[Cut]:
         """The hinge O."""
         return [Cut(("hinge.fx", "hinge.fy"), None, "bar", (0.0, 0.0))]
-
-
-def jacobi(u: float, k: float, k1: float) -> tuple[float, float]:
-    """sn(u), cn(u) of modulus k, k1 = √(1 − k²) > 0, by Gauss' descending transformation.
-
-    Abramowitz and Stegun, 16.4: sin(2φₙ₋₁ − φₙ) = (cₙ/aₙ) sin φₙ. It takes the modulus and its
-    complement apart, which `scipy.special.ellipj` does not, and reduces u by whole periods.
-    """
-    a, b, c = 1.0, k1, k
-    means: list[tuple[float, float]] = []  # aₙ, cₙ from n = 1 on
-    while abs(c) > 1e-16:  # half a unit in the last place of a: what is left is rounding
-        a, b, c = (a + b) / 2, math.sqrt(a * b), (a - b) / 2
-        means.append((a, c))
-    period = 2 * math.pi / a  # 4 K
-    phi = math.remainder(u, period) * a * 2 ** len(means)
-    for a_n, c_n in reversed(means):
-        phi = (phi + math.asin(c_n / a_n * math.sin(phi))) / 2
-    return math.sin(phi), math.cos(phi)

@@ -8,7 +8,7 @@ import pytest
 from given.examples import example
 from scipy.special import ellipj
 
-from textmech.reference.systems.bar_pendulum import jacobi
+from textmech.reference.systems.elliptic import jacobi
 
 _RATIOS = ("cd", "sd", "nd")  # Glaisher's cn/dn, sn/dn, 1/dn
 

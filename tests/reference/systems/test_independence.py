@@ -16,6 +16,8 @@ ALLOWED = {
     # The shape of an answer, and the book's laws of friction and of turning axes: no mechanics of a
     # scene.
     *("..system", "..mode", "..laws.friction", "..laws.rotation", ".stick_slip"),
+    # The mathematics of closed forms, and closed forms in files of their own.
+    *(".elliptic", ".nutation", ".polhode"),
 }
 
 
