@@ -14,12 +14,15 @@ from .double_pendulum import DoublePendulum
 from .dynamometer import Dynamometer
 from .four_bar import FourBar
 from .growing_force import GrowingForce
+from .heavy_top import HeavyTop
 from .rhombus import Rhombus
 from .rolling_wheel import RollingWheel
 from .sliding_block import SlidingBlock
 from .sliding_disk import SlidingDisk
 from .smooth_friction import SmoothDynamometer, SmoothGrowingForce
 from .spring_mass_damper import SpringMassDamper
+from .tilting_disk import TiltingDisk
+from .torque_free import TorqueFree
 
 SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "anisotropic_drift": AnisotropicDrift,
@@ -29,6 +32,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "dynamometer": Dynamometer,
     "four_bar": FourBar,
     "growing_force": GrowingForce,
+    "heavy_top": HeavyTop,
     "rhombus": Rhombus,
     "rolling_wheel": RollingWheel,
     "sliding_block": SlidingBlock,
@@ -36,6 +40,8 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "smooth_dynamometer": SmoothDynamometer,
     "smooth_growing_force": SmoothGrowingForce,
     "spring_mass_damper": SpringMassDamper,
+    "tilting_disk": TiltingDisk,
+    "torque_free": TorqueFree,
 }
 
 

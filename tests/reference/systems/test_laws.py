@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from given import laws
 from given.examples import MODES, PARAMETERS, VARIANTS, example
+from given.spatial import SPATIAL
 from given.states import states
 
 from textmech.reference.formalisms import lagrange
@@ -22,7 +23,7 @@ STATED_IN_PARAMETERS = (laws.start,)  # what a variant changes
 
 
 def test_every_system_is_tested():
-    assert set(SYSTEMS) == set(PARAMETERS)
+    assert set(SYSTEMS) == set(PARAMETERS) | set(SPATIAL)
 
 
 @pytest.mark.whole
