@@ -22,6 +22,7 @@ from .sliding_disk import SlidingDisk
 from .smooth_friction import SmoothDynamometer, SmoothGrowingForce
 from .spring_mass_damper import SpringMassDamper
 from .tilting_disk import TiltingDisk
+from .tilting_ring import TiltingRing
 from .torque_free import TorqueFree
 
 SYSTEMS: dict[str, type[Mode] | type[System]] = {
@@ -41,6 +42,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "smooth_growing_force": SmoothGrowingForce,
     "spring_mass_damper": SpringMassDamper,
     "tilting_disk": TiltingDisk,
+    "tilting_ring": TiltingRing,
     "torque_free": TorqueFree,
 }
 

@@ -16,6 +16,10 @@ SPATIAL: dict[str, dict[str, float]] = {
     "tilting_disk": {
         "m": 1.3, "R": 0.25, "mu": 1.0, "beta0": math.radians(12), "w1": 0.3, "w2": 5.0, "w3": -0.8,
     },
+    "tilting_ring": {
+        "m": 1.3, "R": 0.25, "A": 0.03, "C": 0.07, "mu": 1.0,
+        "beta0": math.radians(12), "w1": 0.3, "w2": 5.0, "w3": -0.8,
+    },
     "torque_free": {
         "m": 1.3, "A": 0.09, "B": 0.06, "C": 0.04, "gravity": 9.80665,
         "vx": 0.3, "vy": -0.2, "vz": 4.0,
@@ -85,7 +89,7 @@ def _heavy_top(random: np.random.Generator) -> tuple[Array, Array]:
     return q, random.uniform(-20, 20, 3)
 
 
-def _tilting_disk(random: np.random.Generator) -> tuple[Array, Array]:
+def _tilting(random: np.random.Generator) -> tuple[Array, Array]:
     """Up to 80°, rolling (2.19)."""
     x, y, theta, phi = random.uniform(-9, 9, 4)
     beta = random.uniform(math.radians(-80), math.radians(80))
@@ -103,6 +107,7 @@ def _torque_free(random: np.random.Generator) -> tuple[Array, Array]:
 
 _DRAWN: dict[str, Callable[[np.random.Generator], tuple[Array, Array]]] = {
     "heavy_top": _heavy_top,
-    "tilting_disk": _tilting_disk,
+    "tilting_disk": _tilting,
+    "tilting_ring": _tilting,
     "torque_free": _torque_free,
 }

@@ -45,14 +45,19 @@ class InRates(Mode):
 
 
 # What binds the rates q̇, typed again, and the reactions that its multipliers are.
+def _rows(mode: Any) -> Callable[[Any], Any]:
+    """(2.19) on (ẋ, ẏ, θ̇, β̇, φ̇)."""
+    R = mode.R
+    return lambda q: [[1, 0, 0, 0, -R * np.cos(q[2])], [0, 1, 0, 0, -R * np.sin(q[2])]]
+
+
 ROWS: dict[str, Callable[[Mode], Callable[[Any], Any]]] = {
     "heavy_top": lambda top: lambda q: [],
-    "tilting_disk": lambda disk: lambda q: [  # (2.19) on (ẋ, ẏ, θ̇, β̇, φ̇)
-        [1, 0, 0, 0, -disk.R * np.cos(q[2])], [0, 1, 0, 0, -disk.R * np.sin(q[2])]  # type: ignore[attr-defined]
-    ],
+    "tilting_disk": _rows,
+    "tilting_ring": _rows,
     "torque_free": lambda body: lambda q: [[0, 0, 0, *q[3:]]],  # e · ė = 0: it stays a unit
-}  # fmt: skip
-MULTIPLIERS = {"tilting_disk": ("touch.fx", "touch.fy")}
+}
+MULTIPLIERS = dict.fromkeys(("tilting_disk", "tilting_ring"), ("touch.fx", "touch.fy"))
 
 
 def lagrangian(name: str) -> Law:

@@ -18,6 +18,7 @@ ALLOWED = {
     *("..system", "..mode", "..laws.friction", "..laws.rotation", ".stick_slip"),
     # The mathematics of closed forms, and closed forms in files of their own.
     *(".elliptic", ".nutation", ".polhode"),
+    ".tilting_ring",  # of which a disk is one
 }
 
 

@@ -19,7 +19,7 @@ ASKED: dict[str, dict[str, laws.Law]] = {
     name: {"lagrangian": laws.lagrangian(name), **{law.__name__: law for law in laws.COMMON}}
     for name in SPATIAL
 }
-ASKED["tilting_disk"]["rolling"] = laws.rolling
+ASKED["tilting_disk"]["rolling"] = ASKED["tilting_ring"]["rolling"] = laws.rolling
 EACH = [(name, law) for name, known in ASKED.items() for law in known]
 
 # What the case files say of the start, typed again: columns of the pose and their values.
@@ -41,6 +41,7 @@ STARTS: dict[str, dict[int, float]] = {
         5: math.sin(0.35) * math.sin(minus), 6: math.cos(0.35) * math.sin(plus),
     },
 }  # fmt: skip
+STARTS["tilting_ring"] = STARTS["tilting_disk"]
 
 
 def start(name: str, mode: Mode) -> float:
@@ -79,7 +80,7 @@ def test_motion_meets_the_closed_form(name: str):
     assert np.all(np.abs(follow(system, times).y - known).max(0) <= 1e-12 * size)
 
 
-@pytest.mark.parametrize("name", ["heavy_top", "tilting_disk"])
+@pytest.mark.parametrize("name", ["heavy_top", "tilting_disk", "tilting_ring"])
 def test_sign_of_gravity(name: str):
     sound: Any = only(name)
     module: Any = importlib.import_module(type(sound).__module__)
@@ -96,10 +97,12 @@ PARAMETER = {
     ("heavy_top", "m"): "lagrangian", ("heavy_top", "l"): "energy",
     ("heavy_top", "A"): "free_bodies", ("heavy_top", "C"): "lagrangian",
     ("tilting_disk", "m"): "lagrangian", ("tilting_disk", "R"): "energy",
+    ("tilting_ring", "m"): "free_bodies", ("tilting_ring", "R"): "lagrangian",
+    ("tilting_ring", "A"): "energy", ("tilting_ring", "C"): "lagrangian",
     ("torque_free", "A"): "energy", ("torque_free", "B"): "lagrangian",
     ("torque_free", "C"): "free_bodies", ("torque_free", "gravity"): "lagrangian",
 }  # fmt: skip
-DROPS_OUT = {("torque_free", "m"), ("tilting_disk", "mu")}
+DROPS_OUT = {("torque_free", "m"), ("tilting_disk", "mu"), ("tilting_ring", "mu")}
 
 
 @pytest.mark.parametrize(("name", "parameter"), PARAMETER)
@@ -123,7 +126,11 @@ def test_parameter_off_at_the_start():
     known = {(name, key) for name, parameters in SPATIAL.items() for key in parameters}
     assert found | set(PARAMETER) | DROPS_OUT == known
     assert not found & DROPS_OUT
-    assert found & set(PARAMETER) == {("heavy_top", "l"), ("tilting_disk", "R")}
+    assert found & set(PARAMETER) == {
+        ("heavy_top", "l"),
+        ("tilting_disk", "R"),
+        ("tilting_ring", "R"),
+    }
 
 
 @pytest.mark.parametrize("name", SPATIAL)
