@@ -11,6 +11,7 @@ from .anisotropic_drift import AnisotropicDrift
 from .bar_pendulum import BarPendulum
 from .bouncing_disk import BouncingDisk
 from .double_pendulum import DoublePendulum
+from .driven_wheel import DrivenWheel
 from .dynamometer import Dynamometer
 from .four_bar import FourBar
 from .growing_force import GrowingForce
@@ -24,12 +25,14 @@ from .spring_mass_damper import SpringMassDamper
 from .tilting_disk import TiltingDisk
 from .tilting_ring import TiltingRing
 from .torque_free import TorqueFree
+from .upright_wheel import UprightWheel
 
 SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "anisotropic_drift": AnisotropicDrift,
     "bar_pendulum": BarPendulum,
     "bouncing_disk": BouncingDisk,
     "double_pendulum": DoublePendulum,
+    "driven_wheel": DrivenWheel,
     "dynamometer": Dynamometer,
     "four_bar": FourBar,
     "growing_force": GrowingForce,
@@ -44,6 +47,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "tilting_disk": TiltingDisk,
     "tilting_ring": TiltingRing,
     "torque_free": TorqueFree,
+    "upright_wheel": UprightWheel,
 }
 
 

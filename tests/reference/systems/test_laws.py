@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import laws
+from given import laws, wheels
 from given.examples import MODES, PARAMETERS, VARIANTS, example
 from given.spatial import SPATIAL
 from given.states import states
@@ -23,7 +23,8 @@ STATED_IN_PARAMETERS = (laws.start,)  # what a variant changes
 
 
 def test_every_system_is_tested():
-    assert set(SYSTEMS) == set(PARAMETERS) | set(SPATIAL)
+    """Those in space by their own files."""
+    assert set(SYSTEMS) == set(PARAMETERS) | set(SPATIAL) | set(wheels.PARAMETERS)
 
 
 @pytest.mark.whole
