@@ -11,8 +11,10 @@ from .anisotropic_drift import AnisotropicDrift
 from .bar_pendulum import BarPendulum
 from .bouncing_disk import BouncingDisk
 from .double_pendulum import DoublePendulum
+from .driven_robot import DrivenRobot
 from .driven_wheel import DrivenWheel
 from .dynamometer import Dynamometer
+from .five_axis_robot import FiveAxisRobot
 from .four_bar import FourBar
 from .growing_force import GrowingForce
 from .heavy_top import HeavyTop
@@ -32,8 +34,10 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "bar_pendulum": BarPendulum,
     "bouncing_disk": BouncingDisk,
     "double_pendulum": DoublePendulum,
+    "driven_robot": DrivenRobot,
     "driven_wheel": DrivenWheel,
     "dynamometer": Dynamometer,
+    "five_axis_robot": FiveAxisRobot,
     "four_bar": FourBar,
     "growing_force": GrowingForce,
     "heavy_top": HeavyTop,

@@ -1,0 +1,35 @@
+"""The five-axis robots, as their cases set them, and their random states."""
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from textmech.reference.system import MOVING, Array, Mode
+from textmech.reference.systems import written
+
+AXES = range(1, 6)
+ANGLES = dict(
+    zip([f"q{k}" for k in AXES], map(math.radians, (20.0, -40.0, 65.0, 35.0, -25.0)), strict=True)
+)
+RATES = dict(zip([f"w{k}" for k in AXES], (0.8, -0.5, 0.9, -1.1, 2.0), strict=True))
+AMPLITUDES = dict(zip([f"S{k}" for k in AXES], (1.2, 0.8, -1.1, 1.5, 2.3), strict=True))
+FREQUENCIES = dict(zip([f"n{k}" for k in AXES], (1.7, 2.6, 3.1, 4.3, 5.2), strict=True))
+PARAMETERS: dict[str, dict[str, float]] = {
+    "driven_robot": {**ANGLES, **AMPLITUDES, **FREQUENCIES},
+    "five_axis_robot": {**ANGLES, **RATES},
+}
+
+
+def robot(name: str, **changed: float) -> Mode:
+    """The only mode of the system, with some of its parameters changed."""
+    return written(name, {**PARAMETERS[name], **changed}).modes[MOVING]
+
+
+def states(mode: Any, count: int = 20) -> Iterator[tuple[float, Array, Array]]:
+    """Random t, q, v, with the prescribed rates where there are any."""
+    random = np.random.default_rng(1)
+    for _ in range(count):
+        t, q, v = random.uniform(0, 5), *random.uniform(-3, 3, (2, 5))
+        yield t, q, np.asarray(mode.g(t, q)) if len(mode.f_a(t, q)) == 5 else v

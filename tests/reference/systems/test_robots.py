@@ -1,0 +1,77 @@
+"""The five-axis robot, falling and driven: second derivations and special motions."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from given import free_cut, robot_laws
+from given.laws import LIMIT, difference
+from given.robots import PARAMETERS, robot
+
+from textmech.reference.motion.follow import follow
+from textmech.reference.system import Mode, Only
+
+NAMES = pytest.mark.parametrize("name", PARAMETERS)
+G = 9.80665
+
+
+@NAMES
+@pytest.mark.parametrize("law", robot_laws.LAWS, ids=lambda law: law.__name__)
+def test_robot_obeys(name: str, law: Any) -> None:
+    assert law(robot(name)) < LIMIT
+
+
+def test_falling_keeps_its_energy_and_its_momentum_about_the_vertical_axis() -> None:
+    """(2.24) Neither weights nor the first hinge turn the arm about the z axis of the ground."""
+    mode = robot("five_axis_robot")
+    energies, turning = [], []
+    for row in follow(Only(mode), np.linspace(0.0, 0.6, 4)).y:
+        q, v = mode.parted(row)
+        energies.append(mode.T(0.0, q, v) + mode.U(0.0, q))
+        rows = free_cut.momenta(mode, 0.0, q, v)
+        centres = np.array([pose[:3] for pose in mode.poses(0.0, q, v).values()])
+        turning.append((np.cross(centres, rows[:, :3]) + rows[:, 3:])[:, 2].sum())
+    assert np.ptp(energies) < LIMIT * max(map(abs, energies))
+    assert np.ptp(turning) < LIMIT * max(map(abs, turning))
+
+
+def test_driven_motion_is_the_closed_form() -> None:
+    mode, times = robot("driven_robot"), np.linspace(0.0, 2.0, 11)
+    known = np.array([np.concatenate(mode.closed_form(t) or ()) for t in times.tolist()])
+    assert difference(follow(Only(mode), times).y, known) < LIMIT
+
+
+def shoulder(mode: Mode) -> float:
+    """With q2 alone in motion the arm is a pendulum: (2.36), (2.35) and (2.34) give its torque.
+
+    J_O = Σ u · E J Eᵀ u + m ρ², whatever the rate is; J_O q̈₂ and the moment of the weights.
+    """
+    t, q = 0.3, np.array([0.4, -0.7, 1.1, 0.6, -0.5])
+    v = np.array(mode.g(t, q))
+    poses = {name: np.array(pose) for name, pose in mode.poses(t, q, v).items()}
+    hinge = poses["base"][:3] + free_cut.matrix(tuple(poses["base"])) @ [0.05, 0.02, 0.19]
+    u = np.array([-math.sin(q[0]), math.cos(q[0]), 0.0])
+    torque, q_ddot = 0.0, mode.accelerations(t, q, v)[1]
+    for name in ("upper", "fore", "wrist", "hand"):
+        E, arm_ = free_cut.matrix(tuple(poses[name])), poses[name][:3] - hinge
+        mass = mode.masses[name]
+        across = arm_ - (arm_ @ u) * u
+        J_O = u @ E @ mass.J @ E.T @ u + mass.m * (across @ across)
+        torque += J_O * q_ddot + u @ np.cross(arm_, [0.0, 0.0, mass.m * G])
+    assert abs(v[1]) > 0.5, "it stands still"
+    return abs(mode.reactions(t, q, v)["q2.torque"] - torque) / abs(torque)
+
+
+ALONE = {f"S{k}": 0.0 for k in (1, 3, 4, 5)}
+
+
+def test_one_joint_alone_moves_a_pendulum() -> None:
+    assert shoulder(robot("driven_robot", **ALONE)) < LIMIT
+
+
+def test_the_ground_carries_the_weight_of_an_arm_at_rest() -> None:
+    mode = robot("driven_robot", **{f"S{k}": 0.0 for k in range(1, 6)})
+    held = mode.reactions(0.0, *mode.start())
+    assert math.isclose(held["q1.fz"], (8.0 + 5.0 + 3.0 + 1.2 + 0.7) * G, rel_tol=1e-14)
+    assert abs(held["q1.torque"]) < 1e-14
