@@ -19,6 +19,7 @@ from .four_bar import FourBar
 from .growing_force import GrowingForce
 from .heavy_top import HeavyTop
 from .rhombus import Rhombus
+from .robot_knife import RobotKnife
 from .rolling_wheel import RollingWheel
 from .sliding_block import SlidingBlock
 from .sliding_disk import SlidingDisk
@@ -42,6 +43,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "growing_force": GrowingForce,
     "heavy_top": HeavyTop,
     "rhombus": Rhombus,
+    "robot_knife": RobotKnife,
     "rolling_wheel": RollingWheel,
     "sliding_block": SlidingBlock,
     "sliding_disk": SlidingDisk,

@@ -9,17 +9,20 @@ from . import free_cut
 from .laws import difference
 from .robots import states
 
+EDGE = {"blade.normal", "blade.force"}
+MULTIPLIERS = ("blade.normal", "blade.force", *(f"q{k}.torque" for k in range(1, 6)))
+
 
 def equations(mode: Mode) -> float:
-    """Explicit accelerations and torques against (2.44) and (2.60) over T and U."""
+    """Explicit accelerations and multipliers against (2.44) and (2.60) over T and U."""
     worst = 0.0
     for t, q, v in states(mode):
-        a, torques = lagrange.multipliers(mode, t, q, v)
+        a, lam = lagrange.multipliers(mode, t, q, v)
         worst = max(worst, difference(mode.accelerations(t, q, v), a))
-        if len(torques):
-            held = mode.reactions(t, q, v)
-            own = [held[f"{joint}.torque"] for joint in mode.coordinates]
-            worst = max(worst, difference(own, torques))
+        held = mode.reactions(t, q, v)
+        own = [held[name] for name in MULTIPLIERS if name in held]
+        assert len(own) == len(lam)
+        worst = max(worst, difference(own, lam) if own else 0.0)
     return worst
 
 
@@ -35,6 +38,8 @@ def cut_free(mode: Mode) -> float:
             moment = found[f"{joint}.across1"] * one + found[f"{joint}.across2"] * other
             moment = moment + found.get(f"{joint}.torque", 0.0) * np.cross(one, other)
             theirs += [*free_cut.force(found, joint, "fx fy fz"), *moment]
+        for name in EDGE & held.keys():
+            own, theirs = [*own, held[name]], [*theirs, found[name]]
         worst = max(worst, left, difference(own, theirs))
     return worst
 

@@ -19,6 +19,7 @@ FREQUENCIES = dict(zip([f"n{k}" for k in AXES], (1.7, 2.6, 3.1, 4.3, 5.2), stric
 PARAMETERS: dict[str, dict[str, float]] = {
     "driven_robot": {**ANGLES, **AMPLITUDES, **FREQUENCIES},
     "five_axis_robot": {**ANGLES, **RATES},
+    "robot_knife": {**ANGLES, "w3": 0.9, "w4": -1.1, "w5": 6.0},
 }
 
 
@@ -28,8 +29,18 @@ def robot(name: str, **changed: float) -> Mode:
 
 
 def states(mode: Any, count: int = 20) -> Iterator[tuple[float, Array, Array]]:
-    """Random t, q, v, with the prescribed rates where there are any."""
+    """Random t, q, v, with the prescribed rates where there are any, and without side slip.
+
+    They keep away from where the edge's rows lose their rank, and those of q̇₁, q̇₂ theirs: there
+    Voronets' equations are singular.
+    """
     random = np.random.default_rng(1)
-    for _ in range(count):
+    while count:
         t, q, v = random.uniform(0, 5), *random.uniform(-3, 3, (2, 5))
-        yield t, q, np.asarray(mode.g(t, q)) if len(mode.f_a(t, q)) == 5 else v
+        rows = np.asarray(mode.f_a(t, q))
+        if len(rows) == 2 and abs(np.linalg.det(rows[:, :2])) < 0.1:
+            continue
+        if len(rows):
+            v = v - np.linalg.pinv(rows) @ (rows @ v - mode.g(t, q))
+        count -= 1
+        yield t, q, v
