@@ -21,6 +21,7 @@ from .heavy_top import HeavyTop
 from .rhombus import Rhombus
 from .robot_knife import RobotKnife
 from .rolling_wheel import RollingWheel
+from .sleigh import Sleigh
 from .sliding_block import SlidingBlock
 from .sliding_disk import SlidingDisk
 from .smooth_friction import SmoothDynamometer, SmoothGrowingForce
@@ -45,6 +46,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "rhombus": Rhombus,
     "robot_knife": RobotKnife,
     "rolling_wheel": RollingWheel,
+    "sleigh": Sleigh,
     "sliding_block": SlidingBlock,
     "sliding_disk": SlidingDisk,
     "smooth_dynamometer": SmoothDynamometer,

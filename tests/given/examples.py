@@ -30,6 +30,7 @@ PARAMETERS: dict[str, dict[str, float]] = {
     "rolling_wheel": {
         "m": 1.3, "R": 0.25, "mu": 0.5, "beta": math.radians(20), "F": 2.5, "v0": 0.4, "w0": 1.6,
     },
+    "sleigh": {"m": 1.7, "J": 0.09, "a": 0.35, "v0": 0.8, "w0": 1.5},
     "sliding_block": {
         "m": 1.4, "mu_s": 0.5, "mu_k": 0.4, "beta": math.radians(20), "v0": -2.0,
     },
@@ -64,6 +65,10 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
         ("wheel", 0, 0.0, 0.0), ("wheel", 1, 0.25, 0.0), ("wheel", 2, 0.0, 0.0),
         ("wheel", 3, 0.4, 1e-15), ("wheel", 5, -1.6, 1e-15),
     ],
+    "sleigh": [
+        ("sleigh", 0, 0.35, 1e-15), ("sleigh", 1, 0.0, 0.0), ("sleigh", 2, 0.0, 0.0),
+        ("sleigh", 3, 0.8, 0.0), ("sleigh", 4, 0.525, 1e-15), ("sleigh", 5, 1.5, 0.0),
+    ],
     "sliding_block": [("block", 0, 0.0, 0.0), ("block", 3, -2.0, 0.0)],
     "sliding_disk": [
         ("wheel", 0, 0.0, 0.0), ("wheel", 1, 0.25, 0.0), ("wheel", 2, 0.0, 0.0),
@@ -79,6 +84,10 @@ VARIANTS: dict[str, tuple[str, dict[str, float], list[str]]] = {
     "resting": ("rolling_wheel", {"beta": 0.0, "F": 0.0}, []),
     "pushed": ("rolling_wheel", {"beta": 0.0}, []),
     "downhill": ("rolling_wheel", {"F": 0.0}, []),
+    "backward": ("sleigh", {"v0": -0.8, "w0": 0.3}, []),
+    "pure spin": ("sleigh", {"v0": 0.0, "w0": -4.0}, []),
+    "blade ahead": ("sleigh", {"a": -0.2}, []),
+    "straight": ("sleigh", {"w0": 0.0}, []),
     "free": ("spring_mass_damper", {"d": 0.0}, []),
     "critical": ("spring_mass_damper", {"d": 12.0}, []),
     "overdamped": ("spring_mass_damper", {"d": 30.0}, []),

@@ -29,6 +29,7 @@ MULTIPLIERS: dict[At, tuple[str, ...]] = {
     ("four_bar", "moving"): ("C.fx", "C.fy"),
     ("growing_force", "stuck"): ("guide.fx",),
     ("rolling_wheel", "moving"): ("touch.tangent", "touch.normal"),
+    ("sleigh", "moving"): ("blade.force",),
     ("sliding_block", "sticks"): ("touch.tangent",),
     ("sliding_disk", "rolling"): ("touch.normal", "touch.tangent"),
     ("sliding_disk", "slips backward"): ("touch.normal",),
@@ -39,6 +40,7 @@ RESIDUALS = {
     ("anisotropic_drift", "stuck"): 0,
     ("dynamometer", "stuck"): 0,
     ("growing_force", "stuck"): 0,
+    ("sleigh", "moving"): 0,
     ("sliding_block", "sticks"): 0,
     ("sliding_disk", "rolling"): 1,
 }

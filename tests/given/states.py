@@ -73,11 +73,19 @@ def _spring_mass_damper(random: np.random.Generator) -> Drawn:
     return random.uniform(-1.5, -0.1, 1), random.uniform(-5, 5, 1)
 
 
+def _sleigh(random: np.random.Generator) -> Drawn:
+    """Any place and heading, gliding either way."""
+    x, y, theta = random.uniform(-3, 3, 3)
+    u, omega = random.uniform(-5, 5, 2)
+    return np.array([x, y, theta]), np.array([u * math.cos(theta), u * math.sin(theta), omega])
+
+
 _SMOOTH: dict[str, Callable[[np.random.Generator], Drawn]] = {
     "rolling_wheel": _rolling_wheel,
     "bar_pendulum": _bar_pendulum,
     "double_pendulum": _double_pendulum,
     "four_bar": _four_bar,
     "rhombus": _rhombus,
+    "sleigh": _sleigh,
     "spring_mass_damper": _spring_mass_damper,
 }

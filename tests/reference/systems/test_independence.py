@@ -19,7 +19,7 @@ ALLOWED = {
     # The mathematics of closed forms, and closed forms in files of their own.
     *(".elliptic", ".nutation", ".polhode"),
     ".tilting_ring",  # of which a disk is one
-    *(".wheel_on_plane", ".triples", ".arm", ".serial_arm"),
+    *(".wheel_on_plane", ".triples", ".arm", ".serial_arm", ".quadrature"),
 }
 
 
