@@ -27,7 +27,7 @@ def observe(scene: Scene, trajectory: Trajectory, name: str) -> Array:
     if quantity.part == "momentum":
         return _momentum(scene, trajectory, quantity.field)
     owner, _, point = quantity.part.partition(".")
-    for section in (scene.joints, scene.contacts, scene.forces):
+    for section in (scene.joints, scene.constraints, scene.contacts, scene.forces):
         if owner in section:
             return section[owner].observe(_motion(scene, trajectory), quantity.field)
     return scene.bodies[owner].observe(trajectory.states[owner], point, quantity.field)

@@ -5,9 +5,10 @@ counter-clockwise, SI units. What a scene is made of can be imported from here.
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from .body import Body
+from .constraint import Edge
 from .contact import Contact
 from .force import Damper, Force, Push, Spring, Torque, of
 from .frame import PLANE, Frame
@@ -28,6 +29,7 @@ __all__ = [
     "Contact",
     "Damper",
     "DryFriction",
+    "Edge",
     "Force",
     "Frame",
     "GroundPoint",
@@ -46,7 +48,7 @@ STANDARD_GRAVITY = 9.80665  # m/s², the book's value
 
 @dataclass(frozen=True)
 class Scene:
-    """Bodies, joints, contacts and forces by name, in the order of the case file."""
+    """Bodies, joints, constraints, contacts and forces by name, in the order of the case file."""
 
     gravity: Vector
     points: Mapping[str, GroundPoint]
@@ -54,6 +56,7 @@ class Scene:
     joints: Mapping[str, Joint]
     contacts: Mapping[str, Contact]
     forces: Mapping[str, Force]
+    constraints: Mapping[str, Edge] = field(default_factory=dict)
 
     @property
     def frame(self) -> Frame:
@@ -64,9 +67,10 @@ class Scene:
         """By joint, what prescribed rates exert; in the plane none are prescribed."""
         return {}
 
-    def elements(self) -> Iterator[Body | Joint | Contact | Force]:
+    def elements(self) -> Iterator[Body | Joint | Edge | Contact | Force]:
         """All that has a name, quantities and numbers."""
-        for section in (self.bodies, self.joints, self.contacts, self.forces):
+        sections = (self.bodies, self.joints, self.constraints, self.contacts, self.forces)
+        for section in sections:
             yield from section.values()
 
     def springs(self) -> Iterator[Spring]:

@@ -28,9 +28,11 @@ _HOLLOW: dict[str, Any] = {
 }
 
 
-_ALONE = (("gravity",), ("incline",), ("space",), ("drive",))  # of the scene: none names a part
+# Of the scene: none names a part.
+_ALONE = (("gravity",), ("incline",), ("seen",), ("space",), ("drive",))
 
-NAMED = ("bodies", "joints", "contacts", "forces")  # one set of names: they address quantities
+# One set of names: they address quantities.
+NAMED = ("bodies", "joints", "constraints", "contacts", "forces")
 
 
 @dataclass(frozen=True)

@@ -18,12 +18,13 @@ def resolve_scene(file: File) -> Scene:
     if s.space is not None:
         return _in_space(s)
     return Scene(
-        gravity=_gravity(s.gravity, s.incline, (1.0, 0.0), (0.0, -1.0)),
+        gravity=_gravity(s.gravity, s.incline, (1.0, 0.0), (0.0, 0.0 if s.seen else -1.0)),
         points=s.points,
         bodies=_named(s.bodies),
         joints=_named(s.joints),
         contacts=_named(s.contacts),
         forces=_named(s.forces),
+        constraints=_named(s.constraints),
     )
 
 

@@ -13,6 +13,8 @@ def unbuildable(scene: Scene) -> str | None:
     for force in scene.forces.values():
         if type(force) not in ELEMENTS:
             return f"adapter: {force.name} is a {force.word}, which it does not build"
+    for edge in scene.constraints.values():
+        return f"adapter: {edge.name} is an {edge.word}, which it does not build"
     tree = spanning_tree(scene)
     for joint in tree.loops:
         if built_as(scene, joint).shifts:

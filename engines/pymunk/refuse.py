@@ -19,6 +19,8 @@ def unbuildable(scene: Scene) -> str | None:
     for force in scene.forces.values():
         if type(force) not in ELEMENTS:
             return f"adapter: {force.name} is a {force.word}, which it does not build"
+    for edge in scene.constraints.values():
+        return f"adapter: {edge.name} is an {edge.word}, which it does not build"
     for joint in scene.joints.values():
         first = joint.a.body
         only_turns = joint.turns and not joint.shifts

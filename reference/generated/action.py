@@ -87,6 +87,13 @@ def signal(law: Signal, t: Any) -> tuple[Any, ...]:
     return tuple(entry * size for entry in law.amplitude)
 
 
+def slope(law: Signal, t: Any) -> tuple[Any, ...]:
+    """The rate at time t of what `signal` says: 0, A or A w cos(w t + phase)."""
+    w = law.angular_frequency
+    size = {"constant": 0.0, "ramp": 1.0, "sine": w * np.cos(w * t + law.phase)}[law.law]
+    return tuple(entry * size for entry in law.amplitude)
+
+
 def ends(force: Line, where: Coordinates, t: Any, q: Numbers, v: Numbers) -> tuple[Point, Point]:
     """The points at its two ends."""
     return where.point(force.a, t, q, v), where.point(force.b, t, q, v)

@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from ...cases.scene import Vector
+from ...cases.scene import Signal, Vector
 from ..system import Array
+from .blades import Blades, Laws
 from .coordinates import Attached, moved
-from .rows import FIRST, SECOND, Line, Term, opposite
+from .rows import FIRST, GAMMA, SECOND, G, Line, Term, opposite
 
-G, GAMMA = -2, -1  # where g and γ stand in a row of n + 2 numbers
 NOWHERE = -1  # the target of what a particle or a point of the ground has no column for
 
 Row = tuple[Sequence[Attached], Sequence[Term]]
@@ -33,14 +33,20 @@ class Rows:
         self._fixed = np.zeros((len(rows), n + 2))
         self._levers: list[Lever] = []
         self._turns: list[Turn] = []
+        self._blades: list[Lever] = []
+        self._laws: list[tuple[int, Signal]] = []
         for i, (ends, terms) in enumerate(rows):
             for term in terms:
                 term.enter(i, ends, self)
-        self._kinds: list[Levers | Lines] = []
+        self._kinds: list[Levers | Lines | Blades | Laws] = []
         if self._levers:
             self._kinds.append(Levers(self._levers, n + 2))
         if self._turns:
             self._kinds.append(Lines(self._turns, n + 2))
+        if self._blades:
+            self._kinds.append(Blades(self._blades, n + 2))
+        if self._laws:
+            self._kinds.append(Laws(self._laws, n + 2))
         self._target()
         self._keep()
 
@@ -93,6 +99,16 @@ class Rows:
             self.along(i, a, opposite(u))
         else:
             self._turns.append((i, a, b, u))
+
+    def carried(self, i: int, p: Attached, u: Vector) -> None:
+        """(2.15) u·ṙ_p, u turning with p: f = (u, d × u), d × u being the same in any axes."""
+        self._blades.append((i, p, u))
+        if p.phi is not None and p.at is not None:
+            self._fixed[i, p.phi] += p.at[0] * u[1] - p.at[1] * u[0]
+
+    def given(self, i: int, law: Signal) -> None:
+        """(2.15) −s(t): g = s."""
+        self._laws.append((i, law))
 
     def _target(self) -> None:
         """Sorts the changing numbers by where they go: those for one place are added up."""

@@ -1,4 +1,4 @@
-"""What a scene holds for good: its joints, and contacts that only roll.
+"""What a scene holds for good: its joints, its edges, and contacts that only roll.
 
 A joint is read through what it leaves free: to turn, to shift along one line.
 """
@@ -7,11 +7,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from ...cases.scene import GROUND, Joint, Scene, Vector
+from ...cases.scene import GROUND, Edge, Joint, Scene, Signal, Vector
 from .constraint import Constraint
 from .contact import normal, tangent
 from .coordinates import Coordinates
-from .rows import FIRST, SECOND, Along, Line, Term, Turning, X, Y, opposite
+from .rows import FIRST, SECOND, Along, Carried, Given, Line, Term, Turning, X, Y, opposite
 
 Held = tuple[tuple[Term, ...], tuple[str, ...], float]  # a row, its reactions, where it is held
 
@@ -24,6 +24,7 @@ def constraints(
     for joint in scene.joints.values():
         held = jointed(joint, where)
         found.append(held if start is None else _on_its_turn(held, start))
+    found += [edged(edge, where) for edge in scene.constraints.values()]
     for contact in scene.contacts.values():
         if contact.switches:
             continue  # what it holds, and when, is for its modes to say
@@ -40,6 +41,22 @@ def jointed(joint: Joint, where: Coordinates) -> Constraint:
         held.append(unturned(joint.angle))
     rows, names, places = zip(*held, strict=True)
     return Constraint(joint.name, (joint.a, joint.b), rows, names, places, where)
+
+
+def edged(edge: Edge, where: Coordinates) -> Constraint:
+    """(2.15) n·ṙ_P = 0, n to the left of the blade; with a prescribed speed, u·ṙ_P = s(t) too."""
+    rows: list[tuple[Term, ...]] = [(Carried(FIRST, edge.across),)]
+    names = [("force",)]
+    if edge.speed is not None:
+        rows.append((Carried(FIRST, edge.along), Given(edge.speed)))
+        names.append(("drive",))
+    return Constraint(edge.name, (edge.at,), tuple(rows), tuple(names), None, where)
+
+
+def gliding(edge: Edge, speed: float, where: Coordinates) -> Constraint:
+    """u·ṙ_P = speed [m/s] at the start only: nothing holds it later."""
+    row = (Carried(FIRST, edge.along), Given(Signal("constant", (speed,))))
+    return Constraint(edge.name, (edge.at,), (row,), ((),), None, where)
 
 
 def together(u: Vector, name: str) -> Held:

@@ -1,19 +1,21 @@
-"""The three terms that rows of constraints are sums of: `Along`, `Turning` and `Line`.
+"""The terms that rows of constraints are sums of: `Along`, `Turning`, `Line`, `Carried`, `Given`.
 
-Each is the rate of a `place`, written in the coordinates as f_a q̇ᵃ − g (2.15); `assembled` adds
-them up.  Terms are linear in their direction or axis: its opposite makes a difference of two terms,
-a factor weighs them.
+Each is a rate, written in the coordinates as f_a q̇ᵃ − g (2.15); `assembled` adds them up.  The
+first three are the rate of a `place`; what a blade holds, and what is prescribed, has none.  Terms
+are linear in their direction or axis: its opposite makes a difference of two terms, a factor weighs
+them.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from ...cases.scene import Vector
+from ...cases.scene import Signal, Vector
 from .coordinates import Attached, Point, trigonometry
 
 Ends = Sequence[Point]  # the points of one constraint; its terms name them by their place here
 Direction = tuple[Any, Any]
+G, GAMMA = -2, -1  # where g and γ stand in a row of n + 2 numbers
 FIRST, SECOND = 0, 1  # the ends of a joint; a contact has one
 X, Y = (1.0, 0.0), (0.0, 1.0)
 
@@ -24,6 +26,8 @@ class Assembly(Protocol):
     def along(self, i: int, p: Attached, u: Vector) -> None: ...
     def turning(self, i: int, p: Attached, axis: float) -> None: ...
     def line(self, i: int, a: Attached, b: Attached, u: Vector) -> None: ...
+    def carried(self, i: int, p: Attached, u: Vector) -> None: ...
+    def given(self, i: int, law: Signal) -> None: ...
 
 
 @dataclass(frozen=True)
@@ -110,7 +114,49 @@ class Line:
         return -x, -y, f_a, x, y, f_b, g, gamma + b.omega * b.omega * (x * b.d[0] + y * b.d[1])
 
 
-Term = Along | Turning | Line
+@dataclass(frozen=True)
+class Carried:
+    """The velocity of a point along a direction that its body carries: u·ṙ_p [m/s], u = E u'."""
+
+    p: int
+    u: Vector  # in the axes of the body
+    angular = False
+
+    def place(self, ends: Ends) -> Any:
+        """(2.15) There is none. Raises TypeError."""
+        raise TypeError("the velocity of a point along a blade is the rate of no place")
+
+    def direction(self, ends: Ends) -> Direction:
+        """u = E u', in ground axes."""
+        cos, sin = trigonometry(ends[self.p].angle)
+        return cos * self.u[0] - sin * self.u[1], sin * self.u[0] + cos * self.u[1]
+
+    def enter(self, i: int, ends: Sequence[Attached], rows: Assembly) -> None:
+        """Adds it to the i-th row."""
+        rows.carried(i, ends[self.p], self.u)
+
+
+@dataclass(frozen=True)
+class Given:
+    """A prescribed velocity, with the opposite sign: −s(t) [m/s]."""
+
+    law: Signal
+    angular = False
+
+    def place(self, ends: Ends) -> Any:
+        """(2.15) There is none. Raises TypeError."""
+        raise TypeError("a prescribed velocity holds no place")
+
+    def direction(self, ends: Ends) -> Direction:
+        """No force has its direction."""
+        return 0.0, 0.0
+
+    def enter(self, i: int, ends: Sequence[Attached], rows: Assembly) -> None:
+        """Adds it to the i-th row."""
+        rows.given(i, self.law)
+
+
+Term = Along | Turning | Line | Carried | Given
 
 
 def opposite(u: Direction) -> Direction:

@@ -13,7 +13,7 @@ from ...cases.case import Case, Placement
 from ...cases.scene import Anchor, Vector
 from ..generated.constraint import Constraint, assembled
 from ..generated.coordinates import Coordinates
-from ..generated.permanent import constraints
+from ..generated.permanent import constraints, gliding
 from ..generated.rows import FIRST, Along, X, Y
 from ..system import Array
 
@@ -40,6 +40,11 @@ class Closure:
         self.placed = placed(case.initial)
         self.places = [c for c in self.parts if c.holonomic]  # C₁ of (2.17) is free
         self.places += [_at(anchor, place, self.where) for anchor, place in self.placed]
+        self.gliding = [
+            gliding(edge, speed, self.where)
+            for name, edge in case.scene.constraints.items()
+            if name in case.initial and (speed := case.initial[name].given.get("speed")) is not None
+        ]
         self.locks = [lock for c in self.parts for lock in self._locks(c)]
         self.given = held(self.locks, self.numbers(case.initial, POSITIONS))
         self.free = np.array([i for i in range(self.n) if i not in self.given], int)

@@ -27,8 +27,9 @@ def rates(closure: Closure, q: Array) -> Array:
 
 
 def _of_one(closure: Closure, q: Array, v: Array, columns: list[int], free: list[int]) -> Array:
-    rows, g = closure.linear(closure.parts, q)
-    owners = [c for c in closure.parts for _ in range(c.size)]
+    parts = [*closure.parts, *closure.gliding]
+    rows, g = closure.linear(parts, q)
+    owners = [c for c in parts for _ in range(c.size)]
     mine = np.any(rows[:, columns] != 0.0, axis=1)
     rows, g = rows[mine], g[mine]
     owners = [owner for owner, is_mine in zip(owners, mine, strict=True) if is_mine]

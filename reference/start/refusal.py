@@ -75,7 +75,8 @@ def dead_centre(closure: Closure, loose: list[str]) -> CaseError:
 
 def dependent(closure: Closure, part: str) -> CaseError:
     """A constraint that repeats what others hold."""
-    kind = "joints" if part in closure.case.scene.joints else "contacts"
+    scene = closure.case.scene
+    kind = next(s for s in ("joints", "constraints", "contacts") if part in getattr(scene, s))
     return CaseError(
         [
             closure.case.mistake(

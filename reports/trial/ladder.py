@@ -85,8 +85,8 @@ def _upward(h: float, interval: float) -> Iterator[float]:
 
 def wanted_reactions(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
     """Which of the quantities are reactions, that only the producer can give."""
-    parts = {*scene.joints, *scene.contacts}
-    fields = ("fx", "fy", "force", "torque", "friction", "normal", "tangent")
+    parts = {*scene.joints, *scene.constraints, *scene.contacts}
+    fields = ("fx", "fy", "force", "torque", "friction", "normal", "tangent", "drive")
     return tuple(
         name for name in names if name.split(".")[0] in parts and name.split(".")[-1] in fields
     )

@@ -5,7 +5,7 @@ from inspect import signature
 from pathlib import Path
 
 from textmech.cases import shape
-from textmech.cases.language.grammar import body, force, joint
+from textmech.cases.language.grammar import body, constraint, force, joint
 from textmech.cases.language.grammar import file as grammar
 from textmech.cases.language.grammar.contact import Contact as ContactSpec
 from textmech.cases.language.grammar.file import File, Scene
@@ -13,7 +13,7 @@ from textmech.cases.language.grammar.friction import Coefficients, DryFriction
 from textmech.cases.language.grammar.number import amount
 from textmech.cases.load import load
 from textmech.cases.quantity import event_quantities, table
-from textmech.cases.scene import Anchor, Bounds, Contact, Smooth, Spring
+from textmech.cases.scene import Anchor, Bounds, Contact, Edge, Signal, Smooth, Spring
 from textmech.cases.scene import DryFriction as Dry
 from textmech.cases.scene import Joint as Connection
 from textmech.cases.scene import Scene as Resolved
@@ -35,7 +35,7 @@ def test_every_key_is_explained() -> None:
     said = set(re.findall(r"[a-z_]+", " ".join(block + word for block, word in code)))
     models = [File, Scene, grammar.Source, grammar.Deviation, grammar.Initial]
     models += [ContactSpec, Coefficients, DryFriction]
-    for kinds in (body.KINDS, joint.KINDS, force.KINDS):
+    for kinds in (body.KINDS, joint.KINDS, constraint.KINDS, force.KINDS):
         models += kinds.values()
     for model in models:
         assert set(model.model_fields) <= said, model
@@ -55,6 +55,7 @@ def test_quantities() -> None:
             "contact": Contact("contact", Anchor("body", "center"), 1.0, 1.0, ideal="rolling")
         },
         forces={"line": Spring("line", a, b, 1.0, 1.0)},
+        constraints={"constraint": Edge("constraint", b, (1.0, 0.0), Signal("ramp", (1.0,)))},
     )
     rows = re.findall(r"^\| (`[a-z]+\..*?) \| (.*?) \|", PLANE, flags=re.MULTILINE)
     said = {name: unit for names, unit in rows for name in re.findall(r"`(.*?)`", names)}

@@ -30,6 +30,7 @@ def _events(parsed: Parsed, scene: Scene, seen: Mapping[str, Quantity]) -> Itera
 def _marks(scene: Scene, quantity: Quantity) -> bool:
     """Whether something happens at its zero: of an energy that is arbitrary, drift is numerical."""
     drift = quantity.field == "drift" or (quantity.field == "gap" and quantity.part in scene.joints)
+    drift |= quantity.field == "slip" and quantity.part in scene.constraints
     turned = quantity.field == "attitude"
     return quantity.kind not in ("energy", "momentum") and not drift and not turned
 

@@ -3,9 +3,11 @@
 from collections.abc import Iterator, Mapping
 
 from ...mistake import Path, nearest
-from ...scene import CENTER, FLOOR, GROUND, Anchor, Force, Joint, Scene
+from ...scene import CENTER, FLOOR, GROUND, Anchor, Edge, Force, Joint, Scene
 from ..grammar.file import Near
+from ..grammar.file import Scene as Spec
 from ..parse import NAMED, Finding, Parsed
+from .edge import edges
 from .space.spatial import spatial
 from .touch import touches
 
@@ -26,6 +28,8 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     yield from _points(parsed)
     for name, joint in scene.joints.items():
         yield from _refers(parsed, scene, ("scene", "joints", name, joint.word), joint)
+    for name, edge in scene.constraints.items():
+        yield from _refers(parsed, scene, ("scene", "constraints", name, edge.word), edge)
     for name, force in scene.forces.items():
         path = ("scene", "forces", name, force.word)
         yield from _refers(parsed, scene, path, force)
@@ -34,9 +38,21 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     if scene.frame.dimension == 3:
         yield from spatial(parsed, scene)
         return
+    yield from _views(spec, scene)
     yield from touches(parsed, scene)
     for key in ("initial", "near"):
         yield from _placed(parsed, scene, key, getattr(parsed.file, key))
+    yield from edges(parsed, scene)
+
+
+def _views(spec: Spec, scene: Scene) -> Iterator[Finding]:
+    """Seen from above there is a slope, and no floor that could be stood on."""
+    if spec.seen is None:
+        return
+    if spec.incline is None:
+        yield ("scene", "seen"), "needs an `incline`; on a level plane write `gravity: none`"
+    if scene.contacts:
+        yield ("scene", "seen"), "has no floor for contacts: the floor is a line seen from the side"
 
 
 def twice(parsed: Parsed, scene: Scene) -> Iterator[tuple[Path, str]]:
@@ -62,7 +78,9 @@ def _points(parsed: Parsed) -> Iterator[Finding]:
                 yield ("scene", "bodies", name, "points", point), f"the name {point!r} is taken"
 
 
-def _refers(parsed: Parsed, scene: Scene, path: Path, element: Joint | Force) -> Iterator[Finding]:
+def _refers(
+    parsed: Parsed, scene: Scene, path: Path, element: Joint | Edge | Force
+) -> Iterator[Finding]:
     """The points it refers to, one under its word or a list of two."""
     points = element.refers()
     for i, at in enumerate(points):
@@ -95,6 +113,8 @@ def _placed(
     parsed: Parsed, scene: Scene, key: str, places: Mapping[str, Near]
 ) -> Iterator[Finding]:
     for name, place in places.items():
+        if name in scene.constraints and key == "initial":
+            continue
         yield from _body(parsed, scene, (key, name), name)
         if name not in scene.bodies:
             continue

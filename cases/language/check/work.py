@@ -15,7 +15,7 @@ from ..parse import Finding
 from .space.work import spins
 
 VARIANTS = 100  # each is solved and run; a sweep of more is several files
-PARTS = 300  # bodies, joints, contacts, forces: a chain of 100 bars has 200 and takes 13 s
+PARTS = 300  # bodies and what is between them: a chain of 100 bars has 200 and takes 13 s
 ROWS = 200_000  # samples × bodies: each is a step of the reference, four times at 0.1 ms at least
 SWING = 20_000.0  # rad: 800 evaluations each (measured on a pendulum), a quarter of an hour
 DAMPED = 50.0  # what a damper slows down costs so much less: only stability bounds its steps
@@ -32,9 +32,9 @@ def too_many_variants(data: Mapping[str, Any]) -> str | None:
 
 def work(file: File, scene: Scene) -> Iterator[Finding]:
     """What is above its limit: parts, samples, and how much swings in the time."""
-    sections = (scene.bodies, scene.joints, scene.contacts, scene.forces)
+    sections = (scene.bodies, scene.joints, scene.constraints, scene.contacts, scene.forces)
     parts = sum(map(len, sections))
-    if what := _above(parts, PARTS, f"{parts} bodies, joints, contacts and forces"):
+    if what := _above(parts, PARTS, f"{parts} bodies, joints, constraints, contacts and forces"):
         yield ("scene",), what
     rows = file.samples * len(scene.bodies)
     bodies = "body" if len(scene.bodies) == 1 else "bodies"

@@ -5,6 +5,7 @@ from typing import Annotated, Any
 from pydantic import ConfigDict, Field, Tag
 
 from .body import Body
+from .constraint import Constraint
 from .contact import Contact
 from .event import Event, Quantity
 from .field import Bound, In, Literal, Space
@@ -14,7 +15,7 @@ from .ground import GroundPoint
 from .joint import Joint
 from .number import Amount
 from .part import Angle, Name, Part, Position, plain_or_map
-from .text import Place, Text, equation, label, no_formula
+from .text import Place, Text, Word, equation, label, no_formula
 from .words import wrong
 
 WAYS = ("", ".law", ".driver", ".limit")  # after an engine's name: which of its rows
@@ -53,10 +54,14 @@ class Scene(Part):
 
     space: Annotated[int, Space()] | None = Field(None, description="3: a scene in space")
     gravity: Gravity | None = Field(None, description=GRAVITY)
+    seen: Annotated[str, Word("view", ("from above",))] | None = Field(
+        None, description="of gravity only what points down the incline is left"
+    )
     incline: Angle | None = Field(None, description=INCLINE)
     points: dict[Name, GroundPoint] = Field({}, description="points of the ground")
     bodies: dict[Name, Body]
     joints: dict[Name, Joint] = Field({})
+    constraints: dict[Name, Constraint] = Field({}, description="that cannot be integrated")
     contacts: dict[Name, Contact] = Field({})
     forces: dict[Name, Force] = Field({})
 
@@ -88,11 +93,12 @@ class Near(Part):
 
 
 class Initial(Near):
-    """How a body starts: coordinates and rates, or the places of its points."""
+    """How a body starts: coordinates and rates, or the places of its points; or an edge."""
 
     vx: Annotated[float, In("m/s")] | None = None
     vy: Annotated[float, In("m/s")] | None = None
     omega: Annotated[float, In("rad/s")] | None = None
+    speed: Annotated[float, In("m/s")] | None = Field(None, description="of an edge, along it")
 
 
 class Deviation(Part):

@@ -1,16 +1,21 @@
-"""Laws in time as a case file writes them: one of three keys beside the others of a force."""
+"""Laws in time as a case file writes them: one of three keys beside the others of a force.
+
+What is prescribed has such a law as its value, and a plain number is a constant one.
+"""
 
 from dataclasses import dataclass
 from typing import Annotated, Any, get_args
 
-from pydantic import ConfigDict, create_model
+from pydantic import ConfigDict, GetCoreSchemaHandler, Tag, create_model
+from pydantic_core import CoreSchema
 
-from ...signal import Law, Signal
+from ...signal import Law as Word
+from ...signal import Signal
 from .field import In
-from .part import Angle, Part
+from .part import Angle, Made, Part, plain_or_map
 from .words import wrong
 
-LAWS: tuple[Law, ...] = get_args(Law)
+LAWS: tuple[Word, ...] = get_args(Word)
 
 
 @dataclass(frozen=True)
@@ -42,7 +47,7 @@ class Following(Part):
     @property
     def signal(self) -> Signal:
         """The law that is given."""
-        law: Law = next(law for law in LAWS if getattr(self, law) is not None)
+        law: Word = next(law for law in LAWS if getattr(self, law) is not None)
         given = getattr(self, law)
         numbers = dict(given) if isinstance(given, Sine) else {"amplitude": given}
         amplitude = numbers.pop("amplitude")
@@ -56,11 +61,32 @@ def law(title: str, signal: Any, axes: int | None = None) -> dict[str, tuple[Any
     axes: along how many it has an amplitude, if not along as many as it is marked with.
     """
     (mark,) = (mark for mark in signal.__metadata__ if isinstance(mark, InTime))
-    count = mark.axes if axes is None else axes
-    amplitude = _amount(mark.unit, count)
+    return keys(title, mark.unit, mark.axes if axes is None else axes)
+
+
+def keys(title: str, unit: str, axes: int) -> dict[str, tuple[Any, Any]]:
+    """The three keys of a law, for so many axes."""
+    amplitude = _amount(unit, axes)
     sine = create_model(f"{title}Sine", __base__=Sine, amplitude=(amplitude, ...))
-    kinds = (amplitude, _amount(f"{mark.unit}/s", count), sine)
+    kinds = (amplitude, _amount(f"{unit}/s", axes), sine)
     return {law: (kind | None, None) for law, kind in zip(LAWS, kinds, strict=True)}
+
+
+@dataclass(frozen=True, eq=False)
+class Law:
+    """Marks a signal of one axis that stands as a value: a number, or a map with its law."""
+
+    unit: str
+
+    def __get_pydantic_core_schema__(
+        self, source: object, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        fields: dict[str, Any] = keys("Prescribed", self.unit, 1)
+        model = create_model("Prescribed", __base__=Following, __doc__="A law in time.", **fields)
+        constant = Made(_amount(self.unit, 1), lambda value: Signal("constant", (value,)))
+        number: Any = Annotated[Signal, constant, Tag("<plain>")]
+        law: Any = Annotated[Signal, Made(model, lambda written: written.signal), Tag("<map>")]
+        return handler.generate_schema(Annotated[number | law, plain_or_map()])
 
 
 def _amount(unit: str, axes: int) -> Any:

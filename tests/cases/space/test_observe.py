@@ -19,7 +19,9 @@ G = np.array([0.3, -0.7, -9.0])
 MASSES = np.array([0.4, 0.3, 0.6, 0.2, 0.5])
 POINTS = np.random.default_rng(3).normal(size=(5, 3)) * 0.3
 POINTS -= MASSES @ POINTS / MASSES.sum()
-J: Array = sum(m * (x @ x * np.eye(3) - np.outer(x, x)) for m, x in zip(MASSES, POINTS, strict=True))
+J: Array = sum(
+    m * (x @ x * np.eye(3) - np.outer(x, x)) for m, x in zip(MASSES, POINTS, strict=True)
+)
 SIX = (J[0, 0], J[1, 1], J[2, 2], J[0, 1], J[0, 2], J[1, 2])
 P, END = (0.1, 0.2, -0.3), (0.4, 0.0, 0.1)
 CENTER = {"center": (0.0, 0.0, 0.0)}

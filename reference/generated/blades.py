@@ -1,0 +1,45 @@
+"""What changes in the rows of blades: their directions, and speeds that are prescribed."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ...cases.scene import Signal, Vector
+from .action import signal, slope
+from .coordinates import Attached
+from .rows import GAMMA, G
+
+
+class Blades:
+    """What `Carried` has beside its constants, for all points p; u in the axes of their bodies."""
+
+    def __init__(self, blades: Sequence[tuple[int, Attached, Vector]], width: int) -> None:
+        rows, points, directions = zip(*blades, strict=True)
+        row, self._phi = np.array(rows), np.array([p.phi for p in points])
+        self._xy = np.array([p.xy for p in points])
+        self._x, self._y = np.transpose(directions)
+        x, gamma = row * width + self._xy, (row + 1) * width + GAMMA
+        self.targets = np.concatenate([x, x + 1, gamma])
+
+    def __call__(self, t: Any, q: Any, v: Any) -> list[Any]:
+        """(2.15) u at x and y; differentiated, u·r̈_p + u̇·ṙ_p with u̇ = ω × u, (2.6) and (2.7).
+
+        u·r̈_p = f_a q̈ᵃ − ω² u·d and u̇·ṙ_p = ω (u × ṙ_c) + ω² u·d: γ = −ω (u × ṙ_c).
+        """
+        cos, sin = np.cos(q[self._phi]), np.sin(q[self._phi])
+        x, y = cos * self._x - sin * self._y, sin * self._x + cos * self._y
+        return [x, y, v[self._phi] * (y * v[self._xy] - x * v[self._xy + 1])]
+
+
+class Laws:
+    """What `Given` prescribes, for all of them."""
+
+    def __init__(self, laws: Sequence[tuple[int, Signal]], width: int) -> None:
+        self._laws = [law for _, law in laws]
+        end = (np.array([i for i, _ in laws]) + 1) * width
+        self.targets = np.concatenate([end + G, end + GAMMA])
+
+    def __call__(self, t: Any, q: Any, v: Any) -> list[Any]:
+        """(2.15) g = s(t), and γ = ṡ(t)."""
+        return [[signal(law, t)[0] for law in self._laws], [slope(law, t)[0] for law in self._laws]]
