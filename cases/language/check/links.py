@@ -51,7 +51,7 @@ def _views(spec: Spec, scene: Scene) -> Iterator[Finding]:
         return
     if spec.incline is None:
         yield ("scene", "seen"), "needs an `incline`; on a level plane write `gravity: none`"
-    if scene.contacts:
+    elif scene.contacts:
         yield ("scene", "seen"), "has no floor for contacts: the floor is a line seen from the side"
 
 
