@@ -11,6 +11,7 @@ from .anisotropic_drift import AnisotropicDrift
 from .bar_pendulum import BarPendulum
 from .bouncing_disk import BouncingDisk
 from .double_pendulum import DoublePendulum
+from .driven_edge import DrivenEdge
 from .driven_robot import DrivenRobot
 from .driven_wheel import DrivenWheel
 from .dynamometer import Dynamometer
@@ -18,6 +19,7 @@ from .five_axis_robot import FiveAxisRobot
 from .four_bar import FourBar
 from .growing_force import GrowingForce
 from .heavy_top import HeavyTop
+from .knife_edge import KnifeEdge
 from .rhombus import Rhombus
 from .robot_knife import RobotKnife
 from .rolling_wheel import RollingWheel
@@ -38,11 +40,13 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "double_pendulum": DoublePendulum,
     "driven_robot": DrivenRobot,
     "driven_wheel": DrivenWheel,
+    "driven_edge": DrivenEdge,
     "dynamometer": Dynamometer,
     "five_axis_robot": FiveAxisRobot,
     "four_bar": FourBar,
     "growing_force": GrowingForce,
     "heavy_top": HeavyTop,
+    "knife_edge": KnifeEdge,
     "rhombus": Rhombus,
     "robot_knife": RobotKnife,
     "rolling_wheel": RollingWheel,

@@ -18,11 +18,16 @@ PARAMETERS: dict[str, dict[str, float]] = {
         "m1": 1.0, "l1": 0.6, "m2": 0.7, "l2": 0.9,
         "a0": math.radians(-61), "b0": math.radians(-33),
     },
+    "driven_edge": {
+        "m": 1.7, "J": 0.09, "a": 0.35, "w0": 1.5, "A": 0.8, "Omega": 2.0,
+        "alpha": math.radians(50),
+    },
     "dynamometer": {"m": 1.0, "c": 2.0, "u": 2.0, **BOOK},
     "four_bar": {
         "m": 1.0, "a": 0.3, "b": 0.8, "c": 0.6, "d": 0.9, "crank0": math.radians(70),
     },
     "growing_force": {"m": 1.0, "b": 1.0, **BOOK},
+    "knife_edge": {"m": 1.4, "J": 0.06, "beta": math.radians(15), "u0": 0.3, "w0": 1.3},
     "rhombus": {
         "m": 0.5, "l": 0.4, "c": 60.0, "l0": 0.5,
         "left0": math.radians(-130), "right0": math.radians(-60),
@@ -52,11 +57,20 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
     "double_pendulum": [
         ("upper", 2, -61 * math.pi / 180, 1e-15), ("lower", 2, -33 * math.pi / 180, 1e-15),
     ],
+    "driven_edge": [
+        ("sleigh", 0, 0.35, 1e-15), ("sleigh", 1, 0.0, 0.0), ("sleigh", 2, 0.0, 0.0),
+        ("sleigh", 3, 0.8 * math.sin(50 * math.pi / 180), 1e-15), ("sleigh", 4, 0.525, 1e-15),
+        ("sleigh", 5, 1.5, 0.0),
+    ],
     "dynamometer": _BLOCK,
     "four_bar": [
         ("crank", 2, 70 * math.pi / 180, 1e-15), ("rocker", 2, 96 * math.pi / 180, 0.01),
     ],
     "growing_force": _BLOCK,
+    "knife_edge": [
+        ("blade", 0, 0.0, 0.0), ("blade", 1, 0.0, 0.0), ("blade", 2, 0.0, 0.0),
+        ("blade", 3, 0.3, 0.0), ("blade", 4, 0.0, 0.0), ("blade", 5, 1.3, 0.0),
+    ],
     "rhombus": [
         ("left", 2, -130 * math.pi / 180, 1e-15), ("lower_right", 2, -130 * math.pi / 180, 1e-15),
         ("right", 2, -60 * math.pi / 180, 1e-15), ("lower_left", 2, -60 * math.pi / 180, 1e-15),
@@ -88,6 +102,9 @@ VARIANTS: dict[str, tuple[str, dict[str, float], list[str]]] = {
     "pure spin": ("sleigh", {"v0": 0.0, "w0": -4.0}, []),
     "blade ahead": ("sleigh", {"a": -0.2}, []),
     "straight": ("sleigh", {"w0": 0.0}, []),
+    "slides straight": ("knife_edge", {"w0": 0.0}, []),
+    "cycloid": ("knife_edge", {"u0": 0.0}, []),
+    "turns the other way": ("driven_edge", {"w0": -0.7, "a": -0.2}, []),
     "free": ("spring_mass_damper", {"d": 0.0}, []),
     "critical": ("spring_mass_damper", {"d": 12.0}, []),
     "overdamped": ("spring_mass_damper", {"d": 30.0}, []),

@@ -25,9 +25,11 @@ Law = Callable[[System, At], float]
 MULTIPLIERS: dict[At, tuple[str, ...]] = {
     ("anisotropic_drift", "stuck"): ("guide.fx",),
     ("bouncing_disk", "rest"): ("touch.normal",),
+    ("driven_edge", "moving"): ("blade.force", "blade.drive"),
     ("dynamometer", "stuck"): ("guide.fx",),
     ("four_bar", "moving"): ("C.fx", "C.fy"),
     ("growing_force", "stuck"): ("guide.fx",),
+    ("knife_edge", "moving"): ("edge.force",),
     ("rolling_wheel", "moving"): ("touch.tangent", "touch.normal"),
     ("sleigh", "moving"): ("blade.force",),
     ("sliding_block", "sticks"): ("touch.tangent",),
@@ -38,8 +40,10 @@ MULTIPLIERS: dict[At, tuple[str, ...]] = {
 # How many rows have a residual (2.14), where not all: what sticks or rolls has no place of its own.
 RESIDUALS = {
     ("anisotropic_drift", "stuck"): 0,
+    ("driven_edge", "moving"): 0,
     ("dynamometer", "stuck"): 0,
     ("growing_force", "stuck"): 0,
+    ("knife_edge", "moving"): 0,
     ("sleigh", "moving"): 0,
     ("sliding_block", "sticks"): 0,
     ("sliding_disk", "rolling"): 1,

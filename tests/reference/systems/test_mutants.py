@@ -33,6 +33,11 @@ PARAMETER: dict[str, dict[str, Law]] = {
     "rhombus": {
         "m": laws.equations, "l": laws.free_cut, "c": laws.power, "l0": laws.equations,
     },
+    "driven_edge": {
+        "m": laws.reactions, "J": laws.multipliers, "a": laws.equations, "A": laws.equations,
+        "Omega": laws.equations, "alpha": laws.equations,
+    },
+    "knife_edge": {"m": laws.reactions, "beta": laws.power},
     "sleigh": {"m": laws.reactions, "J": laws.multipliers, "a": laws.equations},
     "spring_mass_damper": {
         "m": laws.equations, "c": laws.free_cut, "d": laws.power, "l0": laws.equations,
@@ -48,11 +53,18 @@ AT_THE_START: dict[str, dict[str, Law]] = {
         "a": laws.start, "b": laws.start, "c": laws.start, "d": laws.start, "crank0": laws.start,
     },
     "rhombus": {"left0": laws.start, "right0": laws.start},
+    "driven_edge": {
+        "w0": laws.start, "A": laws.start, "alpha": laws.start,
+    },
+    "knife_edge": {"u0": laws.start, "w0": laws.start},
     "sleigh": {"v0": laws.start, "w0": laws.start},
     "spring_mass_damper": {"y0": laws.start},
 }  # fmt: skip
 
-DROPS_OUT = {("rolling_wheel", "mu")}  # rolling needs enough friction, not a certain friction
+DROPS_OUT = {
+    ("rolling_wheel", "mu"),  # rolling needs enough friction, not a certain friction
+    ("knife_edge", "J"),  # nothing turns it
+}
 
 
 def explicit_of(other: Mode) -> dict[str, Callable[..., Any]]:
@@ -107,11 +119,11 @@ def test_parameter_off_at_the_start(name: str, parameter: str, law: Law):
     assert_seen(law, name, mutant(only(name), start=lambda self: off.start()))
 
 
-@pytest.mark.parametrize("parameter", [parameter for _, parameter in DROPS_OUT])
-def test_parameter_that_drops_out(parameter: str):
-    system = only("rolling_wheel")
-    off = only("rolling_wheel", **{parameter: 1.05 * PARAMETERS["rolling_wheel"][parameter]})
-    for t, q, v in states("rolling_wheel", MOVING, 5):
+@pytest.mark.parametrize(("name", "parameter"), sorted(DROPS_OUT))
+def test_parameter_that_drops_out(name: str, parameter: str):
+    system = only(name)
+    off = only(name, **{parameter: 1.05 * PARAMETERS[name][parameter]})
+    for t, q, v in states(name, MOVING, 5):
         np.testing.assert_array_equal(system.accelerations(t, q, v), off.accelerations(t, q, v))
         assert system.reactions(t, q, v) == off.reactions(t, q, v)
 
