@@ -11,7 +11,7 @@ from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ..engine import Plain, Plan, Realised, Refusal, Start
 from ..heading import heading
-from . import plans, settings
+from . import edge, plans, settings
 from .plain import plain
 from .plans import named
 from .read.health import Left
@@ -48,14 +48,17 @@ class Pymunk:
         return self.setting == "tuned"
 
     def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
-        """Natively; if tuned, dampers and dry friction also by their laws."""
+        """Natively; if tuned, dampers and dry friction also by their laws, edges by a driver."""
         refusal = unbuildable(scene)
         if refusal:
             return [Refusal("native", refusal)]
+        without = [Refusal("native", edge.NONE)] if scene.constraints else []
         if not self._tuned:
+            if without:
+                return without
             return [plans.shipped(scene, settings.with_own(self.options, scene))]
         best = recipe(scene, start)
-        return [plans.tuned(scene, start, way, best) for way in plans.ways(scene)]
+        return [*without, *(plans.tuned(scene, start, way, best) for way in plans.ways(scene))]
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as pymunk's objects hold it, with which no number of a setting has to do."""

@@ -47,7 +47,7 @@ def lines(world: World, realised: Realised) -> None:
     """Adds the lines that pymunk realises itself, in the order of the case file."""
     for force in world.scene.forces.values():
         element = ELEMENTS[type(force)]
-        if element.line is None or (realised == "law" and element.tell):
+        if element.line is None or (realised != "native" and element.tell):
             continue
         a, b = force.refers()
         given = _LINE | element.line(force)
@@ -148,7 +148,7 @@ def _push_script(
         turn = "body.angle + h * body.angular_velocity" if midpoint else "body.angle"
         yield f"    lever = pymunk.Vec2d{written(world.local(force.at))}.rotated({turn})"
         place += " + lever"
-    pair = ", ".join(_in_time(force.signal))
+    pair = ", ".join(as_text(force.signal))
     yield f"    body.apply_force_at_world_point(({pair}), {place})"
 
 
@@ -168,10 +168,10 @@ def _torque_load(world: World, force: Torque, name: str) -> Exerted:
 def _torque_script(
     world: World, force: Torque, of: Callable[[Body], str], midpoint: bool
 ) -> Iterator[str]:
-    yield f"    {of(world.bodies[force.body])}.torque += {_in_time(force.signal)[0]}"
+    yield f"    {of(world.bodies[force.body])}.torque += {as_text(force.signal)[0]}"
 
 
-def _in_time(law: Signal) -> list[str]:
+def as_text(law: Signal) -> list[str]:
     """The law in time, in the script's words."""
     sine = f" * math.sin({law.angular_frequency!r} * t + {law.phase!r})"
     factor = {"constant": "", "ramp": " * t", "sine": sine}[law.law]

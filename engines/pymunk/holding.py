@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from ...cases.scene import Scene
 from ..engine import Choice, Start
 from .contact import is_tip
+from .edge import count
 from .rehearsal import most_halving
 
 ENOUGH = 10  # halvings in a step: 1e-3 of an error is left, and what was cached rings for 3 steps
@@ -74,7 +75,7 @@ def holding(scene: Scene, start: Start) -> Holding | None:
     """By a rehearsal; None where no two rows are solved one after the other."""
     contacts = scene.contacts.values()
     tips = any(is_tip(scene, contact) for contact in contacts)
-    if not scene.joints and not tips and len(contacts) < 2:
+    if not scene.joints and not tips and len(contacts) < 2 and count(scene) < 2:
         return None
     impacts = any(contact.switches for contact in contacts)
     return Holding(most_halving(scene, start), impacts)

@@ -9,16 +9,21 @@ from ...cases.scene import Scene
 from ..engine import Choice, Plan, Realised, Start
 from ..law import one_number
 from .contact import closed
+from .edge import alone
 from .law.friction import ruled
 from .recipe import Recipe
 from .scene import oblique
 
 
 def ways(scene: Scene) -> tuple[Realised, ...]:
-    """Dampers also by their law: pymunk applies its own after the kick, a first order.
+    """Edges by our driver.
+
+    Dampers also by their law: pymunk applies its own after the kick, a first order.
 
     Dry friction too: pymunk's has one bound, where the textbook's has up to four.
     """
+    if scene.constraints:
+        return ("driver",)
     law = any(scene.dampers()) or ruled(scene)
     return ("native", "law") if law else ("native",)
 
@@ -69,8 +74,14 @@ def _spoilt(scene: Scene, realised: Realised) -> bool:
 
 
 def _withheld(scene: Scene) -> dict[str, str]:
-    """A constraint's impulse has no direction."""
-    return {
+    """A constraint's impulse has no direction; beside others, not even a sign."""
+    edges = {
+        name: "engine: pymunk reports a joint's impulse as a magnitude only"
+        for name, quantity in table(scene).items()
+        if quantity.part in scene.constraints and quantity.field in ("force", "drive")
+        if not alone(scene, quantity.part)
+    }
+    return edges | {
         name: "engine: pymunk reports a joint's impulse as a magnitude only"
         for name, quantity in table(scene).items()
         if quantity.part in scene.joints and quantity.field in ("fx", "fy", "torque", "friction")
@@ -86,4 +97,8 @@ def _words(scene: Scene, start: Start, recipe: Recipe, step: float) -> str:
         words.append(f"{bodies} started {numbers['start.seed']:g} m in the floor")
     if slots := [joint.name for joint in scene.joints.values() if oblique(scene, joint)]:
         words.append(f"{', '.join(slots)} held across by a pin joint that is carried along")
+    if scene.constraints:
+        words.append(
+            f"{', '.join(scene.constraints)} held by pin joints that are laid anew before each step"
+        )
     return "; ".join(words)

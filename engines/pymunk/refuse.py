@@ -19,8 +19,10 @@ def unbuildable(scene: Scene) -> str | None:
     for force in scene.forces.values():
         if type(force) not in ELEMENTS:
             return f"adapter: {force.name} is a {force.word}, which it does not build"
+    beside = [*scene.contacts.values(), *(j for j in scene.joints.values() if j.dry_friction)]
     for edge in scene.constraints.values():
-        return f"adapter: {edge.name} is an {edge.word}, which it does not build"
+        if beside:
+            return f"adapter: {edge.name} beside the dry friction of {beside[0].name}"
     for joint in scene.joints.values():
         first = joint.a.body
         only_turns = joint.turns and not joint.shifts

@@ -73,7 +73,7 @@ def _between(
     """A function that takes the steps from one number up to another."""
     one, midpoint = world.space.step, bool(numbers.get("time.midpoint"))
     reflects = bool(numbers.get("contact.reflects"))
-    applied = forces(world, step, midpoint=midpoint, law=realised == "law", reflects=reflects)
+    applied = forces(world, step, midpoint=midpoint, law=realised != "native", reflects=reflects)
 
     def free(first: int, last: int) -> None:
         for _ in repeat(None, last - first):

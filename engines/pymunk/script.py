@@ -18,6 +18,7 @@ from pymunk.shapes import Segment
 from ...cases.scene import Scene
 from ..engine import Start
 from .contact import ABOVE, closed, is_tip
+from .edge import joints_as_text, lays_as_text
 from .force import script
 from .run import COLD
 from .scene import build
@@ -94,6 +95,7 @@ def building(world: World, start: Start, numbers: Mapping[str, Any]) -> list[str
         *_bodies(world),
         *_floor(world, reflects=bool(numbers.get("contact.reflects"))),
         *_constraints(world, numbers),
+        *joints_as_text(world, lambda body: _of(world, body)),
     ]
     midpoint, seed = numbers.get("time.midpoint"), numbers.get("start.seed")
     if seed:
@@ -105,7 +107,7 @@ def before_each(world: World, numbers: Mapping[str, Any]) -> list[str]:
     """What is done before step n, indented."""
     midpoint = bool(numbers.get("time.midpoint"))
     lines = script(world, lambda body: _of(world, body), midpoint=midpoint)
-    return [*lines, *_followers(world, numbers)]
+    return [*lines, *_followers(world, numbers), *lays_as_text(world)]
 
 
 def _sweeps(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:

@@ -8,6 +8,7 @@ from pymunk.shapes import Circle
 from pymunk.space import Space
 
 from ...cases.scene import GROUND, Anchor, Scene, Vector
+from .pin import Pin
 from .slot import Line
 
 
@@ -17,7 +18,7 @@ class World:
 
     A joint's first constraint carries its force. reach: half the length [m] of the floor and of
     grooves of the ground. driven: the driven points' bodies. brakes: the friction joints of slides.
-    slots: the lines that pin joints hold.
+    slots: the lines that pin joints hold. pins: those of edges, by the reaction: `blade.force`.
     """
 
     scene: Scene
@@ -29,6 +30,7 @@ class World:
     brakes: dict[str, GrooveJoint] = field(default_factory=dict)
     lines: dict[str, DampedSpring] = field(default_factory=dict)
     slots: dict[str, Line] = field(default_factory=dict)
+    pins: dict[str, Pin] = field(default_factory=dict)
     wheels: dict[str, Circle] = field(default_factory=dict)
 
     def body(self, anchor: Anchor) -> Body:

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 from ..contact import follower
+from ..edge import driver
 from ..force import tells
 from ..world import World
 from .friction import laws
@@ -16,7 +17,8 @@ def forces(world: World, step: float, *, midpoint: bool, law: bool, reflects: bo
     reflects: whether a point stays on the floor as `follower` says.
     """
     friction = laws(world, step) if law else []
-    return [*tells(world, step, midpoint=midpoint), *friction, *_followers(world, step, reflects)]
+    told = [*tells(world, step, midpoint=midpoint), *friction, *_followers(world, step, reflects)]
+    return [*told, *driver(world, step)]  # which has to know what has been told
 
 
 def _followers(world: World, step: float, reflects: bool) -> list[Apply]:

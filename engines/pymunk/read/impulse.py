@@ -13,11 +13,12 @@ Floor = dict[str, tuple[float, float]]
 
 
 def impulses(world: World, reactions: tuple[str, ...]) -> Callable[[], list[float]]:
-    """A function that reads them [N s]: a joint's size, the floor's tangent and normal."""
+    """A function that reads them [N s]: a joint's size, an edge's, the floor's two."""
     parts = [quantity.rpartition(".") for quantity in reactions]
     joints: list[Constraint | None] = [
         world.joints[name][0] if name in world.joints else None for name, _, _ in parts
     ]
+    pins = [world.pins.get(quantity) for quantity in reactions]
     bodies = _contacts(world, {name for name, _, _ in parts})
 
     def read() -> list[float]:
@@ -25,8 +26,10 @@ def impulses(world: World, reactions: tuple[str, ...]) -> Callable[[], list[floa
         for body, names in bodies.items():
             body.each_arbiter(_one if len(names) == 1 else _several, names, floor)
         row = []
-        for (name, _, what), joint in zip(parts, joints, strict=True):
-            if joint:
+        for (name, _, what), joint, pin in zip(parts, joints, pins, strict=True):
+            if pin:
+                row.append(pin.impulse())
+            elif joint:
                 row.append(joint.impulse)
             else:
                 row.append(floor.get(name, (0.0, 0.0))[0 if what == "tangent" else 1])
