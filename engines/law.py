@@ -24,6 +24,15 @@ def value(signal: Signal, t: float) -> tuple[float, ...]:
     return tuple([amplitude * factor for amplitude in signal.amplitude])
 
 
+def rate(signal: Signal, t: float) -> tuple[float, ...]:
+    """How fast `value` changes at t [s], per second."""
+    if signal.law == "sine":
+        factor = signal.angular_frequency * math.cos(signal.angular_frequency * t + signal.phase)
+    else:
+        factor = 1.0 if signal.law == "ramp" else 0.0
+    return tuple([amplitude * factor for amplitude in signal.amplitude])
+
+
 def in_time(signal: Signal) -> Callable[[float], tuple[float, ...]]:
     """`value` of one law, for a loop: what does not change is looked up once."""
     amplitude, frequency, phase = signal.amplitude, signal.angular_frequency, signal.phase

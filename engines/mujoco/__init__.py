@@ -16,7 +16,7 @@ from .compilation import NOMINAL, compiled, lent, settled, timestep
 from .plain import plain
 from .plans import plan, ways
 from .read.measure import measured
-from .refuse import unbuildable, uncompilable
+from .refuse import NO_EDGE, unbuildable, uncompilable
 from .run import simulate
 from .script import text
 
@@ -48,7 +48,11 @@ class MuJoCo:
         refusal = unbuildable(scene) or uncompilable(scene, start, self._plan(scene, start))
         if refusal:
             return [Refusal("native", refusal)]
-        return [self._plan(scene, start, way) for way in ways(scene, start, tuned=self._tuned)]
+        without = [Refusal("native", NO_EDGE)] if scene.constraints else []
+        if without and not self._tuned:
+            return without
+        found = (self._plan(scene, start, way) for way in ways(scene, start, tuned=self._tuned))
+        return [*without, *found]
 
     def _plan(self, scene: Scene, start: Start, realised: Realised = "native") -> Plan:
         if self._tuned:

@@ -19,7 +19,12 @@ Numbers = Callable[[float], Sequence[Choice]]
 
 
 def ways(scene: Scene, start: Start, *, tuned: bool) -> tuple[Realised, ...]:
-    """MuJoCo's own elements; dry friction, of which it knows one number, in other ways too."""
+    """MuJoCo's own elements; dry friction, of which it knows one number, in other ways too.
+
+    Edges by our law alone.
+    """
+    if scene.constraints:
+        return ("law",)
     if tuned and one_touch(scene) and not falls(scene, start):
         return ("native", "law")
     if not tuned or not one_slide(scene):
@@ -55,7 +60,9 @@ def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> 
         words.append(f"driven points are masses of {HEAVY:g} kg")
     if plan.simplified:
         words.append(plan.simplified)
-    if plan.realised == "law":
+    if scene.constraints:
+        words.append(f"{', '.join(scene.constraints)} held by our law at every stage")
+    elif plan.realised == "law":
         when = "stage" if smooth_only(scene) and not scene.contacts else "step"
         words.append(f"dry friction by our law before every {when}")
     if plan.realised == "driver":

@@ -7,15 +7,20 @@ from .contact import LEAST_BOUNCE
 from .force import ELEMENTS
 from .tree import Branch, Tree, built_as, spanning_tree
 
+NO_EDGE = "engine: MuJoCo has no constraint of a velocity across a line that turns with a body"
+
 
 def unbuildable(scene: Scene) -> str | None:
     """The first joint or contact that has no counterpart."""
     for force in scene.forces.values():
         if type(force) not in ELEMENTS:
             return f"adapter: {force.name} is a {force.word}, which it does not build"
-    for edge in scene.constraints.values():
-        return f"adapter: {edge.name} is an {edge.word}, which it does not build"
     tree = spanning_tree(scene)
+    soft = [*tree.loops, *scene.contacts.values()]
+    soft += [joint for joint in scene.joints.values() if joint.dry_friction]
+    for edge in scene.constraints.values():
+        if soft:
+            return f"adapter: {edge.name} beside {soft[0].name}, whose force gives way by itself"
     for joint in tree.loops:
         if built_as(scene, joint).shifts:
             what = f"{joint.kind} {joint.name}"

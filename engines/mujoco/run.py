@@ -9,6 +9,7 @@ import numpy as np
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ..engine import Diverged, Realised, Start
+from .law.edge import edges
 from .law.signal import installed, signals
 from .law.smooth import smooth
 from .law.stepping import stepping
@@ -60,7 +61,7 @@ def simulate(
     counts = counted(times, model.opt.timestep)
     grid = all_steps(times, model.opt.timestep) if every else times
     steps = stepping(scene, model, data, realised)
-    laws = smooth(scene, model) if realised == "law" else []
+    laws = [*smooth(scene, model), *edges(scene, model)] if realised == "law" else []
     touching = tuple(name for name in reactions if name.partition(".")[0] in scene.contacts)
     with listening() as warnings, signals(scene, laws):
         if every and not steps.slides:

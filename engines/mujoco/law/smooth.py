@@ -72,12 +72,12 @@ def _among(model: mujoco.MjModel, data: mujoco.MjData, dof: int) -> Acting:
     def acting() -> float:
         mujoco.mj_solveM(model, data, effort, unit)
         share = effort[0] / effort[0, dof]  # of each generalized force, along the slide
-        return float(share @ (data.qfrc_passive - data.qfrc_bias + _actuated(model, data)))
+        return float(share @ (data.qfrc_passive - data.qfrc_bias + actuated(model, data)))
 
     return acting
 
 
-def _actuated(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
+def actuated(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
     """Generalized forces of pushes and torques, which MuJoCo works out after the callback."""
     if not model.nu:
         return np.zeros(model.nv)

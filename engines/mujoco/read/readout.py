@@ -12,6 +12,7 @@ import numpy as np
 
 from ....cases.scene import Scene
 from ....cases.trajectory import Array
+from ..edge import fields
 from ..tree import Tree, spanning_tree
 from .friction import SlideFriction
 from .reaction import contact_force, joint_force
@@ -49,6 +50,8 @@ def read(
         part, _, field = name.partition(".")
         if field == "friction":
             found[name] = dry.forces[part]
+        elif part in scene.constraints:
+            found[name] = seen["userdata"][:, fields(scene).index(name)]
         elif part in scene.joints:
             found[name] = of_joint(part)[("fx", "fy", "torque", "force").index(field)]
         else:
@@ -63,7 +66,9 @@ def _needed(scene: Scene, tree: Tree, reactions: tuple[str, ...]) -> set[str]:
     names: set[str] = set()
     for name in reactions:
         part, _, field = name.partition(".")
-        if part not in scene.joints:
+        if part in scene.constraints:
+            names.add("userdata")
+        elif part not in scene.joints:
             names |= {*_TOUCHING}
         elif field != "friction":
             names |= {"efc_force"} if scene.joints[part] in tree.loops else {*_JOINTS}

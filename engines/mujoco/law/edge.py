@@ -1,0 +1,91 @@
+"""Edges, which MuJoCo has no constraint for: their forces by our law at every RK4 stage.
+
+Without the edges MuJoCo would accelerate by a₀ = M⁻¹ (all forces). A point's velocity along a
+direction w that its body carries is A v; it changes by A v̇ + w·J̇v + ẇ·v_P, and that has to be ṡ.
+So the edges' forces are λ = (A M⁻¹ Aᵀ)⁻¹ (ṡ − A a₀ − w·J̇v − ẇ·v_P), each at its point along w.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from ....cases.scene import Edge, Scene, Vector
+from ....cases.trajectory import Array
+from ...law import rate
+from ..edge import held
+from ..tree import called
+from .signal import Control, bound
+from .smooth import actuated
+
+
+@dataclass(frozen=True)
+class Row:
+    """What an edge holds: a direction in the axes of the body, and how its speed changes."""
+
+    body: int
+    site: int
+    way: Vector
+    change: Callable[[float], float]  # ṡ [m/s²] at a time [s]
+
+
+def edges(scene: Scene, model: mujoco.MjModel) -> list[Control]:
+    """One callback for all edges: they may feel each other."""
+    rows = [_row(model, edge, field) for edge, field in held(scene)]
+    if not rows:
+        return []
+
+    def bind(data: mujoco.MjData) -> Callable[[], None]:
+        law = _Law(model, data, rows)
+        return law.apply
+
+    return [bound(bind)]
+
+
+def _row(model: mujoco.MjModel, edge: Edge, field: str) -> Row:
+    body, site = model.body(called(edge.at.body)).id, model.site(str(edge.at)).id
+    if field == "force" or edge.speed is None:
+        return Row(body, site, edge.across, lambda t: 0.0)
+    return Row(body, site, edge.along, lambda t, law=edge.speed: rate(law, t)[0])
+
+
+class _Law:
+    """MuJoCo's arrays, fetched once, and room for the law's own."""
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, rows: list[Row]) -> None:
+        self._model, self._data, self._rows = model, data, rows
+        self._moves, self._turns = np.zeros((3, model.nv)), np.zeros((3, model.nv))
+        self._drifts = np.zeros((3, model.nv))
+        self._A, self._by_mass = np.zeros((len(rows), model.nv)), np.zeros((len(rows), model.nv))
+        self._free = np.zeros((1, model.nv))
+
+    def apply(self) -> None:
+        """The forces at the present stage, as forces on bodies, and in `userdata` to be read."""
+        model, data, A = self._model, self._data, self._A
+        wanted, ways = np.zeros(len(self._rows)), np.zeros((len(self._rows), 2))
+        for i, row in enumerate(self._rows):
+            ways[i], wanted[i] = self._enter(i, row)
+        forces = data.qfrc_passive - data.qfrc_bias + actuated(model, data)
+        mujoco.mj_solveM(model, data, self._free, forces[None])
+        mujoco.mj_solveM(model, data, self._by_mass, A)
+        multipliers = np.linalg.solve(A @ self._by_mass.T, wanted - A @ self._free[0])
+        data.userdata[:] = multipliers
+        data.xfrc_applied[:] = 0.0
+        for row, way, size in zip(self._rows, ways, multipliers, strict=True):
+            (fx, fy), (x, y, _) = size * way, data.site_xpos[row.site] - data.xipos[row.body]
+            data.xfrc_applied[row.body] += (fx, fy, 0.0, 0.0, 0.0, x * fy - y * fx)
+
+    def _enter(self, i: int, row: Row) -> tuple[Array, float]:
+        """Writes A of a row; its direction in ground axes, and what A v̇ has to be."""
+        model, data, v = self._model, self._data, self._data.qvel
+        place = data.site_xpos[row.site]
+        mujoco.mj_jac(model, data, self._moves, self._turns, place, row.body)
+        mujoco.mj_jacDot(model, data, self._drifts, None, place, row.body)
+        cos, sin = data.xmat[row.body, 0], data.xmat[row.body, 3]
+        x, y = cos * row.way[0] - sin * row.way[1], sin * row.way[0] + cos * row.way[1]
+        self._A[i] = x * self._moves[0] + y * self._moves[1]
+        (vx, vy, _), omega = self._moves @ v, float(self._turns[2] @ v)
+        (dx, dy, _) = self._drifts @ v
+        drift = x * dx + y * dy + omega * (x * vy - y * vx)
+        return np.array([x, y]), row.change(data.time) - drift
