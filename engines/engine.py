@@ -13,7 +13,8 @@ from ..cases.trajectory import Array, Trajectory
 Realised = Literal["native", "law", "driver"]
 """The engine's own force elements; our force law in a callback; our driver around the step."""
 Start = Mapping[str, tuple[float, ...]]
-"""body → x, y, angle, vx, vy, omega of its centre of mass; in space the 13 columns of `SPACE`."""
+"""body → its state as `scene.frame` has it: x, y, angle, vx, vy, omega of its centre of mass; in
+space r, unit quaternion, v and ω in body axes."""
 
 
 class Diverged(RuntimeError):
@@ -115,7 +116,7 @@ class Engine(Protocol):
         """Physics read back from the engine before any step and before any seed or shift.
 
         `gravity.x`, `gravity.y`, `<body>.mass`, `<body>.inertia` (turning bodies; in space
-        `gravity.z`, `momentum.z` too, and `<body>.inertia_11` … `inertia_23`),
+        `<body>.inertia_11` … `inertia_23`, and the z of every vector),
         `<contact>.friction`, `<joint>.friction_forward|friction_backward`, `<spring>.stiffness`,
         `<spring>.rest_length`, `<damper>.damping`, `energy.kinetic`, `momentum.x`, `momentum.y`,
         as far as the engine knows them.

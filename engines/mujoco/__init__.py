@@ -1,24 +1,20 @@
-"""MuJoCo behind the protocol of `engines.engine`."""
+"""MuJoCo behind the protocol of `engines.engine`: the door to scenes of the plane and of space."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import partial
 from typing import Any, ClassVar
 
 import mujoco
 
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
-from ..engine import Plain, Plan, Realised, Refusal, Start
-from ..heading import heading
+from ..engine import Plain, Plan, Refusal, Start
 from . import options, settings
-from .compilation import NOMINAL, compiled, lent, settled, timestep
-from .plain import plain
-from .plans import plan, ways
-from .read.measure import measured
-from .refuse import NO_EDGE, unbuildable, uncompilable
-from .run import simulate
-from .script import text
+from .plane import Plane
+from .space.world import Space
+
+_WORLDS: Mapping[int, type[Any]] = {2: Plane, 3: Space}
+"""By the dimension of the scene's frame."""
 
 
 @dataclass(frozen=True)
@@ -37,50 +33,25 @@ class MuJoCo:
     @property
     def own_step(self) -> float | None:
         """2 ms, MuJoCo's default, unless tuned or set by the user."""
-        return None if self._tuned else self.options.get("step", settings.SHIPPED_STEP)
+        tuned = self.setting == "tuned"
+        return None if tuned else self.options.get("step", settings.SHIPPED_STEP)
 
-    @property
-    def _tuned(self) -> bool:
-        return self.setting == "tuned"
+    def _world(self, scene: Scene) -> Any:
+        return _WORLDS[scene.frame.dimension](self, self.options)
 
     def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
-        """Natively; with dry friction also by its law and by a driver, if tuned."""
-        refusal = unbuildable(scene) or uncompilable(scene, start, self._plan(scene, start))
-        if refusal:
-            return [Refusal("native", refusal)]
-        without = [Refusal("native", NO_EDGE)] if scene.constraints else []
-        if without and not self._tuned:
-            return without
-        found = (self._plan(scene, start, way) for way in ways(scene, start, tuned=self._tuned))
-        return [*without, *found]
-
-    def _plan(self, scene: Scene, start: Start, realised: Realised = "native") -> Plan:
-        if self._tuned:
-            numbers = partial(settings.tuned, scene, start=start)
-        else:
-            numbers = partial(settings.with_own, self.options, scene)
-        return plan(scene, start, realised, numbers, tuned=self._tuned)
+        """Natively; in the plane, with dry friction, also by its law and by a driver, if tuned."""
+        return self._world(scene).plans(scene, start)
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as the compiled model holds it."""
-        return measured(scene, *compiled(scene, start, NOMINAL, self._plan(scene, start)))
+        return self._world(scene).measure(scene, start)
 
     def script(
         self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""
     ) -> str:
         """The MJCF file with its start as a keyframe."""
-        choices = [timestep(step), *plan.choices(step)]
-        model, *_ = self._placed(scene, start, step, plan)
-        begun = model.key_qpos[0].tolist(), model.key_qvel[0].tolist()
-        return text(scene, start, choices, begun, heading(self, title, step, plan))
-
-    def _placed(
-        self, scene: Scene, start: Start, step: float, plan: Plan
-    ) -> tuple[mujoco.MjModel, mujoco.MjData, Mapping[str, float]]:
-        """As the script would be loaded: MuJoCo's floor gives way to a weight, so tuned settles."""
-        if self._tuned:
-            return settled(scene, start, step, plan)
-        return *compiled(scene, start, step, plan), {}
+        return self._world(scene).script(scene, start, step, plan, title=title)
 
     def run(
         self,
@@ -94,13 +65,12 @@ class MuJoCo:
         record: bool = False,
     ) -> Trajectory:
         """The motion, stepped by `mj_step(model, data, n)` between samples or steps."""
-        with lent(scene, start, step, plan, settles=self._tuned) as (model, data):
-            return simulate(
-                scene, model, data, start, times, reactions, realised=plan.realised, every=record
-            )
+        return self._world(scene).run(
+            scene, start, times, step, plan, reactions=reactions, record=record
+        )
 
     def plain(
         self, scene: Scene, start: Start, step: float, plan: Plan
     ) -> Callable[[float], Plain] | None:
         """`mj_step(model, data, n)` on the file of `show`, or our law's force before each step."""
-        return plain(scene, start, plan, self.script(scene, start, step, plan))
+        return self._world(scene).plain(scene, start, step, plan)

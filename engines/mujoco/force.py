@@ -20,7 +20,7 @@ from .written import written
 
 Sections = Mapping[str, ET.Element]
 Outer = tuple[Anchor, Array, Array]
-"""A body's point at which a force (N, 2) [N] and a torque (N,) [N m] act."""
+"""A body's point at which a force (N, 2) [N] and a torque (N,) [N m] act; in space (N, 3) each."""
 
 
 @dataclass(frozen=True)
@@ -110,21 +110,33 @@ def _actuator(
 
 
 def _push(sections: Sections, force: Push) -> None:
-    element = _actuator(sections, force, str(force.at), (*force.signal.amplitude, 0, 0, 0, 0))
+    along = force.signal.amplitude
+    rest = [0] * (6 - len(along))
+    element = _actuator(sections, force, str(force.at), (*along, *rest))
     element.set("refsite", GROUND)  # the force keeps the ground's axes
 
 
 def _push_outer(force: Push, size: Array, gear: Array) -> Iterator[Outer]:
-    yield force.at, size[:, None] * gear[:2], np.zeros(len(size))
+    if len(force.signal.amplitude) == 3:
+        yield force.at, size[:, None] * gear[:3], np.zeros((len(size), 3))
+    else:
+        yield force.at, size[:, None] * gear[:2], np.zeros(len(size))
 
 
 def _torque(sections: Sections, force: Torque) -> None:
-    site = f"{force.body}.{CENTER}"
-    _actuator(sections, force, site, (0, 0, 0, 0, 0, *force.signal.amplitude))
+    site, about = f"{force.body}.{CENTER}", force.signal.amplitude
+    rest = [0] * (6 - len(about))
+    element = _actuator(sections, force, site, (*rest, *about))
+    if len(about) == 3:
+        element.set("refsite", GROUND)  # the torque keeps the ground's axes
 
 
 def _torque_outer(force: Torque, size: Array, gear: Array) -> Iterator[Outer]:
-    yield Anchor(force.body, CENTER), np.zeros((len(size), 2)), size * gear[5]
+    at = Anchor(force.body, CENTER)
+    if len(force.signal.amplitude) == 3:
+        yield at, np.zeros((len(size), 3)), size[:, None] * gear[3:]
+    else:
+        yield at, np.zeros((len(size), 2)), size * gear[5]
 
 
 ELEMENTS: dict[type[Force], Element] = {

@@ -68,7 +68,7 @@ def simulate(
             record = whole(model, data, len(grid))
         else:
             record = sampled(data, np.arange(len(grid)) if every else counts, steps)
-        _check(warnings, grid, record)
+        check(warnings, grid, record)
         each: dict[str, Array] = {}
         if record.felt is not None:
             each = {name: contact_force(scene, model, name, record.felt) for name in touching}
@@ -79,7 +79,7 @@ def simulate(
             rows = record.at(counts)
             steps.keep(counts)
         forces = read(scene, model, data, times, rows, reactions, steps.recall)
-        _check(warnings, grid, record)
+        check(warnings, grid, record)
     states = poses(scene, model, record.qpos, record.qvel, start)
     if not every:
         return Trajectory(times, states, forces)
@@ -89,7 +89,8 @@ def simulate(
     return Trajectory(times, samples, forces, record=whole_run)
 
 
-def _check(warnings: list[str], times: Array, record: Record) -> None:
+def check(warnings: list[str], times: Array, record: Record) -> None:
+    """Raises Diverged."""
     finite = np.all(np.isfinite(record.qpos), axis=1) & np.all(np.isfinite(record.qvel), axis=1)
     if warnings:
         raise Diverged(f"MuJoCo warns: {' '.join(warnings[0].split())}")

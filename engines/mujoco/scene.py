@@ -24,7 +24,7 @@ from .tree import (
     spanning_tree,
     turned,
 )
-from .written import written
+from .written import attributes, written
 
 HEAVY = 1e15  # kg of a driven point: 1 N changes its velocity by 1e-15 m/s in a second
 LEAST = 1e-15  # kg m² (mjMINVAL) of a particle: MuJoCo takes no less of a body with a joint
@@ -47,32 +47,25 @@ def mjcf(
     tree = spanning_tree(scene)
     root = ET.Element("mujoco", model="textmech")
     option = ET.SubElement(
-        root, "option", _of(numbers, "option"), gravity=written(*scene.gravity, 0)
+        root, "option", attributes(numbers, "option"), gravity=written(*scene.gravity, 0)
     )
-    flags = {"autoreset": "disable", **_of(numbers, "flag")}  # a reset must not look like a motion
+    # A reset must not look like a motion.
+    flags = {"autoreset": "disable", **attributes(numbers, "flag")}
     ET.SubElement(option, "flag", flags)
     world = ET.SubElement(root, "worldbody")
     _world(world, scene)
     _bodies(world, scene, tree, numbers)
     if scene.contacts:
-        _contacts(root, scene, _of(numbers, "pair"))
+        _contacts(root, scene, attributes(numbers, "pair"))
         _sensors(root, scene)
     if tree.loops:
-        _loops(root, tree, _of(numbers, "connect"))
+        _loops(root, tree, attributes(numbers, "connect"))
     write(root, scene)
     if scene.constraints:
         ET.SubElement(root, "size", nuserdata=str(len(fields(scene))))
     _start(root, scene, tree, start, begun, out=_leaves_plane(scene, numbers))
     ET.indent(root)
     return ET.tostring(root, encoding="unicode") + "\n"
-
-
-def _of(numbers: dict[str, object], group: str) -> dict[str, str]:
-    return {
-        name.partition(".")[2]: value if isinstance(value, str) else written(value)
-        for name, value in numbers.items()
-        if name.startswith(f"{group}.")
-    }
 
 
 def _world(world: ET.Element, scene: Scene) -> None:
@@ -118,7 +111,7 @@ def _bodies(world: ET.Element, scene: Scene, tree: Tree, numbers: dict[str, obje
         body = scene.bodies[branch.body]
         element = ET.SubElement(elements[branch.parent], "body", name=called(body.name))
         elements[body.name] = element
-        _hang(element, scene, branch, _of(numbers, "slide"))
+        _hang(element, scene, branch, attributes(numbers, "slide"))
         if branch.joint is None and out:
             _joint(element, f"{body.name}.z", "slide", axis="0 0 1")
         # A particle that is held rigidly must add nothing to the inertia of what carries it.

@@ -15,6 +15,10 @@ def text(
     begun: tuple[Sequence[float], Sequence[float]],
     head: Iterable[str],
 ) -> str:
-    """The file; head: its comments, in which two hyphens would end one."""
-    comments = (f"<!-- {re.sub('-(?=-)', '- ', line)} -->\n" for line in head)
-    return "".join(comments) + mjcf(scene, start, choices, begun)
+    """The file; head: its comments."""
+    return commented(head) + mjcf(scene, start, choices, begun)
+
+
+def commented(head: Iterable[str]) -> str:
+    """Lines as comments, in which two hyphens would end one."""
+    return "".join(f"<!-- {re.sub('-(?=-)', '- ', line)} -->\n" for line in head)

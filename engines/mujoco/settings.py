@@ -3,7 +3,7 @@
 A recipe is a function of the scene and of the step its tied numbers follow.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ...cases.scene import Scene
@@ -14,16 +14,24 @@ from .tree import driven, spanning_tree
 
 SHIPPED_STEP = 2e-3  # s, the default of <option timestep>
 _DEFAULT = "MuJoCo's default"
+TO_THE_END = Choice(
+    "option.tolerance", 0.0, "MuJoCo scales it by the mass, and a driven point's is 1e15"
+)
 
 
 def shipped(scene: Scene, tied_to: float) -> list[Choice]:
     """What a user gets who changes nothing."""
+    return defaults(_soft(scene), _solver(scene))
+
+
+def defaults(soft: Sequence[str], solver: Sequence[Choice]) -> list[Choice]:
+    """MuJoCo's numbers, for groups of soft constraints; solver: what no setting leaves out."""
     choices = [
         Choice("option.integrator", "Euler", _DEFAULT),
         Choice("option.cone", "pyramidal", _DEFAULT),
-        *_solver(scene),
+        *solver,
     ]
-    for group in _soft(scene):
+    for group in soft:
         choices += [
             Choice(_key(group, "solref"), [0.02, 1.0], _DEFAULT),
             Choice(_key(group, "solimp"), [0.9, 0.95, 0.001, 0.5, 2.0], _DEFAULT),
@@ -73,13 +81,7 @@ def _key(group: str, name: str) -> str:
 
 def _solver(scene: Scene) -> list[Choice]:
     """Solve to the end where a driven point's mass would tell the solver that it has arrived."""
-    if not _soft(scene) or not any(driven(scene)):
-        return []
-    return [
-        Choice(
-            "option.tolerance", 0.0, "MuJoCo scales it by the mass, and a driven point's is 1e15"
-        )
-    ]
+    return [TO_THE_END] if _soft(scene) and any(driven(scene)) else []
 
 
 def ties(scene: Scene) -> bool:
@@ -101,11 +103,18 @@ def _soft(scene: Scene) -> list[str]:
 
 def with_own(options: Mapping[str, Any], scene: Scene, tied_to: float) -> list[Choice]:
     """The shipped setting with the user's own options on top."""
+    return overlaid(shipped(scene, tied_to), options, _soft(scene))
+
+
+def overlaid(
+    under: Sequence[Choice], options: Mapping[str, Any], soft: Sequence[str]
+) -> list[Choice]:
+    """Choices with the user's own options on top."""
     because = "your own option"
-    choices = {choice.name: choice for choice in shipped(scene, tied_to)}
+    choices = {choice.name: choice for choice in under}
     for name, value in options.items():
         if name in SOFT:
-            named = [_key(group, name) for group in _soft(scene)]
+            named = [_key(group, name) for group in soft]
         else:
             named = [] if name == "step" else [f"option.{name}"]
         choices |= {key: Choice(key, as_written(name, value), because) for key in named}

@@ -5,21 +5,25 @@ MuJoCo has `connect` for a pin, and nothing for a slide.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from typing import Generic, TypeVar
 
 from ...cases.joint import Freedom
 from ...cases.scene import GROUND, Anchor, Joint, Scene, Vector
+from ...cases.space.joint import SpatialJoint
 from ..engine import Start
+
+J = TypeVar("J", Joint, SpatialJoint)
 
 
 @dataclass(frozen=True)
-class Branch:
+class Branch(Generic[J]):
     """How a body hangs on its parent: by a joint, or freely on the ground (joint None)."""
 
     body: str
     parent: str  # a body, `ground`, or a driven point such as `ground.hook`
-    joint: Joint | None
+    joint: J | None
 
     @property
     def forward(self) -> bool:
@@ -34,11 +38,11 @@ class Branch:
 
 
 @dataclass(frozen=True)
-class Tree:
+class Tree(Generic[J]):
     """Branches from the ground outward, and the joints that close loops."""
 
-    branches: tuple[Branch, ...]
-    loops: tuple[Joint, ...]
+    branches: tuple[Branch[J], ...]
+    loops: tuple[J, ...]
 
     def subtree(self, body: str) -> set[str]:
         """The body and all that hangs on it."""
@@ -101,8 +105,17 @@ def node(scene: Scene, anchor: Anchor) -> str:
     return anchor.body
 
 
-def spanning_tree(scene: Scene) -> Tree:
-    """Kruskal's tree over the joints, pins last, each kind in the scene's order."""
+def spanning_tree(scene: Scene) -> Tree[Joint]:
+    """The tree over the joints, pins last, each kind in the scene's order."""
+
+    def closes(joint: Joint) -> bool:
+        return built_as(scene, joint) == Left(turns=True, shifts=False)
+
+    return spanned(scene, sorted(scene.joints.values(), key=closes))
+
+
+def spanned(scene: Scene, joints: Iterable[J]) -> Tree[J]:
+    """Kruskal's tree: the joints in the order in which they are taken into it."""
     group = {name: name for name in (GROUND, *driven(scene), *scene.bodies)}
 
     def root(name: str) -> str:
@@ -110,13 +123,9 @@ def spanning_tree(scene: Scene) -> Tree:
             name = group[name]
         return name
 
-    kept: list[Joint] = []
-    loops: list[Joint] = []
-
-    def closes(joint: Joint) -> bool:
-        return built_as(scene, joint) == Left(turns=True, shifts=False)
-
-    for joint in sorted(scene.joints.values(), key=closes):
+    kept: list[J] = []
+    loops: list[J] = []
+    for joint in joints:
         ends = sorted((root(node(scene, joint.a)), root(node(scene, joint.b))), key=_is_body)
         if ends[0] == ends[1] or not _is_body(ends[1]):  # both fixed: closes through the ground
             loops.append(joint)
@@ -135,7 +144,7 @@ def _is_body(name: str) -> bool:
     return name != GROUND and "." not in name
 
 
-def _outward(scene: Scene, joints: list[Joint]) -> Iterator[Branch]:
+def _outward(scene: Scene, joints: list[J]) -> Iterator[Branch[J]]:
     reached = {GROUND, *driven(scene)}
     waiting = list(scene.bodies)
     while waiting:

@@ -9,7 +9,7 @@ from contextlib import AbstractContextManager, contextmanager
 
 import mujoco
 
-from ....cases.scene import Scene
+from ....cases.scene import Scene, Signal
 from ..force import signals as laws
 
 Control = Callable[[mujoco.MjModel, mujoco.MjData], None]
@@ -17,7 +17,7 @@ Control = Callable[[mujoco.MjModel, mujoco.MjData], None]
 
 def signals(scene: Scene, others: Sequence[Control] = ()) -> AbstractContextManager[None]:
     """The scene's sines, and what else needs them set, while they are wanted."""
-    sines = _control(scene)
+    sines = swinging(laws(scene))
     controls = [*([] if sines is None else [sines]), *others]
     if len(controls) < 2:
         return installed(controls[0] if controls else None)
@@ -58,11 +58,10 @@ def _nothing() -> None:
     """Before there are data."""
 
 
-def _control(scene: Scene) -> Control | None:
+def swinging(laws: Sequence[Signal]) -> Control | None:
+    """What sets the controls of those of the actuators whose laws are sines, in their order."""
     sines = [
-        (i, law.angular_frequency, law.phase)
-        for i, law in enumerate(laws(scene))
-        if law.law == "sine"
+        (i, law.angular_frequency, law.phase) for i, law in enumerate(laws) if law.law == "sine"
     ]
 
     def bind(data: mujoco.MjData) -> Callable[[], None]:

@@ -1,0 +1,1 @@
+"""Scenes in space as MuJoCo runs them: z up, native joints, the same file names first."""

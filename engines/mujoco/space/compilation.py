@@ -1,0 +1,33 @@
+"""A scene in space as MuJoCo's model, with data at the start."""
+
+import mujoco
+
+from ....cases.space.scene import SpatialScene
+from ...engine import Plan, Start
+from ..compilation import timestep
+from ..law.signal import installed
+from ..run import listening, started
+from .scene import mjcf
+from .settle import settle
+
+
+def compiled(
+    scene: SpatialScene, start: Start, step: float, plan: Plan
+) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """The model with the plan's numbers at the step [s], and data at the start.
+
+    Raises ValueError with what MuJoCo does not take.
+    """
+    text = mjcf(scene, start, [timestep(step), *plan.choices(step)])
+    with listening(), installed(None):
+        model = mujoco.MjModel.from_xml_string(text)
+    return started(model)
+
+
+def placed(
+    scene: SpatialScene, start: Start, step: float, plan: Plan, *, settles: bool
+) -> tuple[mujoco.MjModel, mujoco.MjData, dict[str, tuple[float, float]]]:
+    """The same, started as the floor carries it: depths [m] and creeps [m/s] by body."""
+    model, data = compiled(scene, start, step, plan)
+    with listening():
+        return model, data, settle(scene, model, data, start) if settles else {}

@@ -1,0 +1,56 @@
+"""What a setting of MuJoCo decides about a scene in space: exponents, and the protocol's words."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+
+from ....cases.space.scene import SpatialScene
+from ...engine import Choice, Plan, Start
+from ..compilation import NOMINAL
+from ..scene import HEAVY, LEAST
+from ..tree import driven
+from .compilation import placed
+from .settings import soft_groups
+
+Numbers = Callable[[float], Sequence[Choice]]
+
+
+def plan(scene: SpatialScene, start: Start, numbers: Numbers, *, tuned: bool) -> Plan:
+    """MuJoCo's own elements. Nothing is withheld: every reaction can be read.
+
+    Exponents: Euler and contacts 1, 2; RK4 4, 5; soft constraints of the tuned recipe, which
+    follow the step, 2, 3.
+    """
+    integrator = {choice.name: choice.value for choice in numbers(NOMINAL)}["option.integrator"]
+    first = integrator != "RK4" or bool(scene.contacts)
+    following = (1, 2) if first else (2, 3)
+    bare = Plan(
+        "native",
+        held=(1, 2) if first else (4, 5),
+        following=following if tuned and soft_groups(scene) else None,
+        numbers=numbers,
+    )
+    return replace(bare, protocol=partial(_words, scene, start, bare, tuned))
+
+
+def _words(scene: SpatialScene, start: Start, plan: Plan, tuned: bool, step: float) -> str:
+    """What is heavy, what is light, and how what rolls is started."""
+    words = []
+    if any(driven(scene)):
+        words.append(f"driven points are masses of {HEAVY:g} kg")
+    if scene.drives:
+        words.append(f"prescribed rates are armatures of {HEAVY:g} kg m² (kg of a slide)")
+    slender = [
+        name
+        for name, body in scene.bodies.items()
+        if body.inertia is not None and min(body.inertia[:3]) == 0.0
+    ]
+    words += [f"{name} has {LEAST:g} kg m² about its own axis" for name in slender]
+    if tuned and scene.contacts:
+        *_, begun = placed(scene, start, step, plan, settles=True)
+        words += [
+            f"{name} started {depth:.1e} m in the floor, creeping {creep:.1e} m/s"
+            for name, (depth, creep) in begun.items()
+            if depth
+        ]
+    return "; ".join(words)

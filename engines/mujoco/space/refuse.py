@@ -1,0 +1,47 @@
+"""Scenes in space that MuJoCo has no element for, or the adapter does not build."""
+
+from ....cases.scene import GROUND
+from ....cases.space.scene import SpatialScene
+from ...engine import Plan, Start
+from ..compilation import NOMINAL
+from ..force import ELEMENTS
+from .compilation import compiled
+from .drive import drives
+from .tree import held_points, left, spanning_tree
+
+
+def unbuildable(scene: SpatialScene) -> str | None:
+    """The first element that has no counterpart."""
+    for force in scene.forces.values():
+        if type(force) not in ELEMENTS:
+            return f"adapter: {force.name} is a {force.word}, which it does not build"
+    loops = spanning_tree(scene).loops
+    for joint in loops:
+        if held_points(scene, joint) is None:
+            what = f"{joint.kind} {joint.name}"
+            return f"engine: MuJoCo has no constraint that closes a loop by the {what}"
+    for joint in scene.joints.values():
+        first = joint.a.body
+        if joint.shifts and first != GROUND and not scene.bodies[first].turns:
+            return f"adapter: {joint.name} starts at a particle, which has no axes"
+    for drive in drives(scene):
+        if drive.joint in loops:
+            return f"adapter: {drive.joint.name} closes a loop of driven joints"
+        if drive.number >= len(left(scene, drive.joint)) or (
+            left(scene, drive.joint)[drive.number].kind == "ball"
+        ):
+            return f"adapter: {drive.joint.name} would have to turn a particle, which has no axes"
+    touching = [contact.at for contact in scene.contacts.values()]
+    for name, contact in scene.contacts.items():
+        if touching.count(contact.at) > 1:
+            return f"adapter: {name} is not the only contact of {contact.at} with the floor"
+    return None
+
+
+def uncompilable(scene: SpatialScene, start: Start, plan: Plan) -> str | None:
+    """What MuJoCo's compiler says of the scene."""
+    try:
+        compiled(scene, start, NOMINAL, plan)
+    except ValueError as refusal:
+        return f"engine: MuJoCo does not take the scene: {' '.join(str(refusal).split())}"
+    return None

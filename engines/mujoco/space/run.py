@@ -1,0 +1,95 @@
+"""Stepping MuJoCo in space: its own loop between samples, everything read later."""
+
+from functools import cache
+
+import mujoco
+import numpy as np
+
+from ....cases.space.scene import SpatialScene
+from ....cases.trajectory import Array, Trajectory
+from ...engine import Start
+from ..law.signal import installed, swinging
+from ..law.stepping import Steps
+from ..read.record import Counts, Record, all_steps, counted, sampled, whole
+from ..run import check, listening
+from .drive import drives
+from .read.reaction import contact_force, effort, joint_wrench
+from .read.seen import JOINTS, LOOPS, TOUCHING, Seen, seen
+from .read.states import states
+from .scene import signals
+from .tree import spanning_tree
+
+_WRENCH = ("fx", "fy", "fz", "mx", "my", "mz")
+
+
+def simulate(
+    scene: SpatialScene,
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    start: Start,
+    times: Array,
+    reactions: tuple[str, ...],
+    *,
+    every: bool,
+) -> Trajectory:
+    """The motion at the times, whole multiples of the model's step from 0.
+
+    every: all steps too, with the contacts' forces at each. Raises Diverged, or ValueError for
+    other times.
+    """
+    counts = counted(times, model.opt.timestep)
+    grid = all_steps(times, model.opt.timestep) if every else times
+    touching = tuple(name for name in reactions if name.partition(".")[0] in scene.contacts)
+    with listening() as warnings, installed(swinging(signals(scene))):
+        record = whole(model, data, len(grid)) if every else _sampled(model, data, counts)
+        check(warnings, grid, record)
+        rows = record.at(counts) if every else record
+        known = seen(model, data, times, rows, _needed(scene, reactions))
+        each = seen(model, data, grid, record, set()) if every else known
+        check(warnings, grid, record)
+    forces = read(scene, model, known, reactions)
+    found = states(scene, model, each, start)
+    if not every:
+        return Trajectory(times, found, forces)
+    assert record.felt is not None
+    felt = {name: contact_force(scene, name, record.felt) for name in touching}
+    phase = np.zeros(len(grid), dtype=np.int64)  # an engine does not say when one ends
+    samples = {name: rows[counts] for name, rows in found.items()}
+    return Trajectory(times, samples, forces, record=Trajectory(grid, found, felt, phase=phase))
+
+
+def _sampled(model: mujoco.MjModel, data: mujoco.MjData, counts: Counts) -> Record:
+    return sampled(data, counts, Steps(model, data, [], lambda n: mujoco.mj_step(model, data, n)))
+
+
+def _needed(scene: SpatialScene, reactions: tuple[str, ...]) -> set[str]:
+    """Which of MuJoCo's arrays."""
+    loops = spanning_tree(scene).loops
+    names: set[str] = set()
+    for name in reactions:
+        part = name.partition(".")[0]
+        if part not in scene.joints:
+            names |= {*TOUCHING}
+        else:
+            names |= {*LOOPS} if scene.joints[part] in loops else {*JOINTS}
+    return names
+
+
+def read(
+    scene: SpatialScene, model: mujoco.MjModel, known: Seen, reactions: tuple[str, ...]
+) -> dict[str, Array]:
+    """The wanted reactions (N,)."""
+    tree = spanning_tree(scene)
+    driving = {drive.quantity: drive for drive in drives(scene)}
+    forward = {branch.joint.name: branch.forward for branch in tree.branches if branch.joint}
+    wrench = cache(lambda part: joint_wrench(scene, tree, model, known, scene.joints[part]))
+    found: dict[str, Array] = {}
+    for name in reactions:
+        part, _, field = name.partition(".")
+        if name in driving:
+            found[name] = effort(model, known, driving[name], forward[part], wrench(part))
+        elif part in scene.joints:
+            found[name] = wrench(part)[:, _WRENCH.index(field)]
+        else:
+            found[name] = contact_force(scene, name, known["sensordata"])
+    return found
