@@ -1,13 +1,15 @@
 """Scenes in space that MuJoCo has no element for, or the adapter does not build."""
 
 from ....cases.scene import GROUND
+from ....cases.space.joint import SpatialJoint
 from ....cases.space.scene import SpatialScene
 from ...engine import Plan, Start
 from ..compilation import NOMINAL
 from ..force import ELEMENTS
+from ..tree import Tree
 from .compilation import compiled
 from .drive import drives
-from .tree import held_points, left, spanning_tree
+from .tree import held_points, left, natives, spanning_tree
 
 
 def unbuildable(scene: SpatialScene) -> str | None:
@@ -15,8 +17,11 @@ def unbuildable(scene: SpatialScene) -> str | None:
     for force in scene.forces.values():
         if type(force) not in ELEMENTS:
             return f"adapter: {force.name} is a {force.word}, which it does not build"
-    loops = spanning_tree(scene).loops
+    tree = spanning_tree(scene)
+    loops = tree.loops
     for joint in loops:
+        if all(_stands(scene, tree, end.body) for end in (joint.a, joint.b)):
+            return f"engine: MuJoCo leaves out {joint.name}, for nothing that it holds can move"
         if held_points(scene, joint) is None:
             what = f"{joint.kind} {joint.name}"
             return f"engine: MuJoCo has no constraint that closes a loop by the {what}"
@@ -36,6 +41,14 @@ def unbuildable(scene: SpatialScene) -> str | None:
         if touching.count(contact.at) > 1:
             return f"adapter: {name} is not the only contact of {contact.at} with the floor"
     return None
+
+
+def _stands(scene: SpatialScene, tree: Tree[SpatialJoint], body: str) -> bool:
+    """Whether the body is the ground, or held on it rigidly."""
+    branches = {branch.body: branch for branch in tree.branches}
+    while body in branches and not natives(scene, branches[body]):
+        body = branches[body].parent
+    return body == GROUND
 
 
 def uncompilable(scene: SpatialScene, start: Start, plan: Plan) -> str | None:

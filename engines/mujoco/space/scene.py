@@ -186,8 +186,8 @@ def held(scene: SpatialScene, joint: SpatialJoint) -> list[Vector3]:
     """
     count = held_points(scene, joint)
     assert count is not None
-    turns = [turn.axis for turn in joint.turns][:1]
-    ways = [*turns, *(tuple(u.tolist()) for u in across(turns))]
+    turns = [turn.axis for turn in joint.turns] if count == 2 else []
+    ways = [*turns, *(u.tolist() for u in across(turns))]
     reach = max(_reach(scene, joint.a), _reach(scene, joint.b)) or 1.0
     offsets = [(0.0, 0.0, 0.0)]
     for x, y, z in ways[: count - 1]:
