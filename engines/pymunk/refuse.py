@@ -2,12 +2,15 @@
 
 import math
 
+from ...cases.frame import PLANE
 from ...cases.scene import GROUND, Scene
 from .force import ELEMENTS
 
 
 def unbuildable(scene: Scene) -> str | None:
-    """The first body or joint that has no counterpart."""
+    """The first body or joint that has no counterpart; in space everything."""
+    if scene.frame is not PLANE:
+        return "engine: pymunk moves bodies in a plane, and this scene is in space"
     for body in scene.bodies.values():
         inertia = 1.0 if body.inertia is None else body.inertia
         if not (0 < body.mass < math.inf and 0 < inertia < math.inf):

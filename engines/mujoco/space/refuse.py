@@ -31,7 +31,7 @@ def unbuildable(scene: SpatialScene) -> str | None:
             return f"adapter: {joint.name} starts at a particle, which has no axes"
     for drive in drives(scene):
         if drive.joint in loops:
-            return f"adapter: {drive.joint.name} closes a loop of driven joints"
+            return f"adapter: {drive.joint.name} is driven, and closes a loop of driven joints"
         if drive.number >= len(left(scene, drive.joint)) or (
             left(scene, drive.joint)[drive.number].kind == "ball"
         ):

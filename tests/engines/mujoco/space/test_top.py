@@ -62,7 +62,7 @@ def test_a_lopsided_top_on_a_ball_joint(back: bool) -> None:
     tensor = J + MASS * (FOOT @ FOOT * np.eye(3) - np.outer(FOOT, FOOT))
     times = np.linspace(0.0, 0.5, 6)
 
-    def omega_dot(q: Array, w: Array) -> Array:
+    def omega_dot(q: Array, w: Array) -> Any:
         weight = turned(inverse(q), [0.0, 0.0, -MASS * G])
         return np.linalg.solve(tensor, np.cross(-FOOT, weight) - np.cross(w, tensor @ w))
 
