@@ -1,6 +1,7 @@
 """The explicit accelerations of every mode against the chapter's formalisms, along its motion.
 
-All of it is asked at one state at a time: no error of an integrator is in it.
+All of it is asked at one state at a time: no error of an integrator is in it. What leaves the
+multipliers out is asked at a state beside the motion: it costs many times as much.
 """
 
 from collections.abc import Iterator, Mapping
@@ -8,14 +9,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...cases.frame import PLANE, SPACE
 from ..coverage import look
-from ..formalisms import energy, lagrange, newton_euler
+from ..formalisms import appell, chaplygin, energy, lagrange, newton_euler, voronets
 from ..generated.either import Base, Generated
 from ..motion.bodies import Answer
 from ..system import Array, Mode
 from .agreement import Check, gravest, worst
+from .drawn import drawn
 
 LAW = 1e-12  # of the largest term: the laws are algebra, only rounding may differ
+BESIDE = 1  # state of a mode beside its motion; the tests draw a hundred
+ELIMINATED = {
+    "Voronets (2.66)": voronets.accelerations,
+    "Chaplygin (2.67)": chaplygin.accelerations,
+    "Appell (2.80)": appell.accelerations,
+}
 
 
 @dataclass(frozen=True)
@@ -36,6 +45,10 @@ class Scale:
         held = np.abs(self.base.solve(t, *place)[1] @ self.base.f_a(t, place[0]))
         return self.base.terms(t, *place)[0], worst((forces + held) * self.speeds)
 
+    def alone(self, mode: Mode, t: float, q: Array, v: Array) -> float:
+        """The largest acceleration that one force gives alone."""
+        return self.base.terms(t, *self.base.place(mode.poses(t, q, v)))[0]
+
 
 def laws(answer: Answer, generated: Generated, times: Array) -> Iterator[Check]:
     """The laws of every mode along its own part of the motion; the worst of each."""
@@ -44,7 +57,11 @@ def laws(answer: Answer, generated: Generated, times: Array) -> Iterator[Check]:
     scale = Scale(generated.base, _speeds(answer, generated.base, times))
     for name in dict.fromkeys(followed.modes):
         mine, mode = np.array(followed.modes) == name, answer.system.modes[name]
-        for check in of_mode(mode, scale, times[mine], followed.y[mine], written=written):
+        part = times[mine], followed.y[mine]
+        for check in (
+            *of_mode(mode, scale, *part, written=written),
+            *eliminated(mode, scale, *part),
+        ):
             found.setdefault(check.name, []).append(check)
     yield from map(gravest, found.values())
 
@@ -53,10 +70,12 @@ def _speeds(answer: Answer, base: Base, times: Array) -> Array:
     """The largest |v| of a kind, and at least what goes through its size, or 1 rad, in the time."""
     modes = (answer.system.modes[name] for name in answer.followed.modes)
     rows = zip(modes, times.tolist(), answer.followed.y, strict=True)
-    places = [base.place(mode.poses(t, *mode.parted(y))) for mode, t, y in rows]
-    q, v = (np.abs(np.array(part)) for part in zip(*places, strict=True))
+    poses = [mode.poses(t, *mode.parted(y)) for mode, t, y in rows]
+    v = np.abs([base.place(pose)[1] for pose in poses])
+    frame = SPACE if len(next(iter(poses[0].values()))) == SPACE.width else PLANE
+    size = worst(abs(x) for pose in poses for body in pose.values() for x in body[frame.place])
     duration, turning = float(times[-1] - times[0]), base.where.turning
-    least = np.where(turning, 1.0, worst(q[:, ~turning].ravel())) / duration
+    least = np.where(turning, 1.0, size) / duration
     fastest = [worst(v[:, turning == turns].ravel()) for turns in turning]
     return np.maximum(fastest, least)
 
@@ -75,7 +94,11 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
         a = mode.accelerations(t, q, v)
         alone = scale.largest(mode, t, q, v)
         sizes += [worst(np.abs(a)), alone[0]]
-        powers += [float(np.sum(np.abs(lagrange.momentum(mode, t, q, v) * a))), alone[1]]
+        p, N = (
+            lagrange.momentum(mode, t, q, mode.rates(t, q, v)),
+            lagrange.rate_matrix(mode, t, q, v),
+        )
+        powers += [float(np.sum(np.abs((p if N is None else N.T @ p) * a))), alone[1]]
         if bound:
             derived.append(worst(np.abs(lagrange.multipliers(mode, t, q, v)[0] - a)))
         else:
@@ -93,6 +116,24 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
         yield Check("Newton-Euler balance (2.23), (2.27)", worst(unbalanced), LAW)
     if forces:  # a system need not know its reactions
         yield Check("reactions by Newton-Euler", worst(forces), LAW)
+
+
+def eliminated(mode: Mode, scale: Scale, times: Array, y: Array) -> Iterator[Check]:
+    """The explicit accelerations against what needs no multipliers, where the motion never was.
+
+    Relative to the accelerations, or to what each force alone would give. The ingredients tell
+    which apply: nothing is said of those that do not.
+    """
+    found: dict[str, list[float]] = {}
+    for t, q, v in drawn(mode, times, y, BESIDE):
+        a = mode.accelerations(t, q, v)
+        size = worst([*np.abs(a), scale.alone(mode, t, q, v)]) or 1.0
+        for by, accelerations in ELIMINATED.items():
+            look()
+            if (other := accelerations(mode, t, q, v)) is not None:
+                found.setdefault(by, []).append(worst(np.abs(other - a)) / size)
+    for by, apart in found.items():
+        yield Check(f"accelerations by {by}", worst(apart), LAW)
 
 
 def _other_forces(cut_free: Mapping[str, float], written: Mapping[str, float]) -> Iterator[float]:

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..system import Array, Mode
 from .dependent import dependent
-from .lagrange import constraint_rows, curvature, derivative, gradient, momentum, slope
+from .lagrange import constraint_rows, derivative, gradient, momentum
 from .voronets import slopes_of
 
 ROUNDING = 1e-14  # of the largest derivative: what is below it comes from terms that cancel
@@ -25,13 +25,13 @@ def accelerations(system: Mode, t: float, q: Array, v: Array) -> Array | None:
     independent = q_dot[by.a1]
     alone = np.zeros(len(q))  # q^{a2} stays where it is: it is not asked for
     alone[by.a1] = independent
-    drift = derivative(lambda t, q: slope(by.T, t, q, independent), (t, q), (1.0, alone))
-    of_alpha, of_gamma = slopes_of(by.alpha, t, q), slopes_of(by.gamma, t, q)
-    turned = of_alpha[..., by.a1] - np.swapaxes(of_alpha[..., by.a1], 1, 2)
-    driven = derivative(lambda t: by.alpha(t, q), (t,), (1.0,)) - of_gamma[:, by.a1]
+    drift = derivative(lambda t, q: by.momentum(t, q, independent), (t, q), (1.0, alone))
+    bends = slopes_of(by, t, q)[..., by.a1]
+    turned = bends[:, :-1] - np.swapaxes(bends[:, :-1], 1, 2)
+    driven = derivative(lambda t: by.alpha(t, q), (t,), (1.0,)) - bends[:, -1]
     right = gradient(lambda q: by.T(t, q, independent), q)[by.a1] + by.forces(t, q, v) - drift
     right = right + momentum(system, t, q, q_dot)[by.a2] @ (turned @ independent + driven)
-    q_ddot: Any = np.linalg.solve(curvature(by.T, t, q, len(by.a1)), right)
+    q_ddot: Any = np.linalg.solve(by.inertia(t, q), right)
     return by.changed(t, q, v, q_ddot)
 
 

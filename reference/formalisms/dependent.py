@@ -5,8 +5,9 @@ quaternion are bound, too.  Which are the dependent ones is free where the other
 they are chosen so that this is as well conditioned as can be, or told.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.linalg import qr
 
 from ..system import Array, Mode, Vector
-from .lagrange import constraint_rows, derivative, gradient, rate_matrix
+from .lagrange import constraint_rows, curvature, derivative, gradient, rate_matrix, slope
 
 Places = NDArray[np.int64]
 REGULAR = 1e-6  # of the largest pivot: what a smaller one determines has lost half of its digits
@@ -24,11 +25,12 @@ REGULAR = 1e-6  # of the largest pivot: what a smaller one determines has lost h
 class Dependent:
     """a1 (k,) independent rates, a2 (m − k,) those that depend on them.
 
-    `bound` (r,) are as many velocities, for which f_a v = g is solved.
+    `bound` (r,) are as many velocities, for which f_a v = g is solved: a2 where q̇ = v is `plain`.
     """
 
     system: Mode
     n: int
+    plain: bool
     bound: Places
     a1: Places
     a2: Places
@@ -44,25 +46,32 @@ class Dependent:
     def solved(self, t: Any, q: Vector) -> tuple[Vector, Vector]:
         """α and γ, of q̇ = B w + b with its rows a1 solved for w."""
         B, b = self.admissible(t, q)
+        if self.plain:
+            return B[self.a2], b[self.a2]
         alpha = np.linalg.solve(B[self.a1].T, B[self.a2].T).T
         return alpha, b[self.a2] - alpha @ b[self.a1]
 
     def rates(self, t: Any, q: Vector, independent: Vector) -> Vector:
-        """q̇ (m,) or (m, K) of the independent rates (k,) or (k, K)."""
-        alpha, gamma = self.solved(t, q)
-        gamma = gamma if np.ndim(independent) == 1 else gamma[:, None]
-        q_dot = np.concatenate([independent, alpha @ independent + gamma])
-        return q_dot[np.argsort(np.concatenate([self.a1, self.a2]))]
+        """q̇ (m,) of the independent rates (k,)."""
+        return self._joined(independent, *self.solved(t, q))
+
+    def T(self, t: Any, q: Vector, independent: Vector) -> Any:
+        """(2.63) T' = T(t, q, q̇^{a1}, α q̇^{a1} + γ) [J]: T with the constraints put in."""
+        return self.system.T(t, q, self.rates(t, q, independent))
+
+    def momentum(self, t: Any, q: Vector, independent: Vector) -> Vector:
+        """∂T'/∂q̇^{a1} (k,)."""
+        return slope(self._reduced(t, q), t, q, independent)
+
+    def inertia(self, t: float, q: Array) -> Array:
+        """∂²T'/∂q̇^{a1}∂q̇^{d} (k, k)."""
+        return curvature(self._reduced(t, q), t, q, len(self.a1))
 
     def velocities(self, t: Any, q: Vector, independent: Vector) -> Vector:
         """v (n,) of the independent rates (k,)."""
         V, v_0 = self._free(t, q)
         B, b = self.admissible(t, q)
         return V @ np.linalg.solve(B[self.a1], independent - b[self.a1]) + v_0
-
-    def T(self, t: Any, q: Vector, independent: Vector) -> Any:
-        """(2.63) T' = T(t, q, q̇^{a1}, α q̇^{a1} + γ) [J]: T with the constraints put in."""
-        return self.system.T(t, q, self.rates(t, q, independent))
 
     def ways(self, t: float, q: Array) -> Array:
         """∂v/∂q̇^{a1} (n, k): f_a ∂v/∂q̇^{a1} = 0."""
@@ -91,10 +100,28 @@ class Dependent:
             return V, v_0
         return N @ V, N @ v_0 + self.system.rates(t, q, np.zeros(self.n))
 
+    @cached_property
+    def _unbound(self) -> Places:
+        return np.setdiff1d(np.arange(self.n), self.bound)
+
+    @cached_property
+    def _order(self) -> Places:
+        return np.argsort(np.concatenate([self.a1, self.a2]))
+
+    def _reduced(self, t: Any, q: Vector) -> Callable[..., Any]:
+        """T' of (t, q, q̇^{a1}), of many q̇^{a1} at once: α and γ are those of this t and q."""
+        alpha, gamma = self.solved(t, q)
+        return lambda t, q, independent: self.system.T(
+            t, q, self._joined(independent, alpha, gamma[:, None])
+        )
+
+    def _joined(self, independent: Vector, alpha: Vector, gamma: Vector) -> Vector:
+        return np.concatenate([independent, alpha @ independent + gamma])[self._order]
+
     def _free(self, t: Any, q: Vector) -> tuple[Vector, Vector]:
         """v = V w + v₀ for w of those velocities that are not bound."""
         rows, g = constraint_rows(self.system, t, q, self.n), np.asarray(self.system.g(t, q))
-        free = np.setdiff1d(np.arange(self.n), self.bound)
+        free = self._unbound
         solved = np.linalg.solve(rows[:, self.bound], np.column_stack([-rows[:, free], g]))
         V = np.zeros((self.n, len(free)), solved.dtype)
         v_0 = np.zeros(self.n, solved.dtype)
@@ -112,23 +139,25 @@ def dependent(
     nothing is left free.
     """
     rows = np.asarray(constraint_rows(system, t, q, n), dtype=np.float64)
-    bound, independent = _pivots(rows)
+    bound, independent = _pivots(rows, np.max(np.abs(rows), initial=0.0))
     if not independent:
         return None
-    found = Dependent(system, n, np.sort(bound), np.arange(n), np.arange(0))
+    plain = rate_matrix(system, t, q, np.zeros(n)) is None
+    found = Dependent(system, n, plain, np.sort(bound), np.arange(n), np.arange(0))
     B = np.asarray(found.admissible(t, q)[0], dtype=np.float64)
     m, k = B.shape
     allowed = np.arange(m) if among is None else np.asarray(among, dtype=np.int64)
     across = np.linalg.svd(B)[0][:, k:].T  # (m − k, m): along these q̇ cannot be
-    chosen, regular = _pivots(across[:, allowed])
+    chosen, regular = _pivots(across[:, allowed], 1.0)
     if k == 0 or not regular:
         return None
     a2 = np.sort(allowed[chosen])
-    return replace(found, a1=np.setdiff1d(np.arange(m), a2), a2=a2)
+    a1 = np.setdiff1d(np.arange(m), a2)
+    return Dependent(system, n, plain, a2 if plain else found.bound, a1, a2)
 
 
-def _pivots(rows: Array) -> tuple[Places, bool]:
-    """The best r columns of the rows (r, m), and whether they are regular."""
+def _pivots(rows: Array, size: float) -> tuple[Places, bool]:
+    """The best r columns of the rows (r, m), and whether they are regular, beside their size."""
     r, m = rows.shape
     if r == 0:
         return np.arange(0), True
@@ -137,4 +166,4 @@ def _pivots(rows: Array) -> tuple[Places, bool]:
     triangle: Any
     order: Any
     _, triangle, order = qr(rows, mode="economic", pivoting=True)
-    return order[:r], bool(abs(triangle[-1, r - 1]) > REGULAR * abs(triangle[0, 0]))
+    return order[:r], bool(abs(triangle[-1, r - 1]) > REGULAR * size)

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..system import Array, Mode
 from .dependent import Dependent, dependent
-from .lagrange import curvature, derivative, gradient, momentum, slope
+from .lagrange import derivative, gradient, momentum
 
 
 def accelerations(
@@ -26,36 +26,38 @@ def accelerations(
     if by is None or not len(by.a2):
         return None
     q_dot = system.rates(t, q, v)
-    independent = q_dot[by.a1]
-    drift = derivative(lambda t, q: slope(by.T, t, q, independent), (t, q), (1.0, q_dot))
+    independent, alpha = q_dot[by.a1], by.alpha(t, q)
+    drift = derivative(lambda t, q: by.momentum(t, q, independent), (t, q), (1.0, q_dot))
     slopes = gradient(lambda q: by.T(t, q, independent), q)
-    right = slopes[by.a1] + slopes[by.a2] @ by.alpha(t, q) + by.forces(t, q, v)
-    p_2 = momentum(system, t, q, q_dot)[by.a2]
-    right = right + p_2 @ (beta(by, t, q) @ independent + drives(by, t, q)) - drift
-    q_ddot: Any = np.linalg.solve(curvature(by.T, t, q, len(by.a1)), right)
+    right = slopes[by.a1] + slopes[by.a2] @ alpha + by.forces(t, q, v)
+    p_2, bends = momentum(system, t, q, q_dot)[by.a2], slopes_of(by, t, q)
+    right = right + p_2 @ (beta(by, alpha, bends) @ independent + drives(by, t, q, bends)) - drift
+    q_ddot: Any = np.linalg.solve(by.inertia(t, q), right)
     return by.changed(t, q, v, q_ddot)
 
 
-def beta(by: Dependent, t: float, q: Array) -> Array:
+def beta(by: Dependent, alpha: Array, bends: Array) -> Array:
     """(2.65) β^{a2}_{a1 d} = ∂α_{a1}/∂q^d + ∂α_{a1}/∂q^c α^c_d − ∂α_d/∂q^{a1} − ∂α_d/∂q^c α^c_{a1}.
 
-    (m − k, k, k), skew in the last two.
+    (m − k, k, k), skew in the last two; bends as of `slopes_of`.
     """
-    slopes = slopes_of(by.alpha, t, q)
-    turned = slopes[..., by.a1] + slopes[..., by.a2] @ by.alpha(t, q)
+    slopes = bends[:, :-1]
+    turned = slopes[..., by.a1] + slopes[..., by.a2] @ alpha
     return turned - np.swapaxes(turned, 1, 2)
 
 
-def drives(by: Dependent, t: float, q: Array) -> Array:
+def drives(by: Dependent, t: float, q: Array, bends: Array) -> Array:
     """∂α_{a1}/∂q^c γ^c − ∂γ/∂q^{a1} − ∂γ/∂q^c α^c_{a1} + ∂α_{a1}/∂t (erratum 13): (m − k, k)."""
-    alpha, gamma = by.alpha(t, q), by.gamma(t, q)
-    of_alpha, of_gamma = slopes_of(by.alpha, t, q), slopes_of(by.gamma, t, q)
+    alpha, gamma = by.solved(t, q)
+    of_alpha, of_gamma = bends[:, :-1], bends[:, -1]
     changed = derivative(lambda t: by.alpha(t, q), (t,), (1.0,))
     return of_alpha[..., by.a2] @ gamma - of_gamma[:, by.a1] - of_gamma[:, by.a2] @ alpha + changed
 
 
-def slopes_of(function: Any, t: float, q: Array) -> Array:
-    """(…, m): ∂/∂q of an array that depends on t and q."""
-    return np.stack(
-        [derivative(lambda q: function(t, q), (q,), (e,)) for e in np.eye(len(q))], axis=-1
-    )
+def slopes_of(by: Dependent, t: float, q: Array) -> Array:
+    """∂/∂q of α, and of γ behind it, (m − k, k + 1, m)."""
+
+    def both(q: Any) -> Any:
+        return np.column_stack(by.solved(t, q))
+
+    return np.stack([derivative(both, (q,), (e,)) for e in np.eye(len(q))], axis=-1)

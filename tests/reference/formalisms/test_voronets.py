@@ -70,12 +70,12 @@ Planted = Callable[[pytest.MonkeyPatch], None]
 
 def _sign_of_beta(patch: pytest.MonkeyPatch) -> None:
     beta = voronets.beta
-    patch.setattr(voronets, "beta", lambda by, t, q: -beta(by, t, q))
+    patch.setattr(voronets, "beta", lambda *at: -beta(*at))
 
 
 def _without_drives(patch: pytest.MonkeyPatch) -> None:
     drives = voronets.drives
-    patch.setattr(voronets, "drives", lambda by, t, q: 0.0 * drives(by, t, q))
+    patch.setattr(voronets, "drives", lambda *at: 0.0 * drives(*at))
 
 
 def _momentum_of_the_reduced_energy(patch: pytest.MonkeyPatch) -> None:
@@ -113,7 +113,7 @@ def test_beta_of_the_sleigh_by_hand() -> None:
     assert by is not None
     np.testing.assert_allclose(by.alpha(t, q), [[np.tan(q[2]), 0.0]], rtol=1e-14, atol=1e-15)
     beta = 1 / np.cos(q[2]) ** 2
-    found = voronets.beta(by, t, q)
+    found = voronets.beta(by, by.alpha(t, q), voronets.slopes_of(by, t, q))
     np.testing.assert_allclose(found, [[[0.0, beta], [-beta, 0.0]]], rtol=1e-13, atol=1e-15)
 
 
