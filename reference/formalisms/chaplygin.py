@@ -6,7 +6,7 @@ import numpy as np
 
 from ..system import Array, Mode
 from .dependent import dependent
-from .lagrange import constraint_rows, derivative, gradient, momentum
+from .lagrange import derivative, momentum
 from .voronets import slopes_of
 
 ROUNDING = 1e-14  # of the largest derivative: what is below it comes from terms that cancel
@@ -26,10 +26,10 @@ def accelerations(system: Mode, t: float, q: Array, v: Array) -> Array | None:
     alone = np.zeros(len(q))  # q^{a2} stays where it is: it is not asked for
     alone[by.a1] = independent
     drift = derivative(lambda t, q: by.momentum(t, q, independent), (t, q), (1.0, alone))
-    bends = slopes_of(by, t, q)[..., by.a1]
+    slopes, bends = (found[..., by.a1] for found in slopes_of(by, t, q, independent))
     turned = bends[:, :-1] - np.swapaxes(bends[:, :-1], 1, 2)
     driven = derivative(lambda t: by.alpha(t, q), (t,), (1.0,)) - bends[:, -1]
-    right = gradient(lambda q: by.T(t, q, independent), q)[by.a1] + by.forces(t, q, v) - drift
+    right = slopes + by.forces(t, q, v) - drift
     right = right + momentum(system, t, q, q_dot)[by.a2] @ (turned @ independent + driven)
     q_ddot: Any = np.linalg.solve(by.inertia(t, q), right)
     return by.changed(t, q, v, q_ddot)
@@ -37,13 +37,12 @@ def accelerations(system: Mode, t: float, q: Array, v: Array) -> Array | None:
 
 def ignorable(system: Mode, t: float, q: Array, v: Array) -> list[int]:
     """The coordinates on which neither T nor the constraints depend, as far as this state tells."""
-    n = len(v)
 
     def ingredients(q: Any) -> Any:
         q_dot = system.rates(t, q, v)
-        parts = [system.T(t, q, q_dot), momentum(system, t, q, q_dot), q_dot]
-        parts += [constraint_rows(system, t, q, n) @ e for e in np.eye(n)]
-        return np.concatenate([np.atleast_1d(part) for part in (*parts, system.g(t, q))])
+        parts = (system.T(t, q, q_dot), momentum(system, t, q, q_dot), q_dot)
+        bound = (system.f_a(t, q), system.g(t, q))
+        return np.concatenate([np.ravel(part) for part in (*parts, *bound)])
 
     slopes = np.abs([derivative(ingredients, (q,), (e,)) for e in np.eye(len(q))])
     return np.flatnonzero(np.all(slopes <= ROUNDING * slopes.max(axis=0), axis=1)).tolist()

@@ -39,12 +39,8 @@ class Dependent:
         """(2.61) α (m − k, k) of q̇^{a2} = α^{a2}_{a1} q̇^{a1} + γ^{a2}."""
         return self.solved(t, q)[0]
 
-    def gamma(self, t: Any, q: Vector) -> Vector:
-        """γ (m − k,) of q̇^{a2} = α^{a2}_{a1} q̇^{a1} + γ^{a2}: 0 if all f_a v = 0."""
-        return self.solved(t, q)[1]
-
     def solved(self, t: Any, q: Vector) -> tuple[Vector, Vector]:
-        """α and γ, of q̇ = B w + b with its rows a1 solved for w."""
+        """α, and γ (m − k,), which is 0 if all f_a v are; q̇ = B w + b, its rows a1 solved for w."""
         B, b = self.admissible(t, q)
         if self.plain:
             return B[self.a2], b[self.a2]
@@ -53,19 +49,26 @@ class Dependent:
 
     def rates(self, t: Any, q: Vector, independent: Vector) -> Vector:
         """q̇ (m,) of the independent rates (k,)."""
-        return self._joined(independent, *self.solved(t, q))
+        return self.joined(independent, *self.solved(t, q))
 
-    def T(self, t: Any, q: Vector, independent: Vector) -> Any:
-        """(2.63) T' = T(t, q, q̇^{a1}, α q̇^{a1} + γ) [J]: T with the constraints put in."""
-        return self.system.T(t, q, self.rates(t, q, independent))
+    def joined(self, independent: Vector, alpha: Vector, gamma: Vector) -> Vector:
+        """q̇ (m,) or (m, K) in its order, γ (m − k,) or (m − k, 1)."""
+        return np.concatenate([independent, alpha @ independent + gamma])[self._order]
+
+    def reduced(self, t: Any, q: Vector) -> Callable[..., Any]:
+        """(2.63) T' = T(t, q, q̇^{a1}, α q̇^{a1} + γ) [J] of many q̇^{a1} (k, K), at this t and q."""
+        alpha, gamma = self.solved(t, q)
+        return lambda t, q, independent: self.system.T(
+            t, q, self.joined(independent, alpha, gamma[:, None])
+        )
 
     def momentum(self, t: Any, q: Vector, independent: Vector) -> Vector:
         """∂T'/∂q̇^{a1} (k,)."""
-        return slope(self._reduced(t, q), t, q, independent)
+        return slope(self.reduced(t, q), t, q, independent)
 
     def inertia(self, t: float, q: Array) -> Array:
         """∂²T'/∂q̇^{a1}∂q̇^{d} (k, k)."""
-        return curvature(self._reduced(t, q), t, q, len(self.a1))
+        return curvature(self.reduced(t, q), t, q, len(self.a1))
 
     def velocities(self, t: Any, q: Vector, independent: Vector) -> Vector:
         """v (n,) of the independent rates (k,)."""
@@ -107,16 +110,6 @@ class Dependent:
     @cached_property
     def _order(self) -> Places:
         return np.argsort(np.concatenate([self.a1, self.a2]))
-
-    def _reduced(self, t: Any, q: Vector) -> Callable[..., Any]:
-        """T' of (t, q, q̇^{a1}), of many q̇^{a1} at once: α and γ are those of this t and q."""
-        alpha, gamma = self.solved(t, q)
-        return lambda t, q, independent: self.system.T(
-            t, q, self._joined(independent, alpha, gamma[:, None])
-        )
-
-    def _joined(self, independent: Vector, alpha: Vector, gamma: Vector) -> Vector:
-        return np.concatenate([independent, alpha @ independent + gamma])[self._order]
 
     def _free(self, t: Any, q: Vector) -> tuple[Vector, Vector]:
         """v = V w + v₀ for w of those velocities that are not bound."""

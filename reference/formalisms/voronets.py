@@ -11,7 +11,7 @@ import numpy as np
 
 from ..system import Array, Mode
 from .dependent import Dependent, dependent
-from .lagrange import derivative, gradient, momentum
+from .lagrange import derivative, momentum
 
 
 def accelerations(
@@ -28,9 +28,9 @@ def accelerations(
     q_dot = system.rates(t, q, v)
     independent, alpha = q_dot[by.a1], by.alpha(t, q)
     drift = derivative(lambda t, q: by.momentum(t, q, independent), (t, q), (1.0, q_dot))
-    slopes = gradient(lambda q: by.T(t, q, independent), q)
+    slopes, bends = slopes_of(by, t, q, independent)
     right = slopes[by.a1] + slopes[by.a2] @ alpha + by.forces(t, q, v)
-    p_2, bends = momentum(system, t, q, q_dot)[by.a2], slopes_of(by, t, q)
+    p_2 = momentum(system, t, q, q_dot)[by.a2]
     right = right + p_2 @ (beta(by, alpha, bends) @ independent + drives(by, t, q, bends)) - drift
     q_ddot: Any = np.linalg.solve(by.inertia(t, q), right)
     return by.changed(t, q, v, q_ddot)
@@ -54,10 +54,13 @@ def drives(by: Dependent, t: float, q: Array, bends: Array) -> Array:
     return of_alpha[..., by.a2] @ gamma - of_gamma[:, by.a1] - of_gamma[:, by.a2] @ alpha + changed
 
 
-def slopes_of(by: Dependent, t: float, q: Array) -> Array:
-    """∂/∂q of α, and of γ behind it, (m − k, k + 1, m)."""
+def slopes_of(by: Dependent, t: float, q: Array, independent: Array) -> tuple[Array, Array]:
+    """∂T'/∂q (m,), and ∂/∂q of α with γ behind it, (m − k, k + 1, m)."""
 
-    def both(q: Any) -> Any:
-        return np.column_stack(by.solved(t, q))
+    def all_of(q: Any) -> Any:
+        alpha, gamma = by.solved(t, q)
+        T = by.system.T(t, q, by.joined(independent, alpha, gamma))
+        return np.concatenate([np.atleast_1d(T), np.column_stack([alpha, gamma]).ravel()])
 
-    return np.stack([derivative(both, (q,), (e,)) for e in np.eye(len(q))], axis=-1)
+    found = np.stack([derivative(all_of, (q,), (e,)) for e in np.eye(len(q))], axis=-1)
+    return found[0], found[1:].reshape(len(by.a2), len(by.a1) + 1, len(q))

@@ -113,7 +113,8 @@ def test_beta_of_the_sleigh_by_hand() -> None:
     assert by is not None
     np.testing.assert_allclose(by.alpha(t, q), [[np.tan(q[2]), 0.0]], rtol=1e-14, atol=1e-15)
     beta = 1 / np.cos(q[2]) ** 2
-    found = voronets.beta(by, by.alpha(t, q), voronets.slopes_of(by, t, q))
+    _, bends = voronets.slopes_of(by, t, q, np.ones(2))
+    found = voronets.beta(by, by.alpha(t, q), bends)
     np.testing.assert_allclose(found, [[[0.0, beta], [-beta, 0.0]]], rtol=1e-13, atol=1e-15)
 
 
