@@ -1,5 +1,6 @@
 """Rigid bodies in space. Lengths on a body are in body axes from its centre of mass."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
@@ -68,16 +69,25 @@ class SpatialBody:
 
     def mobility(self, point: str) -> float:
         """The largest of 1/m + d̃ᵀ J⁻¹ d̃ [1/kg]: how easily the point of the free body moves."""
+        if not self._finite(point):
+            return math.nan
         d = np.cross(np.eye(3), self.points[point])
         turning = d.T @ np.linalg.pinv(self.tensor, hermitian=True) @ d
         return 1 / self.mass + float(np.linalg.eigvalsh(turning)[-1])
 
     def about(self, point: str) -> float:
         """The least moment of inertia [kg m²] about an axis through the point across its arm d."""
+        if not self._finite(point):
+            return math.nan
         d = np.asarray(self.points[point], dtype=float)
         across = np.array(chain.across([self.points[point]] if d.any() else []))
         least = float(np.linalg.eigvalsh(across @ self.tensor @ across.T)[0])
         return max(least, 0.0) + self.mass * float(d @ d)
+
+    def _finite(self, point: str) -> bool:
+        """Whether no number is missing, as a mistaken parameter's is."""
+        numbers = (self.mass, *(self.inertia or ()), *self.points[point])
+        return all(map(math.isfinite, numbers))
 
     def observe(self, states: Array, point: str, field: str) -> Array:
         """(N,) a field of the point ("": of itself), from its states (N, 13).

@@ -42,9 +42,9 @@ def possible(tensor: Tensor) -> Tensor:
     return tensor
 
 
-def without_inertia(tensor: Tensor) -> Array:
-    """(3, K) unit vectors in body axes that span the axes about which a body has no inertia."""
+def without_inertia(tensor: Tensor) -> Array | None:
+    """(3,) the unit vector in body axes about which a body has no inertia; at most one is."""
     if not all(map(math.isfinite, tensor)):
-        return np.zeros((3, 0))
+        return None  # a mistaken parameter, found elsewhere
     moments, axes = np.linalg.eigh(matrix(tensor))
-    return axes[:, moments <= ROUNDING * moments[-1]]
+    return axes[:, 0] if moments[0] <= ROUNDING * moments[-1] else None

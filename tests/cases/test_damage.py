@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from given.damage import damaged, numbers
+from given.spatial_case import SOUND as SPATIAL
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -52,6 +53,19 @@ def test_a_damaged_file_is_loaded_or_refused_with_places(tmp_path: Path) -> None
 
     each()
     assert min(seen["loaded"], seen["refused"]) > N / 20  # or the damage is too small or too large
+
+
+@pytest.mark.whole
+def test_a_damaged_file_in_space_is_loaded_or_refused_with_places(tmp_path: Path) -> None:
+    seen: Counter[str] = Counter()
+
+    @often
+    @given(damaged([SPATIAL]))
+    def each(content: bytes) -> None:
+        seen[outcome(tmp_path / "case.yaml", content)] += 1
+
+    each()
+    assert min(seen["loaded"], seen["refused"]) > N / 20
 
 
 @pytest.mark.whole

@@ -5,12 +5,14 @@ from collections.abc import Iterator
 import numpy as np
 
 from ....point import Anchor
+from ....space.body import SpatialBody
 from ....space.joint import SpatialJoint
 from ....space.scene import SpatialScene
 from ....space.tensor import without_inertia
 from ....trajectory import Array
 from ...parse import Finding, Parsed
 
+_NONE = "and it has no inertia about that"
 NEAR = 1e-9  # sine of an angle, and of a length its part: numbers are typed with up to ten digits
 
 
@@ -26,17 +28,19 @@ def turns_freely(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
     for name, body in scene.bodies.items():
         if body.inertia is None or parsed.shaken:
             continue
-        for axis in without_inertia(body.inertia).T:
-            if _held(parsed, scene, name, axis):
-                continue
-            at = f"[{', '.join(f'{x:.3g}' for x in axis + 0.0)}]"
-            if body.shape == "bar":
-                what = "is a slender bar: nothing keeps it from turning about its own axis, and it "
-                what += "has no inertia about that; give it as a `rigid` with a tensor"
-            else:
-                what = f"nothing keeps it from turning about {at}, and it has no inertia about that"
-            yield ("scene", "bodies", name), what
-            break
+        axis = without_inertia(body.inertia)
+        if axis is not None and not _held(parsed, scene, name, axis):
+            yield ("scene", "bodies", name), _freely(body, axis)
+
+
+def _freely(body: SpatialBody, axis: Array) -> str:
+    if body.shape == "bar":
+        return (
+            f"{body.name!r} is a slender bar: nothing keeps it from turning about its own axis, "
+            f"{_NONE}; give it as a `rigid` with a tensor"
+        )
+    about = ", ".join(f"{x:.3g}" for x in axis * np.sign(axis[np.argmax(abs(axis))]) + 0.0)
+    return f"nothing keeps {body.name!r} from turning about [{about}], and it has no inertia about that"
 
 
 def _held(parsed: Parsed, scene: SpatialScene, body: str, axis: Array) -> bool:
