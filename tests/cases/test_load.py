@@ -10,6 +10,7 @@ from textmech.cases.case import Case, Deviation
 from textmech.cases.find import find, shipped
 from textmech.cases.language.grammar.number import Names, amount, number
 from textmech.cases.load import load
+from textmech.cases.mistake import CaseError
 from textmech.cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Joint, Push, Signal, Torque
 from textmech.reference.systems import SYSTEMS
 
@@ -121,6 +122,36 @@ def test_other_words(tmp_path: Path) -> None:
         "box.x": Deviation("softer", by=(0.002, 0.004)),
     }
     assert case.rests
+
+
+@pytest.mark.parametrize(
+    ("words", "gravity"),
+    [
+        ("gravity: 1.62 m/s^2", (0, -1.62)),
+        ("gravity: 1.62\n  incline: 30 deg", (0.81, -1.62 * cos(pi / 6))),
+        ("gravity: [0.3, -1.62 m/s^2]", (0.3, -1.62)),
+    ],
+)
+def test_other_gravity(tmp_path: Path, words: str, gravity: tuple[float, float]) -> None:
+    path = tmp_path / "own.yaml"
+    path.write_text(EVERYTHING.replace("gravity: none", words))
+    (case,) = load(path)
+    assert case.scene.gravity == pytest.approx(gravity, rel=1e-15)
+
+
+def test_a_ring_touches_with_its_rim(tmp_path: Path) -> None:
+    """A rigid body with a radius rolls as a disk does, with an inertia of its own."""
+    path = tmp_path / "own.yaml"
+    ring = EVERYTHING.replace("inertia: 0.5}", "inertia: 0.5, radius: 0.5}")
+    touch = "  contacts: {touch: {between: [plate, ground.floor], friction: 1.0, ideal: rolling}}\n"
+    path.write_text(ring.replace("initial:", f"{touch}initial:"))
+    (case,) = load(path)
+    assert case.scene.bodies["plate"].radius == 0.5
+    assert case.scene.bodies["plate"].inertia == 0.5
+    assert case.scene.contacts["touch"].at == Anchor("plate", "center")
+    path.write_text(EVERYTHING.replace("initial:", f"{touch}initial:"))
+    with pytest.raises(CaseError, match="'plate' is a rigid; only a disk"):
+        load(path)
 
 
 def test_a_direction_is_a_unit_vector(tmp_path: Path) -> None:

@@ -39,6 +39,15 @@ def test_each(tmp_path: Path, old: str, new: str, place: str, field: str, what: 
     assert mistakes(tmp_path, text) == [(place, field, what)]
 
 
+def test_a_mistaken_parameter_is_named_once(tmp_path: Path) -> None:
+    """What it spoils is neither judged nor computed with: lengths, tensors and axes."""
+    text = SOUND.replace("along: [0, 3, 4]", "along: [0, 3, J]").replace("J: 0.05", "J: 0.05 q")
+    text = text.replace("l: 0.8 m", "l: 0.8 q").replace(
+        "{x: {slide: [1, 0, 0]}", "{x: {slide: [1, J, 0]}"
+    )
+    assert [where for _, where, _ in mistakes(tmp_path, text)] == ["parameters.l", "parameters.J"]
+
+
 def test_all_at_once(tmp_path: Path) -> None:
     """A broken part hides no other, and drags nothing along: q1's own quantities are not named."""
     text = SOUND.replace("axis: [0, 0, 2]", "axis: [0, 0]")

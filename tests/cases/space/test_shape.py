@@ -101,6 +101,22 @@ def test_how_easily_a_point_moves() -> None:
     moved = np.sum((forces / 1.7 + np.cross(omega, d)) * forces, axis=1)
     assert moved.max() == pytest.approx(body.mobility("P"), rel=1e-2)
     assert moved.max() <= body.mobility("P")
+
+
+def test_hung_up_at_a_point() -> None:
+    """The least moment of inertia about an axis through the point, of many across its arm."""
+    body = shape.rigid(
+        name="r", mass=1.7, inertia=(0.5, 0.6, 0.7, -0.1, 0.1, -0.05), points={"P": (0.3, 0.2, 0.9)}
+    )
+    d = np.array(body.points["P"])
+    axes = np.cross(d, np.random.default_rng(1).normal(size=(2000, 3)))
+    axes /= np.linalg.norm(axes, axis=1)[:, None]
+    about = np.sum((axes @ body.tensor) * axes, axis=1) + 1.7 * d @ d
+    assert about.min() == pytest.approx(body.about("P"), rel=1e-4)
+    assert about.min() >= body.about("P")
+
+
+def test_a_bar_is_moved_as_in_the_plane() -> None:
     bar = shape.bar(name="b", mass=1.2, length=0.8, points={})
     assert bar.mobility("end") == pytest.approx(4 / 1.2, rel=1e-12)  # as in the plane
     assert bar.about("end") == pytest.approx(1.2 * 0.8**2 / 3, rel=1e-12)

@@ -12,7 +12,9 @@ title: A body on a hinge
 scene:
   space: 3
   points: {{O: [0, 0, 0]}}
-  bodies: {{rod: {{bar: {{mass: 1.0, length: {length}}}}}, ball: {{sphere: {{mass: 1, radius: 0.1}}}}}}
+  bodies:
+    rod: {{bar: {{mass: 1.0, length: {length}}}}}
+    ball: {{sphere: {{mass: 1, radius: 0.1}}}}
   joints: {{q: {{hinge: [ground.O, rod.start], axis: [0, 1, 0]}}}}
   forces: {{{forces}}}
   drive: {{{drive}}}

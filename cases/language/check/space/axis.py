@@ -35,12 +35,10 @@ def turns_freely(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
 
 def _freely(body: SpatialBody, axis: Array) -> str:
     if body.shape == "bar":
-        return (
-            f"{body.name!r} is a slender bar: nothing keeps it from turning about its own axis, "
-            f"{_NONE}; give it as a `rigid` with a tensor"
-        )
+        own = "nothing keeps it from turning about its own axis"
+        return f"{body.name!r} is a slender bar: {own}, {_NONE}; give it as a `rigid` with a tensor"
     about = ", ".join(f"{x:.3g}" for x in axis * np.sign(axis[np.argmax(abs(axis))]) + 0.0)
-    return f"nothing keeps {body.name!r} from turning about [{about}], and it has no inertia about that"
+    return f"nothing keeps {body.name!r} from turning about [{about}], {_NONE}"
 
 
 def _held(parsed: Parsed, scene: SpatialScene, body: str, axis: Array) -> bool:
