@@ -39,12 +39,14 @@ def test_each(tmp_path: Path, old: str, new: str, place: str, field: str, what: 
     assert mistakes(tmp_path, text) == [(place, field, what)]
 
 
-def test_a_mistaken_parameter_is_named_once(tmp_path: Path) -> None:
+@pytest.mark.parametrize("free", [False, True])
+def test_a_mistaken_parameter_is_named_once(tmp_path: Path, free: bool) -> None:
     """What it spoils is neither judged nor computed with: lengths, tensors and axes."""
     text = SOUND.replace("along: [0, 3, 4]", "along: [0, 3, J]").replace("J: 0.05", "J: 0.05 q")
-    text = text.replace("l: 0.8 m", "l: 0.8 q").replace(
-        "{x: {slide: [1, 0, 0]}", "{x: {slide: [1, J, 0]}"
-    )
+    text = text.replace("l: 0.8 m", "l: 0.8 q").replace("{slide: [1, 0, 0]}", "{slide: [1, J, 0]}")
+    if free:  # the bar hangs on its spring alone
+        text = text.replace("bar.start]", "box.center]")
+        text = text.replace("universal: [bar.end, box", "universal: [box.center, top")
     assert [where for _, where, _ in mistakes(tmp_path, text)] == ["parameters.l", "parameters.J"]
 
 
