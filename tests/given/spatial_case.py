@@ -29,7 +29,9 @@ scene:
     coil: {spring: [bar.end, wheel.center], stiffness: 40.0, rest_length: 0.2}
     hand: {push: wheel.center, constant: [1.0, 0, 0]}
     motor: {torque: top, sine: {amplitude: [0, 0, 1.0], angular_frequency: 20 rpm}}
-  drive: {upright.theta_dot: w, q1.omega: {sine: {amplitude: 2.0, angular_frequency: w}}}
+  drive:
+    upright.theta_dot: w
+    q1.omega: {sine: {amplitude: 2.0, angular_frequency: w, phase: phi0}}
 initial:
   q1: {angle: phi0, omega: 1.0}
   top: {attitude: [{axis: [0, 0, 1], angle: 0.1}, {axis: [1, 0, 0], angle: phi0}], P: [0, 0, 1]}

@@ -108,7 +108,7 @@ def test_contacts_forces_and_drives(tmp_path: Path) -> None:
     assert scene.forces["motor"] == Torque("motor", "top", spin)
     assert scene.drives == {
         "upright.theta_dot": Signal("constant", (2.0,)),
-        "q1.omega": Signal("sine", (2.0,), 2.0),
+        "q1.omega": Signal("sine", (2.0,), 2.0, radians(30)),
     }
     assert scene.driven() == {
         "upright": {"theta_torque": ("N m", "force")},

@@ -10,6 +10,7 @@ from ...grammar.number import Amount, NumberMistake, fitting, shown
 from ...grammar.space.start import Start, Vector
 from ...parse import Finding, Parsed
 
+TYPED = 1e-9  # of a number: it is typed with up to ten digits, and a sine's phase too
 _TURNING = ("attitude", "omega")
 _PLACES = dict.fromkeys("xyz", "m")
 _RATES = dict.fromkeys(("vx", "vy", "vz"), "m/s")
@@ -24,6 +25,7 @@ def starts(parsed: Parsed, scene: SpatialScene, key: str) -> Iterator[Finding]:
             yield from _of_body((key, name), scene.bodies[name], start, rates=rates)
         elif name in scene.joints:
             yield from _of_joint((key, name), scene.joints[name], start, rates=rates)
+            yield from _against_drives((key, name), scene, start)
         elif not parsed.hides(name, ("bodies", "joints")):
             known = [*parsed.names("bodies", scene.bodies), *parsed.names("joints", scene.joints)]
             yield (key, name), f"unknown body or joint {name!r}{nearest(name, known)}"
@@ -69,6 +71,14 @@ def _of_joint(path: Path, joint: SpatialJoint, start: Start, *, rates: bool) -> 
                 (*path, key),
                 _unknown(key, [k for k in keys if k not in start.entries], joint.kind),
             )
+
+
+def _against_drives(path: Path, scene: SpatialScene, start: Start) -> Iterator[Finding]:
+    """A rate that is prescribed need not be given; what is given has to agree."""
+    for key, given in start.given.items():
+        driven = scene.drives.get(f"{path[-1]}.{key}")
+        if driven is not None and abs(given - driven.at_start()[0]) > TYPED * abs(given):
+            yield (*path, key), f"is {given:g}, but its drive begins with {driven.at_start()[0]:g}"
 
 
 def _unknown(key: str, known: list[str], kind: str = "") -> str:
