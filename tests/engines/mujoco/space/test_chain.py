@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from given.skew_chain import Q_DOT, N, Q, accelerations, chain, start, wrenches
-from given.spatial_scenes import simulated
+from given.engine_space import simulated
 from scipy.integrate import solve_ivp
 
 from textmech.cases.scene import Signal

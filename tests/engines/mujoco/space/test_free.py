@@ -9,7 +9,7 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
-from given.spatial_scenes import LOPSIDED, attitude, particle, rigid, simulated, spatial, state
+from given.engine_space import LOPSIDED, attitude, particle, rigid, simulated, spatial, state
 from scipy.integrate import solve_ivp
 
 from textmech.cases.frame import SPACE

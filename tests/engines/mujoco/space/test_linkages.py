@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-from given.spatial import (
+from given.engine_space import (
     STILL,
     ball,
     hinge,

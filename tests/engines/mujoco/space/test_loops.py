@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from given.spatial_scenes import (
+from given.engine_space import (
     STILL,
     ball,
     hinge,

@@ -9,7 +9,7 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
-from given.spatial import (
+from given.engine_space import (
     STILL,
     G,
     attitude,

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given.spatial_scenes import (
+from given.engine_space import (
     LOPSIDED,
     STILL,
     G,

@@ -94,7 +94,7 @@ def spatial(
         {joint.name: joint for joint in joints},
         {contact.name: contact for contact in contacts},
         {force.name: force for force in forces},
-        drives or {},
+        drives=drives or {},
     )
 
 
