@@ -57,7 +57,7 @@ class BarPendulum(Mode):
         theta0 = math.remainder(self.phi0 + math.pi / 2, 2 * math.pi)
         k, k1 = math.sin(theta0 / 2), math.cos(theta0 / 2)
         Omega = math.sqrt(3 * G / (2 * self.l))
-        sn, cn = jacobi(Omega * t, k, k1)
+        sn, cn = jacobi(Omega * t, k1)
         dn = math.sqrt(k1 * k1 + k * k * cn * cn)
         theta = 2 * math.atan2(k * cn, k1)
         return np.array([self.phi0 + (theta - theta0)]), np.array([-2 * Omega * k * k1 * sn / dn])

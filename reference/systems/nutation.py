@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..system import Array
-from .elliptic import amplitude, first, third
+from .elliptic import Amplitude, amplitude, first, third
 
 Three = tuple[float, float, float]
 
@@ -28,10 +28,9 @@ class Nutation:
     a: float
     down: float  # b − a
     up: float  # b + a
-    k: float
-    k1: float
+    k1: float  # √(1 − k²)
     rate: float  # λ
-    phase: tuple[float, int]  # the amplitude at t = 0
+    phase: Amplitude  # the amplitude at t = 0
 
     @staticmethod
     def of(A_O: float, C: float, mgl: float, theta0: float, w: Three) -> "Nutation | None":
@@ -50,18 +49,19 @@ class Nutation:
         if not far > high:
             return None
         # u̇₀ = −sin θ₀ θ̇₀: it starts on the rising or on the falling half.
-        phase = math.copysign(math.atan2(math.sqrt(-low), math.sqrt(high)), -w1)
+        size = math.sqrt(high - low)
+        sn, cn = math.copysign(math.sqrt(-low), -w1), math.sqrt(high)
+        phase = Amplitude(sn / size, cn / size) if size else Amplitude(0.0, 1.0)
         return Nutation(
             low, high, below, above, w3, a, p - a * below, p + a * above,
-            math.sqrt((high - low) / width), math.sqrt((far - high) / width),
-            math.sqrt(beta * width) / 2, (phase, 0),
+            math.sqrt((far - high) / width), math.sqrt(beta * width) / 2, phase,
         )  # fmt: skip
 
     def at(self, t: float) -> tuple[Array, Array]:
         """(2.27) D_z and D₃ stay: ψ̇ = (b − a u)/(1 − u²), φ̇ = ω₃ − ψ̇ u; q and v."""
-        am = amplitude(self.rate * t + first(*self.phase, self.k1), self.k, self.k1)
-        sn, cn = math.sin(am[0]), math.cos(am[0])
-        dn = math.sqrt(self.k1**2 + (self.k * cn) ** 2)
+        am = amplitude(self.rate * t + first(self.phase, self.k1), self.k1)
+        sn, cn, _ = am
+        dn = math.hypot(cn, self.k1 * sn)
         s = self.low * cn * cn + self.high * sn * sn
         below, above = self.below - s, self.above + s
         sin = math.sqrt(below * above)
@@ -78,10 +78,10 @@ class Nutation:
             [(down + up) / 2, theta_dot, self.spin - self.a - (down - up) / 2]
         )
 
-    def _integral(self, low: float, high: float, t: float, am: tuple[float, int]) -> float:
+    def _integral(self, low: float, high: float, t: float, am: Amplitude) -> float:
         """∫₀ᵗ dt/(x₁ cn² + x₂ sn²), which is 1 ∓ u: x₁ where u = u₁, x₂ where u = u₂."""
         p = high / low
-        change = third(*am, self.k1, p) - third(*self.phase, self.k1, p)
+        change = third(am, self.k1, p) - third(self.phase, self.k1, p)
         return (t + (1 - p) / self.rate * change) / low
 
 

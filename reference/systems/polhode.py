@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from .elliptic import amplitude, first, third
+from .elliptic import Amplitude, amplitude, first, third
 
 Three = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
@@ -21,10 +21,9 @@ class Polhode:
     about_first: bool  # whether s is axis 1
     sigma: float
     abc: Three
-    k: float
-    k1: float
+    k1: float  # √(1 − k²)
     rate: float  # λ
-    phase: tuple[float, int]  # the amplitude at t = 0
+    phase: Amplitude  # the amplitude at t = 0
     D: float  # |J ω|
     given: Three  # ψ, θ, φ from ground to body axes at t = 0
 
@@ -44,16 +43,18 @@ class Polhode:
             return None
         sigma = math.copysign(1.0, w[s])
         a, b, c = math.sqrt(X / (Ip * ps)), math.sqrt(X / (Im * ms)), math.sqrt(Y / (Is * ps))
-        k, k1 = math.sqrt(pm * X / (ms * Y)), math.sqrt(ps * Z / (ms * Y))
-        phase = math.atan2(-sigma * w[1] * math.sqrt(Im * ms), w[p] * math.sqrt(Ip * ps))
+        k1 = math.sqrt(ps * Z / (ms * Y))
+        sn, cn = -sigma * w[1] * math.sqrt(Im * ms), w[p] * math.sqrt(Ip * ps)  # and √X
+        size = math.hypot(sn, cn)
+        phase = Amplitude(sn / size, cn / size) if size else Amplitude(0.0, 1.0)
         D = math.sqrt(sum((I * x) ** 2 for I, x in zip(moments, w, strict=True)))
         rate = math.sqrt(ms * Y / (Ip * Im * Is))
         moments = (Ip, Im, Is)
-        return Polhode(moments, about_first, sigma, (a, b, c), k, k1, rate, (phase, 0), D, given)
+        return Polhode(moments, about_first, sigma, (a, b, c), k1, rate, phase, D, given)
 
     def omega(self, t: float) -> Three:
         """(2.33) ω [rad/s] in body axes."""
-        p, m, s = self._at(self._amplitude(t)[0])
+        p, m, s = self._at(self._amplitude(t))
         return (s, m, p) if self.about_first else (p, m, s)
 
     def attitude(self, t: float) -> Quaternion:
@@ -68,28 +69,27 @@ class Polhode:
         tan θ and tan φ by the components of D in body axes.
         """
         Ip, Im, Is = self.I
-        am, turns = self._amplitude(t)
+        am = self._amplitude(t)
         rho = math.sqrt(Im * abs(Is - Ip) / (Ip * abs(Is - Im)))  # I_m b/(I_p a)
-        integral = third(am, turns, self.k1, rho**2) - third(*self.phase, self.k1, rho**2)
+        integral = third(am, self.k1, rho**2) - third(self.phase, self.k1, rho**2)
         psi = self.D / Ip * (t + rho**2 * (Ip / Im - 1) / self.rate * integral)
         p, m, s = self._at(am)
         theta = math.atan2(math.hypot(Ip * p, Im * m), Is * s)
-        chi = math.atan2(rho * math.sin(am), math.cos(am)) + 2 * math.pi * turns
+        chi = math.atan2(rho * am.sin, am.cos) + 2 * math.pi * am.turns
         if not self.about_first:
             return _zxz(psi, theta, math.pi / 2 + self.sigma * chi)
         # Axis 1 in the third place: half a turn about the bisector of axes 1 and 3.
         swap = (0.0, math.sqrt(0.5), 0.0, math.sqrt(0.5))
         return _product(_zxz(psi, theta, math.pi / 2 - self.sigma * chi), swap)
 
-    def _at(self, am: float) -> Three:
+    def _at(self, am: Amplitude) -> Three:
         """ω_p, ω_m, ω_s."""
         a, b, c = self.abc
-        sn, cn = math.sin(am), math.cos(am)
-        dn = math.sqrt(self.k1**2 + self.k**2 * cn * cn)
-        return a * cn, -self.sigma * b * sn, self.sigma * c * dn
+        dn = math.hypot(am.cos, self.k1 * am.sin)
+        return a * am.cos, -self.sigma * b * am.sin, self.sigma * c * dn
 
-    def _amplitude(self, t: float) -> tuple[float, int]:
-        return amplitude(self.rate * t + first(*self.phase, self.k1), self.k, self.k1)
+    def _amplitude(self, t: float) -> Amplitude:
+        return amplitude(self.rate * t + first(self.phase, self.k1), self.k1)
 
 
 def _product(a: Quaternion, b: Quaternion) -> Quaternion:
