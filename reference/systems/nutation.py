@@ -87,9 +87,14 @@ class Nutation:
 
 def _roots(cubic: list[float]) -> tuple[float, float, float]:
     """s₁ ≤ 0 ≤ s₂ ≤ s₃ of a cubic that is not negative at s = 0, by Newton from their floats."""
-    found = np.sort(np.roots(cubic).real)
-    for _ in range(3):
-        slope = np.polyval(np.polyder(cubic), found)
-        found = found - np.where(slope == 0.0, 0.0, np.polyval(cubic, found) / slope)
-    low, high, far = found.tolist()
+    low, high, far = (_polished(cubic, root) for root in np.sort(np.roots(cubic).real).tolist())
     return min(low, 0.0), max(high, 0.0), far
+
+
+def _polished(cubic: list[float], s: float) -> float:
+    """A root with all its digits; a double one stays as it is."""
+    a, b, c, d = cubic
+    for _ in range(3):
+        slope = (3 * a * s + 2 * b) * s + c
+        s -= (((a * s + b) * s + c) * s + d) / slope if slope else 0.0
+    return s

@@ -10,7 +10,7 @@ from textmech.reference.systems import written
 
 SPATIAL: dict[str, dict[str, float]] = {
     "heavy_top": {
-        "m": 0.5, "l": 0.08, "A": 6e-4, "C": 4e-4,
+        "m": 0.5, "l": 0.05, "A": 3.5e-4, "C": 6e-4,
         "theta0": math.radians(40), "w1": 0.6, "w2": -0.9, "w3": 150.0,
     },
     "tilting_disk": {
@@ -48,7 +48,7 @@ VARIANTS: dict[str, tuple[str, dict[str, float]]] = {
     "on axis 1": ("torque_free", {"w1": 5.0, "w2": 0.0, "w3": 0.0}),
     "cusp": ("heavy_top", {"w1": 0.0, "w2": 0.0, "w3": 200.0}),
     "loops": ("heavy_top", {"w1": 0.0, "w2": -1.5, "w3": 200.0}),
-    "waves": ("heavy_top", {"w1": -0.7, "w2": 0.4, "w3": -150.0}),
+    "waves": ("heavy_top", {"w1": -0.7, "w2": -3.0, "w3": -150.0}),
     "falls deep": ("heavy_top", {"w1": 0.3, "w2": 3.0, "w3": 50.0}),
     "steady circle": (
         "tilting_disk",
