@@ -70,6 +70,13 @@ def variant(name: str) -> System:
     return example(system, **changed)
 
 
+def closed(system: System, t: float) -> tuple[Array, Array]:
+    """q and v of its closed form, which it must have."""
+    known = system.closed_form(t)
+    assert known is not None
+    return known
+
+
 def only(name: str, **changed: float) -> Mode:
     """Its only mode."""
     return example(name, **changed).modes[MOVING]
