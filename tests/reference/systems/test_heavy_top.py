@@ -65,14 +65,13 @@ def test_momenta_and_energy_stay(name: str):
     system = variant(name)
     mode = system.modes["moving"]
     found = follow(system, np.linspace(0.0, 1.0, 41)).y
-    kept, attitudes = [], []
+    kept = []
     for y in found:
         q, v = mode.parted(y)
         pose = mode.poses(0.0, q, v)["top"]
         D = mode.masses["top"].J @ np.array(pose[10:])
         D_O = laws.matrix(pose[3:7]) @ D + m * np.cross(pose[:3], pose[7:10])
         kept.append([D_O[2], D[2], mode.T(0.0, q, v) + mode.U(0.0, q)])
-        attitudes.append(pose[3:7])
     change = np.abs(np.array(kept) - kept[0]).max(0)
     assert np.all(change <= 1e-13 * np.abs(kept[0]))
     fine = [mode.poses(0.0, *closed(system, t)) for t in np.linspace(0.0, 0.1, 201).tolist()]
