@@ -113,6 +113,22 @@ def jacobi(w: tuple[float, ...], t: float) -> list[float]:
         return [float(x) for x in (found[::-1] if swapped else found)]
 
 
+@pytest.mark.parametrize(("part", "about_first"), [(1.001, True), (0.999, False)])
+def test_either_side_of_the_separatrix(part: float, about_first: bool):
+    """A (A − B) ω₁² = C (B − C) ω₃² divides motions about axis 1 from those about axis 3.
+
+    Its closed form holds beside it too, where the followed motion has lost a digit or two.
+    """
+    w1 = part * math.sqrt(C * (B - C) / (A * (A - B)))
+    solution = Polhode.of((A, B, C), (w1, 2.0, 1.0), (0.0, 0.0, 0.0))
+    assert solution is not None
+    assert solution.about_first == about_first
+    system = example("torque_free", w1=w1, w2=2.0, w3=1.0)
+    times = np.linspace(0.0, 6.0, 13)
+    known = np.array([np.concatenate(closed(system, t)) for t in times.tolist()])
+    np.testing.assert_allclose(follow(system, times).y, known, rtol=0.0, atol=1e-10)
+
+
 @pytest.mark.parametrize(("axis", "small"), [(0, (1, 2)), (2, (0, 1))])
 def test_small_motions_about_the_stable_axes(axis: int, small: tuple[int, int]):
     """λ² → ω² (I − I′)(I − I″)/(I′ I″) about axes 1 and 3."""
