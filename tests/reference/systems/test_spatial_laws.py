@@ -118,6 +118,15 @@ def test_parameter_off_in_the_explicit_accelerations(name: str, parameter: str):
     seen(name, mutant(only(name), **explicit), PARAMETER[name, parameter])
 
 
+@pytest.mark.parametrize(("name", "parameter"), sorted(DROPS_OUT))
+def test_parameter_that_drops_out(name: str, parameter: str):
+    """Of the motion: the mass of a body that nothing holds, friction that is enough."""
+    sound, off = only(name), only(name, **{parameter: 1.05 * SPATIAL[name][parameter]})
+    for t, q, v in states(name, 5):
+        np.testing.assert_array_equal(off.accelerations(t, q, v), sound.accelerations(t, q, v))
+        assert off.reactions(t, q, v) == sound.reactions(t, q, v)
+
+
 def test_parameter_off_at_the_start():
     """All that the start depends on and the accelerations do not; 5 % of it are seen."""
     found = {
