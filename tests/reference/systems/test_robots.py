@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 from given import free_cut, robot_laws
 from given.laws import LIMIT, difference
-from given.robots import PARAMETERS, robot
+from given.robots import PARAMETERS, robot, states
 
+from textmech.reference.formalisms.derivative import along
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Mode, Only
+from textmech.reference.systems.arm import places
 
 NAMES = pytest.mark.parametrize("name", PARAMETERS)
 G = 9.80665
@@ -20,6 +22,18 @@ G = 9.80665
 @pytest.mark.parametrize("law", robot_laws.LAWS, ids=lambda law: law.__name__)
 def test_robot_obeys(name: str, law: Any) -> None:
     assert law(robot(name)) < LIMIT
+
+
+def test_angular_velocities_are_those_of_the_frames() -> None:
+    """(2.3), (2.4) ω = (Ė₂·E₃, Ė₃·E₁, Ė₁·E₂): what Exercise 2.1 asks of all five bodies."""
+    mode = robot("five_axis_robot")
+    for t, q, v in states(mode):
+        E_dot = along(lambda q: np.array([place.E for place in places(q)]), (q,), (v,))
+        E = np.array([place.E for place in places(q)])
+        pairs = ((1, 2), (2, 0), (0, 1))
+        omega = [[E_dot[k, i] @ E[k, j] for i, j in pairs] for k in range(5)]
+        posed = [pose[10:] for pose in mode.poses(t, q, v).values()]
+        assert difference(omega, posed) < LIMIT
 
 
 def test_falling_keeps_its_energy_and_its_momentum_about_the_vertical_axis() -> None:
