@@ -16,6 +16,7 @@ from .serial_arm import SerialArm
 from .triples import Triple, cross, dot, minus, plus, times
 
 UP = (0.0, 0.0, 1.0)
+SINGULAR = 1e-6  # of lengths near 1 m: what is nearer than that loses half of its digits
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,15 @@ class RobotKnife(SerialArm):
     w3: float
     w4: float
     w5: float
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        where = places(self._angles())
+        x, y, _ = where[-1].E[0]
+        if x * x + y * y < SINGULAR:
+            raise ValueError("the hand stands upright, and its edge has no heading")
+        if abs(np.linalg.det(np.array(self.rows(where))[:, :2])) < SINGULAR:
+            raise ValueError("at these angles the edge does not determine the rates of q1 and q2")
 
     def start(self) -> tuple[Array, Array]:
         """(2.61) w₁ and w₂ from f_a q̇ᵃ = 0: P is kept at the height where it starts."""

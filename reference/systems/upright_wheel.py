@@ -43,7 +43,7 @@ class UprightWheel(WheelOnPlane):
 
         K = 2 g sin α/(3 R Ω), the drift is ½ R K on average:
         x = (R/Ω)(w sin Ωt + ½ K sin² Ωt),
-        y = (R/Ω)(w (1 − cos Ωt) + ½ K (Ωt − sin Ωt cos Ωt)).
+        y = (R/Ω)(w (1 − cos Ωt) + ¼ K (2 Ωt − sin 2Ωt)).
         """
         R, w, Omega = self.R, self.w, self.Omega
         slope = 2 * G * math.sin(self.alpha) / (3 * R)
@@ -53,7 +53,8 @@ class UprightWheel(WheelOnPlane):
         theta, K = Omega * t, slope / Omega
         cos, sin = math.cos(theta), math.sin(theta)
         x = R / Omega * (w * sin + K / 2 * sin**2)
-        y = R / Omega * (w * 2 * math.sin(theta / 2) ** 2 + K / 2 * (theta - sin * cos))
+        across = K / 4 * _less_its_sine(2 * theta)
+        y = R / Omega * (w * 2 * math.sin(theta / 2) ** 2 + across)
         phi, phi_dot = w * t + 2 * K / Omega * math.sin(theta / 2) ** 2, w + K * sin
         rates = np.array([R * phi_dot * cos, R * phi_dot * sin, Omega, phi_dot])
         return np.array([x, y, theta, phi]), rates
@@ -65,3 +66,14 @@ class UprightWheel(WheelOnPlane):
     def g(self, t: Any, q: Vector) -> Vector:
         """(2.15) nothing is driven, (2,)."""
         return np.zeros(2)
+
+
+def _less_its_sine(x: float) -> float:
+    """x − sin x, to all digits: by its series where both are nearly equal."""
+    if abs(x) > 1.0:
+        return x - math.sin(x)
+    term, found = x**3 / 6, 0.0
+    for n in range(4, 24, 2):  # x²³/23! is below rounding, relative to x³/6
+        found += term
+        term *= -x * x / (n * (n + 1))
+    return found

@@ -20,6 +20,7 @@ CIRCLE, WEAVE, CLOTHOID = {"k": 0.0, "A": 0.0}, {"Omega": 0.0, "k": 0.0}, {"Omeg
 CLOSED = {
     "free on an incline": ("upright_wheel", {}),
     "free on the level": ("upright_wheel", {"alpha": 0.0}),
+    "free, hardly turning": ("upright_wheel", {"Omega": 1e-6}),
     "free, straight down": ("upright_wheel", {"Omega": 0.0}),
     "driven on a circle": ("driven_wheel", CIRCLE),
     "driven on a clothoid": ("driven_wheel", CLOTHOID),

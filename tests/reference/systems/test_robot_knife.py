@@ -1,5 +1,6 @@
 """The robot's knife: multipliers against an elimination, the edge's own point, planted mistakes."""
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -16,6 +17,7 @@ from textmech.reference.system import Mode, Only
 from textmech.reference.systems import robot_knife
 from textmech.reference.systems.arm import places
 
+BELOW = 0.9800170106  # rad, of q2: with the angles there P is straight below the second hinge
 P = np.array([0.13, 0.014, -0.045])  # of the hand, from its centre
 
 
@@ -82,6 +84,18 @@ def test_motion_stays_on_its_plane_and_keeps_its_energy() -> None:
         assert abs(mode.f(t, q)).max() < LIMIT
         assert abs(mode.f_a(t, q) @ v).max() < LIMIT * abs(v).max()
     assert abs(mode.reactions(*rows[-1])["blade.force"]) > 10.0, "nothing is guided"
+
+
+@pytest.mark.parametrize(
+    ("angles", "why"),
+    [
+        ({"q2": math.pi / 2, "q3": 0.0, "q4": 0.0}, "no heading"),
+        ({"q5": math.pi / 2, "q4": 2.0, "q3": 0.3, "q2": BELOW}, "does not determine"),
+    ],
+)
+def test_a_start_that_the_edge_leaves_open_is_refused(angles: dict[str, float], why: str) -> None:
+    with pytest.raises(ValueError, match=why):
+        robot("robot_knife", **angles)
 
 
 def another_axis(where: Any) -> Any:
