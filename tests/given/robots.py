@@ -10,16 +10,22 @@ from textmech.reference.system import MOVING, Array, Mode
 from textmech.reference.systems import written
 
 AXES = range(1, 6)
-ANGLES = dict(
-    zip([f"q{k}" for k in AXES], map(math.radians, (20.0, -40.0, 65.0, 35.0, -25.0)), strict=True)
-)
-RATES = dict(zip([f"w{k}" for k in AXES], (0.8, -0.5, 0.9, -1.1, 2.0), strict=True))
-AMPLITUDES = dict(zip([f"S{k}" for k in AXES], (1.2, 0.8, -1.1, 1.5, 2.3), strict=True))
-FREQUENCIES = dict(zip([f"n{k}" for k in AXES], (1.7, 2.6, 3.1, 4.3, 5.2), strict=True))
+
+
+def _numbered(letter: str, *values: float) -> dict[str, float]:
+    return {f"{letter}{k}": value for k, value in zip(AXES, values, strict=True)}
+
+
+RAISED = _numbered("q", *map(math.radians, (20.0, -40.0, 65.0, 35.0, -25.0)))
+LOWERED = _numbered("q", *map(math.radians, (20.0, 40.0, 25.0, -20.0, -25.0)))
+DRIVES = {
+    **_numbered("S", 1.2, 0.8, -1.1, 1.5, 2.3),
+    **_numbered("n", 1.7, 2.6, 3.1, 4.3, 5.2),
+}
 PARAMETERS: dict[str, dict[str, float]] = {
-    "driven_robot": {**ANGLES, **AMPLITUDES, **FREQUENCIES},
-    "five_axis_robot": {**ANGLES, **RATES},
-    "robot_knife": {**ANGLES, "w3": 0.9, "w4": -1.1, "w5": 6.0},
+    "driven_robot": {**RAISED, **DRIVES},
+    "five_axis_robot": {**LOWERED, **_numbered("w", 0.8, -0.5, 0.9, -1.1, 2.0)},
+    "robot_knife": {**RAISED, "w3": 0.9, "w4": -1.1, "w5": 6.0},
 }
 
 
