@@ -109,6 +109,11 @@ def of_the_next_axis(self: Any, *given: Any) -> dict[str, float]:
     return held | {f"q3.m{axis}": held[f"q4.m{axis}"] for axis in "xyz"}
 
 
+def too_fast(self: Any, *given: Any) -> Any:
+    """5 % on the accelerations."""
+    return 1.05 * type(self).__mro__[1].accelerations(self, *given)
+
+
 def upward(self: Any, t: Any, q: Any) -> Any:
     return -type(self).__mro__[1].U(self, t, q)
 
@@ -119,6 +124,7 @@ IN_THE_MODE = {
     "ω of one hinge": ({"poses": of_one_hinge}, robot_laws.moves),
     "parts exchanged": ({"reactions": exchanged}, robot_laws.cut_free),
     "moment about another point": ({"reactions": of_the_next_axis}, robot_laws.cut_free),
+    "accelerations off": ({"accelerations": too_fast}, robot_laws.power),
     "weight upward": ({"U": upward}, robot_laws.equations),
 }
 

@@ -177,6 +177,11 @@ def centre(self: Any, t: Any, q: Any) -> Any:
     return rows
 
 
+def too_fast(self: Any, *given: Any) -> Any:
+    """5 % on the accelerations."""
+    return 1.05 * type(self).__mro__[1].accelerations(self, *given)
+
+
 def uphill(self: Any, t: Any, q: Any) -> Any:
     return self.m * G * q[0] * math.sin(self.alpha)
 
@@ -194,6 +199,7 @@ MISTAKES = {
     "lost gyroscopic couple": ({"reactions": gyroscopic}, balance),
     "slip of the centre": ({"f_a": centre}, slips),
     "the same, as equations": ({"f_a": centre}, equations),
+    "accelerations off": ({"accelerations": too_fast}, power),
     "gravity uphill": (
         {"U": lambda self, t, q: self.m * G * q[0] * math.sin(self.alpha)},
         equations,
