@@ -2,7 +2,6 @@
 
 import sys
 from collections.abc import Callable, Iterator
-from functools import partial
 from types import CodeType, FrameType
 from typing import Any
 
@@ -18,12 +17,11 @@ from textmech.reference.system import Guard, Only, System
 TIMES = (0.0, 0.3, 1.1, 2.9)
 KNOWN = [name for name in PARAMETERS if example(name).closed_form(0.5) is not None]
 LIKE = {name: (system, changed) for name, (system, changed, _) in VARIANTS.items()}
-SYSTEMS = {name: partial(example, name) for name in KNOWN}
-SYSTEMS |= {name: partial(example, system, **changed) for name, (system, changed) in LIKE.items()}
-IN_SPACE = {name: partial(wheel, system, **changed) for name, (system, changed) in CLOSED.items()}
-IN_SPACE |= {"driven robot": partial(robot, "driven_robot")}
-SYSTEMS |= {name: lambda build=build: Only(build()) for name, build in IN_SPACE.items()}
-SYSTEMS |= {name: partial(spatial.variant, name) for name in spatial.VARIANTS}
+SYSTEMS = {name: example(name) for name in KNOWN}
+SYSTEMS |= {name: example(system, **changed) for name, (system, changed) in LIKE.items()}
+SYSTEMS |= {name: Only(wheel(system, **changed)) for name, (system, changed) in CLOSED.items()}
+SYSTEMS |= {"driven robot": Only(robot("driven_robot"))}
+SYSTEMS |= {name: spatial.variant(name) for name in spatial.VARIANTS}
 
 
 def executed(run: Callable[[], Any]) -> set[CodeType]:
@@ -71,7 +69,7 @@ def _asked(guards: Any, q: Any, v: Any) -> Iterator[Any]:
 
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_a_closed_form_shares_no_function_with_the_motion(name: str) -> None:
-    built = SYSTEMS[name]()
+    built = SYSTEMS[name]
     ours, theirs = executed(lambda: known(built)), executed(lambda: moves(built))
     assert ours, "nothing is known"
     assert theirs, "nothing moves"
