@@ -10,6 +10,7 @@ from ..kind import Fields
 from ..motion import Motion
 from ..point import GROUND, Anchor
 from ..trajectory import Array
+from .body import SpatialBody
 from .rotation import Vector3, turned
 
 _EDGE: Fields = {
@@ -42,6 +43,14 @@ class SpatialEdge:
     def refers(self) -> tuple[Anchor, ...]:
         """Its point; the ground has no blade."""
         return () if self.at.body == GROUND else (self.at,)
+
+    def unfit(self, body: SpatialBody | None) -> str | None:
+        """Why the body (None: one that is not known) cannot carry it, in words for the file."""
+        if self.at.body == GROUND:
+            return "an edge belongs to a body, and not to the ground"
+        if body is not None and not body.turns:
+            return f"{body.name!r} is a particle and has no axes for an edge"
+        return None
 
     def quantities(self) -> dict[str, Fields]:
         """Its reactions, its slip and its speed, and its height if that is kept."""

@@ -76,6 +76,13 @@ def test_what_it_can_be_asked() -> None:
             edge.observe(lifted, field)
 
 
+def test_who_cannot_carry_one() -> None:
+    bob = SpatialBody("bob", "particle", 0.7, None, {})
+    assert BLADE.unfit(HAND) is None
+    assert "particle" in (BLADE.unfit(bob) or "")
+    assert "ground" in (replace(BLADE, at=Anchor("ground", "O")).unfit(None) or "")
+
+
 def test_the_robots_knife_neither_slips_nor_rises() -> None:
     angles = {f"q{k + 1}": x for k, x in enumerate((0.35, -0.7, 1.13, 0.61, -0.44))}
     times = np.linspace(0.0, 0.1, 3)
