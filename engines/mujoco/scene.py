@@ -10,7 +10,7 @@ from xml.etree import ElementTree as ET
 
 from ...cases.scene import GROUND, Anchor, Contact, DryFriction, Scene
 from ..engine import Choice, Start
-from .edge import fields
+from .edge import write_room
 from .force import signals, write
 from .tree import (
     Branch,
@@ -61,8 +61,7 @@ def mjcf(
     if tree.loops:
         _loops(root, tree, attributes(numbers, "connect"))
     write(root, scene)
-    if scene.constraints:
-        ET.SubElement(root, "size", nuserdata=str(len(fields(scene))))
+    write_room(root, scene)
     _start(root, scene, tree, start, begun, out=_leaves_plane(scene, numbers))
     ET.indent(root)
     return ET.tostring(root, encoding="unicode") + "\n"

@@ -11,7 +11,8 @@ from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ..engine import Plain, Plan, Realised, Refusal, Start
 from ..heading import heading
-from . import edge, plans, settings
+from . import plans, settings
+from .edge import NO_EDGE
 from .plain import plain
 from .plans import named
 from .read.health import Left
@@ -52,7 +53,7 @@ class Pymunk:
         refusal = unbuildable(scene)
         if refusal:
             return [Refusal("native", refusal)]
-        without = [Refusal("native", edge.NONE)] if scene.constraints else []
+        without = [Refusal("native", NO_EDGE)] if scene.constraints else []
         if not self._tuned:
             if without:
                 return without

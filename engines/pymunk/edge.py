@@ -14,7 +14,7 @@ from .pin import LENGTH, Pin, Rates, Way, laid
 from .world import World
 from .written import written
 
-NONE = "engine: pymunk has no joint across a line that turns with its own body"
+NO_EDGE = "engine: pymunk has no joint across a line that turns with its own body"
 _REST = Signal("constant", (0.0,))
 _LAID = [
     "from pymunk import PinJoint",
@@ -40,7 +40,7 @@ def count(scene: Scene) -> int:
     return sum(len(list(rows(edge))) for edge in scene.constraints.values())
 
 
-def add(world: World) -> None:
+def add_edges(world: World) -> None:
     """The joints of all edges, in the order of the case file."""
     for edge in world.scene.constraints.values():
         body, place = world.body(edge.at), Vec2d(*world.local(edge.at))

@@ -15,8 +15,8 @@ from pymunk.space import Space
 
 from ...cases.scene import GROUND, Anchor, DryFriction, Joint, Scene, Vector
 from ..engine import Realised, Start
-from . import edge
 from .contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle
+from .edge import add_edges
 from .force import lines
 from .slot import line, pinned
 from .world import World
@@ -36,7 +36,7 @@ def build(scene: Scene, start: Start, numbers: Mapping[str, Any], realised: Real
     _bodies(world, start)
     _contacts(world)
     _joints(world, start, across=bool(numbers.get("slot.across")))
-    edge.add(world)
+    add_edges(world)
     lines(world, realised)
     joints = [part for parts in world.joints.values() for part in parts]
     for name, value in numbers.items():
