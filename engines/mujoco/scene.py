@@ -46,9 +46,8 @@ def mjcf(
     numbers = {choice.name: choice.value for choice in choices}
     tree = spanning_tree(scene)
     root = ET.Element("mujoco", model="textmech")
-    option = ET.SubElement(
-        root, "option", attributes(numbers, "option"), gravity=written(*scene.gravity, 0)
-    )
+    gravity = written(*scene.gravity, 0)
+    option = ET.SubElement(root, "option", attributes(numbers, "option"), gravity=gravity)
     # A reset must not look like a motion.
     flags = {"autoreset": "disable", **attributes(numbers, "flag")}
     ET.SubElement(option, "flag", flags)
