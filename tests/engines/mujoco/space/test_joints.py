@@ -23,10 +23,11 @@ from given.engine_space import (
 
 from textmech.cases.frame import SPACE
 from textmech.cases.scene import Anchor, Push, Signal, Torque
+from textmech.cases.space.body import SpatialBody
 from textmech.cases.space.joint import Freedom, SpatialJoint
 from textmech.cases.space.rotation import about, angle_between, turned
 from textmech.cases.space.scene import SpatialScene
-from textmech.cases.trajectory import Array
+from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Plan, Start
 from textmech.engines.mujoco import MuJoCo
 
@@ -122,6 +123,41 @@ def test_a_driven_slide_and_turn_tell_force_and_torque(back: bool) -> None:
     assert np.max(np.abs(motion.reactions["rail.theta_torque"] - torque)) < 1e-10
 
 
+@pytest.mark.parametrize("back", [False, True])
+def test_a_pair_on_a_ball_joint_starts_as_given_and_keeps_its_momentum(back: bool) -> None:
+    """Both turn; joint coordinates hold what one does against the other."""
+    bodies = [
+        rigid("front", 1.0, LOPSIDED, {"j": (0.2, 0.0, 0.0)}),
+        rigid("back", 1.5, (0.03, 0.02, 0.04), {"j": (-0.2, 0.05, 0.0)}),
+    ]
+    ends = ("back.j", "front.j") if back else ("front.j", "back.j")
+    scene = spatial(bodies, [ball("neck", *ends)], gravity=STILL)
+    turns = [((1.0, 2.0, 3.0), 0.7), ((2.0, -1.0, 0.5), 1.9)]
+    spins = np.array([[1.0, -2.0, 3.0], [-3.0, 1.0, 2.0]])
+    q = [np.array(about(axis, angle)) for axis, angle in turns]
+    arms = [np.array(body.points["j"]) for body in bodies]
+    r = [-turned(*pair) for pair in zip(q, arms, strict=True)]
+    v = [-turned(q[i], np.cross(spins[i], arms[i])) for i in range(2)]
+    start = {body.name: state(r[i], q[i], v[i], spins[i]) for i, body in enumerate(bodies)}
+    motion = simulated(scene, start, TIMES, 1e-3)
+    for name, given in start.items():
+        assert np.max(np.abs(motion.states[name][0] - given)) < 1e-14
+    momentum, angular = momenta(motion, bodies)
+    assert np.max(np.ptp(momentum, axis=0)) < 1e-10
+    assert np.max(np.ptp(angular, axis=0)) < 1e-10
+
+
+def momenta(motion: Trajectory, bodies: list[SpatialBody]) -> tuple[Array, Array]:
+    """(N, 3) each, about the origin."""
+    momentum, angular = np.zeros((2, len(motion.times), 3))
+    for body in bodies:
+        rows = motion.states[body.name]
+        momentum += body.mass * rows[:, SPACE.velocity]
+        angular += np.cross(rows[:, SPACE.place], body.mass * rows[:, SPACE.velocity])
+        angular += turned(rows[:, SPACE.attitude], omega(motion, body.name) @ body.tensor)
+    return momentum, angular
+
+
 def test_a_free_pair_turns_by_a_drive_and_keeps_its_momentum() -> None:
     """As a cat does: without a moment from outside, with angular momentum zero throughout."""
     bodies = [
@@ -145,12 +181,7 @@ def test_a_free_pair_turns_by_a_drive_and_keeps_its_momentum() -> None:
     }
     times = np.linspace(0.0, 1.0, 11)
     motion = simulated(scene, start, times, 1e-3)
-    momentum, angular = np.zeros((2, len(times), 3))
-    for body in bodies:
-        rows = motion.states[body.name]
-        momentum += body.mass * rows[:, SPACE.velocity]
-        angular += np.cross(rows[:, SPACE.place], body.mass * rows[:, SPACE.velocity])
-        angular += turned(rows[:, SPACE.attitude], omega(motion, body.name) @ body.tensor)
+    momentum, angular = momenta(motion, bodies)
     assert np.max(np.abs(momentum)) < 1e-10
     assert np.max(np.abs(angular)) < 1e-10
     assert np.max(angle_between(motion.states["front"][:, SPACE.attitude], np.array(LEVEL))) > 0.3
