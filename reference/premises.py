@@ -168,7 +168,7 @@ def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         # a place held at 0 trembles by rounding, which is small only beside the other bodies'
         size = max(
             np.max(np.abs(samples)),
-            np.max(np.abs(states[:, case.scene.frame.alike(quantity.unit)])),
+            np.max(np.abs(states[:, case.scene.frame.alike(quantity.unit)]), initial=0.0),
         )
         moved = _moved(samples)
         still = moved <= STILL * size
