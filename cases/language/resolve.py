@@ -37,6 +37,7 @@ def _in_space(s: SpatialWords) -> SpatialScene:
         joints=_named(s.joints),
         contacts={name: contact.named(name, bodies) for name, contact in s.contacts.items()},
         forces=_named(s.forces),
+        constraints=_named(s.constraints),
         drives={rate: drive.signal for rate, drive in s.drive.items()},
     )
 

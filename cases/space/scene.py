@@ -8,6 +8,7 @@ from ..kind import Fields
 from ..scene import Scene
 from ..signal import Signal
 from .body import SpatialBody
+from .constraint import SpatialEdge
 from .contact import SpatialContact
 from .joint import SpatialJoint, effort_of
 from .rotation import Vector3
@@ -24,6 +25,9 @@ class SpatialScene(Scene):
     bodies: Mapping[str, SpatialBody]  # pyright: ignore[reportIncompatibleVariableOverride]
     joints: Mapping[str, SpatialJoint]  # pyright: ignore[reportIncompatibleVariableOverride]
     contacts: Mapping[str, SpatialContact]  # pyright: ignore[reportIncompatibleVariableOverride]
+    constraints: Mapping[str, SpatialEdge] = field(  # pyright: ignore[reportIncompatibleVariableOverride]
+        default_factory=dict
+    )
     drives: Mapping[str, Signal] = field(default_factory=dict)
     """Prescribed rates [rad/s, m/s] of joints' freedoms, by the quantity: `q1.omega`,
     `upright.theta_dot`."""

@@ -5,13 +5,15 @@ from typing import Any
 
 import numpy as np
 
-from .held import Dot, Drive, Held, Line, Rim, Together
+from .blades import Blades
+from .held import Blade, Dot, Drive, Held, Line, Rim, Together
 from .kinematics import Bodies, Layout
 from .rolling import Drives, Rims
 from .rows import Dots, Kind, Lines, Points
 
 KINDS: dict[type[Any], tuple[type[Any], int]] = {
     Together: (Points, 3), Line: (Lines, 1), Dot: (Dots, 1), Rim: (Rims, 3), Drive: (Drives, 1),
+    Blade: (Blades, 1),
 }  # fmt: skip
 AXES = "xyz"
 
@@ -61,9 +63,9 @@ class SpatialRows:
 
     @property
     def holonomic(self) -> Any:
-        """(r,) which rows have residuals: all but what a rim's point does along the floor, and
-        prescribed rates."""
-        known = {Rim: [False, False, True], Drive: [False]}
+        """(r,) which rows have residuals: all but what a rim's point does along the floor,
+        prescribed rates, and blades."""
+        known = {Rim: [False, False, True], Drive: [False], Blade: [False]}
         kinds = [(type(part), KINDS[type(part)][1]) for part in self.parts]
         flat = [x for kind, size in kinds for x in known.get(kind, [True] * size)]
         return np.array(flat, dtype=bool)
@@ -101,6 +103,9 @@ def _told(kind: Any, parts: list[Any], bodies: Bodies, forces: Any) -> Iterator[
         names = ("fx", "fy", "fz") if isinstance(kind, Points) else ("fx", "fy", "normal")
         for part, force in zip(parts, forces.reshape(-1, 3), strict=True):
             yield from ((f"{part.part}.{n}", x) for n, x in zip(names, force, strict=True))
+        return
+    if isinstance(kind, Blades):
+        yield from ((f"{p.part}.{p.name}", x) for p, x in zip(parts, forces, strict=True))
         return
     if isinstance(kind, Lines):
         vectors, letter = kind.direction(bodies), "f"

@@ -80,7 +80,20 @@ class Drive:
     rate: Signal
 
 
-Held = Together | Line | Dot | Rim | Drive
+@dataclass(frozen=True)
+class Blade:
+    """One row: a point does not move across a heading, or upward (2.15).
+
+    along: the long axis in the axes of the body, whose shadow is the heading; None: upward.
+    """
+
+    part: str
+    name: str  # of the reaction: `force`, to the left of the heading, or `normal`
+    at: Anchor
+    along: Vector3 | None
+
+
+Held = Together | Line | Dot | Rim | Drive | Blade
 
 
 def held(scene: SpatialScene) -> list[Held]:
@@ -92,6 +105,10 @@ def held(scene: SpatialScene) -> list[Held]:
         body = scene.bodies[contact.body]
         assert body.radius is not None  # only what is round rolls
         found.append(Rim(contact.name, contact.body, body.radius, body.axle))
+    for edge in scene.constraints.values():
+        found.append(Blade(edge.name, "force", edge.at, edge.along))
+        if edge.kept:
+            found.append(Blade(edge.name, "normal", edge.at, None))
     found += [driven(scene, quantity, law) for quantity, law in scene.drives.items()]
     return found
 

@@ -5,7 +5,7 @@ from inspect import signature
 from pathlib import Path
 
 from textmech.cases import find
-from textmech.cases.language.grammar.space import body, force, freedom, joint
+from textmech.cases.language.grammar.space import body, constraint, force, freedom, joint
 from textmech.cases.language.grammar.space.contact import Rolling
 from textmech.cases.language.grammar.space.scene import SpatialScene as Words
 from textmech.cases.language.grammar.space.start import Start, Turn
@@ -13,6 +13,7 @@ from textmech.cases.load import load
 from textmech.cases.quantity import table
 from textmech.cases.scene import Anchor, Signal, Spring
 from textmech.cases.space import shape
+from textmech.cases.space.constraint import SpatialEdge
 from textmech.cases.space.contact import SpatialContact
 from textmech.cases.space.joint import Freedom, SpatialJoint
 from textmech.cases.space.scene import SpatialScene
@@ -33,7 +34,7 @@ def test_every_key_is_explained() -> None:
     code = re.findall(r"```yaml\n(.*?)```|`([^`]+)`", README, flags=re.DOTALL)
     said = set(re.findall(r"[a-zA-Z_]+", " ".join(block + word for block, word in code)))
     models = [Words, Rolling, Start, Turn, freedom.FreeShift, freedom.FreeTurn]
-    for kinds in (body.KINDS, joint.KINDS, force.KINDS):
+    for kinds in (body.KINDS, joint.KINDS, force.KINDS, constraint.KINDS):
         models += kinds.values()
     for model in models:
         assert set(model.model_fields) <= said, model
@@ -56,6 +57,7 @@ def test_quantities() -> None:
         joints={"joint": SpatialJoint("joint", "freedoms", A, B, freedoms)},
         contacts={"contact": SpatialContact("contact", Anchor("body", "center"), 1.0, rim=True)},
         forces={"line": Spring("line", A, B, 1.0, 1.0)},
+        constraints={"constraint": SpatialEdge("constraint", B, (1.0, 0.0, 0.0), kept=True)},
         drives={"joint.s_dot": one, "joint.theta_dot": one},
     )
     rows = re.findall(r"^\| (`[a-z]+\..*?) \| (.*?) \|", SPACE, flags=re.MULTILINE)

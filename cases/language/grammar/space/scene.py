@@ -9,6 +9,7 @@ from ..file import GRAVITY, INCLINE
 from ..part import Angle, Name, Part
 from ..text import IDENTIFIER, Text, rate
 from .body import Body
+from .constraint import Constraint
 from .contact import Rolling
 from .drive import Driven
 from .force import Force
@@ -28,6 +29,7 @@ class SpatialScene(Part):
     points: dict[Name, GroundPoint] = Field({}, description="points of the ground")
     bodies: dict[Name, Body]
     joints: dict[Name, Joint] = Field({})
+    constraints: dict[Name, Constraint] = Field({}, description="that cannot be integrated")
     contacts: dict[Name, Rolling] = Field({})
     forces: dict[Name, Force] = Field({})
     drive: dict[Rate, Driven] = Field({}, description="prescribed rates of joints' freedoms")

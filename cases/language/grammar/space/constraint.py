@@ -1,0 +1,29 @@
+"""Constraints in space as a case file writes them."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from ....point import anchor
+from ....space.constraint import SpatialEdge
+from ..part import OneOf, Part, Point
+from ..text import Word
+from .vector import Direction
+
+
+class Blade(Part):
+    """A blade at a point of a body: the point does not move across its heading."""
+
+    edge: Point
+    along: Direction = Field(description="in the axes of the body; its shadow is the heading")
+    height: Annotated[str, Word("height", ("kept",))] | None = Field(
+        None, description="`kept`: the point stays as high as it starts"
+    )
+
+    def named(self, name: str) -> SpatialEdge:
+        """The blade."""
+        return SpatialEdge(name, anchor(self.edge), self.along, self.height is not None)
+
+
+KINDS: dict[str, type[Part]] = {"edge": Blade}
+Constraint = Annotated[Blade, OneOf("constraint", KINDS)]
