@@ -53,7 +53,8 @@ class Elements:
 
     def r(self, t: Any, q: Any) -> Vector:
         """(N, d) where they are."""
-        mass, pose = self._body(t, q, 0.0 * q)
+        still = 0.0 * q[: len(q) - ("q3" in self.mode.coordinates)]  # ω has one number less
+        mass, pose = self._body(t, q, still)
         frame = SPACE if len(pose) == SPACE.width else PLANE
         return np.array(pose[frame.place]) + elements(mass)[1] @ rows(pose)
 
