@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from given.skew_chain import Q_DOT, Q, chain, start
 from given.engine_space import STILL, attitude, hinge, joint, particle, rigid, spatial, state
+from given.skew_chain import Q_DOT, Q, chain, start
 
 from textmech.cases.scene import Anchor, Damper, Push, Signal, Spring, Torque
 from textmech.cases.space.joint import Freedom

@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from given.skew_chain import Q_DOT, N, Q, accelerations, chain, start, wrenches
 from given.engine_space import simulated
+from given.skew_chain import Q_DOT, N, Q, accelerations, chain, start, wrenches
 from scipy.integrate import solve_ivp
 
 from textmech.cases.scene import Signal
