@@ -14,7 +14,7 @@ from textmech.cases.space.scene import SpatialScene
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Start
 
-from .spatial import hinge, rigid, spatial, state
+from .engine_space import hinge, rigid, spatial, state
 
 G = np.array([0.0, 0.0, -9.80665])
 N = 5
