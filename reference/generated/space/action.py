@@ -24,12 +24,14 @@ class Action:
     """A kind of force element; called with the element, t, the bodies and its points.
 
     wrenches: what it does to each body. U [J], D [W]. Q4: the wrenches of what has no U and no D.
+    line: whether that element has no direction where its two ends meet.
     """
 
     wrenches: Callable[..., Iterator[Wrench]]
     U: Callable[..., Any] = lambda force, points: 0.0
     D: Callable[..., Any] = lambda force, points: 0.0
     Q4: Callable[..., Iterator[Wrench]] = lambda force, t, numbers, points: iter(())
+    line: Callable[[Any], bool] = lambda force: False
 
 
 class Actions:
@@ -72,9 +74,8 @@ class Actions:
 
     def meets(self, t: float, bodies: Bodies, within: float) -> str | None:
         """The first line that is shorter than that [m], and so without direction."""
-        for force, _, attached, _ in self._each:
-            directed = isinstance(force, Damper) or getattr(force, "rest_length", 0.0) > 0.0
-            if directed and abs(_length(attached.at(t, bodies))) < within:
+        for force, action, attached, _ in self._each:
+            if action.line(force) and abs(_length(attached.at(t, bodies))) < within:
                 return force.name
         return None
 
@@ -142,8 +143,8 @@ def _torque(force: Torque, t: Any, numbers: Sequence[int], points: Points) -> It
 
 
 ACTIONS: dict[type[Force], Action] = {
-    Spring: Action(_spring, U=_stretched),
-    Damper: Action(_damper, D=_damped),
+    Spring: Action(_spring, U=_stretched, line=lambda spring: spring.rest_length > 0.0),
+    Damper: Action(_damper, D=_damped, line=lambda damper: True),
     Push: Action(_push, Q4=_push),
     Torque: Action(_torque, Q4=_torque),
 }

@@ -78,9 +78,15 @@ def open_ended(closure: SpatialClosure, q: Array, loose: Array) -> CaseError:
         ]
         if at.omega is not None and np.max(np.abs(loose[:, at.omega : at.omega + 3])) > OPEN:
             names.append(f"{body}.attitude")
-    if not names:
-        names = _open_columns(closure, loose, closure.where.rate_names)
-    return _missing(closure.case, len(loose), names)
+    return _missing(closure.case, len(loose), names or _open_places(closure, loose))
+
+
+def _open_places(closure: SpatialClosure, loose: Array) -> list[str]:
+    """Of bodies that hang on each other and nowhere else."""
+    columns = _open_columns(closure, loose, closure.where.rate_names)
+    parts = (name.partition(".") for name in columns)
+    fields = {"vx": "x", "vy": "y", "vz": "z"}
+    return list(dict.fromkeys(f"{body}.{fields.get(rate, 'attitude')}" for body, _, rate in parts))
 
 
 def rates_open(closure: SpatialClosure, loose: Array) -> CaseError:

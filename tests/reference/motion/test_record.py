@@ -21,7 +21,7 @@ SMOOTH = [
     name
     for name, case in scenes.SHIPPED.items()
     if all(contact.ideal for contact in case.scene.contacts.values())
-    and not any(joint.dry_friction for joint in case.scene.joints.values())
+    and not any(getattr(joint, "dry_friction", None) for joint in case.scene.joints.values())
 ]
 CREEPING = ("spring_mass_damper.critical", "spring_mass_damper.overdamped")
 LOCATED = 1e-9  # s: a curve of seventh degree through the steps around it
