@@ -79,6 +79,12 @@ class Joint:
         """The forces [N] of dry friction in motion."""
         return {} if self.dry_friction is None else self.dry_friction.numbers()
 
+    def turn(self, motion: Motion) -> tuple[Array, Array]:
+        """(N,) the angle [rad] of the second part against the first, and its rate [rad/s]."""
+        (a, a_rate), (b, b_rate) = (motion.turned(at.body) for at in (self.a, self.b))
+        zero = np.zeros_like(motion.trajectory.times)  # the ground's are one number
+        return zero + b - a, zero + b_rate - a_rate
+
     def observe(self, motion: Motion, field: str) -> Array:
         """(N,) what follows from the states and the given reactions; else KeyError."""
         if field == "force":

@@ -1,7 +1,7 @@
 """A trajectory as elements look at it: the states of bodies and points, and lines between them."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -12,11 +12,12 @@ from .trajectory import ANGLE, OMEGA, Array, Trajectory
 
 @dataclass(frozen=True)
 class Motion:
-    """The samples of a scene's bodies and ground points."""
+    """The samples of a scene's bodies and ground points, and the joints about which forces act."""
 
     bodies: Mapping[str, Any]  # of the plane or of space
     points: Mapping[str, GroundPoint]
     trajectory: Trajectory
+    joints: Mapping[str, Any] = field(default_factory=dict)
 
     def point(self, anchor: Anchor) -> Array:
         """(N, 4): x, y, vx, vy of a point (2.1), (2.6); in space (N, 6)."""

@@ -34,7 +34,7 @@ def observe(scene: Scene, trajectory: Trajectory, name: str) -> Array:
 
 
 def _motion(scene: Scene, trajectory: Trajectory) -> Motion:
-    return Motion(scene.bodies, scene.points, trajectory)
+    return Motion(scene.bodies, scene.points, trajectory, scene.joints)
 
 
 def _energy(scene: Scene, trajectory: Trajectory, field: str) -> Array:

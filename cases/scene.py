@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from .body import Body
 from .constraint import Edge
 from .contact import Contact
-from .force import Damper, Force, Push, Spring, Torque, of
+from .force import Damper, Force, Motor, Push, Spring, Torque, Torsion, TorsionDamper, of
 from .frame import PLANE, Frame
 from .friction import Bounds, DryFriction, Smooth
 from .joint import Joint
@@ -34,12 +34,15 @@ __all__ = [
     "Frame",
     "GroundPoint",
     "Joint",
+    "Motor",
     "Push",
     "Scene",
     "Signal",
     "Smooth",
     "Spring",
     "Torque",
+    "Torsion",
+    "TorsionDamper",
     "Vector",
 ]
 
@@ -79,5 +82,9 @@ class Scene:
     def dampers(self) -> Iterator[Damper]:
         return of(Damper, self.forces.values())
 
-    def signals(self) -> Iterator[Push | Torque]:
-        return (f for kind in (Push, Torque) for f in of(kind, self.forces.values()))
+    def signals(self) -> Iterator[Push | Torque | Motor]:
+        return (f for kind in (Push, Torque, Motor) for f in of(kind, self.forces.values()))
+
+    def ends(self, force: Force) -> tuple[Anchor, ...]:
+        """The points on which a force acts, or those of the joint about which it does."""
+        return force.refers() if force.about is None else self.joints[force.about].refers()

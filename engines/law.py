@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import astuple
 from typing import Any
 
-from ..cases.force import Damper, Line, Spring
+from ..cases.force import Damper, Line, Spring, Torsion, TorsionDamper, Turning
 from ..cases.friction import DryFriction, Smooth
 from ..cases.scene import Scene
 from ..cases.signal import Signal
@@ -63,6 +63,21 @@ def _damper(force: Damper, length: float, rate: float) -> float:
     return force.damping * rate
 
 
+def turning(force: Turning, angle: float, rate: float) -> float:
+    """With what torque [N m] a torsion spring or damper turns the second part of its joint."""
+    return TORQUES[type(force)](force, angle, rate)
+
+
+def _torsion(force: Torsion, angle: float, rate: float) -> float:
+    """(2.45) −c (φ − φ₀)."""
+    return -force.stiffness * (angle - force.rest_angle)
+
+
+def _torsion_damper(force: TorsionDamper, angle: float, rate: float) -> float:
+    """(2.47) −d φ̇."""
+    return -force.damping * rate
+
+
 def one_number(scene: Scene) -> str:
     """What an engine that knows one number of friction leaves out, in words; or nothing."""
     told = [
@@ -82,6 +97,11 @@ def one_number(scene: Scene) -> str:
 TENSIONS: dict[type[Line], Callable[[Any, float, float], float]] = {
     Spring: _spring,
     Damper: _damper,
+}
+
+TORQUES: dict[type[Turning], Callable[[Any, float, float], float]] = {
+    Torsion: _torsion,
+    TorsionDamper: _torsion_damper,
 }
 
 

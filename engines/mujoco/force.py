@@ -4,6 +4,7 @@ A tendon carries a spring or a damper. An actuator carries what follows a law in
 makes a constant, the integral of 1 a ramp; a sine's control is a callback.
 """
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -12,10 +13,21 @@ from xml.etree import ElementTree as ET
 import mujoco
 import numpy as np
 
-from ...cases.force import Damper, Force, Line, Push, Spring, Torque
+from ...cases.force import (
+    Damper,
+    Force,
+    Line,
+    Motor,
+    Push,
+    Spring,
+    Torque,
+    Torsion,
+    TorsionDamper,
+)
 from ...cases.scene import CENTER, GROUND, Anchor, Scene
 from ...cases.signal import Signal
 from ...cases.trajectory import Array
+from .hinge import Hinge, hinge
 from .written import written
 
 Sections = Mapping[str, ET.Element]
@@ -25,15 +37,16 @@ Outer = tuple[Anchor, Array, Array]
 
 @dataclass(frozen=True)
 class Element:
-    """MuJoCo's element of one kind; called with the force element.
+    """MuJoCo's element of one kind; called with the force element, and if it acts about a joint
+    with that joint's `Hinge`.
 
     write: into the file's sections. numbers: for the audit. Of what has an actuator, signal: the
     law that its control follows; outer: what it exerts on bodies at its force (N,), by its gear,
     unless through a tendon, whose forces MuJoCo counts rightly itself.
     """
 
-    write: Callable[[Sections, Any], None]
-    numbers: Callable[[mujoco.MjModel, Any], dict[str, float]] = lambda model, force: {}
+    write: Callable[..., None]
+    numbers: Callable[..., dict[str, float]] = lambda model, force, *about: {}
     signal: Callable[[Any], Signal] | None = None
     outer: Callable[[Any, Array, Array], Iterator[Outer]] = lambda *_: iter(())
 
@@ -42,7 +55,7 @@ def write(root: ET.Element, scene: Scene) -> None:
     """The sections of the scene's forces."""
     sections = {name: ET.Element(name) for name in ("tendon", "actuator")}
     for force in scene.forces.values():
-        ELEMENTS[type(force)].write(sections, force)
+        ELEMENTS[type(force)].write(sections, force, *_about(scene, force, root))
     root.extend(section for section in sections.values() if len(section))
 
 
@@ -56,8 +69,17 @@ def numbers(scene: Scene, model: mujoco.MjModel) -> dict[str, float]:
     return {
         f"{force.name}.{key}": number
         for force in scene.forces.values()
-        for key, number in ELEMENTS[type(force)].numbers(model, force).items()
+        for key, number in _held(scene, model, force).items()
     }
+
+
+def _held(scene: Scene, model: mujoco.MjModel, force: Force) -> dict[str, float]:
+    return ELEMENTS[type(force)].numbers(model, force, *_about(scene, force))
+
+
+def _about(scene: Scene, force: Force, root: ET.Element | None = None) -> Iterator[Hinge]:
+    if force.about is not None:
+        yield hinge(scene, force.about, root)
 
 
 def outer(scene: Scene, model: mujoco.MjModel, sizes: Array) -> Iterator[Outer]:
@@ -139,9 +161,40 @@ def _torque_outer(force: Torque, size: Array, gear: Array) -> Iterator[Outer]:
         yield at, np.zeros((len(size), 2)), size * gear[5]
 
 
+def _torsion(sections: Sections, force: Torsion, about: Hinge) -> None:
+    about.give("stiffness", force.stiffness)
+    about.give("springref", math.degrees(about.way * force.rest_angle))
+
+
+def _torsion_numbers(model: mujoco.MjModel, force: Torsion, about: Hinge) -> dict[str, float]:
+    number = model.joint(about.name).id
+    rest = about.way * model.qpos_spring[model.jnt_qposadr[number]]
+    return {"stiffness": np.ravel(model.jnt_stiffness[number])[0], "rest_angle": rest}
+
+
+def _torsion_damper(sections: Sections, force: TorsionDamper, about: Hinge) -> None:
+    about.give("damping", force.damping)
+
+
+def _torsion_damping(model: mujoco.MjModel, force: TorsionDamper, about: Hinge) -> dict[str, float]:
+    dof = model.jnt_dofadr[model.joint(about.name).id]
+    return {"damping": np.ravel(model.dof_damping[dof])[0]}
+
+
+def _motor(sections: Sections, force: Motor, about: Hinge) -> None:
+    gear = written(about.way * force.signal.amplitude[0])
+    given = {"name": force.name, "joint": about.name, "gear": gear}
+    element = ET.SubElement(sections["actuator"], "general", given)
+    if force.signal.law == "ramp":
+        element.set("dyntype", "integrator")
+
+
 ELEMENTS: dict[type[Force], Element] = {
     Spring: Element(_spring, _spring_numbers),
     Damper: Element(_damper, _damper_numbers),
     Push: Element(_push, signal=lambda force: force.signal, outer=_push_outer),
     Torque: Element(_torque, signal=lambda force: force.signal, outer=_torque_outer),
+    Torsion: Element(_torsion, _torsion_numbers),
+    TorsionDamper: Element(_torsion_damper, _torsion_damping),
+    Motor: Element(_motor, signal=lambda force: force.signal),
 }

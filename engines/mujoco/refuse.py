@@ -5,6 +5,7 @@ from ..engine import Plan, Start
 from .compilation import NOMINAL, compiled
 from .contact import LEAST_BOUNCE
 from .force import ELEMENTS
+from .hinge import taken
 from .tree import Branch, Tree, built_as, spanning_tree
 
 NO_EDGE = "engine: MuJoCo has no constraint of a velocity across a line that turns with a body"
@@ -15,6 +16,8 @@ def unbuildable(scene: Scene) -> str | None:
     for force in scene.forces.values():
         if type(force) not in ELEMENTS:
             return f"adapter: {force.name} is a {force.word}, which it does not build"
+    if what := taken(scene):
+        return f"adapter: {what}"
     tree = spanning_tree(scene)
     soft = [*tree.loops, *scene.contacts.values()]
     soft += [joint for joint in scene.joints.values() if joint.dry_friction]

@@ -12,13 +12,24 @@ from dataclasses import dataclass
 from typing import Any
 
 from pymunk.body import Body
-from pymunk.constraints import DampedSpring
+from pymunk.constraints import DampedRotarySpring, DampedSpring
 
-from ...cases.force import Damper, Force, Push, Spring, Torque
+from ...cases.force import (
+    Damper,
+    Force,
+    Motor,
+    Push,
+    Spring,
+    Torque,
+    Torsion,
+    TorsionDamper,
+)
+from ...cases.scene import Scene
 from ...cases.signal import Signal
 from ..engine import Realised
 from ..law import in_time, value
 from .law.line import Exerted, Load, drifting, pull, told
+from .law.turning import couple_as_text, motor, motor_load, twist, twisted
 from .world import World
 from .written import written
 
@@ -30,7 +41,8 @@ Apply = Callable[[float], None]
 class Element:
     """What pymunk has, or is told, of one kind; called with the world and the force element.
 
-    line: the numbers of its DampedSpring, and back: what the audit reads of one. tell: the force
+    line: the numbers of its DampedSpring, about a joint its DampedRotarySpring, and back: what the
+    audit reads of one. tell: the force
     that is given before each step of `step` s, `drift` s ahead (0: at the present place); of what
     has a line too, only where we realise its law. load: what it exerts on a body, by the body's
     name. script: the same as lines of Python.
@@ -38,7 +50,7 @@ class Element:
 
     load: Callable[[World, Any, str], Exerted]
     line: Callable[[Any], dict[str, float]] | None = None
-    numbers: Callable[[DampedSpring], dict[str, float]] = lambda line: {}
+    numbers: Callable[[Any], dict[str, float]] = lambda line: {}
     tell: Callable[[World, Any, float, float], Apply] | None = None
     script: Callable[[World, Any, Callable[[Body], str], bool], Iterator[str]] | None = None
 
@@ -49,15 +61,23 @@ def lines(world: World, realised: Realised) -> None:
         element = ELEMENTS[type(force)]
         if element.line is None or (realised != "native" and element.tell):
             continue
-        a, b = force.refers()
-        given = _LINE | element.line(force)
+        a, b = world.scene.ends(force)
         bodies, places = (world.body(a), world.body(b)), (world.local(a), world.local(b))
-        line = DampedSpring(*bodies, *places, **given)
+        if force.about is None:
+            line = DampedSpring(*bodies, *places, **_LINE | element.line(force))
+        else:
+            line = DampedRotarySpring(*bodies, **_TURN | element.line(force))
         world.lines[force.name] = line
         world.space.add(line)
 
 
 _LINE = {"rest_length": 0.0, "stiffness": 0.0, "damping": 0.0}
+_TURN = {"rest_angle": 0.0, "stiffness": 0.0, "damping": 0.0}
+
+
+def damped(scene: Scene) -> bool:
+    """Whether a damper is among the forces: pymunk's own act after the kick."""
+    return any(force.numbers().get("damping") for force in scene.forces.values())
 
 
 def tells(world: World, step: float, *, midpoint: bool) -> list[Apply]:
@@ -85,7 +105,8 @@ def load(world: World, name: str, step: float) -> Callable[[float, float], Load]
     Positions are those of the midpoint protocol, h/2 behind.
     """
     body, (gx, gy) = world.bodies[name], world.space.gravity
-    forces = [f for f in world.scene.forces.values() if name in {p.body for p in f.refers()}]
+    scene = world.scene
+    forces = [f for f in scene.forces.values() if name in {p.body for p in scene.ends(f)}]
     loads = [ELEMENTS[type(force)].load(world, force, name) for force in forces]
     weight = body.mass * gx, body.mass * gy
 
@@ -171,6 +192,12 @@ def _torque_script(
     yield f"    {of(world.bodies[force.body])}.torque += {as_text(force.signal)[0]}"
 
 
+def _motor_script(
+    world: World, force: Motor, of: Callable[[Body], str], midpoint: bool
+) -> Iterator[str]:
+    yield from couple_as_text(world, force, of, as_text(force.signal)[0])
+
+
 def as_text(law: Signal) -> list[str]:
     """The law in time, in the script's words."""
     sine = f" * math.sin({law.angular_frequency!r} * t + {law.phase!r})"
@@ -192,4 +219,17 @@ ELEMENTS: dict[type[Force], Element] = {
     ),
     Push: Element(load=_push_load, tell=_push, script=_push_script),
     Torque: Element(load=_torque_load, tell=_torque, script=_torque_script),
+    Torsion: Element(
+        load=twist,
+        # pymunk counts the first body's angle against the second's
+        line=lambda torsion: {"rest_angle": -torsion.rest_angle, "stiffness": torsion.stiffness},
+        numbers=lambda line: {"stiffness": line.stiffness, "rest_angle": -line.rest_angle},
+    ),
+    TorsionDamper: Element(
+        load=twist,
+        line=lambda damper: {"damping": damper.damping},
+        numbers=lambda line: {"damping": line.damping},
+        tell=lambda world, damper, step, drift: twisted(world, damper, step),
+    ),
+    Motor: Element(load=motor_load, tell=motor, script=_motor_script),
 }

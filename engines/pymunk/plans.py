@@ -10,6 +10,7 @@ from ..engine import Choice, Plan, Realised, Start
 from ..law import one_number
 from .contact import closed
 from .edge import alone
+from .force import damped
 from .law.friction import ruled
 from .recipe import Recipe
 from .scene import oblique
@@ -24,7 +25,7 @@ def ways(scene: Scene) -> tuple[Realised, ...]:
     """
     if scene.constraints:
         return ("driver",)
-    law = any(scene.dampers()) or ruled(scene)
+    law = damped(scene) or any(scene.dampers()) or ruled(scene)
     return ("native", "law") if law else ("native",)
 
 
@@ -67,10 +68,9 @@ def _spoilt(scene: Scene, realised: Realised) -> bool:
     An impact, and a part that turns back without a rest, take whole steps: measured, 1.
     """
     native = realised == "native"
-    damped = native and any(damper.damping for damper in scene.dampers())
     brakes = native and any(joint.dry_friction for joint in scene.joints.values())
     met = native and any(contact.switches for contact in scene.contacts.values())
-    return damped or brakes or met
+    return (native and damped(scene)) or brakes or met
 
 
 def _withheld(scene: Scene) -> dict[str, str]:

@@ -7,6 +7,7 @@ from typing import Any
 from pymunk.body import Body
 from pymunk.constraints import (
     Constraint,
+    DampedRotarySpring,
     DampedSpring,
     GearJoint,
     GrooveJoint,
@@ -31,6 +32,7 @@ _ARGUMENTS: dict[type[Constraint], tuple[str, ...]] = {
     GrooveJoint: ("groove_a", "groove_b", "anchor_b"),
     PinJoint: ("anchor_a", "anchor_b"),
     GearJoint: ("phase", "ratio"),
+    DampedRotarySpring: ("rest_angle", "stiffness", "damping"),
     DampedSpring: ("anchor_a", "anchor_b", "rest_length", "stiffness", "damping"),
 }
 _CARRIED = [

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from pymunk.body import Body
-from pymunk.constraints import Constraint, DampedSpring, GrooveJoint
+from pymunk.constraints import Constraint, DampedRotarySpring, DampedSpring, GrooveJoint
 from pymunk.shapes import Circle
 from pymunk.space import Space
 
@@ -28,7 +28,7 @@ class World:
     driven: dict[str, Body] = field(default_factory=dict)
     joints: dict[str, tuple[Constraint, ...]] = field(default_factory=dict)
     brakes: dict[str, GrooveJoint] = field(default_factory=dict)
-    lines: dict[str, DampedSpring] = field(default_factory=dict)
+    lines: dict[str, DampedSpring | DampedRotarySpring] = field(default_factory=dict)
     slots: dict[str, Line] = field(default_factory=dict)
     pins: dict[str, Pin] = field(default_factory=dict)
     wheels: dict[str, Circle] = field(default_factory=dict)

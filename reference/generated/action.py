@@ -10,11 +10,22 @@ from typing import Any
 
 import numpy as np
 
-from ...cases.force import Damper, Force, Line, Push, Spring, Torque
-from ...cases.signal import Signal
+from ...cases.force import (
+    Damper,
+    Force,
+    Line,
+    Motor,
+    Push,
+    Spring,
+    Torque,
+    Torsion,
+    TorsionDamper,
+)
 from ..laws.force import damper, spring
 from ..system import Array
 from .coordinates import Coordinates, Point
+from .signal import signal
+from .turning import braked, driven, motor, torsional, torsionally_damped, twisted
 
 Numbers = Sequence[Any]
 SHORT = 1e-9  # of the rest length: a motion that comes so close would not miss zero but by rounding
@@ -77,21 +88,6 @@ def other(force: Force, where: Coordinates, t: Any, q: Numbers, v: Numbers, Q: A
 def ends_meet(force: Force, where: Coordinates, t: float, q: Numbers, within: float) -> bool:
     """Whether it is shorter than that [m], and so without direction."""
     return ACTIONS[type(force)].line(force) and length(force, where, t, q) < within  # type: ignore[arg-type]
-
-
-def signal(law: Signal, t: Any) -> tuple[Any, ...]:
-    """A push's components [N] or a torque [N m] at time t: A, A t or A sin(w t + phase)."""
-    if law.law == "constant":
-        return law.amplitude
-    size = t if law.law == "ramp" else np.sin(law.angular_frequency * t + law.phase)
-    return tuple(entry * size for entry in law.amplitude)
-
-
-def slope(law: Signal, t: Any) -> tuple[Any, ...]:
-    """The rate at time t of what `signal` says: 0, A or A w cos(w t + phase)."""
-    w = law.angular_frequency
-    size = {"constant": 0.0, "ramp": 1.0, "sine": w * np.cos(w * t + law.phase)}[law.law]
-    return tuple(entry * size for entry in law.amplitude)
 
 
 def ends(force: Line, where: Coordinates, t: Any, q: Numbers, v: Numbers) -> tuple[Point, Point]:
@@ -180,4 +176,7 @@ ACTIONS: dict[type[Force], Action] = {
     Damper: Action(_damper, D=_damped, line=lambda damper: True),
     Push: Action(_push, Q4=_pushed),
     Torque: Action(_torque, Q4=_turned),
+    Torsion: Action(torsional, U=twisted),
+    TorsionDamper: Action(torsionally_damped, D=braked),
+    Motor: Action(motor, Q4=driven),
 }

@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 
 from ...cases.scene import Signal, Vector
-from .action import signal, slope
 from .coordinates import Attached
 from .rows import GAMMA, G
+from .signal import signal, slope
 
 
 class Blades:

@@ -26,6 +26,16 @@ def spring(c: float, l0: float, d: ArrayLike) -> Array:
     return np.array(entries) * (c * (l - l0) / l)
 
 
+def torsion(c: float, phi0: float, phi: float) -> float:
+    """(2.45) M = −c (φ − φ₀) [N m] on the second part of a joint, φ its angle against the first."""
+    return -c * (phi - phi0)
+
+
+def torsion_damper(d: float, phi_dot: float) -> float:
+    """(2.47) M = −d φ̇ [N m] on the second part of a joint."""
+    return -d * phi_dot
+
+
 def damper(d: float, r: ArrayLike, r_dot: ArrayLike) -> Array:
     """(2.47) F = −d λ̇ along the damper [N]: the force on the first end: (2,), in space (3,).
 

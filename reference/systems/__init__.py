@@ -31,6 +31,7 @@ from .spring_mass_damper import SpringMassDamper
 from .tilting_disk import TiltingDisk
 from .tilting_ring import TiltingRing
 from .torque_free import TorqueFree
+from .torsion_pendulum import TorsionPendulum
 from .upright_wheel import UprightWheel
 
 SYSTEMS: dict[str, type[Mode] | type[System]] = {
@@ -59,6 +60,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "tilting_disk": TiltingDisk,
     "tilting_ring": TiltingRing,
     "torque_free": TorqueFree,
+    "torsion_pendulum": TorsionPendulum,
     "upright_wheel": UprightWheel,
 }
 

@@ -13,7 +13,7 @@ from textmech.cases.language.grammar.friction import Coefficients, DryFriction
 from textmech.cases.language.grammar.number import amount
 from textmech.cases.load import load
 from textmech.cases.quantity import event_quantities, table
-from textmech.cases.scene import Anchor, Bounds, Contact, Edge, Signal, Smooth, Spring
+from textmech.cases.scene import Anchor, Bounds, Contact, Edge, Signal, Smooth, Spring, Torsion
 from textmech.cases.scene import DryFriction as Dry
 from textmech.cases.scene import Joint as Connection
 from textmech.cases.scene import Scene as Resolved
@@ -54,7 +54,10 @@ def test_quantities() -> None:
         contacts={
             "contact": Contact("contact", Anchor("body", "center"), 1.0, 1.0, ideal="rolling")
         },
-        forces={"line": Spring("line", a, b, 1.0, 1.0)},
+        forces={
+            "line": Spring("line", a, b, 1.0, 1.0),
+            "torsion": Torsion("torsion", "joint", 1.0, 0.0),
+        },
         constraints={"constraint": Edge("constraint", b, (1.0, 0.0), Signal("ramp", (1.0,)))},
     )
     rows = re.findall(r"^\| (`[a-z]+\..*?) \| (.*?) \|", PLANE, flags=re.MULTILINE)

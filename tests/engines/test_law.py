@@ -6,8 +6,18 @@ from typing import Any
 
 import pytest
 
-from textmech.cases.scene import Anchor, Bounds, Damper, DryFriction, Signal, Smooth, Spring
-from textmech.engines.law import dry_friction, in_time, smooth_friction, tension, value
+from textmech.cases.scene import (
+    Anchor,
+    Bounds,
+    Damper,
+    DryFriction,
+    Signal,
+    Smooth,
+    Spring,
+    Torsion,
+    TorsionDamper,
+)
+from textmech.engines.law import dry_friction, in_time, smooth_friction, tension, turning, value
 
 TABLE = json.loads((Path(__file__).parent / "law_table.json").read_text())
 ENDS = (Anchor("ground", "O"), Anchor("mass", "center"))
@@ -37,6 +47,20 @@ def test_damper_pulls_when_lengthening(row: dict[str, float]) -> None:
     damper = Damper("oil", *ENDS, row["damping"])
     for length in (0.1, 2.0):
         assert tension(damper, length, row["rate"]) == pytest.approx(row["tension"], rel=1e-12)
+
+
+@pytest.mark.parametrize("row", TABLE["torsion"], ids=str)
+def test_a_torsion_spring_turns_back(row: dict[str, float]) -> None:
+    spring = Torsion("wire", "hinge", row["stiffness"], row["rest_angle"])
+    for rate in (0.0, 7.0):
+        assert turning(spring, row["angle"], rate) == pytest.approx(row["torque"], rel=1e-12)
+
+
+@pytest.mark.parametrize("row", TABLE["torsion_dampers"], ids=str)
+def test_a_torsion_damper_brakes(row: dict[str, float]) -> None:
+    damper = TorsionDamper("oil", "hinge", row["damping"])
+    for angle in (0.1, 2.0):
+        assert turning(damper, angle, row["rate"]) == pytest.approx(row["torque"], rel=1e-12)
 
 
 FRICTION = DryFriction(static=Bounds(6.0, 2.0), kinetic=Bounds(3.0, 1.0))

@@ -45,6 +45,10 @@ PARAMETERS: dict[str, dict[str, float]] = {
     "smooth_dynamometer": {"m": 1.0, "c": 2.0, "u": 2.0, **BOOK, **BAND},
     "smooth_growing_force": {"m": 1.0, "b": 1.0, **BOOK, **BAND},
     "spring_mass_damper": {"m": 1.0, "c": 36.0, "d": 1.2, "l0": 0.5, "y0": -0.6},
+    "torsion_pendulum": {
+        "m": 1.5, "R": 0.3, "c": 2.4, "phi0": math.radians(-15), "d": 0.1, "M": 0.6, "Omega": 7.0,
+        "phi": math.radians(70), "w0": 1.0,
+    },
 }  # fmt: skip
 
 _BLOCK = [("block", 0, 0.0, 0.0), ("block", 3, 0.0, 0.0)]
@@ -91,6 +95,7 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
     "smooth_dynamometer": _BLOCK,
     "smooth_growing_force": _BLOCK,
     "spring_mass_damper": [("mass", 1, -0.6, 0.0), ("mass", 4, 0.0, 0.0)],
+    "torsion_pendulum": [("disk", 2, 70 * math.pi / 180, 1e-15), ("disk", 5, 1.0, 0.0)],
 }  # fmt: skip
 
 # Systems of other parameters: changes, and the events that follow in the duration.
@@ -105,6 +110,8 @@ VARIANTS: dict[str, tuple[str, dict[str, float], list[str]]] = {
     "slides straight": ("knife_edge", {"w0": 0.0}, []),
     "cycloid": ("knife_edge", {"u0": 0.0}, []),
     "turns the other way": ("driven_edge", {"w0": -0.7, "a": -0.2}, []),
+    "undriven": ("torsion_pendulum", {"M": 0.0}, []),
+    "creeping": ("torsion_pendulum", {"d": 3.0}, []),
     "free": ("spring_mass_damper", {"d": 0.0}, []),
     "critical": ("spring_mass_damper", {"d": 12.0}, []),
     "overdamped": ("spring_mass_damper", {"d": 30.0}, []),

@@ -7,6 +7,7 @@ from ...scene import CENTER, FLOOR, GROUND, Anchor, Edge, Force, Joint, Scene
 from ..grammar.file import Near
 from ..grammar.file import Scene as Spec
 from ..parse import NAMED, Finding, Parsed
+from .about import about
 from .edge import edges
 from .space.spatial import spatial
 from .touch import touches
@@ -35,6 +36,8 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         yield from _refers(parsed, scene, path, force)
         if what := force.unfit(scene.bodies):
             yield path, what
+        if force.about is not None:
+            yield from about(parsed, scene, path, force.about)
     if scene.frame.dimension == 3:
         yield from spatial(parsed, scene)
         return

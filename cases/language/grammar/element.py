@@ -14,8 +14,8 @@ from ...point import anchor
 from .part import Name, Pair, Part, Point
 from .signal import Following, law
 
-REFERS = ("a", "b", "at", "body")
-"""What nouns call that to which they refer: two points, a point, or a body."""
+REFERS = ("a", "b", "at", "body", "joint")
+"""What nouns call that to which they refer: two points, a point, a body or a joint."""
 
 
 class Element(Part):
@@ -36,7 +36,7 @@ class Element(Part):
         given = getattr(self, self.word)
         words = given if isinstance(given, tuple) else (given,)
         return {
-            field: word if field == "body" else anchor(word)
+            field: word if field in ("body", "joint") else anchor(word)
             for field, word in zip(fields, words, strict=True)
         }
 

@@ -12,7 +12,7 @@ SYSTEMS = sorted(
     if path.name != "__init__.py"
 )  # fmt: skip
 ALLOWED = {
-    *("numpy", "scipy.special", "math", "dataclasses", "typing", "collections.abc"),
+    *("numpy", "scipy.special", "math", "cmath", "dataclasses", "typing", "collections.abc"),
     # The shape of an answer, and the book's laws of friction and of turning axes: no mechanics of a
     # scene.
     *("..system", "..mode", "..laws.friction", "..laws.rotation", ".stick_slip"),

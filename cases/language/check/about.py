@@ -1,0 +1,24 @@
+"""What acts about a joint: a joint that lets two parts turn, both of which have an angle."""
+
+from collections.abc import Iterator
+
+from ...mistake import Path, nearest
+from ...scene import Scene
+from ..parse import Finding, Parsed
+
+
+def about(parsed: Parsed, scene: Scene, path: Path, name: str) -> Iterator[Finding]:
+    """What is wrong with the joint's name, or with the joint."""
+    if name not in scene.joints:
+        if not parsed.hides(name):
+            yield (
+                path,
+                f"unknown joint {name!r}{nearest(name, parsed.names('joints', scene.joints))}",
+            )
+        return
+    joint = scene.joints[name]
+    if not joint.turns:
+        yield path, f"{name!r} is a {joint.kind}, and lets nothing turn"
+    for at in joint.refers():
+        if at.body in scene.bodies and not scene.bodies[at.body].turns:
+            yield path, f"{name!r} joins {at.body!r}, which is a particle and cannot turn"
