@@ -19,6 +19,7 @@ def about(parsed: Parsed, scene: Scene, path: Path, name: str) -> Iterator[Findi
     joint = scene.joints[name]
     if not joint.turns:
         yield path, f"{name!r} is a {joint.kind}, and lets nothing turn"
+        return
     for at in joint.refers():
         if at.body in scene.bodies and not scene.bodies[at.body].turns:
             yield path, f"{name!r} joins {at.body!r}, which is a particle and cannot turn"
