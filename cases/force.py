@@ -7,9 +7,10 @@ and how each engine builds it in engines/*/force.py (its law in engines/law.py i
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from math import sqrt
-from typing import Annotated, ClassVar, TypeVar
+from typing import Annotated, TypeVar
 
 from .body import Body
+from .element import Force
 from .kind import Fields
 from .language.grammar.field import In
 from .language.grammar.signal import InTime
@@ -17,54 +18,7 @@ from .motion import Motion
 from .point import CENTER, GROUND, Anchor
 from .signal import Signal
 from .trajectory import Array
-
-
-@dataclass(frozen=True)
-class Force:
-    """What every force element answers; one without quantities, energy or numbers says nothing.
-
-    Its fields are what a case file gives: what it refers to (`a` and `b`, `at`, or `body`) under
-    its `word`, and beside that its numbers with their units.
-    """
-
-    word: ClassVar[str]
-    name: str
-
-    def refers(self) -> tuple[Anchor, ...]:
-        """The points on which it acts, in the order of the file."""
-        raise NotImplementedError
-
-    @property
-    def about(self) -> str | None:
-        """The joint about which it acts, as a torque between the two parts; or None."""
-        return None
-
-    def unfit(self, bodies: Mapping[str, Body]) -> str | None:
-        """Why it cannot act on what it refers to, in words for the case file."""
-        return None
-
-    def quantities(self) -> dict[str, Fields]:
-        """What can be observed of it, by part."""
-        return {}
-
-    def observe(self, motion: Motion, field: str) -> Array:
-        """(N,) one of its quantities; else KeyError."""
-        raise KeyError(f"{self.name}.{field}")
-
-    def potential(self, motion: Motion) -> Array | float:
-        """(N,) its potential energy [J], its share of U in (2.45)."""
-        return 0.0
-
-    def numbers(self) -> dict[str, float]:
-        """What an engine holds of it, for the equal-physics audit."""
-        return {}
-
-    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
-        """How fast [rad/s] it makes its points swing, and how fast [1/s] it slows them down.
-
-        mobility: how easily [1/kg] a point moves.
-        """
-        return 0.0, 0.0
+from .turning import Motor, Torsion, TorsionDamper
 
 
 @dataclass(frozen=True)
@@ -175,89 +129,6 @@ class Torque(Force):
         """A particle takes no torque."""
         turns = self.body not in bodies or bodies[self.body].turns
         return None if turns else f"{self.body!r} is a particle and cannot turn"
-
-    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
-        """That of a sine."""
-        return self.signal.angular_frequency, 0.0
-
-
-@dataclass(frozen=True)
-class Turning(Force):
-    """A torque between the two parts of a joint that lets them turn."""
-
-    joint: str
-
-    def refers(self) -> tuple[Anchor, ...]:
-        """No points: the joint has them."""
-        return ()
-
-    @property
-    def about(self) -> str:
-        """Its joint."""
-        return self.joint
-
-    def quantities(self) -> dict[str, Fields]:
-        """angle [rad] of the second part against the first, and torque [N m] on the second."""
-        return {self.name: {"angle": ("rad", "coordinate"), "torque": ("N m", "force")}}
-
-    def observe(self, motion: Motion, field: str) -> Array:
-        """(N,) angle [rad] or torque [N m], counter-clockwise."""
-        angle, rate = motion.joints[self.joint].turn(motion)
-        return angle if field == "angle" else self.torque(angle, rate)
-
-    def torque(self, angle: Array, rate: Array) -> Array:
-        """(N,) on the second part [N m]; the first takes its opposite."""
-        raise NotImplementedError
-
-
-@dataclass(frozen=True)
-class Torsion(Turning):
-    """(2.45) A torsion spring of a joint: M = −c(φ − φ₀), φ the second part's turn on the first."""
-
-    word = "torsion"
-    stiffness: Annotated[float, In("N m/rad", above=0)]
-    rest_angle: Annotated[float, In("rad")]
-
-    def torque(self, angle: Array, rate: Array) -> Array:
-        """(2.45) −c(φ − φ₀)."""
-        return -self.stiffness * (angle - self.rest_angle)
-
-    def potential(self, motion: Motion) -> Array:
-        """(2.45) ½ c (φ − φ₀)²."""
-        angle, _ = motion.joints[self.joint].turn(motion)
-        return 0.5 * self.stiffness * (angle - self.rest_angle) ** 2
-
-    def numbers(self) -> dict[str, float]:
-        """c and φ₀."""
-        return {"stiffness": self.stiffness, "rest_angle": self.rest_angle}
-
-
-@dataclass(frozen=True)
-class TorsionDamper(Turning):
-    """(2.47) A damper of a joint's turn: M = −d φ̇."""
-
-    word = "torsion_damper"
-    damping: Annotated[float, In("N m s/rad", least=0)]
-
-    def torque(self, angle: Array, rate: Array) -> Array:
-        """(2.47) −d φ̇."""
-        return -self.damping * rate
-
-    def numbers(self) -> dict[str, float]:
-        """d."""
-        return {"damping": self.damping}
-
-
-@dataclass(frozen=True)
-class Motor(Turning):
-    """A torque between the parts of a joint that follows a law in time."""
-
-    word = "motor"
-    signal: Annotated[Signal, InTime("N m", axes=1)]
-
-    def quantities(self) -> dict[str, Fields]:
-        """Nothing: its torque is given."""
-        return {}
 
     def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
         """That of a sine."""

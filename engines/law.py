@@ -9,10 +9,11 @@ from collections.abc import Callable
 from dataclasses import astuple
 from typing import Any
 
-from ..cases.force import Damper, Line, Spring, Torsion, TorsionDamper, Turning
+from ..cases.force import Damper, Line, Spring
 from ..cases.friction import DryFriction, Smooth
 from ..cases.scene import Scene
 from ..cases.signal import Signal
+from ..cases.turning import Torsion, TorsionDamper, Turning
 
 
 def value(signal: Signal, t: float) -> tuple[float, ...]:

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from ...cases.force import Motor, Torsion, TorsionDamper, Turning
+from ...cases.turning import Motor, Torsion, TorsionDamper, Turning
 from ..laws.force import torsion, torsion_damper
 from ..system import Array
 from .coordinates import Coordinates, Point

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 
 from pymunk.body import Body
 
-from ....cases.force import Motor, Turning
+from ....cases.turning import Motor, Turning
 from ...law import in_time, turning, value
 from ..world import World
 from .line import Exerted, Load

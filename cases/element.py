@@ -1,0 +1,59 @@
+"""What every force element answers, so that nobody asks which one it is."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+from .body import Body
+from .kind import Fields
+from .motion import Motion
+from .point import Anchor
+from .trajectory import Array
+
+
+@dataclass(frozen=True)
+class Force:
+    """What every force element answers; one without quantities, energy or numbers says nothing.
+
+    Its fields are what a case file gives: what it refers to (`a` and `b`, `at`, or `body`) under
+    its `word`, and beside that its numbers with their units.
+    """
+
+    word: ClassVar[str]
+    name: str
+
+    def refers(self) -> tuple[Anchor, ...]:
+        """The points on which it acts, in the order of the file."""
+        raise NotImplementedError
+
+    @property
+    def about(self) -> str | None:
+        """The joint about which it acts, as a torque between the two parts; or None."""
+        return None
+
+    def unfit(self, bodies: Mapping[str, Body]) -> str | None:
+        """Why it cannot act on what it refers to, in words for the case file."""
+        return None
+
+    def quantities(self) -> dict[str, Fields]:
+        """What can be observed of it, by part."""
+        return {}
+
+    def observe(self, motion: Motion, field: str) -> Array:
+        """(N,) one of its quantities; else KeyError."""
+        raise KeyError(f"{self.name}.{field}")
+
+    def potential(self, motion: Motion) -> Array | float:
+        """(N,) its potential energy [J], its share of U in (2.45)."""
+        return 0.0
+
+    def numbers(self) -> dict[str, float]:
+        """What an engine holds of it, for the equal-physics audit."""
+        return {}
+
+    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
+        """How fast [rad/s] it makes its points swing, and how fast [1/s] it slows them down.
+
+        mobility: how easily [1/kg] a point moves.
+        """
+        return 0.0, 0.0
