@@ -7,7 +7,7 @@ of first order, whatever the integrator.
 
 from ....cases.space.scene import SpatialScene
 from ...engine import Choice
-from ..contact import HARDEST as HARD
+from ..contact import HARDEST, SOFTEST
 
 
 def recipe(scene: SpatialScene, tied_to: float) -> list[Choice]:
@@ -17,9 +17,7 @@ def recipe(scene: SpatialScene, tied_to: float) -> list[Choice]:
     rims = any(contact.rim for contact in scene.contacts.values())
     return [
         *(_rim(tied_to) if rims else _sphere(tied_to)),
-        Choice("pair.solimp", [HARD, HARD, 0.001], "the hardest MuJoCo takes: d = 0.9999"),
         Choice("option.cone", "elliptic", "the pyramid's friction depends on the direction"),
-        Choice("option.impratio", 100.0, "less creep; from 1e4 on Newton stops early"),
         Choice(
             "flag.diagexact",
             "enable",
@@ -29,20 +27,30 @@ def recipe(scene: SpatialScene, tied_to: float) -> list[Choice]:
 
 
 def _sphere(h: float) -> list[Choice]:
-    return [Choice("pair.solref", [2 * h, 1.0], "the stiffest that stays stable: 2 h")]
+    return [
+        Choice("pair.solref", [2 * h, 1.0], "the stiffest that stays stable: 2 h"),
+        Choice("pair.solimp", [HARDEST, HARDEST, 0.001], "the hardest MuJoCo takes: d = 0.9999"),
+        Choice("option.impratio", 100.0, "less creep; from 1e4 on Newton stops early"),
+    ]
 
 
 def _rim(h: float) -> list[Choice]:
-    """Measured on steady circles of a coin that leans by 8, 30 and 70 degrees."""
+    """Measured on steady circles of a coin that leans by 8, 30 and 70 degrees, and on its fall."""
     return [
         Choice(
             "pair.solref",
             [-0.1 / h**2, -0.4 / h],
-            "k = 0.1/h², b = 0.4/h: with 2 h what tilts flutters, N is 10 to 40 times worse",
+            "k = 0.1/h², b = 0.4/h: stiffer, the normal force of what tilts is 10 times worse",
+        ),
+        Choice(
+            "pair.solimp",
+            [SOFTEST, SOFTEST, 0.001],
+            "the softest MuJoCo takes; with d = 0.9999 a disk that falls flutters, N is 13 N off",
         ),
         Choice(
             "pair.solreffriction",
-            [-1.0, -2 / h],
-            "b = 2/h: slip h J̇ v/2, half of that with 2 h; RK4 is stable up to 2.8/h",
+            [-1.0, -2 * SOFTEST / h],
+            "b = 2/h (times d, by which MuJoCo divides): slip h J̇ v/2; RK4 is stable up to 2.8/h",
         ),
+        Choice("option.impratio", 1e6, "makes up for the soft d; Newton bears it"),
     ]

@@ -5,9 +5,10 @@ from typing import Any
 
 from ....cases.space.scene import SpatialScene
 from ...engine import Choice
+from ..contact import HARDEST
 from ..settings import TO_THE_END, defaults, overlaid
 from ..tree import driven
-from .contact import HARD, recipe
+from .contact import recipe
 from .tree import spanning_tree
 
 
@@ -25,7 +26,9 @@ def tuned(scene: SpatialScene, tied_to: float) -> list[Choice]:
         because = "8 h: forces 100 times nearer than with 2 h: stages jerk at the pin; places ∝ h²"
         choices += [
             Choice("connect.solref", [8 * tied_to, 1.0], because),
-            Choice("connect.solimp", [HARD, HARD, 0.001], "the hardest MuJoCo takes: d = 0.9999"),
+            Choice(
+                "connect.solimp", [HARDEST, HARDEST, 0.001], "the hardest MuJoCo takes: d = 0.9999"
+            ),
         ]
     return choices + recipe(scene, tied_to)
 

@@ -24,6 +24,7 @@ from .tree import spanning_tree
 
 CLOSE = 1e-8  # m/s²: what is left of the lowest points' accelerations, where it can be solved
 ROUNDS = 30  # of Newton's method at most: in contact all is nearly linear, and three do
+DEEP = 100.0  # h² · 1 m/s²: carries 10 m/s² in both recipes, so that friction holds from there on
 STRIDE = 1e-3  # of its differences: far above what MuJoCo's solver leaves over
 
 
@@ -50,7 +51,7 @@ def settle(
         return np.concatenate([_acceleration(scene, model, data, c) for c in contacts])
 
     with installed(swinging(signals(scene))):
-        x = _zero(left, np.tile([1.0, 0.0, 0.0], len(contacts)))
+        x = _zero(left, np.tile([DEEP, 0.0, 0.0], len(contacts)))
     x = np.zeros(3 * len(contacts)) if x is None else x
     mujoco.mj_resetDataKeyframe(model, data, 0)  # the run must not inherit a warm start
     _place(scene, model, data, sunk(x))

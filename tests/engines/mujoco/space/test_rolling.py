@@ -118,15 +118,16 @@ def limit(rungs: list[Array]) -> Array:
 @pytest.mark.whole
 @pytest.mark.parametrize(
     ("lean", "turning", "seconds", "reached"),
-    [(82.0, 2.0, 0.4, 1e-9), (60.0, 6.0, 0.4, 1e-8), (20.0, -14.0, 0.2, 1e-7)],
+    [(82.0, 2.0, 0.4, 1e-8), (60.0, 6.0, 0.4, 3e-8), (20.0, -14.0, 0.2, 5e-7)],
 )
 def test_a_coin_on_a_steady_circle(
     lean: float, turning: float, seconds: float, reached: float
 ) -> None:
-    """Of first order, as MuJoCo's contact leaves out J̇ v; the limit is the textbook's.
+    """Of first order, as MuJoCo's contact leaves out J̇ v, and of second, as it gives way; the
+    limit is the textbook's.
 
-    At 1e-4: 9e-7, 3e-5 and 1e-4 m; limits from (4, 2, 1)e-4 1e-10, 1e-9 and 4e-8 m. N is right
-    to 2e-6, 4e-5 and 4e-4 of 3 N from the first sample on, for the start creeps.
+    At 1e-4: 2e-6, 7e-6 and 1e-4 m; limits from (4, 2, 1)e-4 6e-9, 2e-8 and 2e-7 m. N is right
+    to 4e-6, 1e-5 and 4e-4 of 3 N from the first sample on, for the start creeps.
     """
     start, exact = circling(math.radians(lean), turning)
     times = np.linspace(0.0, seconds, 5)
@@ -138,8 +139,8 @@ def test_a_coin_on_a_steady_circle(
     off = np.max(np.abs(rungs[-1][:, :2] - places[:, :2]))
     assert np.max(np.abs(limit(rungs)[:, :2] - places[:, :2])) < reached
     assert np.max(angle_between(limit(rungs)[:, 3:7], attitudes)) < 10 * reached
-    assert 0.8 < math.log2(np.max(np.abs(rungs[-2][:, :2] - places[:, :2])) / off) < 1.2
-    assert off < 5e3 * reached
+    assert 0.8 < math.log2(np.max(np.abs(rungs[-2][:, :2] - places[:, :2])) / off) < 2.1
+    assert off < 1e3 * reached
     assert np.max(np.abs(felt(motion) - forces)[:, 2]) < 1e4 * reached
 
 
@@ -174,7 +175,7 @@ UPRIGHT = joint(
 def test_an_upright_wheel_rolls_in_a_circle(driven: bool) -> None:
     """Freely, or with both rates prescribed, which takes no torque.
 
-    Of first order: 4e-4 m at 4e-4; limit 5e-12 m. The couple that holds it upright turns the spin
+    Of first order: 4e-4 m at 4e-4; limit 8e-10 m. The couple that holds it upright turns the spin
     about the vertical, and keeps the side force from tilting it.
     """
     theta, rate, spin = 0.4, 1.5, 5.0
@@ -197,7 +198,7 @@ def test_an_upright_wheel_rolls_in_a_circle(driven: bool) -> None:
     places = radius * np.column_stack(
         [np.sin(heading) - math.sin(theta), math.cos(theta) - np.cos(heading)]
     )
-    assert np.max(np.abs(limit(rungs)[:, :2] - places)) < 1e-10
+    assert np.max(np.abs(limit(rungs)[:, :2] - places)) < 2e-9
     assert np.max(np.abs(felt(motion)[:, 2] - 1.3 * G)) < 1e-8
     left = np.column_stack([-np.sin(heading), np.cos(heading)])
     assert np.max(np.abs(felt(motion)[:, :2] - side * left)) < 1e-3  # of 3 N
