@@ -18,6 +18,7 @@ from textmech.cases.case import Case
 from textmech.cases.scene import Scene
 from textmech.engines.engine import Realised, Start
 from textmech.engines.mujoco import MuJoCo, compilation
+from textmech.engines.mujoco.plane import Plane
 from textmech.reports.judge.compare import compare
 from textmech.reports.trial.start import assembled, first
 from textmech.reports.trial.trial import Trial
@@ -52,7 +53,7 @@ def test_it_equals_the_compiled_script_field_by_field(case: Case) -> None:
         plan = planned(engine, case.scene, start)
         for step in (1.25e-4, compilation.NOMINAL, 8e-3):
             for used in (plan, plan.held_at(2e-3)):
-                model, data, _ = engine._placed(case.scene, start, step, used)
+                model, data, _ = Plane(engine)._placed(case.scene, start, step, used)
                 text = engine.script(case.scene, start, step, used)
                 wanted = mujoco.MjModel.from_xml_string(text)
                 assert not differing(model, wanted)
