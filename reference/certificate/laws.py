@@ -94,11 +94,10 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
         a = mode.accelerations(t, q, v)
         alone = scale.largest(mode, t, q, v)
         sizes += [worst(np.abs(a)), alone[0]]
-        p, N = (
-            lagrange.momentum(mode, t, q, mode.rates(t, q, v)),
-            lagrange.rate_matrix(mode, t, q, v),
-        )
-        powers += [float(np.sum(np.abs((p if N is None else N.T @ p) * a))), alone[1]]
+        p = lagrange.momentum(mode, t, q, mode.rates(t, q, v))
+        if (N := lagrange.rate_matrix(mode, t, q, v)) is not None:
+            p = N.T @ p
+        powers += [float(np.sum(np.abs(p * a))), alone[1]]
         if bound:
             derived.append(worst(np.abs(lagrange.multipliers(mode, t, q, v)[0] - a)))
         else:
