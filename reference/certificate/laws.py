@@ -4,6 +4,7 @@ All of it is asked at one state at a time: no error of an integrator is in it. W
 multipliers out is asked at a state beside the motion: it costs many times as much.
 """
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
@@ -12,6 +13,7 @@ import numpy as np
 from ...cases.frame import PLANE, SPACE
 from ..coverage import look
 from ..formalisms import appell, chaplygin, energy, lagrange, newton_euler, voronets
+from ..formalisms.dependent import dependent
 from ..generated.either import Base, Generated
 from ..motion.bodies import Answer
 from ..system import Array, Mode
@@ -20,6 +22,7 @@ from .drawn import drawn
 
 LAW = 1e-12  # of the largest term: the laws are algebra, only rounding may differ
 BESIDE = 1  # state of a mode beside its motion; the tests draw a hundred
+SINGULAR = 1e8  # condition of equations that have lost half of their digits: they are not asked
 ELIMINATED = {
     "Voronets (2.66)": voronets.accelerations,
     "Chaplygin (2.67)": chaplygin.accelerations,
@@ -121,18 +124,35 @@ def eliminated(mode: Mode, scale: Scale, times: Array, y: Array) -> Iterator[Che
     """The explicit accelerations against what needs no multipliers, where the motion never was.
 
     Relative to the accelerations, or to what each force alone would give. The ingredients tell
-    which apply: nothing is said of those that do not.
+    which apply: nothing is said of those that do not. Masses that differ by many powers of ten are
+    multiplied with each other there, as multipliers need not: the bound tells what that loses.
     """
     found: dict[str, list[float]] = {}
+    bound = LAW
     for t, q, v in drawn(mode, times, y, BESIDE):
+        by = dependent(mode, t, q, len(v))
+        if by is None or not (condition := by.condition(t, q)) < SINGULAR:
+            continue
+        bound = max(bound, _rounding(mode, condition))
         a = mode.accelerations(t, q, v)
         size = worst([*np.abs(a), scale.alone(mode, t, q, v)]) or 1.0
-        for by, accelerations in ELIMINATED.items():
+        for name, accelerations in ELIMINATED.items():
             look()
             if (other := accelerations(mode, t, q, v)) is not None:
-                found.setdefault(by, []).append(worst(np.abs(other - a)) / size)
-    for by, apart in found.items():
-        yield Check(f"accelerations by {by}", worst(apart), LAW)
+                found.setdefault(name, []).append(worst(np.abs(other - a)) / size)
+    for name, apart in found.items():
+        yield Check(f"accelerations by {name}", worst(apart), bound)
+
+
+def _rounding(mode: Mode, condition: float) -> float:
+    """What reduced equations lose, in whole powers of ten: beside a body 1e4 times heavier, 1e-10.
+
+    The heaviest body rounds what the lightest adds to T, and their condition what follows of it;
+    ten times that, since a right side is a sum of some ten terms.
+    """
+    masses = [mass.m for mass in mode.masses.values()]
+    lost = max(condition, max(masses) / min(masses))
+    return 10.0 ** math.ceil(math.log10(10 * np.finfo(float).eps * lost))
 
 
 def _other_forces(cut_free: Mapping[str, float], written: Mapping[str, float]) -> Iterator[float]:

@@ -70,6 +70,16 @@ class Dependent:
         """∂²T'/∂q̇^{a1}∂q̇^{d} (k, k)."""
         return curvature(self.reduced(t, q), t, q, len(self.a1))
 
+    def condition(self, t: float, q: Array) -> float:
+        """How many times larger the rounding of q̈^{a1} is than that of its equations.
+
+        Of ∂²T'/∂q̇² in units in which its diagonal is 1: a light body that is counted from a heavy
+        one has little of it.
+        """
+        M = self.inertia(t, q)
+        size = np.sqrt(np.diag(M))
+        return float(np.linalg.cond(M / np.outer(size, size)))
+
     def velocities(self, t: Any, q: Vector, independent: Vector) -> Vector:
         """v (n,) of the independent rates (k,)."""
         V, v_0 = self._free(t, q)

@@ -6,8 +6,10 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
+from given.examples import only
 from given.formal import FORMAL, drawn
 from given.mutants import mutant
+from given.states import states
 from given.turning_bodies import J
 
 from textmech.reference.certificate import laws
@@ -91,6 +93,16 @@ def test_what_the_motion_never_shows_is_seen_beside_it() -> None:
     found = checks(lost, np.array([row] * 5))
     assert not any(check.holds for check in found.values())
     assert found.keys() == {VORONETS, APPELL}
+
+
+@pytest.mark.parametrize(("light", "bound"), [(0.7, 1e-12), (1e-4, 1e-10), (1e-9, 1e-5)])
+def test_the_bound_tells_what_uneven_masses_lose(light: float, bound: float) -> None:
+    """Ten times ε and the ratio of the masses, in whole powers of ten."""
+    mode = only("double_pendulum", m1=light, m2=1.0)
+    y = np.array([np.concatenate(at[1:]) for at in states("double_pendulum", "moving", 5)])
+    (check,) = checks(mode, y).values()
+    assert check.holds
+    assert check.bound == pytest.approx(bound)
 
 
 @pytest.mark.whole
