@@ -11,22 +11,17 @@ import numpy as np
 from ..cases.case import Case
 from ..cases.mistake import CaseError
 from ..cases.quantity import table
-from ..cases.space.scene import SpatialScene
 from ..cases.trajectory import Trajectory
 from .certificate.agreement import Check
 from .certificate.certify import certify
 from .certificate.errors import beyond
 from .coverage import look, noting
 from .generated.either import Generated
-from .generated.mechanism import Mechanism
-from .generated.space.mechanism import SpatialMechanism
 from .motion.bodies import Answer, Beside
 from .motion.follow import Followed, follow
 from .premises import check_premises, check_shares, check_start
 from .refusal import bounded, refusals
-from .start.assembly import assemble
-from .start.sizes import size_of
-from .start.space.assembly import assemble_in_space
+from .start.mechanism import mechanism
 from .system import Pose, System
 from .systems import written as written_system
 
@@ -58,7 +53,7 @@ def solve(case: Case) -> Solution:
 
 def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
     written = _written(case)
-    generated = _generated(case)
+    generated = mechanism(case)
     with refusals(case, generated):
         system = written or generated
         if written:
@@ -79,13 +74,6 @@ def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
     if mistakes := beyond(case, checks):
         raise CaseError(mistakes)
     return motion, checks
-
-
-def _generated(case: Case) -> Generated:
-    """The mechanism of the scene. Raises CaseError for a start that cannot be assembled."""
-    if isinstance(case.scene, SpatialScene):
-        return SpatialMechanism(case.scene, assemble_in_space(case, case.scene))
-    return Mechanism(case.scene, assemble(case), size_of(case))
 
 
 def _written(case: Case) -> System | None:

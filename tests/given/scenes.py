@@ -2,14 +2,13 @@
 
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from textmech import cases
 from textmech.cases.case import Case
 from textmech.cases.load import load
-from textmech.reference.generated.mechanism import Mechanism
 from textmech.reference.solve import Solution, solve
-from textmech.reference.start.assembly import assemble
-from textmech.reference.start.closure import Closure
+from textmech.reference.start.mechanism import mechanism as generated
 from textmech.reports.cache.key import Keys
 from textmech.reports.cache.store import usable
 
@@ -31,9 +30,9 @@ def solved(name: str) -> Solution:
     return solve(case) if kept is None else kept
 
 
-def mechanism(case: Case) -> Mechanism:
-    """The generated mechanism of a case, at its start."""
-    return Mechanism(case.scene, assemble(case), Closure(case).size)
+def mechanism(case: Case) -> Any:
+    """The generated mechanism of a case, at its start: in the plane, or in space."""
+    return generated(case)
 
 
 HEAD = """\

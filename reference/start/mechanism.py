@@ -1,0 +1,17 @@
+"""The mechanism of a case's scene at its start."""
+
+from ...cases.case import Case
+from ...cases.space.scene import SpatialScene
+from ..generated.either import Generated
+from ..generated.mechanism import Mechanism
+from ..generated.space.mechanism import SpatialMechanism
+from .assembly import assemble
+from .sizes import size_of
+from .space.assembly import assemble_in_space
+
+
+def mechanism(case: Case) -> Generated:
+    """In the plane or in space. Raises CaseError for a start that cannot be assembled."""
+    if isinstance(case.scene, SpatialScene):
+        return SpatialMechanism(case.scene, assemble_in_space(case, case.scene))
+    return Mechanism(case.scene, assemble(case), size_of(case))
