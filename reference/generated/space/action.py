@@ -52,10 +52,19 @@ class Actions:
 
     def alone(self, t: Any, bodies: Bodies, n: int) -> Iterator[Any]:
         """(2.50) Q_a (n,) of each force by itself. Raises NoDirection."""
-        for force, action, attached, numbers in self._each:
+        for each in self._each:
             Q = np.zeros(n)
-            self._enter(action.wrenches(force, t, numbers, attached.at(t, bodies)), bodies, Q)
+            self._one(each, t, bodies, Q)
             yield Q
+
+    def enter(self, t: Any, bodies: Bodies, Q: Any) -> None:
+        """(2.50) Adds Q_a of all forces to Q (n,). Raises NoDirection."""
+        for each in self._each:
+            self._one(each, t, bodies, Q)
+
+    def _one(self, each: tuple[Any, ...], t: Any, bodies: Bodies, Q: Any) -> None:
+        force, action, attached, numbers = each
+        self._enter(action.wrenches(force, t, numbers, attached.at(t, bodies)), bodies, Q)
 
     def other(self, t: Any, bodies: Bodies, n: int, kind: Any) -> Any:
         """(2.50) Q₄ (n,)."""

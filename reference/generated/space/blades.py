@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from .attitude import cross
+from .attitude import cross, dot
 from .held import Blade
-from .kinematics import Bodies, Layout, back, carried
+from .kinematics import Bodies, Fixed, Layout, back
 from .rows import Slots, targets
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -22,7 +22,7 @@ class Blades:
     def __init__(self, parts: Sequence[Blade], layout: Layout, first: int) -> None:
         self.size, n, slots = len(parts), layout.where.size, Slots.of(layout)
         self._at = layout.attached([p.at for p in parts])
-        self._along = np.array([p.along or (1.0, 0.0, 0.0) for p in parts], float)
+        self._along = Fixed(self._at.body, [p.along or (1.0, 0.0, 0.0) for p in parts])
         self._level = np.array([p.along is not None for p in parts])[:, None]
         rows = first + np.arange(self.size)
         begins = (slots.r_dot[self._at.body], slots.omega[self._at.body])
@@ -33,8 +33,7 @@ class Blades:
 
     def directions(self, bodies: Bodies) -> tuple[Any, Any]:
         """u and u̇ (size, 3), in ground axes."""
-        h = carried(bodies.R[self._at.body], self._along)
-        h_dot = cross(bodies.spin[self._at.body], h)
+        h, h_dot, _ = self._along.at(bodies).swapaxes(0, 1)
         (x, y, _), (x_dot, y_dot, _) = h.T, h_dot.T
         size = np.sqrt(x * x + y * y)
         turning = (x * y_dot - y * x_dot) / (x * x + y * y)
@@ -47,7 +46,7 @@ class Blades:
         """(2.6), (2.7) γ = −u·(ω × (ω × d)) − u̇·ṙ_P."""
         P = self._at.at(t, bodies)
         u, u_dot = self.directions(bodies)
-        gamma = -(u * P.turning + u_dot * P.r_dot).sum(axis=1)
+        gamma = -dot(u, P.turning) - dot(u_dot, P.r_dot)
         at_omega = back(bodies.R[self._at.body], cross(P.d, u))
         return [u.ravel(), at_omega.ravel()], np.zeros(self.size), gamma
 

@@ -2,14 +2,17 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from ....cases.scene import GROUND, Anchor
 from ....cases.space.scene import SpatialScene
-from .attitude import cross, matrices
+from .attitude import matrices, skew
 from .coordinates import SpatialCoordinates
+
+UPRIGHT, NONE = np.array([1.0, 0.0]), np.zeros(1)  # behind q and v, for what does not turn or move
 
 
 @dataclass(frozen=True)
@@ -21,10 +24,17 @@ class Bodies:
     r_dot: Any
     omega: Any
 
-    @property
+    @cached_property
     def spin(self) -> Any:
         """ω (K, 3) in ground axes."""
         return carried(self.R, self.omega)
+
+    @cached_property
+    def moves(self) -> Any:
+        """(K, 9, 3): R, R [ω]× and R [ω]× [ω]×, what makes d, ω × d and ω × (ω × d) of x."""
+        turn = skew(self.omega)
+        once = self.R @ turn
+        return np.concatenate((self.R, once, once @ turn), axis=1)
 
 
 @dataclass(frozen=True)
@@ -36,6 +46,10 @@ class Points:
     d: Any
     turning: Any
 
+    def between(self, count: int) -> Any:
+        """(count, 3) each: r, ṙ and ω × (ω × d) of the last so many points less the first's."""
+        return tuple(x[count:] - x[:count] for x in (self.r, self.r_dot, self.turning))
+
 
 class Layout:
     """The bodies of a scene by number, the ground being the last, and named points of them."""
@@ -44,26 +58,32 @@ class Layout:
         self.where, self.scene = where, where.scene
         self.numbers = {name: k for k, name in enumerate((*where.columns, GROUND))}
         at = list(where.columns.values())
-        turning = [k for k, columns in enumerate(at) if columns.attitude is not None]
-        self._turning = np.array(turning, np.intp)
-        self._r = np.array([range(c.r, c.r + 3) for c in at], np.intp).reshape(-1, 3)
-        self._r_dot = np.array([range(c.r_dot, c.r_dot + 3) for c in at], np.intp).reshape(-1, 3)
+        one, zero, none = len(where.names), len(where.names) + 1, where.size
+        self._r = _places([c.r for c in at], (zero,) * 3)
+        self._attitude = _places([c.attitude for c in at], (one, zero, zero, zero))
+        self._r_dot = _places([c.r_dot for c in at], (none,) * 3)
+        self._omega = _places([c.omega for c in at], (none,) * 3)
 
     def bodies(self, q: Any, v: Any) -> Bodies:
         """At q (m,) and v (n,)."""
-        K, kind = len(self.numbers), np.result_type(q, v)
-        R = np.zeros((K, 3, 3), kind)
-        R[:] = np.eye(3)
-        r, r_dot, omega = (np.zeros((K, 3), kind) for _ in range(3))
-        r[:-1], r_dot[:-1] = q[self._r], v[self._r_dot]
-        if len(self._turning):
-            R[self._turning] = matrices(q[self.where.attitudes])
-            omega[self._turning] = v[self.where.spins]
-        return Bodies(R, r, r_dot, omega)
+        q, v = np.concatenate((q, UPRIGHT)), np.concatenate((v, NONE))
+        return Bodies(matrices(q[self._attitude]), q[self._r], v[self._r_dot], v[self._omega])
 
     def attached(self, anchors: Sequence[Anchor]) -> "Attached":
         """Points by name, ready to be asked where they are."""
         return Attached(self.scene, self.numbers, anchors)
+
+
+class Fixed:
+    """Vectors x (P, 3), fixed in the bodies of these numbers (P,)."""
+
+    def __init__(self, body: Any, x: Any) -> None:
+        self.body, self.x = np.asarray(body, np.intp), np.asarray(x, float).reshape(-1, 3)
+        self._column = self.x[:, :, None]
+
+    def at(self, bodies: Bodies) -> Any:
+        """(P, 3, 3): d in ground axes, ω × d, and ω × (ω × d)."""
+        return (bodies.moves[self.body] @ self._column).reshape(-1, 3, 3)
 
 
 class Attached:
@@ -75,27 +95,34 @@ class Attached:
         self.body = np.array([numbers[at.body] for at in anchors], np.intp)
         self.x = np.array([_own(scene, at) for at in anchors], float).reshape(-1, 3)
         self.velocity = np.array([_driven(scene, at) for at in anchors], float).reshape(-1, 3)
+        self.arms = Fixed(self.body, self.x)
         self._driven = bool(self.velocity.any())
 
     def at(self, t: Any, bodies: Bodies) -> Points:
         """(2.1), (2.6) and the part of (2.7) that ω alone gives."""
-        R, omega = bodies.R[self.body], bodies.omega[self.body]
-        turning = cross(omega, self.x)
-        d, d_dot = carried(R, self.x), carried(R, turning)
-        r, r_dot = bodies.r[self.body] + d, bodies.r_dot[self.body] + d_dot
+        moved = self.arms.at(bodies)
+        d, turning = moved[:, 0], moved[:, 2]
+        r, r_dot = bodies.r[self.body] + d, bodies.r_dot[self.body] + moved[:, 1]
         if self._driven:
             r, r_dot = r + self.velocity * t, r_dot + self.velocity
-        return Points(r, r_dot, d, carried(R, cross(omega, turning)))
+        return Points(r, r_dot, d, turning)
 
 
 def carried(R: Any, x: Any) -> Any:
     """(K, 3): each vector of body axes in ground axes."""
-    return np.matmul(R, x[:, :, None])[:, :, 0]
+    return (R @ x[:, :, None])[:, :, 0]
 
 
 def back(R: Any, x: Any) -> Any:
     """(K, 3): each vector of ground axes in body axes."""
-    return np.matmul(x[:, None, :], R)[:, 0, :]
+    return (x[:, None, :] @ R)[:, 0, :]
+
+
+def _places(begins: Sequence[int | None], otherwise: tuple[int, ...]) -> Any:
+    """Where each body's entries stand, last the ground's: `otherwise` where it has none."""
+    width = len(otherwise)
+    rows = [otherwise if begin is None else range(begin, begin + width) for begin in begins]
+    return np.array([*map(tuple, rows), otherwise], np.intp)
 
 
 def _own(scene: SpatialScene, at: Anchor) -> Sequence[float]:

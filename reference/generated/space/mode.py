@@ -4,7 +4,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from scipy.linalg.lapack import dgetrf, dgetrs
 
 from ....cases.space.scene import SpatialScene
 from ...system import Array, Mass, Mode, Pose, Vector
@@ -12,10 +11,9 @@ from .action import Actions
 from .assembled import SpatialRows
 from .attitude import cross, spin
 from .coordinates import SpatialCoordinates
+from .equations import Equations
 from .held import held
-from .kinematics import Layout
-
-TURNS = 1  # of refinement: what the factors lose of a light body beside a heavy one comes back
+from .kinematics import Layout, carried
 
 
 class SpatialMultibody(Mode):
@@ -39,16 +37,14 @@ class SpatialMultibody(Mode):
         self.layout = Layout(self.where)
         self.constraints = SpatialRows(held(scene), self.layout)
         self._actions = Actions(self.layout)
-        n, r = self.where.size, self.constraints.size
-        self._saddle = np.zeros((n + r, n + r))
-        self._saddle[:n, :n] = self.where.M
-        self._weight = np.zeros(n)
+        self._weight = np.zeros(self.where.size)
         for body in scene.bodies.values():
             at = self.where.columns[body.name].r_dot
             self._weight[at : at + 3] = body.mass * np.asarray(scene.gravity)
         turning = [(self.where.columns[b.name].omega, b.tensor) for b in scene.bodies.values()]
         tensors = [J for at, J in turning if at is not None]
         self._J = np.array(tensors).reshape(-1, 3, 3)
+        self._equations = Equations(self.where.M, self._J, self.constraints.size)
 
     def start(self) -> tuple[Array, Array]:
         """The assembled start."""
@@ -63,34 +59,22 @@ class SpatialMultibody(Mode):
         return self.solve(t, q, v)[0]
 
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
-        """(2.60) v̇ (n,) and the multipliers (r,).
-
-        M alone may be singular, as of a slender bar, which its neighbours keep from turning about
-        itself: so both are solved for at once.
-        """
-        n, bodies = self.where.size, self.layout.bodies(q, v)
+        """(2.60) v̇ (n,) and the multipliers (r,)."""
+        bodies = self.layout.bodies(q, v)
         rows, _, gamma = self.constraints.at(t, bodies)
-        matrix = self._saddle.copy()
-        matrix[n:, :n], matrix[:n, n:] = rows, rows.T
-        right = np.concatenate([self._applied(t, v, bodies), gamma])
-        lu, pivots, _ = dgetrf(matrix.T)  # symmetric: its transpose needs no copy
-        found, _ = dgetrs(lu, pivots, right)
-        for _ in range(TURNS):
-            found = found + dgetrs(lu, pivots, right - matrix.dot(found))[0]
-        return found[:n], -found[n:]
+        return self._equations.solve(rows, gamma, self._applied(t, v, bodies))
 
     def _applied(self, t: float, v: Array, bodies: Any) -> Array:
         """(2.60) Q (n,): weights, forces, and −ω × J ω of (2.33)."""
         Q = self._weight.copy()
         self._gyroscopic(v, Q)
-        for alone in self._actions.alone(t, bodies, len(Q)):
-            Q += alone
+        self._actions.enter(t, bodies, Q)
         return Q
 
     def _gyroscopic(self, v: Array, Q: Array) -> None:
         if len(self._J):
             omega = v[self.where.spins]
-            Q[self.where.spins] -= cross(omega, np.matmul(self._J, omega[:, :, None])[:, :, 0])
+            Q[self.where.spins] -= cross(omega, carried(self._J, omega))
 
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) R_a = λ_b f_aᵇ: the forces and moments of first parts on second, by quantity."""

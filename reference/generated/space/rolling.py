@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 
 from ....cases.signal import Signal
-from .attitude import cross
+from .attitude import cross, dot, skew
 from .held import Drive, Rim
-from .kinematics import Bodies, Layout, back, carried
+from .kinematics import Bodies, Fixed, Layout, back
 from .rows import Slots, targets
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -25,7 +25,7 @@ class Rims:
         self._body = np.array([layout.numbers[p.body] for p in parts], np.intp)
         self._R = np.array([p.radius for p in parts])[:, None]
         self._rim = np.array([p.axle is not None for p in parts])[:, None]
-        self._axle = np.array([p.axle or (0.0, 0.0, 0.0) for p in parts], float)
+        self._axle = Fixed(self._body, [p.axle or (0.0, 0.0, 0.0) for p in parts])
         self.rows = first + np.arange(self.size).reshape(-1, 3)
         omegas = np.repeat(slots.omega[self._body][:, None], 3, axis=1)
         self.targets = targets(self.rows, omegas, n).ravel()
@@ -37,8 +37,7 @@ class Rims:
 
     def arm(self, bodies: Bodies) -> tuple[Any, Any]:
         """ρ and its rate (K, 3): n turns with the body, and the lowest point with n."""
-        n = carried(bodies.R[self._body], self._axle)
-        n_dot = cross(bodies.spin[self._body], n)
+        n, n_dot, _ = self._axle.at(bodies).swapaxes(0, 1)
         z, z_dot = n[:, 2:], n_dot[:, 2:]
         size = np.sqrt(1 - z * z)
         steep = (UP - z * n) / size
@@ -48,10 +47,9 @@ class Rims:
     def values(self, t: Any, bodies: Bodies) -> tuple[list[Any], Any, Any]:
         """f = (1, −[ρ]× E); d/dt of it leaves ω × ρ̇ beside the accelerations."""
         rho, rho_dot = self.arm(bodies)
-        R = bodies.R[self._body]
-        blocks = np.stack([cross(rho, np.broadcast_to(e, rho.shape)) for e in np.eye(3)], axis=1)
+        blocks = -skew(rho) @ bodies.R[self._body]
         gamma = -cross(bodies.spin[self._body], rho_dot)
-        return [np.matmul(blocks, R).ravel()], np.zeros(self.size), gamma.ravel()
+        return [blocks.ravel()], np.zeros(self.size), gamma.ravel()
 
     def places(self, t: Any, bodies: Bodies) -> Any:
         """The height of the lowest point; along the floor only rates are known."""
@@ -69,57 +67,50 @@ class Drives:
 
     def __init__(self, parts: Sequence[Drive], layout: Layout, first: int) -> None:
         self.size, n, slots = len(parts), layout.where.size, Slots.of(layout)
-        self._parts = parts
-        numbers = layout.numbers
-        self._a, self._b = (
-            np.array([numbers[e.body] for e in ends], np.intp)
-            for ends in ([p.a for p in parts], [p.b for p in parts])
-        )
-        self._points = tuple(
-            layout.attached(ends) for ends in ([p.a for p in parts], [p.b for p in parts])
-        )
-        first_axes = [p.turns[0] if p.turns else (0.0, 0.0, 0.0) for p in parts]
-        last_axes = [p.turns[-1] if p.turns else (0.0, 0.0, 0.0) for p in parts]
-        self._first, self._last = np.array(first_axes, float), np.array(last_axes, float)
+        self._laws = [p.rate for p in parts]
+        self._ends = ends = layout.attached([*(p.a for p in parts), *(p.b for p in parts)])
+        none = (0.0, 0.0, 0.0)
+        turns = [
+            *(p.turns[:1] or (none,) for p in parts),
+            *(p.turns[-1:] or (none,) for p in parts),
+        ]
+        self._turns = Fixed(ends.body, turns)
         self._weights = np.array([_weights(p) for p in parts], float).reshape(-1, 2, 1)
-        self._shift = np.array([_dual(p) for p in parts], float).reshape(-1, 3)
-        rows = first + np.arange(self.size)
-        begins = [at[e] for e in (self._a, self._b) for at in (slots.r_dot, slots.omega)]
+        self._shift = Fixed(ends.body[: self.size], [_dual(p) for p in parts])
+        rows = np.tile(first + np.arange(self.size), 2)
+        begins = (slots.r_dot[ends.body], slots.omega[ends.body])
         self.targets = np.concatenate([targets(rows, begin, n).ravel() for begin in begins])
+        self._driven = ends.velocity[: self.size] - ends.velocity[self.size :]
 
     def constants(self, rows: Any) -> None:
         """None."""
 
     def axes(self, bodies: Bodies) -> tuple[Any, Any]:
         """m and ṁ (size, 3) in ground axes; 0 of a shift."""
-        first = carried(bodies.R[self._a], self._first)
-        last = carried(bodies.R[self._b], self._last)
-        spin = bodies.spin
-        one, two = self._weights[:, 0], self._weights[:, 1]
-        m = one * first + two * last
-        return m, one * cross(spin[self._a], first) + two * cross(spin[self._b], last)
+        found = self._turns.at(bodies)[:, :2]
+        both = self._weights[:, :1] * found[: self.size] + self._weights[:, 1:] * found[self.size :]
+        return both[:, 0], both[:, 1]
 
     def direction(self, bodies: Bodies) -> Any:
         """(size, 3) u of a shift in ground axes; 0 of a turn."""
-        return carried(bodies.R[self._a], self._shift)
+        return self._shift.at(bodies)[:, 0]
 
     def values(self, t: Any, bodies: Bodies) -> tuple[list[Any], Any, Any]:
         """γ = ġ − ṁ·(ω_b − ω_a) of a turn; of a shift as `Lines` has it."""
-        R_a, R_b, spin = bodies.R[self._a], bodies.R[self._b], bodies.spin
-        omega_a, omega_b = spin[self._a], spin[self._b]
         m, m_dot = self.axes(bodies)
-        u = self.direction(bodies)
-        a, b = (points.at(t, bodies) for points in self._points)
-        gap, gap_dot, u_dot = b.r - a.r, b.r_dot - a.r_dot, cross(omega_a, u)
-        beside = m_dot * (omega_b - omega_a) + 2 * u_dot * gap_dot
-        beside = beside + cross(omega_a, u_dot) * gap + u * (b.turning - a.turning)
-        laws = [_law(p.rate, t) for p in self._parts]
-        g = np.array([law[0] for law in laws])
-        g = g + (u * (self._points[0].velocity - self._points[1].velocity)).sum(axis=1)
-        gamma = np.array([law[1] for law in laws]) - beside.sum(axis=1)
-        at_a = back(R_a, cross(u, gap) - cross(a.d, u) - m)
-        at_b = back(R_b, cross(b.d, u) + m)
-        return [-u.ravel(), at_a.ravel(), u.ravel(), at_b.ravel()], g, gamma
+        ends, (u, u_dot, u_turning) = (
+            self._ends.at(t, bodies),
+            self._shift.at(bodies).swapaxes(0, 1),
+        )
+        gap, gap_dot, turning = ends.between(self.size)
+        omega = bodies.spin[self._ends.body]
+        beside = m_dot * (omega[self.size :] - omega[: self.size]) + 2 * u_dot * gap_dot
+        laws = np.array([_law(law, t) for law in self._laws])
+        gamma = laws[:, 1] - (beside + u_turning * gap + u * turning).sum(axis=1)
+        arms = np.concatenate((-gap - ends.d[: self.size], ends.d[self.size :]))
+        turned = cross(arms, np.concatenate((u, u))) + np.concatenate((-m, m))
+        values = [-u.ravel(), u.ravel(), back(bodies.R[self._ends.body], turned).ravel()]
+        return values, laws[:, 0] + dot(u, self._driven), gamma
 
     def places(self, t: Any, bodies: Bodies) -> Any:
         """Only rates are known."""

@@ -10,9 +10,9 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from .attitude import cross, skew
+from .attitude import cross, dot, skew
 from .held import Dot, Line, Together
-from .kinematics import Bodies, Layout, back, carried
+from .kinematics import Bodies, Fixed, Layout, back
 
 Entries = tuple[Any, ...]
 
@@ -61,30 +61,32 @@ class Points:
     """`Together`: three rows each, r_B − r_A = 0."""
 
     def __init__(self, parts: Sequence[Together], layout: Layout, first: int) -> None:
-        self.size, n, slots = 3 * len(parts), layout.where.size, Slots.of(layout)
-        self._a, self._b = (layout.attached([end(p) for p in parts]) for end in (_a, _b))
-        self._arms = skew(self._a.x), -skew(self._b.x)
-        self.rows = first + np.arange(self.size).reshape(-1, 3)
-        omegas = [np.repeat(slots.omega[e.body][:, None], 3, axis=1) for e in (self._a, self._b)]
-        self.targets = np.concatenate([targets(self.rows, o, n).ravel() for o in omegas])
-        self._r_dot = [(slots.r_dot[e.body], s) for e, s in ((self._a, -1.0), (self._b, 1.0))]
-        self._g = (self._a.velocity - self._b.velocity).ravel()
+        self._count, n, slots = len(parts), layout.where.size, Slots.of(layout)
+        self.size = 3 * self._count
+        self._ends = ends = layout.attached([*(p.a for p in parts), *(p.b for p in parts)])
+        self._arms = skew(ends.x)
+        self._arms[self._count :] *= -1
+        self._rows = np.tile(first + np.arange(self.size).reshape(-1, 3), (2, 1))
+        omegas = np.repeat(slots.omega[ends.body][:, None], 3, axis=1)
+        self.targets = targets(self._rows, omegas, n).ravel()
+        self._r_dot = slots.r_dot[ends.body]
+        self._g = (ends.velocity[: self._count] - ends.velocity[self._count :]).ravel()
 
     def constants(self, rows: Any) -> None:
-        for begins, sign in self._r_dot:
-            for k, begin in enumerate(begins.tolist()):
-                if begin >= 0:
-                    rows[self.rows[k], begin + np.arange(3)] = sign
+        for k, begin in enumerate(self._r_dot.tolist()):
+            if begin >= 0:
+                rows[self._rows[k], begin + np.arange(3)] = -1.0 if k < self._count else 1.0
 
     def values(self, t: Any, bodies: Bodies) -> tuple[list[Any], Any, Any]:
         """(2.6) ṙ_P = ṙ_c − R [x]× ω; γ is what (2.7) has beside the accelerations."""
-        a, b = self._a, self._b
-        blocks = [np.matmul(bodies.R[e.body], X) for e, X in zip((a, b), self._arms, strict=True)]
-        gamma = a.at(t, bodies).turning - b.at(t, bodies).turning
-        return [block.ravel() for block in blocks], self._g, gamma.ravel()
+        blocks = bodies.R[self._ends.body] @ self._arms
+        turning = self._ends.arms.at(bodies)[:, 2]
+        gamma = turning[: self._count] - turning[self._count :]
+        return [blocks.ravel()], self._g, gamma.ravel()
 
     def places(self, t: Any, bodies: Bodies) -> Any:
-        return (self._b.at(t, bodies).r - self._a.at(t, bodies).r).ravel()
+        r = self._ends.at(t, bodies).r
+        return (r[self._count :] - r[: self._count]).ravel()
 
 
 class Dots:
@@ -96,36 +98,33 @@ class Dots:
             np.array([layout.numbers[name] for name in names], np.intp)
             for names in ([p.a for p in parts], [p.b for p in parts])
         )
-        self._u, self._w = (
-            np.array(x, float) for x in ([p.u for p in parts], [p.w for p in parts])
-        )
+        self._both = np.concatenate([self._a, self._b])
+        self._axes = Fixed(self._both, [*(p.u for p in parts), *(p.w for p in parts)])
         self._c = np.array([p.c for p in parts])
-        rows = first + np.arange(self.size)
-        self.targets = np.concatenate(
-            [targets(rows, slots.omega[at], n).ravel() for at in (self._a, self._b)]
-        )
+        rows = np.tile(first + np.arange(self.size), 2)
+        self.targets = targets(rows, slots.omega[self._both], n).ravel()
 
     def constants(self, rows: Any) -> None:
         """None."""
 
     def axes(self, bodies: Bodies) -> tuple[Any, Any]:
         """(size, 3) u and w in ground axes."""
-        return carried(bodies.R[self._a], self._u), carried(bodies.R[self._b], self._w)
+        found = self._axes.at(bodies)[:, 0]
+        return found[: self.size], found[self.size :]
 
     def values(self, t: Any, bodies: Bodies) -> tuple[list[Any], Any, Any]:
         """γ = −(ω_b − ω_a)·d/dt (w × u), u̇ = ω_a × u and ẇ = ω_b × w."""
-        u, w = self.axes(bodies)
-        spin = bodies.spin
-        omega_a, omega_b = spin[self._a], spin[self._b]
-        s = cross(w, u)
-        s_dot = cross(cross(omega_b, w), u) + cross(w, cross(omega_a, u))
-        gamma = ((omega_a - omega_b) * s_dot).sum(axis=1)
-        at_a, at_b = back(bodies.R[self._a], s), back(bodies.R[self._b], s)
-        return [-at_a.ravel(), at_b.ravel()], np.zeros(self.size), gamma
+        found = self._axes.at(bodies)[:, :2]
+        u, w = found[: self.size], found[self.size :]
+        turned = cross(w[:, :, None], u[:, None])  # of w and ẇ by u and u̇
+        s, s_dot = turned[:, 0, 0], turned[:, 0, 1] + turned[:, 1, 0]
+        gamma = dot(bodies.spin[self._a] - bodies.spin[self._b], s_dot)
+        at_both = back(bodies.R[self._both], np.concatenate((-s, s)))
+        return [at_both.ravel()], np.zeros(self.size), gamma
 
     def places(self, t: Any, bodies: Bodies) -> Any:
         u, w = self.axes(bodies)
-        return (u * w).sum(axis=1) - self._c
+        return dot(u, w) - self._c
 
 
 class Lines:
@@ -133,43 +132,29 @@ class Lines:
 
     def __init__(self, parts: Sequence[Line], layout: Layout, first: int) -> None:
         self.size, n, slots = len(parts), layout.where.size, Slots.of(layout)
-        self._a, self._b = (layout.attached([end(p) for p in parts]) for end in (_a, _b))
-        self._u = np.array([p.u for p in parts], float)
-        rows = first + np.arange(self.size)
-        begins = [at[e.body] for e in (self._a, self._b) for at in (slots.r_dot, slots.omega)]
+        self._ends = ends = layout.attached([*(p.a for p in parts), *(p.b for p in parts)])
+        self._u = Fixed(ends.body[: self.size], [p.u for p in parts])
+        rows = np.tile(first + np.arange(self.size), 2)
+        begins = (slots.r_dot[ends.body], slots.omega[ends.body])
         self.targets = np.concatenate([targets(rows, begin, n).ravel() for begin in begins])
+        self._driven = ends.velocity[: self.size] - ends.velocity[self.size :]
 
     def constants(self, rows: Any) -> None:
         """None: u turns, but on the ground."""
 
     def values(self, t: Any, bodies: Bodies) -> tuple[list[Any], Any, Any]:
         """γ = −(2 u̇·Δ̇ + (ω_a × (ω_a × u))·Δ + u·(what (2.7) has beside the accelerations))."""
-        R_a, R_b = bodies.R[self._a.body], bodies.R[self._b.body]
-        a, b = self._a.at(t, bodies), self._b.at(t, bodies)
-        omega_a = bodies.spin[self._a.body]
-        u = carried(R_a, self._u)
-        u_dot = cross(omega_a, u)
-        gap, gap_dot = b.r - a.r, b.r_dot - a.r_dot
-        gamma = -(
-            2 * u_dot * gap_dot + cross(omega_a, u_dot) * gap + u * (b.turning - a.turning)
-        ).sum(axis=1)
-        g = (u * (self._a.velocity - self._b.velocity)).sum(axis=1)
-        at_a = back(R_a, cross(u, gap) - cross(a.d, u))
-        at_b = back(R_b, cross(b.d, u))
-        return [-u.ravel(), at_a.ravel(), u.ravel(), at_b.ravel()], g, gamma
+        ends, (u, u_dot, u_turning) = self._ends.at(t, bodies), self._u.at(bodies).swapaxes(0, 1)
+        gap, gap_dot, turning = ends.between(self.size)
+        gamma = -dot(2 * u_dot, gap_dot) - dot(u_turning, gap) - dot(u, turning)
+        arms = np.concatenate((-gap - ends.d[: self.size], ends.d[self.size :]))
+        at_both = back(bodies.R[self._ends.body], cross(arms, np.concatenate((u, u))))
+        return [-u.ravel(), u.ravel(), at_both.ravel()], dot(u, self._driven), gamma
 
     def direction(self, bodies: Bodies) -> Any:
         """(size, 3) u in ground axes."""
-        return carried(bodies.R[self._a.body], self._u)
+        return self._u.at(bodies)[:, 0]
 
     def places(self, t: Any, bodies: Bodies) -> Any:
-        a, b = self._a.at(t, bodies), self._b.at(t, bodies)
-        return (self.direction(bodies) * (b.r - a.r)).sum(axis=1)
-
-
-def _a(part: Together | Line) -> Any:
-    return part.a
-
-
-def _b(part: Together | Line) -> Any:
-    return part.b
+        gap = self._ends.at(t, bodies).between(self.size)[0]
+        return dot(self.direction(bodies), gap)
