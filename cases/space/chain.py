@@ -6,7 +6,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..trajectory import Array
-from .rotation import Vector3, about, inverse, product, turned
+from .rotation import UPRIGHT, Vector3, inverse, product, turned
+
+ROUNDING = 3 * float(np.finfo(float).eps)  # of three numbers each
 
 
 def orthogonal(vectors: Sequence[Vector3]) -> list[Array]:
@@ -61,14 +63,13 @@ def turned_by(
         return np.zeros((n, 0)), np.zeros((n, 0))
     angles = _angles([np.asarray(axis, dtype=float) for axis in axes], between)
     relative = turned(between, omega_b) - omega_a  # ω of b against a, in the axes of a
-    rates = np.empty_like(angles)
-    for k in range(n):
-        columns, so_far = [], np.array([1.0, 0.0, 0.0, 0.0])
-        for axis, angle in zip(axes, angles[k], strict=True):
-            columns.append(turned(so_far, axis))
-            so_far = product(so_far, np.array(about(axis, float(angle))))
-        rates[k] = np.linalg.lstsq(np.array(columns).T, relative[k], rcond=None)[0]
-    return angles, rates
+    columns, so_far = [], np.tile(UPRIGHT, (n, 1))
+    for axis, angle in zip(axes, angles.T, strict=True):
+        columns.append(turned(so_far, axis))
+        so_far = product(so_far, _turn(np.asarray(axis, dtype=float), angle))
+    # At gimbal lock the least rates of all: two axes are one there, but for rounding.
+    solve = np.linalg.pinv(np.stack(columns, axis=-1), rcond=ROUNDING)
+    return angles, (solve @ relative[:, :, None])[:, :, 0]
 
 
 def _angles(axes: Sequence[Array], between: Array) -> Array:
@@ -86,7 +87,6 @@ def _angles(axes: Sequence[Array], between: Array) -> Array:
 def _three(axes: Sequence[Array], between: Array) -> Array:
     """The middle turn from how the last axis stands to the first; then as with two."""
     a, b, c = axes
-    n = len(between)
     last = turned(between, c)  # the third axis, in the axes of the first part
     # a · (turn of b by β) c = a · last: A cos β + B sin β + C
     along = (a @ b) * (b @ c)
@@ -97,7 +97,7 @@ def _three(axes: Sequence[Array], between: Array) -> Array:
     for middle in (phase + beta, phase - beta):
         middle = np.remainder(middle + math.pi, math.tau) - math.pi
         tilted = turned(_turn(b, middle), c)
-        first = np.array([_swing(a, tilted[k], last[k : k + 1])[0] for k in range(n)])
+        first = _swing(a, tilted, last)
         rest = product(_turn(b, -middle), product(_turn(a, -first), between))
         found.append(np.column_stack([first, middle, twist(rest, c)]))
     # Of the two ways the one whose middle turn is nearer to zero; they meet at gimbal lock.
@@ -119,10 +119,10 @@ def twist(q: Array, axis: Array) -> Array:
 
 
 def _swing(axis: Array, before: Array, after: Array) -> Array:
-    """(N,) [rad] the turn about the axis that brings a vector to where it is, (N, 3)."""
-    flat = before - (before @ axis) * axis
+    """(N,) [rad] the turn about the axis that brings a vector, (3,) or (N, 3), to (N, 3)."""
+    flat = before - (before @ axis)[..., None] * axis
     across = np.cross(axis, flat)
-    return np.arctan2(after @ across, after @ flat)
+    return np.arctan2(np.sum(after * across, axis=1), np.sum(after * flat, axis=1))
 
 
 def counted(angle: Array, rate: Array, times: Array) -> Array:
