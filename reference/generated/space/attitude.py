@@ -43,6 +43,16 @@ def _halved() -> Any:
 LEVI_CIVITA, QUADRATIC, HALVED = _levi_civita(), _quadratic(), _halved()
 
 
+def _product_rule() -> Any:
+    """(36, 6): a × b, and ȧ × b + a × ḃ, of the products of (a, ȧ) and (b, ḃ)."""
+    table, E = np.zeros((2, 3, 2, 3, 2, 3)), LEVI_CIVITA.reshape(3, 3, 3)
+    table[0, :, 0, :, 0] = table[1, :, 0, :, 1] = table[0, :, 1, :, 1] = E
+    return table.reshape(36, 6)
+
+
+PRODUCT_RULE = _product_rule()
+
+
 def matrices(q: Any) -> Any:
     """(K, 3, 3): R = Eᵀ of (2.1), whose columns are the body axes in ground axes; q (K, 4)."""
     found = _products(q, q) @ QUADRATIC
@@ -69,6 +79,12 @@ def spin(q: Any, q_dot: Any) -> Any:
 def cross(a: Any, b: Any) -> Any:
     """(…, 3) a × b."""
     return _products(a, b) @ LEVI_CIVITA
+
+
+def crossed(a: Any, b: Any) -> tuple[Any, Any]:
+    """(K, 3) a × b, and its rate; a and b (K, 6) with their rates behind them."""
+    found = _products(a, b) @ PRODUCT_RULE
+    return found[:, :3], found[:, 3:]
 
 
 def dot(a: Any, b: Any) -> Any:

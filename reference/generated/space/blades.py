@@ -47,7 +47,7 @@ class Blades:
         P = self._at.at(t, bodies)
         u, u_dot = self.directions(bodies)
         gamma = -dot(u, P.turning) - dot(u_dot, P.r_dot)
-        at_omega = back(bodies.R[self._at.body], cross(P.d, u))
+        at_omega = back(bodies.R.take(self._at.body, axis=0), cross(P.d, u))
         return [u.ravel(), at_omega.ravel()], np.zeros(self.size), gamma
 
     def places(self, t: Any, bodies: Bodies) -> Any:

@@ -36,8 +36,8 @@ class Equations:
             return a, gamma
         by_mass: Any = rows @ self._inverse
         factor, fails = dpotrf(by_mass @ rows.T)
-        pivots = factor.diagonal()
-        if fails or pivots.min() < NARROW * pivots.max():
+        pivots = factor.diagonal().tolist()
+        if fails or min(pivots) < NARROW * max(pivots):
             return self._together(rows, gamma, Q)
         multipliers = 0.0
         for _ in range(1 + TURNS):  # the nearest v̇, in M, that meets the rows

@@ -83,7 +83,7 @@ class Fixed:
 
     def at(self, bodies: Bodies) -> Any:
         """(P, 3, 3): d in ground axes, ω × d, and ω × (ω × d)."""
-        return (bodies.moves[self.body] @ self._column).reshape(-1, 3, 3)
+        return (bodies.moves.take(self.body, axis=0) @ self._column).reshape(-1, 3, 3)
 
 
 class Attached:
@@ -102,7 +102,8 @@ class Attached:
         """(2.1), (2.6) and the part of (2.7) that ω alone gives."""
         moved = self.arms.at(bodies)
         d, turning = moved[:, 0], moved[:, 2]
-        r, r_dot = bodies.r[self.body] + d, bodies.r_dot[self.body] + moved[:, 1]
+        r = bodies.r.take(self.body, axis=0) + d
+        r_dot = bodies.r_dot.take(self.body, axis=0) + moved[:, 1]
         if self._driven:
             r, r_dot = r + self.velocity * t, r_dot + self.velocity
         return Points(r, r_dot, d, turning)

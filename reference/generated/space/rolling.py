@@ -47,13 +47,13 @@ class Rims:
     def values(self, t: Any, bodies: Bodies) -> tuple[list[Any], Any, Any]:
         """f = (1, −[ρ]× E); d/dt of it leaves ω × ρ̇ beside the accelerations."""
         rho, rho_dot = self.arm(bodies)
-        blocks = -skew(rho) @ bodies.R[self._body]
-        gamma = -cross(bodies.spin[self._body], rho_dot)
+        blocks = -skew(rho) @ bodies.R.take(self._body, axis=0)
+        gamma = -cross(bodies.spin.take(self._body, axis=0), rho_dot)
         return [blocks.ravel()], np.zeros(self.size), gamma.ravel()
 
     def places(self, t: Any, bodies: Bodies) -> Any:
         """The height of the lowest point; along the floor only rates are known."""
-        low = bodies.r[self._body] + self.arm(bodies)[0]
+        low = bodies.r.take(self._body, axis=0) + self.arm(bodies)[0]
         low[:, :2] = np.nan
         return low.ravel()
 
@@ -103,13 +103,17 @@ class Drives:
             self._shift.at(bodies).swapaxes(0, 1),
         )
         gap, gap_dot, turning = ends.between(self.size)
-        omega = bodies.spin[self._ends.body]
+        omega = bodies.spin.take(self._ends.body, axis=0)
         beside = m_dot * (omega[self.size :] - omega[: self.size]) + 2 * u_dot * gap_dot
         laws = np.array([_law(law, t) for law in self._laws])
         gamma = laws[:, 1] - (beside + u_turning * gap + u * turning).sum(axis=1)
         arms = np.concatenate((-gap - ends.d[: self.size], ends.d[self.size :]))
         turned = cross(arms, np.concatenate((u, u))) + np.concatenate((-m, m))
-        values = [-u.ravel(), u.ravel(), back(bodies.R[self._ends.body], turned).ravel()]
+        values = [
+            -u.ravel(),
+            u.ravel(),
+            back(bodies.R.take(self._ends.body, axis=0), turned).ravel(),
+        ]
         return values, laws[:, 0] + dot(u, self._driven), gamma
 
     def places(self, t: Any, bodies: Bodies) -> Any:

@@ -10,7 +10,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from .attitude import cross, dot, skew
+from .attitude import cross, crossed, dot, skew
 from .held import Dot, Line, Together
 from .kinematics import Bodies, Fixed, Layout, back
 
@@ -79,7 +79,7 @@ class Points:
 
     def values(self, t: Any, bodies: Bodies) -> tuple[list[Any], Any, Any]:
         """(2.6) ṙ_P = ṙ_c − R [x]× ω; γ is what (2.7) has beside the accelerations."""
-        blocks = bodies.R[self._ends.body] @ self._arms
+        blocks = bodies.R.take(self._ends.body, axis=0) @ self._arms
         turning = self._ends.arms.at(bodies)[:, 2]
         gamma = turning[: self._count] - turning[self._count :]
         return [blocks.ravel()], self._g, gamma.ravel()
@@ -94,11 +94,8 @@ class Dots:
 
     def __init__(self, parts: Sequence[Dot], layout: Layout, first: int) -> None:
         self.size, n, slots = len(parts), layout.where.size, Slots.of(layout)
-        self._a, self._b = (
-            np.array([layout.numbers[name] for name in names], np.intp)
-            for names in ([p.a for p in parts], [p.b for p in parts])
-        )
-        self._both = np.concatenate([self._a, self._b])
+        names = [*(p.a for p in parts), *(p.b for p in parts)]
+        self._both = np.array([layout.numbers[name] for name in names], np.intp)
         self._axes = Fixed(self._both, [*(p.u for p in parts), *(p.w for p in parts)])
         self._c = np.array([p.c for p in parts])
         rows = np.tile(first + np.arange(self.size), 2)
@@ -114,12 +111,11 @@ class Dots:
 
     def values(self, t: Any, bodies: Bodies) -> tuple[list[Any], Any, Any]:
         """γ = −(ω_b − ω_a)·d/dt (w × u), u̇ = ω_a × u and ẇ = ω_b × w."""
-        found = self._axes.at(bodies)[:, :2]
-        u, w = found[: self.size], found[self.size :]
-        turned = cross(w[:, :, None], u[:, None])  # of w and ẇ by u and u̇
-        s, s_dot = turned[:, 0, 0], turned[:, 0, 1] + turned[:, 1, 0]
-        gamma = dot(bodies.spin[self._a] - bodies.spin[self._b], s_dot)
-        at_both = back(bodies.R[self._both], np.concatenate((-s, s)))
+        found = self._axes.at(bodies)[:, :2].reshape(-1, 6)
+        s, s_dot = crossed(found[self.size :], found[: self.size])
+        omega = bodies.spin.take(self._both, axis=0)
+        gamma = dot(omega[: self.size] - omega[self.size :], s_dot)
+        at_both = back(bodies.R.take(self._both, axis=0), np.concatenate((-s, s)))
         return [at_both.ravel()], np.zeros(self.size), gamma
 
     def places(self, t: Any, bodies: Bodies) -> Any:
@@ -148,7 +144,7 @@ class Lines:
         gap, gap_dot, turning = ends.between(self.size)
         gamma = -dot(2 * u_dot, gap_dot) - dot(u_turning, gap) - dot(u, turning)
         arms = np.concatenate((-gap - ends.d[: self.size], ends.d[self.size :]))
-        at_both = back(bodies.R[self._ends.body], cross(arms, np.concatenate((u, u))))
+        at_both = back(bodies.R.take(self._ends.body, axis=0), cross(arms, np.concatenate((u, u))))
         return [-u.ravel(), u.ravel(), at_both.ravel()], dot(u, self._driven), gamma
 
     def direction(self, bodies: Bodies) -> Any:
