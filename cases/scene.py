@@ -70,6 +70,10 @@ class Scene:
         """By joint, what prescribed rates exert; in the plane none are prescribed."""
         return {}
 
+    def told_by(self, reaction: str) -> tuple[str, ...]:
+        """The reactions of a producer from which one follows; in the plane it gives each."""
+        return (reaction,)
+
     def elements(self) -> Iterator[Body | Joint | Edge | Contact | Force]:
         """All that has a name, quantities and numbers."""
         sections = (self.bodies, self.joints, self.constraints, self.contacts, self.forces)

@@ -60,6 +60,10 @@ class SpatialContact:
         """Its reactions, and where and how the touching point moves."""
         return {self.name: {**_CONTACT, **(_RIM if self.rim else {})}}
 
+    def components(self, field: str) -> tuple[str, ...]:
+        """The reactions that a producer gives, from which a force follows."""
+        return ("fx", "fy") if field in ("along", "side") else (field,)
+
     def numbers(self) -> dict[str, float]:
         """The coefficient of friction."""
         return {"friction": self.friction}
@@ -71,7 +75,7 @@ class SpatialContact:
         points to the left rolls forward, and along the axle's shadow on the floor.
         """
         if field in ("along", "side"):
-            fx, fy = (motion.reaction(f"{self.name}.{axis}") for axis in ("fx", "fy"))
+            fx, fy = (motion.reaction(f"{self.name}.{name}") for name in self.components(field))
             left = self._axle(motion)[:, :2]
             left = left / np.linalg.norm(left, axis=1, keepdims=True)
             if field == "side":

@@ -101,14 +101,20 @@ class SpatialJoint:
         moments = _MOMENTS if self.holds_attitude else {}
         return {self.name: {**_FORCES, **moments, **coordinates}}  # type: ignore[dict-item]
 
+    def components(self, field: str) -> tuple[str, ...]:
+        """The reactions that a producer gives, from which a force or moment follows."""
+        if field in ("force", "moment"):
+            return tuple(f"{field[0]}{axis}" for axis in "xyz")
+        return (field,)
+
     def numbers(self) -> dict[str, float]:
         return {}
 
     def observe(self, motion: Motion, field: str) -> Array:
         """(N,) what follows from the states and the given reactions; else KeyError."""
         if field in ("force", "moment"):
-            names = [f"{self.name}.{field[0]}{axis}" for axis in "xyz"]
-            return np.linalg.norm([motion.reaction(name) for name in names], axis=0)
+            parts = [motion.reaction(f"{self.name}.{name}") for name in self.components(field)]
+            return np.linalg.norm(parts, axis=0)
         if field == "gap":
             return self._gap(motion)
         names = [f.name for f in self.freedoms]

@@ -47,3 +47,10 @@ class SpatialScene(Scene):
                 unit = "N" if freedom.kind == "shift" else "N m"
                 found.setdefault(part, {})[effort_of(freedom)] = (unit, "force")
         return found  # type: ignore[return-value]
+
+    def told_by(self, reaction: str) -> tuple[str, ...]:
+        """The reactions of a producer from which one follows: `q1.force` from three components."""
+        part, _, field = reaction.rpartition(".")
+        element = self.joints.get(part) or self.contacts.get(part)
+        fields = element.components(field) if element else (field,)
+        return tuple(f"{part}.{name}" for name in fields)

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from ...cases.case import Case
+from ...cases.quantity import table
 from ...cases.scene import Scene
 from ...engines.engine import Engine, Plan
 
@@ -84,9 +85,12 @@ def _upward(h: float, interval: float) -> Iterator[float]:
 
 
 def wanted_reactions(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
-    """Which of the quantities are reactions, that only the producer can give."""
+    """The reactions, that only the producer can give, from which the quantities follow."""
     parts = {*scene.joints, *scene.constraints, *scene.contacts}
-    fields = ("fx", "fy", "force", "torque", "friction", "normal", "tangent", "drive")
-    return tuple(
-        name for name in names if name.split(".")[0] in parts and name.split(".")[-1] in fields
+    known = table(scene)
+    forces = (
+        name
+        for name in names
+        if name.split(".")[0] in parts and name in known and known[name].kind == "force"
     )
+    return tuple(dict.fromkeys(given for name in forces for given in scene.told_by(name)))
