@@ -93,7 +93,7 @@ def located(case: Case) -> list[float]:
 
 
 def test_all_smooth_cases_are_here() -> None:
-    assert len(SMOOTH) == 12
+    assert len(SMOOTH) == 22
 
 
 @pytest.mark.whole
