@@ -5,12 +5,13 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from given.scenes import SHIPPED
 
 from textmech.cases.case import Case
 from textmech.cases.load import load
 from textmech.reports.judge.compare import compare
 from textmech.reports.row import AGREES
-from textmech.reports.trial.ladder import USUAL, judged_step, ladders
+from textmech.reports.trial.ladder import USUAL, judged_step, ladders, wanted_reactions
 from textmech.reports.trial.trial import Trial
 
 Make = Callable[..., Trial]
@@ -91,3 +92,21 @@ def test_the_second_ladder_begins_a_rung_above_where_four_are_left(
     assert following.steps[first - second :] == held.steps
     (alone,) = ladders(made.case, made.engine, trial().plan)
     assert alone.steps == following.steps
+
+
+@pytest.mark.parametrize(
+    ("name", "asked", "given"),
+    [
+        ("tilting_disk.circle", ["touch.side", "touch.along", "touch.gap"], ["fx", "fy"]),
+        ("five_axis_robot.swinging", ["q1.force", "q1.fz", "q1.angle"], ["fx", "fy", "fz"]),
+        ("five_axis_robot.swinging", ["q4.moment"], ["mx", "my", "mz"]),
+        ("driven_robot", ["q1.torque", "hand.attitude"], ["torque"]),
+        ("robot_knife", ["blade.force", "blade.normal", "blade.slip"], ["force", "normal"]),
+        ("rhombus", ["foot.force", "diagonal.length"], ["force"]),
+    ],
+)
+def test_an_engine_is_asked_for_what_quantities_are_made_of(
+    name: str, asked: list[str], given: list[str]
+) -> None:
+    part = asked[0].partition(".")[0]
+    assert wanted_reactions(SHIPPED[name].scene, asked) == tuple(f"{part}.{f}" for f in given)
