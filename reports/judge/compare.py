@@ -48,8 +48,7 @@ def compare(trial: Trial, runs: Runs | None = None) -> Outcome:
     runs = runs or simulate(trial)
     if runs.judged is None:
         return Outcome(rows + _diverged(trial, (*motion, *events), runs.lost))
-    held = {name: _study(trial, list(runs.ladders)[-1], runs, name) for name in motion}
-    rows += [_judged(trial, name, runs, runs.judged[name], held[name]) for name in motion]
+    rows += [_judged(trial, name, runs, runs.judged[name]) for name in motion]
     studies = [
         (ladder, name, found)
         for ladder, climbed in runs.ladders.items()
@@ -92,8 +91,11 @@ def _audit(trial: Trial) -> Comparison:
     )
 
 
-def _judged(trial: Trial, name: str, runs: Runs, samples: Array, held: Convergence) -> Comparison:
-    wanted = trial.wanted(name)
+def _judged(trial: Trial, name: str, runs: Runs, samples: Array) -> Comparison:
+    wanted, ladders = trial.wanted(name), list(runs.ladders)
+    held = _study(trial, ladders[-1], runs, name)
+    # What is promised for h → 0 is the tuned setting's, whose numbers follow the step.
+    tuned = _study(trial, ladders[0], runs, name) if len(ladders) > 1 else held
     error = metric.error(samples, wanted)
     why = cause(_telling(trial, name, runs, error.largest, held), runs.finer, trial.plan.simplified)
     at = moment(trial, samples, wanted, error)
@@ -106,7 +108,8 @@ def _judged(trial: Trial, name: str, runs: Runs, samples: Array, held: Convergen
             others = _telling(trial, name, runs, rest, others, at.elsewhere)
             why = f"{why}: {cause(others, runs.finer, trial.plan.simplified)}"
     when = float(trial.case.times[error.at])
-    return judged(trial, name, verdict(trial, name, error.largest, held, why), error, when)
+    word = verdict(trial, name, error.largest, held, why, tuned)
+    return judged(trial, name, word, error, when)
 
 
 def _telling(

@@ -12,9 +12,18 @@ CERTAIN = 10  # uncertainties that a declared limit must stand above
 
 
 def verdict(
-    trial: Trial, quantity: str, largest: float, convergence: Convergence, why: str
+    trial: Trial,
+    quantity: str,
+    largest: float,
+    convergence: Convergence,
+    why: str,
+    tuned: Convergence | None = None,
 ) -> tuple[str, str]:
-    """The verdict's word and its reason: a bar that is broken, and `why` there is a difference."""
+    """The verdict's word and its reason: a bar that is broken, and `why` there is a difference.
+
+    convergence: on the ladder of the judged numbers. tuned: on the ladder whose numbers follow the
+    step, if that is another one.
+    """
     case, engine = trial.case, trial.engine
     allowed = trial.allowed(quantity)
     declared = case.deviates.get(f"{engine.name}.{engine.setting}", {}).get(quantity)
@@ -25,7 +34,7 @@ def verdict(
     if declared is not None:
         return _declared(engine, declared, largest, convergence)
     if engine.setting == "tuned":
-        broken = _broken(trial, quantity, largest, convergence)
+        broken = _broken(trial, quantity, largest, tuned or convergence)
         return (FAILS, f"{broken}; {why}") if broken else (AGREES, "")
     if not largest <= allowed:
         return BEYOND, why
