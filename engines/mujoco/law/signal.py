@@ -17,8 +17,12 @@ Control = Callable[[mujoco.MjModel, mujoco.MjData], None]
 
 def signals(scene: Scene, others: Sequence[Control] = ()) -> AbstractContextManager[None]:
     """The scene's sines, and what else needs them set, while they are wanted."""
-    sines = swinging(laws(scene))
-    controls = [*([] if sines is None else [sines]), *others]
+    return together([swinging(laws(scene)), *others])
+
+
+def together(wanted: Sequence[Control | None]) -> AbstractContextManager[None]:
+    """All of them, one after the other, as the one callback that there is."""
+    controls = [control for control in wanted if control is not None]
     if len(controls) < 2:
         return installed(controls[0] if controls else None)
 

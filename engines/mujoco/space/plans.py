@@ -16,7 +16,7 @@ Numbers = Callable[[float], Sequence[Choice]]
 
 
 def plan(scene: SpatialScene, start: Start, numbers: Numbers, *, tuned: bool) -> Plan:
-    """MuJoCo's own elements. Nothing is withheld: every reaction can be read.
+    """MuJoCo's own elements, and edges by our law. Nothing is withheld: all reactions can be read.
 
     Exponents: Euler and contacts 1, 2; RK4 4, 5; soft constraints of the tuned recipe, which
     follow the step, 2, 3.
@@ -25,7 +25,7 @@ def plan(scene: SpatialScene, start: Start, numbers: Numbers, *, tuned: bool) ->
     first = integrator != "RK4" or bool(scene.contacts)
     following = (1, 2) if first else (2, 3)
     bare = Plan(
-        "native",
+        "law" if scene.constraints else "native",
         held=(1, 2) if first else (4, 5),
         following=following if tuned and soft_groups(scene) else None,
         numbers=numbers,
@@ -40,6 +40,8 @@ def _words(scene: SpatialScene, start: Start, plan: Plan, tuned: bool, step: flo
         words.append(f"driven points are masses of {HEAVY:g} kg")
     if scene.drives:
         words.append(f"prescribed rates are armatures of {HEAVY:g} kg m² (kg of a slide)")
+    if scene.constraints:
+        words.append(f"{', '.join(scene.constraints)} held by our law at every stage")
     slender = [
         name
         for name, body in scene.bodies.items()

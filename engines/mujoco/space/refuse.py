@@ -19,6 +19,10 @@ def unbuildable(scene: SpatialScene) -> str | None:
             return f"adapter: {force.name} is a {force.word}, which it does not build"
     tree = spanning_tree(scene)
     loops = tree.loops
+    soft = [*loops, *scene.contacts.values()]
+    for edge in scene.constraints.values():
+        if soft:
+            return f"adapter: {edge.name} beside {soft[0].name}, whose force gives way by itself"
     for joint in loops:
         if all(_stands(scene, tree, end.body) for end in (joint.a, joint.b)):
             return f"engine: MuJoCo leaves out {joint.name}, for nothing that it holds can move"

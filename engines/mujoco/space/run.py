@@ -8,13 +8,14 @@ import numpy as np
 from ....cases.space.scene import SpatialScene
 from ....cases.trajectory import Array, Trajectory
 from ...engine import Start
-from ..law.signal import installed, swinging
+from ..law.signal import swinging, together
 from ..law.stepping import Steps
 from ..read.record import Counts, Record, all_steps, counted, sampled, whole
 from ..run import check, listening
 from .drive import drives
+from .edge import edges, fields
 from .read.reaction import contact_force, effort, joint_wrench
-from .read.seen import JOINTS, LOOPS, TOUCHING, Seen, seen
+from .read.seen import EDGES, JOINTS, LOOPS, TOUCHING, Seen, seen
 from .read.states import states
 from .scene import signals
 from .tree import spanning_tree
@@ -40,7 +41,8 @@ def simulate(
     counts = counted(times, model.opt.timestep)
     grid = all_steps(times, model.opt.timestep) if every else times
     touching = tuple(name for name in reactions if name.partition(".")[0] in scene.contacts)
-    with listening() as warnings, installed(swinging(signals(scene))):
+    controls = [swinging(signals(scene)), *edges(scene, model)]
+    with listening() as warnings, together(controls):
         record = whole(model, data, len(grid)) if every else _sampled(model, data, counts)
         check(warnings, grid, record)
         rows = record.at(counts) if every else record
@@ -68,7 +70,9 @@ def _needed(scene: SpatialScene, reactions: tuple[str, ...]) -> set[str]:
     names: set[str] = set()
     for name in reactions:
         part = name.partition(".")[0]
-        if part not in scene.joints:
+        if part in scene.constraints:
+            names |= {*EDGES}
+        elif part not in scene.joints:
             names |= {*TOUCHING}
         else:
             names |= {*LOOPS} if scene.joints[part] in loops else {*JOINTS}
@@ -88,6 +92,8 @@ def read(
         part, _, field = name.partition(".")
         if name in driving:
             found[name] = effort(model, known, driving[name], forward[part], wrench(part))
+        elif part in scene.constraints:
+            found[name] = known["userdata"][:, fields(scene).index(name)]
         elif part in scene.joints:
             found[name] = wrench(part)[:, _WRENCH.index(field)]
         else:

@@ -24,6 +24,7 @@ from ..tree import Branch, called
 from ..written import attributes, written
 from .drive import signals as drives
 from .drive import write as write_drives
+from .edge import write_room
 from .inertia import principal
 from .start import started
 from .tree import held_points, natives, spanning_tree
@@ -58,6 +59,7 @@ def mjcf(
         _loops(root, scene, attributes(numbers, "connect"))
     write(root, scene)
     write_drives(root, scene)
+    write_room(root, scene)
     _start(root, scene, start, begun)
     ET.indent(root)
     return ET.tostring(root, encoding="unicode") + "\n"

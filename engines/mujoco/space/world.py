@@ -10,6 +10,7 @@ from ....cases.trajectory import Array, Trajectory
 from ...engine import Engine, Plan, Refusal, Start
 from ...heading import heading
 from ..compilation import NOMINAL, timestep
+from ..refuse import NO_EDGE
 from ..script import commented
 from .compilation import compiled, placed
 from .plans import plan
@@ -32,9 +33,12 @@ class Space:
         return self.engine.setting == "tuned"
 
     def plans(self, scene: SpatialScene, start: Start) -> Sequence[Plan | Refusal]:
-        """Natively, or why not."""
+        """Natively, or why not; edges by our law, if tuned."""
         refusal = unbuildable(scene) or uncompilable(scene, start, self._plan(scene, start))
-        return [Refusal("native", refusal)] if refusal else [self._plan(scene, start)]
+        if refusal:
+            return [Refusal("native", refusal)]
+        without = [Refusal("native", NO_EDGE)] if scene.constraints else []
+        return without if without and not self._tuned else [*without, self._plan(scene, start)]
 
     def _plan(self, scene: SpatialScene, start: Start) -> Plan:
         own = partial(with_own, self.options, scene)

@@ -13,6 +13,7 @@ Seen = Mapping[str, Array]
 PLACES = ("xpos", "xquat", "cvel", "subtree_com")
 JOINTS = ("cfrc_int", "site_xpos", "xaxis", "actuator_force")
 TOUCHING = ("sensordata",)
+EDGES = ("userdata",)
 LOOPS = ("efc_force", "site_xpos")
 _STATE = int(
     mujoco.mjtState.mjSTATE_TIME
