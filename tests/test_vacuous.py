@@ -45,7 +45,7 @@ def as_written(file: Path) -> list[tuple[Case, Mapping[str, Array]]]:
 def samples(case: Case, part: float) -> Mapping[str, Array]:
     """What the case observes in the first part of its duration, by the generated mechanism."""
     times = case.times[: ceil(part * len(case.times))]
-    mechanism = scenes.generated(case)
+    mechanism = scenes.mechanism(case)
     followed = follow(mechanism, times, by=partial(either, tolerance=TOLERANCE))
     return observed(case, Answer(mechanism, followed).trajectory(times))
 

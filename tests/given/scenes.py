@@ -35,13 +35,6 @@ def mechanism(case: Case) -> Any:
     return generated(case)
 
 
-def generated(case: Case) -> Generated:
-    """The same in the plane or in space."""
-    if isinstance(case.scene, SpatialScene):
-        return SpatialMechanism(case.scene, assemble_in_space(case, case.scene))
-    return mechanism(case)
-
-
 HEAD = """\
 title: A scene typed in a test
 source: {equations: ["2.60"]}

@@ -25,7 +25,11 @@ SMOOTH = [
     and all(contact.ideal for contact in case.scene.contacts.values())
     and not any(joint.dry_friction for joint in case.scene.joints.values())
 ]
-IN_SPACE = ["torque_free.thrown", "heavy_top.waves", "upright_wheel.level"]  # others go the same way
+IN_SPACE = [
+    "torque_free.thrown",
+    "heavy_top.waves",
+    "upright_wheel.level",
+]  # others go the same way
 CREEPING = ("spring_mass_damper.critical", "spring_mass_damper.overdamped")
 LOCATED = 1e-9  # s: a curve of seventh degree through the steps around it
 
