@@ -54,8 +54,8 @@ def _next(
     given: Mapping[str, Placement],
     seeds: Mapping[str, Mapping[str, float]],
 ) -> tuple[str, Pose] | None:
-    """A body that hangs on a known one."""
-    for joint in scene.joints.values():
+    """A body that hangs on a known one: first by a joint of which something is given or near."""
+    for joint in sorted(scene.joints.values(), key=lambda joint: joint.name not in given):
         a, b = joint.a.body in known, joint.b.body in known
         if a == b:
             continue

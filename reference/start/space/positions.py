@@ -8,6 +8,7 @@ import numpy as np
 from ....cases.case import Case, Placement
 from ...system import Array
 from . import refusal
+from .branches import closes, faithful, locked
 from .closure import SpatialClosure, least, null
 from .guess import laid_out
 
@@ -26,6 +27,8 @@ def positions(closure: SpatialClosure) -> Array:
 
     Raises CaseError if there is none, more than one to choose from, or a coordinate is left open.
     """
+    for joint, angle in locked(closure):
+        raise refusal.locked(closure.case, joint, angle)
     placed = _together(closure.case)
     nearest: tuple[float, Array] | None = None
     ways: list[Array] = []
@@ -33,11 +36,13 @@ def positions(closure: SpatialClosure) -> Array:
         q, gap = _newton(closure, laid_out(closure.where, placed, seeds))
         if nearest is None or gap < nearest[0]:
             nearest = gap, q
-        if gap < CLOSED and all(_apart(closure, q, other) > SAME for other in ways):
+        if gap < CLOSED and faithful(closure, q) and _new(closure, q, ways):
             ways.append(q)
         if ways and (closure.case.near or not _loops(closure)):
             break
     assert nearest is not None
+    if not ways and not np.isfinite(nearest[0]):
+        raise refusal.flat(closure.case)
     if not ways:
         raise refusal.cannot_close(closure, nearest[1])
     loose = null(closure.equations(ways[0])[1], closure.where.size)
@@ -64,9 +69,8 @@ def _together(case: Case) -> dict[str, Placement]:
 
 def _loops(closure: SpatialClosure) -> bool:
     """Whether joints close loops, or points are placed: then there may be several ways."""
-    bodies, joints = len(closure.scene.bodies), len(closure.scene.joints)
     return (
-        joints > bodies
+        closes(closure.scene)
         or any(p.points for p in closure.case.initial.values())
         or (len(closure.scene.contacts) > 0)
     )
@@ -90,7 +94,10 @@ def _seeds(closure: SpatialClosure) -> Iterator[Seeds]:
 def _newton(closure: SpatialClosure, q: Array) -> tuple[Array, float]:
     """The root near the guess, and the residual that is left, in sizes or rad."""
     for _ in range(STEPS):
-        residual, rows, _ = closure.equations(q)
+        with np.errstate(divide="ignore", invalid="ignore"):  # of a rim that lies flat
+            residual, rows, _ = closure.equations(q)
+        if not np.all(np.isfinite(residual)):
+            return q, np.inf
         if np.max(np.abs(residual), initial=0.0) < 1e-3 * CLOSED:
             break
         change = least(rows, residual)
@@ -108,6 +115,10 @@ def _moved(closure: SpatialClosure, q: Array, change: Array) -> Array:
     for at in closure.where.attitudes:
         q[at] /= np.linalg.norm(q[at])
     return q
+
+
+def _new(closure: SpatialClosure, q: Array, ways: list[Array]) -> bool:
+    return all(_apart(closure, q, other) > SAME for other in ways)
 
 
 def _apart(closure: SpatialClosure, a: Array, b: Array) -> float:

@@ -6,6 +6,8 @@ import numpy as np
 
 from ....cases.case import Case
 from ....cases.mistake import CaseError
+from ....cases.space.joint import SpatialJoint
+from ....cases.space.scene import SpatialScene
 from ...system import Array
 from .closure import SpatialClosure
 
@@ -26,6 +28,23 @@ def cannot_close(closure: SpatialClosure, q: Array) -> CaseError:
     size = f"{gap * DEGREES:.3g} deg" if turns else f"{gap * closure.size:.3g} m"
     why = "the mechanism cannot be assembled from what is given"
     return _initial(closure.case, f"{why}: {owners[worst]} stays open by {size}")
+
+
+def locked(case: Case, joint: SpatialJoint, angle: float) -> CaseError:
+    """Three turns, of which the first and the last are about one axis."""
+    first, middle, last = joint.turns
+    at = f"{joint.name}.{middle.name} = {angle * DEGREES:.4g} deg"
+    axes = f"{first.name!r} and {last.name!r} turn about one axis"
+    return _initial(
+        case, f"at {at} {axes}, so that they determine nothing; start it by the body's `attitude`"
+    )
+
+
+def flat(case: Case) -> CaseError:
+    """A rim that lies on the floor."""
+    assert isinstance(case.scene, SpatialScene)
+    rims = ", ".join(name for name, contact in case.scene.contacts.items() if contact.rim)
+    return _initial(case, f"{rims}: a disk that lies flat has no lowest point; start it tilted")
 
 
 def several_ways(closure: SpatialClosure, ways: list[Array]) -> CaseError:

@@ -24,6 +24,9 @@ def drives(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
         if rate not in rates:
             yield path, _no_rate(scene, part, rate)
             continue
+        if rates[rate].kind == "turn" and len(scene.joints[part].turns) > 2:
+            why = "their middle axis is fixed in neither part; put a body between, on a joint more"
+            yield path, f"{part!r} leaves three turns, and of these none can be driven: {why}"
         unit = "m/s" if rates[rate].kind == "shift" else "rad/s"
         key = () if drive.law == "constant" else (drive.law,)
         try:

@@ -1,0 +1,58 @@
+"""Which solutions of the joints' rows are assemblies of these joints, and where there are several.
+
+Rows say which directions are at right angles. That holds of a joint turned over, too.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ....cases.scene import GROUND
+from ....cases.space.joint import SpatialJoint
+from ....cases.space.rotation import about, matrix, turned
+from ....cases.space.scene import SpatialScene
+from ...system import Array
+from .closure import SpatialClosure
+from .given import attitude
+
+LOCKED = 1e-9  # sine: below, a turn about one axis is not told from one about the other
+ALIKE = 0.5  # between the cosine of a held axis, 1, and those of its joint turned over, 0 and -1
+
+
+def closes(scene: SpatialScene) -> bool:
+    """Whether a joint joins what is joined already, be it on the ground or free of it."""
+    island = {name: name for name in (GROUND, *scene.bodies)}
+    for joint in scene.joints.values():
+        one, other = island[joint.a.body], island[joint.b.body]
+        if one == other:
+            return True
+        island = {name: one if at == other else at for name, at in island.items()}
+    return False
+
+
+def faithful(closure: SpatialClosure, q: Array) -> bool:
+    """Whether each joint's axes point the same way: rows of right angles hold of both."""
+    for joint in closure.scene.joints.values():
+        bodies = [closure.scene.bodies[e.body] for e in joint.refers() if e.body != GROUND]
+        if len(joint.turns) > 1 or not joint.holds_attitude or not all(b.turns for b in bodies):
+            continue
+        a, b = (matrix(attitude(closure.mode, end.body, q)) for end in (joint.a, joint.b))
+        axes = np.array([turn.axis for turn in joint.turns] or np.eye(3))
+        if np.min(np.sum((axes @ a.T) * (axes @ b.T), axis=1)) < ALIKE:
+            return False
+    return True
+
+
+def locked(closure: SpatialClosure) -> Iterator[tuple[SpatialJoint, float]]:
+    """Joints of three turns that are given where the first and the last are about one axis."""
+    for name, placement in closure.case.initial.items():
+        joint = closure.scene.joints.get(name)
+        if joint is None or len(joint.turns) < 3:
+            continue
+        first, middle, last = joint.turns
+        angle = placement.given.get(middle.name)
+        if angle is None:
+            continue
+        there = turned(np.array(about(middle.axis, angle)), last.axis)
+        if abs(float(np.dot(np.cross(first.axis, middle.axis), there))) < LOCKED:
+            yield joint, angle
