@@ -31,18 +31,18 @@ class Equations:
         """v̇ (n,) and λ (r,) of f_a (r, n), γ (r,) and Q (n,)."""
         if self._inverse is None:
             return self._together(rows, gamma, Q)
-        a: Any = self._inverse @ Q
+        a: Any = self._inverse.dot(Q)
         if not len(rows):
             return a, gamma
-        by_mass: Any = rows @ self._inverse
-        factor, fails = dpotrf(by_mass @ rows.T)
+        by_mass: Any = rows.dot(self._inverse)
+        factor, fails = dpotrf(by_mass.dot(rows.T))
         pivots = factor.diagonal().tolist()
         if fails or min(pivots) < NARROW * max(pivots):
             return self._together(rows, gamma, Q)
         multipliers = 0.0
         for _ in range(1 + TURNS):  # the nearest v̇, in M, that meets the rows
-            change = dpotrs(factor, gamma - rows @ a)[0]
-            a, multipliers = a + change @ by_mass, multipliers + change
+            change = dpotrs(factor, gamma - rows.dot(a))[0]
+            a, multipliers = a + change.dot(by_mass), multipliers + change
         return a, np.asarray(multipliers)
 
     def _together(self, rows: Array, gamma: Array, Q: Array) -> tuple[Array, Array]:
