@@ -99,6 +99,7 @@ class CaseFile(pytest.File):
     def collect(self) -> Iterator[pytest.Item]:
         from ..cases.load import load
         from ..cases.mistake import CaseError
+        from ..engines.engine import Refusal
         from .selection import ENGINES, HANDWRITTEN, choose_book, choose_engines
         from .trial.book import producers
         from .trial.start import assembled
@@ -122,7 +123,8 @@ class CaseFile(pytest.File):
             yield CertificateItem.from_parent(self, name=name, case=case)
             for engine in producers(case, engines, book=choose_book(names, [])):
                 for way in planned(engine, case.scene, start):
-                    for quantity in ("audit", *judged_names(case)):
+                    audit = () if isinstance(way, Refusal) else ("audit",)
+                    for quantity in (*audit, *judged_names(case)):
                         how = "" if way.realised == "native" else f".{way.realised}"
                         yield ComparisonItem.from_parent(
                             self,

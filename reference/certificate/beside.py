@@ -4,6 +4,7 @@ No integrator's error is in it: a mass or a sign that only the scene has otherwi
 however sensitive the motion and however loose its tolerances are.
 """
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -41,7 +42,8 @@ def beside(written: Answer, built: Answer, generated: Generated, times: Array) -
         own, theirs = mode.reactions(t, q, v), other.reactions(t, *place)
         force = worst(map(abs, theirs.values())) or 1.0
         held += [abs(own[name] - theirs[name]) / force for name in own if name in theirs]
-    bound = max(AGREE, DIGITS * EPS * condition)
+    lost = 10.0 ** math.ceil(math.log10(DIGITS * EPS * condition))  # rounding's are its digits
+    bound = max(AGREE, lost)
     yield Check("generated accelerations", worst(moved), bound)
     if held:
         yield Check("generated reactions", worst(held), bound)

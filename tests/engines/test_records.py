@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from given.engine_scenes import BLOCK, RESTS, WHEEL, G, incline, launched, touching
-from given.planning import CASES, NAMES, SETTINGS, TUNED, begun, every, moved, words
+from given.planning import CASES, NAMES, NATIVE, SETTINGS, TUNED, begun, every, moved, words
 
 from textmech.cases.case import Event
 from textmech.cases.scene import Anchor, Push, Signal
@@ -29,7 +29,7 @@ def holds_every_step(motion: Trajectory, bare: Trajectory, step: float) -> None:
 
 
 @pytest.mark.parametrize("engine", SETTINGS, ids=words)
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", NATIVE)
 def test_of_a_case(name: str, engine: Engine) -> None:
     case, (scene, start) = CASES[name], begun(name)
     step, times = case.interval / 8, case.times[:5]

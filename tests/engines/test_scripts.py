@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 import pytest
 from given import engine_scenes as given
-from given.planning import CASES, SETTINGS, begun, moved, planned, words
+from given.planning import NATIVE, SETTINGS, begun, moved, planned, words
 
 from textmech.cases.scene import Scene
 from textmech.cases.shape import bar
@@ -61,7 +61,7 @@ def same(engine: Engine, scene: Scene, start: Start) -> None:
 
 @pytest.mark.whole
 @pytest.mark.parametrize("engine", SETTINGS, ids=words)
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", NATIVE)
 def test_a_cases_script_makes_the_same_motion(name: str, engine: Engine) -> None:
     same(engine, *begun(name))
 

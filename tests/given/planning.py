@@ -3,12 +3,18 @@
 from functools import cache
 
 from textmech import engines
+from textmech.cases.frame import PLANE
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Engine, Plan, Realised, Refusal, Start
 from textmech.reports.trial.start import assembled
 
-from .scenes import SHIPPED as CASES
+from .scenes import SHIPPED as EVERY
+
+CASES = {name: case for name, case in EVERY.items() if case.scene.frame is PLANE}
+"""The shipped cases in the plane; those in space have tests of their own (test_space.py)."""
+NATIVE = {name: case for name, case in CASES.items() if not case.scene.constraints}
+"""Those that engines run by themselves: no engine has an edge."""
 
 NAMES = engines.names()
 """The engines found by their entry points."""

@@ -33,8 +33,9 @@ ORDER = 0.05  # what the noise of neighbouring rungs may do to it, beside a quar
 def report(request: pytest.FixtureRequest) -> Report:
     """All rows; those of this session where it compares everything anyway."""
     cases, engines = choose_cases([]), choose_engines([], [])
-    items = {item.name for item in request.session.items if isinstance(item, CaseItem)}
-    if all(f"{c.name}-{e.name}.{e.setting}-audit" in items for c in cases for e in engines):
+    names = [item.name for item in request.session.items if isinstance(item, CaseItem)]
+    pairs = {"-".join(name.split("-")[:2]) for name in names}
+    if all(f"{c.name}-{e.name}.{e.setting}" in pairs for c in cases for e in engines):
         return measured(request.session)
     jobs, store = pool.workers(), usable()
     return suite.measure(cases, engines, jobs=jobs, progress=lambda *_: None, store=store)

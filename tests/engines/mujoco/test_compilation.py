@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from given import engine_scenes as given
 from given import scenes
-from given.planning import CASES, begun, planned
+from given.planning import CASES, NATIVE, begun, planned
 
 from textmech.cases.case import Case
 from textmech.cases.scene import Scene
@@ -45,7 +45,7 @@ def differing(a: mujoco.MjModel, b: mujoco.MjModel) -> list[str]:
 
 
 @pytest.mark.whole
-@pytest.mark.parametrize("case", CASES.values(), ids=list(CASES))
+@pytest.mark.parametrize("case", NATIVE.values(), ids=list(NATIVE))
 def test_it_equals_the_compiled_script_field_by_field(case: Case) -> None:
     start = assembled(case)
     for setting in ("shipped", "tuned"):

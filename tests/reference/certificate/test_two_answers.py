@@ -153,6 +153,12 @@ CHECKS: dict[str, Two] = {
     "accelerations by Lagrange with multipliers (2.60)": Two(
         "too steep", in_mode(**times(1.01, "accelerations")), in_mode(**times(1.01, "Q4"))
     ),
+    **{
+        f"accelerations by {form}": Two(
+            "too steep", in_mode(**times(1.01, "accelerations")), in_mode(**times(1.01, "Q4"))
+        )
+        for form in ("Voronets (2.66)", "Chaplygin (2.67)", "Appell (2.80)")
+    },
     "power balance (2.51)": Two(
         PENDULUM, in_mode(**times(1.01, "accelerations")), in_mode(**times(1.01, "T"))
     ),

@@ -27,6 +27,7 @@ FREE, BOUND = {"appell"}, {"voronets", "appell"}
 SHIPPED: dict[At, set[str]] = dict.fromkeys(MODES, FREE) | {
     ("four_bar", "moving"): BOUND,
     ("rolling_wheel", "moving"): set(FORMS),
+    **{(name, "moving"): set(FORMS) for name in ("driven_edge", "knife_edge", "sleigh")},
     ("sliding_disk", "rolling"): set(FORMS),
     ("sliding_disk", "slips backward"): set(FORMS),
     ("sliding_disk", "slips forward"): set(FORMS),

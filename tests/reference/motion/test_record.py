@@ -30,6 +30,7 @@ IN_SPACE = [
     "heavy_top.waves",
     "upright_wheel.level",
 ]  # others go the same way
+RISES = "sleigh.forward"  # nothing of it falls through zero
 CREEPING = ("spring_mass_damper.critical", "spring_mass_damper.overdamped")
 LOCATED = 1e-9  # s: a curve of seventh degree through the steps around it
 
@@ -101,7 +102,7 @@ def test_all_smooth_cases_are_here() -> None:
 
 
 @pytest.mark.whole
-@pytest.mark.parametrize("name", SMOOTH + IN_SPACE)
+@pytest.mark.parametrize("name", [name for name in SMOOTH + IN_SPACE if name != RISES])
 def test_a_smooth_case_may_have_an_event(name: str) -> None:
     case = with_event(scenes.SHIPPED[name])
     solution = solve(case)
