@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from given.planning import CASES, SHIPPED, TUNED, planned
+from given.planning import CASES, EVERY, SHIPPED, TUNED, planned
 
 from textmech.cases.case import Case
 from textmech.cases.friction import Bounds
@@ -152,4 +152,4 @@ def test_no_round_finds_its_scene_built(name: str) -> None:
 def test_every_shipped_file_is_measured_once() -> None:
     files = [case.source.file for case in one_of_each_file()]
     assert len(files) == len(set(files))
-    assert set(files) == {case.source.file for case in CASES.values()}
+    assert set(files) == {case.source.file for case in EVERY.values()}
