@@ -2,10 +2,10 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
 
 import numpy as np
 
+from .event import Event
 from .mistake import Mistake, Source
 from .scene import Scene, Vector
 from .trajectory import Array
@@ -53,14 +53,6 @@ class Deviation:
 
 
 @dataclass(frozen=True)
-class Event:
-    """A named instant: when a quantity `stays zero`, `leaves zero`, or `falls to zero`."""
-
-    quantity: str
-    rule: Literal["stays zero", "leaves zero", "falls to zero"]
-
-
-@dataclass(frozen=True)
 class Case:
     """One variant of one case file, with every number resolved."""
 
@@ -83,6 +75,7 @@ class Case:
     stays: tuple[str, ...]  # quantities whose claim is that they do not move
     events: Mapping[str, Event]
     source: Source  # the file, for messages
+    tube: float = 0.0  # s: how long what jumps may take; just after an event is so much later
     long: bool = False  # whether its reference may take any amount of work
 
     @property

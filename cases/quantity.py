@@ -1,11 +1,14 @@
 """The table of quantities that can be observed, with units and kinds.
 
 A quantity is written `part.field`: `crank.angle`, `crank.end.x`, `hinge.force`, `energy.total`.
+At an event it is written behind the event's name: `lands.crank.angle`, `lands.crank.omega.after`.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from typing import Literal
 
+from .event import Event
 from .kind import Fields, Kind
 from .scene import Scene
 
@@ -28,6 +31,8 @@ _EVENT: Fields = {
     "count": ("1", "event"),  # how often it happens
 }
 EVENT_FIELDS = tuple(_EVENT)
+Side = Literal["", "before", "after"]
+SIDES: tuple[Side, ...] = ("", "before", "after")
 
 
 @dataclass(frozen=True)
@@ -55,6 +60,47 @@ def table(scene: Scene) -> dict[str, Quantity]:
 def event_quantities(events: Iterable[str]) -> dict[str, Quantity]:
     """What can be bounded of each named event."""
     return _named(dict.fromkeys(events, _EVENT))
+
+
+@dataclass(frozen=True)
+class AtEvent:
+    """A quantity right at an event: just before or after it, if it jumps there."""
+
+    event: str
+    quantity: str
+    side: Side
+
+
+def at_event(name: str, events: Container[str]) -> AtEvent | None:
+    """What `takes_off.jumper.vx` or `strikes.wheel.omega.after` means; None of anything else."""
+    event, _, rest = name.partition(".")
+    if event not in events or rest in EVENT_FIELDS:
+        return None
+    quantity, _, last = rest.rpartition(".")
+    return AtEvent(event, quantity, last) if last in SIDES[1:] else AtEvent(event, rest, "")
+
+
+def told_by(events: Mapping[str, Event], bounded: Iterable[str]) -> list[str]:
+    """The quantities that the events are of, and those that are bounded at events."""
+    found = [event.quantity for event in events.values()]
+    return found + [at.quantity for name in bounded if (at := at_event(name, events))]
+
+
+def at_events(events: Iterable[str], known: Mapping[str, Quantity]) -> dict[str, Quantity]:
+    """Every quantity at every event, by name; an attitude is none, for turns have no curve."""
+    return {
+        quantity.name: quantity
+        for event in events
+        for one in known.values()
+        if one.field != "attitude"
+        for quantity in _sides(event, one)
+    }
+
+
+def _sides(event: str, one: Quantity) -> Iterator[Quantity]:
+    for side in SIDES:
+        field = ".".join((one.name, side)) if side else one.name
+        yield Quantity(f"{event}.{field}", event, field, one.unit, one.kind)
 
 
 def _named(parts: Mapping[str, Fields]) -> dict[str, Quantity]:

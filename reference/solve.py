@@ -10,7 +10,7 @@ import numpy as np
 
 from ..cases.case import Case
 from ..cases.mistake import CaseError
-from ..cases.quantity import table
+from ..cases.quantity import table, told_by
 from ..cases.trajectory import Trajectory
 from .certificate.agreement import Check
 from .certificate.certify import certify
@@ -103,6 +103,6 @@ def reactions_of(generated: Generated, found: Followed, followed: Followed) -> B
 
 
 def _felt(case: Case) -> bool:
-    """Whether an event is told by a force."""
+    """Whether an event is told by a force, or a force at an event."""
     known = table(case.scene)
-    return any(known[event.quantity].kind == "force" for event in case.events.values())
+    return any(known[name].kind == "force" for name in told_by(case.events, case.allow))

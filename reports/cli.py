@@ -70,7 +70,7 @@ command.add_command(bench)
 def check(files: tuple[str, ...], allow_long: bool) -> None:
     """All mistakes of case files, without running an engine."""
     from ..reference.solve import solve
-    from .events.times import never
+    from .events.states import mistaken
     from .selection import choose_cases, choose_engines
     from .trial.work import too_long
 
@@ -91,7 +91,7 @@ def check(files: tuple[str, ...], allow_long: bool) -> None:
         found = [
             mistake
             for case, solution in zip(chosen, solutions, strict=True)
-            for mistake in never(case, solution.trajectory)
+            for mistake in mistaken(case, solution.trajectory)
         ]
         mistakes += found
         broken = [check for solution in solutions for check in solution.checks if not check.holds]

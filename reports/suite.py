@@ -13,7 +13,7 @@ from ..engines.engine import Engine, Refusal
 from ..reference.solve import Solution, solve
 from .cache.key import Keys
 from .cache.store import Store, passing
-from .events.times import never
+from .events.states import mistaken
 from .judge.compare import crashed
 from .judge.instants import of_reference
 from .judge.metric import told
@@ -118,7 +118,7 @@ def _wrong(case: Case, answer: Solution | CaseError | Died) -> list[Mistake]:
     """What only solving finds."""
     if isinstance(answer, CaseError):
         return answer.mistakes
-    return [] if isinstance(answer, Died) else never(case, answer.trajectory)
+    return [] if isinstance(answer, Died) else mistaken(case, answer.trajectory)
 
 
 def _take(one: Tried, report: Report) -> None:

@@ -81,11 +81,12 @@ def resolve_case(name: str, file: File, scene: Scene, source: Source, *, long: b
         rests=file.rests,
         stays=file.stays,
         events={
-            event: Event(quantity, rule)  # type: ignore[arg-type]  # the grammar's word
+            event: Event(quantity, rule.word, rule.to.value)
             for event, rules in file.events.items()
             for quantity, rule in rules.items()
         },
         source=source,
+        tube=file.tube,
         long=long,
     )
 

@@ -9,7 +9,7 @@ from ...cases.case import Case
 from ...cases.difference import apart
 from ...cases.mistake import Mistake
 from ...cases.observe import observe
-from ...cases.quantity import event_quantities, table
+from ...cases.quantity import at_event, event_quantities, table
 from ...cases.trajectory import Trajectory
 from .agreement import Check, worst
 
@@ -29,20 +29,27 @@ def errors(
     known = table(case.scene)
     times = {name: q for name, q in event_quantities(case.events).items() if q.field == "time"}
     for name in case.allow:
-        least = _least(case, name)
+        least, at = _least(case, name), at_event(name, case.events)
         if name in known:
-            own = observe(case.scene, motion, name)
-            found = [apart(own, observe(case.scene, other, name)) for other in others.values()]
-            error, unit = (
-                worst([EPS * worst(np.abs(own).ravel()), *map(worst, found)]),
-                known[name].unit,
-            )
+            error, unit = _apart(case, motion, others, name), known[name].unit
         elif name in times:
             error, unit = max(EPS * float(motion.times[-1]), late), times[name].unit
+        elif at is not None:  # known as everywhere in the motion, but the event is `late`
+            own = observe(case.scene, motion, at.quantity)
+            fastest = worst(np.abs(np.diff(own))) / case.interval
+            error = _apart(case, motion, others, at.quantity) + fastest * late
+            unit = known[at.quantity].unit
         else:
             continue  # a count: the changes of mode are compared by name and number
         if least is not None:
             yield Check(f"{ERROR}{name}", error / least, SHARE, error, unit)
+
+
+def _apart(case: Case, motion: Trajectory, others: Mapping[str, Trajectory], name: str) -> float:
+    """How far a quantity's samples are from those of any other answer."""
+    own = observe(case.scene, motion, name)
+    found = [apart(own, observe(case.scene, other, name)) for other in others.values()]
+    return worst([EPS * worst(np.abs(own).ravel()), *map(worst, found)])
 
 
 def _least(case: Case, name: str) -> float | None:

@@ -21,11 +21,15 @@ from .rests import LOW, rests
 STILL = 1e-9  # of the largest value of its kind: what the reference's own rounding leaves of a zero
 
 
+CURVE = 4  # steps in the curve that a force is continued by: as good as an engine of order 4
+TREMBLE = 1e-6  # steps: two zeros of a curve that touch are not rounding's to lose
+
+
 def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
     """Times (K,) [s] of the event, from the boundaries of the reference's phases."""
     assert record.phase is not None  # the reference's record has it
     u = observe(scene, record, event.quantity)
-    still = STILL * max(float(np.max(np.abs(u))), _peers(scene, record, event.quantity))
+    u, small = event.falling(u), still(scene, record, event.quantity)
     pieces = [
         piece
         for piece in np.split(np.arange(len(u)), np.flatnonzero(np.diff(record.phase)) + 1)
@@ -35,11 +39,17 @@ def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
     times = [
         float(record.times[before[-1]])
         for before, after in pairwise(pieces)
-        if happens(u[before], u[after], still)
+        if happens(u[before], u[after], small)
     ]
-    if event.rule == "falls to zero":
-        times += [t for piece in pieces for t in passages(record.times[piece], u[piece], still)]
+    if event.crosses:
+        times += [t for piece in pieces for t in passages(record.times[piece], u[piece], small)]
     return np.array(sorted(times), float)
+
+
+def still(scene: Scene, record: Trajectory, name: str) -> float:
+    """What is nothing beside a quantity of the reference, in its unit."""
+    u = observe(scene, record, name)
+    return STILL * max(float(np.max(np.abs(u))), _peers(scene, record, name))
 
 
 def _peers(scene: Scene, record: Trajectory, name: str) -> float:
@@ -56,6 +66,7 @@ _RULES: Mapping[str, Callable[[Array, Array, float], bool]] = {
     "stays zero": lambda u, then, still: _leaves(u, still) and not _leaves(then, still),
     "leaves zero": lambda u, then, still: not _leaves(u, still) and _leaves(then, still),
     "falls to zero": lambda u, then, still: _leaves(u, still) and _lands(u, still),
+    "rises to zero": lambda u, then, still: _leaves(u, still) and _lands(u, still),
 }
 
 
@@ -74,8 +85,8 @@ def engine_events(scene: Scene, record: Trajectory, event: Event) -> Array:
 
     Raises KeyError where the record does not hold the quantity.
     """
-    u = observe(scene, record, event.quantity)
-    if event.rule == "falls to zero":
+    u = event.falling(observe(scene, record, event.quantity))
+    if event.crosses:
         return falls(record.times, u)
     found = rests(record.times, u)
     times = [stop if event.rule == "stays zero" else start for stop, start in found]
@@ -92,7 +103,7 @@ def falls(times: Array, u: Array) -> Array:
     before, now, after, then = u[:-3], u[1:-2], u[2:-1], u[3:]
     turned = (2 * now <= before) & (now > 0) & (after > 0) & (then > after)
     through = (u[:-1] > 0) & (u[1:] <= 0)
-    seen = {int(i): _zero(times, u, int(i)) for i in np.flatnonzero(through)}
+    seen = {int(i): _through(times, u, int(i)) for i in np.flatnonzero(through)}
     seen |= {int(i) + 1: _zero(times, u, int(i)) for i in np.flatnonzero(turned)}
     high = np.cumsum(u > LOW * np.max(np.abs(u)))  # how many steps so far are far from zero
     found, before_it = [], 0
@@ -101,6 +112,23 @@ def falls(times: Array, u: Array) -> Array:
             found.append(t)
             before_it = high[i]
     return np.array(found, float)
+
+
+def _through(times: Array, u: Array, i: int) -> float:
+    """The zero between steps i and i + 1.
+
+    A force that ends is exactly zero from then on, and the line to that tells nothing: the curve
+    through the steps before it does, as far as its zero is in the step.
+    """
+    ended = i >= CURVE - 1 and not np.any(u[i + 1 : i + 3])
+    if not ended:
+        return _zero(times, u, i)
+    h = float(times[i + 1] - times[i])
+    rows = slice(i - CURVE + 1, i + 1)
+    roots = np.roots(np.polyfit((times[rows] - times[i]) / h, u[rows], CURVE - 1))
+    zeros = np.real(roots[np.abs(np.imag(roots)) < TREMBLE])
+    inside = zeros[(zeros > 0.0) & (zeros <= 1.0)]
+    return float(times[i]) + h * float(np.min(inside, initial=1.0))
 
 
 def _zero(times: Array, u: Array, i: int) -> float:

@@ -23,18 +23,18 @@ from .verdict import verdict
 def judge(
     trial: Trial, names: tuple[str, ...], runs: Runs, samples: Samples
 ) -> tuple[list[Comparison], list[Rungs]]:
-    """Rows of tolerance.csv and convergence.csv for the names `event.time` and `event.count`."""
+    """Rows of tolerance.csv and convergence.csv: `event.time`, `event.count`, states at events."""
     rows: list[Comparison] = []
     ladders: list[Rungs] = []
     for name in names:
-        event, _, field = name.rpartition(".")
-        if f"{event}.time" not in samples:
+        event, field = trial.quantity(name).part, trial.quantity(name).field
+        if (f"{event}.time" if field == "count" else name) not in samples:
             why = "refused: adapter: its quantity is not kept for every step"
             rows.append(row(trial, name, why))
         elif field == "count":
             rows.append(_count(trial, event, samples[f"{event}.time"]))
         else:
-            rows.append(_time(trial, event, samples[name], runs))
+            rows.append(_each(trial, name, samples[name], runs))
             ladders += [rungs(trial, *rung) for rung in _climbed(trial, name, runs)]
     return rows, ladders
 
@@ -48,9 +48,9 @@ def _count(trial: Trial, event: str, found: Array) -> Comparison:
     return judged(trial, name, reached, metric.Error(off, off, off, 0), None)
 
 
-def _time(trial: Trial, event: str, found: Array, runs: Runs) -> Comparison:
-    """The times in their order, as many as both have; another count is the other row's matter."""
-    name, wanted = f"{event}.time", trial.events[event]
+def _each(trial: Trial, name: str, found: Array, runs: Runs) -> Comparison:
+    """Times or states in their order, as many as both have; the count is another row's matter."""
+    wanted, times = trial.wanted(name), trial.events[trial.quantity(name).part]
     both = min(len(wanted), len(found))
     if not both:
         return row(trial, name, "refused: engine: the event never happens in its motion")
@@ -59,12 +59,12 @@ def _time(trial: Trial, event: str, found: Array, runs: Runs) -> Comparison:
     reached = verdict(
         trial, name, error.largest, held, cause(held, runs.finer, trial.plan.simplified)
     )
-    return judged(trial, name, reached, error, float(wanted[error.at]))
+    return judged(trial, name, reached, error, float(times[error.at]))
 
 
 def _climbed(trial: Trial, name: str, runs: Runs) -> Iterator[tuple[Ladder, str, Convergence]]:
     """What each ladder's errors by step say, inf where the count is another one."""
-    wanted = trial.events[name.rpartition(".")[0]]
+    wanted = trial.wanted(name)
     for ladder, climbed in runs.ladders.items():
         errors = {
             h: metric.error(samples[name], wanted).largest

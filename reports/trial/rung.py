@@ -8,8 +8,10 @@ import numpy as np
 
 from ...cases.case import Case
 from ...cases.observe import observe
+from ...cases.quantity import at_event, told_by
 from ...cases.trajectory import Array, Trajectory
 from ...engines.engine import Diverged, Engine, Plan, Start
+from ..events.states import engine_states
 from ..events.times import engine_events
 from .ladder import wanted_reactions
 
@@ -48,7 +50,7 @@ def climbed(rung: Rung) -> Climbed:
 
 def _run(rung: Rung) -> Samples:
     case, scene = rung.case, rung.case.scene
-    wanted = dict.fromkeys((*rung.bounds, *(event.quantity for event in case.events.values())))
+    wanted = dict.fromkeys((*rung.bounds, *told_by(case.events, case.allow)))
     trajectory = rung.engine.run(
         scene,
         rung.start,
@@ -66,10 +68,20 @@ def _run(rung: Rung) -> Samples:
 
 
 def _events(case: Case, trajectory: Trajectory) -> Samples:
-    """Times (K,) of every event that can be read from the engine's record, as `event.time`."""
-    found = {}
+    """What can be read from the engine's record of every event: its times (K,), as `event.time`,
+
+    and what the case bounds of its states (K,).
+    """
+    found: dict[str, Array] = {}
+    if trajectory.record is None:
+        return found
     for name, event in case.events.items():
-        if trajectory.record is not None:
-            with suppress(KeyError):  # a reaction that is not recorded at every step
-                found[f"{name}.time"] = engine_events(case.scene, trajectory.record, event)
+        with suppress(KeyError):  # a reaction that is not recorded at every step
+            found[f"{name}.time"] = engine_events(case.scene, trajectory.record, event)
+    for name in case.allow:
+        at = at_event(name, case.events)
+        if at is not None and f"{at.event}.time" in found:
+            times = found[f"{at.event}.time"]
+            with suppress(KeyError):
+                found[name] = engine_states(case, trajectory.record, at, times)
     return found

@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 from ...cases.case import Case
 from ...cases.difference import from_reference
 from ...cases.observe import observe
-from ...cases.quantity import Quantity, event_quantities, table
+from ...cases.quantity import Quantity, at_event, at_events, event_quantities, table
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ...engines.engine import Engine, Plan, Realised, Refusal, Start
+from ..events.states import reference_states
 from ..events.times import reference_events
 from .ladder import judged_step
 from .start import first
@@ -75,7 +76,9 @@ class Trial:
         return self.way
 
     def wanted(self, quantity: str) -> Array:
-        """The reference's samples (N,); of an attitude no turn, (N, 3)."""
+        """The reference's samples (N,), at events (K,); of an attitude no turn, (N, 3)."""
+        if self._dated(quantity):
+            return self._at_events[quantity]
         samples = observe(self.case.scene, self.reference, quantity)
         return from_reference(samples, samples)
 
@@ -88,16 +91,24 @@ class Trial:
     @cached_property
     def withheld(self) -> dict[str, str]:
         """Those judged that the engine does not tell, or not what an event is of, and why."""
-        of = {name: self._told_by(name) for name in judged_names(self.case)}
         whys = self.plan.withheld
-        return {name: whys[told_by] for name, told_by in of.items() if told_by in whys}
+        return {
+            name: whys[told_by]
+            for name in judged_names(self.case)
+            for told_by in self._told_by(name)
+            if told_by in whys
+        }
 
-    def _told_by(self, name: str) -> str:
-        """The quantity itself, or that of the event."""
-        return self.case.events[name.rpartition(".")[0]].quantity if self._dated(name) else name
+    def _told_by(self, name: str) -> tuple[str, ...]:
+        """The quantity itself, and that of the event."""
+        if not self._dated(name):
+            return (name,)
+        event = self.case.events[self.quantity(name).part].quantity
+        found = at_event(name, self.case.events)
+        return (event, found.quantity) if found else (event,)
 
     def _dated(self, name: str) -> bool:
-        return self.quantity(name).kind == "event"
+        return self.quantity(name).part in self.case.events
 
     @property
     def motion(self) -> tuple[str, ...]:
@@ -124,6 +135,16 @@ class Trial:
             for name, event in self.case.events.items()
         }
 
+    @cached_property
+    def _at_events(self) -> dict[str, Array]:
+        """The reference's times (K,) and states (K,) of what is judged of events."""
+        found = {f"{event}.time": times for event, times in self.events.items()}
+        for name in self.case.allow:
+            at, record = at_event(name, self.case.events), self.reference.record
+            if at is not None and record is not None:
+                found[name] = reference_states(self.case, record, at, self.events[at.event])
+        return found
+
     def away(self, distance: float) -> NDArray[np.bool_]:
         """Which samples (N,) are at least `distance` [s] from where the reference switches."""
         gaps = np.abs(self.case.times[:, None] - self.reference.switches[None, :])
@@ -135,8 +156,12 @@ class Trial:
 
     def quantity(self, name: str) -> Quantity:
         """The quantity's unit and kind; the audit has none."""
-        known = table(self.case.scene) | event_quantities(self.case.events)
-        return known.get(name) or Quantity(name, "", "", "", "residual")
+        return self._known.get(name) or Quantity(name, "", "", "", "residual")
+
+    @cached_property
+    def _known(self) -> dict[str, Quantity]:
+        seen, events = table(self.case.scene), self.case.events
+        return seen | event_quantities(events) | at_events(events, seen)
 
     def size(self, name: str) -> float:
         """How large the quantity is; a residual, meant to be zero, has the size of its motion."""

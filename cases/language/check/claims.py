@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 
 from ...mistake import Path, nearest
-from ...quantity import EVENT_FIELDS, Quantity, event_quantities, table
+from ...quantity import EVENT_FIELDS, Quantity, at_event, at_events, event_quantities, table
 from ...scene import Scene
 from ..grammar.number import Amount, NumberMistake, fitting
 from ..parse import Finding, Parsed
@@ -13,18 +13,21 @@ def claims(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     """Mistakes in `events`, `allow`, `reach` and `deviates`."""
     seen = table(scene)
     yield from _events(parsed, scene, seen)
-    yield from _bounds(parsed, seen | event_quantities(parsed.file.events))
+    events = parsed.file.events
+    yield from _bounds(parsed, seen | event_quantities(events) | at_events(events, seen))
 
 
 def _events(parsed: Parsed, scene: Scene, seen: Mapping[str, Quantity]) -> Iterator[Finding]:
     for event, rules in parsed.file.events.items():
-        for name in rules:
+        for name, rule in rules.items():
             path = ("events", event, name)
             if name not in seen:
                 yield from _unknown(parsed, seen, path, name)
             elif not _marks(scene, seen[name]):
                 what = "its zero marks no event; take a place, a velocity, a slip or a force"
                 yield path, what
+            else:
+                yield from _fitting(path, rule.to, seen[name])
 
 
 def _marks(scene: Scene, quantity: Quantity) -> bool:
@@ -75,10 +78,14 @@ def _quantity(
     if name not in known:
         yield from _unknown(parsed, known, path, name)
     elif bound is not None:
-        try:
-            fitting(bound, known[name].unit)
-        except NumberMistake as mistake:
-            yield path, str(mistake)
+        yield from _fitting(path, bound, known[name])
+
+
+def _fitting(path: Path, given: Amount, quantity: Quantity) -> Iterator[Finding]:
+    try:
+        fitting(given, quantity.unit)
+    except NumberMistake as mistake:
+        yield path, str(mistake)
 
 
 def _allowed(
@@ -104,6 +111,8 @@ def _unknown(
         events = parsed.file.events
         hint = nearest(part, events) if events else "; the case has no `events`"
         yield path, f"{part!r} is no event{hint}"
+    elif (at := at_event(name, parsed.file.events)) and at.quantity in EVENT_FIELDS:
+        yield path, f"'{at.event}.{at.quantity}' has no before and no after"
     elif field in ("friction", "slip") and f"{part}.torque" in known:  # a slide without it
         yield path, f"{part!r} has no `dry_friction`, so no {name!r}"
     elif _undriven(known, part, field):
@@ -117,11 +126,14 @@ def _unknown(
 def _hidden(parsed: Parsed, name: str) -> bool:
     """Whether the part or event that the quantity is of may be there, but is unsound."""
     part, field = name.split(".")[0], name.split(".")[-1]
-    unsound = not parsed.broken.isdisjoint({("events",), ("events", part)})
+    found = at_event(name, parsed.file.events)
+    unsound = field in EVENT_FIELDS and ("events",) in parsed.broken
     undriven = any(path[:2] == ("scene", "drive") for path in parsed.broken)
     return (
         parsed.hides(part)
-        or (field in EVENT_FIELDS and unsound)
+        or (found is not None and parsed.hides(found.quantity.split(".")[0]))
+        or ("events", part) in parsed.broken
+        or unsound
         or (field.endswith(("force", "torque")) and undriven)
     )
 

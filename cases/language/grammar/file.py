@@ -151,6 +151,9 @@ class File(Part):
     events: dict[Name, Event] = Field(
         {}, description="named instants: when a quantity comes to zero or leaves it"
     )
+    tube: Annotated[float, In("s", least=0)] = Field(
+        0.0, description="how long a jump at an event may take: what is after it is read so late"
+    )
     duration: Seconds
     samples: int = Field(ge=3, description="number of times at which anything is compared")
     step: Step = Field(
