@@ -1,10 +1,11 @@
-"""Contacts with the floor y = 0."""
+"""Contacts with the floor y = 0, or with another plane of the ground."""
 
 from dataclasses import dataclass
 from typing import Literal
 
 from .kind import Fields
 from .motion import Motion
+from .plane import LEVEL, Plane
 from .point import Anchor
 from .trajectory import ANGLE, OMEGA, Array
 
@@ -12,14 +13,15 @@ _CONTACT: Fields = {
     "normal": ("N", "force"),
     "tangent": ("N", "force"),
     "slip": ("m/s", "residual"),  # of the point that touches
-    "gap": ("m", "residual"),  # its height
-    "drift": ("m", "residual"),  # its x (of a disk x + R angle) against the start: (2.18)
+    "gap": ("m", "residual"),  # its height above the plane
+    # its place along the plane (of a disk that + R angle) against the start: (2.18)
+    "drift": ("m", "residual"),
 }
 
 
 @dataclass(frozen=True)
 class Contact:
-    """A disk's rim, a particle or a point of a bar on the floor y = 0.
+    """A disk's rim, a particle or a point of a bar on a plane of the ground.
 
     It opens, slides and sticks or rolls as friction says, and an impact goes by `restitution`.
     `ideal: rolling` assumes that it only rolls; the reference checks that at every sample.
@@ -31,6 +33,7 @@ class Contact:
     kinetic: float
     restitution: float = 0.0
     ideal: Literal["rolling"] | None = None
+    plane: Plane = LEVEL
 
     @property
     def body(self) -> str:
@@ -56,13 +59,16 @@ class Contact:
 
     def observe(self, motion: Motion, field: str) -> Array:
         """(N,) of the lowest point of a disk's rim, or of the point that touches; else KeyError."""
-        x, y, vx, _ = motion.point(self.at).T
+        x, y, vx, vy = motion.point(self.at).T
+        (ux, uy), gap = self.plane.along, self.plane.height(x, y)
+        place, slip = ux * x + uy * y, ux * vx + uy * vy
         radius = motion.bodies[self.body].radius
         if radius is not None:
             s = motion.trajectory.states[self.body]
-            x, y, vx = x + radius * s[:, ANGLE], y - radius, vx + radius * s[:, OMEGA]
+            place, gap = place + radius * s[:, ANGLE], gap - radius
+            slip = slip + radius * s[:, OMEGA]
         if field == "drift":
-            return x - x[0]
+            return place - place[0]
         if field not in ("gap", "slip"):
             raise KeyError(f"{self.name}.{field}")
-        return y if field == "gap" else vx
+        return gap if field == "gap" else slip

@@ -111,8 +111,8 @@ def _unsaid(case: Case, motion: Trajectory, happened: Collection[str | None]) ->
         lands = contact.ideal is None and f"{name} lands" in happened
         if lands and gap > OPEN * size and f"{name}.gap" not in said:
             what = (
-                f"starts {gap:.3g} m above the floor; if it is meant to fall on it, name the "
-                f"event: events: {{lands: {{{name}.gap: falls to zero}}}}"
+                f"starts {gap:.3g} m above the {contact.plane.name}; if it is meant to fall on it, "
+                f"name the event: events: {{lands: {{{name}.gap: falls to zero}}}}"
             )
             yield case.mistake(("scene", "contacts", name), what)
 

@@ -17,12 +17,13 @@ def resolve_scene(file: File) -> Scene:
     s: Any = file.scene
     if s.space is not None:
         return _in_space(s)
+    planes = _named(s.planes)
     return Scene(
         gravity=_gravity(s.gravity, s.incline, (1.0, 0.0), (0.0, 0.0 if s.seen else -1.0)),
         points=s.points,
         bodies=_named(s.bodies),
         joints=_named(s.joints),
-        contacts=_named(s.contacts),
+        contacts={name: contact.named(name, planes) for name, contact in s.contacts.items()},
         forces=_named(s.forces),
         constraints=_named(s.constraints),
     )

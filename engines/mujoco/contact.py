@@ -1,4 +1,4 @@
-"""MuJoCo's recipes for contacts with the floor, chosen by the scene and its start.
+"""MuJoCo's recipes for contacts with planes of the ground, chosen by the scene and its start.
 
 MuJoCo asks of a contact the acceleration d (−b v − k r) + (1 − d) a, where a is the one without
 the contact. What holds a wheel (d near 1) makes a sliding body hop and takes the friction out of
@@ -41,16 +41,18 @@ def alone(scene: Scene, contact: Contact) -> bool:
 
 
 def falls(scene: Scene, start: Start) -> bool:
-    """Whether something starts above the floor."""
+    """Whether something starts above its plane."""
     return any(height(scene, contact, start) > CLOSED for contact in scene.contacts.values())
 
 
 def height(scene: Scene, contact: Contact, start: Start) -> float:
-    """How high [m] what touches is above the floor."""
+    """How high [m] what touches is above its plane."""
     body = scene.bodies[contact.body]
     dx, dy = body.points[contact.at.point]
-    _, y, angle, *_ = start[contact.body]
-    return y + math.sin(angle) * dx + math.cos(angle) * dy - (body.radius or 0.0)
+    x, y, angle, *_ = start[contact.body]
+    cos, sin = math.cos(angle), math.sin(angle)
+    place = x + cos * dx - sin * dy, y + sin * dx + cos * dy
+    return float(contact.plane.height(*place)) - (body.radius or 0.0)
 
 
 def _rolling(h: float) -> list[Choice]:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
-from ...cases.scene import Scene
+from ...cases.scene import CENTER, Contact, Scene
 from ..engine import Choice, Plan, Realised, Start
 from ..law import one_number
 from .compilation import NOMINAL, settled
@@ -71,6 +71,11 @@ def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> 
         if falls(scene, start):
             words.append("starts above the floor: contacts are tuned for impacts")
         *_, depths = settled(scene, start, step, plan)
-        deep = ((name, depth) for name, depth in depths.items() if depth)
-        words += [f"{name} started {depth:.1e} m in the floor" for name, depth in deep]
+        deep = ((scene.contacts[name], depth) for name, depth in depths.items() if depth)
+        words += [f"{_at(c)} started {depth:.1e} m in the {c.plane.name}" for c, depth in deep]
     return "; ".join(words)
+
+
+def _at(contact: Contact) -> str:
+    """`wheel`, `rod.end`."""
+    return contact.body if contact.at.point == CENTER else str(contact.at)

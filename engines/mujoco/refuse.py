@@ -35,10 +35,11 @@ def unbuildable(scene: Scene) -> str | None:
             reason = _slide(scene, tree, branch, branch.joint)
             if reason is not None:
                 return reason
-    touching = [contact.at for contact in scene.contacts.values()]
+    touching = [(contact.at, contact.plane) for contact in scene.contacts.values()]
     for name, contact in scene.contacts.items():
-        if touching.count(contact.at) > 1:
-            return f"adapter: {name} is not the only contact of {contact.at} with the floor"
+        if touching.count((contact.at, contact.plane)) > 1:
+            where = f"{contact.at} with the {contact.plane.name}"
+            return f"adapter: {name} is not the only contact of {where}"
         if 0 < contact.restitution < LEAST_BOUNCE:
             return (
                 f"engine: MuJoCo's floor is a spring and damper, and the damper that throws "

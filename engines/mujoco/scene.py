@@ -8,10 +8,11 @@ import math
 from collections.abc import Iterable, Sequence
 from xml.etree import ElementTree as ET
 
-from ...cases.scene import GROUND, Anchor, Contact, DryFriction, Scene
+from ...cases.scene import GROUND, Anchor, DryFriction, Scene
 from ..engine import Choice, Start
 from .edge import write_room
 from .force import signals, write
+from .planes import add_geom, add_pairs, add_planes
 from .tree import (
     Branch,
     Tree,
@@ -29,7 +30,6 @@ from .written import attributes, written
 HEAVY = 1e15  # kg of a driven point: 1 N changes its velocity by 1e-15 m/s in a second
 LEAST = 1e-15  # kg m² (mjMINVAL) of a particle: MuJoCo takes no less of a body with a joint
 FLOOR = f"{GROUND}.floor"  # no contact can be called that
-POINT = 1e-12  # m, radius of a point that touches: too small to be an arm or a gap
 
 
 def mjcf(
@@ -55,8 +55,7 @@ def mjcf(
     _world(world, scene)
     _bodies(world, scene, tree, numbers)
     if scene.contacts:
-        _contacts(root, scene, attributes(numbers, "pair"))
-        _sensors(root, scene)
+        add_pairs(root, scene, attributes(numbers, "pair"))
     if tree.loops:
         _loops(root, tree, attributes(numbers, "connect"))
     write(root, scene)
@@ -67,11 +66,7 @@ def mjcf(
 
 
 def _world(world: ET.Element, scene: Scene) -> None:
-    if scene.contacts:
-        ET.SubElement(
-            world, "geom", name=FLOOR, type="plane", size="0 0 1", zaxis="0 1 0",
-            contype="0", conaffinity="0",
-        )  # fmt: skip
+    add_planes(world, scene)
     ET.SubElement(world, "site", name=GROUND, pos="0 0 0")
     for name, point in scene.points.items():
         if not point.driven:
@@ -119,23 +114,13 @@ def _bodies(world: ET.Element, scene: Scene, tree: Tree, numbers: dict[str, obje
             ET.SubElement(element, "site", name=f"{body.name}.{name}", pos=written(*at, 0))
         for contact in scene.contacts.values():
             if contact.body == body.name:
-                _touching(element, scene, contact)
+                add_geom(element, scene, contact)
 
 
 def _leaves_plane(scene: Scene, numbers: dict[str, object]) -> bool:
     """Whether free bodies may move along z: nothing pushes them there, but without that freedom
     MuJoCo's noslip solver silently does nothing."""
     return bool(scene.contacts) and numbers.get("option.noslip_iterations", 0) != 0
-
-
-def _touching(element: ET.Element, scene: Scene, contact: Contact) -> None:
-    """A disk's rim, or a point."""
-    radius = scene.bodies[contact.body].radius
-    at = scene.bodies[contact.body].points[contact.at.point]
-    ET.SubElement(
-        element, "geom", name=contact.name, type="sphere", pos=written(*at, 0),
-        size=written(POINT if radius is None else radius), contype="0", conaffinity="0",
-    )  # fmt: skip
 
 
 def _hang(element: ET.Element, scene: Scene, branch: Branch, soft: dict[str, str]) -> None:
@@ -177,31 +162,6 @@ def local(scene: Scene, anchor: Anchor) -> tuple[float, float]:
         point = scene.points[anchor.point]
         return (0.0, 0.0) if point.driven else point.at
     return scene.bodies[anchor.body].points[anchor.point]
-
-
-def _contacts(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> None:
-    contacts = ET.SubElement(root, "contact")
-    for contact in scene.contacts.values():
-        # A pair takes one coefficient; two geoms would take the larger of theirs.
-        ET.SubElement(
-            contacts, "pair", attributes,
-            name=contact.name, geom1=FLOOR, geom2=contact.name, condim=_dimensions(contact),
-            friction=written(contact.friction, contact.friction, 0, 0, 0),
-        )  # fmt: skip
-
-
-def _sensors(root: ET.Element, scene: Scene) -> None:
-    """The floor's force on each, along the ground's axes: MuJoCo records it at every step."""
-    sensors = ET.SubElement(root, "sensor")
-    for name in scene.contacts:
-        ET.SubElement(
-            sensors, "contact", geom1=FLOOR, geom2=name, data="force", num="1", reduce="netforce",
-        )  # fmt: skip
-
-
-def _dimensions(contact: Contact) -> str:
-    """What is smooth gets no friction at all: MuJoCo knows no coefficient below 1e-5."""
-    return "3" if contact.friction else "1"
 
 
 def _loops(root: ET.Element, tree: Tree, attributes: dict[str, str]) -> None:

@@ -1,7 +1,7 @@
-"""What touches the floor, as pymunk's circles.
+"""What touches a plane of the ground, as pymunk's circles.
 
 A point of a body (a particle, a bar's end) is a circle whose lowest point is the point: placed
-above it before every step, at the angle after the drift, so that the floor finds the contact and
+above it before every step, at the angle after the drift, so that the plane finds the contact and
 its lever arm exactly there. A circle about the point itself would touch with its rim, and a
 tiny one falls through the floor at v h > r.
 """
@@ -13,6 +13,7 @@ from pymunk.body import Body
 from pymunk.shape_filter import ShapeFilter
 from pymunk.shapes import Circle
 
+from ...cases.plane import Plane
 from ...cases.scene import Body as Part
 from ...cases.scene import Contact, Scene, Vector
 from ..engine import Start
@@ -22,7 +23,7 @@ FLOOR_ELASTICITY = 1.0  # likewise the restitution
 ABOVE = 0.1  # m; it must only be more than a step's way: up to 10 m/s with a user's 10 ms
 Follow = Callable[[float], None]  # before the step that starts at t [s]
 TOUCHING = 1e-9  # m: a start that the assembly has found to 1e-12, and no visible height
-_GROUP = ShapeFilter(group=1)  # circles touch the floor and not each other
+_TOGETHER = 1  # the group of all circles: they touch planes and not each other
 
 
 def is_tip(scene: Scene, contact: Contact) -> bool:
@@ -34,18 +35,34 @@ def is_tip(scene: Scene, contact: Contact) -> bool:
 def circle(contact: Contact, part: Part, body: Body) -> Circle:
     """The contact's shape: the disk itself, or the circle above the point."""
     if part.radius is None:
-        shape = Circle(body, ABOVE, above(part.points[contact.at.point], body.angle))
+        at = above(contact.plane, part.points[contact.at.point], body.angle)
+        shape = Circle(body, ABOVE, at)
     else:
         shape = Circle(body, part.radius)
     shape.friction = contact.friction
     shape.elasticity = contact.restitution
-    shape.filter = _GROUP
+    shape.filter = ShapeFilter(group=_TOGETHER)
     return shape
 
 
-def above(point: Vector, angle: float) -> Vector:
-    """The circle's centre in body axes, ABOVE m over the point in ground axes."""
-    return (point[0] + math.sin(angle) * ABOVE, point[1] + math.cos(angle) * ABOVE)
+def planes(scene: Scene) -> dict[Plane, ShapeFilter]:
+    """The planes that are touched, each with what its segment is told."""
+    found = list(dict.fromkeys(contact.plane for contact in scene.contacts.values()))
+    if len(found) < 2:
+        return dict.fromkeys(found, ShapeFilter())
+    return {plane: ShapeFilter(categories=1 << i) for i, plane in enumerate(found)}
+
+
+def only(shape: Circle, plane: ShapeFilter) -> None:
+    """Lets the circle touch one plane of several: what stands over a point is no part of a body."""
+    if plane != ShapeFilter():
+        shape.filter = ShapeFilter(group=_TOGETHER, mask=plane.categories)
+
+
+def above(plane: Plane, point: Vector, angle: float) -> Vector:
+    """The circle's centre in body axes, ABOVE m over the point in the ground's."""
+    (nx, ny), cos, sin = plane.normal, math.cos(angle), math.sin(angle)
+    return (point[0] + (cos * nx + sin * ny) * ABOVE, point[1] + (cos * ny - sin * nx) * ABOVE)
 
 
 def follower(
@@ -61,6 +78,7 @@ def follower(
     if part.radius is not None or not part.turns or body is None:
         return None
     a, b = part.points[contact.at.point]
+    (nx, ny), level = contact.plane.normal, contact.plane.height(0.0, 0.0)
     impact = now = contact.restitution
     touched = False
 
@@ -69,14 +87,16 @@ def follower(
         angle = body.angle
         if reflects:
             # as pymunk found it in the step before; in the first step it strikes the floor
-            low = body.position.y + math.sin(angle) * a + math.cos(angle) * b
+            cos, sin, (x, y) = math.cos(angle), math.sin(angle), body.position
+            low = level + nx * (x + cos * a - sin * b) + ny * (y + sin * a + cos * b)
             stays = touched and low < shape.radius - ABOVE
             touched = True
             if now != (1.0 if stays else impact):
                 shape.elasticity = now = 1.0 if stays else impact
         turned = angle + step * body.angular_velocity
         sin, cos = math.sin(turned), math.cos(turned)
-        shape.unsafe_set_offset((a + sin * ABOVE, b + cos * ABOVE))
+        along, up = cos * nx + sin * ny, cos * ny - sin * nx  # the normal, in body axes
+        shape.unsafe_set_offset((a + along * ABOVE, b + up * ABOVE))
 
     return follow
 
@@ -88,16 +108,17 @@ def closed(scene: Scene, start: Start) -> list[Contact]:
 
 def _gap(scene: Scene, start: Start, contact: Contact) -> float:
     """Height [m] of the point that touches."""
-    part, (_, y, angle, *_) = scene.bodies[contact.body], start[contact.body]
-    if part.radius is not None:
-        return y - part.radius
+    part, (x, y, angle, *_) = scene.bodies[contact.body], start[contact.body]
     a, b = part.points[contact.at.point]
-    return y + math.sin(angle) * a + math.cos(angle) * b
+    cos, sin = math.cos(angle), math.sin(angle)
+    place = x + cos * a - sin * b, y + sin * a + cos * b
+    return float(contact.plane.height(*place)) - (part.radius or 0.0)
 
 
-def sink(part: Part, shape: Circle, depth: float) -> None:
-    """Starts the contact `depth` m in the floor; a point's circle grows, a disk is moved."""
+def sink(contact: Contact, part: Part, shape: Circle, depth: float) -> None:
+    """Starts the contact `depth` m in its plane; a point's circle grows, a disk is moved."""
     if part.radius is None:
         shape.unsafe_set_radius(ABOVE + depth)
     elif shape.body:
-        shape.body.position -= (0.0, depth)
+        nx, ny = contact.plane.normal
+        shape.body.position -= (depth * nx, depth * ny)

@@ -94,7 +94,8 @@ def _words(scene: Scene, start: Start, recipe: Recipe, step: float) -> str:
     words = [f"started {step / 2:g} s back, positions read {step / 2:g} s ahead"]
     if touching := closed(scene, start):
         bodies = ", ".join(dict.fromkeys(contact.body for contact in touching))
-        words.append(f"{bodies} started {numbers['start.seed']:g} m in the floor")
+        planes = " and the ".join(dict.fromkeys(contact.plane.name for contact in touching))
+        words.append(f"{bodies} started {numbers['start.seed']:g} m in the {planes}")
     if slots := [joint.name for joint in scene.joints.values() if oblique(scene, joint)]:
         words.append(f"{', '.join(slots)} held across by a pin joint that is carried along")
     if scene.constraints:

@@ -7,7 +7,7 @@ engine, see run.py and slot.py.
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ...cases.scene import GROUND, Contact, Scene
+from ...cases.scene import GROUND, Contact, Scene, Vector
 from ..engine import Choice, Start
 from .contact import is_tip
 from .holding import Holding, holding
@@ -86,15 +86,19 @@ def recipe(scene: Scene, start: Start) -> Recipe:
     return Recipe(tuple(always), holding(scene, start))
 
 
-def _rises(scene: Scene, contact: Contact) -> bool:
-    """Whether it lands and stays, and no joint holds down what is lifted out of the floor.
+def _across(a: Vector, b: Vector) -> float:
+    return a[0] * b[0] + a[1] * b[1]
 
-    Between a floor and a pin each would undo what the other corrects: measured, 0.02 rad.
+
+def _rises(scene: Scene, contact: Contact) -> bool:
+    """Whether it lands and stays, and no joint holds down what is lifted out of its plane.
+
+    Between a plane and a pin each would undo what the other corrects: measured, 0.02 rad.
     """
     if contact.restitution:
         return False
     return all(
-        joint.shifts and joint.a.body == GROUND and not joint.along[0]
+        joint.shifts and joint.a.body == GROUND and not _across(joint.along, contact.plane.along)
         for joint in scene.joints.values()
         if contact.body in (joint.a.body, joint.b.body)
     )

@@ -27,7 +27,8 @@ def placed(
     """The world where a setting starts it: wheels seeded, bodies half a step back."""
     world = build(scene, start, numbers, realised)
     for contact in closed(scene, start):
-        sink(scene.bodies[contact.body], world.wheels[contact.name], numbers.get("start.seed", 0.0))
+        seed = numbers.get("start.seed", 0.0)
+        sink(contact, scene.bodies[contact.body], world.wheels[contact.name], seed)
     if numbers.get("time.midpoint"):
         for body in (*world.bodies.values(), *world.driven.values()):
             body.position -= step / 2 * body.velocity

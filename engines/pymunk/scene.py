@@ -1,7 +1,7 @@
 """Scene and start state → a pymunk Space: construction only, nothing moves here.
 
 Masses and inertias are given to the bodies; shapes carry none, because pymunk's inertia of a
-segment with a radius is that of a box. Only what touches the floor has a shape.
+segment with a radius is that of a box. Only what touches a plane has a shape.
 """
 
 import math
@@ -15,13 +15,13 @@ from pymunk.space import Space
 
 from ...cases.scene import GROUND, Anchor, DryFriction, Joint, Scene, Vector
 from ..engine import Realised, Start
-from .contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle
+from .contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle, only, planes
 from .edge import add_edges
 from .force import lines
 from .slot import line, pinned
 from .world import World
 
-# Half the length [m] of the floor, and of a slide's groove, which pymunk wants finite. Every step
+# Half the length [m] of planes, and of a slide's groove, which pymunk wants finite. Every step
 # takes anew 1e-16 × the length of a place, and so 1e-16 × length × mass / h² of a force: 1e-6 N of
 # 1 kg at 1e-4 s.
 NEAR = 100.0
@@ -62,15 +62,20 @@ def _bodies(world: World, start: Start) -> None:
 
 
 def _contacts(world: World) -> None:
-    if not world.scene.contacts:
-        return
-    floor = Segment(world.space.static_body, (-world.reach, 0.0), (world.reach, 0.0), 0.0)
-    floor.friction, floor.elasticity = FLOOR_FRICTION, FLOOR_ELASTICITY
-    world.space.add(floor)
+    known = planes(world.scene)
+    for plane, told in known.items():
+        (x, y), (ux, uy), far = plane.at, plane.along, world.reach
+        ends = (x - far * ux, y - far * uy), (x + far * ux, y + far * uy)
+        segment = Segment(world.space.static_body, *ends, 0.0)
+        segment.friction, segment.elasticity = FLOOR_FRICTION, FLOOR_ELASTICITY
+        segment.filter = told
+        world.planes[plane.name] = segment
+        world.space.add(segment)
     for contact in world.scene.contacts.values():
         part, body = world.scene.bodies[contact.body], world.bodies[contact.body]
-        world.wheels[contact.name] = circle(contact, part, body)
-        world.space.add(world.wheels[contact.name])
+        world.wheels[contact.name] = wheel = circle(contact, part, body)
+        only(wheel, known[contact.plane])
+        world.space.add(wheel)
 
 
 def _joints(world: World, start: Start, *, across: bool) -> None:

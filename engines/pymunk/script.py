@@ -14,8 +14,8 @@ from pymunk.constraints import (
     PinJoint,
     PivotJoint,
 )
-from pymunk.shapes import Segment
 
+from ...cases.plane import LEVEL, Plane
 from ...cases.scene import Scene
 from ..engine import Start
 from .contact import ABOVE, closed, is_tip
@@ -95,7 +95,7 @@ def building(world: World, start: Start, numbers: Mapping[str, Any]) -> list[str
         "bodies = {}",
         *(["", *_CARRIED] if world.slots else []),
         *_bodies(world),
-        *_floor(world, reflects=bool(numbers.get("contact.reflects"))),
+        *_planes(world, reflects=bool(numbers.get("contact.reflects"))),
         *_constraints(world, numbers),
         *joints_as_text(world, lambda body: _of(world, body)),
     ]
@@ -118,11 +118,12 @@ def _sweeps(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _seeds(world: World, start: Start, seed: float) -> list[str]:
-    lines = ["", "# a circle that only touches the floor would fall freely for one step"]
+    lines = ["", "# a circle that only touches would fall freely for one step"]
     for contact in closed(world.scene, start):
         body, wheel = _of(world, world.wheel(contact.name)), world.wheels[contact.name]
         if world.scene.bodies[contact.body].radius is not None:
-            lines.append(f"{body}.position -= (0.0, {seed!r})")
+            nx, ny = contact.plane.normal
+            lines.append(f"{body}.position -= ({seed * nx!r}, {seed * ny!r})")
         else:
             lines.append(f"wheels[{contact.name!r}].unsafe_set_radius({wheel.radius + seed!r})")
     return lines if len(lines) > 2 else []
@@ -151,15 +152,19 @@ def _bodies(world: World) -> Iterator[str]:
         yield "space.add(body)"
 
 
-def _floor(world: World, *, reflects: bool) -> Iterator[str]:
-    for shape in world.space.static_body.shapes:
-        assert isinstance(shape, Segment)
+def _planes(world: World, *, reflects: bool) -> Iterator[str]:
+    several = len(world.planes) > 1
+    for name, shape in world.planes.items():
         yield ""
-        yield f"floor = pymunk.Segment(ground, {written(shape.a)}, {written(shape.b)}, 0.0)"
-        yield f"floor.friction = {shape.friction!r}"
+        ends = f"{written(shape.a)}, {written(shape.b)}"
+        yield f"plane = pymunk.Segment(ground, {ends}, 0.0)  # {name}"
+        yield f"plane.friction = {shape.friction!r}"
         if reflects or any(wheel.elasticity for wheel in world.wheels.values()):
-            yield f"floor.elasticity = {shape.elasticity!r}"
-        yield "space.add(floor)"
+            yield f"plane.elasticity = {shape.elasticity!r}"
+        if several:
+            yield f"plane.filter = pymunk.ShapeFilter(categories={shape.filter.categories})"
+        yield "space.add(plane)"
+    if world.planes:
         yield "wheels = {}"
     for name, wheel in world.wheels.items():
         size = f"{wheel.radius!r}, {written(wheel.offset)}" if any(wheel.offset) else wheel.radius
@@ -167,7 +172,8 @@ def _floor(world: World, *, reflects: bool) -> Iterator[str]:
         yield f"wheel.friction = {wheel.friction!r}  # pymunk takes the product of both"
         if wheel.elasticity:
             yield f"wheel.elasticity = {wheel.elasticity!r}  # of these too"
-        yield f"wheel.filter = pymunk.ShapeFilter(group={wheel.filter.group})"
+        mask = f", mask={wheel.filter.mask}" if several else ""
+        yield f"wheel.filter = pymunk.ShapeFilter(group={wheel.filter.group}{mask})"
         yield "space.add(wheel)"
 
 
@@ -207,10 +213,26 @@ def _followers(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
         body, (a, b) = _of(world, world.wheel(contact.name)), world.local(contact.at)
         wheel = f"wheels[{contact.name!r}]"
         if numbers.get("contact.reflects"):
-            yield f"    low = pymunk.Vec2d({a!r}, {b!r}).rotated({body}.angle).y"
-            yield f"    low += {body}.position.y - {wheel}.radius + {ABOVE}"
+            yield f"    low = pymunk.Vec2d({a!r}, {b!r}).rotated({body}.angle)"
+            yield f"    low = {_height(contact.plane, f'({body}.position + low)')}"
+            yield f"    low -= {wheel}.radius - {ABOVE}"
             yield "    stays = n > 0 and low < 0"
             yield f"    {wheel}.elasticity = 1.0 if stays else {contact.restitution!r}"
         yield f"    turned = {body}.angle + h * {body}.angular_velocity"
-        offset = f"({a!r} + {ABOVE} * math.sin(turned), {b!r} + {ABOVE} * math.cos(turned))"
+        nx, ny = contact.plane.normal
+        along = _sum(a, (ABOVE * nx, "math.cos(turned)"), (ABOVE * ny, "math.sin(turned)"))
+        up = _sum(b, (ABOVE * ny, "math.cos(turned)"), (-ABOVE * nx, "math.sin(turned)"))
+        offset = f"({along}, {up})"
         yield f"    {wheel}.unsafe_set_offset({offset})"
+
+
+def _height(plane: Plane, place: str) -> str:
+    """How far a place is above the plane."""
+    if plane == LEVEL:
+        return f"{place}.y"
+    return f"({place} - {written(plane.at)}).dot({written(plane.normal)})"
+
+
+def _sum(first: float, *terms: tuple[float, str]) -> str:
+    """Without the terms that are nothing."""
+    return " + ".join([repr(first), *(f"{size!r} * {what}" for size, what in terms if size)])

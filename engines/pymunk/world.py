@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 from pymunk.body import Body
 from pymunk.constraints import Constraint, DampedRotarySpring, DampedSpring, GrooveJoint
-from pymunk.shapes import Circle
+from pymunk.shapes import Circle, Segment
 from pymunk.space import Space
 
 from ...cases.scene import GROUND, Anchor, Scene, Vector
@@ -16,7 +16,7 @@ from .slot import Line
 class World:
     """The space and its parts by their names in the scene.
 
-    A joint's first constraint carries its force. reach: half the length [m] of the floor and of
+    A joint's first constraint carries its force. reach: half the length [m] of planes and of
     grooves of the ground. driven: the driven points' bodies. brakes: the friction joints of slides.
     slots: the lines that pin joints hold. pins: those of edges, by the reaction: `blade.force`.
     """
@@ -32,6 +32,7 @@ class World:
     slots: dict[str, Line] = field(default_factory=dict)
     pins: dict[str, Pin] = field(default_factory=dict)
     wheels: dict[str, Circle] = field(default_factory=dict)
+    planes: dict[str, Segment] = field(default_factory=dict)
 
     def body(self, anchor: Anchor) -> Body:
         if anchor.body != GROUND:
@@ -39,7 +40,7 @@ class World:
         return self.driven.get(anchor.point, self.space.static_body)
 
     def wheel(self, contact: str) -> Body:
-        """The body that touches the floor."""
+        """The body that touches."""
         return self.bodies[self.scene.contacts[contact].body]
 
     def local(self, anchor: Anchor) -> Vector:

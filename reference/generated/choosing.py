@@ -76,7 +76,7 @@ def settled(modes: Modes, choices: Sequence[Options], t: float, q: Array, v: Arr
     for other in found[1:]:
         for e, one, two in zip(modes.elements, found[0], other, strict=True):
             if (one == "open") != (two == "open") and not _grazes(modes, e, found[0], t, q, v):
-                raise painleve(e.name, "both staying on and leaving the floor", t)
+                raise painleve(e.name, f"both staying on and leaving the {e.plane}", t)
     return modes.name(found[0]), *_projected(modes, found[0], t, q, v)
 
 

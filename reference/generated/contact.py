@@ -1,7 +1,8 @@
-"""What a contact on the floor or a slide at rest holds, and its friction when it does not rest.
+"""What a contact on a plane or a slide at rest holds, and its friction when it does not rest.
 
-The floor is y = 0, and R is the radius of a rim (0 for a particle or a point of a bar), whose
-lowest point touches.
+A plane of the ground has the unit normal n, and u along it with n to its left; of the floor they
+are y and x. R is the radius of a rim (0 for a particle or a point of a bar), whose lowest point
+touches.
 """
 
 from collections.abc import Callable
@@ -11,18 +12,20 @@ from typing import Any
 from ...cases.scene import CENTER, Contact, Joint
 from .constraint import Constraint
 from .coordinates import Coordinates
-from .rows import FIRST, SECOND, Along, Line, Turning, X, Y
+from .rows import FIRST, SECOND, Along, Line, Turning
 
 
 def normal(contact: Contact, where: Coordinates) -> Constraint:
-    """A closed contact: the lowest point stays on the floor, y_P − R = 0; λ is the normal force."""
-    row, held = (Along(FIRST, Y),), (_radius(contact, where),)
+    """A closed contact: the lowest point stays on the plane, n·r_P − R = n·r₀; λ is its force."""
+    (x, y), plane = contact.plane.at, contact.plane
+    held = (plane.normal[0] * x + plane.normal[1] * y + _radius(contact, where),)
+    row = (Along(FIRST, plane.normal),)
     return Constraint(contact.name, (contact.at,), (row,), (("normal",),), held, where)
 
 
 def tangent(contact: Contact, where: Coordinates) -> Constraint:
-    """(2.16) ẋ_P + R ω = 0: it sticks, a rim: it rolls, somewhere; λ is the friction force."""
-    row = (Along(FIRST, X), Turning(FIRST, _radius(contact, where)))
+    """(2.16) u·ṙ_P + R ω = 0: it sticks, a rim: it rolls, somewhere; λ is the friction force."""
+    row = (Along(FIRST, contact.plane.along), Turning(FIRST, _radius(contact, where)))
     return Constraint(contact.name, (contact.at,), (row,), (("tangent",),), None, where)
 
 

@@ -62,11 +62,17 @@ class Element:
     kinetic: float = 0.0  # coefficient of a contact that slides
     static: float = 0.0  # of one that sticks
     restitution: float = 0.0
+    plane: str = ""  # that a contact is with
 
     @property
     def body(self) -> str:
         """The one that slips."""
         return self.tangent.ends[-1].body
+
+    @property
+    def slips(self) -> tuple[str, str]:
+        """What has one slip with all its points: a body on a plane."""
+        return self.body, self.plane
 
     def held(self, state: State) -> list[Constraint]:
         """The constraints of the state."""
@@ -158,6 +164,7 @@ def elements(scene: Scene, where: Coordinates) -> Iterator[Element]:
                 kinetic=contact.kinetic,
                 restitution=contact.restitution,
                 frictionless=contact.static == 0.0,
+                plane=contact.plane.name,
             )
     for joint in scene.joints.values():
         if (friction := joint.dry_friction) is None:

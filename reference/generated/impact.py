@@ -80,7 +80,7 @@ def _tried(
     columns: list[Array] = []
     after: list[float] = []
     normals: list[int | None] = []  # where each contact's normal row stands
-    stuck: dict[str, int] = {}  # and the row of no slip of each body that sticks
+    stuck: dict[tuple[str, str], int] = {}  # and the row of no slip of what sticks
     for joint in joints:
         rows.append(joint.f)
         columns.append(joint.f)
@@ -94,9 +94,9 @@ def _tried(
         rows.append(meeting.normal.f)
         columns.append(meeting.normal.f + lean * meeting.tangent.f)
         after.append(meeting.after)
-        body = meeting.element.body
-        if state == "sticks" and body not in stuck:  # its other points do not slip either
-            stuck[body] = len(rows)
+        mine = meeting.element.slips
+        if state == "sticks" and mine not in stuck:  # its other points do not slip either
+            stuck[mine] = len(rows)
             rows.append(meeting.tangent.f)
             columns.append(meeting.tangent.f)
             after.append(0.0)
@@ -122,7 +122,7 @@ def _tried(
 def _held(
     meetings: Sequence[Meeting],
     normals: Sequence[int | None],
-    stuck: Mapping[str, int],
+    stuck: Mapping[tuple[str, str], int],
     impulse: Array,
     nothing: float,
 ) -> bool:
@@ -130,9 +130,9 @@ def _held(
 
     A contact that the impact does not concern gets an impulse of rounding, of either sign.
     """
-    for body, row in stuck.items():
+    for mine, row in stuck.items():
         pairs = [(m.element, at) for m, at in zip(meetings, normals, strict=True)]
-        cone = sum(e.kinetic * impulse[at] for e, at in pairs if at is not None and e.body == body)
+        cone = sum(e.kinetic * impulse[at] for e, at in pairs if at is not None and e.slips == mine)
         if abs(impulse[row]) > (1 + CONE) * cone + nothing:
             return False
     return True

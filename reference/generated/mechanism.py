@@ -55,10 +55,12 @@ class Mechanism(System):
             if gap > CLOSED * self.size:
                 return ("open",)
             if gap < -CLOSED * self.size:
-                raise BadStart(f"{element.name} starts {-gap * 1e3:.3g} mm in the floor")
+                raise BadStart(f"{element.name} starts {-gap * 1e3:.3g} mm in the {element.plane}")
             rising = rate(element.normal, 0.0, q, v)
             if rising < -still:
-                raise BadStart(f"{element.name} starts into the floor, with {-rising:.3g} m/s")
+                raise BadStart(
+                    f"{element.name} starts into the {element.plane}, with {-rising:.3g} m/s"
+                )
             if rising > still:
                 return ("open",)
         slip = rate(element.tangent, 0.0, q, v)
@@ -116,7 +118,7 @@ class Mechanism(System):
             assert e.normal is not None
             rises = self.built.change(e.normal, after[0], t, q, v)
             if rises < -self.built.small(t, q, v):
-                raise painleve(e.name, "neither staying nor leaving the floor", t)
+                raise painleve(e.name, f"neither staying nor leaving the {e.plane}", t)
             return after
 
         return then
@@ -137,10 +139,10 @@ class Mechanism(System):
             if e.normal is not None:
                 if state == "open":
                     if e.normal.f(t, q.tolist())[0] < -CLOSED * self.size:
-                        return f"{e.name} is in the floor"
+                        return f"{e.name} is in the {e.plane}"
                     continue
                 if forces[f"{e.name}.normal"] < -force:
-                    return f"the floor would have to pull at {e.name}"
+                    return f"the {e.plane} would have to pull at {e.name}"
             if state == "sticks" and min(e.margins(forces)) < -force:
                 return f"{e.name} would have to slip"
             if (s := sign(state)) and not e.frictionless and s * rate(e.tangent, t, q, v) < -slow:

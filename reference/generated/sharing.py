@@ -1,6 +1,6 @@
 """Contacts of one body that are closed together: one slip, and a friction that they share.
 
-Points of a rigid body on the floor have one height, and by (2.6) one slip: they stick together or
+Points of a rigid body on a plane have one height, and by (2.6) one slip: they stick together or
 slide together. Where they stick, equilibrium knows the sum of their friction forces and not the
 share of each: the row of no slip holds once.
 """
@@ -36,29 +36,29 @@ class Shared:
 
 
 def one_slip(elements: Sequence[Element], states: Sequence[State]) -> bool:
-    """Whether the closed contacts of each body do alike; what has no friction has no choice."""
-    found: dict[str, State] = {}
+    """Whether what a body has closed on a plane does alike; without friction there is no choice."""
+    found: dict[tuple[str, str], State] = {}
     for e, state in zip(elements, states, strict=True):
-        if _rubs(e, state) and found.setdefault(e.body, state) != state:
+        if _rubs(e, state) and found.setdefault(e.slips, state) != state:
             return False
     return True
 
 
 def beside(elements: Sequence[Element], states: Sequence[State], i: int) -> list[int]:
-    """Element i, and the contacts of its body that slip or stick with it."""
+    """Element i, and the contacts of its body on its plane that slip or stick with it."""
     mine = elements[i]
     if not _rubs(mine, states[i]):
         return [i]
     pairs = enumerate(zip(elements, states, strict=True))
-    return [k for k, (e, state) in pairs if _rubs(e, state) and e.body == mine.body]
+    return [k for k, (e, state) in pairs if _rubs(e, state) and e.slips == mine.slips]
 
 
 def shares(elements: Sequence[Element], states: Sequence[State]) -> Iterator[Shared]:
     """The contacts that stick by more than one point of a body."""
-    groups: dict[str, list[Element]] = {}
+    groups: dict[tuple[str, str], list[Element]] = {}
     for e, state in zip(elements, states, strict=True):
         if _rubs(e, state) and state == "sticks":
-            groups.setdefault(e.body, []).append(e)
+            groups.setdefault(e.slips, []).append(e)
     for group in groups.values():
         if len(group) > 1:
             yield Shared(tuple(e.name for e in group), tuple(e.static for e in group))

@@ -10,7 +10,7 @@ from ..parse import NAMED, Finding, Parsed
 from .about import about
 from .edge import edges
 from .space.spatial import spatial
-from .touch import touches
+from .touch import planes, touches
 
 _TAKEN = ("x", "y", "angle", "vx", "vy", "omega", "speed")  # `crank.x` is a quantity
 _TAKEN_IN_SPACE = (*_TAKEN, "z", "vz", "attitude", "omega_1", "omega_2", "omega_3")
@@ -42,6 +42,7 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         yield from spatial(parsed, scene)
         return
     yield from _views(spec, scene)
+    yield from planes(parsed)
     yield from touches(parsed, scene)
     for key in ("initial", "near"):
         yield from _placed(parsed, scene, key, getattr(parsed.file, key))
@@ -95,8 +96,9 @@ def _refers(
 
 def _anchor(parsed: Parsed, scene: Scene, path: Path, at: Anchor) -> Iterator[Finding]:
     if at.body == GROUND:
-        if at.point == FLOOR:
-            yield path, "ground.floor is not a point; only a contact touches it"
+        planes = getattr(parsed.file.scene, "planes", {})
+        if at.point == FLOOR or at.point in planes.keys() - scene.points.keys():
+            yield path, f"ground.{at.point} is not a point; only a contact touches it"
         elif at.point not in scene.points and not parsed.hides(at.point, ("points",)):
             known = parsed.names("points", scene.points)
             yield path, f"the ground has no point {at.point!r}{nearest(at.point, known)}"

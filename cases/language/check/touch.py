@@ -1,34 +1,55 @@
-"""Contacts: what touches the floor, and with which of its points."""
+"""Contacts: what touches a plane of the ground, and with which of its points."""
 
 from collections.abc import Iterator
 
-from ...mistake import nearest
+from ...mistake import Path, nearest
 from ...scene import CENTER, FLOOR, GROUND, Anchor, Body, Scene
 from ..parse import Finding, Parsed
 
 
 def touches(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     """Every mistake in the sound contacts."""
-    first: dict[Anchor, str] = {}
+    first: dict[tuple[Anchor, str], str] = {}
     for name, contact in parsed.file.scene.contacts.items():
         path = ("scene", "contacts", name)
-        touching, floor = contact.between
+        touching, plane = contact.between
         part, _, point = touching.partition(".")
         body = scene.bodies.get(part)
-        at = scene.contacts[name].at
+        at, on = scene.contacts[name].at, plane.removeprefix(f"{GROUND}.")
         if body is None:
             if not parsed.hides(part):
                 hint = nearest(part, parsed.names("bodies", scene.bodies))
                 yield (*path, "between", 0), f"unknown body {part!r}{hint}"
         elif what := _cannot_touch(body, point):
             yield (*path, "between", 0), what
-        elif at in first:
-            yield (*path, "between", 0), f"{touching!r} already touches in {first[at]!r}"
+        elif (at, on) in first:
+            yield (*path, "between", 0), f"{touching!r} already touches in {first[at, on]!r}"
         elif contact.ideal == "rolling" and body.radius is None:
             yield (*path, "ideal"), f"{part!r} is a {body.shape}; only a disk rolls"
-        first.setdefault(at, name)
-        if floor != f"{GROUND}.{FLOOR}":
-            yield (*path, "between", 1), f"should be {GROUND}.{FLOOR}, is {floor!r}"
+        first.setdefault((at, on), name)
+        yield from _plane(parsed, (*path, "between", 1), plane)
+
+
+def planes(parsed: Parsed) -> Iterator[Finding]:
+    """Names of planes that mean something else already."""
+    for name in parsed.file.scene.planes:
+        path = ("scene", "planes", name)
+        if name == FLOOR:
+            yield path, f"the name {FLOOR!r} is taken: the floor is y = 0"
+        elif name in parsed.file.scene.points:
+            yield path, f"{name!r} already names one of the points"
+
+
+def _plane(parsed: Parsed, path: Path, word: str) -> Iterator[Finding]:
+    ground, _, name = word.partition(".")
+    known = (FLOOR, *parsed.names("planes", parsed.file.scene.planes))
+    if ground == GROUND and (name in known or parsed.hides(name, ("planes",))):
+        return
+    if len(known) == 1:
+        yield path, f"should be {GROUND}.{FLOOR}, is {word!r}"
+        return
+    hint = nearest(word, [f"{GROUND}.{plane}" for plane in known])
+    yield path, f"should be a plane of the ground, is {word!r}{hint}"
 
 
 def _cannot_touch(body: Body, point: str) -> str | None:

@@ -1,10 +1,12 @@
 """Contacts as a case file writes them."""
 
+from collections.abc import Mapping
 from typing import Annotated
 
 from pydantic import Field
 
 from ...contact import Contact as Noun
+from ...plane import LEVEL, Plane
 from ...point import anchor
 from .field import In
 from .friction import Friction
@@ -15,7 +17,7 @@ from .words import wrong
 
 class Contact(Part):
     between: tuple[Annotated[str, Text()], Annotated[str, Text()]] = Field(
-        description="a disk, a particle or a point of a bar, then ground.floor"
+        description="a disk, a particle or a point of a bar, then ground.floor or another plane"
     )
     friction: Friction
     restitution: Annotated[float, In("1", least=0, most=1)] = Field(
@@ -29,8 +31,9 @@ class Contact(Part):
         if self.ideal is not None and "restitution" in self.model_fields_set:
             raise wrong("`restitution` cannot stand beside `ideal: rolling`: it has no impacts")
 
-    def named(self, name: str) -> Noun:
-        """The contact, as between[1] can only be the floor."""
+    def named(self, name: str, planes: Mapping[str, Plane]) -> Noun:
+        """The contact; with the floor where there is no such plane (check/touch.py says so)."""
         static, kinetic = self.friction.static, self.friction.kinetic
         at, ideal = anchor(self.between[0]), self.ideal
-        return Noun(name, at, static, kinetic, self.restitution, ideal)  # type: ignore[arg-type]
+        plane = planes.get(self.between[1].partition(".")[2], LEVEL)
+        return Noun(name, at, static, kinetic, self.restitution, ideal, plane)  # type: ignore[arg-type]

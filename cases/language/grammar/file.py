@@ -15,6 +15,7 @@ from .ground import GroundPoint
 from .joint import Joint
 from .number import Amount
 from .part import Angle, Name, Part, Position, plain_or_map
+from .plane import Plane
 from .text import Place, Text, Word, equation, label, no_formula
 from .words import wrong
 
@@ -59,6 +60,7 @@ class Scene(Part):
     )
     incline: Angle | None = Field(None, description=INCLINE)
     points: dict[Name, GroundPoint] = Field({}, description="points of the ground")
+    planes: dict[Name, Plane] = Field({}, description="planes of the ground, beside the floor")
     bodies: dict[Name, Body]
     joints: dict[Name, Joint] = Field({})
     constraints: dict[Name, Constraint] = Field({}, description="that cannot be integrated")

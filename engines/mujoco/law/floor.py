@@ -1,4 +1,4 @@
-"""What points that touch MuJoCo's floor do when they are so deep in it, and creep so fast."""
+"""What points that touch MuJoCo's planes do when they are so deep in them, and creep so fast."""
 
 from collections.abc import Sequence
 
@@ -14,7 +14,7 @@ _GEOM = int(mujoco.mjtObj.mjOBJ_GEOM)
 
 
 class Floor:
-    """The start of a scene's points on the floor, and what they do beside it.
+    """The start of a scene's points on their planes, and what they do beside it.
 
     `depths` [m] and `creeps` [m/s] are (contacts,) each.
     """
@@ -30,23 +30,31 @@ class Floor:
         self._gravity = model.opt.gravity
         self._geoms = [mujoco.mj_name2id(model, _GEOM, contact.name) for contact in contacts]
         self._radii = [scene.bodies[contact.body].radius or 0.0 for contact in contacts]
+        self._along = np.array([(*contact.plane.along, 0.0) for contact in contacts])
+        self._normal = np.array([(*contact.plane.normal, 0.0) for contact in contacts])
         mujoco.mj_forward(model, data)
         self._qpos, self._qvel = data.qpos.copy(), data.qvel.copy()
         self.depths, self.creeps = np.zeros(len(contacts)), np.zeros(len(contacts))
-        self.heights = data.geom_xpos[self._geoms, 1].copy()
+        planes = [contact.plane for contact in contacts]
+        places = data.geom_xpos[self._geoms, :2]
+        self.heights = [p.height(x, y) for p, (x, y) in zip(planes, places, strict=True)]
         along, up = self._rows()
         self.slips = along @ self._qvel
         self._sinks = -self._ways(up, _falling(scene, model))
         self._creeps = self._ways(along, [])
 
     def _rows(self) -> tuple[Array, Array]:
-        """(contacts, nv) each: how the lowest points move along x and y."""
+        """(contacts, nv) each: how the lowest points move along their planes and away from them."""
         rows = np.zeros((len(self._geoms), 3, self.model.nv))
-        for row, geom, radius in zip(rows, self._geoms, self._radii, strict=True):
-            lowest = self.data.geom_xpos[geom] - [0.0, radius, 0.0]
+        for row, geom, arm in zip(rows, self._geoms, self._arms(), strict=True):
+            lowest = self.data.geom_xpos[geom] - arm
             body = int(self.model.geom_bodyid[geom])
             mujoco.mj_jac(self.model, self.data, row, None, lowest, body)
-        return rows[:, 0], rows[:, 1]
+        return tuple(np.einsum("ci,cin->cn", way, rows) for way in (self._along, self._normal))
+
+    def _arms(self) -> Array:
+        """(contacts, 3): from the lowest points to the centres [m]."""
+        return np.array(self._radii)[:, None] * self._normal
 
     def _ways(self, rows: Array, upright: list[int]) -> Array:
         """(nv, contacts): the least motion that moves one point by 1 and keeps all loops closed.
@@ -76,11 +84,12 @@ class Floor:
         mujoco.mj_forward(self.model, self.data)
         mujoco.mj_rnePostConstraint(self.model, self.data)
         mujoco.mj_objectAcceleration(self.model, self.data, _GEOM, self._geoms[i], found, 0)
-        x, y = found[3:5] + self._gravity[:2]  # MuJoCo counts what holds as −g
-        return float(x + self._radii[i] * found[2]), float(y)
+        real = found[3:] + self._gravity  # MuJoCo counts what holds as −g
+        along = float(self._along[i] @ real)
+        return along + self._radii[i] * float(found[2]), float(self._normal[i] @ real)
 
 
 def _falling(scene: Scene, model: mujoco.MjModel) -> list[int]:
-    """The numbers of the rates with which free bodies fall."""
-    free = (branch.body for branch in spanning_tree(scene).branches if branch.joint is None)
-    return [int(model.joint(f"{body}.y").dofadr[0]) for body in free]
+    """The numbers of the rates with which free bodies move without turning."""
+    free = [branch.body for branch in spanning_tree(scene).branches if branch.joint is None]
+    return [int(model.joint(f"{body}.{axis}").dofadr[0]) for body in free for axis in ("x", "y")]

@@ -12,7 +12,7 @@ import mujoco
 import numpy as np
 from scipy.optimize import brentq
 
-from ....cases.scene import CENTER, Contact, Scene
+from ....cases.scene import Scene
 from ...engine import Start
 from ..contact import CLOSED, height
 from .floor import Floor
@@ -28,7 +28,7 @@ _STILL = 1e-9  # m/s: what slips less is meant to stick
 def settle(
     scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, start: Start
 ) -> dict[str, float]:
-    """Depth [m] of each point that lies on the floor; afterwards the data starts there."""
+    """Depth [m] of each contact that is closed, by name; afterwards the data starts there."""
     contacts = [c for c in scene.contacts.values() if height(scene, c, start) <= CLOSED]
     if not contacts:
         return {}
@@ -44,12 +44,7 @@ def settle(
                 break
     mujoco.mj_resetDataKeyframe(model, data, 0)  # the run must not inherit a warm start
     floor.place()
-    return dict(zip(map(_words, contacts), floor.depths.tolist(), strict=True))
-
-
-def _words(contact: Contact) -> str:
-    """`wheel`, `rod.end`."""
-    return contact.body if contact.at.point == CENTER else str(contact.at)
+    return dict(zip([c.name for c in contacts], floor.depths.tolist(), strict=True))
 
 
 def _sink(floor: Floor, i: int, deepest: float) -> None:
@@ -59,7 +54,7 @@ def _sink(floor: Floor, i: int, deepest: float) -> None:
         floor.depths[i] = depth
         return floor.acceleration(i)[1]
 
-    shallow = deep = 4e-16 * max(abs(float(floor.heights[i])), 1.0)
+    shallow = deep = 4e-16 * max(abs(floor.heights[i]), 1.0)
     while rise(deep) < 0 and deep < deepest:
         deep *= 10
     carried = rise(shallow) < 0 < rise(deep)  # else it is lifted off, or pressed through the floor

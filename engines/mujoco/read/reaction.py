@@ -64,10 +64,11 @@ def contact_force(
     pushed: the rows of what our law pushes with in MuJoCo's place.
     """
     part, _, field = name.rpartition(".")
-    column = 3 * list(scene.contacts).index(part)
+    column, plane = 3 * list(scene.contacts).index(part), scene.contacts[part].plane
+    force = felt[:, column : column + 2]
     if field == "normal":
-        return felt[:, column + 1]
+        return force @ plane.normal
     x = mujoco.mj_name2id(model, _OBJECT.mjOBJ_JOINT, f"{scene.contacts[part].body}.x")
     if pushed is None or x < 0:
-        return felt[:, column]
-    return felt[:, column] + pushed[:, model.jnt_dofadr[x]]
+        return force @ plane.along
+    return force @ plane.along + pushed[:, model.jnt_dofadr[x]]

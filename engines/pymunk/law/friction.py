@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable
 from functools import partial
 
-from ....cases.scene import GROUND, Bounds, Contact, DryFriction, Joint, Scene
+from ....cases.scene import GROUND, Bounds, Contact, DryFriction, Joint, Scene, Vector
 from ..force import load
 from ..world import World
 from .breakaway import bound, smooth_mean
@@ -93,7 +93,7 @@ def _contact(world: World, contact: Contact, step: float) -> Told:
     """By the slip of the point that touches, and the mass that resists it there."""
     part = world.scene.bodies[contact.body]
     body, shape = world.bodies[contact.body], world.wheels[contact.name]
-    acting = load(world, contact.body, step)
+    acting, ((ux, uy), (nx, ny)) = load(world, contact.body, step), _axes(contact)
     radius = part.radius or 0.0
     turn = radius / part.inertia if part.inertia else 0.0  # slip per angular impulse
     mass = 1 / (1 / part.mass + radius * turn)
@@ -101,15 +101,16 @@ def _contact(world: World, contact: Contact, step: float) -> Told:
     def along(t: float, normal: float, ahead: float) -> float:
         """With what static friction has lost by then, so that its bound is that of the middle."""
         fx, fy, torque = acting(t, ahead)
-        force = mass * (fx / part.mass + turn * torque)
-        return force + math.copysign(contact.static * (normal + fy), force)
+        force = mass * ((ux * fx + uy * fy) / part.mass + turn * torque)
+        return force + math.copysign(contact.static * (normal + nx * fx + ny * fy), force)
 
     def exact(t: float) -> None:
         shape.friction = contact.kinetic
-        (vx, vy), normal = body.velocity, -acting(t, step / 2)[1]
-        if abs(vy) > RESTING or normal <= 0:
+        (vx, vy), (fx, fy, _) = body.velocity, acting(t, step / 2)
+        normal = -(nx * fx + ny * fy)
+        if abs(nx * vx + ny * vy) > RESTING or normal <= 0:
             return  # in flight, or in an impact, which is no place to rest
-        slip = vx + radius * body.angular_velocity
+        slip = ux * vx + uy * vy + radius * body.angular_velocity
         both = DryFriction(
             Bounds(contact.static * normal, contact.static * normal),
             Bounds(contact.kinetic * normal, contact.kinetic * normal),
@@ -117,6 +118,12 @@ def _contact(world: World, contact: Contact, step: float) -> Told:
         limit, push = bound(both, slip, mass, partial(along, t, normal), step)
         shape.friction = limit / normal
         if push:
-            body.apply_force_at_world_point((push, 0.0), body.position - (0.0, radius))
+            lowest = body.position - (radius * nx, radius * ny)
+            body.apply_force_at_world_point((push * ux, push * uy), lowest)
 
     return exact
+
+
+def _axes(contact: Contact) -> tuple[Vector, Vector]:
+    """Along its plane, and away from it."""
+    return contact.plane.along, contact.plane.normal

@@ -20,7 +20,7 @@ from ..world import World
 
 
 class Left(Diverged):
-    """A body is where neither the floor nor a groove goes on, which in the scene they do."""
+    """A body is where neither a plane nor a groove goes on, which in the scene they do."""
 
 
 def sound(world: World, rows: Array, times: Array, step: float) -> None:
@@ -43,7 +43,9 @@ def _ways(world: World, rows: Array) -> Iterator[tuple[str, float, Array]]:
     """What ends somewhere: its name, its reach [m], and how far along it a body is (N,)."""
     places = dict(zip(world.bodies, np.moveaxis(rows[:, :, :2], 1, 0), strict=True))
     for contact in world.scene.contacts.values():
-        yield f"{contact.name}'s floor", world.reach, np.abs(places[contact.body][:, 0])
+        plane = contact.plane
+        far = np.abs((places[contact.body] - plane.at) @ plane.along)
+        yield f"{contact.name}'s {plane.name}", world.reach, far
     for joint in world.scene.joints.values():
         if joint.shifts:
             rail = places.get(joint.a.body, np.zeros(2))

@@ -7,35 +7,46 @@ from pymunk.body import Body
 from pymunk.constraints import Constraint
 from pymunk.shapes import Shape
 
+from ....cases.scene import Vector
 from ..world import World
 
-Floor = dict[str, tuple[float, float]]
+Planes = dict[str, tuple[float, float]]
 
 
 def impulses(world: World, reactions: tuple[str, ...]) -> Callable[[], list[float]]:
-    """A function that reads them [N s]: a joint's size, an edge's, the floor's two."""
+    """A function that reads them [N s]: a joint's size, an edge's, a plane's two."""
     parts = [quantity.rpartition(".") for quantity in reactions]
     joints: list[Constraint | None] = [
         world.joints[name][0] if name in world.joints else None for name, _, _ in parts
     ]
     pins = [world.pins.get(quantity) for quantity in reactions]
     bodies = _contacts(world, {name for name, _, _ in parts})
+    ways = [_way(world, name, what) for name, _, what in parts]
 
     def read() -> list[float]:
-        floor: Floor = {}
+        felt: Planes = {}
         for body, names in bodies.items():
-            body.each_arbiter(_one if len(names) == 1 else _several, names, floor)
+            body.each_arbiter(_one if len(names) == 1 else _several, names, felt)
         row = []
-        for (name, _, what), joint, pin in zip(parts, joints, pins, strict=True):
+        for (name, _, _), way, joint, pin in zip(parts, ways, joints, pins, strict=True):
             if pin:
                 row.append(pin.impulse())
             elif joint:
                 row.append(joint.impulse)
             else:
-                row.append(floor.get(name, (0.0, 0.0))[0 if what == "tangent" else 1])
+                x, y = felt.get(name, (0.0, 0.0))
+                row.append(way[0] * x + way[1] * y)
         return row
 
     return read
+
+
+def _way(world: World, name: str, what: str) -> Vector:
+    """Of a contact's force, the direction in which it counts."""
+    if name not in world.scene.contacts:
+        return (0.0, 0.0)
+    plane = world.scene.contacts[name].plane
+    return plane.along if what == "tangent" else plane.normal
 
 
 def _contacts(world: World, wanted: set[str]) -> Mapping[Body, Mapping[Shape, str]]:
@@ -46,13 +57,13 @@ def _contacts(world: World, wanted: set[str]) -> Mapping[Body, Mapping[Shape, st
     return {body: names for body, names in found.items() if wanted & set(names.values())}
 
 
-def _one(arbiter: Arbiter, names: Mapping[Shape, str], floor: Floor) -> None:
+def _one(arbiter: Arbiter, names: Mapping[Shape, str], felt: Planes) -> None:
     """Its only contact: asking for the shapes would cost more than the impulse."""
     for name in names.values():
-        floor[name] = arbiter.total_impulse
+        felt[name] = arbiter.total_impulse
 
 
-def _several(arbiter: Arbiter, names: Mapping[Shape, str], floor: Floor) -> None:
+def _several(arbiter: Arbiter, names: Mapping[Shape, str], felt: Planes) -> None:
     for shape in arbiter.shapes:
         if shape in names:
-            floor[names[shape]] = arbiter.total_impulse
+            felt[names[shape]] = arbiter.total_impulse

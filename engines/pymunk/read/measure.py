@@ -1,6 +1,5 @@
 """Physics read back from pymunk's own objects, for the equal-physics audit."""
 
-from pymunk.shapes import Shape
 from pymunk.vec2d import Vec2d
 
 from ..force import numbers
@@ -16,7 +15,8 @@ def measured(world: World) -> dict[str, float]:
         if world.scene.bodies[name].turns:
             found[f"{name}.inertia"] = body.moment
     for name, wheel in world.wheels.items():
-        found[f"{name}.friction"] = wheel.friction * _floor(world).friction
+        plane = world.planes[world.scene.contacts[name].plane.name]
+        found[f"{name}.friction"] = wheel.friction * plane.friction
     for name, brake in world.brakes.items():
         friction = world.scene.joints[name].dry_friction
         assert friction is not None
@@ -30,9 +30,3 @@ def measured(world: World) -> dict[str, float]:
     momenta = [body.mass * body.velocity for body in bodies]
     total = sum(momenta, Vec2d(0.0, 0.0))
     return found | {"momentum.x": total.x, "momentum.y": total.y}
-
-
-def _floor(world: World) -> Shape:
-    """The only shape of the static body."""
-    (floor,) = world.space.static_body.shapes
-    return floor

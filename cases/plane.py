@@ -1,0 +1,33 @@
+"""Planes of the ground on which bodies stand and slide, seen from the side: straight lines."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from .point import FLOOR, Vector
+
+
+@dataclass(frozen=True)
+class Plane:
+    """A straight line of the ground; `normal` is a unit vector and points to where bodies are."""
+
+    name: str
+    at: Vector = (0.0, 0.0)
+    normal: Vector = (0.0, 1.0)
+
+    @property
+    def along(self) -> Vector:
+        """The unit vector with the normal to its left: x, of the floor."""
+        return (self.normal[1], -self.normal[0])
+
+    @property
+    def level(self) -> bool:
+        """Whether it lies along x, as the floor does."""
+        return self.normal == (0.0, 1.0)
+
+    def height(self, x: Any, y: Any) -> Any:
+        """How far [m] a place is above it, or each of (N,)."""
+        return self.normal[0] * (x - self.at[0]) + self.normal[1] * (y - self.at[1])
+
+
+LEVEL = Plane(FLOOR)
+"""The floor y = 0, which every scene has."""

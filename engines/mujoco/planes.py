@@ -1,0 +1,63 @@
+"""Planes of the ground and what touches them, as MuJoCo's geoms, pairs and sensors."""
+
+from xml.etree import ElementTree as ET
+
+from ...cases.plane import Plane
+from ...cases.scene import GROUND, Contact, Scene
+from .written import written
+
+POINT = 1e-12  # m, radius of a point that touches: too small to be an arm or a gap
+
+
+def add_planes(world: ET.Element, scene: Scene) -> None:
+    """The planes that are touched."""
+    for plane in dict.fromkeys(contact.plane for contact in scene.contacts.values()):
+        at = {"pos": written(*plane.at, 0)} if any(plane.at) else {}
+        ET.SubElement(
+            world, "geom", at, name=grounded(plane), type="plane", size="0 0 1",
+            zaxis=written(*plane.normal, 0), contype="0", conaffinity="0",
+        )  # fmt: skip
+
+
+def add_geom(element: ET.Element, scene: Scene, contact: Contact) -> None:
+    """A disk's rim, or a point."""
+    radius = scene.bodies[contact.body].radius
+    at = scene.bodies[contact.body].points[contact.at.point]
+    ET.SubElement(
+        element, "geom", name=contact.name, type="sphere", pos=written(*at, 0),
+        size=written(POINT if radius is None else radius), contype="0", conaffinity="0",
+    )  # fmt: skip
+
+
+def add_pairs(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> None:
+    """The contacts' pairs, each with a sensor: MuJoCo records its force at every step."""
+    contacts = ET.SubElement(root, "contact")
+    for contact in scene.contacts.values():
+        # A pair takes one coefficient; two geoms would take the larger of theirs.
+        ET.SubElement(
+            contacts, "pair", attributes,
+            name=contact.name, geom1=grounded(contact.plane), geom2=contact.name,
+            condim=_dimensions(contact),
+            friction=written(contact.friction, contact.friction, 0, 0, 0),
+        )  # fmt: skip
+    _sensors(root, scene)
+
+
+def _sensors(root: ET.Element, scene: Scene) -> None:
+    """The plane's force on each, along the ground's axes."""
+    sensors = ET.SubElement(root, "sensor")
+    for name, contact in scene.contacts.items():
+        ET.SubElement(
+            sensors, "contact", geom1=grounded(contact.plane), geom2=name, data="force", num="1",
+            reduce="netforce",
+        )  # fmt: skip
+
+
+def _dimensions(contact: Contact) -> str:
+    """What is smooth gets no friction at all: MuJoCo knows no coefficient below 1e-5."""
+    return "3" if contact.friction else "1"
+
+
+def grounded(plane: Plane) -> str:
+    """The name of its geom, which no contact can have."""
+    return f"{GROUND}.{plane.name}"
