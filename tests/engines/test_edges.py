@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from given import edges, scenes
 from given.engine_scenes import ROLLS, WHEEL, machine
+from given.planning import EDGES as HELD
 from given.planning import SHIPPED, TUNED, moved, refused, ways
 
 from textmech.cases.scene import Anchor, Edge
@@ -13,7 +14,6 @@ from textmech.engines.engine import Start
 from textmech.engines.law import rate, value
 from textmech.reference.solve import solve
 
-HELD = {"mujoco": "law", "pymunk": "driver"}
 # By the tuned settings at these steps over 0.4 s: MuJoCo by RK4, pymunk of second order.
 STEP = {"mujoco": 2e-3, "pymunk": 2e-4}
 PLACES, FORCES = {"mujoco": 1e-9, "pymunk": 3e-7}, {"mujoco": 1e-8, "pymunk": 1e-4}
@@ -33,7 +33,7 @@ def test_edges_move_and_hold_as_the_reference(engine: str, name: str, tmp_path: 
         wanted += ("hitch.fx", "hitch.fy")
     found = moved(
         TUNED[engine], case.scene, start, case.times, STEP[engine],
-        realised=HELD[engine], reactions=wanted,  # type: ignore[arg-type]
+        realised=HELD[engine], reactions=wanted,
     )  # fmt: skip
     for body, rows in known.states.items():
         assert np.max(np.abs(found.states[body] - rows)) < PLACES[engine]

@@ -13,12 +13,15 @@ import mujoco
 import numpy as np
 import pytest
 from given import engine_scenes as given
-from given.planning import NATIVE, SETTINGS, begun, moved, planned, words
+from given.planning import NATIVE, SETTINGS, begun, moved, pair, planned, words
 
+from textmech.cases.frame import PLANE
 from textmech.cases.scene import Scene
 from textmech.cases.shape import bar
 from textmech.engines.engine import Engine, Start
-from textmech.engines.mujoco.law.signal import signals
+from textmech.engines.mujoco import force
+from textmech.engines.mujoco.law.signal import swinging, together
+from textmech.engines.mujoco.space import scene as space
 
 STEP = 1e-3  # s: whole steps in the 1 s that a script of pymunk's runs
 END = np.array([0.0, 1.0])
@@ -29,10 +32,12 @@ def by_mujoco(text: str, scene: Scene) -> dict[str, list[float]]:
     model = mujoco.MjModel.from_xml_string(text)
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, 0)
-    with signals(scene):
+    laws = force.signals(scene) if scene.frame is PLANE else space.signals(scene)  # type: ignore[arg-type]
+    with together([swinging(laws)]):
         mujoco.mj_step(model, data, round(1.0 / model.opt.timestep))
     mujoco.mj_kinematics(model, data)
-    return {name: data.body(name).xipos[:2].tolist() for name in scene.bodies}
+    size = scene.frame.dimension
+    return {name: data.body(name).xipos[:size].tolist() for name in scene.bodies}
 
 
 def by_python(text: str, scene: Scene) -> dict[str, list[float]]:
@@ -60,8 +65,7 @@ def same(engine: Engine, scene: Scene, start: Start) -> None:
 
 
 @pytest.mark.whole
-@pytest.mark.parametrize("engine", SETTINGS, ids=words)
-@pytest.mark.parametrize("name", NATIVE)
+@pytest.mark.parametrize(("name", "engine"), NATIVE, ids=pair)
 def test_a_cases_script_makes_the_same_motion(name: str, engine: Engine) -> None:
     same(engine, *begun(name))
 

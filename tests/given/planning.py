@@ -1,5 +1,6 @@
 """The engines that are installed, their plans one way at a time, and one run of a scene."""
 
+from collections.abc import Mapping
 from functools import cache
 
 from textmech import engines
@@ -12,9 +13,7 @@ from textmech.reports.trial.start import assembled
 from .scenes import SHIPPED as EVERY
 
 CASES = {name: case for name, case in EVERY.items() if case.scene.frame is PLANE}
-"""The shipped cases in the plane; those in space have tests of their own (test_space.py)."""
-NATIVE = {name: case for name, case in CASES.items() if not case.scene.constraints}
-"""Those that engines run by themselves: no engine has an edge."""
+"""The shipped cases in the plane, which every engine builds."""
 
 NAMES = engines.names()
 """The engines found by their entry points."""
@@ -22,6 +21,29 @@ SETTINGS = [engines.make(name, setting) for name in NAMES for setting in engines
 """Each engine with each setting it offers."""
 TUNED = {name: engines.make(name, "tuned") for name in NAMES}
 SHIPPED = {name: engines.make(name, "shipped") for name in NAMES}
+
+SPATIAL = {"mujoco"}
+"""The engines that have space."""
+EDGES: Mapping[str, Realised] = {"mujoco": "law", "pymunk": "driver"}
+"""How edges are held, by the tuned settings alone: no engine has one of its own."""
+
+
+def builds(engine: Engine, scene: Scene) -> bool:
+    """Whether the engine has all that shipped scenes are made of, but edges."""
+    return scene.frame is PLANE or engine.name in SPATIAL
+
+
+PAIRS = [(name, e) for name, case in EVERY.items() for e in SETTINGS if builds(e, case.scene)]
+"""Each shipped case with each engine that builds it."""
+NATIVE = [(name, e) for name, e in PAIRS if not EVERY[name].scene.constraints]
+"""Those that the engine runs by itself."""
+HELD = [(n, e) for n, e in PAIRS if EVERY[n].scene.constraints and e.setting == "tuned"]
+"""Those whose edges are held by `EDGES`."""
+
+
+def pair(part: str | Engine) -> str:
+    """How each half of a pair is called."""
+    return part if isinstance(part, str) else words(part)
 
 
 def words(engine: Engine) -> str:
@@ -72,4 +94,4 @@ def every(motion: Trajectory) -> Trajectory:
 @cache
 def begun(name: str) -> tuple[Scene, Start]:
     """A shipped case's scene and its assembled start."""
-    return CASES[name].scene, assembled(CASES[name])
+    return EVERY[name].scene, assembled(EVERY[name])

@@ -14,11 +14,12 @@ from given import engine_scenes as given
 from given import scenes
 from given.planning import CASES, NATIVE, begun, planned
 
-from textmech.cases.case import Case
+from textmech.cases.frame import PLANE
 from textmech.cases.scene import Scene
-from textmech.engines.engine import Realised, Start
+from textmech.engines.engine import Plan, Realised, Start
 from textmech.engines.mujoco import MuJoCo, compilation
 from textmech.engines.mujoco.plane import Plane
+from textmech.engines.mujoco.space import compilation as space
 from textmech.reports.judge.compare import compare
 from textmech.reports.trial.start import assembled, first
 from textmech.reports.trial.trial import Trial
@@ -45,21 +46,33 @@ def differing(a: mujoco.MjModel, b: mujoco.MjModel) -> list[str]:
 
 
 @pytest.mark.whole
-@pytest.mark.parametrize("case", NATIVE.values(), ids=list(NATIVE))
-def test_it_equals_the_compiled_script_field_by_field(case: Case) -> None:
-    start = assembled(case)
+@pytest.mark.parametrize("name", dict(NATIVE))
+def test_it_equals_the_compiled_script_field_by_field(name: str) -> None:
+    scene, start = begun(name)
     for setting in ("shipped", "tuned"):
         engine = MuJoCo(setting)
-        plan = planned(engine, case.scene, start)
+        plan = planned(engine, scene, start)
         for step in (1.25e-4, compilation.NOMINAL, 8e-3):
             for used in (plan, plan.held_at(2e-3)):
-                model, data, _ = Plane(engine)._placed(case.scene, start, step, used)
-                text = engine.script(case.scene, start, step, used)
+                model, data = placed(engine, scene, start, step, used)
+                text = engine.script(scene, start, step, used)
                 wanted = mujoco.MjModel.from_xml_string(text)
                 assert not differing(model, wanted)
                 began = mujoco.MjData(wanted)
                 mujoco.mj_resetDataKeyframe(wanted, began, 0)
                 assert np.array_equal(data.qpos, began.qpos)
+
+
+def placed(
+    engine: MuJoCo, scene: Any, start: Start, step: float, plan: Plan
+) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """What a run is given."""
+    if scene.frame is PLANE:
+        model, data, _ = Plane(engine)._placed(scene, start, step, plan)
+    else:
+        settles = engine.setting == "tuned"
+        model, data, _ = space.placed(scene, start, step, plan, settles=settles)
+    return model, data
 
 
 def test_a_step_that_is_not_written_is_seen() -> None:
