@@ -29,11 +29,12 @@ class Body:
     """A rigid body. A particle has no inertia and no angle."""
 
     name: str
-    shape: Literal["bar", "disk", "block", "particle", "rigid"]
+    shape: Literal["bar", "disk", "block", "particle", "rigid", "spokes"]
     mass: float
     inertia: float | None  # about the centre of mass, kg m²; None: it cannot turn
     points: Mapping[str, Vector]
     radius: float | None = None  # of a disk, m
+    tips: tuple[str, ...] = ()  # of spokes: the points with which it touches, counter-clockwise
 
     @property
     def turns(self) -> bool:

@@ -1,7 +1,9 @@
 """Contacts with the floor y = 0, or with another plane of the ground."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
+
+import numpy as np
 
 from .kind import Fields
 from .motion import Motion
@@ -14,6 +16,8 @@ _CONTACT: Fields = {
     "tangent": ("N", "force"),
     "slip": ("m/s", "residual"),  # of the point that touches
     "gap": ("m", "residual"),  # its height above the plane
+}
+_ONE_POINT: Fields = {
     # its place along the plane (of a disk that + R angle) against the start: (2.18)
     "drift": ("m", "residual"),
 }
@@ -21,10 +25,11 @@ _CONTACT: Fields = {
 
 @dataclass(frozen=True)
 class Contact:
-    """A disk's rim, a particle or a point of a bar on a plane of the ground.
+    """A disk's rim, a particle, a point of a bar or the tips of spokes on a plane of the ground.
 
     It opens, slides and sticks or rolls as friction says, and an impact goes by `restitution`.
-    `ideal: rolling` assumes that it only rolls; the reference checks that at every sample.
+    `ideal: rolling` assumes that it only rolls, `ideal: pivot` that what stands on the plane never
+    slips; the reference checks that at every sample.
     """
 
     name: str
@@ -32,8 +37,9 @@ class Contact:
     static: float  # coefficient of friction; at least `kinetic`
     kinetic: float
     restitution: float = 0.0
-    ideal: Literal["rolling"] | None = None
+    ideal: Literal["rolling", "pivot"] | None = None
     plane: Plane = LEVEL
+    tips: tuple[str, ...] = ()  # of spokes named by their centre: the points that may touch
 
     @property
     def body(self) -> str:
@@ -47,11 +53,18 @@ class Contact:
     @property
     def switches(self) -> bool:
         """Whether it may open, slide and stick, instead of only rolling."""
-        return self.ideal is None
+        return self.ideal != "rolling"
+
+    def each(self) -> "tuple[Contact, ...]":
+        """One contact for every point that may touch: itself, or `feet.tip0`, `feet.tip1`, …"""
+        return tuple(
+            replace(self, name=f"{self.name}.{tip}", at=Anchor(self.body, tip), tips=())
+            for tip in self.tips
+        ) or (self,)
 
     def quantities(self) -> dict[str, Fields]:
         """Its reactions, and where and how the touching point moves."""
-        return {self.name: _CONTACT}
+        return {self.name: _CONTACT | ({} if self.tips else _ONE_POINT)}
 
     def numbers(self) -> dict[str, float]:
         """The coefficient of friction."""
@@ -59,6 +72,8 @@ class Contact:
 
     def observe(self, motion: Motion, field: str) -> Array:
         """(N,) of the lowest point of a disk's rim, or of the point that touches; else KeyError."""
+        if self.tips:
+            return self._of_tips(motion, field)
         x, y, vx, vy = motion.point(self.at).T
         (ux, uy), gap = self.plane.along, self.plane.height(x, y)
         place, slip = ux * x + uy * y, ux * vx + uy * vy
@@ -72,3 +87,15 @@ class Contact:
         if field not in ("gap", "slip"):
             raise KeyError(f"{self.name}.{field}")
         return gap if field == "gap" else slip
+
+    def _of_tips(self, motion: Motion, field: str) -> Array:
+        """(N,) the slip of the tip on which it stands; how high the next lowest one is."""
+        if field not in ("gap", "slip"):
+            raise KeyError(f"{self.name}.{field}")
+        ux, uy = self.plane.along
+        points = [motion.point(contact.at).T for contact in self.each()]
+        heights = np.array([self.plane.height(x, y) for x, y, _, _ in points])
+        slips = np.array([ux * vx + uy * vy for _, _, vx, vy in points])
+        order = np.argsort(heights, axis=0)
+        found, rank = (heights, 1) if field == "gap" else (slips, 0)
+        return np.take_along_axis(found, order[rank][None], axis=0)[0]

@@ -74,6 +74,11 @@ class Scene:
         """The reactions of a producer from which one follows; in the plane it gives each."""
         return (reaction,)
 
+    @property
+    def touching(self) -> dict[str, Contact]:
+        """One contact for every point that may touch the floor: of spokes, `feet.tip0` and on."""
+        return {one.name: one for contact in self.contacts.values() for one in contact.each()}
+
     def elements(self) -> Iterator[Body | Joint | Edge | Contact | Force]:
         """All that has a name, quantities and numbers."""
         sections = (self.bodies, self.joints, self.constraints, self.contacts, self.forces)

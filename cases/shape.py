@@ -4,16 +4,19 @@ Shared by the generated reference and the engines, so it is tested by itself aga
 integrals over the shape (tests/cases/test_shape.py). Hand-written systems carry their own.
 """
 
+import math
 from collections.abc import Callable, Mapping
 from typing import Annotated
 
 from .body import Body
+from .language.grammar.count import Count
 from .language.grammar.field import In
 from .language.grammar.part import Length, Mass
 from .point import CENTER, Vector
 
 Points = Mapping[str, Vector]
 Inertia = Annotated[float, In("kg m²", above=0)]
+Spokes = Annotated[int, Count(least=3, most=100)]  # with 100 it is as good as round
 
 
 def bar(*, name: str, mass: Mass, length: Length, points: Points) -> Body:
@@ -49,7 +52,25 @@ def rigid(
     return Body(name, "rigid", mass, inertia, {CENTER: (0.0, 0.0), **points}, radius=radius)
 
 
+def spokes(
+    *, name: str, number: Spokes, length: Length, mass: Mass, inertia: Inertia, points: Points
+) -> Body:
+    """A hub with spokes that touches with `tip0`, `tip1`, … on a circle, counter-clockwise.
+
+    At angle 0 it stands on tip0 (left) and tip1.
+    """
+    turns = [(k - 0.5) * math.tau / number for k in range(number)]
+    places = [(length * math.sin(turn), -length * math.cos(turn)) for turn in turns]
+    own = {CENTER: (0.0, 0.0), **dict(zip(tips(number), places, strict=True)), **points}
+    return Body(name, "spokes", mass, inertia, own, tips=tips(number))
+
+
+def tips(number: int) -> tuple[str, ...]:
+    """The names of the points with which so many spokes touch."""
+    return tuple(f"tip{k}" for k in range(number))
+
+
 SHAPES: dict[str, Callable[..., Body]] = {
-    make.__name__: make for make in (bar, disk, block, particle, rigid)
+    make.__name__: make for make in (bar, disk, block, particle, rigid, spokes)
 }
 """By the word of the case file."""

@@ -118,13 +118,14 @@ def _unsaid(case: Case, motion: Trajectory, happened: Collection[str | None]) ->
 
 
 def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
-    """Rolling is assumed: |λ_t| ≤ μ λ_n and λ_n > 0 at every sample.
+    """Rolling or pivoting is assumed: |λ_t| ≤ μ λ_n and λ_n > 0 at every sample.
 
     Names the first time at which it fails, and the μ that would be enough.
     """
     for contact in case.scene.contacts.values():
         if contact.ideal is None:
             continue
+        doing = "rolling" if contact.ideal == "rolling" else "pivoting"
         normal = motion.reactions[f"{contact.name}.normal"]
         tangent = _along_floor(motion, contact.name)
         fails = (normal <= 0) | (tangent > (contact.friction + ROUNDING) * normal)
@@ -133,11 +134,11 @@ def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         first = int(np.argmax(fails))
         t = motion.times[first]
         if normal[first] <= 0:
-            what = f"the floor would have to pull at t = {t:.3g} s: the disk leaves it"
+            what = f"the floor would have to pull at t = {t:.3g} s: {contact.body} leaves it"
         else:
             what = (
-                f"rolling is not possible with friction {contact.friction:.3g}: at t = {t:.3g} s "
-                f"it would slip; {_needed(normal, tangent)}"
+                f"{doing} is not possible with friction {contact.friction:.3g}: at t = {t:.3g} s "
+                f"it would slip; {_needed(normal, tangent, contact.body, doing)}"
             )
         yield case.mistake(("scene", "contacts", contact.name, "ideal"), what)
 
@@ -149,10 +150,10 @@ def _along_floor(motion: Trajectory, contact: str) -> Array:
     return np.hypot(*(motion.reactions[f"{contact}.{axis}"] for axis in ("fx", "fy")))
 
 
-def _needed(normal: Array, tangent: Array) -> str:
+def _needed(normal: Array, tangent: Array, body: str, doing: str) -> str:
     if np.any(normal <= 0):
-        return "later the disk would even leave the floor"
-    return f"rolling all the way needs {np.max(tangent / normal):.3g}"
+        return f"later {body} would even leave the floor"
+    return f"{doing} all the way needs {np.max(tangent / normal):.3g}"
 
 
 def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:

@@ -64,8 +64,8 @@ def _mistake(case: Case, generated: Generated, failure: Exception) -> Mistake:
     match failure:
         case BadStart():
             return case.mistake(("initial",), str(failure))
-        case Undetermined(part=part) if part in case.scene.contacts:
-            return case.mistake(("scene", "contacts", part, "friction"), str(failure))
+        case Undetermined(part=part) if (name := part.partition(".")[0]) in case.scene.contacts:
+            return case.mistake(("scene", "contacts", name, "friction"), str(failure))
         case Undetermined(part=part):
             return case.mistake(("scene", "joints", part, "dry_friction"), str(failure))
         case ZenoError(event=event, time=time):

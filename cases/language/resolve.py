@@ -18,12 +18,13 @@ def resolve_scene(file: File) -> Scene:
     if s.space is not None:
         return _in_space(s)
     planes = _named(s.planes)
+    bodies = _named(s.bodies)
     return Scene(
         gravity=_gravity(s.gravity, s.incline, (1.0, 0.0), (0.0, 0.0 if s.seen else -1.0)),
         points=s.points,
-        bodies=_named(s.bodies),
+        bodies=bodies,
         joints=_named(s.joints),
-        contacts={name: contact.named(name, planes) for name, contact in s.contacts.items()},
+        contacts={n: contact.named(n, bodies, planes) for n, contact in s.contacts.items()},
         forces=_named(s.forces),
         constraints=_named(s.constraints),
     )
@@ -105,6 +106,6 @@ def _gravity(
 
 def _placements(places: Mapping[str, Any]) -> dict[str, Placement]:
     return {
-        name: Placement(dict(place.given), dict(place.places), place.attitude)
+        name: Placement(dict(place.given), dict(place.places), place.attitude, place.stands_on)
         for name, place in places.items()
     }

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..system import Array
 from .contact import row
-from .element import REST, Element, State, sign, sliding
+from .element import Element, State, sign, sliding
 from .mode import SingularPose
 from .modes import Modes
 from .sharing import one_slip
@@ -41,7 +41,7 @@ def closed(element: Element, slip: float) -> Options:
         return (element.only,)
     if element.frictionless:
         return ("slides +", *opening(element))
-    return (*((sliding(slip),) if slip else REST), *opening(element))
+    return (*((sliding(slip),) if slip and element.slips else element.rest), *opening(element))
 
 
 def opening(element: Element) -> Options:
@@ -55,7 +55,7 @@ def staying(modes: Modes, mode: str) -> list[Options]:
     for e, state in zip(modes.elements, modes.states[mode], strict=True):
         opens = opening(e) if state != "open" else ()
         rests = state == "sticks" and not e.only
-        found.append((*(REST if rests else (state,)), *opens))
+        found.append((*(e.rest if rests else (state,)), *opens))
     return found
 
 
@@ -102,7 +102,7 @@ def _agrees(
                 continue
             if forces[f"{e.name}.normal"] < -small * float(np.max(modes.M)):
                 return False
-        if state == "sticks" and min(e.margins(forces)) < 0.0:
+        if state == "sticks" and e.slips and min(e.margins(forces)) < 0.0:
             return False
         s = sign(state) if "sticks" in choice else 0
         if s and s * modes.change(e.tangent, mode, t, q, v) < -small:

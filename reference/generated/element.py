@@ -6,6 +6,8 @@
 | contact       | sticks   | y = R, no slip                  | λ_n: opens; μ_s λ_n ± λ_t: slips   |
 | slide         | slides ± | a force ∓F along it             | slip: stops                        |
 | slide         | sticks   | no slip                         | F_s ± F_a: slips                   |
+| pivot         | open     | nothing                         | gap: lands                         |
+| pivot         | sticks   | y = 0, no slip                  | λ_n: opens                         |
 | ideal, smooth | its only | it rolls; the smooth law (2.95) | nothing                            |
 
 A mode of a scene names the state
@@ -59,10 +61,16 @@ class Element:
     normal: Constraint | None = None
     only: State | None = None  # its one state
     frictionless: bool = False  # nothing to stick by: then it slides, whichever way
+    rest: tuple[State, ...] = REST  # what it may do at slip 0
     kinetic: float = 0.0  # coefficient of a contact that slides
     static: float = 0.0  # of one that sticks
     restitution: float = 0.0
     plane: str = ""  # that a contact is with
+
+    @property
+    def slips(self) -> bool:
+        """Whether it may; a pivot is assumed not to."""
+        return "slides +" in self.rest
 
     @property
     def body(self) -> str:
@@ -70,7 +78,7 @@ class Element:
         return self.tangent.ends[-1].body
 
     @property
-    def slips(self) -> tuple[str, str]:
+    def together(self) -> tuple[str, str]:
         """What has one slip with all its points: a body on a plane."""
         return self.body, self.plane
 
@@ -152,7 +160,7 @@ class Sliding(Element):
 
 def elements(scene: Scene, where: Coordinates) -> Iterator[Element]:
     """All that has states, in the order of the scene."""
-    for contact in scene.contacts.values():
+    for contact in scene.touching.values():
         if contact.ideal == "rolling":
             yield Rolling(name=contact.name, tangent=tangent(contact, where))
         else:
@@ -165,6 +173,7 @@ def elements(scene: Scene, where: Coordinates) -> Iterator[Element]:
                 restitution=contact.restitution,
                 frictionless=contact.static == 0.0,
                 plane=contact.plane.name,
+                rest=REST if contact.ideal is None else ("sticks",),
             )
     for joint in scene.joints.values():
         if (friction := joint.dry_friction) is None:

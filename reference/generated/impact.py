@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..system import Array
-from .element import REST, Element, State, sign
+from .element import Element, State, sign
 from .sharing import one_slip
 
 CONE = 1e-12  # of the impulse: an impulse that needs all of the cone sticks
@@ -65,7 +65,8 @@ def impact(
 
 def _choices(meetings: Sequence[Meeting]) -> Sequence[tuple[State, ...]]:
     """Sticking first; what only rests on the floor may also leave it."""
-    return [REST if m.strikes else (*REST, "open") for m in meetings]
+    rests = ((m.element.rest, m.strikes) for m in meetings)
+    return [rest if strikes else (*rest, "open") for rest, strikes in rests]
 
 
 def _tried(
@@ -94,7 +95,7 @@ def _tried(
         rows.append(meeting.normal.f)
         columns.append(meeting.normal.f + lean * meeting.tangent.f)
         after.append(meeting.after)
-        mine = meeting.element.slips
+        mine = meeting.element.together
         if state == "sticks" and mine not in stuck:  # its other points do not slip either
             stuck[mine] = len(rows)
             rows.append(meeting.tangent.f)
@@ -132,7 +133,9 @@ def _held(
     """
     for mine, row in stuck.items():
         pairs = [(m.element, at) for m, at in zip(meetings, normals, strict=True)]
-        cone = sum(e.kinetic * impulse[at] for e, at in pairs if at is not None and e.slips == mine)
+        cone = sum(
+            e.kinetic * impulse[at] for e, at in pairs if at is not None and e.together == mine
+        )
         if abs(impulse[row]) > (1 + CONE) * cone + nothing:
             return False
     return True

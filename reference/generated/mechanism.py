@@ -64,6 +64,8 @@ class Mechanism(System):
             if rising > still:
                 return ("open",)
         slip = rate(element.tangent, 0.0, q, v)
+        if abs(slip) > still and not element.slips:
+            raise BadStart(f"{element.name} starts with a slip of {slip:.3g} m/s, and only pivots")
         return closed(element, slip if abs(slip) > still else 0.0)
 
     def guards(self, mode: str) -> Sequence[Guard]:
@@ -85,7 +87,7 @@ class Mechanism(System):
                 return
             push = lambda t, q, v: self.built.forces(mode, t, q, v)[f"{e.name}.normal"]  # noqa: E731
             yield Guard(f"{e.name} opens", push, self._opens(mode, i))
-        if e.frictionless:
+        if e.frictionless or not e.slips:
             return
         if s := sign(state):
             slip = lambda t, q, v: s * rate(e.tangent, t, q, v)  # noqa: E731

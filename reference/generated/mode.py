@@ -80,7 +80,7 @@ class Multibody(Mode):
         """(2.60) R_a = λ_b f_aᵇ: the force of the first part on the second, by quantity."""
         at, numbers, multipliers = 0, q.tolist(), self.solve(t, q, v)[1].tolist()
         of_floor = ("normal", "tangent")
-        found = {f"{name}.{way}": 0.0 for name in self.scene.contacts for way in of_floor}
+        found = {f"{name}.{way}": 0.0 for name in self.scene.touching for way in of_floor}
         for c in self._constraints:
             _add(found, c.reactions(t, numbers, multipliers[at : at + c.size]))
             at += c.size
@@ -93,6 +93,11 @@ class Multibody(Mode):
                 found.setdefault(f"{joint.name}.torque", 0.0)
         for shared in self._shared:
             found |= shared.divided(found)
+        for contact in self.scene.contacts.values():
+            for way in of_floor if contact.tips else ():
+                found[f"{contact.name}.{way}"] = sum(
+                    found[f"{c.name}.{way}"] for c in contact.each()
+                )
         return found
 
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:

@@ -39,7 +39,7 @@ def one_slip(elements: Sequence[Element], states: Sequence[State]) -> bool:
     """Whether what a body has closed on a plane does alike; without friction there is no choice."""
     found: dict[tuple[str, str], State] = {}
     for e, state in zip(elements, states, strict=True):
-        if _rubs(e, state) and found.setdefault(e.slips, state) != state:
+        if _rubs(e, state) and found.setdefault(e.together, state) != state:
             return False
     return True
 
@@ -50,7 +50,7 @@ def beside(elements: Sequence[Element], states: Sequence[State], i: int) -> list
     if not _rubs(mine, states[i]):
         return [i]
     pairs = enumerate(zip(elements, states, strict=True))
-    return [k for k, (e, state) in pairs if _rubs(e, state) and e.slips == mine.slips]
+    return [k for k, (e, state) in pairs if _rubs(e, state) and e.together == mine.together]
 
 
 def shares(elements: Sequence[Element], states: Sequence[State]) -> Iterator[Shared]:
@@ -58,7 +58,7 @@ def shares(elements: Sequence[Element], states: Sequence[State]) -> Iterator[Sha
     groups: dict[tuple[str, str], list[Element]] = {}
     for e, state in zip(elements, states, strict=True):
         if _rubs(e, state) and state == "sticks":
-            groups.setdefault(e.slips, []).append(e)
+            groups.setdefault(e.together, []).append(e)
     for group in groups.values():
         if len(group) > 1:
             yield Shared(tuple(e.name for e in group), tuple(e.static for e in group))

@@ -12,7 +12,7 @@ import numpy as np
 from ...cases.case import Case, Placement
 from ...cases.scene import Anchor, Vector
 from ..generated.constraint import Constraint, assembled
-from ..generated.coordinates import Coordinates
+from ..generated.coordinates import ORIGIN, Coordinates
 from ..generated.permanent import constraints, gliding
 from ..generated.rows import FIRST, Along, X, Y
 from ..system import Array
@@ -40,11 +40,14 @@ class Closure:
         self.placed = placed(case.initial)
         self.places = [c for c in self.parts if c.holonomic]  # C₁ of (2.17) is free
         self.places += [_at(anchor, place, self.where) for anchor, place in self.placed]
+        standing = [Anchor(b, p.on) for b, p in case.initial.items() if p.on is not None]
+        self.places += [_on_floor(anchor, self.where) for anchor in standing]
         self.gliding = [
             gliding(edge, speed, self.where)
             for name, edge in case.scene.constraints.items()
             if name in case.initial and (speed := case.initial[name].given.get("speed")) is not None
         ]
+        self.still = [_at(anchor, ORIGIN, self.where) for anchor in standing]
         self.locks = [lock for c in self.parts for lock in self._locks(c)]
         self.given = held(self.locks, self.numbers(case.initial, POSITIONS))
         self.free = np.array([i for i in range(self.n) if i not in self.given], int)
@@ -124,6 +127,11 @@ def _at(anchor: Anchor, place: Vector, where: Coordinates) -> Constraint:
     """r_P = place, for the search only: nothing holds the point there later."""
     rows = ((Along(FIRST, X),), (Along(FIRST, Y),))
     return Constraint(str(anchor), (anchor,), rows, ((), ()), place, where)
+
+
+def _on_floor(anchor: Anchor, where: Coordinates) -> Constraint:
+    """y_P = 0, for the search only."""
+    return Constraint(str(anchor), (anchor,), ((Along(FIRST, Y),),), ((),), (0.0,), where)
 
 
 def held(locks: Sequence[Lock], known: Mapping[int, float]) -> dict[int, float]:

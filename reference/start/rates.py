@@ -27,7 +27,7 @@ def rates(closure: Closure, q: Array) -> Array:
 
 
 def _of_one(closure: Closure, q: Array, v: Array, columns: list[int], free: list[int]) -> Array:
-    parts = [*closure.parts, *closure.gliding]
+    parts = [*closure.parts, *closure.gliding, *closure.still]
     rows, g = closure.linear(parts, q)
     owners = [c for c in parts for _ in range(c.size)]
     mine = np.any(rows[:, columns] != 0.0, axis=1)

@@ -21,6 +21,7 @@ from .growing_force import GrowingForce
 from .heavy_top import HeavyTop
 from .knife_edge import KnifeEdge
 from .rhombus import Rhombus
+from .rimless_wheel import RimlessWheel
 from .robot_knife import RobotKnife
 from .rolling_wheel import RollingWheel
 from .sleigh import Sleigh
@@ -49,6 +50,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "heavy_top": HeavyTop,
     "knife_edge": KnifeEdge,
     "rhombus": Rhombus,
+    "rimless_wheel": RimlessWheel,
     "robot_knife": RobotKnife,
     "rolling_wheel": RollingWheel,
     "sleigh": Sleigh,

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 
+from ... import shape
 from ...mistake import Path, nearest
 from ...scene import CENTER, FLOOR, GROUND, Anchor, Edge, Force, Joint, Scene
 from ..grammar.file import Near
@@ -12,7 +13,7 @@ from .edge import edges
 from .space.spatial import spatial
 from .touch import planes, touches
 
-_TAKEN = ("x", "y", "angle", "vx", "vy", "omega", "speed")  # `crank.x` is a quantity
+_TAKEN = ("x", "y", "angle", "vx", "vy", "omega", "speed", "on")  # `crank.x` is a quantity
 _TAKEN_IN_SPACE = (*_TAKEN, "z", "vz", "attitude", "omega_1", "omega_2", "omega_3")
 
 
@@ -77,8 +78,9 @@ def _points(parsed: Parsed) -> Iterator[Finding]:
         yield ("scene", "points", FLOOR), f"the name {FLOOR!r} is taken"
     for name, body in parsed.file.scene.bodies.items():
         ends = ("start", "end") if body.word == "bar" else ()
+        tips = shape.tips(body.spokes.number) if body.word == "spokes" else ()
         for point in getattr(body, "points", {}):
-            if point in (CENTER, *ends, *taken):
+            if point in (CENTER, *ends, *tips, *taken):
                 yield ("scene", "bodies", name, "points", point), f"the name {point!r} is taken"
 
 
@@ -126,6 +128,8 @@ def _placed(
         for point in place.places:
             if point not in scene.bodies[name].points:
                 yield from _anchor(parsed, scene, (key, name, point), Anchor(name, point))
+        if place.stands_on is not None:
+            yield from _anchor(parsed, scene, (key, name, "on"), Anchor(name, place.stands_on))
         for turning in ("angle", "omega"):
             if not scene.bodies[name].turns and getattr(place, turning, None) is not None:
                 yield (key, name, turning), f"{name!r} is a particle and cannot turn"

@@ -24,8 +24,8 @@ def touches(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
             yield (*path, "between", 0), what
         elif (at, on) in first:
             yield (*path, "between", 0), f"{touching!r} already touches in {first[at, on]!r}"
-        elif contact.ideal == "rolling" and body.radius is None:
-            yield (*path, "ideal"), f"{part!r} is a {body.shape}; only a disk rolls"
+        elif what := _not_ideal(body, contact.ideal):
+            yield (*path, "ideal") if contact.ideal else path, what
         first.setdefault((at, on), name)
         yield from _plane(parsed, (*path, "between", 1), plane)
 
@@ -52,6 +52,17 @@ def _plane(parsed: Parsed, path: Path, word: str) -> Iterator[Finding]:
     yield path, f"should be a plane of the ground, is {word!r}{hint}"
 
 
+def _not_ideal(body: Body, ideal: str | None) -> str | None:
+    """Why the body cannot do what is assumed of it, or None."""
+    if ideal == "rolling" and body.radius is None:
+        return f"{body.name!r} is a {body.shape}; only a disk rolls"
+    if ideal == "pivot" and (body.radius is not None or not body.turns):
+        return f"{body.name!r} is a {body.shape}; only spokes and a point of a bar pivot"
+    if body.tips and ideal is None:
+        return f"{body.name!r} has spokes, which only pivot here: write `ideal: pivot`"
+    return None
+
+
 def _cannot_touch(body: Body, point: str) -> str | None:
     """Why this point of the body ("": none is named) cannot touch the floor, or None."""
     if body.radius is not None or body.shape == "particle":
@@ -59,9 +70,11 @@ def _cannot_touch(body: Body, point: str) -> str | None:
             with_it = "as a point" if body.radius is None else "with its rim"
             return f"{body.name!r} is a {body.shape} and touches {with_it}: write {body.name!r}"
         return None
+    if body.tips:
+        return f"{body.name!r} touches with its tips: write {body.name!r}" if point else None
     if body.shape != "bar":
         return (
-            f"{body.name!r} is a {body.shape}; only a disk, a particle or a point of a bar "
+            f"{body.name!r} is a {body.shape}; only a disk, a particle, a point of a bar or spokes "
             "can touch the floor"
         )
     if not point:

@@ -5,9 +5,10 @@ from typing import Annotated
 
 from pydantic import Field
 
+from ...body import Body
 from ...contact import Contact as Noun
 from ...plane import LEVEL, Plane
-from ...point import anchor
+from ...point import CENTER, anchor
 from .field import In
 from .friction import Friction
 from .part import Part
@@ -17,23 +18,29 @@ from .words import wrong
 
 class Contact(Part):
     between: tuple[Annotated[str, Text()], Annotated[str, Text()]] = Field(
-        description="a disk, a particle or a point of a bar, then ground.floor or another plane"
+        description="a disk, a particle, a point of a bar or spokes, then ground.floor or another plane"
     )
     friction: Friction
     restitution: Annotated[float, In("1", least=0, most=1)] = Field(
         0.0, description="speed after an impact over speed before it"
     )
-    ideal: Annotated[str, Word("ideal", ("rolling",))] | None = Field(
+    ideal: Annotated[str, Word("ideal", ("rolling", "pivot"))] | None = Field(
         None, description="what the reference assumes, and checks at every sample"
     )
 
     def model_post_init(self, context: object) -> None:
-        if self.ideal is not None and "restitution" in self.model_fields_set:
+        if self.ideal == "rolling" and "restitution" in self.model_fields_set:
             raise wrong("`restitution` cannot stand beside `ideal: rolling`: it has no impacts")
+        if self.ideal == "pivot" and self.restitution:
+            raise wrong("`restitution` is 0 beside `ideal: pivot`: what strikes the floor stays")
+        if self.ideal == "pivot" and self.friction.static != self.friction.kinetic:
+            raise wrong("`friction` is one number beside `ideal: pivot`: nothing slides")
 
-    def named(self, name: str, planes: Mapping[str, Plane]) -> Noun:
+    def named(self, name: str, bodies: Mapping[str, Body], planes: Mapping[str, Plane]) -> Noun:
         """The contact; with the floor where there is no such plane (check/touch.py says so)."""
         static, kinetic = self.friction.static, self.friction.kinetic
         at, ideal = anchor(self.between[0]), self.ideal
         plane = planes.get(self.between[1].partition(".")[2], LEVEL)
-        return Noun(name, at, static, kinetic, self.restitution, ideal, plane)  # type: ignore[arg-type]
+        body = bodies.get(at.body)
+        tips = body.tips if body is not None and at.point == CENTER else ()
+        return Noun(name, at, static, kinetic, self.restitution, ideal, plane, tips)  # type: ignore[arg-type]

@@ -87,11 +87,16 @@ class Near(Part):
     def given(self) -> dict[str, float]:
         """Coordinates and rates by name."""
         numbers = {key: getattr(self, key) for key in type(self).model_fields}
-        return {key: number for key, number in numbers.items() if number is not None}
+        return {key: number for key, number in numbers.items() if isinstance(number, float)}
 
     @property
     def attitude(self) -> None:
         """None in the plane, where a body has an angle."""
+
+    @property
+    def stands_on(self) -> str | None:
+        """The point that stands on the floor: only a start has one."""
+        return None
 
 
 class Initial(Near):
@@ -101,6 +106,11 @@ class Initial(Near):
     vy: Annotated[float, In("m/s")] | None = None
     omega: Annotated[float, In("rad/s")] | None = None
     speed: Annotated[float, In("m/s")] | None = Field(None, description="of an edge, along it")
+    on: Name | None = Field(None, description="the point of the body that stands on the floor")
+
+    @property
+    def stands_on(self) -> str | None:
+        return self.on
 
 
 class Deviation(Part):

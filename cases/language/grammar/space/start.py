@@ -72,6 +72,11 @@ class Start(Part):
         return self.__pydantic_extra__
 
     @property
+    def stands_on(self) -> None:
+        """None in space, where nothing pivots on the floor by a point."""
+        return None
+
+    @property
     def given(self) -> dict[str, float]:
         """Coordinates and rates by name; of a vector ω omega_1, omega_2, omega_3."""
         numbers = {k: v.value for k, v in self.entries.items() if isinstance(v, Amount)}
