@@ -1,4 +1,7 @@
-"""A case: a claim about the motion of a scene, with its source and its three kinds of number."""
+"""A case: a claim about the motion of a scene, or about its states, with its source.
+
+And with its three kinds of number.
+"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -7,7 +10,9 @@ import numpy as np
 
 from .event import Event
 from .mistake import Mistake, Source
+from .quantity import Quantity, table
 from .scene import Scene, Vector
+from .states import States, claimable
 from .trajectory import Array
 
 
@@ -77,12 +82,18 @@ class Case:
     events: Mapping[str, Event]
     source: Source  # the file, for messages
     tube: float = 0.0  # s: how long what jumps may take; just after an event is so much later
+    states: States | None = None  # of a claim about states; its times are their numbers
     long: bool = False  # whether its reference may take any amount of work
 
     @property
     def times(self) -> Array:
         """The sample times (samples,), the only times at which anything is compared."""
         return np.arange(self.samples, dtype=np.float64) * self.interval
+
+    @property
+    def quantities(self) -> dict[str, Quantity]:
+        """What can be bounded, but for events."""
+        return table(self.scene) if self.states is None else claimable(self.scene)
 
     @property
     def interval(self) -> float:

@@ -3,7 +3,10 @@
 from collections.abc import Mapping
 from typing import Literal
 
-Kind = Literal["coordinate", "velocity", "force", "energy", "momentum", "residual", "event"]
+Kind = Literal[
+    "coordinate", "velocity", "force", "energy", "momentum", "residual", "event",
+    "acceleration", "inertia",
+]  # fmt: skip
 Fields = Mapping[str, tuple[str, Kind]]
 """field → unit, kind."""
 

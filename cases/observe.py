@@ -19,9 +19,9 @@ def observe(scene: Scene, trajectory: Trajectory, name: str) -> Array:
 
     Raises KeyError for an unknown quantity, or for a reaction the producer does not give.
     """
-    quantity = table(scene)[name]
     if name in trajectory.reactions:
         return trajectory.reactions[name]
+    quantity = table(scene)[name]
     if quantity.part == "energy":
         return _energy(scene, trajectory, quantity.field)
     if quantity.part == "momentum":

@@ -22,6 +22,7 @@ from .motion.follow import Followed, follow
 from .premises import check_premises, check_shares, check_start
 from .refusal import bounded, refusals
 from .start.mechanism import mechanism
+from .states.answer import answered
 from .system import Pose, System
 from .systems import written as written_system
 
@@ -41,13 +42,13 @@ class Solution:
 
 
 def solve(case: Case) -> Solution:
-    """The certified motion of a case at its sample times.
+    """The certified motion of a case at its sample times, or its states with their quantities.
 
     Raises CaseError where the case cannot be started, its idealisation does not hold, or it asks
     more than can be certified.
     """
     with noting() as equations, bounded(case):
-        motion, checks = _solved(case)
+        motion, checks = _solved(case) if case.states is None else answered(case)
     return Solution(motion, case.system or "generated", checks, frozenset(equations))
 
 

@@ -7,23 +7,24 @@ from given.tree import FILES, imported, module
 # joined by + is one room.
 NOUNS = (
     "body+constraint+contact+difference+element+event+force+frame+friction+joint+kind+motion"
-    "+plane+point+scene+shape+signal+space+trajectory+turning"
+    "+plane+point+quantity+scene+shape+signal+space+states+trajectory+turning"
 )
 ROOMS = {
     "cases": [
         "mistake",
         f"{NOUNS}+language.grammar",  # nouns declare their numbers in the words of the grammar
-        "case find quantity language.read language.parse",
+        "case find language.read language.parse",
         "observe language.check language.resolve",
         "load",
     ],
     "reference": [
-        "system coverage integrators",
+        "system stated coverage integrators",
         "laws",
         "formalisms",
         "systems generated motion",
         "start",
         "approximations certificate premises refusal",
+        "states",
         "solve",
     ],
     "engines": ["engine law", "heading", "mujoco pymunk"],

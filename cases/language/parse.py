@@ -28,6 +28,10 @@ _HOLLOW: dict[str, Any] = {
 }
 
 
+# What a claim about states has nothing of, and what stands in for what every other file needs.
+_MOVES = ("initial", "near", "events", "duration", "samples", "step", "rests", "stays")
+_STILL: dict[str, Any] = {"initial": {}, "duration": 1.0, "samples": 3}
+
 # Of the scene: none names a part.
 _ALONE = (("gravity",), ("incline",), ("seen",), ("space",), ("drive",))
 
@@ -71,6 +75,11 @@ def parse(data: Mapping[str, Any]) -> Parsed:
     rest = _copy(data)
     findings: list[Finding] = []
     broken: set[Path] = set()
+    if "states" in rest:
+        findings += [
+            ((key,), "stands beside `states`, where nothing moves") for key in _MOVES if key in rest
+        ]
+        rest = {k: v for k, v in rest.items() if k not in _MOVES} | _STILL
     while True:
         try:
             file = model.model_validate(rest, context=known)

@@ -50,7 +50,7 @@ def _named(elements: Mapping[str, Any]) -> dict[str, Any]:
 
 def resolve_case(name: str, file: File, scene: Scene, source: Source, *, long: bool) -> Case:
     """The case of a file without mistakes."""
-    book = file.source
+    book, states = file.source, None if file.states is None else file.states.states
     return Case(
         name=name,
         title=file.title,
@@ -61,8 +61,9 @@ def resolve_case(name: str, file: File, scene: Scene, source: Source, *, long: b
         scene=scene,
         initial=_placements(file.initial),
         near=_placements(file.near),
-        duration=file.duration,
-        samples=file.samples,
+        duration=file.duration if states is None else states.random - 1.0,
+        samples=file.samples if states is None else states.random,
+        states=states,
         step=file.step,
         allow={q: None if amount is None else amount.value for q, amount in file.allow.items()},
         reach={

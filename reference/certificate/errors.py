@@ -9,7 +9,7 @@ from ...cases.case import Case
 from ...cases.difference import apart
 from ...cases.mistake import Mistake
 from ...cases.observe import observe
-from ...cases.quantity import at_event, event_quantities, table
+from ...cases.quantity import at_event, event_quantities
 from ...cases.trajectory import Trajectory
 from .agreement import Check, worst
 
@@ -26,7 +26,7 @@ def errors(
     The error is the largest difference to any other answer, and at least the rounding of a double.
     late: how well the times of events are known [s].
     """
-    known = table(case.scene)
+    known = case.quantities
     times = {name: q for name, q in event_quantities(case.events).items() if q.field == "time"}
     for name in case.allow:
         least, at = _least(case, name), at_event(name, case.events)

@@ -7,7 +7,6 @@ is a pendulum turned over about its tip; the next one strikes the floor without 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np

@@ -10,6 +10,7 @@ from .claims import claims
 from .engines import Engines, engines
 from .links import links, twice
 from .sampling import sampling
+from .states import states
 
 _NO_USE = ("title", "source", "parameters", "drops_out")  # where a name is not a use of it
 
@@ -26,7 +27,9 @@ def check(
     yield from links(parsed, scene)
     if known is not None:
         yield from engines(parsed.file, known)
-    if not any(twice(parsed, scene)):
+    if parsed.file.states is not None:
+        yield from states(parsed, scene)
+    if not any(twice(parsed, scene)) and not parsed.lacks("states"):
         yield from claims(parsed, scene)
     if not parsed.lacks("duration") and not parsed.lacks("samples") and not parsed.lacks("step"):
         yield from sampling(parsed.file)

@@ -5,13 +5,14 @@ from collections.abc import Iterator, Mapping
 from ...mistake import Path, nearest
 from ...quantity import EVENT_FIELDS, Quantity, at_event, at_events, event_quantities, table
 from ...scene import Scene
+from ...states import claimable
 from ..grammar.number import Amount, NumberMistake, fitting
 from ..parse import Finding, Parsed
 
 
 def claims(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     """Mistakes in `events`, `allow`, `reach` and `deviates`."""
-    seen = table(scene)
+    seen = table(scene) if parsed.file.states is None else claimable(scene)
     yield from _events(parsed, scene, seen)
     events = parsed.file.events
     yield from _bounds(parsed, seen | event_quantities(events) | at_events(events, seen))

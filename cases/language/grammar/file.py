@@ -16,6 +16,7 @@ from .joint import Joint
 from .number import Amount
 from .part import Angle, Name, Part, Position, plain_or_map
 from .plane import Plane
+from .states import Drawn
 from .text import Place, Text, Word, equation, label, no_formula
 from .words import wrong
 
@@ -138,7 +139,7 @@ def _overlay_schema(schema: dict[str, Any]) -> None:
 
 
 class File(Part):
-    """A case: one claim about the motion of one scene."""
+    """A case: one claim about the motion of one scene, or about its states."""
 
     elsewhere = {"drive": "it stands in `scene`"}  # noqa: RUF012  # a ClassVar of Part
 
@@ -159,6 +160,9 @@ class File(Part):
     initial: dict[Name, Initial]
     near: dict[Name, Near] = Field(
         {}, description="a guess, where the constraints have more than one solution"
+    )
+    states: Drawn | None = Field(
+        None, description="in place of a start and a duration: a claim about states"
     )
     events: dict[Name, Event] = Field(
         {}, description="named instants: when a quantity comes to zero or leaves it"

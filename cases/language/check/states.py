@@ -1,0 +1,77 @@
+"""What a claim about states is about: free bodies of the plane, or an open chain in space."""
+
+from collections.abc import Iterator
+
+from ...point import GROUND
+from ...space.joint import SpatialJoint
+from ...space.scene import SpatialScene
+from ..grammar.file import File
+from ..parse import Finding, Parsed
+
+_NOTHING = "a claim about states is about bodies and joints alone"
+
+
+def states(parsed: Parsed, scene: object) -> Iterator[Finding]:
+    """Every mistake of a claim about states in its scene and its bounds."""
+    spec = parsed.file.scene
+    for section in ("constraints", "contacts", "forces"):
+        yield from ((("scene", section, name), _NOTHING) for name in getattr(spec, section))
+    for name, point in spec.points.items():
+        if point.driven:
+            yield ("scene", "points", name), f"is driven: {_NOTHING}"
+    if isinstance(scene, SpatialScene):
+        if scene.drives:
+            yield ("scene", "drive"), _NOTHING
+        yield from _particles(scene)
+        yield from _chain(parsed, scene)
+    else:
+        what = "has no place here: states of the plane are those of free bodies; write `space: 3`"
+        yield from ((("scene", "joints", name), what) for name in spec.joints)
+    yield from _limits(parsed.file)
+
+
+def _particles(scene: SpatialScene) -> Iterator[Finding]:
+    for name, body in scene.bodies.items():
+        if not body.turns:
+            yield ("scene", "bodies", name), "is a particle; a claim about states takes none"
+
+
+def _chain(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
+    """From the ground on each body hangs on one joint, whose freedoms have names."""
+    if any(path[0] == "scene" for path in parsed.broken):
+        return  # what is missing may be what joins them
+    hung = {GROUND}
+    for name, joint in _outward(scene):
+        path = ("scene", "joints", name)
+        if any(not freedom.name for freedom in joint.freedoms):
+            yield path, f"a {joint.kind} has no coordinates to draw; write `freedoms`"
+        if joint.b.body in hung:
+            yield path, "closes a loop: states are drawn of open chains"
+        elif joint.a.body not in hung:
+            yield (*path, joint.word), "should name the part that is nearer to the ground first"
+        hung |= {joint.a.body, joint.b.body}
+    for name in scene.bodies:
+        if name not in hung:
+            yield ("scene", "bodies", name), "hangs on nothing: join it to the ground by `freedoms`"
+
+
+def _outward(scene: SpatialScene) -> Iterator[tuple[str, SpatialJoint]]:
+    """The joints from the ground on; last those that begin at nothing that hangs."""
+    left, hung = dict(scene.joints), {GROUND}
+    while left:
+        ready = (name for name, joint in left.items() if joint.a.body in hung)
+        name = next(ready, None) or next(iter(left))
+        yield name, left[name]
+        hung |= {left[name].a.body, left[name].b.body}
+        del left[name]
+
+
+def _limits(file: File) -> Iterator[Finding]:
+    for setting, declared in file.deviates.items():
+        for name, deviation in declared.items():
+            if deviation.limit is not None:
+                what = "no step leads to a state, so that there is no limit; write `by`"
+                yield ("deviates", setting, name, "limit"), what
+    for way in file.reach:
+        if way.rpartition(".")[2] in ("law", "driver", "limit"):
+            yield ("reach", way), "states are asked of the engine itself; write its name alone"

@@ -1,0 +1,101 @@
+"""A claim about states: unrelated places, rates and accelerations of every coordinate, at random.
+
+Its quantities are those of bodies and points, what moves them, and how they resist: nothing moves
+from one state to the next.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from .kind import Fields, Kind
+from .quantity import Quantity, table
+from .scene import Scene
+from .space.joint import effort_of
+from .space.scene import SpatialScene
+from .trajectory import Array
+
+Span = tuple[float, float]
+
+MASS_MATRIX = "mass_matrix"
+_OF_STATES: tuple[Kind, ...] = ("coordinate", "velocity", "energy", "momentum")
+
+
+@dataclass(frozen=True)
+class States:
+    """So many states, each of whose numbers is drawn evenly from its span [SI]."""
+
+    random: int
+    seed: int
+    q: Span
+    q_dot: Span
+    q_ddot: Span
+
+    def drawn(self, scene: Scene) -> dict[str, Array]:
+        """(N, 3) by coordinate: its places, rates and accelerations."""
+        names, random = coordinates(scene), np.random.default_rng(self.seed)
+        shape = (self.random, len(names))
+        columns = [random.uniform(*span, shape) for span in (self.q, self.q_dot, self.q_ddot)]
+        return {name: np.stack([c[:, i] for c in columns], 1) for i, name in enumerate(names)}
+
+
+def coordinates(scene: Scene) -> dict[str, str]:
+    """The unit of each coordinate: x, y and angle of the plane's bodies, freedoms of joints."""
+    if isinstance(scene, SpatialScene):
+        return {
+            f"{joint.name}.{freedom.name}": "m" if freedom.kind == "shift" else "rad"
+            for joint in scene.joints.values()
+            for freedom in joint.freedoms
+        }
+    units = {"x": "m", "y": "m", "angle": "rad"}
+    return {
+        f"{body.name}.{name}": unit
+        for body in scene.bodies.values()
+        for name, unit in units.items()
+        if body.turns or unit == "m"
+    }
+
+
+def claimable(scene: Scene) -> dict[str, Quantity]:
+    """Every quantity that can be bounded in a claim about states, in the scene's order."""
+    known = {
+        name: quantity
+        for name, quantity in table(scene).items()
+        if quantity.part not in scene.joints and quantity.kind in _OF_STATES
+    }
+    more = [(part, field, *of) for part, fields in _more(scene) for field, of in fields.items()]
+    known |= {f"{part}.{field}": _quantity(part, field, *of) for part, field, *of in more}
+    units = set(coordinates(scene).values())
+    if len(units) == 1:  # of metres and radians together its entries have no common unit
+        unit = "kg m²" if units == {"rad"} else "kg"
+        known[MASS_MATRIX] = Quantity(MASS_MATRIX, MASS_MATRIX, "", unit, "inertia")
+    return known
+
+
+def _quantity(part: str, field: str, unit: str, kind: Kind) -> Quantity:
+    return Quantity(f"{part}.{field}", part, field, unit, kind)
+
+
+def _more(scene: Scene) -> Iterator[tuple[str, Fields]]:
+    """What only states have: accelerations, inertias, and what accelerations need."""
+    linear: Fields = {f"a{axis}": ("m/s²", "acceleration") for axis in scene.frame.axes}
+    for body in scene.bodies.values():
+        yield body.name, {**linear, **(_turning(scene) if body.turns else {})}
+        yield from ((f"{body.name}.{point}", linear) for point in body.points)
+    if isinstance(scene, SpatialScene):
+        for joint in scene.joints.values():
+            yield joint.name, {effort_of(f): _effort(f.kind) for f in joint.freedoms}
+
+
+def _turning(scene: Scene) -> Fields:
+    """α = ω̇ in ground axes, and the moments of inertia."""
+    spatial = scene.frame.dimension == 3
+    alpha = [f"alpha_{axis}" for axis in "xyz"] if spatial else ["alpha"]
+    ends = ("_11", "_22", "_33", "_12", "_13", "_23") if spatial else ("",)
+    found: dict[str, tuple[str, Kind]] = dict.fromkeys(alpha, ("rad/s²", "acceleration"))
+    return found | dict.fromkeys((f"inertia{end}" for end in ends), ("kg m²", "inertia"))
+
+
+def _effort(kind: str) -> tuple[str, Kind]:
+    return ("N", "force") if kind == "shift" else ("N m", "force")

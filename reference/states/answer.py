@@ -1,0 +1,137 @@
+"""Case → every quantity of its states, and what its answers differ by."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from ...cases.case import Case
+from ...cases.mistake import CaseError, Mistake
+from ...cases.observe import observe
+from ...cases.space.scene import SpatialScene
+from ...cases.trajectory import Trajectory
+from ..certificate.agreement import Check, difference, relative, worst
+from ..certificate.errors import beyond, errors
+from ..coverage import look
+from ..generated.free import FreeBodies
+from ..generated.space.chain import SpatialChain
+from ..stated import Stated
+from ..system import Array
+from ..systems.stated import STATED
+from .derived import by_virtual_work, derived, efforts
+
+LAW = 1e-12  # of the largest of a quantity: all of it is algebra, only rounding may differ
+VARYING = ("coordinate", "velocity", "acceleration")  # kinds that no claim should leave constant
+
+
+def answered(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
+    """The states with all quantities, and every check of them.
+
+    The times are the numbers of the states. Raises CaseError for a system that answers no states,
+    a bound that asks more than can be certified, or one of what is the same in every state.
+    """
+    generated = generated_mode(case)
+    written = _written(case, generated)
+    built = _trajectory(case, generated, partial(derived, generated, case.scene, set(case.allow)))
+    found, others, checks = built, {}, []
+    if written is not None:
+        own, others = _trajectory(case, written, written.told), {"generated": built}
+        checks.append(Check("generated states", _apart(case, own, built), LAW))
+        # what a system does not tell is the generated mechanism's
+        found = replace(own, reactions={**built.reactions, **own.reactions})
+    checks += _worked(case, generated, built)
+    checks += errors(case, found, others, 0.0)
+    if mistakes := [*beyond(case, checks), *_constant(case, found)]:
+        raise CaseError(mistakes)
+    return found, tuple(checks)
+
+
+def generated_mode(case: Case) -> Stated:
+    """Of the scene alone."""
+    scene = case.scene
+    return SpatialChain(scene) if isinstance(scene, SpatialScene) else FreeBodies(scene)
+
+
+def _written(case: Case, generated: Stated) -> Stated | None:
+    if case.system is None:
+        return None
+    if case.system not in STATED:
+        known = ", ".join(STATED)
+        what = f"{case.system!r} answers for a motion; of states there are {known}"
+        raise CaseError([case.mistake(("system",), what)])
+    try:
+        found = STATED[case.system](**case.parameters)
+    except ValueError as error:
+        raise CaseError([case.mistake(("parameters",), f"{case.system}: {error}")]) from error
+    if set(found.coordinates) != set(generated.coordinates):
+        ours, theirs = (", ".join(mode.coordinates) for mode in (found, generated))
+        what = f"{case.system!r} has the coordinates {ours}; the scene has {theirs}"
+        raise CaseError([case.mistake(("system",), what)])
+    return found
+
+
+def rows(case: Case, mode: Stated) -> Iterator[tuple[Array, Array, Array]]:
+    """q, q̇ and q̈ of every state, in the mode's order."""
+    assert case.states is not None
+    drawn = case.states.drawn(case.scene)
+    stacked = np.stack([drawn[name] for name in mode.coordinates], axis=1)  # (N, n, 3)
+    yield from ((row[:, 0], row[:, 1], row[:, 2]) for row in stacked)
+
+
+def _trajectory(
+    case: Case, mode: Stated, tell: Callable[[Array, Array, Array], Mapping[str, Any]]
+) -> Trajectory:
+    """The poses of a mode, and what is told for q, q̇ and q̈."""
+    states: dict[str, list[object]] = {}
+    told: dict[str, list[object]] = {}
+    look()
+    for q, v, a in rows(case, mode):
+        for name, pose in mode.poses(0.0, q, v).items():
+            states.setdefault(name, []).append(pose)
+        for name, value in tell(q, v, a).items():
+            told.setdefault(name, []).append(value)
+    return Trajectory(
+        case.times,
+        {name: np.array(poses, float) for name, poses in states.items()},
+        {name: np.array(values, float).ravel() for name, values in told.items()},
+    )
+
+
+def _apart(case: Case, one: Trajectory, other: Trajectory) -> float:
+    """The largest difference of states and of what both tell, relative to the largest of its unit.
+
+    What stays zero, as the x of a vertical axis, trembles by rounding.
+    """
+    sizes: dict[str, float] = {}
+    both = {name: case.quantities.get(name) for name in one.reactions if name in other.reactions}
+    unit = {name: name if known is None else known.unit for name, known in both.items()}
+    for name, own in unit.items():
+        sizes[own] = max(sizes.get(own, 0.0), worst(np.abs(one.reactions[name])))
+    told = (
+        relative(one.reactions[name], other.reactions[name], least=sizes[own])
+        for name, own in unit.items()
+    )
+    return worst([difference(one, other), *told])
+
+
+def _worked(case: Case, mode: Stated, built: Trajectory) -> Iterator[Check]:
+    """Lagrange's equations against d'Alembert's principle, of which they are no part here."""
+    if not isinstance(case.scene, SpatialScene):
+        return
+    look()
+    each = [by_virtual_work(mode, case.scene.gravity, *row) for row in rows(case, mode)]
+    apart = (
+        relative(built.reactions[effort], np.array([row[name] for row in each]))
+        for name, effort in efforts(case.scene)
+    )
+    yield Check("Lagrange (2.44) against d'Alembert (2.39)", worst(apart), LAW)
+
+
+def _constant(case: Case, found: Trajectory) -> Iterator[Mistake]:
+    for name in case.allow:
+        if case.quantities[name].kind in VARYING:
+            samples = observe(case.scene, found, name)
+            if np.ptp(samples, axis=0).max() == 0.0:
+                yield case.mistake(("allow", name), "is the same in every state; leave it out")

@@ -1,0 +1,46 @@
+"""The five-axis robot (fig 2.10, Exercise 2.1) at any state: kinematics and inverse dynamics.
+
+q = (q₁ … q₅) as of its arm. ω_k follows from Ė_k by (2.3), (2.4), and torques from one pass outward
+and one inward, with no energy.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from ..formalisms.derivative import along
+from ..laws.rotation import angular_velocity
+from ..stated import Stated
+from ..system import Array
+from .arm import inward, mass_matrix, outward, places
+from .serial_arm import NAMES, SerialArm
+from .triples import dot
+
+
+class ArmStates(SerialArm, Stated):
+    """The arm with its rates and accelerations given: five hinges, driven by what they need."""
+
+    coordinates = ("q1.angle", "q2.angle", "q3.angle", "q4.angle", "q5.angle")
+
+    def __init__(self) -> None:
+        self.__post_init__()
+
+    def told(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
+        """(2.3), (2.4), (2.7), (2.27) ω, ω̇, r̈, M_ab and the torques u_k · M_k."""
+        where = places(q)
+        found: dict[str, Any] = {"mass_matrix": mass_matrix(where)}
+        moving = outward(where, v.tolist(), a.tolist())
+        for name, at in zip(NAMES, moving, strict=True):
+            found |= _by_axis(f"{name}.a", at.c_ddot) | _by_axis(f"{name}.alpha_", at.omega_dot)
+        found |= _by_axis("hand.P.a", moving[-1].end_ddot)
+        for k, (place, (_, M)) in enumerate(zip(where, inward(where, moving), strict=True)):
+            found[f"q{k + 1}.torque"] = dot(place.u, M)
+        E_dot = along(lambda q: np.array([place.E for place in places(q)]), (q,), (v,))
+        for name, place, rate in zip(NAMES, where, E_dot, strict=True):
+            omega = angular_velocity(np.array(place.E), rate)
+            found |= {f"{name}.omega_{i}": x for i, x in enumerate(omega, start=1)}
+        return found
+
+
+def _by_axis(begin: str, vector: Any) -> dict[str, float]:
+    return {f"{begin}{axis}": float(x) for axis, x in zip("xyz", vector, strict=True)}
