@@ -35,6 +35,7 @@ class Body:
     points: Mapping[str, Vector]
     radius: float | None = None  # of a disk, m
     tips: tuple[str, ...] = ()  # of spokes: the points with which it touches, counter-clockwise
+    size: Vector | None = None  # of a block, m
 
     @property
     def turns(self) -> bool:

@@ -34,7 +34,8 @@ def disk(*, name: str, mass: Mass, radius: Length, points: Points) -> Body:
 def block(*, name: str, mass: Mass, width: Length, height: Length, points: Points) -> Body:
     """Homogeneous rectangle: J = m (w² + h²)/12."""
     inertia = mass * (width**2 + height**2) / 12
-    return Body(name, "block", mass, inertia, {CENTER: (0.0, 0.0), **points})
+    size = (width, height)
+    return Body(name, "block", mass, inertia, {CENTER: (0.0, 0.0), **points}, size=size)
 
 
 def particle(*, name: str, mass: Mass) -> Body:

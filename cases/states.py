@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .kind import Fields, Kind
+from .point import CENTER
 from .quantity import Quantity, table
 from .scene import Scene
 from .space.joint import effort_of
@@ -58,11 +59,14 @@ def coordinates(scene: Scene) -> dict[str, str]:
 
 
 def claimable(scene: Scene) -> dict[str, Quantity]:
-    """Every quantity that can be bounded in a claim about states, in the scene's order."""
+    """Every quantity that can be bounded in a claim about states, in the scene's order.
+
+    What is drawn itself is no claim: coordinates of joints, and of the plane's bodies.
+    """
     known = {
         name: quantity
         for name, quantity in table(scene).items()
-        if quantity.part not in scene.joints and quantity.kind in _OF_STATES
+        if quantity.kind in _OF_STATES and not _drawn(scene, quantity)
     }
     more = [(part, field, *of) for part, fields in _more(scene) for field, of in fields.items()]
     known |= {f"{part}.{field}": _quantity(part, field, *of) for part, field, *of in more}
@@ -73,6 +77,13 @@ def claimable(scene: Scene) -> dict[str, Quantity]:
     return known
 
 
+def _drawn(scene: Scene, quantity: Quantity) -> bool:
+    if quantity.part in scene.joints:
+        return True
+    own = quantity.part in scene.bodies or quantity.part.endswith(f".{CENTER}")
+    return scene.frame.dimension == 2 and own and quantity.field != "speed"
+
+
 def _quantity(part: str, field: str, unit: str, kind: Kind) -> Quantity:
     return Quantity(f"{part}.{field}", part, field, unit, kind)
 
@@ -80,18 +91,20 @@ def _quantity(part: str, field: str, unit: str, kind: Kind) -> Quantity:
 def _more(scene: Scene) -> Iterator[tuple[str, Fields]]:
     """What only states have: accelerations, inertias, and what accelerations need."""
     linear: Fields = {f"a{axis}": ("m/s²", "acceleration") for axis in scene.frame.axes}
+    spatial = scene.frame.dimension == 3
     for body in scene.bodies.values():
-        yield body.name, {**linear, **(_turning(scene) if body.turns else {})}
-        yield from ((f"{body.name}.{point}", linear) for point in body.points)
+        yield body.name, {**(linear if spatial else {}), **(_turning(scene) if body.turns else {})}
+        points = (point for point in body.points if spatial or point != CENTER)
+        yield from ((f"{body.name}.{point}", linear) for point in points)
     if isinstance(scene, SpatialScene):
         for joint in scene.joints.values():
             yield joint.name, {effort_of(f): _effort(f.kind) for f in joint.freedoms}
 
 
 def _turning(scene: Scene) -> Fields:
-    """α = ω̇ in ground axes, and the moments of inertia."""
+    """In space α = ω̇ in ground axes, and the moments of inertia."""
     spatial = scene.frame.dimension == 3
-    alpha = [f"alpha_{axis}" for axis in "xyz"] if spatial else ["alpha"]
+    alpha = [f"alpha_{axis}" for axis in "xyz"] if spatial else []
     ends = ("_11", "_22", "_33", "_12", "_13", "_23") if spatial else ("",)
     found: dict[str, tuple[str, Kind]] = dict.fromkeys(alpha, ("rad/s²", "acceleration"))
     return found | dict.fromkeys((f"inertia{end}" for end in ends), ("kg m²", "inertia"))

@@ -177,6 +177,23 @@ class Loop(Protocol):
         ...
 
 
+@runtime_checkable
+class Claims(Protocol):
+    """What an engine may offer beside the protocol: answers about states that no step leads to."""
+
+    def answer(
+        self, scene: Scene, start: Start, states: Mapping[str, Array], wanted: Sequence[str]
+    ) -> Mapping[str, Array | str]:
+        """Of each wanted quantity its samples (N,), or why there are none: `engine: …`, `adapter: …`.
+
+        Of an attitude (N, 4), of `mass_matrix` all entries of all states (N n²,). states: by
+        coordinate (N, 3) places, rates and accelerations, in the order of the mass matrix; start:
+        the first of them. Masses and inertias are those that the engine finds by itself from the
+        shapes of bodies, as far as they have any.
+        """
+        ...
+
+
 class Maker(Protocol):
     """What an entry point names, usually the engine's class."""
 

@@ -15,13 +15,15 @@ from ..cases.load import load
 from ..cases.mistake import CaseError, Mistake, nearest
 from ..engines.engine import Engine
 from ..reference.systems import SYSTEMS
+from ..reference.systems.stated import STATED
 from .own_settings import read_settings
 
 BOOK = "book"
 NAME = re.compile(r"\w[\w-]*", re.ASCII)
 ENGINES = engines.Known()
 HANDWRITTEN = {
-    name: tuple(f.name for f in fields(cast(Any, system))) for name, system in SYSTEMS.items()
+    name: tuple(f.name for f in fields(cast(Any, system)))
+    for name, system in (SYSTEMS | STATED).items()
 }
 
 

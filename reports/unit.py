@@ -9,8 +9,9 @@ from ..cases.trajectory import Trajectory
 from ..engines.engine import Engine, Plan, Realised, Refusal
 from ..reference.solve import Solution, solve
 from .cache.store import Store
-from .judge.compare import Outcome, compare
+from .judge.compare import Outcome, answered, compare
 from .judge.uncertified import failing, uncertified
+from .trial import states
 from .trial.ladder import sampled
 from .trial.rung import Climbed, Rung
 from .trial.simulate import At, gathered, rungs
@@ -57,7 +58,8 @@ class Unit:
         """What has to be run, each on its own; the reference of the case's own samples will do."""
         if isinstance(self.way, Refusal):
             return {}
-        return rungs(Trial(self.pair.sampled, reference, self.pair.engine, self.way))
+        trial = Trial(self.pair.sampled, reference, self.pair.engine, self.way)
+        return rungs(trial) if trial.case.states is None else {states.AT: states.asked(trial)}
 
 
 @dataclass(frozen=True)
@@ -70,7 +72,10 @@ class Climb:
 
 def planned(pair: Pair) -> tuple[Way, ...]:
     """In which ways the engine runs the case, or refuses to."""
-    found = ways(pair.engine, pair.case.scene, first(pair.reference()))
+    start = first(pair.reference())
+    if pair.case.states is not None:
+        return states.ways(pair.engine, pair.case, start)
+    found = ways(pair.engine, pair.case.scene, start)
     return with_room(found, pair.case, pair.engine)
 
 
@@ -81,6 +86,8 @@ def judged(climb: Climb) -> Outcome:
     if isinstance(way, Refusal):
         return compare(Trial(pair.case, reference, pair.engine, way))
     case = pair.sampled
+    if case.states is not None:
+        return answered(Trial(case, reference, pair.engine, way), climb.found[states.AT])
     if case is pair.case:
         trial = Trial(case, reference, pair.engine, way)
         return compare(trial, gathered(trial, climb.found))

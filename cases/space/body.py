@@ -47,6 +47,7 @@ class SpatialBody:
     points: Mapping[str, Vector3]
     radius: float | None = None
     axle: Vector3 | None = None
+    size: Vector3 | None = None  # of a block, m
 
     @property
     def turns(self) -> bool:

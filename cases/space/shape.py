@@ -53,7 +53,7 @@ def block(
     a, b, c = (x * x for x in size)
     k = mass / 12
     tensor = (k * (b + c), k * (a + c), k * (a + b), 0.0, 0.0, 0.0)
-    return SpatialBody(name, "block", mass, tensor, {**_AT_CENTER, **points})
+    return SpatialBody(name, "block", mass, tensor, {**_AT_CENTER, **points}, size=size)
 
 
 def particle(*, name: str, mass: Mass) -> SpatialBody:

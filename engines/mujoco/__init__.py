@@ -10,6 +10,7 @@ from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ..engine import Plain, Plan, Refusal, Start
 from . import options, settings
+from .claims import answered
 from .plane import Plane
 from .space.world import Space
 
@@ -46,6 +47,12 @@ class MuJoCo:
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as the compiled model holds it."""
         return self._world(scene).measure(scene, start)
+
+    def answer(
+        self, scene: Scene, start: Start, states: Mapping[str, Array], wanted: Sequence[str]
+    ) -> dict[str, Array | str]:
+        """By `mj_inverse` and its sensors, whatever the setting: no number of one plays a part."""
+        return answered(scene, self._world(scene).bare(scene, start), states, wanted)
 
     def script(
         self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""

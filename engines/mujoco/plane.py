@@ -17,6 +17,7 @@ from .plans import plan, ways
 from .read.measure import measured
 from .refuse import NO_EDGE, unbuildable, uncompilable
 from .run import simulate
+from .scene import mjcf
 from .script import text
 from .settings import tuned, with_own
 
@@ -53,6 +54,10 @@ class Plane:
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as the compiled model holds it."""
         return measured(scene, *compiled(scene, start, NOMINAL, self._plan(scene, start)))
+
+    def bare(self, scene: Scene, start: Start) -> str:
+        """The scene as MJCF, with no number of a setting."""
+        return mjcf(scene, start, [timestep(NOMINAL)])
 
     def script(
         self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""

@@ -12,6 +12,7 @@ from ...cases.trajectory import Array, Trajectory
 from ..engine import Plain, Plan, Realised, Refusal, Start
 from ..heading import heading
 from . import plans, settings
+from .claims import answered
 from .edge import NO_EDGE
 from .plain import plain
 from .plans import named
@@ -64,6 +65,12 @@ class Pymunk:
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as pymunk's objects hold it, with which no number of a setting has to do."""
         return measured(build(scene, start, {}, "native"))
+
+    def answer(
+        self, scene: Scene, start: Start, states: Mapping[str, Array], wanted: Sequence[str]
+    ) -> dict[str, Array | str]:
+        """By the objects of one space, whatever the setting: no number of one plays a part."""
+        return answered(build(scene, start, {}, "native"), states, wanted)
 
     def script(
         self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""

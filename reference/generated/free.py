@@ -16,7 +16,7 @@ class FreeBodies(Stated):
         self.masses = {body.name: Mass(body.mass, body.inertia) for body in scene.bodies.values()}
 
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
-        """(2.9) X_k, E_k: a free body's coordinates are its own parameters; a particle's angle 0."""
+        """(2.9) X_k, E_k: a free body's coordinates are its own parameters."""
         at = {name: (q[i], v[i]) for i, name in enumerate(self.coordinates)}
         found: dict[str, Pose] = {}
         for name in self.masses:

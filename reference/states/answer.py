@@ -18,7 +18,7 @@ from ..coverage import look
 from ..generated.free import FreeBodies
 from ..generated.space.chain import SpatialChain
 from ..stated import Stated
-from ..system import Array
+from ..system import Array, Pose
 from ..systems.stated import STATED
 from .derived import by_virtual_work, derived, efforts
 
@@ -46,6 +46,13 @@ def answered(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
     if mistakes := [*beyond(case, checks), *_constant(case, found)]:
         raise CaseError(mistakes)
     return found, tuple(checks)
+
+
+def first_state(case: Case) -> dict[str, Pose]:
+    """The state of each body in the first of the states, which nobody has solved."""
+    mode = generated_mode(case)
+    q, v, _ = next(rows(case, mode))
+    return mode.poses(0.0, q, v)
 
 
 def generated_mode(case: Case) -> Stated:

@@ -36,7 +36,7 @@ def derived(
                 d = np.array([*x, 0.0, 0.0, 0.0])[:3] @ E
                 found |= dict(zip(names, acceleration(a_c, alpha, omega, d).tolist(), strict=False))
         turning = {f"alpha_{i}": x for i, x in zip("xyz", alpha, strict=True)}
-        turning = turning if scene.frame is SPACE else {"alpha": alpha[2]}
+        turning = turning if scene.frame is SPACE else {}
         inertias = {key: x for key, x in body.numbers().items() if key.startswith("inertia")}
         found |= {f"{name}.{key}": x for key, x in (turning | inertias).items() if body.turns}
     if isinstance(scene, SpatialScene):
@@ -48,7 +48,7 @@ def moving(mode: Stated, q: Array, v: Array, a: Array) -> dict[str, Array]:
     """d/dt of every pose along q̇ = v and q̈ = a, by the complex step."""
 
     def flat(q: Any, v: Any) -> Array:
-        return np.array([pose for pose in mode.poses(0.0, q, v).values()])
+        return np.array(list(mode.poses(0.0, q, v).values()))
 
     return dict(zip(mode.poses(0.0, q, v), along(flat, (q, v), (v, a)), strict=True))
 

@@ -4,6 +4,7 @@ q = (q₁ … q₅) as of its arm. ω_k follows from Ė_k by (2.3), (2.4), and t
 and one inward, with no energy.
 """
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -17,13 +18,11 @@ from .serial_arm import NAMES, SerialArm
 from .triples import dot
 
 
+@dataclass(frozen=True)
 class ArmStates(SerialArm, Stated):
     """The arm with its rates and accelerations given: five hinges, driven by what they need."""
 
     coordinates = ("q1.angle", "q2.angle", "q3.angle", "q4.angle", "q5.angle")
-
-    def __init__(self) -> None:
-        self.__post_init__()
 
     def told(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
         """(2.3), (2.4), (2.7), (2.27) ω, ω̇, r̈, M_ab and the torques u_k · M_k."""

@@ -12,10 +12,10 @@ from ...engines.engine import Refusal
 from ..row import AGREES, CRASHED, DIVERGED, FAILS, Comparison, Instant, Rungs
 from ..trial.audit import EQUAL, audit
 from ..trial.ladder import Ladder
-from ..trial.rung import Samples
+from ..trial.rung import Climbed, Samples
 from ..trial.simulate import Runs, simulate
 from ..trial.trial import Trial, judged_names
-from . import instants, metric
+from . import instants, metric, states
 from .cause import cause
 from .convergence import UNSETTLED, Convergence, study
 from .metric import told
@@ -62,6 +62,16 @@ def compare(trial: Trial, runs: Runs | None = None) -> Outcome:
     return Outcome(rows + told, climbed + ladders, runs.judged, listed)
 
 
+def answered(trial: Trial, found: Climbed) -> Outcome:
+    """Judges every quantity of a claim about states."""
+    rows = [_audit(trial)]
+    rows += [row(trial, name, f"refused: {why}") for name, why in trial.withheld.items()]
+    if isinstance(found, str):
+        return Outcome(rows + _diverged(trial, trial.motion, found))
+    told = {name: trial.read(name, samples) for name, samples in found.items()}
+    return Outcome(rows + [states.judged(trial, name, told) for name in told], samples=told)
+
+
 def crashed(trial: Trial, because: str) -> Outcome:
     """Rows of a run whose process died; with a user's own numbers that is a finding."""
     word, why = (
@@ -83,7 +93,7 @@ def _audit(trial: Trial) -> Comparison:
         trial,
         "audit",
         AGREES if worst <= EQUAL else FAILS,
-        protocol=trial.protocol,
+        protocol=trial.protocol if trial.case.states is None else "",
         largest=worst,
         allowed=EQUAL,
         ratio=worst / EQUAL,

@@ -13,6 +13,8 @@ def script(case: Case, engine: Engine) -> str:
 
     Raises CaseError where the engine does not build the scene natively.
     """
+    if case.states is not None:
+        raise CaseError([case.mistake(("states",), "is a claim about states: nothing is run")])
     start = assembled(case)
     native = next(w for w in ways(engine, case.scene, start) if w.realised == "native")
     if isinstance(native, Refusal):

@@ -19,7 +19,7 @@ STEP = 1e-3  # s, of the boxcar form: the finest rung then takes 1/16 of it
 
 def approximations(case: Case) -> Iterator["Book"]:
     """One producer for each of (2.91), (2.94), (2.95), where the case is Example 2.3 or 2.4."""
-    if case.system is None:
+    if case.system is None or case.states is not None:
         return
     system = SYSTEMS[case.system](**case.parameters)
     if isinstance(system, GrowingForce | Dynamometer):

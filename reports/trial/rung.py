@@ -10,7 +10,7 @@ from ...cases.case import Case
 from ...cases.observe import observe
 from ...cases.quantity import at_event, told_by
 from ...cases.trajectory import Array, Trajectory
-from ...engines.engine import Diverged, Engine, Plan, Start
+from ...engines.engine import Claims, Diverged, Engine, Plan, Start
 from ..events.states import engine_states
 from ..events.times import engine_events
 from .ladder import wanted_reactions
@@ -43,7 +43,7 @@ class Rung:
 def climbed(rung: Rung) -> Climbed:
     """The run's samples, or in words why it has none."""
     try:
-        return _run(rung)
+        return _run(rung) if rung.case.states is None else _answers(rung)
     except Diverged as gone:
         return str(gone)
 
@@ -65,6 +65,19 @@ def _run(rung: Rung) -> Samples:
         if not np.all(np.abs(samples[name]) < most):
             raise Diverged(f"{name} reaches {np.max(np.abs(samples[name])):.1g}")
     return {**samples, **_events(case, trajectory)}
+
+
+def _answers(rung: Rung) -> Samples:
+    """Of a claim about states: all of them at once, in the engine's own numbers."""
+    case, engine = rung.case, rung.engine
+    assert case.states is not None and isinstance(engine, Claims)
+    drawn = case.states.drawn(case.scene)
+    found = engine.answer(case.scene, rung.start, drawn, tuple(rung.bounds))
+    samples = {name: rows for name, rows in found.items() if not isinstance(rows, str)}
+    for name, rows in samples.items():
+        if not np.all(np.isfinite(rows)):
+            raise Diverged(f"{name} is not finite")
+    return samples
 
 
 def _events(case: Case, trajectory: Trajectory) -> Samples:

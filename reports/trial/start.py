@@ -4,6 +4,7 @@ from ...cases.case import Case
 from ...cases.trajectory import Trajectory
 from ...engines.engine import Start
 from ...reference.start.assembly import start_poses
+from ...reference.states.answer import first_state
 
 
 def first(reference: Trajectory) -> Start:
@@ -13,5 +14,5 @@ def first(reference: Trajectory) -> Start:
 
 def assembled(case: Case) -> Start:
     """The start of a case that nobody has solved. Raises CaseError where there is none."""
-    poses = start_poses(case)
+    poses = start_poses(case) if case.states is None else first_state(case)
     return {name: tuple(float(x) for x in pose) for name, pose in poses.items()}  # type: ignore[misc]

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ...cases.case import Case
 from ...cases.difference import from_reference
 from ...cases.observe import observe
-from ...cases.quantity import Quantity, at_event, at_events, event_quantities, table
+from ...cases.quantity import Quantity, at_event, at_events, event_quantities
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ...engines.engine import Engine, Plan, Realised, Refusal, Start
@@ -160,7 +160,7 @@ class Trial:
 
     @cached_property
     def _known(self) -> dict[str, Quantity]:
-        seen, events = table(self.case.scene), self.case.events
+        seen, events = self.case.quantities, self.case.events
         return seen | event_quantities(events) | at_events(events, seen)
 
     def size(self, name: str) -> float:

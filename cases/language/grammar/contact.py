@@ -18,7 +18,7 @@ from .words import wrong
 
 class Contact(Part):
     between: tuple[Annotated[str, Text()], Annotated[str, Text()]] = Field(
-        description="a disk, a particle, a point of a bar or spokes, then ground.floor or another plane"
+        description="a disk, a particle, a point of a bar or spokes, then a plane of the ground"
     )
     friction: Friction
     restitution: Annotated[float, In("1", least=0, most=1)] = Field(

@@ -49,6 +49,10 @@ class Space:
         """Physics as the compiled model holds it."""
         return measured(scene, *compiled(scene, start, NOMINAL, self._plan(scene, start)))
 
+    def bare(self, scene: SpatialScene, start: Start) -> str:
+        """The scene as MJCF, with no number of a setting."""
+        return mjcf(scene, start, [timestep(NOMINAL)])
+
     def script(
         self, scene: SpatialScene, start: Start, step: float, plan: Plan, *, title: str = ""
     ) -> str:

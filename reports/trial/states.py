@@ -1,0 +1,33 @@
+"""A claim about states before an engine: asked once, without a step and so without a ladder."""
+
+from ...cases.case import Case
+from ...cases.trajectory import Array
+from ...engines.engine import Claims, Engine, Plan, Refusal, Start
+from .rung import Rung
+from .trial import Trial, planned
+
+SILENT = "adapter: it offers no answers about states"
+AT = ("states", 0.0)  # where the only run of such a trial belongs
+
+
+def ways(engine: Engine, case: Case, start: Start) -> tuple[Plan | Refusal, ...]:
+    """The engine's own answer, or why there is none; it is asked of one state what it withholds."""
+    if not isinstance(engine, Claims):
+        return (Refusal("native", SILENT),)
+    way = next(way for way in planned(engine, case.scene, start) if way.realised == "native")
+    if isinstance(way, Refusal):
+        return (way,)
+    told = engine.answer(case.scene, start, _drawn(case, 1), tuple(case.allow))
+    whys = {name: why for name, why in told.items() if isinstance(why, str)}
+    return (Plan("native", held=(), withheld=whys),)
+
+
+def asked(trial: Trial) -> Rung:
+    """The one run: all states at once."""
+    most = dict.fromkeys(trial.motion, float("inf"))
+    return Rung(trial.case, trial.engine, trial.start, trial.plan, trial.case.duration, most)
+
+
+def _drawn(case: Case, count: int) -> dict[str, Array]:
+    assert case.states is not None
+    return {name: rows[:count] for name, rows in case.states.drawn(case.scene).items()}
