@@ -68,8 +68,9 @@ def claimable(scene: Scene) -> dict[str, Quantity]:
         for name, quantity in table(scene).items()
         if quantity.kind in _OF_STATES and not _drawn(scene, quantity)
     }
-    more = [(part, field, *of) for part, fields in _more(scene) for field, of in fields.items()]
-    known |= {f"{part}.{field}": _quantity(part, field, *of) for part, field, *of in more}
+    for part, fields in _more(scene):
+        for field, (unit, kind) in fields.items():
+            known[f"{part}.{field}"] = Quantity(f"{part}.{field}", part, field, unit, kind)
     units = set(coordinates(scene).values())
     if len(units) == 1:  # of metres and radians together its entries have no common unit
         unit = "kg m²" if units == {"rad"} else "kg"
@@ -84,10 +85,6 @@ def _drawn(scene: Scene, quantity: Quantity) -> bool:
     return scene.frame.dimension == 2 and own and quantity.field != "speed"
 
 
-def _quantity(part: str, field: str, unit: str, kind: Kind) -> Quantity:
-    return Quantity(f"{part}.{field}", part, field, unit, kind)
-
-
 def _more(scene: Scene) -> Iterator[tuple[str, Fields]]:
     """What only states have: accelerations, inertias, and what accelerations need."""
     linear: Fields = {f"a{axis}": ("m/s²", "acceleration") for axis in scene.frame.axes}
@@ -98,7 +95,7 @@ def _more(scene: Scene) -> Iterator[tuple[str, Fields]]:
         yield from ((f"{body.name}.{point}", linear) for point in points)
     if isinstance(scene, SpatialScene):
         for joint in scene.joints.values():
-            yield joint.name, {effort_of(f): _effort(f.kind) for f in joint.freedoms}
+            yield joint.name, {effort_of(f): _effort(f.kind) for f in joint.named}
 
 
 def _turning(scene: Scene) -> Fields:

@@ -184,7 +184,7 @@ class Claims(Protocol):
     def answer(
         self, scene: Scene, start: Start, states: Mapping[str, Array], wanted: Sequence[str]
     ) -> Mapping[str, Array | str]:
-        """Of each wanted quantity its samples (N,), or why there are none: `engine: …`, `adapter: …`.
+        """Of each wanted quantity its samples (N,), or why it has none: `engine: …`, `adapter: …`.
 
         Of an attitude (N, 4), of `mass_matrix` all entries of all states (N n²,). states: by
         coordinate (N, 3) places, rates and accelerations, in the order of the mass matrix; start:

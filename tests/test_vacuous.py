@@ -15,12 +15,12 @@ from textmech.cases.find import shipped
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 from textmech.cases.observe import observe
-from textmech.cases.quantity import table
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import either, follow
 from textmech.reference.motion.stuck import Stuck
 from textmech.reference.motion.zeno import ZenoError
+from textmech.reference.states.answer import answered
 
 CHANGED = 1.05  # 5 %, or 0.05 where a parameter is zero
 STAYS = 0.1  # of a tolerance: what a parameter that drops out may move by 5 % of it
@@ -31,8 +31,8 @@ PARAMETERS = [(file, name) for file in shipped().values() for name in load(file)
 
 
 def observed(case: Case, trajectory: Trajectory) -> Mapping[str, Array]:
-    """What the case observes of a motion."""
-    known = table(case.scene)
+    """What the case observes of a motion, or of states."""
+    known = case.quantities
     return {name: observe(case.scene, trajectory, name) for name in case.allow if name in known}
 
 
@@ -44,6 +44,8 @@ def as_written(file: Path) -> list[tuple[Case, Mapping[str, Array]]]:
 
 def samples(case: Case, part: float) -> Mapping[str, Array]:
     """What the case observes in the first part of its duration, by the generated mechanism."""
+    if case.states is not None:
+        return observed(case, answered(case)[0])
     times = case.times[: ceil(part * len(case.times))]
     mechanism = scenes.mechanism(case)
     followed = follow(mechanism, times, by=partial(either, tolerance=TOLERANCE))

@@ -6,9 +6,9 @@ from ..system import Array
 
 
 def tensor(m: Array, x: Array) -> Array:
-    """(2.31) J_ik = Σ m (x_j x_j δ_ik − x_i x_k), (3, 3) [kg m²], of masses m (N,) at x (N, 3).
+    """(2.30), (2.31) J_ik = Σ m (x_j x_j δ_ik − x_i x_k), (3, 3) [kg m²]: masses m (N,), x (N, 3).
 
-    The products of inertia (2.32) carry the minus sign.
+    The products of inertia carry the minus sign, also in the matrix (2.32).
     """
     return np.einsum("n,nj,nj->", m, x, x) * np.eye(3) - np.einsum("n,ni,nk->ik", m, x, x)
 

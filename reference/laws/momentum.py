@@ -7,6 +7,31 @@ import numpy as np
 from ..system import Array
 
 
+def center(m: Array, r: Array) -> Array:
+    """(2.21) r_c = ∫ r dm / ∫ dm, (3,) [m]: of masses m (N,) at r (N, 3)."""
+    return m @ r / np.sum(m)
+
+
+def momentum(m: float, v_c: Array) -> Array:
+    """(2.22) p = m ṙ_c, (3,) [kg m/s]."""
+    return m * v_c
+
+
+def spin_momentum(J: Array, omega: Array) -> Array:
+    """(2.25), (2.29) D_c = ∫ x × (ω × x) dm = J_ik ω_i E_k, (3,) [kg m²/s]: in the axes of J."""
+    return J @ omega
+
+
+def spin_change(J: Array, omega: Array, omega_dot: Array) -> Array:
+    """(2.33) Ḋ = J ω̇ + ω × (J ω), (3,) [N m] in body axes: the moment M_c if J is about C."""
+    return J @ omega_dot + np.cross(omega, J @ omega)
+
+
+def axis_moment(J33: float, omega_dot: float) -> float:
+    """(2.34) M_c3 = J₃₃ ω̇ [N m]: about a fixed principal axis; by (2.35) about any fixed one."""
+    return J33 * omega_dot
+
+
 def angular_momentum(m: float, J: Array, r: Array, v: Array, omega: Array) -> Array:
     """(2.24) D₀ = ∫ r × ṙ dm = r_c × m ṙ_c + J ω, (3,) [kg m²/s]: J (3, 3) about C."""
     return np.cross(r, m * v) + J @ omega

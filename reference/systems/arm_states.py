@@ -25,7 +25,7 @@ class ArmStates(SerialArm, Stated):
     coordinates = ("q1.angle", "q2.angle", "q3.angle", "q4.angle", "q5.angle")
 
     def told(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
-        """(2.3), (2.4), (2.7), (2.27) ω, ω̇, r̈, M_ab and the torques u_k · M_k."""
+        """ω from Ė, ω̇ and r̈ outward, M_ab, and the torques u_k · M_k inward."""
         where = places(q)
         found: dict[str, Any] = {"mass_matrix": mass_matrix(where)}
         moving = outward(where, v.tolist(), a.tolist())

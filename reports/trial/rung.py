@@ -70,7 +70,8 @@ def _run(rung: Rung) -> Samples:
 def _answers(rung: Rung) -> Samples:
     """Of a claim about states: all of them at once, in the engine's own numbers."""
     case, engine = rung.case, rung.engine
-    assert case.states is not None and isinstance(engine, Claims)
+    assert case.states is not None
+    assert isinstance(engine, Claims)
     drawn = case.states.drawn(case.scene)
     found = engine.answer(case.scene, rung.start, drawn, tuple(rung.bounds))
     samples = {name: rows for name, rows in found.items() if not isinstance(rows, str)}

@@ -13,10 +13,11 @@ from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Joint, Push, Signal, Torque
 from textmech.reference.systems import SYSTEMS
+from textmech.reference.systems.stated import STATED
 
 PARAMETERS = {
     name: tuple(f.name for f in fields(system))  # type: ignore[arg-type]
-    for name, system in SYSTEMS.items()
+    for name, system in (SYSTEMS | STATED).items()
 }
 
 

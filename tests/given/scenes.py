@@ -12,11 +12,15 @@ from textmech.reference.start.mechanism import mechanism as generated
 from textmech.reports.cache.key import Keys
 from textmech.reports.cache.store import usable
 
-SHIPPED = {
+EVERY = {
     case.name: case
     for path in sorted(Path(cases.__file__).parent.glob("*.yaml"))
     for case in load(path)
 }
+SHIPPED = {name: case for name, case in EVERY.items() if case.states is None}
+"""Those that move."""
+CLAIMS = {name: case for name, case in EVERY.items() if case.states is not None}
+"""Those about states."""
 
 
 @cache
@@ -25,7 +29,7 @@ def solved(name: str) -> Solution:
 
     Nothing is stored here: who asks may have planted a mistake.
     """
-    case, store = SHIPPED[name], usable()
+    case, store = EVERY[name], usable()
     kept = store.get(Keys.now().solution(case)) if store else None
     return solve(case) if kept is None else kept
 

@@ -27,9 +27,9 @@ def check(
     yield from links(parsed, scene)
     if known is not None:
         yield from engines(parsed.file, known)
-    if parsed.file.states is not None:
-        yield from states(parsed, scene)
-    if not any(twice(parsed, scene)) and not parsed.lacks("states"):
+    unfit = [] if parsed.file.states is None else [*states(parsed, scene)]
+    yield from unfit
+    if not any(twice(parsed, scene)) and not unfit and not parsed.lacks("states"):
         yield from claims(parsed, scene)
     if not parsed.lacks("duration") and not parsed.lacks("samples") and not parsed.lacks("step"):
         yield from sampling(parsed.file)

@@ -3,15 +3,18 @@
 from collections.abc import Iterator
 
 from ...point import GROUND
+from ...quantity import table
+from ...scene import Scene
 from ...space.joint import SpatialJoint
 from ...space.scene import SpatialScene
+from ...states import claimable
 from ..grammar.file import File
 from ..parse import Finding, Parsed
 
 _NOTHING = "a claim about states is about bodies and joints alone"
 
 
-def states(parsed: Parsed, scene: object) -> Iterator[Finding]:
+def states(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     """Every mistake of a claim about states in its scene and its bounds."""
     spec = parsed.file.scene
     for section in ("constraints", "contacts", "forces"):
@@ -28,6 +31,10 @@ def states(parsed: Parsed, scene: object) -> Iterator[Finding]:
         what = "has no place here: states of the plane are those of free bodies; write `space: 3`"
         yield from ((("scene", "joints", name), what) for name in spec.joints)
     yield from _limits(parsed.file)
+    for name in parsed.file.allow:
+        if name in table(scene) and name not in claimable(scene):
+            what = f"{name!r} is no claim about states: it is drawn itself, or held by a constraint"
+            yield ("allow", name), what
 
 
 def _particles(scene: SpatialScene) -> Iterator[Finding]:
@@ -45,10 +52,11 @@ def _chain(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
         path = ("scene", "joints", name)
         if any(not freedom.name for freedom in joint.freedoms):
             yield path, f"a {joint.kind} has no coordinates to draw; write `freedoms`"
-        if joint.b.body in hung:
+        if joint.a.body not in hung:
+            what = "begins at nothing that hangs on the ground; name the part nearer to it first"
+            yield (*path, joint.word), what
+        elif joint.b.body in hung:
             yield path, "closes a loop: states are drawn of open chains"
-        elif joint.a.body not in hung:
-            yield (*path, joint.word), "should name the part that is nearer to the ground first"
         hung |= {joint.a.body, joint.b.body}
     for name in scene.bodies:
         if name not in hung:

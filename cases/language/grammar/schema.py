@@ -32,13 +32,16 @@ class _Plain(GenerateJsonSchema):
         return made | {"additionalProperties": False} if "patternProperties" in made else made
 
 
+_OF_STATES = {"required": ["states"]}
+_MOVES = ("initial", "duration", "samples")  # what only a claim about a motion has to say
 _IN_SPACE = {"required": ["scene"], "properties": {"scene": {"required": ["space"]}}}
 
 
 def text() -> str:
     """The schema as it stands in cases/case.schema.json.
 
-    What may stand in a file depends on whether its scene says `space: 3`.
+    What may stand in a file depends on whether its scene says `space: 3`, and what has to on
+    whether it claims states.
     """
     head = {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "textmech case"}
     made, definitions = models_json_schema(
@@ -52,7 +55,9 @@ def text() -> str:
         {"properties": {key: one["properties"][key] for key in apart}} for one in (plane, space)
     )
     choice = {"if": _IN_SPACE, "then": of_space, "else": of_plane}
-    schema = {"$defs": known, **plane, "properties": both, **choice}
+    needed = [key for key in plane["required"] if key not in _MOVES]
+    moves = {"anyOf": [_OF_STATES, {"required": [*_MOVES]}]}
+    schema = {"$defs": known, **plane, "properties": both, "required": needed, **choice, **moves}
     return json.dumps(head | schema, indent=1, ensure_ascii=False) + "\n"
 
 
