@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from .body import Body
 from .kind import Fields
@@ -20,6 +20,8 @@ class Force:
     """
 
     word: ClassVar[str]
+    freedom: ClassVar[Literal["turn", "shift"]] = "turn"
+    """Which freedom of the joint that it is about lets it act: a turn, or a shift."""
     name: str
 
     def refers(self) -> tuple[Anchor, ...]:
@@ -28,7 +30,7 @@ class Force:
 
     @property
     def about(self) -> str | None:
-        """The joint about which it acts, as a torque between the two parts; or None."""
+        """The joint about or along which it acts, between the two parts; or None."""
         return None
 
     def unfit(self, bodies: Mapping[str, Body]) -> str | None:

@@ -10,10 +10,12 @@ from math import sqrt
 from typing import Annotated, TypeVar
 
 from .body import Body
+from .drag import Drag, Viscous
 from .element import Force
 from .kind import Fields
 from .language.grammar.field import In
 from .language.grammar.signal import InTime
+from .magnetic import Magnetic
 from .motion import Motion
 from .point import CENTER, GROUND, Anchor
 from .signal import Signal
@@ -135,7 +137,7 @@ class Torque(Force):
         return self.signal.angular_frequency, 0.0
 
 
-NOUNS = (Spring, Damper, Push, Torque, Torsion, TorsionDamper, Motor)
+NOUNS = (Spring, Damper, Push, Torque, Torsion, TorsionDamper, Motor, Drag, Viscous, Magnetic)
 FORCES: dict[str, type[Force]] = {kind.word: kind for kind in NOUNS}
 """By the word of the case file."""
 

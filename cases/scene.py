@@ -10,7 +10,20 @@ from dataclasses import dataclass, field
 from .body import Body
 from .constraint import Edge
 from .contact import Contact
-from .force import Damper, Force, Motor, Push, Spring, Torque, Torsion, TorsionDamper, of
+from .force import (
+    Damper,
+    Drag,
+    Force,
+    Magnetic,
+    Motor,
+    Push,
+    Spring,
+    Torque,
+    Torsion,
+    TorsionDamper,
+    Viscous,
+    of,
+)
 from .frame import PLANE, Frame
 from .friction import Bounds, DryFriction, Smooth
 from .joint import Joint
@@ -28,12 +41,14 @@ __all__ = [
     "Bounds",
     "Contact",
     "Damper",
+    "Drag",
     "DryFriction",
     "Edge",
     "Force",
     "Frame",
     "GroundPoint",
     "Joint",
+    "Magnetic",
     "Motor",
     "Push",
     "Scene",
@@ -44,6 +59,7 @@ __all__ = [
     "Torsion",
     "TorsionDamper",
     "Vector",
+    "Viscous",
 ]
 
 STANDARD_GRAVITY = 9.80665  # m/s², the book's value

@@ -1,7 +1,7 @@
 """What is followed: a system of modes, and the guards that lead from one to the next.
 
-A mode answers with its explicit accelerations, derived by hand, and with its ingredients (T, U, D,
-Q₄, constraints, free bodies), from which the chapter's formalisms derive them again without sharing
+A mode answers with its explicit accelerations, derived by hand, and with its ingredients (T, U, V,
+D, Q₄, constraints, free bodies), from which the chapter's formalisms derive them again without sharing
 a line of algebra. Ingredients must accept complex arguments: derivatives are taken by the complex
 step. A system is one mode, or several with the same coordinates: a disk that slides obeys other
 equations than one that rolls.
@@ -122,6 +122,13 @@ class Mode:
         """Potential energy [J] of the forces of class 1 (2.45)."""
         return 0.0
 
+    def V(self, t: Any, q: Vector, v: Vector) -> Any:
+        """Generalized potential [J] of the forces of class 3 (2.48), linear in the rates q̇ (m,).
+
+        As T it is asked for (m, K) of them at once (K,).
+        """
+        return 0.0
+
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
         """Dissipation function [W] of the forces of class 2 (2.46), of v (n,)."""
         return 0.0
@@ -172,6 +179,9 @@ class System:
 
     modes: Mapping[str, Mode]
     longest: float | None = None  # no step [s] is longer: a guard may know more of time than q does
+    blurred: float = (
+        0.0  # s: how far apart answers have an event to which a speed falls without slope
+    )
 
     def start(self) -> tuple[str, Array, Array]:
         """The mode at t = 0, q (n,) and v (n,)."""

@@ -15,19 +15,23 @@ import numpy as np
 
 from ...cases.force import (
     Damper,
+    Drag,
     Force,
     Line,
+    Magnetic,
     Motor,
     Push,
     Spring,
     Torque,
     Torsion,
     TorsionDamper,
+    Viscous,
 )
 from ...cases.scene import CENTER, GROUND, Anchor, Scene
 from ...cases.signal import Signal
 from ...cases.trajectory import Array
 from .hinge import Hinge, hinge
+from .viscous import not_polynomial, viscous_numbers, write_viscous
 from .written import written
 
 Sections = Mapping[str, ET.Element]
@@ -42,20 +46,30 @@ class Element:
 
     write: into the file's sections. numbers: for the audit. Of what has an actuator, signal: the
     law that its control follows; outer: what it exerts on bodies at its force (N,), by its gear,
-    unless through a tendon, whose forces MuJoCo counts rightly itself.
+    unless through a tendon, whose forces MuJoCo counts rightly itself. lacks: why MuJoCo has no
+    element for it, so that it is told by our law; or None.
     """
 
-    write: Callable[..., None]
+    write: Callable[..., None] = lambda *_: None
     numbers: Callable[..., dict[str, float]] = lambda model, force, *about: {}
     signal: Callable[[Any], Signal] | None = None
     outer: Callable[[Any, Array, Array], Iterator[Outer]] = lambda *_: iter(())
+    lacks: Callable[[Any], str | None] = lambda force: None
+
+
+def lacking(scene: Scene) -> list[tuple[Force, str]]:
+    """The forces that MuJoCo has no element for, and why."""
+    found = ((force, ELEMENTS[type(force)].lacks(force)) for force in scene.forces.values())
+    return [(force, why) for force, why in found if why is not None]
 
 
 def write(root: ET.Element, scene: Scene) -> None:
     """The sections of the scene's forces."""
     sections = {name: ET.Element(name) for name in ("tendon", "actuator")}
+    ours = [force for force, _ in lacking(scene)]
     for force in scene.forces.values():
-        ELEMENTS[type(force)].write(sections, force, *_about(scene, force, root))
+        if force not in ours:
+            ELEMENTS[type(force)].write(sections, force, *_about(scene, force, root))
     root.extend(section for section in sections.values() if len(section))
 
 
@@ -69,6 +83,7 @@ def numbers(scene: Scene, model: mujoco.MjModel) -> dict[str, float]:
     return {
         f"{force.name}.{key}": number
         for force in scene.forces.values()
+        if ELEMENTS[type(force)].lacks(force) is None
         for key, number in _held(scene, model, force).items()
     }
 
@@ -79,7 +94,7 @@ def _held(scene: Scene, model: mujoco.MjModel, force: Force) -> dict[str, float]
 
 def _about(scene: Scene, force: Force, root: ET.Element | None = None) -> Iterator[Hinge]:
     if force.about is not None:
-        yield hinge(scene, force.about, root)
+        yield hinge(scene, force.about, root, freedom=force.freedom)
 
 
 def outer(scene: Scene, model: mujoco.MjModel, sizes: Array) -> Iterator[Outer]:
@@ -197,4 +212,7 @@ ELEMENTS: dict[type[Force], Element] = {
     Torsion: Element(_torsion, _torsion_numbers),
     TorsionDamper: Element(_torsion_damper, _torsion_damping),
     Motor: Element(_motor, signal=lambda force: force.signal),
+    Drag: Element(lacks=lambda force: "engine: MuJoCo has no drag at a point of a body"),
+    Viscous: Element(write_viscous, viscous_numbers, lacks=not_polynomial),
+    Magnetic: Element(lacks=lambda force: "engine: MuJoCo has no force of a magnetic field"),
 }

@@ -1,8 +1,9 @@
-"""The hinge of the tree that a force acts about."""
+"""The joint of the tree that a force acts about or along."""
 
 from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
+from ...cases.joint import Freedom
 from ...cases.scene import Scene
 from .tree import coordinate, spanning_tree
 from .written import written
@@ -10,7 +11,8 @@ from .written import written
 
 @dataclass(frozen=True)
 class Hinge:
-    """MuJoCo's joint; way: 1.0 if it counts the second part's angle against the first's, else −1.
+    """MuJoCo's joint; way: 1.0 if it counts the second part's turn on the first, else −1: of a
+    shift, which counts the second part's in any tree, it is of no use.
 
     element: as it stands in the file, while that is written.
     """
@@ -25,11 +27,13 @@ class Hinge:
         self.element.set(key, written(value))
 
 
-def hinge(scene: Scene, joint: str, root: ET.Element | None = None) -> Hinge:
+def hinge(
+    scene: Scene, joint: str, root: ET.Element | None = None, freedom: Freedom = "turn"
+) -> Hinge:
     """That of a joint in the tree. Raises KeyError for one that closes a loop."""
     for branch in spanning_tree(scene).branches:
         if branch.joint is not None and branch.joint.name == joint:
-            name = coordinate(branch.joint, "turn")
+            name = coordinate(branch.joint, freedom)
             built = () if root is None else root.iter("joint")
             found = next((element for element in built if element.get("name") == name), None)
             return Hinge(name, 1.0 if branch.forward else -1.0, found)

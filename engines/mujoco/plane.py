@@ -15,7 +15,7 @@ from .compilation import NOMINAL, compiled, lent, settled, timestep
 from .plain import plain
 from .plans import plan, ways
 from .read.measure import measured
-from .refuse import NO_EDGE, unbuildable, uncompilable
+from .refuse import not_native, unbuildable, uncompilable
 from .run import simulate
 from .scene import mjcf
 from .script import text
@@ -38,7 +38,7 @@ class Plane:
         refusal = unbuildable(scene) or uncompilable(scene, start, self._plan(scene, start))
         if refusal:
             return [Refusal("native", refusal)]
-        without = [Refusal("native", NO_EDGE)] if scene.constraints else []
+        without = [Refusal("native", why) for why in not_native(scene)]
         if without and not self._tuned:
             return without
         found = (self._plan(scene, start, way) for way in ways(scene, start, tuned=self._tuned))

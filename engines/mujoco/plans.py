@@ -9,6 +9,7 @@ from ..engine import Choice, Plan, Realised, Start
 from ..law import one_number
 from .compilation import NOMINAL, settled
 from .contact import falls
+from .force import lacking
 from .law.friction import one_slide, smooth_only
 from .law.touch import one_touch
 from .scene import HEAVY
@@ -21,10 +22,13 @@ Numbers = Callable[[float], Sequence[Choice]]
 def ways(scene: Scene, start: Start, *, tuned: bool) -> tuple[Realised, ...]:
     """MuJoCo's own elements; dry friction, of which it knows one number, in other ways too.
 
-    Edges by our law alone.
+    Edges, and forces that it has no element for, by our law alone.
     """
     if scene.constraints:
         return ("law",)
+    if lacking(scene):
+        driver = tuned and one_slide(scene) and not smooth_only(scene)
+        return ("law", "driver") if driver else ("law",)
     if tuned and one_touch(scene) and not falls(scene, start):
         return ("native", "law")
     if not tuned or not one_slide(scene):
@@ -62,9 +66,11 @@ def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> 
         words.append(plan.simplified)
     if scene.constraints:
         words.append(f"{', '.join(scene.constraints)} held by our law at every stage")
-    elif plan.realised == "law":
+    elif plan.realised == "law" and (one_slide(scene) or one_touch(scene)):
         when = "stage" if smooth_only(scene) and not scene.contacts else "step"
         words.append(f"dry friction by our law before every {when}")
+    if ours := [force.name for force, _ in lacking(scene)]:
+        words.append(f"{', '.join(ours)} by our law at every stage, which the script has not")
     if plan.realised == "driver":
         words.append("steps cut at the events of dry friction")
     if tuned and scene.contacts:

@@ -4,11 +4,16 @@ from ...cases.scene import GROUND, Joint, Scene
 from ..engine import Plan, Start
 from .compilation import NOMINAL, compiled
 from .contact import LEAST_BOUNCE
-from .force import ELEMENTS
+from .force import ELEMENTS, lacking
 from .hinge import taken
 from .tree import Branch, Tree, built_as, spanning_tree
 
 NO_EDGE = "engine: MuJoCo has no constraint of a velocity across a line that turns with a body"
+
+
+def not_native(scene: Scene) -> list[str]:
+    """Why MuJoCo has nothing of its own for the scene; our laws have."""
+    return ([NO_EDGE] if scene.constraints else [why for _, why in lacking(scene)])[:1]
 
 
 def unbuildable(scene: Scene) -> str | None:
@@ -24,6 +29,11 @@ def unbuildable(scene: Scene) -> str | None:
     for edge in scene.constraints.values():
         if soft:
             return f"adapter: {edge.name} beside {soft[0].name}, whose force gives way by itself"
+    if ours := lacking(scene):
+        smooth = (j.name for j in scene.joints.values() if (d := j.dry_friction) and d.smooth)
+        if beside := [*scene.constraints, *smooth]:
+            force, _ = ours[0]
+            return f"adapter: {force.name} by our law beside {beside[0]}, which does not count it"
     for joint in tree.loops:
         if built_as(scene, joint).shifts:
             what = f"{joint.kind} {joint.name}"

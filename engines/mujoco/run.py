@@ -13,6 +13,7 @@ from .law.edge import edges
 from .law.signal import installed, signals
 from .law.smooth import smooth
 from .law.stepping import stepping
+from .law.told import told
 from .read.poses import poses
 from .read.reaction import contact_force
 from .read.readout import read
@@ -62,6 +63,7 @@ def simulate(
     grid = all_steps(times, model.opt.timestep) if every else times
     steps = stepping(scene, model, data, realised)
     laws = [*smooth(scene, model), *edges(scene, model)] if realised == "law" else []
+    laws += told(scene, model)
     touching = tuple(name for name in reactions if name.partition(".")[0] in scene.contacts)
     with listening() as warnings, signals(scene, laws):
         if every and not steps.slides:

@@ -13,7 +13,6 @@ from ..engine import Plain, Plan, Realised, Refusal, Start
 from ..heading import heading
 from . import plans, settings
 from .claims import answered
-from .edge import NO_EDGE
 from .plain import plain
 from .plans import named
 from .read.health import Left
@@ -21,7 +20,7 @@ from .read.measure import measured
 from .read.record import Record
 from .read.samples import sampled
 from .recipe import recipe
-from .refuse import unbuildable
+from .refuse import not_native, unbuildable
 from .run import placed, stepper
 from .scene import FAR, build
 from .script import text
@@ -54,7 +53,7 @@ class Pymunk:
         refusal = unbuildable(scene)
         if refusal:
             return [Refusal("native", refusal)]
-        without = [Refusal("native", NO_EDGE)] if scene.constraints else []
+        without = [Refusal("native", why) for why in not_native(scene)]
         if not self._tuned:
             if without:
                 return without

@@ -16,19 +16,23 @@ from pymunk.constraints import DampedRotarySpring, DampedSpring
 
 from ...cases.force import (
     Damper,
+    Drag,
     Force,
+    Magnetic,
     Motor,
     Push,
     Spring,
     Torque,
     Torsion,
     TorsionDamper,
+    Viscous,
 )
 from ...cases.scene import Scene
 from ...cases.signal import Signal
 from ..engine import Realised
 from ..law import in_time, value
 from .law.line import Exerted, Load, drifting, pull, told
+from .law.told import exerted_at_points, told_at_points
 from .law.turning import couple_as_text, motor, motor_load, twist, twisted
 from .world import World
 from .written import written
@@ -45,7 +49,8 @@ class Element:
     audit reads of one. tell: the force
     that is given before each step of `step` s, `drift` s ahead (0: at the present place); of what
     has a line too, only where we realise its law. load: what it exerts on a body, by the body's
-    name. script: the same as lines of Python.
+    name. script: the same as lines of Python. lacks: why pymunk has no element for it, so that it
+    is told by our law.
     """
 
     load: Callable[[World, Any, str], Exerted]
@@ -53,6 +58,13 @@ class Element:
     numbers: Callable[[Any], dict[str, float]] = lambda line: {}
     tell: Callable[[World, Any, float, float], Apply] | None = None
     script: Callable[[World, Any, Callable[[Body], str], bool], Iterator[str]] | None = None
+    lacks: str = ""
+
+
+def lacking(scene: Scene) -> list[tuple[Force, str]]:
+    """The forces that pymunk has no element for, and why."""
+    found = ((force, ELEMENTS[type(force)].lacks) for force in scene.forces.values())
+    return [(force, why) for force, why in found if why]
 
 
 def lines(world: World, realised: Realised) -> None:
@@ -205,6 +217,15 @@ def as_text(law: Signal) -> list[str]:
     return [f"{amplitude!r}{factor}" for amplitude in law.amplitude]
 
 
+def _by_law(lacks: str) -> Element:
+    """What is only told, at the points where it acts."""
+    return Element(
+        load=exerted_at_points,
+        tell=lambda world, force, step, drift: told_at_points(world, force, step),
+        lacks=lacks,
+    )
+
+
 ELEMENTS: dict[type[Force], Element] = {
     Spring: Element(
         load=pull,
@@ -232,4 +253,7 @@ ELEMENTS: dict[type[Force], Element] = {
         tell=lambda world, damper, step, drift: twisted(world, damper, step),
     ),
     Motor: Element(load=motor_load, tell=motor, script=_motor_script),
+    Drag: _by_law("engine: pymunk has no friction by a power of the speed"),
+    Viscous: _by_law("engine: pymunk has no friction by a power of the speed"),
+    Magnetic: _by_law("engine: pymunk has no force of a magnetic field"),
 }

@@ -10,14 +10,14 @@ from ..engine import Choice, Plan, Realised, Start
 from ..law import one_number
 from .contact import closed
 from .edge import alone
-from .force import damped
+from .force import damped, lacking
 from .law.friction import ruled
 from .recipe import Recipe
 from .scene import oblique
 
 
 def ways(scene: Scene) -> tuple[Realised, ...]:
-    """Edges by our driver.
+    """Edges by our driver, forces that pymunk has no element for by our law.
 
     Dampers also by their law: pymunk applies its own after the kick, a first order.
 
@@ -25,6 +25,8 @@ def ways(scene: Scene) -> tuple[Realised, ...]:
     """
     if scene.constraints:
         return ("driver",)
+    if lacking(scene):
+        return ("law",)
     law = damped(scene) or any(scene.dampers()) or ruled(scene)
     return ("native", "law") if law else ("native",)
 
@@ -98,6 +100,8 @@ def _words(scene: Scene, start: Start, recipe: Recipe, step: float) -> str:
         words.append(f"{bodies} started {numbers['start.seed']:g} m in the {planes}")
     if slots := [joint.name for joint in scene.joints.values() if oblique(scene, joint)]:
         words.append(f"{', '.join(slots)} held across by a pin joint that is carried along")
+    if ours := [force.name for force, _ in lacking(scene)]:
+        words.append(f"{', '.join(ours)} by our law before each step, which the script has not")
     if scene.constraints:
         words.append(
             f"{', '.join(scene.constraints)} held by pin joints that are laid anew before each step"

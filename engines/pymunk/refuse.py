@@ -4,7 +4,13 @@ import math
 
 from ...cases.frame import PLANE
 from ...cases.scene import GROUND, Scene
-from .force import ELEMENTS
+from .edge import NO_EDGE
+from .force import ELEMENTS, lacking
+
+
+def not_native(scene: Scene) -> list[str]:
+    """Why pymunk has nothing of its own for the scene; our laws and our driver have."""
+    return ([NO_EDGE] if scene.constraints else [why for _, why in lacking(scene)])[:1]
 
 
 def unbuildable(scene: Scene) -> str | None:

@@ -67,7 +67,7 @@ def certify(
         others["closed form"] = written.trajectory(times, closed)
         checks.append(Check("closed form", difference(motion, others["closed form"]), own))
     late = apart * float(times[-1] - times[0])
-    checks += _events(system, followed, found, _looser(late), float(times[-1]))
+    checks += _events(system, followed, found, max(_looser(late), system.blurred), float(times[-1]))
     checks += laws(written, generated, times)
     checks += _drift(system, times, followed, own)
     if len(system.modes) > 1 or any(system.guards(mode) for mode in followed.phases):

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...cases.frame import PLANE, SPACE
 from ..coverage import look
-from ..formalisms import appell, chaplygin, energy, lagrange, newton_euler, voronets
+from ..formalisms import appell, chaplygin, energy, lagrange, lagrangian, newton_euler, voronets
 from ..formalisms.dependent import dependent
 from ..generated.either import Base, Generated
 from ..motion.bodies import Answer
@@ -92,6 +92,7 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
     look()
     bound = len(mode.f_a(0.0, mode.parted(y[0])[0])) > 0
     sizes, powers, derived, balances, unbalanced, forces = [], [], [], [], [], []
+    by_one: list[float] = []  # of the Lagrangian, where there is a V and nothing binds
     for t, row in zip(times.tolist(), y, strict=True):
         q, v = mode.parted(row)
         a = mode.accelerations(t, q, v)
@@ -105,6 +106,8 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
             derived.append(worst(np.abs(lagrange.multipliers(mode, t, q, v)[0] - a)))
         else:
             derived.append(worst(np.abs(lagrange.accelerations(mode, t, q, v) - a)))
+            if lagrange.of_potential(mode, t, q, mode.rates(t, q, v)).any():
+                by_one.append(worst(np.abs(lagrangian.unbalanced(mode, t, q, v, a))))
         balances.append(abs(energy.power_balance(mode, t, q, v)))
         if written:
             residual, cut_free = newton_euler.balance(mode, t, q, v, a)
@@ -113,6 +116,8 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
     size, power = worst(sizes) or 1.0, worst(powers) or 1.0
     by = "Lagrange with multipliers (2.60)" if bound else "Lagrange (2.44)"
     yield Check(f"accelerations by {by}", worst(derived) / size, LAW)
+    if by_one:
+        yield Check("Lagrangian (2.51), (2.52)", worst(by_one) / size, LAW)
     yield Check("power balance (2.51)", worst(balances) / power, LAW)
     if written:
         yield Check("Newton-Euler balance (2.23), (2.27)", worst(unbalanced), LAW)

@@ -15,7 +15,15 @@ from numpy.typing import NDArray
 from scipy.linalg import qr
 
 from ..system import Array, Mode, Vector
-from .lagrange import constraint_rows, curvature, derivative, gradient, rate_matrix, slope
+from .lagrange import (
+    constraint_rows,
+    curvature,
+    derivative,
+    gradient,
+    of_potential,
+    rate_matrix,
+    slope,
+)
 
 Places = NDArray[np.int64]
 REGULAR = 1e-6  # of the largest pivot: what a smaller one determines has lost half of its digits
@@ -92,8 +100,9 @@ class Dependent:
         return self._free(t, q)[0] @ np.linalg.inv(B[self.a1])
 
     def forces(self, t: float, q: Array, v: Array) -> Array:
-        """(2.78) Π_{a1} = Q_{a1} + Q_{a2} α^{a2}_{a1} (k,), Q of (2.45), (2.46) and (2.50)."""
+        """(2.78) Π_{a1} = Q_{a1} + Q_{a2} α^{a2}_{a1} (k,), Q of (2.45)–(2.50)."""
         slopes = gradient(lambda q: self.system.U(t, q), q)
+        slopes = slopes - of_potential(self.system, t, q, self.system.rates(t, q, v))
         along = np.asarray(self.system.Q4(t, q, v), dtype=np.float64)
         along = along - gradient(lambda v: self.system.D(t, q, v), v)
         conservative = slopes[self.a1] + slopes[self.a2] @ self.alpha(t, q)

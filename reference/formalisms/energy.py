@@ -7,14 +7,15 @@ import numpy as np
 from ..system import Array, Mode
 from .derivative import along
 from .lagrange import derivative, gradient, momentum, multipliers
+from .lagrangian import left
 
 
 def power_balance(system: Mode, t: float, q: Array, v: Array) -> float:
-    """(2.51) d/dt (q̇ᵃ ∂T/∂q̇ᵃ − T + U) − (Q_a vᵃ + λ_b gᵇ + ∂(U − T)/∂t) [W]: must be 0.
+    """(2.51) d/dt (q̇ᵃ ∂T/∂q̇ᵃ − T + U) − (Q_a vᵃ + λ_b gᵇ + ∂(U + V − T)/∂t) [W]: must be 0.
 
-    The bracket is T + U where T is quadratic in q̇; Q are the forces of classes 2 and 4, and the
-    last two terms are the power of drives. A drive that is part of q̇ = N v + n₀ has the power
-    n₀ · (d/dt ∂T/∂q̇ − ∂T/∂q + ∂U/∂q) besides. The motion is that of `system.accelerations`.
+    The bracket is T + U where T is quadratic in q̇: of (2.51) V, linear in q̇, drops out but for
+    ∂V/∂t. Q are the forces of classes 2 and 4, and the last two terms are the power of drives. A drive that is part of q̇ = N v + n₀ has the power
+    n₀ · (d/dt ∂L/∂q̇ − ∂L/∂q) besides. The motion is that of `system.accelerations`.
     """
     a, q_dot = system.accelerations(t, q, v), system.rates(t, q, v)
 
@@ -24,19 +25,12 @@ def power_balance(system: Mode, t: float, q: Array, v: Array) -> float:
 
     change = along(energy, (t, q, v), (1.0, q_dot, a))
     Q = np.asarray(system.Q4(t, q, v)) - gradient(lambda v: system.D(t, q, v), v)
-    drives = derivative(lambda t: system.U(t, q) - system.T(t, q, q_dot), (t,), (1.0,))
+    drives = derivative(
+        lambda t: system.U(t, q) + system.V(t, q, q_dot) - system.T(t, q, q_dot), (t,), (1.0,)
+    )
     g = np.asarray(system.g(t, q), dtype=np.float64)
     if g.any():
         drives += multipliers(system, t, q, v)[1] @ g
     if q_dot is not v and (n_0 := np.asarray(system.rates(t, q, np.zeros(len(v))))).any():
-        drives += n_0 @ _unreduced(system, t, q, v, a)
+        drives += n_0 @ left(system, t, q, v, a)
     return float(change - Q @ v - drives)
-
-
-def _unreduced(system: Mode, t: float, q: Array, v: Array, a: Array) -> Array:
-    """d/dt ∂T/∂q̇ − ∂T/∂q + ∂U/∂q (m,): what acts along every rate."""
-    q_dot = system.rates(t, q, v)
-    change = derivative(
-        lambda t, q, v: momentum(system, t, q, system.rates(t, q, v)), (t, q, v), (1.0, q_dot, a)
-    )
-    return change - gradient(lambda q: system.T(t, q, q_dot) - system.U(t, q), q)

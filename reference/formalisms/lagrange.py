@@ -1,4 +1,4 @@
-"""Lagrange's equations of the 2nd kind (2.44), and with multipliers (2.60), from T, U, D, Q₄.
+"""Lagrange's equations of the 2nd kind (2.44), and with multipliers (2.60), from T, U, V, D, Q₄.
 
 Where q̇ = N v + n₀ they are Hamel's: those of the rates q̇ (m,), seen along the columns of N,
 
@@ -80,16 +80,29 @@ def rate_matrix(system: Mode, t: Any, q: Vector, v: Vector) -> Vector | None:
 
 
 def forces(system: Mode, t: float, q: Array, v: Array) -> Array:
-    """Q_a + ∂T/∂qᵃ − (d/dt ∂T/∂q̇ᵃ at v̇ = 0) along N, (n,): Q_a from (2.45), (2.46), (2.50)."""
+    """Q_a + ∂T/∂qᵃ − (d/dt ∂T/∂q̇ᵃ at v̇ = 0) along N, (n,): Q_a from (2.45)–(2.50)."""
     q_dot, N = system.rates(t, q, v), rate_matrix(system, t, q, v)
     drift = derivative(
         lambda t, q: momentum(system, t, q, system.rates(t, q, v)), (t, q), (1.0, q_dot)
     )
     conservative = gradient(lambda q: system.T(t, q, q_dot) - system.U(t, q), q)
+    conservative = conservative + of_potential(system, t, q, q_dot)
     if N is not None:
         conservative, drift = N.T @ conservative, N.T @ drift
     dissipative = gradient(lambda v: system.D(t, q, v), v)
     return conservative - dissipative + np.asarray(system.Q4(t, q, v), dtype=np.float64) - drift
+
+
+def of_potential(system: Mode, t: float, q: Array, q_dot: Array) -> Array:
+    """(2.48) Q_a = d/dt ∂V/∂q̇ᵃ − ∂V/∂qᵃ (m,): V is linear in q̇, so that no q̈ is in it."""
+
+    def slopes(t: Any, q: Any) -> Any:
+        return slope(system.V, t, q, q_dot)
+
+    if not np.ndim(slopes(t, q)):  # there is no V
+        return np.zeros(len(q))
+    change = derivative(slopes, (t, q), (1.0, q_dot))
+    return change - gradient(lambda q: system.V(t, q, q_dot), q)
 
 
 def constraint_rows(system: Mode, t: Any, q: Vector, n: int) -> Vector:

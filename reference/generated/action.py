@@ -1,7 +1,8 @@
 """All that the reference knows of force elements, in maximal coordinates: one table, ACTIONS.
 
 A kind of element says what it exerts on which points, and beside that, derived by itself, its
-potential U (2.45), its dissipation D (2.46) or its generalized force Q₄ (2.50).
+potential U (2.45), its generalized potential V (2.48), its dissipation D (2.46) or its generalized
+force Q₄ (2.50).
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -12,18 +13,23 @@ import numpy as np
 
 from ...cases.force import (
     Damper,
+    Drag,
     Force,
     Line,
+    Magnetic,
     Motor,
     Push,
     Spring,
     Torque,
     Torsion,
     TorsionDamper,
+    Viscous,
 )
 from ..laws.force import damper, spring
 from ..system import Array
 from .coordinates import Coordinates, Point
+from .drag import drag_loss, dragged, slowed, viscous_loss
+from .magnetic import deflected, magnetic_potential
 from .signal import signal
 from .turning import braked, driven, motor, torsional, torsionally_damped, twisted
 
@@ -39,12 +45,13 @@ class NoDirection(ArithmeticError):
 class Action:
     """A kind of force element; called with the element, the coordinates, t, q and, but for U, v.
 
-    pulls: each force [N] with the point at which it acts. U [J], D [W]. Q4: adds its own to a
+    pulls: each force [N] with the point at which it acts. U [J], V [J], D [W]. Q4: adds its own to a
     vector (n,). line: whether that element has no direction where its two ends meet.
     """
 
     pulls: Callable[..., Iterator[tuple[Any, Point]]]
     U: Callable[..., Any] = lambda force, where, t, q: 0.0
+    V: Callable[..., Any] = lambda force, where, t, q, v: 0.0
     D: Callable[..., Any] = lambda force, where, t, q, v: 0.0
     Q4: Callable[..., None] = lambda force, where, t, q, v, Q: None
     line: Callable[[Any], bool] = lambda force: False
@@ -73,6 +80,11 @@ def pulls(
 def potential(force: Force, where: Coordinates, t: Any, q: Numbers) -> Any:
     """(2.45) its share of U [J]."""
     return ACTIONS[type(force)].U(force, where, t, q)
+
+
+def generalized_potential(force: Force, where: Coordinates, t: Any, q: Numbers, v: Any) -> Any:
+    """(2.48) its share of V [J], of the rates v (n,) or (n, K)."""
+    return ACTIONS[type(force)].V(force, where, t, q, v)
 
 
 def dissipation(force: Force, where: Coordinates, t: Any, q: Numbers, v: Numbers) -> Any:
@@ -179,4 +191,7 @@ ACTIONS: dict[type[Force], Action] = {
     Torsion: Action(torsional, U=twisted),
     TorsionDamper: Action(torsionally_damped, D=braked),
     Motor: Action(motor, Q4=driven),
+    Drag: Action(dragged, D=drag_loss),
+    Viscous: Action(slowed, D=viscous_loss),
+    Magnetic: Action(deflected, V=magnetic_potential),
 }

@@ -8,6 +8,7 @@
 | slide         | sticks   | no slip                         | F_s ± F_a: slips                   |
 | pivot         | open     | nothing                         | gap: lands                         |
 | pivot         | sticks   | y = 0, no slip                  | λ_n: opens                         |
+| slowed, α < 1 | as slide | no force when it sticks         | slip: stops; ±F_a: slips           |
 | ideal, smooth | its only | it rolls; the smooth law (2.95) | nothing                            |
 
 A mode of a scene names the state
@@ -19,6 +20,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
+from ...cases.drag import Viscous
+from ...cases.force import of
 from ...cases.scene import DryFriction, Scene
 from ..laws.friction import Dry, stiction
 from .constraint import Constraint
@@ -137,6 +140,20 @@ class Touching(Element):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Stopping(Element):
+    """A slide that viscous friction of an exponent below 1 stops, with no force left to hold it."""
+
+    def held(self, state: State) -> list[Constraint]:
+        """Nothing, or no slip."""
+        return [self.tangent] if state == "sticks" else []
+
+    def margins(self, forces: Mapping[str, float]) -> tuple[float, float]:
+        """(2.86) ∓F_a [N]: anything that pushes sets it off."""
+        F_a = -forces[f"{self.name}.friction"]
+        return -F_a, F_a
+
+
+@dataclass(frozen=True, kw_only=True)
 class Sliding(Element):
     """A slide with exact dry friction."""
 
@@ -175,8 +192,11 @@ def elements(scene: Scene, where: Coordinates) -> Iterator[Element]:
                 plane=contact.plane.name,
                 rest=REST if contact.ideal is None else ("sticks",),
             )
+    stopped = {force.joint for force in of(Viscous, scene.forces.values()) if force.exponent < 1}
     for joint in scene.joints.values():
         if (friction := joint.dry_friction) is None:
+            if joint.name in stopped:
+                yield Stopping(name=joint.name, tangent=at_rest(joint, where))
             continue
         along = at_rest(joint, where)
         if friction.smooth is not None:

@@ -11,6 +11,7 @@ import numpy as np
 from ...cases.scene import Scene
 from ..system import Array, Guard, System
 from .choosing import After, Options, closed, opening, painleve, settled, staying
+from .drag import blurred
 from .element import REST, Element, State, sign
 from .landing import STILL, landed
 from .modes import Modes, rate
@@ -34,6 +35,7 @@ class Mechanism(System):
         sines = [f.signal for f in scene.signals() if f.signal.law == "sine"]
         fastest = max((abs(s.angular_frequency) for s in sines), default=0.0)
         self.longest = math.tau / fastest / PIECES if fastest else None
+        self.blurred = blurred(scene, float(np.max(np.abs(start[1]), initial=0.0)) or 1.0)
 
     def start(self) -> After:
         """The assembled start, and what contacts and slides do there.

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...cases.scene import Scene
 from ..system import Array, Mass, Mode, Pose, Vector
-from .action import act, dissipation, ends_meet, other, potential
+from .action import act, dissipation, ends_meet, generalized_potential, other, potential
 from .constraint import Constraint, assembled
 from .contact import Braking, Coulomb, row
 from .coordinates import Coordinates
@@ -186,6 +186,11 @@ class Multibody(Mode):
         for force in self.scene.forces.values():
             energy = energy + potential(force, self.where, t, q.tolist())
         return energy
+
+    def V(self, t: Any, q: Vector, v: Vector) -> Any:
+        """(2.48) V = Σ ½ e B (y ẋ − x ẏ) [J]."""
+        forces = self.scene.forces.values()
+        return sum((generalized_potential(f, self.where, t, q, v) for f in forces), 0.0)
 
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.46) D = Σ ½ d λ̇² [W], λ̇ = Δ·Δ̇/λ."""

@@ -36,6 +36,12 @@ def torsion_damper(d: float, phi_dot: float) -> float:
     return -d * phi_dot
 
 
+def magnetic(e: float, B: float, v: ArrayLike) -> Array:
+    """(2.48) F = e v × B [N] of (2.49), (2,): of a charge +e in B e_z, to its right for e B > 0."""
+    x_dot, y_dot = np.asarray(v, dtype=np.float64).tolist()
+    return np.array([e * B * y_dot, -e * B * x_dot])
+
+
 def damper(d: float, r: ArrayLike, r_dot: ArrayLike) -> Array:
     """(2.47) F = −d λ̇ along the damper [N]: the force on the first end: (2,), in space (3,).
 

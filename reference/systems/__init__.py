@@ -10,11 +10,14 @@ from ..system import Mode, Only, System
 from .anisotropic_drift import AnisotropicDrift
 from .bar_pendulum import BarPendulum
 from .bouncing_disk import BouncingDisk
+from .charge_in_field import ChargeInField
 from .double_pendulum import DoublePendulum
+from .drag_stops import DragStops
 from .driven_edge import DrivenEdge
 from .driven_robot import DrivenRobot
 from .driven_wheel import DrivenWheel
 from .dynamometer import Dynamometer
+from .falling_drag import FallingDrag
 from .five_axis_robot import FiveAxisRobot
 from .four_bar import FourBar
 from .growing_force import GrowingForce
@@ -34,16 +37,20 @@ from .tilting_ring import TiltingRing
 from .torque_free import TorqueFree
 from .torsion_pendulum import TorsionPendulum
 from .upright_wheel import UprightWheel
+from .viscous_guide import ViscousDrift, ViscousGrowingForce
 
 SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "anisotropic_drift": AnisotropicDrift,
     "bar_pendulum": BarPendulum,
     "bouncing_disk": BouncingDisk,
+    "charge_in_field": ChargeInField,
     "double_pendulum": DoublePendulum,
+    "drag_stops": DragStops,
     "driven_robot": DrivenRobot,
     "driven_wheel": DrivenWheel,
     "driven_edge": DrivenEdge,
     "dynamometer": Dynamometer,
+    "falling_drag": FallingDrag,
     "five_axis_robot": FiveAxisRobot,
     "four_bar": FourBar,
     "growing_force": GrowingForce,
@@ -64,6 +71,8 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "torque_free": TorqueFree,
     "torsion_pendulum": TorsionPendulum,
     "upright_wheel": UprightWheel,
+    "viscous_drift": ViscousDrift,
+    "viscous_growing_force": ViscousGrowingForce,
 }
 
 

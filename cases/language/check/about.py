@@ -1,13 +1,13 @@
-"""What acts about a joint: a joint that lets two parts turn, both of which have an angle."""
+"""What acts about or along a joint: one that lets two parts turn, or one that lets them shift."""
 
 from collections.abc import Iterator
 
 from ...mistake import Path, nearest
-from ...scene import Scene
+from ...scene import Force, Scene
 from ..parse import Finding, Parsed
 
 
-def about(parsed: Parsed, scene: Scene, path: Path, name: str) -> Iterator[Finding]:
+def about(parsed: Parsed, scene: Scene, path: Path, force: Force, name: str) -> Iterator[Finding]:
     """What is wrong with the joint's name, or with the joint."""
     if name not in scene.joints:
         if not parsed.hides(name):
@@ -17,6 +17,10 @@ def about(parsed: Parsed, scene: Scene, path: Path, name: str) -> Iterator[Findi
             )
         return
     joint = scene.joints[name]
+    if force.freedom == "shift":
+        if not joint.shifts:
+            yield path, f"{name!r} is a {joint.kind}, and lets nothing shift"
+        return
     if not joint.turns:
         yield path, f"{name!r} is a {joint.kind}, and lets nothing turn"
         return

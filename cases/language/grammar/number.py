@@ -39,6 +39,9 @@ hertz = 1 / second = Hz
 newton = kilogram * meter / second**2 = N
 joule = newton * meter = J
 watt = joule / second = W
+ampere = [current] = A
+coulomb = ampere * second = C
+tesla = kilogram / ampere / second**2 = T
 """
 SMALLEST, LARGEST = 1e-30, 1e30  # in SI: beyond them squares of products leave the doubles
 _KNOWN = ("m", "mm", "cm", "kg", "g", "s", "ms", "rad", "deg", "rpm", "N", "kN", "J", "W")

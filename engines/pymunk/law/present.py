@@ -9,14 +9,17 @@ from pymunk.vec2d import Vec2d
 from ....cases.force import Damper, Line
 from ....cases.scene import GROUND, Anchor, Joint, Scene
 from ...law import dry_friction, tension
+from ..force import lacking
 
 Act = Callable[[], None]  # called before each step, after all other forces
 
 
 def sayable(scene: Scene) -> bool:
-    """Whether the law is such a force; the smooth one is unstable as that."""
+    """Whether the law is one of those here; the smooth one is unstable as a force of that kind."""
     dry = (joint.dry_friction for joint in scene.joints.values() if joint.dry_friction)
-    return not scene.contacts and not any(friction.smooth for friction in dry)
+    return (
+        not scene.contacts and not lacking(scene) and not any(friction.smooth for friction in dry)
+    )
 
 
 def acts(scene: Scene, space: Space, bodies: Mapping[str, Body]) -> Iterator[Act]:

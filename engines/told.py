@@ -1,0 +1,82 @@
+"""Forces for which engines have no element, in words: what they do at the points where they act.
+
+A law is made of its scene and its element once, and asked at every step or stage: with the time
+and with the state of each point, in the order of `Scene.ends`, it answers with the force there.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+from ..cases.drag import Drag, Viscous
+from ..cases.element import Force
+from ..cases.magnetic import Magnetic
+from ..cases.scene import Scene
+
+
+class Place(NamedTuple):
+    """A point and its velocity, and how its body is turned: m, m/s, rad, rad/s; in ground axes."""
+
+    x: float
+    y: float
+    vx: float
+    vy: float
+    angle: float
+    omega: float
+
+
+Exerted = Sequence[tuple[float, float]]
+"""The force [N] on each of the points."""
+Law = Callable[[float, Sequence[Place]], Exerted]
+
+
+def _drag(scene: Scene, force: Drag) -> Law:
+    """(2.86) −d |v|^α v/|v|."""
+    d, power = force.coefficient, (force.exponent - 1) / 2
+
+    def law(t: float, points: Sequence[Place]) -> Exerted:
+        (_, _, vx, vy, _, _) = points[0]
+        size = -d * (vx * vx + vy * vy) ** power
+        return ((size * vx, size * vy),)
+
+    return law
+
+
+def _viscous(scene: Scene, force: Viscous) -> Law:
+    """(2.86) −d |v|^α sign(v) along the slide, on its second part."""
+    x, y = scene.joints[force.joint].along
+    d, power = force.coefficient, force.exponent
+
+    def law(t: float, points: Sequence[Place]) -> Exerted:
+        a, b = points
+        cos, sin = math.cos(a.angle), math.sin(a.angle)
+        ux, uy = cos * x - sin * y, sin * x + cos * y
+        speed = ux * (b.vx - a.vx) + uy * (b.vy - a.vy)
+        speed += a.omega * (ux * (b.y - a.y) - uy * (b.x - a.x))
+        size = -d.forward * speed**power if speed > 0 else d.backward * (-speed) ** power
+        return (-size * ux, -size * uy), (size * ux, size * uy)
+
+    return law
+
+
+def _magnetic(scene: Scene, force: Magnetic) -> Law:
+    """(2.49) e v × B, B along z."""
+    strength = force.charge * force.along_z
+
+    def law(t: float, points: Sequence[Place]) -> Exerted:
+        (_, _, vx, vy, _, _) = points[0]
+        return ((strength * vy, -strength * vx),)
+
+    return law
+
+
+TOLD: dict[type[Force], Callable[[Scene, Any], Law]] = {
+    Drag: _drag,
+    Viscous: _viscous,
+    Magnetic: _magnetic,
+}
+
+
+def law_of(scene: Scene, force: Force) -> Law:
+    """What a force of the scene exerts."""
+    return TOLD[type(force)](scene, force)
