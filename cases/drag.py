@@ -74,6 +74,15 @@ class Viscous(Force):
         """The slide along which it acts."""
         return self.joint
 
+    @property
+    def corner(self) -> bool:
+        """Where its slope differs to both sides, or has no bound."""
+        return self.exponent < 1 or self.coefficient.forward != self.coefficient.backward
+
+    def numbers(self) -> dict[str, float]:
+        """d₊ and d₋."""
+        return {"forward": self.coefficient.forward, "backward": self.coefficient.backward}
+
     def quantities(self) -> dict[str, Fields]:
         """speed [m/s] of the second part along the slide, and force [N] on it."""
         return {self.name: {"speed": ("m/s", "velocity"), "force": ("N", "force")}}

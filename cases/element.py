@@ -33,6 +33,11 @@ class Force:
         """The joint about or along which it acts, between the two parts; or None."""
         return None
 
+    @property
+    def corner(self) -> bool:
+        """Whether its law has a corner where something comes to rest, which costs steps orders."""
+        return False
+
     def unfit(self, bodies: Mapping[str, Body]) -> str | None:
         """Why it cannot act on what it refers to, in words for the case file."""
         return None

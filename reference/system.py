@@ -1,10 +1,10 @@
 """What is followed: a system of modes, and the guards that lead from one to the next.
 
 A mode answers with its explicit accelerations, derived by hand, and with its ingredients (T, U, V,
-D, Q₄, constraints, free bodies), from which the chapter's formalisms derive them again without sharing
-a line of algebra. Ingredients must accept complex arguments: derivatives are taken by the complex
-step. A system is one mode, or several with the same coordinates: a disk that slides obeys other
-equations than one that rolls.
+D, Q₄, constraints, free bodies), from which the chapter's formalisms derive them again without
+sharing a line of algebra. Ingredients must accept complex arguments: derivatives are taken by the
+complex step. A system is one mode, or several with the same coordinates: a disk that slides obeys
+other equations than one that rolls.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -179,9 +179,7 @@ class System:
 
     modes: Mapping[str, Mode]
     longest: float | None = None  # no step [s] is longer: a guard may know more of time than q does
-    blurred: float = (
-        0.0  # s: how far apart answers have an event to which a speed falls without slope
-    )
+    blurred: float = 0.0  # s: how far apart answers have a stop that speeds fall to without slope
 
     def start(self) -> tuple[str, Array, Array]:
         """The mode at t = 0, q (n,) and v (n,)."""

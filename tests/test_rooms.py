@@ -27,7 +27,7 @@ ROOMS = {
         "states",
         "solve",
     ],
-    "engines": ["engine law", "heading", "mujoco pymunk"],
+    "engines": ["engine law told", "heading", "mujoco pymunk"],
     "reports": [
         "own_settings",
         "row pins selection coverage events lock ending cluster pytest_short",

@@ -32,7 +32,7 @@ from ...cases.signal import Signal
 from ..engine import Realised
 from ..law import in_time, value
 from .law.line import Exerted, Load, drifting, pull, told
-from .law.told import exerted_at_points, told_at_points
+from .law.told import BY_LAW
 from .law.turning import couple_as_text, motor, motor_load, twist, twisted
 from .world import World
 from .written import written
@@ -59,12 +59,6 @@ class Element:
     tell: Callable[[World, Any, float, float], Apply] | None = None
     script: Callable[[World, Any, Callable[[Body], str], bool], Iterator[str]] | None = None
     lacks: str = ""
-
-
-def lacking(scene: Scene) -> list[tuple[Force, str]]:
-    """The forces that pymunk has no element for, and why."""
-    found = ((force, ELEMENTS[type(force)].lacks) for force in scene.forces.values())
-    return [(force, why) for force, why in found if why]
 
 
 def lines(world: World, realised: Realised) -> None:
@@ -217,15 +211,6 @@ def as_text(law: Signal) -> list[str]:
     return [f"{amplitude!r}{factor}" for amplitude in law.amplitude]
 
 
-def _by_law(lacks: str) -> Element:
-    """What is only told, at the points where it acts."""
-    return Element(
-        load=exerted_at_points,
-        tell=lambda world, force, step, drift: told_at_points(world, force, step),
-        lacks=lacks,
-    )
-
-
 ELEMENTS: dict[type[Force], Element] = {
     Spring: Element(
         load=pull,
@@ -253,7 +238,7 @@ ELEMENTS: dict[type[Force], Element] = {
         tell=lambda world, damper, step, drift: twisted(world, damper, step),
     ),
     Motor: Element(load=motor_load, tell=motor, script=_motor_script),
-    Drag: _by_law("engine: pymunk has no friction by a power of the speed"),
-    Viscous: _by_law("engine: pymunk has no friction by a power of the speed"),
-    Magnetic: _by_law("engine: pymunk has no force of a magnetic field"),
+    Drag: Element(**BY_LAW, lacks="engine: pymunk has no friction by a power of the speed"),
+    Viscous: Element(**BY_LAW, lacks="engine: pymunk has no friction by a power of the speed"),
+    Magnetic: Element(**BY_LAW, lacks="engine: pymunk has no force of a magnetic field"),
 }

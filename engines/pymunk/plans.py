@@ -10,7 +10,8 @@ from ..engine import Choice, Plan, Realised, Start
 from ..law import one_number
 from .contact import closed
 from .edge import alone
-from .force import damped, lacking
+from .force import damped
+from .lacking import lacking
 from .law.friction import ruled
 from .recipe import Recipe
 from .scene import oblique

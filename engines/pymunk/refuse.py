@@ -5,7 +5,8 @@ import math
 from ...cases.frame import PLANE
 from ...cases.scene import GROUND, Scene
 from .edge import NO_EDGE
-from .force import ELEMENTS, lacking
+from .force import ELEMENTS
+from .lacking import lacking
 
 
 def not_native(scene: Scene) -> list[str]:

@@ -13,9 +13,10 @@ from .lagrangian import left
 def power_balance(system: Mode, t: float, q: Array, v: Array) -> float:
     """(2.51) d/dt (q̇ᵃ ∂T/∂q̇ᵃ − T + U) − (Q_a vᵃ + λ_b gᵇ + ∂(U + V − T)/∂t) [W]: must be 0.
 
-    The bracket is T + U where T is quadratic in q̇: of (2.51) V, linear in q̇, drops out but for
-    ∂V/∂t. Q are the forces of classes 2 and 4, and the last two terms are the power of drives. A drive that is part of q̇ = N v + n₀ has the power
-    n₀ · (d/dt ∂L/∂q̇ − ∂L/∂q) besides. The motion is that of `system.accelerations`.
+    The bracket is T + U where T is quadratic in q̇: V, linear in q̇, drops out but for ∂V/∂t. Q are
+    the forces of classes 2 and 4, and the last two terms are the power of drives. A drive that is
+    part of q̇ = N v + n₀ has the power n₀ · (d/dt ∂L/∂q̇ − ∂L/∂q) besides. The motion is that of
+    `system.accelerations`.
     """
     a, q_dot = system.accelerations(t, q, v), system.rates(t, q, v)
 

@@ -94,14 +94,15 @@ def forces(system: Mode, t: float, q: Array, v: Array) -> Array:
 
 
 def of_potential(system: Mode, t: float, q: Array, q_dot: Array) -> Array:
+    """The generalized forces of class 3 (m,): zero in a system without V."""
+    if np.ndim(slope(system.V, t, q, q_dot)):
+        return _from_potential(system, t, q, q_dot)
+    return np.zeros(len(q))
+
+
+def _from_potential(system: Mode, t: float, q: Array, q_dot: Array) -> Array:
     """(2.48) Q_a = d/dt ∂V/∂q̇ᵃ − ∂V/∂qᵃ (m,): V is linear in q̇, so that no q̈ is in it."""
-
-    def slopes(t: Any, q: Any) -> Any:
-        return slope(system.V, t, q, q_dot)
-
-    if not np.ndim(slopes(t, q)):  # there is no V
-        return np.zeros(len(q))
-    change = derivative(slopes, (t, q), (1.0, q_dot))
+    change = derivative(lambda t, q: slope(system.V, t, q, q_dot), (t, q), (1.0, q_dot))
     return change - gradient(lambda q: system.V(t, q, q_dot), q)
 
 

@@ -45,8 +45,8 @@ class NoDirection(ArithmeticError):
 class Action:
     """A kind of force element; called with the element, the coordinates, t, q and, but for U, v.
 
-    pulls: each force [N] with the point at which it acts. U [J], V [J], D [W]. Q4: adds its own to a
-    vector (n,). line: whether that element has no direction where its two ends meet.
+    pulls: each force [N] with the point at which it acts. U and V [J], D [W]. Q4: adds its own to
+    a vector (n,). line: whether that element has no direction where its two ends meet.
     """
 
     pulls: Callable[..., Iterator[tuple[Any, Point]]]
@@ -82,8 +82,8 @@ def potential(force: Force, where: Coordinates, t: Any, q: Numbers) -> Any:
     return ACTIONS[type(force)].U(force, where, t, q)
 
 
-def generalized_potential(force: Force, where: Coordinates, t: Any, q: Numbers, v: Any) -> Any:
-    """(2.48) its share of V [J], of the rates v (n,) or (n, K)."""
+def generalized_potential(force: Force, where: Coordinates, t: Any, q: Any, v: Any) -> Any:
+    """Its share of V (2.48) [J], of the rates v (n,) or (n, K)."""
     return ACTIONS[type(force)].V(force, where, t, q, v)
 
 

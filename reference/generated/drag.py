@@ -78,7 +78,7 @@ def _loss(d: float, alpha: float, square: Any) -> Any:
 
 
 def blurred(scene: Scene, speed: float) -> float:
-    """(2.86) How long [s] a slide takes from NOISE to rest: so well its stop is known, if α < 1.
+    """How long [s] slides take from NOISE to rest by (2.86): so well a stop is known, if α < 1.
 
     v^{1−α} = (1 − α) (d/m) (t_s − t), with the mass of all bodies.
     """

@@ -18,7 +18,7 @@ def deflected(
     yield magnetic(force.charge, force.along_z, centre.r_dot).tolist(), centre
 
 
-def magnetic_potential(force: Magnetic, where: Coordinates, t: Any, q: Numbers, v: Any) -> Any:
+def magnetic_potential(force: Magnetic, where: Coordinates, t: Any, q: Any, v: Any) -> Any:
     """(2.49) V = ½ e B (y ẋ − x ẏ) [J]."""
     xy, _ = where.columns[force.body]
     turning = q[xy + 1] * v[xy] - q[xy] * v[xy + 1]

@@ -188,7 +188,7 @@ class Multibody(Mode):
         return energy
 
     def V(self, t: Any, q: Vector, v: Vector) -> Any:
-        """(2.48) V = Σ ½ e B (y ẋ − x ẏ) [J]."""
+        """V = Σ ½ e B (y ẋ − x ẏ) [J] as (2.48) has it."""
         forces = self.scene.forces.values()
         return sum((generalized_potential(f, self.where, t, q, v) for f in forces), 0.0)
 

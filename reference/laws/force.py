@@ -37,7 +37,7 @@ def torsion_damper(d: float, phi_dot: float) -> float:
 
 
 def magnetic(e: float, B: float, v: ArrayLike) -> Array:
-    """(2.48) F = e v × B [N] of (2.49), (2,): of a charge +e in B e_z, to its right for e B > 0."""
+    """(2.49) F = e v × B [N], (2,): of a charge +e in B e_z, to its right for e B > 0."""
     x_dot, y_dot = np.asarray(v, dtype=np.float64).tolist()
     return np.array([e * B * y_dot, -e * B * x_dot])
 

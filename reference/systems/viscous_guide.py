@@ -5,17 +5,16 @@ moves at once, where dry friction would hold it (Exercise 2.6).
 """
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from itertools import count
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
 
 from ..system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 LOOKS = 64  # in a period, for the next zero of v: between two there are no two
+HALVINGS = 60  # of such a piece: to the last digit
 
 
 class ViscousGuide(Mode):
@@ -93,7 +92,7 @@ class ViscousGrowingForce(ViscousGuide):
         return -self.b * t
 
     def closed_form(self, t: float) -> tuple[Array, Array]:
-        """(2.88) v = −(b/d₋) (t − τ (1 − e^{−t/τ})), τ = m/d₋, and its integral x: it moves at once."""
+        """(2.88) v = −(b/d₋) (t − τ (1 − e^{−t/τ})), τ = m/d₋: it moves at once. x = ∫ v dt."""
         tau, rate = self.m / self.d_minus, self.b / self.d_minus
         gone = -tau * math.expm1(-t / tau)
         return np.array([-rate * (t * t / 2 - tau * (t - gone))]), np.array([-rate * (t - gone)])
@@ -111,6 +110,7 @@ class ViscousDrift(ViscousGuide):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "masses", {"block": Mass(self.m, None)})
+        object.__setattr__(self, "_known", [(0.0, 0.0, 1 if self.A > 0 else -1)])
 
     def F_a(self, t: Any) -> Any:
         """(2.88) F_a = A sin w t [N]."""
@@ -139,27 +139,20 @@ class ViscousDrift(ViscousGuide):
         given = self.A / self.w * (math.cos(self.w * t0) - math.cos(self.w * t))
         return x0 + (given - self.m * v) / d, v
 
-    @cached_property
-    def _known(self) -> list[tuple[float, float, int]]:
-        """Where each piece begins: t₀, x₀ and the sign of v."""
-        return [(0.0, 0.0, 1 if self.A > 0 else -1)]
-
     def _pieces_until(self, t: float) -> list[tuple[float, float, int]]:
-        known = self._known
+        """Where each piece begins: t₀, x₀ and the sign of v."""
+        known: list[tuple[float, float, int]] = getattr(self, "_known")  # noqa: B009
         while known[-1][0] <= t:
             known.append(self._next(*known[-1]))
         return known
 
     def _next(self, t0: float, x0: float, way: int) -> tuple[float, float, int]:
-        """The next zero of v: the first of a dense grid beyond it, then by its bracket."""
-        last = t0
-        for t in self._grid(t0):
-            if way * self._after(t0, x0, way, t)[1] < 0.0:
-                zero: Any = brentq(lambda s: self._after(t0, x0, way, s)[1], last, t, xtol=1e-15)
-                return zero, self._after(t0, x0, way, zero)[0], -way
-            last = t
-        raise AssertionError("a sine turns it back within a period")
-
-    def _grid(self, t0: float) -> Iterator[float]:
-        for i in range(1, 2 * LOOKS):
-            yield t0 + i * 2 * math.pi / (self.w * LOOKS)
+        """The next zero of v: the first of a grid beyond it, then by halving."""
+        look = 2 * math.pi / (self.w * LOOKS)
+        i = next(i for i in count(1) if way * self._after(t0, x0, way, t0 + i * look)[1] < 0.0)
+        low, high = t0 + (i - 1) * look, t0 + i * look
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2
+            turned = way * self._after(t0, x0, way, middle)[1] < 0.0
+            low, high = (low, middle) if turned else (middle, high)
+        return high, self._after(t0, x0, way, high)[0], -way

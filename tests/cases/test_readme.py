@@ -13,7 +13,18 @@ from textmech.cases.language.grammar.friction import Coefficients, DryFriction
 from textmech.cases.language.grammar.number import amount
 from textmech.cases.load import load
 from textmech.cases.quantity import event_quantities, table
-from textmech.cases.scene import Anchor, Bounds, Contact, Edge, Signal, Smooth, Spring, Torsion
+from textmech.cases.scene import (
+    Anchor,
+    Bounds,
+    Contact,
+    Drag,
+    Edge,
+    Signal,
+    Smooth,
+    Spring,
+    Torsion,
+    Viscous,
+)
 from textmech.cases.scene import DryFriction as Dry
 from textmech.cases.scene import Joint as Connection
 from textmech.cases.scene import Scene as Resolved
@@ -57,6 +68,8 @@ def test_quantities() -> None:
         forces={
             "line": Spring("line", a, b, 1.0, 1.0),
             "torsion": Torsion("torsion", "joint", 1.0, 0.0),
+            "drag": Drag("drag", b, 1.0, 2.0),
+            "viscous": Viscous("viscous", "joint", Bounds(1.0, 1.0), 2.0),
         },
         constraints={"constraint": Edge("constraint", b, (1.0, 0.0), Signal("ramp", (1.0,)))},
     )

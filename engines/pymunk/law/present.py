@@ -9,7 +9,7 @@ from pymunk.vec2d import Vec2d
 from ....cases.force import Damper, Line
 from ....cases.scene import GROUND, Anchor, Joint, Scene
 from ...law import dry_friction, tension
-from ..force import lacking
+from ..lacking import lacking
 
 Act = Callable[[], None]  # called before each step, after all other forces
 
@@ -17,9 +17,8 @@ Act = Callable[[], None]  # called before each step, after all other forces
 def sayable(scene: Scene) -> bool:
     """Whether the law is one of those here; the smooth one is unstable as a force of that kind."""
     dry = (joint.dry_friction for joint in scene.joints.values() if joint.dry_friction)
-    return (
-        not scene.contacts and not lacking(scene) and not any(friction.smooth for friction in dry)
-    )
+    elsewhere = scene.contacts or lacking(scene)
+    return not elsewhere and not any(friction.smooth for friction in dry)
 
 
 def acts(scene: Scene, space: Space, bodies: Mapping[str, Body]) -> Iterator[Act]:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 from pymunk.body import Body
 
@@ -67,7 +68,8 @@ def _midpoint(world: World, anchor: Anchor, step: float) -> _Read:
 
 
 def _rates(body: Body) -> tuple[float, float, float]:
-    return (*body.velocity, body.angular_velocity)
+    vx, vy = body.velocity
+    return vx, vy, body.angular_velocity
 
 
 def _at(
@@ -88,3 +90,10 @@ def _at(
         x + drift * vx + rx, y + drift * vy + ry, u - turning * ry, w + turning * rx, angle, turning
     )
     return rx, ry, place
+
+
+BY_LAW: dict[str, Any] = {
+    "load": exerted_at_points,
+    "tell": lambda world, force, step, drift: told_at_points(world, force, step),
+}
+"""What an `Element` is that is only told, at the points where it acts."""

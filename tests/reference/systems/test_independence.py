@@ -13,6 +13,7 @@ SYSTEMS = sorted(
 )  # fmt: skip
 ALLOWED = {
     *("numpy", "scipy.special", "math", "cmath", "dataclasses", "typing", "collections.abc"),
+    "itertools",
     # The shape of an answer, and the book's laws of friction and of turning axes: no mechanics of a
     # scene.
     *("..system", "..mode", "..laws.friction", "..laws.rotation", ".stick_slip"),
