@@ -1,38 +1,45 @@
-"""Dry friction of a slide (2.89), and the book's smooth law in its place (2.95)."""
+"""Dry friction of a slide or a pin (2.89), (2.90), and the book's smooth law in its place (2.95).
+
+Of a slide it is a force [N] along its line, of a pin a moment [N m] about it, and what is a speed
+[m/s] here is a rate [rad/s] there.
+"""
 
 from dataclasses import dataclass
-from typing import Annotated
-
-from .language.grammar.field import In
-
-Newtons = Annotated[float, In("N", least=0)]
 
 
 @dataclass(frozen=True)
 class Bounds:
-    """A friction force [N] against motion forward (along the slide) and backward."""
+    """Friction against motion forward and backward: along the slide, or counter-clockwise."""
 
-    forward: Newtons
-    backward: Newtons
+    forward: float
+    backward: float
 
 
 @dataclass(frozen=True)
 class Smooth:
     """The book's smooth law (2.95): the band Δ [m/s] and the sharpness A [s/m]."""
 
-    band: Annotated[float, In("m/s", above=0)]
-    sharpness: Annotated[float, In("s/m", above=0)]
+    band: float
+    sharpness: float
+
+
+@dataclass(frozen=True)
+class Stribeck:
+    """(2.90) From static to kinetic friction over this speed: fig 2.25, after Tustin (1947)."""
+
+    speed: float
 
 
 @dataclass(frozen=True)
 class DryFriction:
-    """(2.89) on a slide, along its line; `smooth` replaces the exact law by (2.95)."""
+    """(2.89); with `stribeck` (2.90); `smooth` replaces the exact law by (2.95)."""
 
     static: Bounds
     kinetic: Bounds
     smooth: Smooth | None = None
+    stribeck: Stribeck | None = None
 
     def numbers(self) -> dict[str, float]:
-        """The forces [N] in motion: what the audit reads back from an engine."""
+        """The forces or moments in motion: what the audit reads back from an engine."""
         kinetic = self.kinetic
         return {"friction_forward": kinetic.forward, "friction_backward": kinetic.backward}

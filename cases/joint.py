@@ -8,7 +8,6 @@ from pydantic import Field
 
 from .friction import DryFriction
 from .kind import Fields
-from .language.grammar.friction import Dry
 from .language.grammar.part import Angle, Direction
 from .motion import Motion
 from .point import Anchor
@@ -33,6 +32,10 @@ _DRY: Fields = {
     "friction": ("N", "force"),  # on the second part, along the slide
     "slip": ("m/s", "residual"),  # of the second part along the slide; zero while it sticks
 }
+_DRY_TURN: Fields = {
+    "friction": ("N m", "force"),  # on the second part, counter-clockwise
+    "slip": ("rad/s", "residual"),  # how fast the second part turns against the first
+}
 
 
 @dataclass(frozen=True)
@@ -49,7 +52,7 @@ class Joint:
     b: Anchor
     along: Annotated[Direction, Field(description="in the axes of the first part")] = (1.0, 0.0)
     angle: Angle = 0.0
-    dry_friction: Annotated[DryFriction, Dry] | None = None
+    dry_friction: DryFriction | None = None
 
     @property
     def word(self) -> str:
@@ -73,10 +76,11 @@ class Joint:
     def quantities(self) -> dict[str, Fields]:
         """Its reactions and its gap; slip and friction where there is dry friction."""
         held = {} if self.turns else _HOLDS_ANGLE
-        return {self.name: {**_JOINT, **held, **(_DRY if self.dry_friction else {})}}
+        dry = _DRY if self.shifts else _DRY_TURN
+        return {self.name: {**_JOINT, **held, **(dry if self.dry_friction else {})}}
 
     def numbers(self) -> dict[str, float]:
-        """The forces [N] of dry friction in motion."""
+        """The dry friction in motion."""
         return {} if self.dry_friction is None else self.dry_friction.numbers()
 
     def turn(self, motion: Motion) -> tuple[Array, Array]:
@@ -92,6 +96,8 @@ class Joint:
             return np.hypot(fx, fy)
         if field not in ("gap", "slip"):
             raise KeyError(f"{self.name}.{field}")
+        if field == "slip" and not self.shifts:
+            return self.turn(motion)[1]
         d = motion.point(self.b) - motion.point(self.a)
         if not self.shifts:
             return np.hypot(d[:, 0], d[:, 1])

@@ -25,7 +25,7 @@ from .force import (
     of,
 )
 from .frame import PLANE, Frame
-from .friction import Bounds, DryFriction, Smooth
+from .friction import Bounds, DryFriction, Smooth, Stribeck
 from .joint import Joint
 from .kind import Fields
 from .point import CENTER, FLOOR, GROUND, Anchor, GroundPoint, Vector
@@ -55,6 +55,7 @@ __all__ = [
     "Signal",
     "Smooth",
     "Spring",
+    "Stribeck",
     "Torque",
     "Torsion",
     "TorsionDamper",

@@ -112,16 +112,25 @@ def dry_friction(friction: DryFriction, speed: float, applied: float) -> float:
     At rest it holds up to the static bound, the bound included; beyond, it brakes as it will once
     the part moves.
     """
-    kinetic, static = friction.kinetic, friction.static
+    static = friction.static
     if speed > 0:
-        return -kinetic.forward
+        return -braking(friction, 1, speed)
     if speed < 0:
-        return kinetic.backward
+        return braking(friction, -1, speed)
     if applied > static.forward:
-        return -kinetic.forward
+        return -braking(friction, 1, 0.0)
     if applied < -static.backward:
-        return kinetic.backward
+        return braking(friction, -1, 0.0)
     return -applied
+
+
+def braking(friction: DryFriction, sense: int, speed: float) -> float:
+    """(2.90) The size of the friction [N] that slides this way (1 or −1), so fast."""
+    kinetic = friction.kinetic.forward if sense > 0 else friction.kinetic.backward
+    if (falls := friction.stribeck) is None:
+        return kinetic
+    static = friction.static.forward if sense > 0 else friction.static.backward
+    return kinetic + (static - kinetic) * math.exp(-abs(speed) / falls.speed)
 
 
 def smooth_friction(

@@ -1,10 +1,10 @@
-"""The joint of the tree that a force acts about or along."""
+"""The joint of the tree that a force acts about or along, or that has dry friction."""
 
 from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
 from ...cases.joint import Freedom
-from ...cases.scene import Scene
+from ...cases.scene import Joint, Scene
 from .tree import coordinate, spanning_tree
 from .written import written
 
@@ -38,6 +38,11 @@ def hinge(
             found = next((element for element in built if element.get("name") == name), None)
             return Hinge(name, 1.0 if branch.forward else -1.0, found)
     raise KeyError(joint)
+
+
+def way(scene: Scene, joint: Joint) -> float:
+    """1.0 if MuJoCo counts the joint's one freedom as it slips, else −1; a slide's always."""
+    return 1.0 if joint.shifts else hinge(scene, joint.name).way
 
 
 def taken(scene: Scene) -> str | None:

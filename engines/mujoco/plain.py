@@ -126,9 +126,11 @@ def _told(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Take:
 
 
 def _alone(scene: Scene) -> bool:
-    """Whether the only slide with dry friction guides a part that nothing else joins."""
+    """Whether all dry friction is of one slide, which guides a part that nothing else joins."""
     (joint,) = (joint for joint in scene.joints.values() if joint.dry_friction)
     others = (other for other in scene.joints.values() if other is not joint)
-    return joint.a.body == GROUND and not any(
-        joint.b.body in (other.a.body, other.b.body) for other in others
+    return (
+        joint.shifts
+        and joint.a.body == GROUND
+        and not any(joint.b.body in (other.a.body, other.b.body) for other in others)
     )

@@ -38,6 +38,8 @@ def unbuildable(scene: Scene) -> str | None:
         if built_as(scene, joint).shifts:
             what = f"{joint.kind} {joint.name}"
             return f"engine: MuJoCo has no constraint that closes a loop by the {what}"
+        if joint.dry_friction is not None:
+            return f"engine: {joint.name} closes a loop, and MuJoCo rubs in the tree's joints only"
         if not built_as(scene, joint).turns:
             return f"adapter: {joint.name} closes a loop by a weld, loops are closed by pins only"
     for branch in tree.branches:

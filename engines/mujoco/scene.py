@@ -139,14 +139,15 @@ def _hang(element: ET.Element, scene: Scene, branch: Branch, soft: dict[str, str
     element.set("pos", written(at[0] - own[0], at[1] - own[1], 0))
     if held:
         element.set("quat", written(math.cos(held / 2), 0, 0, math.sin(held / 2)))
+    friction = {} if joint.dry_friction is None else _friction(joint.dry_friction, soft)
     for freedom in freedoms(scene, branch):
         if freedom == "turn":
             pos, axis = written(*local(scene, inner), 0), _AXES["angle"]
-            _joint(element, coordinate(joint, "turn"), "hinge", axis=axis, pos=pos)
+            name, rubs = coordinate(joint, "turn"), {} if joint.shifts else friction
+            _joint(element, name, "hinge", axis=axis, pos=pos, **rubs)
         else:
             # MuJoCo's axis stands in the child; `along` stands in the joint's first part.
             along = turned(joint.along, -held) if branch.forward else turned(joint.along, math.pi)
-            friction = {} if joint.dry_friction is None else _friction(joint.dry_friction, soft)
             name = coordinate(joint, "shift")
             _joint(element, name, "slide", axis=written(*along, 0), **friction)
 

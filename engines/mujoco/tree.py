@@ -106,10 +106,11 @@ def node(scene: Scene, anchor: Anchor) -> str:
 
 
 def spanning_tree(scene: Scene) -> Tree[Joint]:
-    """The tree over the joints, pins last, each kind in the scene's order."""
+    """The tree over the joints, pins last that do not rub, each kind in the scene's order."""
 
     def closes(joint: Joint) -> bool:
-        return built_as(scene, joint) == Left(turns=True, shifts=False)
+        loose = joint.dry_friction is None
+        return loose and built_as(scene, joint) == Left(turns=True, shifts=False)
 
     return spanned(scene, sorted(scene.joints.values(), key=closes))
 

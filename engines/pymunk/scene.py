@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from pymunk.body import Body
-from pymunk.constraints import Constraint, GearJoint, GrooveJoint, PivotJoint
+from pymunk.constraints import Constraint, GearJoint, GrooveJoint, PivotJoint, SimpleMotor
 from pymunk.shapes import Segment
 from pymunk.space import Space
 
@@ -98,13 +98,21 @@ def _joints(world: World, start: Start, *, across: bool) -> None:
         world.joints[joint.name] = tuple(parts)
         world.space.add(*parts)
         if joint.dry_friction:
-            world.brakes[joint.name] = _brake(world, joint, joint.dry_friction)
-            world.space.add(world.brakes[joint.name])
+            brake = _across(world, joint) if joint.shifts else SimpleMotor(a, b, 0.0)
+            _rub(brake, joint.dry_friction)
+            world.brakes[joint.name] = brake
+            world.space.add(brake)
 
 
-def _brake(world: World, joint: Joint, friction: DryFriction) -> GrooveJoint:
-    """A friction joint: it stops the shift along the slide with no more than its force, and
-    corrects no position.
+def _rub(brake: GrooveJoint | SimpleMotor, friction: DryFriction) -> None:
+    """It stops the slip with no more than its force or moment, and corrects no position."""
+    brake.max_bias = 0.0
+    # the engine knows one for both directions, and for rest and motion
+    brake.max_force = (friction.kinetic.forward + friction.kinetic.backward) / 2
+
+
+def _across(world: World, joint: Joint) -> GrooveJoint:
+    """What rubs in a slide; in a pin it is a motor that stands still.
 
     A groove across the slide, because a pivot would take part of the load that the slide holds;
     through both centres, where pymunk solves it alone (see `groove`). What that shifts the force
@@ -115,11 +123,7 @@ def _brake(world: World, joint: Joint, friction: DryFriction) -> GrooveJoint:
         x, y = 0.0, 0.0
     far = reach(world, joint)
     ends = (x + far * uy, y - far * ux), (x - far * uy, y + far * ux)
-    brake = GrooveJoint(world.body(joint.a), world.body(joint.b), *ends, (0.0, 0.0))
-    brake.max_bias = 0.0
-    # the engine knows one force for both directions, and for rest and motion
-    brake.max_force = (friction.kinetic.forward + friction.kinetic.backward) / 2
-    return brake
+    return GrooveJoint(world.body(joint.a), world.body(joint.b), *ends, (0.0, 0.0))
 
 
 def holds_angle(scene: Scene, joint: Joint) -> bool:

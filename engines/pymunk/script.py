@@ -13,6 +13,7 @@ from pymunk.constraints import (
     GrooveJoint,
     PinJoint,
     PivotJoint,
+    SimpleMotor,
 )
 
 from ...cases.plane import LEVEL, Plane
@@ -32,6 +33,7 @@ _ARGUMENTS: dict[type[Constraint], tuple[str, ...]] = {
     GrooveJoint: ("groove_a", "groove_b", "anchor_b"),
     PinJoint: ("anchor_a", "anchor_b"),
     GearJoint: ("phase", "ratio"),
+    SimpleMotor: ("rate",),
     DampedRotarySpring: ("rest_angle", "stiffness", "damping"),
     DampedSpring: ("anchor_a", "anchor_b", "rest_length", "stiffness", "damping"),
 }

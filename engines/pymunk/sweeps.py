@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 import numpy as np
 from pymunk.body import Body
-from pymunk.constraints import Constraint, GearJoint, GrooveJoint, PinJoint, PivotJoint
+from pymunk.constraints import Constraint, GearJoint, GrooveJoint, PinJoint, PivotJoint, SimpleMotor
 from pymunk.space import Space
 from pymunk.vec2d import Vec2d
 
@@ -74,9 +74,9 @@ def _columns(world: World) -> tuple[Columns, Array]:
 def _joint(space: Space, joint: Constraint, columns: Columns, n: int) -> tuple[Array, Array] | None:
     """The relative velocities that it measures, and the normals along which it acts."""
     a, b = joint.a, joint.b
-    if isinstance(joint, GearJoint):
+    if isinstance(joint, GearJoint | SimpleMotor):
         row = np.zeros((1, n))
-        for body, sign in ((a, -1.0), (b, joint.ratio)):
+        for body, sign in ((a, -1.0), (b, getattr(joint, "ratio", 1.0))):
             if body in columns:
                 row[0, columns[body] + 2] = sign
         return row, np.eye(1)

@@ -3,7 +3,13 @@
 from dataclasses import dataclass, field
 
 from pymunk.body import Body
-from pymunk.constraints import Constraint, DampedRotarySpring, DampedSpring, GrooveJoint
+from pymunk.constraints import (
+    Constraint,
+    DampedRotarySpring,
+    DampedSpring,
+    GrooveJoint,
+    SimpleMotor,
+)
 from pymunk.shapes import Circle, Segment
 from pymunk.space import Space
 
@@ -17,7 +23,7 @@ class World:
     """The space and its parts by their names in the scene.
 
     A joint's first constraint carries its force. reach: half the length [m] of planes and of
-    grooves of the ground. driven: the driven points' bodies. brakes: the friction joints of slides.
+    grooves of the ground. driven: the driven points' bodies. brakes: what rubs in slides and pins.
     slots: the lines that pin joints hold. pins: those of edges, by the reaction: `blade.force`.
     """
 
@@ -27,7 +33,7 @@ class World:
     bodies: dict[str, Body] = field(default_factory=dict)
     driven: dict[str, Body] = field(default_factory=dict)
     joints: dict[str, tuple[Constraint, ...]] = field(default_factory=dict)
-    brakes: dict[str, GrooveJoint] = field(default_factory=dict)
+    brakes: dict[str, GrooveJoint | SimpleMotor] = field(default_factory=dict)
     lines: dict[str, DampedSpring | DampedRotarySpring] = field(default_factory=dict)
     slots: dict[str, Line] = field(default_factory=dict)
     pins: dict[str, Pin] = field(default_factory=dict)

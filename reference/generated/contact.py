@@ -1,4 +1,4 @@
-"""What a contact on a plane or a slide at rest holds, and its friction when it does not rest.
+"""What a contact on a plane or a joint at rest holds, and its friction when it does not rest.
 
 A plane of the ground has the unit normal n, and u along it with n to its left; of the floor they
 are y and x. R is the radius of a rim (0 for a particle or a point of a bar), whose lowest point
@@ -12,7 +12,7 @@ from typing import Any
 from ...cases.scene import CENTER, Contact, Joint
 from .constraint import Constraint
 from .coordinates import Coordinates
-from .rows import FIRST, SECOND, Along, Line, Turning
+from .rows import FIRST, SECOND, Along, Line, Term, Turning
 
 
 def normal(contact: Contact, where: Coordinates) -> Constraint:
@@ -30,9 +30,15 @@ def tangent(contact: Contact, where: Coordinates) -> Constraint:
 
 
 def at_rest(joint: Joint, where: Coordinates) -> Constraint:
-    """A slide at rest, somewhere: d/dt u·(r_B − r_A) = 0, u fixed in the first part; λ along u."""
-    row, names = (Line(FIRST, SECOND, joint.along),), (("fx", "fy", "friction"),)
-    return Constraint(joint.name, (joint.a, joint.b), (row,), names, None, where)
+    """A slide at rest, somewhere: d/dt u·(r_B − r_A) = 0, u fixed in the first part; λ along u.
+
+    A pin at rest: φ̇_B − φ̇_A = 0; λ is a moment.
+    """
+    row: tuple[Term, ...] = (Line(FIRST, SECOND, joint.along),)
+    names = ("fx", "fy", "friction")
+    if not joint.shifts:
+        row, names = (Turning(SECOND), Turning(FIRST, -1.0)), ("friction",)
+    return Constraint(joint.name, (joint.a, joint.b), (row,), (names,), None, where)
 
 
 def _radius(contact: Contact, where: Coordinates) -> float:
@@ -52,7 +58,7 @@ class Coulomb:
 
 @dataclass(frozen=True)
 class Braking:
-    """A slide that moves: a friction force [N] on the second part, along +u."""
+    """A joint that moves: its friction on the second part, along +u [N] or about +z [N m]."""
 
     along: Constraint  # that would hold it at rest
     force: Callable[[float, Any, Any], float]

@@ -1,11 +1,11 @@
-"""What contacts and slides with dry friction can do: open, slide either way, stick.
+"""What contacts and joints with dry friction can do: open, slide either way, stick.
 
 | element       | state    | what holds                      | what ends it, falling to zero      |
 | contact       | open     | nothing                         | gap: lands                         |
 | contact       | slides ± | y = R, λ_t = ∓μ λ_n             | λ_n: opens; slip: stops            |
 | contact       | sticks   | y = R, no slip                  | λ_n: opens; μ_s λ_n ± λ_t: slips   |
-| slide         | slides ± | a force ∓F along it             | slip: stops                        |
-| slide         | sticks   | no slip                         | F_s ± F_a: slips                   |
+| slide, pin    | slides ± | a force ∓F along it, or moment  | slip: stops                        |
+| slide, pin    | sticks   | no slip                         | F_s ± F_a: slips                   |
 | pivot         | open     | nothing                         | gap: lands                         |
 | pivot         | sticks   | y = 0, no slip                  | λ_n: opens                         |
 | slowed, α < 1 | as slide | no force when it sticks         | slip: stops; ±F_a: slips           |
@@ -18,14 +18,14 @@ of each element: `touch slides +, rail sticks`.
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 from ...cases.drag import Viscous
 from ...cases.force import of
 from ...cases.scene import DryFriction, Scene
-from ..laws.friction import Dry, stiction
+from ..laws.friction import Dry, stiction, stribeck
 from .constraint import Constraint
-from .contact import Braking, Coulomb, at_rest, normal, tangent
+from .contact import Braking, Coulomb, at_rest, normal, row, tangent
 from .coordinates import Coordinates
 
 State = Literal["open", "slides +", "slides -", "sticks", "slides"]
@@ -47,7 +47,7 @@ def sliding(direction: float) -> State:
 
 
 def dry(friction: DryFriction) -> Dry:
-    """A slide's friction with the book's letters: F₋ against sliding backward, F₊ forward."""
+    """A joint's friction with the book's letters: F₋ against sliding backward, F₊ forward."""
     kinetic, static = friction.kinetic, friction.static
     return Dry(kinetic.backward, kinetic.forward, static.backward, static.forward)
 
@@ -111,7 +111,7 @@ class Rolling(Element):
 
 @dataclass(frozen=True, kw_only=True)
 class Smoothed(Element):
-    """A slide with the smooth law of dry friction (2.95), which never sticks."""
+    """A joint with the smooth law of dry friction (2.95), which never sticks."""
 
     friction: DryFriction
     only: State | None = "slides"
@@ -155,7 +155,7 @@ class Stopping(Element):
 
 @dataclass(frozen=True, kw_only=True)
 class Sliding(Element):
-    """A slide with exact dry friction."""
+    """A slide or a pin with exact dry friction."""
 
     friction: DryFriction
 
@@ -164,13 +164,23 @@ class Sliding(Element):
         return [self.tangent] if state == "sticks" else []
 
     def braking(self, state: State) -> list[Braking]:
-        """(2.89) −F₊ forward, F₋ backward."""
-        s = sign(state)
-        force = stiction(dry(self.friction), float(s), 0.0) if s else 0.0
-        return [Braking(self.tangent, lambda t, q, v: force)] if s else []
+        """(2.89) −F₊ forward, F₋ backward; (2.90) by the slip."""
+        if not (s := sign(state)):
+            return []
+        law = dry(self.friction)
+        if (falls := self.friction.stribeck) is None:
+            force = stiction(law, float(s), 0.0)
+            return [Braking(self.tangent, lambda t, q, v: force)]
+        F, F_s = (law.F_plus, law.Fs_plus) if s > 0 else (law.F_minus, law.Fs_minus)
+
+        def by_slip(t: float, q: Any, v: Any) -> float:
+            f, g, _ = row(self.tangent, t, q, v)
+            return -s * stribeck(F, F_s, falls.speed, float(f @ v) - g)
+
+        return [Braking(self.tangent, by_slip)]
 
     def margins(self, forces: Mapping[str, float]) -> tuple[float, float]:
-        """(2.89) F_s₊ − F_a and F_s₋ + F_a [N], F_a = −F_fr: negative where it breaks loose."""
+        """(2.89) F_s₊ − F_a and F_s₋ + F_a, F_a = −F_fr: negative where it breaks loose."""
         F_a = -forces[f"{self.name}.friction"]
         return self.friction.static.forward - F_a, self.friction.static.backward + F_a
 

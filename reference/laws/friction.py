@@ -82,6 +82,14 @@ def velocity_dependent(
     return dry.F_minus if F_a < 0.0 else -dry.F_plus
 
 
+def stribeck(F: float, F_s: float, v_s: float, v: float) -> float:
+    """(2.90) F(v) = F + (F_s − F) e^{−|v|/v_s} [N]: fig 2.25 as Tustin (1947) has it.
+
+    From F_s at rest it falls to F, most of it over the speed v_s [m/s].
+    """
+    return F + (F_s - F) * math.exp(-abs(v) / v_s)
+
+
 def karnopp(dry: Dry, Delta: float, v: float, F_a: float) -> float:
     """(2.91) (2.89) with its branch of v = 0 for |v| ≤ Δ [N]: a body that sticks keeps its v."""
     return stiction(dry, 0.0 if abs(v) <= Delta else v, F_a)

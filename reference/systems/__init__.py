@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from ..system import Mode, Only, System
 from .anisotropic_drift import AnisotropicDrift
 from .bar_pendulum import BarPendulum
+from .bearing import Bearing
 from .bouncing_disk import BouncingDisk
 from .charge_in_field import ChargeInField
 from .double_pendulum import DoublePendulum
@@ -42,6 +43,7 @@ from .viscous_guide import ViscousDrift, ViscousGrowingForce
 SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "anisotropic_drift": AnisotropicDrift,
     "bar_pendulum": BarPendulum,
+    "bearing": Bearing,
     "bouncing_disk": BouncingDisk,
     "charge_in_field": ChargeInField,
     "double_pendulum": DoublePendulum,

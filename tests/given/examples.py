@@ -13,6 +13,9 @@ PARAMETERS: dict[str, dict[str, float]] = {
         "F_minus": 3.0, "F_plus": 1.0, "Fs_minus": 4.0, "Fs_plus": 1.5,
     },
     "bar_pendulum": {"m": 1.2, "l": 0.8, "phi0": math.radians(24.6)},
+    "bearing": {
+        "m": 1.5, "R": 0.3, "M_s": 0.5, "M_k": 0.3, "d": 0.05, "M": 0.1, "k": 0.0, "w0": 9.0,
+    },
     "bouncing_disk": {"m": 0.8, "R": 0.2, "e": 1.0, "y0": 0.7},
     "double_pendulum": {
         "m1": 1.0, "l1": 0.6, "m2": 0.7, "l2": 0.9,
@@ -57,6 +60,7 @@ _BLOCK = [("block", 0, 0.0, 0.0), ("block", 3, 0.0, 0.0)]
 STARTS: dict[str, list[tuple[str, int, float, float]]] = {
     "anisotropic_drift": _BLOCK,
     "bar_pendulum": [("bar", 2, 24.6 * math.pi / 180, 1e-15), ("bar", 5, 0.0, 0.0)],
+    "bearing": [("disk", 2, 0.0, 0.0), ("disk", 5, 9.0, 0.0)],
     "bouncing_disk": [("wheel", 1, 0.7, 0.0), ("wheel", 4, 0.0, 0.0), ("wheel", 5, 0.0, 0.0)],
     "double_pendulum": [
         ("upper", 2, -61 * math.pi / 180, 1e-15), ("lower", 2, -33 * math.pi / 180, 1e-15),
@@ -128,6 +132,14 @@ VARIANTS: dict[str, tuple[str, dict[str, float], list[str]]] = {
     "rests": ("sliding_block", {"v0": 0.0}, []),
     "just sticks": ("sliding_block", {"v0": 0.0, "beta": math.atan(0.5) - 1e-6}, []),
     "just slides": ("sliding_block", {"v0": 0.0, "beta": math.atan(0.5) + 1e-6}, []),
+    "spun down": ("bearing", {}, ["stops"]),
+    "spun down dry": ("bearing", {"d": 0.0}, ["stops"]),
+    "spun down viscous": ("bearing", {"M_s": 0.0, "M_k": 0.0}, []),
+    "driven against both": ("bearing", {"M": 0.7}, []),
+    "driven without oil": ("bearing", {"M": 0.7, "d": 0.0, "w0": 0.0}, []),
+    "bearing at rest": ("bearing", {"w0": 0.0}, []),
+    "growing torque": ("bearing", {"w0": 0.0, "k": 0.2037}, ["slips"]),
+    "growing torque without oil": ("bearing", {"w0": 0.0, "k": 0.2037, "d": 0.0}, ["slips"]),
     "brakes": ("sliding_block", {"beta": 0.0, "v0": 2.0}, ["stops"]),
     "slips for good": ("growing_force", {}, ["slips"]),
     "stick-slip": ("dynamometer", {}, ["slips", "stops"] * 2),

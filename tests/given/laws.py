@@ -24,6 +24,7 @@ Law = Callable[[System, At], float]
 # The reactions that the multipliers λ of (2.60) are, in the order of the rows.
 MULTIPLIERS: dict[At, tuple[str, ...]] = {
     ("anisotropic_drift", "stuck"): ("guide.fx",),
+    ("bearing", "sticks"): ("axle.friction",),
     ("bouncing_disk", "rest"): ("touch.normal",),
     ("driven_edge", "moving"): ("blade.force", "blade.drive"),
     ("dynamometer", "stuck"): ("guide.fx",),
@@ -40,6 +41,7 @@ MULTIPLIERS: dict[At, tuple[str, ...]] = {
 # How many rows have a residual (2.14), where not all: what sticks or rolls has no place of its own.
 RESIDUALS = {
     ("anisotropic_drift", "stuck"): 0,
+    ("bearing", "sticks"): 0,
     ("driven_edge", "moving"): 0,
     ("dynamometer", "stuck"): 0,
     ("growing_force", "stuck"): 0,
@@ -52,6 +54,7 @@ RESIDUALS = {
 APPLIED: dict[At, str] = {
     ("anisotropic_drift", "backward"): "guide.fx",
     ("anisotropic_drift", "forward"): "guide.fx",
+    ("bearing", "turns"): "axle.friction",
     ("bouncing_disk", "flight"): "touch.normal",
     ("dynamometer", "backward"): "guide.fx",
     ("dynamometer", "forward"): "guide.fx",

@@ -1,9 +1,9 @@
-"""What acts about or along a joint: one that lets two parts turn, or one that lets them shift."""
+"""What acts about or along a joint, or rubs in it: parts that may turn, or that may shift."""
 
 from collections.abc import Iterator
 
 from ...mistake import Path, nearest
-from ...scene import Force, Scene
+from ...scene import Force, Joint, Scene
 from ..parse import Finding, Parsed
 
 
@@ -24,6 +24,18 @@ def about(parsed: Parsed, scene: Scene, path: Path, force: Force, name: str) -> 
     if not joint.turns:
         yield path, f"{name!r} is a {joint.kind}, and lets nothing turn"
         return
+    yield from turning(scene, path, joint)
+
+
+def rubbing(scene: Scene) -> Iterator[Finding]:
+    """Dry friction of a pin brakes a turn."""
+    for name, joint in scene.joints.items():
+        if joint.dry_friction is not None and not joint.shifts:
+            yield from turning(scene, ("scene", "joints", name, "dry_friction"), joint)
+
+
+def turning(scene: Scene, path: Path, joint: Joint) -> Iterator[Finding]:
+    """Parts of the joint that cannot turn."""
     for at in joint.refers():
         if at.body in scene.bodies and not scene.bodies[at.body].turns:
-            yield path, f"{name!r} joins {at.body!r}, which is a particle and cannot turn"
+            yield path, f"{joint.name!r} joins {at.body!r}, which is a particle and cannot turn"

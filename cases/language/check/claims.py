@@ -114,7 +114,7 @@ def _unknown(
         yield path, f"{part!r} is no event{hint}"
     elif (at := at_event(name, parsed.file.events)) and at.quantity in EVENT_FIELDS:
         yield path, f"'{at.event}.{at.quantity}' has no before and no after"
-    elif field in ("friction", "slip") and f"{part}.torque" in known:  # a slide without it
+    elif field in ("friction", "slip") and f"{part}.fx" in known:  # a joint without it
         yield path, f"{part!r} has no `dry_friction`, so no {name!r}"
     elif _undriven(known, part, field):
         yield path, f"no `drive` prescribes the rate, so no {name!r}"

@@ -8,7 +8,7 @@ from ...scene import CENTER, FLOOR, GROUND, Anchor, Edge, Force, Joint, Scene
 from ..grammar.file import Near
 from ..grammar.file import Scene as Spec
 from ..parse import NAMED, Finding, Parsed
-from .about import about
+from .about import about, rubbing
 from .edge import edges
 from .space.spatial import spatial
 from .touch import planes, touches
@@ -42,6 +42,7 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     if scene.frame.dimension == 3:
         yield from spatial(parsed, scene)
         return
+    yield from rubbing(scene)
     yield from _views(spec, scene)
     yield from planes(parsed)
     yield from touches(parsed, scene)

@@ -4,7 +4,7 @@ An element is written as its word with what it refers to, and its numbers beside
 `{spring: [rod.end, ground.O], stiffness: c, rest_length: l0}`.
 """
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from inspect import Parameter, signature
 from typing import Any, ClassVar, get_type_hints
 
@@ -53,13 +53,15 @@ def element(
     without: Collection[str] = (),
     needs: Collection[str] = (),
     axes: int | None = None,
+    typed: Mapping[str, Any] | None = None,
 ) -> type[Element]:
     """The model of what `makes` makes, written under `word`.
 
     It has no keys `without`, and no default for what it `needs`. axes: along how many its law in
-    time acts, if not as in the plane.
+    time acts, if not as in the plane. typed: what a key is, where only the word tells.
     """
     asked, title = keys(makes), f"{word.capitalize()}{axes or ''}"
+    asked |= {key: (kind, asked[key][1]) for key, kind in (typed or {}).items()}
     asked |= {key: (asked[key][0], ...) for key in needs}
     refers = Pair if "b" in asked else Point if "at" in asked else Name
     left = {key: asked[key] for key in asked if key not in (*REFERS, "name", *without)}

@@ -7,6 +7,7 @@ from pydantic import model_validator
 from ...joint import FREEDOMS
 from ...joint import Joint as Noun
 from .element import Element, element
+from .friction import OF_PIN, OF_SLIDE
 from .part import OneOf
 from .words import wrong
 
@@ -18,25 +19,26 @@ class _Joint(Element):
         return self.word
 
 
-class _NeverSlides(_Joint):
+class _NeverBrakes(_Joint):
     @model_validator(mode="before")
     @classmethod
     def _no_friction(cls, value: Any) -> Any:
         if isinstance(value, dict) and "dry_friction" in value:
-            raise wrong("only a slide has `dry_friction`")
+            raise wrong("only a slide or a pin has `dry_friction`")
         return value
 
 
 def _joint(kind: str) -> type[Element]:
     turns, shifts = "turn" in FREEDOMS[kind], "shift" in FREEDOMS[kind]
-    brakes = shifts and not turns
+    brakes = shifts != turns
     asked = {"kind": False, "along": shifts, "angle": not turns, "dry_friction": brakes}
     return element(
         kind,
         Noun,
-        base=_Joint if brakes else _NeverSlides,
+        base=_Joint if brakes else _NeverBrakes,
         without=[key for key, plays in asked.items() if not plays],
         needs=["along"] if shifts else [],
+        typed={"dry_friction": (OF_SLIDE if shifts else OF_PIN) | None},
     )
 
 

@@ -1,4 +1,4 @@
-"""Dry friction on a slide that MuJoCo's one number cannot say: which way it slides, and when.
+"""Dry friction of a joint that MuJoCo's one number cannot say: which way it slides, and when.
 
 MuJoCo's `frictionloss` holds a joint with up to that force, and brakes it with just that force.
 `bounded` sets the force before every step (the law); `driven_step` cuts the steps at the events.
@@ -12,11 +12,15 @@ import numpy as np
 from ....cases.scene import DryFriction, Joint, Scene
 from ....cases.trajectory import Array
 from ...law import dry_friction
+from ..hinge import way
 
 
 @dataclass
 class Slide:
-    """One slide with dry friction: 0 while it sticks, else the sign of its speed.
+    """One slide or pin with dry friction: 0 while it sticks, else the sign of its speed.
+
+    What is a force [N], a speed [m/s] and a mass [kg] of a slide is a moment [N m], a rate [rad/s]
+    and an inertia [kg m²] of a pin. way: −1 where MuJoCo counts the first part against the second.
 
     MuJoCo's arrays are fetched once, and what its coefficients give is worked out once: it is asked
     before every step.
@@ -25,6 +29,7 @@ class Slide:
     model: mujoco.MjModel
     data: mujoco.MjData
     joint: Joint
+    way: float = 1.0
     sense: int = 0
     before: float | None = None  # the applied force [N] at the step before
     last: float = 0.0  # m/s, at the step before
@@ -46,17 +51,17 @@ class Slide:
         self.unit = np.zeros((1, self.model.nv))
         self.unit[0, self.dof] = 1.0
         self.effort = np.zeros((1, self.model.nv))
-        self.sense = int(np.sign(self.data.qvel[self.dof]))
         self.last = self.speed
+        self.sense = int(np.sign(self.last))
 
     @property
     def speed(self) -> float:
-        return self._qvel.item(self.dof)
+        return self.way * self._qvel.item(self.dof)
 
     def push(self, force: float) -> None:
         """Friction is this force [N], and nothing holds."""
         self._loss[self.dof] = 0.0
-        self._pushed[self.dof] = force
+        self._pushed[self.dof] = self.way * force
 
     def hold(self) -> None:
         """Friction holds, whatever it takes."""
@@ -97,7 +102,7 @@ class Slide:
             mujoco.mj_solveM(self.model, self.data, self.effort, self.unit)
             self._mass = 1.0 / self.effort.item(0, self.dof)
         pushed = self._pushed.item(self.dof)  # our friction
-        return self._mass * self._free.item(self.dof) - pushed, self._mass
+        return self.way * (self._mass * self._free.item(self.dof) - pushed), self._mass
 
 
 def uncoupled(model: mujoco.MjModel, dof: int) -> bool:
@@ -106,12 +111,13 @@ def uncoupled(model: mujoco.MjModel, dof: int) -> bool:
 
 
 def slides(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> list[Slide]:
-    """The slides of the scene with dry friction."""
-    return [Slide(model, data, j) for j in scene.joints.values() if j.dry_friction is not None]
+    """The joints of the scene with dry friction."""
+    dry = (joint for joint in scene.joints.values() if joint.dry_friction is not None)
+    return [Slide(model, data, joint, way(scene, joint)) for joint in dry]
 
 
 def one_slide(scene: Scene) -> bool:
-    """Whether friction can be told from outside: one slide, and no other force that gives way."""
+    """Whether friction can be told from outside: one joint, and no other force that gives way."""
     dry = [joint for joint in scene.joints.values() if joint.dry_friction is not None]
     return len(dry) == 1 and not scene.contacts
 

@@ -1,4 +1,4 @@
-"""The book's smooth friction (2.95) on a slide, at every RK4 stage in MuJoCo's callback."""
+"""The book's smooth friction (2.95) of a joint, at every RK4 stage in MuJoCo's callback."""
 
 from collections.abc import Callable
 
@@ -8,6 +8,7 @@ import numpy as np
 from ....cases.scene import DryFriction, Scene
 from ....cases.trajectory import Array
 from ...law import smooth_under
+from ..hinge import way
 from .friction import uncoupled
 from .signal import Control, bound
 
@@ -16,15 +17,15 @@ Acting = Callable[[], float]
 
 
 def smooth(scene: Scene, model: mujoco.MjModel) -> list[Control]:
-    """A callback for each slide with smooth friction, in place of MuJoCo's own."""
+    """A callback for each joint with smooth friction, in place of MuJoCo's own."""
     return [
-        _friction(model, joint.name, joint.dry_friction)
+        _friction(model, joint.name, joint.dry_friction, way(scene, joint))
         for joint in scene.joints.values()
         if joint.dry_friction is not None and joint.dry_friction.smooth is not None
     ]
 
 
-def _friction(model: mujoco.MjModel, name: str, friction: DryFriction) -> Control:
+def _friction(model: mujoco.MjModel, name: str, friction: DryFriction, way: float) -> Control:
     dof = int(model.joint(name).dofadr[0])
     model.dof_frictionloss[dof] = 0.0
     band = friction.smooth
@@ -35,7 +36,8 @@ def _friction(model: mujoco.MjModel, name: str, friction: DryFriction) -> Contro
         acting, rates, forces = acts(model, data, dof), data.qvel, data.qfrc_applied
 
         def control() -> None:
-            forces[dof] = smooth_under(friction, band, acting())(rates.item(dof))
+            along = smooth_under(friction, band, way * acting())
+            forces[dof] = way * along(way * rates.item(dof))
 
         return control
 

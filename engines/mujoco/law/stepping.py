@@ -47,11 +47,12 @@ def stepping(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, realised:
     ours = realised != "native" and not (smooth_only(scene) and not one_touch(scene))
     dry = slides(scene, model, data) if ours else []
     touching = touches(scene, model, data) if ours else []
-    if touching:  # their friction at the first sample needs the normal force there
-        mujoco.mj_forward(model, data)
-        for touch in touching:
-            touch.applied()
     found = [*dry, *touching]
+    if found:  # at the first sample a force may be beyond static friction already
+        mujoco.mj_forward(model, data)
+    for slide in found:
+        applied, _ = slide.applied()
+        slide.sense = slide.sense or slide.starts(applied)
     step = float(model.opt.timestep)
 
     def native(n: int) -> None:

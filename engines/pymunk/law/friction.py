@@ -13,6 +13,7 @@ from ....cases.scene import GROUND, Bounds, Contact, DryFriction, Joint, Scene, 
 from ..force import load
 from ..world import World
 from .breakaway import bound, smooth_mean
+from .slip import Slip, turn
 
 Told = Callable[[float], None]  # called before the step that starts at t [s]
 RESTING = 1e-9  # m/s: a part that neither falls nor rises; above rounding, below any impact
@@ -20,12 +21,12 @@ RESTING = 1e-9  # m/s: a part that neither falls nor rises; above rounding, belo
 
 def ruled(scene: Scene) -> bool:
     """Whether there is dry friction with more than pymunk's one bound, and its law is known."""
-    slides = [j for j in scene.joints.values() if j.dry_friction]
+    joints = [j for j in scene.joints.values() if j.dry_friction]
     contacts = [c for c in scene.contacts.values() if _two_bounds(c)]
-    alone = all(j.a.body == GROUND and _only(scene, j.b.body) for j in slides) and all(
+    alone = all(j.a.body == GROUND and _only(scene, j.b.body) for j in joints) and all(
         _only(scene, c.body) and _simple(scene, c) for c in contacts
     )
-    return bool(slides or contacts) and alone
+    return bool(joints or contacts) and alone
 
 
 def laws(world: World, step: float) -> list[Told]:
@@ -33,7 +34,7 @@ def laws(world: World, step: float) -> list[Told]:
     found: list[Told] = []
     for joint in world.scene.joints.values():
         if joint.dry_friction:
-            found.append(_slide(world, joint, joint.dry_friction, step))
+            found.append(_joint(world, joint, joint.dry_friction, step))
     for contact in world.scene.contacts.values():
         if _two_bounds(contact):
             found.append(_contact(world, contact, step))
@@ -56,11 +57,30 @@ def _simple(scene: Scene, contact: Contact) -> bool:
     return body.radius is not None or not body.turns
 
 
-def _slide(world: World, joint: Joint, friction: DryFriction, step: float) -> Told:
-    body, brake = world.bodies[joint.b.body], world.brakes[joint.name]
-    acting, (ux, uy) = load(world, joint.b.body, step), joint.along
+def _joint(world: World, joint: Joint, friction: DryFriction, step: float) -> Told:
+    brake, smooth = world.brakes[joint.name], friction.smooth
+    slip = _slide(world, joint, step) if joint.shifts else turn(world, joint, step)
+
+    def exact(t: float) -> None:
+        applied = partial(slip.applied, t)
+        brake.max_force, force = bound(friction, slip.speed(), slip.mass, applied, step)
+        if force:
+            slip.push(force)
+
+    def blurred(t: float) -> None:
+        assert smooth is not None
+        middle, v = slip.applied(t, step / 2), slip.speed()
+        force = smooth_mean(friction, smooth, v, slip.mass, middle, step)
+        brake.max_force = 0.0  # nothing rests: a force, not a bound
+        slip.push(force)
+
+    return blurred if smooth else exact
+
+
+def _slide(world: World, joint: Joint, step: float) -> Slip:
+    body, acting = world.bodies[joint.b.body], load(world, joint.b.body, step)
+    ux, uy = joint.along
     carried = world.scene.points[joint.a.point].velocity  # of a driven rail
-    smooth = friction.smooth
 
     def along(t: float, ahead: float) -> float:
         fx, fy, _ = acting(t, ahead)
@@ -71,22 +91,9 @@ def _slide(world: World, joint: Joint, friction: DryFriction, step: float) -> To
         return ux * (vx - carried[0]) + uy * (vy - carried[1])
 
     def push(force: float) -> None:
-        if force:
-            body.apply_force_at_world_point((ux * force, uy * force), body.position)
+        body.apply_force_at_world_point((ux * force, uy * force), body.position)
 
-    def exact(t: float) -> None:
-        applied = partial(along, t)
-        brake.max_force, force = bound(friction, speed(), body.mass, applied, step)
-        push(force)
-
-    def blurred(t: float) -> None:
-        assert smooth is not None
-        middle, v = along(t, step / 2), speed()
-        force = smooth_mean(friction, smooth, v, body.mass, middle, step)
-        brake.max_force = 0.0  # nothing rests: a force, not a bound
-        push(force)
-
-    return blurred if smooth else exact
+    return Slip(body.mass, along, speed, push)
 
 
 def _contact(world: World, contact: Contact, step: float) -> Told:

@@ -15,10 +15,11 @@ Act = Callable[[], None]  # called before each step, after all other forces
 
 
 def sayable(scene: Scene) -> bool:
-    """Whether the law is one of those here; the smooth one is unstable as a force of that kind."""
-    dry = (joint.dry_friction for joint in scene.joints.values() if joint.dry_friction)
+    """Whether the law is one of those here, of slides; the smooth one is unstable as such a force."""
+    dry = [joint for joint in scene.joints.values() if joint.dry_friction]
+    smooth = any(joint.dry_friction and joint.dry_friction.smooth for joint in dry)
     elsewhere = scene.contacts or lacking(scene)
-    return not elsewhere and not any(friction.smooth for friction in dry)
+    return not elsewhere and not smooth and all(joint.shifts for joint in dry)
 
 
 def acts(scene: Scene, space: Space, bodies: Mapping[str, Body]) -> Iterator[Act]:
