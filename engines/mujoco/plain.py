@@ -116,7 +116,7 @@ def _told(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Take:
                 if sense * data.qvel[dof] <= 0:
                     sense, data.qvel[dof] = 0, 0.0
                 acting = pushed()
-                force = dry_friction(friction, sense, acting)
+                force = dry_friction(friction, data.qvel[dof], acting)
                 if not sense and force != -acting:
                     sense = 1 if acting > 0 else -1
                 data.qfrc_applied[dof] = force

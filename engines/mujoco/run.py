@@ -62,8 +62,8 @@ def simulate(
     counts = counted(times, model.opt.timestep)
     grid = all_steps(times, model.opt.timestep) if every else times
     steps = stepping(scene, model, data, realised)
-    laws = [*smooth(scene, model), *edges(scene, model)] if realised == "law" else []
-    laws += told(scene, model)
+    laws = [*smooth(scene, model), *edges(scene, model)] if realised == "law" else steps.controls
+    laws = [*laws, *told(scene, model)]
     touching = tuple(name for name in reactions if name.partition(".")[0] in scene.contacts)
     with listening() as warnings, signals(scene, laws):
         if every and not steps.slides:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ....cases.scene import DryFriction, Joint, Scene
 from ....cases.trajectory import Array
-from ...law import dry_friction
+from ...law import braking, dry_friction
 from ..hinge import way
 
 
@@ -33,7 +33,7 @@ class Slide:
     sense: int = 0
     before: float | None = None  # the applied force [N] at the step before
     last: float = 0.0  # m/s, at the step before
-    steady: bool = True  # its bounds are always the same
+    steady: bool = True  # its friction is always the same
     weakens: float = 0.0  # N: how much they fall in a step
     friction: DryFriction = field(init=False)
     effort: Array = field(init=False)
@@ -47,7 +47,8 @@ class Slide:
         self._free, self._mass = self.data.qacc_smooth, 0.0
         static = self.friction.static
         self._holds = 2 * max(static.forward, static.backward)  # N, more than it has to at rest
-        self._brakes = {s: abs(dry_friction(self.friction, s, 0.0)) for s in (1, -1)}
+        self.steady = self.friction.stribeck is None
+        self._brakes = {s: braking(self.friction, s, 0.0) for s in (1, -1)}
         self.unit = np.zeros((1, self.model.nv))
         self.unit[0, self.dof] = 1.0
         self.effort = np.zeros((1, self.model.nv))
@@ -80,13 +81,13 @@ class Slide:
     def engage(self) -> None:
         """Hold what sticks, push what slides."""
         if self.sense:
-            self.push(-self.sense * self.brakes(self.sense))
+            self.push(-self.sense * self.brakes(self.sense, self.speed))
         else:
             self.hold()
 
-    def brakes(self, sense: int) -> float:
-        """The size of the friction force [N] that slides this way."""
-        return self._brakes[sense]
+    def brakes(self, sense: int, speed: float) -> float:
+        """The size of the friction force [N] that slides this way, so fast."""
+        return self._brakes[sense] if self.steady else braking(self.friction, sense, speed)
 
     def starts(self, applied: float) -> int:
         """In which sense a force starts it from rest."""

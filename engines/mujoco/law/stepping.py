@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 from ....cases.scene import Scene
 from ...engine import Realised
 from .driver import driven_step, room
+from .falling import falling
 from .friction import Slide, slides, smooth_only
+from .signal import Control
 from .stiction import bounded
 from .touch import Touch, one_touch, touches
 
@@ -24,6 +26,7 @@ class Steps:
     data: mujoco.MjData
     slides: list[Slide | Touch]
     take: Callable[[int], None]
+    controls: list[Control] = field(default_factory=list)  # what every stage needs of us
     noted: list[tuple[Any, ...]] = field(default_factory=list)
 
     def note(self) -> None:
@@ -71,4 +74,5 @@ def stepping(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, realised:
             driven_step(dry, step, kept)
 
     ways = {"law": by_law, "driver": by_driver}
-    return Steps(model, data, found, ways[realised] if found else native)
+    stages = falling(found) if realised == "driver" else []
+    return Steps(model, data, found, ways[realised] if found else native, stages)

@@ -17,7 +17,7 @@ def bounded(slide: Slide | Touch) -> None:
     speed = slide.speed
     gained, slide.last = speed - slide.last, speed
     if slide.steady and slide.sense and slide.sense * speed > _FAR * abs(gained) > 0:
-        slide.push(-slide.sense * slide.brakes(slide.sense))
+        slide.push(-slide.sense * slide.brakes(slide.sense, speed))
         slide.before = None
         return
     mujoco.mj_forward(slide.model, slide.data)
@@ -41,18 +41,32 @@ def _sliding(slide: Slide | Touch, now: float, soon: float, mass: float) -> None
     """Brakes; if it stops within the step, it then rests or goes on the other way."""
     model, before = slide.model, slide.sense
     h, mean = model.opt.timestep, (now + soon) / 2
-    brakes = -before * slide.brakes(before)
-    gained = h * (mean + brakes) / mass
+    brakes, gained = _braking(slide, mean, h / mass)
     if before * (slide.speed + gained) > 0:
         slide.push(brakes)
         return
     part = -slide.speed / gained  # of the step, until it stops
     slide.sense = slide.starts(now + part * (soon - now))
     if slide.sense:
-        after = -slide.sense * slide.brakes(slide.sense)
+        after = -slide.sense * slide.brakes(slide.sense, 0.0)
         slide.push(part * brakes + (1 - part) * after)
     else:
         slide.push(-mean - slide.speed * mass / h)
+
+
+def _braking(slide: Slide | Touch, applied: float, inverse: float) -> tuple[float, float]:
+    """Friction [N] and what it leaves of the speed [m/s] gained in a step; inverse: of m/h.
+
+    What changes with the speed is taken in the middle of the motion, once that is known.
+    """
+    speed, sense = slide.speed, slide.sense
+    brakes = -sense * slide.brakes(sense, speed)
+    gained = inverse * (applied + brakes)
+    if not slide.steady:
+        after = sense * max(0.0, sense * (speed + gained))
+        brakes = -sense * slide.brakes(sense, (speed + after) / 2)
+        gained = inverse * (applied + brakes)
+    return brakes, gained
 
 
 def _breaking_loose(slide: Slide | Touch, now: float, soon: float) -> float:
@@ -60,7 +74,7 @@ def _breaking_loose(slide: Slide | Touch, now: float, soon: float) -> float:
     now, soon = slide.sense * now, slide.sense * soon
     static = slide.friction.static
     limit = static.forward if slide.sense > 0 else static.backward
-    brakes = slide.brakes(slide.sense)
+    brakes = slide.brakes(slide.sense, 0.0)
     if now >= limit:
         return brakes
     slipping = (soon - limit) / (soon - now)  # the part of the step

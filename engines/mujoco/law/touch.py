@@ -10,7 +10,7 @@ import mujoco
 
 from ....cases.scene import Bounds, Contact, DryFriction, Scene
 from ....cases.trajectory import Array
-from ...law import dry_friction
+from ...law import braking, dry_friction
 from ..contact import alone
 
 _LEAST = 1e-5  # of a coefficient of friction: MuJoCo takes no less
@@ -76,7 +76,7 @@ class Touch:
         self.sense, self.normal = noted
         self.normal_before = self.normal
         if self.sense:
-            self.push(-self.sense * self.brakes(self.sense))
+            self.push(-self.sense * self.brakes(self.sense, self.speed))
         else:
             self.hold()
 
@@ -87,9 +87,9 @@ class Touch:
         if self.turn is not None:
             self.data.qfrc_applied[self.turn] = self.radius * force
 
-    def brakes(self, sense: int) -> float:
-        """The size of the friction force [N] that slides this way."""
-        return abs(dry_friction(self.friction, sense, 0.0))
+    def brakes(self, sense: int, speed: float) -> float:
+        """The size of the friction force [N] that slides this way, at any speed."""
+        return braking(self.friction, sense, speed)
 
     def starts(self, applied: float) -> int:
         """In which sense a force starts it from rest."""

@@ -7,8 +7,8 @@ whole step.
 
 from collections.abc import Callable
 
-from ....cases.scene import Bounds, DryFriction, Smooth
-from ...law import dry_friction, smooth_under
+from ....cases.scene import DryFriction, Smooth
+from ...law import braking, dry_friction, smooth_under
 
 Applied = Callable[[float], float]
 """What else acts along the friction [N], so many seconds after the step's start."""
@@ -52,15 +52,19 @@ def _mean(
     holding = max(friction.static.forward, friction.static.backward)
     if abs(speed) * mass <= AT_REST * holding * step:
         return _from_rest(friction, middle, applied(step))
-    braking = dry_friction(friction, speed, middle)
-    after = speed + (middle + braking) * step / mass
+    brakes = dry_friction(friction, speed, middle)
+    after = speed + (middle + brakes) * step / mass
+    if friction.stribeck:  # it changes with the speed: that in the middle of the motion
+        half = (speed + after) / 2 if after * speed > 0 else speed / 2
+        brakes = dry_friction(friction, half, middle)
+        after = speed + (middle + brakes) * step / mass
     if after * speed > 0:
-        return braking
-    moving = mass * speed / (-(middle + braking) * step)  # the share of the step before it stops
+        return brakes
+    moving = mass * speed / (-(middle + brakes) * step)  # the share of the step before it stops
     beyond = dry_friction(friction, 0.0, middle)
     if beyond == -middle:
         return -middle - mass * speed / step  # it stops and stays
-    return moving * braking + (1 - moving) * beyond
+    return moving * brakes + (1 - moving) * beyond
 
 
 def _from_rest(friction: DryFriction, middle: float, end: float) -> float:
@@ -81,10 +85,9 @@ def _from_rest(friction: DryFriction, middle: float, end: float) -> float:
 
 
 def _ahead(friction: DryFriction, applied: float) -> tuple[float, float]:
-    """Static and kinetic bound [N] of the direction in which it is pushed."""
-    bounds: tuple[Bounds, Bounds] = (friction.static, friction.kinetic)
-    static, kinetic = (b.forward if applied > 0 else b.backward for b in bounds)
-    return static, kinetic
+    """Static and first kinetic friction [N] of the direction in which it is pushed."""
+    static, sense = friction.static, 1 if applied > 0 else -1
+    return static.forward if applied > 0 else static.backward, braking(friction, sense, 0.0)
 
 
 def smooth_mean(

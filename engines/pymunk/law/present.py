@@ -15,7 +15,7 @@ Act = Callable[[], None]  # called before each step, after all other forces
 
 
 def sayable(scene: Scene) -> bool:
-    """Whether the law is one of those here, of slides; the smooth one is unstable as such a force."""
+    """Whether the law is one of those here, of slides; the smooth one is unstable as a force."""
     dry = [joint for joint in scene.joints.values() if joint.dry_friction]
     smooth = any(joint.dry_friction and joint.dry_friction.smooth for joint in dry)
     elsewhere = scene.contacts or lacking(scene)
@@ -81,8 +81,8 @@ def _friction(scene: Scene, space: Space, bodies: Mapping[str, Body], joint: Joi
         nonlocal sense
         speed, pushed = u.dot(body.velocity - carried), applied()
         if sense * speed <= 0:
-            sense, body.velocity = 0, body.velocity - speed * u
-        force = dry_friction(friction, sense, pushed)
+            sense, body.velocity, speed = 0, body.velocity - speed * u, 0.0
+        force = dry_friction(friction, speed, pushed)
         if not sense and force != -pushed:
             sense = 1 if pushed > 0 else -1
         body.apply_force_at_world_point(force * u, body.position)
