@@ -33,6 +33,8 @@ from .sliding_block import SlidingBlock
 from .sliding_disk import SlidingDisk
 from .smooth_friction import SmoothDynamometer, SmoothGrowingForce
 from .spring_mass_damper import SpringMassDamper
+from .stribeck_brake import StribeckBrake
+from .stribeck_drive import StribeckDrive
 from .tilting_disk import TiltingDisk
 from .tilting_ring import TiltingRing
 from .torque_free import TorqueFree
@@ -68,6 +70,8 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "smooth_dynamometer": SmoothDynamometer,
     "smooth_growing_force": SmoothGrowingForce,
     "spring_mass_damper": SpringMassDamper,
+    "stribeck_brake": StribeckBrake,
+    "stribeck_drive": StribeckDrive,
     "tilting_disk": TiltingDisk,
     "tilting_ring": TiltingRing,
     "torque_free": TorqueFree,

@@ -7,35 +7,12 @@ here, and its 4 b t is c u t.
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from ..laws.friction import Dry
-from ..system import Array, Guard, System, Vector
-from .stick_slip import Pull, guards, modes, possible
-
-
-@dataclass(frozen=True)
-class _Spring:
-    c: float
-    u: float
-
-    def F_a(self, t: float, x: float) -> float:
-        """(2.98) F_a = −c x + c u t [N]."""
-        return -self.c * x + self.c * self.u * t
-
-    def U(self, t: Any, q: Vector) -> Any:
-        """(2.45) U = ½ c (x₀ − x₁)² [J]."""
-        return self.c * (self.u * t - q[0]) ** 2 / 2
-
-    def Q4(self, t: Any) -> Any:
-        """(2.50) nothing else [N]."""
-        return 0.0
-
-    def forces(self, t: float, x: float) -> list[float]:
-        """(2.82) the spring alone [N]."""
-        return [self.c * (self.u * t - x)]
+from ..system import Array, Guard, System
+from .stick_slip import Drawn, Pull, guards, modes, possible
 
 
 @dataclass(frozen=True)
@@ -58,7 +35,7 @@ class Dynamometer(System):
     @property
     def pull(self) -> Pull:
         """What acts on the block but friction."""
-        return _Spring(self.c, self.u)
+        return Drawn(self.c, self.u)
 
     @property
     def dry(self) -> Dry:

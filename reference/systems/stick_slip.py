@@ -1,5 +1,6 @@
-"""A block on a line with dry friction, (2.88) with (2.89): it slides to and fro, or it sticks."""
+"""A block on a line with dry friction, (2.88) with (2.89) or (2.90): it slides, or it sticks."""
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
@@ -31,27 +32,63 @@ class Pull(Protocol):
 
 
 @dataclass(frozen=True)
+class Drawn:
+    """By a spring c [N/m] whose end moves with u [m/s]."""
+
+    c: float
+    u: float
+
+    def F_a(self, t: float, x: float) -> float:
+        """(2.98) F_a = −c x + c u t [N]."""
+        return -self.c * x + self.c * self.u * t
+
+    def U(self, t: Any, q: Vector) -> Any:
+        """(2.45) U = ½ c (x₀ − x₁)² [J]."""
+        return self.c * (self.u * t - q[0]) ** 2 / 2
+
+    def Q4(self, t: Any) -> Any:
+        """(2.50) nothing else [N]."""
+        return 0.0
+
+    def forces(self, t: float, x: float) -> list[float]:
+        """(2.82) the spring alone [N]."""
+        return [self.c * (self.u * t - x)]
+
+
+@dataclass(frozen=True)
 class Line(Mode):
-    """A block m [kg] that slides against the friction force F_fr [N], or sticks if that is None."""
+    """A block m [kg] that slides against the friction force F_fr [N], or sticks if that is None.
+
+    falls: how much larger it is at v = 0 [N], with its sign, and the speed v_s [m/s] (2.90).
+    """
 
     m: float
     pull: Pull
     F_fr: float | None
+    falls: tuple[float, float] | None = None
 
     coordinates = ("x",)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "masses", {"block": Mass(self.m, None)})
 
+    def _slides(self, v: Any) -> Any:
+        """(2.90) F_fr = ∓(F + (F_s − F) e^{∓v/v_s}) [N]; 0 where it sticks."""
+        if self.falls is None:
+            return self.F_fr or 0.0
+        more, v_s = self.falls
+        return self.F_fr + more * np.exp(math.copysign(1.0, more) * v / v_s)
+
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.88) m v̇ = F_a + F_fr; v̇ = 0 where it sticks [m/s²], (1,)."""
         if self.F_fr is None:
             return np.zeros(1)
-        return np.array([(self.pull.F_a(t, float(q[0])) + self.F_fr) / self.m])
+        return np.array([(self.pull.F_a(t, float(q[0])) + self._slides(v[0])) / self.m])
 
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.89) F_fr, −F_a where it sticks [N]: the guide's force on the block; nothing else."""
-        F_fr = -self.pull.F_a(t, float(q[0])) if self.F_fr is None else self.F_fr
+        stuck = self.F_fr is None
+        F_fr = -self.pull.F_a(t, float(q[0])) if stuck else float(self._slides(v[0]))
         return {"guide.fx": F_fr, "guide.fy": 0.0}
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
@@ -64,7 +101,7 @@ class Line(Mode):
 
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.50) of the pull and the friction of sliding [N], (1,)."""
-        return np.array([self.pull.Q4(t) + (self.F_fr or 0.0)])
+        return np.array([self.pull.Q4(t) + self._slides(v[0])])
 
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) ẋ = 0 where it sticks: λ is the friction force."""
@@ -81,7 +118,7 @@ class Line(Mode):
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """The forces of the pull and the friction of sliding."""
         x = float(q[0])
-        forces = [*self.pull.forces(t, x), self.F_fr or 0.0]
+        forces = [*self.pull.forces(t, x), float(self._slides(v[0]))]
         return [Load("block", (x, 0.0), (force, 0.0)) for force in forces]
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
@@ -92,10 +129,15 @@ class Line(Mode):
         return [Cut(("guide.fy",), None, "block", at, ((0.0, 1.0),))]
 
 
-def modes(m: float, pull: Pull, dry: Dry) -> Mapping[str, Mode]:
-    """(2.89) The modes: `backward` with F₋, `forward` with −F₊, and `stuck`."""
+def modes(m: float, pull: Pull, dry: Dry, v_s: float | None = None) -> Mapping[str, Mode]:
+    """(2.89) The modes: `backward` with F₋, `forward` with −F₊, and `stuck`.
+
+    (2.90) With v_s [m/s] the friction falls from F_s∓ to F∓.
+    """
     forces = {"backward": dry.F_minus, "forward": -dry.F_plus, "stuck": None}
-    return {mode: Line(m, pull, F_fr) for mode, F_fr in forces.items()}
+    more = {"backward": dry.Fs_minus - dry.F_minus, "forward": dry.F_plus - dry.Fs_plus}
+    falls = {mode: (size, v_s) for mode, size in more.items()} if v_s else {}
+    return {mode: Line(m, pull, F_fr, falls.get(mode)) for mode, F_fr in forces.items()}
 
 
 def guards(

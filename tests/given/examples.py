@@ -48,6 +48,8 @@ PARAMETERS: dict[str, dict[str, float]] = {
     "smooth_dynamometer": {"m": 1.0, "c": 2.0, "u": 2.0, **BOOK, **BAND},
     "smooth_growing_force": {"m": 1.0, "b": 1.0, **BOOK, **BAND},
     "spring_mass_damper": {"m": 1.0, "c": 36.0, "d": 1.2, "l0": 0.5, "y0": -0.6},
+    "stribeck_brake": {"m": 1.3, "F": 3.0, "Fs": 6.0, "v_s": 0.5, "P": 0.5, "v0": 2.0},
+    "stribeck_drive": {"m": 2.0, "c": 2.0, "u": 1.0, "F": 3.0, "Fs": 6.0, "v_s": 0.5},
     "torsion_pendulum": {
         "m": 1.5, "R": 0.3, "c": 2.4, "phi0": math.radians(-15), "d": 0.1, "M": 0.6, "Omega": 7.0,
         "phi": math.radians(70), "w0": 1.0,
@@ -99,6 +101,8 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
     "smooth_dynamometer": _BLOCK,
     "smooth_growing_force": _BLOCK,
     "spring_mass_damper": [("mass", 1, -0.6, 0.0), ("mass", 4, 0.0, 0.0)],
+    "stribeck_brake": [("block", 0, 0.0, 0.0), ("block", 3, 2.0, 0.0)],
+    "stribeck_drive": _BLOCK,
     "torsion_pendulum": [("disk", 2, 70 * math.pi / 180, 1e-15), ("disk", 5, 1.0, 0.0)],
 }  # fmt: skip
 
@@ -132,6 +136,10 @@ VARIANTS: dict[str, tuple[str, dict[str, float], list[str]]] = {
     "rests": ("sliding_block", {"v0": 0.0}, []),
     "just sticks": ("sliding_block", {"v0": 0.0, "beta": math.atan(0.5) - 1e-6}, []),
     "just slides": ("sliding_block", {"v0": 0.0, "beta": math.atan(0.5) + 1e-6}, []),
+    "friction rises": ("stribeck_brake", {}, ["stops"]),
+    "pushed, too slow": ("stribeck_brake", {"P": 4.0, "v0": 0.5}, ["stops"]),
+    "pushed, runs away": ("stribeck_brake", {"P": 4.0, "v0": 0.6}, []),
+    "pushed as friction far off": ("stribeck_brake", {"P": 3.0, "v0": 1.0}, ["stops"]),
     "spun down": ("bearing", {}, ["stops"]),
     "spun down dry": ("bearing", {"d": 0.0}, ["stops"]),
     "spun down viscous": ("bearing", {"M_s": 0.0, "M_k": 0.0}, []),
@@ -146,7 +154,7 @@ VARIANTS: dict[str, tuple[str, dict[str, float], list[str]]] = {
     "elastic": ("bouncing_disk", {}, ["bounces"] * 5),
     "plastic": ("bouncing_disk", {"e": 0.0}, ["lands"]),
 }  # fmt: skip
-DURATION = {"sliding_block": 1.0, "sliding_disk": 2.0, "bouncing_disk": 3.0}  # 10 s else
+DURATION = {"stribeck_brake": 2.0, "sliding_block": 1.0, "sliding_disk": 2.0, "bouncing_disk": 3.0}  # 10 s else
 
 
 def example(name: str, **changed: float) -> System:

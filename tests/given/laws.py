@@ -35,6 +35,8 @@ MULTIPLIERS: dict[At, tuple[str, ...]] = {
     ("sleigh", "moving"): ("blade.force",),
     ("sliding_block", "sticks"): ("touch.tangent",),
     ("sliding_disk", "rolling"): ("touch.normal", "touch.tangent"),
+    ("stribeck_brake", "stuck"): ("guide.fx",),
+    ("stribeck_drive", "stuck"): ("guide.fx",),
     ("sliding_disk", "slips backward"): ("touch.normal",),
     ("sliding_disk", "slips forward"): ("touch.normal",),
 }
@@ -49,6 +51,8 @@ RESIDUALS = {
     ("sleigh", "moving"): 0,
     ("sliding_block", "sticks"): 0,
     ("sliding_disk", "rolling"): 1,
+    ("stribeck_brake", "stuck"): 0,
+    ("stribeck_drive", "stuck"): 0,
 }
 # The forces that no cut finds: friction that slides, and a floor that is out of reach.
 APPLIED: dict[At, str] = {
@@ -66,6 +70,10 @@ APPLIED: dict[At, str] = {
     ("sliding_disk", "slips forward"): "touch.tangent",
     ("smooth_dynamometer", "moving"): "guide.fx",
     ("smooth_growing_force", "moving"): "guide.fx",
+    ("stribeck_brake", "backward"): "guide.fx",
+    ("stribeck_brake", "forward"): "guide.fx",
+    ("stribeck_drive", "backward"): "guide.fx",
+    ("stribeck_drive", "forward"): "guide.fx",
 }
 
 
@@ -225,7 +233,7 @@ LAWS: Sequence[Law] = (
 _STARTING = {(name, example(name).start()[0]) for name in PARAMETERS}
 _NO_CLOSED_FORM = {
     "anisotropic_drift", "double_pendulum", "four_bar", "rhombus", "smooth_dynamometer",
-    "smooth_growing_force",
+    "smooth_growing_force", "stribeck_drive",
 }  # fmt: skip
 # The laws that say nothing about a mode without constraints or reactions, and those of the whole
 # system, which are asked where it starts.
