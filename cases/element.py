@@ -22,6 +22,7 @@ class Force:
     word: ClassVar[str]
     freedom: ClassVar[Literal["turn", "shift"]] = "turn"
     """Which freedom of the joint that it is about lets it act: a turn, or a shift."""
+    winds: ClassVar[bool] = False  # whether it needs a joint's angle, and not only its rate
     name: str
 
     def refers(self) -> tuple[Anchor, ...]:
@@ -37,6 +38,11 @@ class Force:
     def corner(self) -> bool:
         """Whether its law has a corner where something comes to rest, which costs steps orders."""
         return False
+
+    @property
+    def turn(self) -> str:
+        """The turn of that joint, by its name where it has one; else empty."""
+        return ""
 
     def unfit(self, bodies: Mapping[str, Body]) -> str | None:
         """Why it cannot act on what it refers to, in words for the case file."""

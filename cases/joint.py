@@ -83,7 +83,7 @@ class Joint:
         """The dry friction in motion."""
         return {} if self.dry_friction is None else self.dry_friction.numbers()
 
-    def turn(self, motion: Motion) -> tuple[Array, Array]:
+    def turn(self, motion: Motion, freedom: str = "") -> tuple[Array, Array]:
         """(N,) the angle [rad] of the second part against the first, and its rate [rad/s]."""
         (a, a_rate), (b, b_rate) = (motion.turned(at.body) for at in (self.a, self.b))
         zero = np.zeros_like(motion.trajectory.times)  # the ground's are one number

@@ -40,6 +40,14 @@ class Motion:
         states = self.trajectory.states[body]
         return states[:, ANGLE], states[:, OMEGA]
 
+    def turn(self, joint: str, freedom: str) -> tuple[Array, Array]:
+        """(N,) the angle [rad] of a joint's second part against its first, and its rate [rad/s].
+
+        freedom: which turn, in space where the joint names its freedoms.
+        """
+        turn: tuple[Array, Array] = self.joints[joint].turn(self, freedom)
+        return turn
+
     def reaction(self, quantity: str) -> Array:
         """(N,) as the producer gives it. Raises KeyError if it does not."""
         return self.trajectory.reactions[quantity]

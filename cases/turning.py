@@ -8,6 +8,7 @@ from .element import Force
 from .kind import Fields
 from .language.grammar.field import In
 from .language.grammar.signal import InTime
+from .language.grammar.text import TURN, Text, turn
 from .motion import Motion
 from .point import Anchor
 from .signal import Signal
@@ -18,7 +19,7 @@ from .trajectory import Array
 class Turning(Force):
     """A torque between the two parts of a joint that lets them turn."""
 
-    joint: str
+    joint: Annotated[str, Text(turn, TURN, "a joint's name, or joint.turn of named freedoms")]
 
     def refers(self) -> tuple[Anchor, ...]:
         """No points: the joint has them."""
@@ -27,15 +28,20 @@ class Turning(Force):
     @property
     def about(self) -> str:
         """Its joint."""
-        return self.joint
+        return self.joint.partition(".")[0]
+
+    @property
+    def turn(self) -> str:
+        """`theta` of `arm.theta`."""
+        return self.joint.partition(".")[2]
 
     def quantities(self) -> dict[str, Fields]:
         """angle [rad] of the second part against the first, and torque [N m] on the second."""
         return {self.name: {"angle": ("rad", "coordinate"), "torque": ("N m", "force")}}
 
     def observe(self, motion: Motion, field: str) -> Array:
-        """(N,) angle [rad] or torque [N m], counter-clockwise."""
-        angle, rate = motion.joints[self.joint].turn(motion)
+        """(N,) angle [rad] or torque [N m], counter-clockwise about the joint's axis."""
+        angle, rate = motion.turn(self.about, self.turn)
         return angle if field == "angle" else self.torque(angle, rate)
 
     def torque(self, angle: Array, rate: Array) -> Array:
@@ -48,6 +54,7 @@ class Torsion(Turning):
     """(2.45) A torsion spring of a joint: M = −c(φ − φ₀), φ the second part's turn on the first."""
 
     word = "torsion"
+    winds = True
     stiffness: Annotated[float, In("N m/rad", above=0)]
     rest_angle: Annotated[float, In("rad")]
 
@@ -57,7 +64,7 @@ class Torsion(Turning):
 
     def potential(self, motion: Motion) -> Array:
         """(2.45) ½ c (φ − φ₀)²."""
-        angle, _ = motion.joints[self.joint].turn(motion)
+        angle, _ = motion.turn(self.about, self.turn)
         return 0.5 * self.stiffness * (angle - self.rest_angle) ** 2
 
     def numbers(self) -> dict[str, float]:

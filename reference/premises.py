@@ -1,4 +1,4 @@
-"""What a case takes for granted and only its motion can tell: that it rolls, moves, and lands.
+"""What a case takes for granted and only its motion can tell: that it rolls, winds, moves, lands.
 
 And what only its start can: that a hand-written system starts as the scene does.
 """
@@ -93,6 +93,7 @@ def check_premises(case: Case, motion: Trajectory, happened: Collection[str | No
     for mistakes in (
         _unsaid(case, motion, happened),
         _slipping(case, motion),
+        _wound(case, motion),
         _still(case, motion),
     ):
         if found := list(mistakes):
@@ -154,6 +155,22 @@ def _needed(normal: Array, tangent: Array, body: str, doing: str) -> str:
     if np.any(normal <= 0):
         return f"later {body} would even leave the floor"
     return f"{doing} all the way needs {np.max(tangent / normal):.3g}"
+
+
+def _wound(case: Case, motion: Trajectory) -> Iterator[Mistake]:
+    """In space a state holds attitudes, which tell a joint's angle within half a turn."""
+    if case.scene.frame is not SPACE:
+        return
+    for force in case.scene.forces.values():
+        if not force.winds:
+            continue
+        wound = np.abs(observe(case.scene, motion, f"{force.name}.angle")) > np.pi
+        if np.any(wound):
+            what = (
+                f"is wound by more than half a turn at t = {motion.times[np.argmax(wound)]:.3g} s, "
+                "and in space its torque is known within that: shorten the duration, or turn less"
+            )
+            yield case.mistake(("scene", "forces", force.name), what)
 
 
 def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:

@@ -87,6 +87,13 @@ class SpatialJoint:
         """The named freedoms by the names of their rates, which can be prescribed."""
         return {rate_of(f.name): f for f in self.named}
 
+    def turning(self, name: str) -> int:
+        """The number of a turn among its freedoms: by its name, or by none where it is `angle`.
+
+        Raises ValueError where there is no such turn.
+        """
+        return [f.name if f.kind == "turn" else None for f in self.freedoms].index(name or "angle")
+
     def refers(self) -> tuple[Anchor, ...]:
         """The points it joins, in the order of the file."""
         return (self.a, self.b)
@@ -121,13 +128,20 @@ class SpatialJoint:
         rates = [rate_of(f.name) if f.name else "" for f in self.freedoms]
         if field not in (*names, *rates):
             raise KeyError(f"{self.name}.{field}")
-        coordinates, velocities = self.coordinates(motion)
         if field in rates:
-            return velocities[:, rates.index(field)]
+            return self.coordinates(motion)[1][:, rates.index(field)]
         i = names.index(field)
         if self.freedoms[i].kind == "shift":
-            return coordinates[:, i]
-        return chain.counted(coordinates[:, i], velocities[:, i], motion.trajectory.times)
+            return self.coordinates(motion)[0][:, i]
+        return self.turn(motion, field)[0]
+
+    def turn(self, motion: Motion, freedom: str) -> tuple[Array, Array]:
+        """(N,) the angle [rad] of a turn, its turns counted from the start, and its rate [rad/s].
+
+        It starts within half a turn of where the axes of both parts are parallel.
+        """
+        angles, rates = (x[:, self.turning(freedom)] for x in self.coordinates(motion))
+        return chain.counted(angles, rates, motion.trajectory.times), rates
 
     def _gap(self, motion: Motion) -> Array:
         """How far the second point is from where the freedoms let it be [m]."""

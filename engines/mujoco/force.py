@@ -94,7 +94,7 @@ def _held(scene: Scene, model: mujoco.MjModel, force: Force) -> dict[str, float]
 
 def _about(scene: Scene, force: Force, root: ET.Element | None = None) -> Iterator[Hinge]:
     if force.about is not None:
-        yield hinge(scene, force.about, root, freedom=force.freedom)
+        yield hinge(scene, force, root)
 
 
 def outer(scene: Scene, model: mujoco.MjModel, sizes: Array) -> Iterator[Outer]:

@@ -4,7 +4,10 @@ from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
 from ...cases.joint import Freedom
-from ...cases.scene import Joint, Scene
+from ...cases.scene import Force, Joint, Scene
+from ...cases.space.scene import SpatialScene
+from .space.tree import coordinate as coordinate_in_space
+from .space.tree import spanning_tree as spanning_tree_in_space
 from .tree import coordinate, spanning_tree
 from .written import written
 
@@ -27,35 +30,50 @@ class Hinge:
         self.element.set(key, written(value))
 
 
-def hinge(
-    scene: Scene, joint: str, root: ET.Element | None = None, freedom: Freedom = "turn"
-) -> Hinge:
-    """That of a joint in the tree. Raises KeyError for one that closes a loop."""
+def hinge(scene: Scene, force: Force, root: ET.Element | None = None) -> Hinge:
+    """That about which a force acts. Raises KeyError of a joint that closes a loop."""
+    if isinstance(scene, SpatialScene):
+        name, way = _spatial(scene, force)
+    else:
+        name, way = _flat(scene, force.about or "", force.freedom)
+    built = () if root is None else root.iter("joint")
+    return Hinge(name, way, next((e for e in built if e.get("name") == name), None))
+
+
+def _flat(scene: Scene, joint: str, freedom: Freedom) -> tuple[str, float]:
     for branch in spanning_tree(scene).branches:
         if branch.joint is not None and branch.joint.name == joint:
-            name = coordinate(branch.joint, freedom)
-            built = () if root is None else root.iter("joint")
-            found = next((element for element in built if element.get("name") == name), None)
-            return Hinge(name, 1.0 if branch.forward else -1.0, found)
+            return coordinate(branch.joint, freedom), 1.0 if branch.forward else -1.0
     raise KeyError(joint)
+
+
+def _spatial(scene: SpatialScene, force: Force) -> tuple[str, float]:
+    """Of a body that is the first part MuJoCo's axis is the opposite, and the angle the same."""
+    if force.about in {joint.name for joint in spanning_tree_in_space(scene).loops}:
+        raise KeyError(force.about)
+    joint = scene.joints[force.about or ""]
+    return coordinate_in_space(joint, joint.turning(force.turn)), 1.0
 
 
 def way(scene: Scene, joint: Joint) -> float:
     """1.0 if MuJoCo counts the joint's one freedom as it slips, else −1; a slide's always."""
-    return 1.0 if joint.shifts else hinge(scene, joint.name).way
+    return 1.0 if joint.shifts else _flat(scene, joint.name, "turn")[1]
 
 
 def taken(scene: Scene) -> str | None:
     """The first torsion spring or damper for which its joint has no attribute left, or no hinge."""
-    loops = {joint.name for joint in spanning_tree(scene).loops}
-    seen: set[tuple[str, str]] = set()
+    spatial = isinstance(scene, SpatialScene)
+    found = spanning_tree_in_space(scene) if spatial else spanning_tree(scene)
+    loops = {joint.name for joint in found.loops}
+    seen: set[tuple[str, str, str]] = set()
     for force in scene.forces.values():
         if force.about is None:
             continue
         if force.about in loops:
             return f"{force.name} acts about {force.about}, which closes a loop and has no hinge"
-        kind = (force.about, force.word)
+        kind = (force.about, force.turn, force.word)
         if force.numbers() and kind in seen:  # a motor is an actuator, of which there may be many
-            return f"{force.name} is not the only {force.word} of {force.about}"
+            turn = ".".join(filter(None, kind[:2]))
+            return f"{force.name} is not the only {force.word} of {turn}"
         seen.add(kind)
     return None

@@ -5,16 +5,17 @@ from collections.abc import Iterator
 from ...mistake import Path, nearest
 from ...scene import Force, Joint, Scene
 from ..parse import Finding, Parsed
+from .space.turn import no_turn
 
 
-def about(parsed: Parsed, scene: Scene, path: Path, force: Force, name: str) -> Iterator[Finding]:
-    """What is wrong with the joint's name, or with the joint."""
+def about(parsed: Parsed, scene: Scene, path: Path, force: Force) -> Iterator[Finding]:
+    """What is wrong with the joint's name, with the joint, or with the turn that is meant."""
+    name = force.about
+    assert name is not None
     if name not in scene.joints:
         if not parsed.hides(name):
-            yield (
-                path,
-                f"unknown joint {name!r}{nearest(name, parsed.names('joints', scene.joints))}",
-            )
+            known = parsed.names("joints", scene.joints)
+            yield path, f"unknown joint {name!r}{nearest(name, known)}"
         return
     joint = scene.joints[name]
     if force.freedom == "shift":
@@ -24,6 +25,12 @@ def about(parsed: Parsed, scene: Scene, path: Path, force: Force, name: str) -> 
     if not joint.turns:
         yield path, f"{name!r} is a {joint.kind}, and lets nothing turn"
         return
+    if scene.frame.dimension == 3:
+        if what := no_turn(joint, force):
+            yield path, what
+        return
+    if force.turn:
+        yield path, f"in the plane {name!r} has one turn without a name: write {name!r}"
     yield from turning(scene, path, joint)
 
 

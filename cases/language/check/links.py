@@ -38,7 +38,7 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         if what := force.unfit(scene.bodies):
             yield path, what
         if force.about is not None:
-            yield from about(parsed, scene, path, force, force.about)
+            yield from about(parsed, scene, path, force)
     if scene.frame.dimension == 3:
         yield from spatial(parsed, scene)
         return

@@ -64,6 +64,7 @@ def element(
     asked |= {key: (kind, asked[key][1]) for key, kind in (typed or {}).items()}
     asked |= {key: (asked[key][0], ...) for key in needs}
     refers = Pair if "b" in asked else Point if "at" in asked else Name
+    refers = asked["joint"][0] if "joint" in asked else refers
     left = {key: asked[key] for key in asked if key not in (*REFERS, "name", *without)}
     if "signal" in left:
         base, left = InTime, left | law(title, left.pop("signal")[0], axes)

@@ -98,6 +98,16 @@ def rate(word: str) -> str | None:
     return f"should be joint.rate (`q1.omega`), is {word!r}"
 
 
+TURN = rf"^{IDENTIFIER}(\.{IDENTIFIER})?$"
+
+
+def turn(word: str) -> str | None:
+    """What is wrong with the form of a reference to a joint's turn."""
+    if re.fullmatch(TURN, word):
+        return None
+    return f"should be a joint's name, or joint.turn (`arm.theta`), is {word!r}"
+
+
 def no_formula(words: str) -> str | None:
     """What is wrong with words that fill a cell of a report."""
     if words[0] in "=+-@":

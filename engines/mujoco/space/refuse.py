@@ -6,6 +6,7 @@ from ....cases.space.scene import SpatialScene
 from ...engine import Plan, Start
 from ..compilation import NOMINAL
 from ..force import ELEMENTS
+from ..hinge import taken
 from ..tree import Tree
 from .compilation import compiled
 from .drive import drives
@@ -17,6 +18,8 @@ def unbuildable(scene: SpatialScene) -> str | None:
     for force in scene.forces.values():
         if type(force) not in ELEMENTS:
             return f"adapter: {force.name} is a {force.word}, which it does not build"
+    if what := taken(scene):
+        return f"adapter: {what}"
     tree = spanning_tree(scene)
     loops = tree.loops
     soft = [*loops, *scene.contacts.values()]

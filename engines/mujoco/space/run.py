@@ -17,6 +17,7 @@ from .edge import edges, fields
 from .read.reaction import contact_force, effort, joint_wrench
 from .read.seen import EDGES, JOINTS, LOOPS, TOUCHING, Seen, seen
 from .read.states import states
+from .read.turning import ABOUT, acting
 from .scene import signals
 from .tree import spanning_tree
 
@@ -75,7 +76,7 @@ def _needed(scene: SpatialScene, reactions: tuple[str, ...]) -> set[str]:
         elif part not in scene.joints:
             names |= {*TOUCHING}
         else:
-            names |= {*LOOPS} if scene.joints[part] in loops else {*JOINTS}
+            names |= {*LOOPS} if scene.joints[part] in loops else {*JOINTS, *ABOUT}
     return names
 
 
@@ -91,7 +92,8 @@ def read(
     for name in reactions:
         part, _, field = name.partition(".")
         if name in driving:
-            found[name] = effort(model, known, driving[name], forward[part], wrench(part))
+            whole = effort(model, known, driving[name], forward[part], wrench(part))
+            found[name] = whole - acting(scene, model, known, driving[name])
         elif part in scene.constraints:
             found[name] = known["userdata"][:, fields(scene).index(name)]
         elif part in scene.joints:

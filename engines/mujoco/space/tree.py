@@ -29,7 +29,8 @@ def spanning_tree(scene: SpatialScene) -> Tree[SpatialJoint]:
 
     def closes(joint: SpatialJoint) -> int:
         driven = any(quantity.startswith(f"{joint.name}.") for quantity in scene.drives)
-        return -4 if driven else -(held_points(scene, joint) or 4)
+        acted = any(force.about == joint.name for force in scene.forces.values())
+        return -4 if driven or acted else -(held_points(scene, joint) or 4)
 
     return spanned(scene, sorted(scene.joints.values(), key=closes))
 

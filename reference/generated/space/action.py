@@ -10,10 +10,20 @@ from typing import Any
 
 import numpy as np
 
-from ....cases.force import Damper, Force, Push, Spring, Torque
+from ....cases.force import (
+    Damper,
+    Force,
+    Motor,
+    Push,
+    Spring,
+    Torque,
+    Torsion,
+    TorsionDamper,
+)
 from ...laws.force import damper, spring
 from ..action import SHORT, NoDirection, signal
 from .kinematics import Bodies, Layout, Points
+from .turning import Turn, braked, driven, motor, torsional, torsionally_damped, twisted
 
 Wrench = tuple[int, Any, Any]
 """Number of a body, a force on it and a moment about its centre of mass, (3,) in ground axes."""
@@ -21,7 +31,7 @@ Wrench = tuple[int, Any, Any]
 
 @dataclass(frozen=True)
 class Action:
-    """A kind of force element; called with the element, t, the bodies and its points.
+    """A kind of force element; called with the element, t, the bodies and its points, or its turn.
 
     wrenches: what it does to each body. U [J], D [W]. Q4: the wrenches of what has no U and no D.
     line: whether that element has no direction where its two ends meet.
@@ -43,8 +53,8 @@ class Actions:
         if unknown:
             raise NotImplementedError(f"{unknown[0]} is not known in space")
         self._each = [
-            (force, ACTIONS[type(force)], layout.attached(force.refers()),
-             [layout.numbers[at.body] for at in force.refers()])
+            (force, ACTIONS[type(force)], _where(layout, force),
+             [layout.numbers[at.body] for at in layout.scene.ends(force)])
             for force in forces
         ]  # fmt: skip
         at = list(layout.where.columns.values())
@@ -81,6 +91,13 @@ class Actions:
         """(2.46) D [W]."""
         return sum(action.D(f, attached.at(t, bodies)) for f, action, attached, _ in self._each)
 
+    def moments(self, t: Any, bodies: Bodies) -> Iterator[tuple[str, Any]]:
+        """What acts about joints, by joint: its moment (3,) on the second part, in ground axes."""
+        for force, action, attached, numbers in self._each:
+            if force.about is not None:
+                _, (_, _, M) = action.wrenches(force, t, numbers, attached.at(t, bodies))
+                yield force.about, M
+
     def meets(self, t: float, bodies: Bodies, within: float) -> str | None:
         """The first line that is shorter than that [m], and so without direction."""
         for force, action, attached, _ in self._each:
@@ -95,6 +112,11 @@ class Actions:
                 Q[r_dot : r_dot + 3] += F
             if omega is not None:
                 Q[omega : omega + 3] += M @ bodies.R[number]
+
+
+def _where(layout: Layout, force: Any) -> Any:
+    """The points on which a force acts, or the turn about which it does."""
+    return Turn(layout, force) if force.about else layout.attached(force.refers())
 
 
 def _cross(a: Any, b: Any) -> Any:
@@ -156,4 +178,7 @@ ACTIONS: dict[type[Force], Action] = {
     Damper: Action(_damper, D=_damped, line=lambda damper: True),
     Push: Action(_push, Q4=_push),
     Torque: Action(_torque, Q4=_torque),
+    Torsion: Action(torsional, U=twisted),
+    TorsionDamper: Action(torsionally_damped, D=braked),
+    Motor: Action(motor, Q4=driven),
 }

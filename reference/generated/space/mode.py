@@ -80,6 +80,9 @@ class SpatialMultibody(Mode):
         """(2.60) R_a = λ_b f_aᵇ: the forces and moments of first parts on second, by quantity."""
         bodies = self.layout.bodies(q, v)
         found = self.constraints.reactions(t, bodies, self.solve(t, q, v)[1])
+        for joint, M in self._actions.moments(t, bodies):
+            for name, x in zip(("mx", "my", "mz"), M.tolist(), strict=True):
+                found[f"{joint}.{name}"] = found.get(f"{joint}.{name}", 0.0) + x
         for joint in self.scene.joints.values():
             names = ("fx", "fy", "fz", *(("mx", "my", "mz") if joint.holds_attitude else ()))
             found = {f"{joint.name}.{name}": 0.0 for name in names} | found

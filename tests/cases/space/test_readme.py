@@ -11,7 +11,7 @@ from textmech.cases.language.grammar.space.scene import SpatialScene as Words
 from textmech.cases.language.grammar.space.start import Start, Turn
 from textmech.cases.load import load
 from textmech.cases.quantity import table
-from textmech.cases.scene import Anchor, Signal, Spring
+from textmech.cases.scene import Anchor, Signal, Spring, Torsion
 from textmech.cases.space import shape
 from textmech.cases.space.constraint import SpatialEdge
 from textmech.cases.space.contact import SpatialContact
@@ -56,7 +56,10 @@ def test_quantities() -> None:
         bodies={"body": body},
         joints={"joint": SpatialJoint("joint", "freedoms", A, B, freedoms)},
         contacts={"contact": SpatialContact("contact", Anchor("body", "center"), 1.0, rim=True)},
-        forces={"line": Spring("line", A, B, 1.0, 1.0)},
+        forces={
+            "line": Spring("line", A, B, 1.0, 1.0),
+            "torsion": Torsion("torsion", "joint.theta", 1.0, 0.0),
+        },
         constraints={"constraint": SpatialEdge("constraint", B, (1.0, 0.0, 0.0), kept=True)},
         drives={"joint.s_dot": one, "joint.theta_dot": one},
     )

@@ -7,7 +7,8 @@ from .. import force as plane
 from ..element import Element, element
 from ..part import OneOf
 
+AS_IN_THE_PLANE = ("spring", "damper", "torsion", "torsion_damper", "motor")
 ALONG_THREE_AXES = ("push", "torque")
-KINDS: dict[str, type[Element]] = {word: plane.KINDS[word] for word in ("spring", "damper")}
+KINDS: dict[str, type[Element]] = {word: plane.KINDS[word] for word in AS_IN_THE_PLANE}
 KINDS |= {word: element(word, FORCES[word], axes=3) for word in ALONG_THREE_AXES}
 Force = Annotated[Element, OneOf("force", KINDS)]
