@@ -71,9 +71,9 @@ def taken(scene: Scene) -> str | None:
             continue
         if force.about in loops:
             return f"{force.name} acts about {force.about}, which closes a loop and has no hinge"
-        kind = (force.about, force.turn, force.word)
+        kind = (force.about, force.turn or "angle", force.word)
         if force.numbers() and kind in seen:  # a motor is an actuator, of which there may be many
-            turn = ".".join(filter(None, kind[:2]))
+            turn = f"{force.about}.{force.turn}" if force.turn else force.about
             return f"{force.name} is not the only {force.word} of {turn}"
         seen.add(kind)
     return None

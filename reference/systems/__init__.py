@@ -33,6 +33,7 @@ from .sliding_block import SlidingBlock
 from .sliding_disk import SlidingDisk
 from .smooth_friction import SmoothDynamometer, SmoothGrowingForce
 from .spring_mass_damper import SpringMassDamper
+from .sprung_gimbal import SprungGimbal
 from .stribeck_brake import StribeckBrake
 from .stribeck_drive import StribeckDrive
 from .tilting_disk import TiltingDisk
@@ -72,6 +73,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "spring_mass_damper": SpringMassDamper,
     "stribeck_brake": StribeckBrake,
     "stribeck_drive": StribeckDrive,
+    "sprung_gimbal": SprungGimbal,
     "tilting_disk": TiltingDisk,
     "tilting_ring": TiltingRing,
     "torque_free": TorqueFree,

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import laws, robots, wheels
+from given import gimbals, laws, robots, wheels
 from given.examples import MODES, PARAMETERS, VARIANTS, example
 from given.spatial import SPATIAL
 from given.states import states
@@ -24,7 +24,8 @@ STATED_IN_PARAMETERS = (laws.start,)  # what a variant changes
 
 def test_every_system_is_tested():
     """Those in space by their own files."""
-    assert set(SYSTEMS) == set().union(PARAMETERS, SPATIAL, wheels.PARAMETERS, robots.PARAMETERS)
+    rooms = (wheels.PARAMETERS, robots.PARAMETERS, gimbals.PARAMETERS)
+    assert set(SYSTEMS) == set().union(PARAMETERS, SPATIAL, *rooms)
 
 
 @pytest.mark.whole

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from given import robots, spatial, wheels
+from given import gimbals, robots, spatial, wheels
 from given.laws import difference
 
 from textmech.reference.formalisms import appell, chaplygin, voronets
@@ -19,6 +19,7 @@ APPLY: dict[str, set[str]] = {
     "heavy_top": {"appell"},
     "tilting_disk": set(FORMS),
     "tilting_ring": set(FORMS),
+    "sprung_gimbal": {"appell"},
     "torque_free": {"voronets", "appell"},
     "upright_wheel": set(FORMS),
     "driven_wheel": set(),
@@ -32,13 +33,16 @@ def drawn(name: str) -> tuple[Mode, Iterator[tuple[float, Array, Array]]]:
     """The system and its random states."""
     if name in spatial.SPATIAL:
         return spatial.only(name), spatial.states(name, STATES)
+    if name in gimbals.PARAMETERS:
+        return gimbals.gimbal(), gimbals.states(STATES)
     room: Any = wheels if name in wheels.PARAMETERS else robots
     mode = room.wheel(name) if room is wheels else room.robot(name)
     return mode, room.states(mode, STATES)
 
 
 def test_every_system_in_space_is_asked() -> None:
-    assert set(APPLY) == {*spatial.SPATIAL, *wheels.PARAMETERS, *robots.PARAMETERS}
+    rooms = (spatial.SPATIAL, wheels.PARAMETERS, robots.PARAMETERS, gimbals.PARAMETERS)
+    assert set(APPLY) == set().union(*rooms)
 
 
 @pytest.mark.whole
