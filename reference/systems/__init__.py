@@ -42,6 +42,7 @@ from .torque_free import TorqueFree
 from .torsion_pendulum import TorsionPendulum
 from .upright_wheel import UprightWheel
 from .viscous_guide import ViscousDrift, ViscousGrowingForce
+from .wheel_from_above import WheelFromAbove
 
 SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "anisotropic_drift": AnisotropicDrift,
@@ -81,6 +82,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "upright_wheel": UprightWheel,
     "viscous_drift": ViscousDrift,
     "viscous_growing_force": ViscousGrowingForce,
+    "wheel_from_above": WheelFromAbove,
 }
 
 

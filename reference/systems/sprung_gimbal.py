@@ -97,7 +97,8 @@ class SprungGimbal(Mode):
 
         A (C + iΩ D − Ω² J) = (M, 0), with the matrices of inertia, damping and stiffness.
         """
-        J = self.J * np.array([[1.0, self.kappa], [self.kappa, 1.0]])
+        kappa = self.b / math.sqrt(self.a**2 + self.b**2)
+        J = 0.4 * self.m * self.R**2 * np.array([[1.0, kappa], [kappa, 1.0]])
         D, C = np.diag([self.d1, self.d2]), np.diag([self.c1, self.c2])
         A = np.linalg.solve(C + 1j * self.Omega * D - self.Omega**2 * J, [self.M, 0.0])
         steady = np.concatenate([A, 1j * self.Omega * A])

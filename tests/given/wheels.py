@@ -15,6 +15,13 @@ PARAMETERS = {
     "upright_wheel": {**WHEEL, "alpha": math.radians(10), "w": 6.0, "Omega": 1.2},
     "driven_wheel": {**WHEEL, "alpha": math.radians(10), "w": 6.0, **DRIVES},
 }
+FROM_ABOVE = {
+    "wheel_from_above": {
+        "M": 1.95, "J": 0.0203125, "gravity": 2 * 9.80665 / 3, "alpha": math.radians(10),
+        "u0": 1.5, "w0": 1.2,
+    },
+}  # fmt: skip
+"""The free wheel on its incline, seen from above: a knife edge with the mass 3/2 m."""
 CIRCLE, WEAVE, CLOTHOID = {"k": 0.0, "A": 0.0}, {"Omega": 0.0, "k": 0.0}, {"Omega": 0.0, "A": 0.0}
 # Changes of the parameters, of which a closed form is known.
 CLOSED = {

@@ -9,10 +9,13 @@ import numpy as np
 import pytest
 from given import spatial
 from given.examples import PARAMETERS, VARIANTS, example
+from given.gimbals import VARIANTS as GIMBALS
+from given.gimbals import gimbal
 from given.robots import robot
-from given.wheels import CLOSED, wheel
+from given.wheels import CLOSED, FROM_ABOVE, wheel
 
 from textmech.reference.system import Guard, Only, System
+from textmech.reference.systems import written
 
 TIMES = (0.0, 0.3, 1.1, 2.9)
 KNOWN = [name for name in PARAMETERS if example(name).closed_form(0.5) is not None]
@@ -20,6 +23,8 @@ LIKE = {name: (system, changed) for name, (system, changed, _) in VARIANTS.items
 SYSTEMS = {name: example(name) for name in KNOWN}
 SYSTEMS |= {name: example(system, **changed) for name, (system, changed) in LIKE.items()}
 SYSTEMS |= {name: Only(wheel(system, **changed)) for name, (system, changed) in CLOSED.items()}
+SYSTEMS |= {f"gimbal, {name}": Only(gimbal(**changed)) for name, changed in GIMBALS.items()}
+SYSTEMS |= {name: written(name, given) for name, given in FROM_ABOVE.items()}
 SYSTEMS |= {"driven robot": Only(robot("driven_robot"))}
 SYSTEMS |= {name: spatial.variant(name) for name in spatial.VARIANTS}
 

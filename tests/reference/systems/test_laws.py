@@ -24,7 +24,7 @@ STATED_IN_PARAMETERS = (laws.start,)  # what a variant changes
 
 def test_every_system_is_tested():
     """Those in space by their own files."""
-    rooms = (wheels.PARAMETERS, robots.PARAMETERS, gimbals.PARAMETERS)
+    rooms = (wheels.PARAMETERS, wheels.FROM_ABOVE, robots.PARAMETERS, gimbals.PARAMETERS)
     assert set(SYSTEMS) == set().union(PARAMETERS, SPATIAL, *rooms)
 
 
