@@ -64,7 +64,7 @@ class Contact:
 
     def quantities(self) -> dict[str, Fields]:
         """Its reactions, and where and how the touching point moves."""
-        return {self.name: _CONTACT | ({} if self.tips else _ONE_POINT)}
+        return {self.name: _CONTACT if self.tips else {**_CONTACT, **_ONE_POINT}}
 
     def numbers(self) -> dict[str, float]:
         """The coefficient of friction."""

@@ -8,6 +8,7 @@ import numpy as np
 
 from .body import Body
 from .element import Force
+from .friction import Bounds
 from .joint import Freedom
 from .kind import Fields
 from .language.grammar.field import In
@@ -62,7 +63,7 @@ class Viscous(Force):
     word = "viscous"
     freedom: ClassVar[Freedom] = "shift"
     joint: str
-    coefficient: FrictionForce
+    coefficient: Annotated[Bounds, FrictionForce]
     exponent: Annotated[float, In("1", above=0)]
 
     def refers(self) -> tuple[Anchor, ...]:

@@ -1,6 +1,7 @@
 """References between the parts of a scene: every name means one thing that is there."""
 
 from collections.abc import Iterator, Mapping
+from typing import Any
 
 from ... import shape
 from ...mistake import Path, nearest
@@ -79,7 +80,8 @@ def _points(parsed: Parsed) -> Iterator[Finding]:
         yield ("scene", "points", FLOOR), f"the name {FLOOR!r} is taken"
     for name, body in parsed.file.scene.bodies.items():
         ends = ("start", "end") if body.word == "bar" else ()
-        tips = shape.tips(body.spokes.number) if body.word == "spokes" else ()
+        measures: Any = getattr(body, body.word)
+        tips = shape.tips(measures.number) if body.word == "spokes" else ()
         for point in getattr(body, "points", {}):
             if point in (CENTER, *ends, *tips, *taken):
                 yield ("scene", "bodies", name, "points", point), f"the name {point!r} is taken"

@@ -62,14 +62,8 @@ class DryFriction(Part):
 
 def dry(force: str, speed: str, slowness: str, of: str) -> Any:
     """The law with what it exerts, and how fast it slips, in these units; of: a slide or a pin."""
-    size, swift = Annotated[float, In(force, least=0)], Annotated[float, In(speed, above=0)]
-    sharp = Annotated[float, In(slowness, above=0)]
-    both = _map(noun.Bounds, of, forward=size, backward=size)
-    bounds: Any = Annotated[
-        Annotated[noun.Bounds, Made(size, lambda f: noun.Bounds(f, f)), Tag("<plain>")]
-        | Annotated[both, Tag("<map>")],
-        plain_or_map(),
-    ]  # one number stands for both directions
+    swift, sharp = Annotated[float, In(speed, above=0)], Annotated[float, In(slowness, above=0)]
+    bounds = _bounds(force, of)
     fields: dict[str, Any] = {
         "static": (bounds | None, DryFriction.model_fields["static"]),
         "kinetic": (bounds, ...),
@@ -81,6 +75,17 @@ def dry(force: str, speed: str, slowness: str, of: str) -> Any:
     return Annotated[noun.DryFriction, Made(written, DryFriction.law)]
 
 
+def _bounds(force: str, of: str) -> Any:
+    """What acts forward and backward, in this unit; one number stands for both."""
+    size = Annotated[float, In(force, least=0)]
+    both = _map(noun.Bounds, of, forward=size, backward=size)
+    return Annotated[
+        Annotated[noun.Bounds, Made(size, lambda f: noun.Bounds(f, f)), Tag("<plain>")]
+        | Annotated[both, Tag("<map>")],
+        plain_or_map(),
+    ]
+
+
 def _map(law: Callable[..., object], of: str, **units: Any) -> Any:
     """A law as a map of its numbers."""
     fields: dict[str, Any] = {key: (unit, ...) for key, unit in units.items()}
@@ -90,6 +95,7 @@ def _map(law: Callable[..., object], of: str, **units: Any) -> Any:
 
 OF_SLIDE = dry("N", "m/s", "s/m", "OfSlide")
 OF_PIN = dry("N m", "rad/s", "s/rad", "OfPin")
+FrictionForce = Made(_bounds("N", "OfGuide"), lambda bounds: bounds)
 
 
 def _holds_as_well_as_it_brakes(static: float, kinetic: float) -> None:
