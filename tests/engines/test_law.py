@@ -1,6 +1,7 @@
 """The engines' writing of the force laws meets the typed values, as the reference's must."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from textmech.cases.scene import (
     Signal,
     Smooth,
     Spring,
+    Stribeck,
     Torsion,
     TorsionDamper,
 )
@@ -69,6 +71,12 @@ FRICTION = DryFriction(static=Bounds(6.0, 2.0), kinetic=Bounds(3.0, 1.0))
 @pytest.mark.parametrize("row", TABLE["dry_friction"], ids=str)
 def test_dry_friction_holds_up_to_its_bound_and_brakes_beyond(row: dict[str, float]) -> None:
     assert dry_friction(FRICTION, row["speed"], row["applied"]) == row["force"]
+
+
+@pytest.mark.parametrize("row", TABLE["falling_friction"], ids=str)
+def test_falling_friction_is_static_friction_at_rest(row: dict[str, float]) -> None:
+    falling = replace(FRICTION, stribeck=Stribeck(0.5))
+    assert dry_friction(falling, row["speed"], row["applied"]) == pytest.approx(row["force"])
 
 
 @pytest.mark.parametrize("row", TABLE["smooth_friction"], ids=str)

@@ -154,9 +154,12 @@ VARIANTS: dict[str, tuple[str, dict[str, float], list[str]]] = {
     "elastic": ("bouncing_disk", {}, ["bounces"] * 5),
     "plastic": ("bouncing_disk", {"e": 0.0}, ["lands"]),
 }  # fmt: skip
-DURATION = {  # 10 s else
-    "stribeck_brake": 2.0, "sliding_block": 1.0, "sliding_disk": 2.0, "bouncing_disk": 3.0,
-}  # fmt: skip
+DURATION = {
+    "stribeck_brake": 2.0,
+    "sliding_block": 1.0,
+    "sliding_disk": 2.0,
+    "bouncing_disk": 3.0,
+}  # 10 s else
 
 
 def example(name: str, **changed: float) -> System:

@@ -18,6 +18,7 @@ from textmech.reference.laws.friction import (
     power_law,
     smooth,
     stiction,
+    stribeck,
     velocity_dependent,
     viscous,
 )
@@ -66,6 +67,14 @@ def test_velocity_dependent_friction_has_its_own_values_while_sliding_only():
     assert (law(-2.0, 0.0), law(2.0, 0.0)) == (5.0, -2.0)
     for F_a in (-5.0, -4.0, 0.5, 2.0, 7.0):
         assert law(0.0, F_a) == stiction(UNEVEN, 0.0, F_a)
+
+
+@pytest.mark.parametrize(
+    ("v", "F"), [(0.0, 6.0), (0.5, 4.103638323514327), (-0.5, 4.103638323514327), (1e3, 3.0)]
+)
+def test_friction_falls_from_static_to_kinetic(v: float, F: float):
+    """Fig 2.25, even in v: 3 + 3/e at v_s."""
+    assert stribeck(3.0, 6.0, 0.5, v) == pytest.approx(F, rel=1e-15)
 
 
 @pytest.mark.parametrize(
