@@ -21,6 +21,7 @@ from .dynamometer import Dynamometer
 from .falling_drag import FallingDrag
 from .five_axis_robot import FiveAxisRobot
 from .four_bar import FourBar
+from .friction_cone import FrictionCone
 from .growing_force import GrowingForce
 from .heavy_top import HeavyTop
 from .knife_edge import KnifeEdge
@@ -59,6 +60,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "falling_drag": FallingDrag,
     "five_axis_robot": FiveAxisRobot,
     "four_bar": FourBar,
+    "friction_cone": FrictionCone,
     "growing_force": GrowingForce,
     "heavy_top": HeavyTop,
     "knife_edge": KnifeEdge,

@@ -29,6 +29,9 @@ PARAMETERS: dict[str, dict[str, float]] = {
     "four_bar": {
         "m": 1.0, "a": 0.3, "b": 0.8, "c": 0.6, "d": 0.9, "crank0": math.radians(70),
     },
+    "friction_cone": {
+        "m": 2.0, "mu_s": 0.5, "mu_k": 0.35, "beta": math.radians(10), "b_x": 4.0, "b_y": 1.0,
+    },
     "growing_force": {"m": 1.0, "b": 1.0, **BOOK},
     "knife_edge": {"m": 1.4, "J": 0.06, "beta": math.radians(15), "u0": 0.3, "w0": 1.3},
     "rhombus": {
@@ -76,6 +79,7 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
     "four_bar": [
         ("crank", 2, 70 * math.pi / 180, 1e-15), ("rocker", 2, 96 * math.pi / 180, 0.01),
     ],
+    "friction_cone": _BLOCK,
     "growing_force": _BLOCK,
     "knife_edge": [
         ("blade", 0, 0.0, 0.0), ("blade", 1, 0.0, 0.0), ("blade", 2, 0.0, 0.0),
@@ -149,6 +153,10 @@ VARIANTS: dict[str, tuple[str, dict[str, float], list[str]]] = {
     "growing torque": ("bearing", {"w0": 0.0, "k": 0.2037}, ["slips"]),
     "growing torque without oil": ("bearing", {"w0": 0.0, "k": 0.2037, "d": 0.0}, ["slips"]),
     "brakes": ("sliding_block", {"beta": 0.0, "v0": 2.0}, ["stops"]),
+    "drawn down the slope": ("friction_cone", {}, ["slips"]),
+    "pushed up the slope": ("friction_cone", {"b_x": -4.0, "b_y": -1.5}, ["slips"]),
+    "drawn up the slope": ("friction_cone", {"beta": math.radians(-12)}, ["slips"]),
+    "drawn to the left": ("friction_cone", {"beta": 0.0, "b_x": -4.0, "b_y": 0.0}, ["slips"]),
     "slips for good": ("growing_force", {}, ["slips"]),
     "stick-slip": ("dynamometer", {}, ["slips", "stops"] * 2),
     "elastic": ("bouncing_disk", {}, ["bounces"] * 5),
@@ -159,6 +167,7 @@ DURATION = {
     "sliding_block": 1.0,
     "sliding_disk": 2.0,
     "bouncing_disk": 3.0,
+    "friction_cone": 5.0,
 }  # 10 s else
 
 

@@ -41,7 +41,7 @@ def swinging(ends: str, forward: float, backward: float) -> str:
 
 
 def swung(times: Array, forward: float, backward: float) -> Array:
-    """(N,) its angle: J_O φ̈ = −m g (l/2) cos φ ∓ M_k, half a swing at a time, until 1.5 N m holds."""
+    """(N,) its angle: J_O φ̈ = −m g (l/2) cos φ ∓ M_k, swing by swing, until 1.5 N m holds."""
     weight, J = 1.2 * 9.80665 * 0.4, 1.2 * 0.8**2 / 3
     t, phi, sign, found = 0.0, 0.0, -1.0, np.zeros(len(times))
 

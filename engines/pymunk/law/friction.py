@@ -106,10 +106,11 @@ def _contact(world: World, contact: Contact, step: float) -> Told:
     mass = 1 / (1 / part.mass + radius * turn)
 
     def along(t: float, normal: float, ahead: float) -> float:
-        """With what static friction has lost by then, so that its bound is that of the middle."""
+        """With what static friction has lost by then, or gained, so that its bound stays."""
         fx, fy, torque = acting(t, ahead)
         force = mass * ((ux * fx + uy * fy) / part.mass + turn * torque)
-        return force + math.copysign(contact.static * (normal + nx * fx + ny * fy), force)
+        gained = normal + nx * fx + ny * fy
+        return force + math.copysign(1.0, force) * contact.static * gained
 
     def exact(t: float) -> None:
         shape.friction = contact.kinetic

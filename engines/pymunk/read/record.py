@@ -16,6 +16,7 @@ from ..world import World
 from .copies import copier
 
 _STATE = BodyFields.POSITION | BodyFields.ANGLE | BodyFields.VELOCITY | BodyFields.ANGULAR_VELOCITY
+ROUNDING = 1e-12  # m: what rests on the floor stands that near to it, on either side
 _BUFFER = Buffer()  # one for all runs: pymunk never frees a buffer's memory
 
 
@@ -61,7 +62,7 @@ class Record:
         for contact in self.world.wheels:
             gap = observe(self.world.scene, self._named(rows, times), f"{contact}.gap")
             dip = observe(self.world.scene, self._named(middle, times[1:]), f"{contact}.gap")
-            lost |= (dip <= 0) & (gap[:-1] > 0) & (gap[1:] > 0)
+            lost |= (dip <= 0) & (gap[:-1] > ROUNDING) & (gap[1:] > ROUNDING)
         after = np.flatnonzero(lost) + 1
         rows = np.insert(rows, after, middle[lost], axis=0)
         return rows, np.insert(times, after, times[after] - self.step / 2)

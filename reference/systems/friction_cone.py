@@ -1,0 +1,167 @@
+"""Block on a slope, pulled until the reaction would have to leave the friction cone (fig 2.22).
+
+q = (x,), x down the slope of angle β. At rest the reaction is inside the cone of angle ρ with
+tan ρ = μ_s; the pull grows along one direction, and beyond the cone's edge the block slides.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
+
+G = 9.80665  # m/s²
+
+
+@dataclass(frozen=True)
+class _Block(Mode):
+    """Sliding with v > 0 (σ = 1) or v < 0 (σ = −1), or sticking (σ = 0)."""
+
+    m: float
+    mu_k: float
+    beta: float
+    b_x: float
+    b_y: float
+    sigma: int
+
+    coordinates = ("x",)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "masses", {"block": Mass(self.m, None)})
+
+    def F_a(self, t: Any) -> Any:
+        """(2.88) F_a = m g sin β + b_x t [N]."""
+        return self.m * G * math.sin(self.beta) + self.b_x * t
+
+    def F_N(self, t: Any) -> Any:
+        """(2.23) F_N = m g cos β − b_y t [N], from ÿ = 0."""
+        return self.m * G * math.cos(self.beta) - self.b_y * t
+
+    def accelerations(self, t: float, q: Array, v: Array) -> Array:
+        """(2.87), (2.88) m ẍ = F_a − σ μ_k F_N; ẍ = 0 where it sticks [m/s²], (1,)."""
+        if self.sigma == 0:
+            return np.zeros(1)
+        return np.array([(self.F_a(t) - self.sigma * self.mu_k * self.F_N(t)) / self.m])
+
+    def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
+        """(2.89) F_fr = −σ μ_k F_N, −F_a where it sticks [N]; and F_N."""
+        F_N = self.F_N(t)
+        F_fr = -self.sigma * self.mu_k * F_N if self.sigma else -self.F_a(t)
+        return {"touch.tangent": F_fr, "touch.normal": F_N}
+
+    def T(self, t: Any, q: Vector, v: Vector) -> Any:
+        """(2.53) T = ½ m ẋ² [J]."""
+        return self.m * v[0] ** 2 / 2
+
+    def U(self, t: Any, q: Vector) -> Any:
+        """(2.45) U = −m g x sin β [J]."""
+        return -self.m * G * q[0] * math.sin(self.beta)
+
+    def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
+        """(2.50) Q = b_x t − σ μ_k F_N: the pull, and the friction of sliding [N], (1,)."""
+        return np.array([self.b_x * t - self.sigma * self.mu_k * self.F_N(t)])
+
+    def f_a(self, t: Any, q: Vector) -> Vector:
+        """(2.15) ẋ = 0 where it sticks: λ is the friction force."""
+        return np.zeros((0, 1)) if self.sigma else np.ones((1, 1))
+
+    def g(self, t: Any, q: Vector) -> Vector:
+        """(2.15) the floor does not move."""
+        return np.zeros(len(self.f_a(t, q)))
+
+    def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
+        """(2.8) R₁ = (x, 0)."""
+        return {"block": (q[0], 0.0, 0.0, v[0], 0.0, 0.0)}
+
+    def loads(self, t: float, q: Array, v: Array) -> list[Load]:
+        """(2.81) weight in the axes of the slope, the pull, and the friction of sliding."""
+        at, weight = (float(q[0]), 0.0), self.m * G
+        normal = weight * math.cos(self.beta) - self.b_y * t
+        return [
+            Load("block", at, (weight * math.sin(self.beta), -weight * math.cos(self.beta))),
+            Load("block", at, (self.b_x * t, self.b_y * t)),
+            Load("block", at, (-self.sigma * self.mu_k * normal, 0.0)),
+        ]
+
+    def cuts(self, t: float, q: Array) -> list[Cut]:
+        """The floor: its normal force always, its friction where the block sticks."""
+        at = (float(q[0]), 0.0)
+        if self.sigma == 0:
+            return [Cut(("touch.tangent", "touch.normal"), None, "block", at)]
+        return [Cut(("touch.normal",), None, "block", at, ((0.0, 1.0),))]
+
+
+@dataclass(frozen=True)
+class FrictionCone(System):
+    """m [kg], μ_s, μ_k, β [rad], and the pull (b_x, b_y) t [N], which goes on the way it begins."""
+
+    m: float
+    mu_s: float
+    mu_k: float
+    beta: float
+    b_x: float
+    b_y: float
+
+    def __post_init__(self) -> None:
+        if not self.mu_s >= self.mu_k >= 0.0:
+            raise ValueError(f"0 ≤ μ_k ≤ μ_s is broken by μ_k = {self.mu_k}, μ_s = {self.mu_s}")
+        if not abs(math.tan(self.beta)) <= self.mu_s:
+            raise ValueError(f"unpulled it has to rest: |tan β| is above μ_s = {self.mu_s}")
+        if not abs(self.b_x) + self.mu_k * self.b_y > 0.0:
+            raise ValueError("the pull presses the block down more than it draws")
+        sigmas = {"down": 1, "up": -1, "sticks": 0}
+        given = (self.m, self.mu_k, self.beta, self.b_x, self.b_y)
+        modes = {name: _Block(*given, sigma) for name, sigma in sigmas.items()}
+        object.__setattr__(self, "modes", modes)
+
+    def start(self) -> tuple[str, Array, Array]:
+        """At rest at x = 0."""
+        return "sticks", np.zeros(1), np.zeros(1)
+
+    def guards(self, mode: str) -> Sequence[Guard]:
+        """(2.89) `slips` where |F_a| comes to μ_s F_N; what slides is drawn on."""
+        if mode != "sticks":
+            return ()
+
+        def left(way: float, t: float) -> float:
+            forces = self.modes[mode].reactions(t, np.zeros(1), np.zeros(1))
+            return self.mu_s * forces["touch.normal"] + way * forces["touch.tangent"]
+
+        return (
+            Guard("slips", lambda t, q, v: left(1.0, t), lambda t, q, v: ("down", q, v)),
+            Guard("slips", lambda t, q, v: left(-1.0, t), lambda t, q, v: ("up", q, v)),
+        )
+
+    def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
+        """(2.89) the reaction inside the cone, |F_fr| ≤ F_N tan ρ, where it sticks; F_N > 0."""
+        forces = self.modes[mode].reactions(t, q, v)
+        normal, tangent = forces["touch.normal"], forces["touch.tangent"]
+        if not normal > 0.0:
+            return f"the floor would have to pull: touch.normal = {normal:.3g} N"
+        if mode == "sticks" and abs(tangent) > self.mu_s * normal:
+            return f"outside the cone: {abs(tangent) / normal:.4g} is above tan ρ = {self.mu_s:.4g}"
+        return None
+
+    def closed_form(self, t: float) -> tuple[Array, Array]:
+        """(2.87) m x = ½ σ (μ_s − μ_k) F_N τ² + ⅙ (b_x + σ μ_k b_y) τ³, τ = t − t₀, F_N at t₀."""
+        t0, sigma = self._slips(), math.copysign(1.0, self.b_x)
+        tau = max(0.0, t - t0)
+        normal = self.m * G * math.cos(self.beta) - self.b_y * t0
+        jump = sigma * (self.mu_s - self.mu_k) * normal / self.m
+        grows = (self.b_x + sigma * self.mu_k * self.b_y) / self.m
+        x, v = jump * tau**2 / 2 + grows * tau**3 / 6, jump * tau + grows * tau**2 / 2
+        return np.array([x]), np.array([v])
+
+    def closed_events(self, until: float) -> list[tuple[str, float]]:
+        """(2.89) slips at t₀, for good."""
+        return [("slips", self._slips())] if self._slips() <= until else []
+
+    def _slips(self) -> float:
+        """(2.89) t₀ = m g sin (ρ ∓ β)/(b cos (γ − ρ)) [s], − down the slope; γ is the pull's."""
+        rho, pull = math.atan(self.mu_s), math.hypot(self.b_x, self.b_y)
+        down = math.copysign(self.beta, self.b_x * self.beta)
+        gamma = math.atan2(self.b_y, abs(self.b_x))
+        return self.m * G * math.sin(rho - down) / (pull * math.cos(gamma - rho))
