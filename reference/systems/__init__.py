@@ -22,6 +22,7 @@ from .falling_drag import FallingDrag
 from .five_axis_robot import FiveAxisRobot
 from .four_bar import FourBar
 from .friction_cone import FrictionCone
+from .friction_of_rest import FrictionOfRest
 from .growing_force import GrowingForce
 from .heavy_top import HeavyTop
 from .knife_edge import KnifeEdge
@@ -61,6 +62,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "five_axis_robot": FiveAxisRobot,
     "four_bar": FourBar,
     "friction_cone": FrictionCone,
+    "friction_of_rest": FrictionOfRest,
     "growing_force": GrowingForce,
     "heavy_top": HeavyTop,
     "knife_edge": KnifeEdge,

@@ -59,13 +59,16 @@ class Drawn:
 class Line(Mode):
     """A block m [kg] that slides against the friction force F_fr [N], or sticks if that is None.
 
-    falls: how much larger it is at v = 0 [N], with its sign, and the speed v_s [m/s] (2.90).
+    falls: how much larger it is at v = 0 [N], with its sign, and the speed v_s [m/s] (2.90). N:
+    weight [N] that it lies with on what holds it, by forces of these names, along x and y.
     """
 
     m: float
     pull: Pull
     F_fr: float | None
     falls: tuple[float, float] | None = None
+    N: float = 0.0
+    names: tuple[str, str] = ("guide.fx", "guide.fy")
 
     coordinates = ("x",)
 
@@ -86,10 +89,10 @@ class Line(Mode):
         return np.array([(self.pull.F_a(t, float(q[0])) + self._slides(v[0])) / self.m])
 
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
-        """(2.89) F_fr, −F_a where it sticks [N]: the guide's force on the block; nothing else."""
+        """(2.89) F_fr, −F_a where it sticks [N], and what carries the block."""
         stuck = self.F_fr is None
         F_fr = -self.pull.F_a(t, float(q[0])) if stuck else float(self._slides(v[0]))
-        return {"guide.fx": F_fr, "guide.fy": 0.0}
+        return dict(zip(self.names, (F_fr, self.N), strict=True))
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ m ẋ² [J]."""
@@ -119,17 +122,18 @@ class Line(Mode):
         """The forces of the pull and the friction of sliding."""
         x = float(q[0])
         forces = [*self.pull.forces(t, x), float(self._slides(v[0]))]
-        return [Load("block", (x, 0.0), (force, 0.0)) for force in forces]
+        weight = Load("block", (x, 0.0), (0.0, -self.N))
+        return [weight, *(Load("block", (x, 0.0), (force, 0.0)) for force in forces)]
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
         """The guide: across it always, along it where the block sticks."""
         at = (float(q[0]), 0.0)
         if self.F_fr is None:
-            return [Cut(("guide.fx", "guide.fy"), None, "block", at)]
-        return [Cut(("guide.fy",), None, "block", at, ((0.0, 1.0),))]
+            return [Cut(self.names, None, "block", at)]
+        return [Cut(self.names[1:], None, "block", at, ((0.0, 1.0),))]
 
 
-def modes(m: float, pull: Pull, dry: Dry, v_s: float | None = None) -> Mapping[str, Mode]:
+def modes(m: float, pull: Pull, dry: Dry, v_s: float | None = None) -> Mapping[str, Line]:
     """(2.89) The modes: `backward` with F₋, `forward` with −F₊, and `stuck`.
 
     (2.90) With v_s [m/s] the friction falls from F_s∓ to F∓.
@@ -175,7 +179,8 @@ def guards(
 
 def possible(system: Mode, dry: Dry, t: float, q: Array, v: Array) -> str | None:
     """(2.89) Why `stuck` cannot be: −F_s₋ ≤ F_a ≤ F_s₊ is broken."""
-    F_a = -system.reactions(t, q, v)["guide.fx"]
+    F_fr, _ = system.reactions(t, q, v).values()
+    F_a = -F_fr
     if dry.sticks(F_a):
         return None
     return f"sticking against {F_a:.6g} N, allowed are {-dry.Fs_minus:.6g} to {dry.Fs_plus:.6g} N"

@@ -32,6 +32,7 @@ PARAMETERS: dict[str, dict[str, float]] = {
     "friction_cone": {
         "m": 2.0, "mu_s": 0.5, "mu_k": 0.35, "beta": math.radians(10), "b_x": 4.0, "b_y": 1.0,
     },
+    "friction_of_rest": {"m": 1.0, "c": 10.0, "u": 0.5, "mu_s": 0.6, "mu_k": 0.3},
     "growing_force": {"m": 1.0, "b": 1.0, **BOOK},
     "knife_edge": {"m": 1.4, "J": 0.06, "beta": math.radians(15), "u0": 0.3, "w0": 1.3},
     "rhombus": {
@@ -80,6 +81,7 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
         ("crank", 2, 70 * math.pi / 180, 1e-15), ("rocker", 2, 96 * math.pi / 180, 0.01),
     ],
     "friction_cone": _BLOCK,
+    "friction_of_rest": _BLOCK,
     "growing_force": _BLOCK,
     "knife_edge": [
         ("blade", 0, 0.0, 0.0), ("blade", 1, 0.0, 0.0), ("blade", 2, 0.0, 0.0),
@@ -157,6 +159,7 @@ VARIANTS: dict[str, tuple[str, dict[str, float], list[str]]] = {
     "pushed up the slope": ("friction_cone", {"b_x": -4.0, "b_y": -1.5}, ["slips"]),
     "drawn up the slope": ("friction_cone", {"beta": math.radians(-12)}, ["slips"]),
     "drawn to the left": ("friction_cone", {"beta": 0.0, "b_x": -4.0, "b_y": 0.0}, ["slips"]),
+    "dynamometer on a floor": ("friction_of_rest", {}, ["slips", "stops"] * 2),
     "slips for good": ("growing_force", {}, ["slips"]),
     "stick-slip": ("dynamometer", {}, ["slips", "stops"] * 2),
     "elastic": ("bouncing_disk", {}, ["bounces"] * 5),
@@ -168,6 +171,7 @@ DURATION = {
     "sliding_disk": 2.0,
     "bouncing_disk": 3.0,
     "friction_cone": 5.0,
+    "friction_of_rest": 6.0,
 }  # 10 s else
 
 

@@ -20,6 +20,7 @@ ALLOWED = {
     # The mathematics of closed forms, and closed forms in files of their own.
     *(".elliptic", ".nutation", ".polhode"),
     ".tilting_ring",  # of which a disk is one
+    ".dynamometer",  # by which a block on a floor is drawn
     *(".wheel_on_plane", ".triples", ".arm", ".serial_arm", ".quadrature"),
 }
 
