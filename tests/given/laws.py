@@ -14,6 +14,7 @@ from textmech.reference.formalisms.derivative import along
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array, System
 
+from . import stiction
 from .examples import MODES, PARAMETERS, STARTS, example
 from .states import states
 
@@ -23,53 +24,41 @@ Law = Callable[[System, At], float]
 
 # The reactions that the multipliers λ of (2.60) are, in the order of the rows.
 MULTIPLIERS: dict[At, tuple[str, ...]] = {
+    **{at: (name,) for at, name in stiction.HELD.items()},
     ("anisotropic_drift", "stuck"): ("guide.fx",),
-    ("bearing", "sticks"): ("axle.friction",),
     ("bouncing_disk", "rest"): ("touch.normal",),
     ("driven_edge", "moving"): ("blade.force", "blade.drive"),
     ("dynamometer", "stuck"): ("guide.fx",),
     ("four_bar", "moving"): ("C.fx", "C.fy"),
-    ("friction_cone", "sticks"): ("touch.tangent",),
-    ("friction_of_rest", "stuck"): ("touch.tangent",),
     ("growing_force", "stuck"): ("guide.fx",),
     ("knife_edge", "moving"): ("edge.force",),
     ("rolling_wheel", "moving"): ("touch.tangent", "touch.normal"),
     ("sleigh", "moving"): ("blade.force",),
     ("sliding_block", "sticks"): ("touch.tangent",),
     ("sliding_disk", "rolling"): ("touch.normal", "touch.tangent"),
-    ("stribeck_brake", "stuck"): ("guide.fx",),
-    ("stribeck_drive", "stuck"): ("guide.fx",),
     ("sliding_disk", "slips backward"): ("touch.normal",),
     ("sliding_disk", "slips forward"): ("touch.normal",),
 }
 # How many rows have a residual (2.14), where not all: what sticks or rolls has no place of its own.
 RESIDUALS = {
+    **dict.fromkeys(stiction.HELD, 0),
     ("anisotropic_drift", "stuck"): 0,
-    ("bearing", "sticks"): 0,
     ("driven_edge", "moving"): 0,
     ("dynamometer", "stuck"): 0,
-    ("friction_cone", "sticks"): 0,
-    ("friction_of_rest", "stuck"): 0,
     ("growing_force", "stuck"): 0,
     ("knife_edge", "moving"): 0,
     ("sleigh", "moving"): 0,
     ("sliding_block", "sticks"): 0,
     ("sliding_disk", "rolling"): 1,
-    ("stribeck_brake", "stuck"): 0,
-    ("stribeck_drive", "stuck"): 0,
 }
 # The forces that no cut finds: friction that slides, and a floor that is out of reach.
 APPLIED: dict[At, str] = {
+    **stiction.SLIDING,
     ("anisotropic_drift", "backward"): "guide.fx",
     ("anisotropic_drift", "forward"): "guide.fx",
-    ("bearing", "turns"): "axle.friction",
     ("bouncing_disk", "flight"): "touch.normal",
     ("dynamometer", "backward"): "guide.fx",
     ("dynamometer", "forward"): "guide.fx",
-    ("friction_cone", "down"): "touch.tangent",
-    ("friction_cone", "up"): "touch.tangent",
-    ("friction_of_rest", "backward"): "touch.tangent",
-    ("friction_of_rest", "forward"): "touch.tangent",
     ("growing_force", "backward"): "guide.fx",
     ("growing_force", "forward"): "guide.fx",
     ("sliding_block", "down"): "touch.tangent",
@@ -78,10 +67,6 @@ APPLIED: dict[At, str] = {
     ("sliding_disk", "slips forward"): "touch.tangent",
     ("smooth_dynamometer", "moving"): "guide.fx",
     ("smooth_growing_force", "moving"): "guide.fx",
-    ("stribeck_brake", "backward"): "guide.fx",
-    ("stribeck_brake", "forward"): "guide.fx",
-    ("stribeck_drive", "backward"): "guide.fx",
-    ("stribeck_drive", "forward"): "guide.fx",
 }
 
 
