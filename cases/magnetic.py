@@ -1,13 +1,12 @@
 """The force of a magnetic field on a charge that a body carries in its centre."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated
 
-from .body import Body
 from .element import Force
 from .language.grammar.field import In
-from .point import CENTER, GROUND, Anchor
+from .point import CENTER, Anchor
 
 
 @dataclass(frozen=True)
@@ -20,13 +19,9 @@ class Magnetic(Force):
     along_z: Annotated[float, In("T")]
 
     def refers(self) -> tuple[Anchor, ...]:
-        """The body's centre; the ground carries no charge."""
-        return () if self.body == GROUND else (Anchor(self.body, CENTER),)
-
-    def unfit(self, bodies: Mapping[str, Body]) -> str | None:
-        """The ground does not move."""
-        return "acts on the ground; it acts on a body" if self.body == GROUND else None
+        """The body's centre."""
+        return (Anchor(self.body, CENTER),)
 
     def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
         """e B/m."""
-        return abs(self.charge * self.along_z) * sum(mobility(at) for at in self.refers()), 0.0
+        return abs(self.charge * self.along_z) * mobility(Anchor(self.body, CENTER)), 0.0

@@ -15,14 +15,13 @@ from ..cases.scene import Scene
 
 
 class Place(NamedTuple):
-    """A point and its velocity, and how its body is turned: m, m/s, rad, rad/s; in ground axes."""
+    """A point [m], its velocity [m/s], in ground axes, and how far its body is turned [rad]."""
 
     x: float
     y: float
     vx: float
     vy: float
     angle: float
-    omega: float
 
 
 Exerted = Sequence[tuple[float, float]]
@@ -35,7 +34,7 @@ def _drag(scene: Scene, force: Drag) -> Law:
     d, power = force.coefficient, (force.exponent - 1) / 2
 
     def law(t: float, points: Sequence[Place]) -> Exerted:
-        (_, _, vx, vy, _, _) = points[0]
+        _, _, vx, vy, _ = points[0]
         size = -d * (vx * vx + vy * vy) ** power
         return ((size * vx, size * vy),)
 
@@ -52,7 +51,6 @@ def _viscous(scene: Scene, force: Viscous) -> Law:
         cos, sin = math.cos(a.angle), math.sin(a.angle)
         ux, uy = cos * x - sin * y, sin * x + cos * y
         speed = ux * (b.vx - a.vx) + uy * (b.vy - a.vy)
-        speed += a.omega * (ux * (b.y - a.y) - uy * (b.x - a.x))
         size = -d.forward * speed**power if speed > 0 else d.backward * (-speed) ** power
         return (-size * ux, -size * uy), (size * ux, size * uy)
 
@@ -64,7 +62,7 @@ def _magnetic(scene: Scene, force: Magnetic) -> Law:
     strength = force.charge * force.along_z
 
     def law(t: float, points: Sequence[Place]) -> Exerted:
-        (_, _, vx, vy, _, _) = points[0]
+        _, _, vx, vy, _ = points[0]
         return ((strength * vy, -strength * vx),)
 
     return law

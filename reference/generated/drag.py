@@ -62,9 +62,8 @@ def _along(
 
 
 def _speed(a: Point, b: Point, u: Pair) -> Any:
-    """d/dt u·(r_B − r_A) = u·(ṙ_B − ṙ_A) + u̇·(r_B − r_A) [m/s], u turning with a."""
-    rate = u[0] * (b.r_dot[0] - a.r_dot[0]) + u[1] * (b.r_dot[1] - a.r_dot[1])
-    return rate + a.omega * (u[0] * (b.r[1] - a.r[1]) - u[1] * (b.r[0] - a.r[0]))
+    """d/dt u·(r_B − r_A) = u·(ṙ_B − ṙ_A) [m/s]: r_B − r_A lies along u, and u̇ across it."""
+    return u[0] * (b.r_dot[0] - a.r_dot[0]) + u[1] * (b.r_dot[1] - a.r_dot[1])
 
 
 def _coefficient(force: Viscous, speed: Any) -> float:

@@ -35,11 +35,11 @@ class Slowing(Mode):
         return np.array([0.0 if self.rests else self._force(float(v[0])) / self.m])
 
     def _force(self, v: float) -> float:
-        return -math.copysign(self.d * abs(v) ** self.alpha, v)
+        return -self.d * math.copysign(abs(v) ** self.alpha, v)
 
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) The guide bears nothing, and what rests needs no force to rest."""
-        return {"guide.fx": 0.0, "guide.fy": 0.0}
+        return {"guide.fx": 0.0, "guide.fy": 0.0} if self.rests else {"guide.fy": 0.0}
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ m ẋ² [J]."""
@@ -47,6 +47,8 @@ class Slowing(Mode):
 
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.46) D = d |ẋ|^{α+1}/(α + 1) [W], Q = −∂D/∂ẋ: a root of ẋ² has its derivative."""
+        if self.rests:
+            return 0.0 * v[0]
         return self.d * (v[0] * v[0]) ** ((self.alpha + 1) / 2) / (self.alpha + 1)
 
     def f_a(self, t: Any, q: Vector) -> Vector:
@@ -106,7 +108,7 @@ class DragStops(System):
 
     def guards(self, mode: str) -> Sequence[Guard]:
         """(2.86) `stops` where v falls to zero, with α < 1."""
-        if mode == "rests" or not self.stops:
+        if mode == "rests" or "rests" not in self.modes:
             return ()
         rest = np.zeros(1)
         return (Guard("stops", lambda t, q, v: float(v[0]), lambda t, q, v: ("rests", q, rest)),)

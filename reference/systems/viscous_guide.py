@@ -44,7 +44,7 @@ class ViscousGuide(Mode):
 
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23) the guide bears nothing: all acts along it."""
-        return {"guide.fx": 0.0, "guide.fy": 0.0}
+        return {"guide.fy": 0.0}
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ m ẋ² [J]."""
@@ -128,7 +128,7 @@ class ViscousDrift(ViscousGuide):
         With m v = ∫ F_a − d x there is no second integral to take:
         d (x − x₀) = (A/w)(cos wt₀ − cos wt) − m v.
         """
-        d = self.d(way)
+        d = self.d_plus if way > 0 else self.d_minus
         k = d / self.m
 
         def u(t: float) -> float:

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from given.engine_scenes import machine, pin, with_bodies, with_forces
 from given.planning import (
-    EDGES,
     EVERY,
     HELD,
     NAMES,
@@ -19,6 +18,7 @@ from given.planning import (
     pair,
     planned,
     refused,
+    way_of,
 )
 
 from textmech.cases.force import of
@@ -118,7 +118,7 @@ def audited(name: str, engine: Engine) -> tuple[float, str]:
     """The suite's audit of a shipped case at its start: the largest difference, and of what."""
     scene, start = begun(name)
     begin = Trajectory(np.zeros(1), {n: np.array([row]) for n, row in start.items()}, {})
-    realised = EDGES[engine.name] if scene.constraints else "native"
+    realised = way_of(engine, scene)
     return audit(Trial(EVERY[name], begin, engine, planned(engine, scene, start, realised)))
 
 

@@ -17,15 +17,18 @@ PARAMETERS: dict[str, dict[str, float]] = {
         "m": 1.5, "R": 0.3, "M_s": 0.5, "M_k": 0.3, "d": 0.05, "M": 0.1, "k": 0.0, "w0": 9.0,
     },
     "bouncing_disk": {"m": 0.8, "R": 0.2, "e": 1.0, "y0": 0.7},
+    "charge_in_field": {"m": 1.3, "e": 0.7, "B": 5.0, "v0": 2.0, "F": 1.5},
     "double_pendulum": {
         "m1": 1.0, "l1": 0.6, "m2": 0.7, "l2": 0.9,
         "a0": math.radians(-61), "b0": math.radians(-33),
     },
+    "drag_stops": {"m": 2.0, "d": 3.0, "alpha": 0.5, "v0": 2.0},
     "driven_edge": {
         "m": 1.7, "J": 0.09, "a": 0.35, "w0": 1.5, "A": 0.8, "Omega": 2.0,
         "alpha": math.radians(50),
     },
     "dynamometer": {"m": 1.0, "c": 2.0, "u": 2.0, **BOOK},
+    "falling_drag": {"m": 0.5, "d": 0.2},
     "four_bar": {
         "m": 1.0, "a": 0.3, "b": 0.8, "c": 0.6, "d": 0.9, "crank0": math.radians(70),
     },
@@ -58,6 +61,8 @@ PARAMETERS: dict[str, dict[str, float]] = {
         "m": 1.5, "R": 0.3, "c": 2.4, "phi0": math.radians(-15), "d": 0.1, "M": 0.6, "Omega": 7.0,
         "phi": math.radians(70), "w0": 1.0,
     },
+    "viscous_drift": {"m": 1.3, "A": 5.0, "w": 6.0, "d_minus": 4.0, "d_plus": 1.0},
+    "viscous_growing_force": {"m": 1.3, "b": 1.0, "d_minus": 3.0, "d_plus": 2.0},
 }  # fmt: skip
 
 _BLOCK = [("block", 0, 0.0, 0.0), ("block", 3, 0.0, 0.0)]
@@ -68,6 +73,10 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
     "bar_pendulum": [("bar", 2, 24.6 * math.pi / 180, 1e-15), ("bar", 5, 0.0, 0.0)],
     "bearing": [("disk", 2, 0.0, 0.0), ("disk", 5, 9.0, 0.0)],
     "bouncing_disk": [("wheel", 1, 0.7, 0.0), ("wheel", 4, 0.0, 0.0), ("wheel", 5, 0.0, 0.0)],
+    "charge_in_field": [
+        ("electron", 0, 0.0, 0.0), ("electron", 1, 0.0, 0.0), ("electron", 3, 2.0, 0.0),
+        ("electron", 4, 0.0, 0.0),
+    ],
     "double_pendulum": [
         ("upper", 2, -61 * math.pi / 180, 1e-15), ("lower", 2, -33 * math.pi / 180, 1e-15),
     ],
@@ -76,7 +85,9 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
         ("sleigh", 3, 0.8 * math.sin(50 * math.pi / 180), 1e-15), ("sleigh", 4, 0.525, 1e-15),
         ("sleigh", 5, 1.5, 0.0),
     ],
+    "drag_stops": [("block", 0, 0.0, 0.0), ("block", 3, 2.0, 0.0)],
     "dynamometer": _BLOCK,
+    "falling_drag": [("ball", 1, 0.0, 0.0), ("ball", 4, 0.0, 0.0)],
     "four_bar": [
         ("crank", 2, 70 * math.pi / 180, 1e-15), ("rocker", 2, 96 * math.pi / 180, 0.01),
     ],
@@ -110,6 +121,8 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
     "stribeck_brake": [("block", 0, 0.0, 0.0), ("block", 3, 2.0, 0.0)],
     "stribeck_drive": _BLOCK,
     "torsion_pendulum": [("disk", 2, 70 * math.pi / 180, 1e-15), ("disk", 5, 1.0, 0.0)],
+    "viscous_drift": _BLOCK,
+    "viscous_growing_force": _BLOCK,
 }  # fmt: skip
 
 # Systems of other parameters: changes, and the events that follow in the duration.

@@ -27,6 +27,7 @@ MULTIPLIERS: dict[At, tuple[str, ...]] = {
     **{at: (name,) for at, name in stiction.HELD.items()},
     ("anisotropic_drift", "stuck"): ("guide.fx",),
     ("bouncing_disk", "rest"): ("touch.normal",),
+    ("drag_stops", "rests"): ("guide.fx",),
     ("driven_edge", "moving"): ("blade.force", "blade.drive"),
     ("dynamometer", "stuck"): ("guide.fx",),
     ("four_bar", "moving"): ("C.fx", "C.fy"),
@@ -43,6 +44,7 @@ MULTIPLIERS: dict[At, tuple[str, ...]] = {
 RESIDUALS = {
     **dict.fromkeys(stiction.HELD, 0),
     ("anisotropic_drift", "stuck"): 0,
+    ("drag_stops", "rests"): 0,
     ("driven_edge", "moving"): 0,
     ("dynamometer", "stuck"): 0,
     ("growing_force", "stuck"): 0,
@@ -228,12 +230,13 @@ _NO_CLOSED_FORM = {
     "anisotropic_drift", "double_pendulum", "four_bar", "rhombus", "smooth_dynamometer",
     "smooth_growing_force", "stribeck_drive",
 }  # fmt: skip
+_NO_REACTIONS = {"charge_in_field", "falling_drag", "rhombus", "spring_mass_damper"}
 # The laws that say nothing about a mode without constraints or reactions, and those of the whole
 # system, which are asked where it starts.
 ONLY: dict[Law, set[At]] = {
     multipliers: set(MULTIPLIERS),
     constraints: set(MULTIPLIERS),
-    reactions: {at for at in MODES if at[0] not in ("rhombus", "spring_mass_damper")},
+    reactions: {at for at in MODES if at[0] not in _NO_REACTIONS},
     start: _STARTING,
     closed_form: {at for at in _STARTING if at[0] not in _NO_CLOSED_FORM},
 }

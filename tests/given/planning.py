@@ -8,6 +8,7 @@ from textmech.cases.frame import PLANE
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Engine, Plan, Realised, Refusal, Start
+from textmech.engines.told import TOLD
 from textmech.reports.trial.start import assembled
 
 from .scenes import SHIPPED as EVERY
@@ -35,10 +36,24 @@ def builds(engine: Engine, scene: Scene) -> bool:
 
 PAIRS = [(name, e) for name, case in EVERY.items() for e in SETTINGS if builds(e, case.scene)]
 """Each shipped case with each engine that builds it."""
-NATIVE = [(name, e) for name, e in PAIRS if not EVERY[name].scene.constraints]
+
+
+def helped(scene: Scene) -> bool:
+    """Whether it has edges or forces for which no engine has anything of its own."""
+    return bool(scene.constraints) or any(type(force) in TOLD for force in scene.forces.values())
+
+
+def way_of(engine: Engine, scene: Scene) -> Realised:
+    """How a tuned engine runs it."""
+    if scene.constraints:
+        return EDGES[engine.name]
+    return "law" if helped(scene) else "native"
+
+
+NATIVE = [(name, e) for name, e in PAIRS if not helped(EVERY[name].scene)]
 """Those that the engine runs by itself."""
-HELD = [(n, e) for n, e in PAIRS if EVERY[n].scene.constraints and e.setting == "tuned"]
-"""Those whose edges are held by `EDGES`."""
+HELD = [(n, e) for n, e in PAIRS if helped(EVERY[n].scene) and e.setting == "tuned"]
+"""Those that it runs with our help, see `way_of`."""
 
 
 def pair(part: str | Engine) -> str:

@@ -60,7 +60,8 @@ class In(Plain):
         if self.above is not None and not found.value > self.above:
             raise NumberMistake(f"must be positive, is {found.value:g}{by_name}")
         if self.least is not None and not found.value >= self.least:
-            raise NumberMistake(f"must not be negative, is {found.value:g}{by_name}")
+            what = f"must be at least {self.least:g}" if self.least else "must not be negative"
+            raise NumberMistake(f"{what}, is {found.value:g}{by_name}")
         if self.most is not None and not found.value <= self.most:
             raise NumberMistake(f"must be at most {self.most:g}, is {found.value:g}{by_name}")
         return found.value

@@ -59,9 +59,9 @@ def _point(
 
     def read() -> Place:
         mujoco.mj_objectVelocity(model, data, _SITE, site, moving, 0)
-        _, _, omega, vx, vy, _ = moving.tolist()
+        _, _, _, vx, vy, _ = moving.tolist()
         angle = math.atan2(axes.item(3), axes.item(0)) if turns else 0.0
-        return Place(at.item(0), at.item(1), vx, vy, angle, omega)
+        return Place(at.item(0), at.item(1), vx, vy, angle)
 
     def push(force: tuple[float, float], place: Place) -> None:
         fx, fy = force

@@ -87,7 +87,7 @@ def _at(
     u, w, turning = share * vx + rest * was[0], share * vy + rest * was[1], share * omega
     turning += rest * was[2]
     place = Place(
-        x + drift * vx + rx, y + drift * vy + ry, u - turning * ry, w + turning * rx, angle, turning
+        x + drift * vx + rx, y + drift * vy + ry, u - turning * ry, w + turning * rx, angle
     )
     return rx, ry, place
 

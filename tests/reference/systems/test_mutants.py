@@ -33,6 +33,17 @@ PARAMETER: dict[str, dict[str, Law]] = {
     "rhombus": {
         "m": laws.equations, "l": laws.free_cut, "c": laws.power, "l0": laws.equations,
     },
+    "charge_in_field": {
+        "m": laws.equations, "e": laws.equations, "B": laws.free_cut, "F": laws.power,
+    },
+    "falling_drag": {"m": laws.equations, "d": laws.power},
+    "viscous_drift": {
+        "m": laws.equations, "A": laws.power, "w": laws.equations, "d_minus": laws.free_cut,
+        "d_plus": laws.closed_form,
+    },
+    "viscous_growing_force": {
+        "m": laws.equations, "b": laws.power, "d_minus": laws.closed_form, "d_plus": laws.free_cut,
+    },
     "driven_edge": {
         "m": laws.reactions, "J": laws.multipliers, "a": laws.equations, "A": laws.equations,
         "Omega": laws.equations, "alpha": laws.equations,
@@ -50,6 +61,7 @@ PARAMETER: dict[str, dict[str, Law]] = {
 
 # Which law sees a parameter that is 5 % off in the start only.
 AT_THE_START: dict[str, dict[str, Law]] = {
+    "charge_in_field": {"v0": laws.start},
     "rolling_wheel": {"R": laws.start, "v0": laws.start, "w0": laws.start},
     "bar_pendulum": {"phi0": laws.closed_form},
     "double_pendulum": {"a0": laws.start, "b0": laws.start},
