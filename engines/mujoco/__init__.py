@@ -2,19 +2,25 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, ClassVar
 
 import mujoco
 
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
-from ..engine import Plain, Plan, Refusal, Start
+from ..engine import Plain, Plan, Realised, Refusal, Start
+from ..heading import heading
 from . import options, settings
 from .claims import answered
-from .plane import Plane
-from .space.world import Space
+from .compilation import NOMINAL, timestep
+from .plane import PLANE
+from .refuse import not_native, uncompilable
+from .script import commented
+from .space.world import SPACE
+from .world import World
 
-_WORLDS: Mapping[int, type[Any]] = {2: Plane, 3: Space}
+_WORLDS: Mapping[int, World] = {2: PLANE, 3: SPACE}
 """By the dimension of the scene's frame."""
 
 
@@ -34,31 +40,55 @@ class MuJoCo:
     @property
     def own_step(self) -> float | None:
         """2 ms, MuJoCo's default, unless tuned or set by the user."""
-        tuned = self.setting == "tuned"
-        return None if tuned else self.options.get("step", settings.SHIPPED_STEP)
+        return None if self._tuned else self.options.get("step", settings.SHIPPED_STEP)
 
-    def _world(self, scene: Scene) -> Any:
-        return _WORLDS[scene.frame.dimension](self, self.options)
+    @property
+    def _tuned(self) -> bool:
+        return self.setting == "tuned"
 
     def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
-        """Natively; in the plane, with dry friction, also by its law and by a driver, if tuned."""
-        return self._world(scene).plans(scene, start)
+        """Natively; edges and dry friction by our law, the latter also by a driver, if tuned."""
+        world = _world(scene)
+        refusal = world.unbuildable(scene) or uncompilable(
+            world.compiled, scene, start, self._plan(scene, start)
+        )
+        if refusal:
+            return [Refusal("native", refusal)]
+        without = [Refusal("native", why) for why in not_native(scene)]
+        if without and not self._tuned:
+            return without
+        ways = world.ways(scene, start, tuned=self._tuned)
+        return [*without, *(self._plan(scene, start, way) for way in ways)]
+
+    def _plan(self, scene: Scene, start: Start, realised: Realised = "native") -> Plan:
+        world = _world(scene)
+        if self._tuned:
+            numbers = partial(world.tuned, scene, start=start)
+        else:
+            numbers = partial(world.with_own, self.options, scene)
+        return world.plan(scene, start, realised, numbers, tuned=self._tuned)
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as the compiled model holds it."""
-        return self._world(scene).measure(scene, start)
+        world, plan = _world(scene), self._plan(scene, start)
+        return world.measured(scene, *world.compiled(scene, start, NOMINAL, plan))
 
     def answer(
         self, scene: Scene, start: Start, states: Mapping[str, Array], wanted: Sequence[str]
     ) -> dict[str, Array | str]:
         """By `mj_inverse` and its sensors, whatever the setting: no number of one plays a part."""
-        return answered(scene, self._world(scene).bare(scene, start), states, wanted)
+        bare = _world(scene).mjcf(scene, start, [timestep(NOMINAL)])
+        return answered(scene, bare, states, wanted)
 
     def script(
         self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""
     ) -> str:
-        """The MJCF file with its start as a keyframe."""
-        return self._world(scene).script(scene, start, step, plan, title=title)
+        """The MJCF file with its start as a keyframe, headed by comments."""
+        world, choices = _world(scene), [timestep(step), *plan.choices(step)]
+        model, *_ = world.placed(scene, start, step, plan, settles=self._tuned)
+        begun = model.key_qpos[0].tolist(), model.key_qvel[0].tolist()
+        head = heading(self, title, step, plan)
+        return commented(head) + world.mjcf(scene, start, choices, begun)
 
     def run(
         self,
@@ -72,12 +102,19 @@ class MuJoCo:
         record: bool = False,
     ) -> Trajectory:
         """The motion, stepped by `mj_step(model, data, n)` between samples or steps."""
-        return self._world(scene).run(
-            scene, start, times, step, plan, reactions=reactions, record=record
-        )
+        world, realised = _world(scene), plan.realised
+        with world.lent(scene, start, step, plan, settles=self._tuned) as built:
+            return world.simulate(
+                scene, *built, start, times, reactions, realised=realised, every=record
+            )
 
     def plain(
         self, scene: Scene, start: Start, step: float, plan: Plan
     ) -> Callable[[float], Plain] | None:
         """`mj_step(model, data, n)` on the file of `show`, or our law's force before each step."""
-        return self._world(scene).plain(scene, start, step, plan)
+        text = self.script(scene, start, step, plan)
+        return _world(scene).plain(scene, start, plan, text)
+
+
+def _world(scene: Scene) -> World:
+    return _WORLDS[scene.frame.dimension]

@@ -46,12 +46,12 @@ def compiled(
     return model, data
 
 
-def settled(
-    scene: Scene, start: Start, step: float, plan: Plan
+def placed(
+    scene: Scene, start: Start, step: float, plan: Plan, *, settles: bool
 ) -> tuple[mujoco.MjModel, mujoco.MjData, dict[str, float]]:
-    """The same with its start, the keyframe, as deep in the floor as it is carried: depths [m]."""
+    """The same with its start, the keyframe; depths [m] if it settles into the floor."""
     model, data = compiled(scene, start, step, plan)
-    return model, data, _settle(scene, model, data, start, plan)
+    return model, data, _settle(scene, model, data, start, plan) if settles else {}
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ _SHELF: list[_Built] = []  # one at most, while nobody runs it
 def lent(
     scene: Scene, start: Start, step: float, plan: Plan, *, settles: bool
 ) -> Iterator[tuple[mujoco.MjModel, mujoco.MjData]]:
-    """What `compiled` gives, or `settled`, for one run: the next rung is lent the same.
+    """What `compiled` gives, or `placed`, for one run: the next rung is lent the same.
 
     A copy of a model and new data cost as much as compiling it. What a failing run leaves behind
     is not used again.

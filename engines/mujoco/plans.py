@@ -7,7 +7,7 @@ from functools import partial
 from ...cases.scene import CENTER, Contact, Scene
 from ..engine import Choice, Plan, Realised, Start
 from ..law import one_number
-from .compilation import NOMINAL, settled
+from .compilation import NOMINAL, placed
 from .contact import falls
 from .force import lacking
 from .law.friction import one_slide, smooth_only
@@ -77,7 +77,7 @@ def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> 
     if tuned and scene.contacts:
         if falls(scene, start):
             words.append("starts above the floor: contacts are tuned for impacts")
-        *_, depths = settled(scene, start, step, plan)
+        *_, depths = placed(scene, start, step, plan, settles=True)
         deep = ((scene.contacts[name], depth) for name, depth in depths.items() if depth)
         words += [f"{_at(c)} started {depth:.1e} m in the {c.plane.name}" for c, depth in deep]
     return "; ".join(words)

@@ -1,8 +1,10 @@
 """Scenes that MuJoCo has no element for, the adapter does not build, or that do not compile."""
 
+from collections.abc import Callable
+
 from ...cases.scene import GROUND, Joint, Scene
 from ..engine import Plan, Start
-from .compilation import NOMINAL, compiled
+from .compilation import NOMINAL
 from .contact import LEAST_BOUNCE
 from .force import ELEMENTS, lacking
 from .hinge import taken
@@ -73,7 +75,9 @@ def _slide(scene: Scene, tree: Tree, branch: Branch, joint: Joint) -> str | None
     return None
 
 
-def uncompilable(scene: Scene, start: Start, plan: Plan) -> str | None:
+def uncompilable(
+    compiled: Callable[..., object], scene: Scene, start: Start, plan: Plan
+) -> str | None:
     """What MuJoCo's compiler says of the scene."""
     try:
         compiled(scene, start, NOMINAL, plan)

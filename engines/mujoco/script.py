@@ -1,22 +1,7 @@
-"""The MJCF file that a user pastes: the scene at its start, headed by comments."""
+"""The comments of the MJCF file that a user pastes."""
 
 import re
-from collections.abc import Iterable, Sequence
-
-from ...cases.scene import Scene
-from ..engine import Choice, Start
-from .scene import mjcf
-
-
-def text(
-    scene: Scene,
-    start: Start,
-    choices: Iterable[Choice],
-    begun: tuple[Sequence[float], Sequence[float]],
-    head: Iterable[str],
-) -> str:
-    """The file; head: its comments."""
-    return commented(head) + mjcf(scene, start, choices, begun)
+from collections.abc import Iterable
 
 
 def commented(head: Iterable[str]) -> str:

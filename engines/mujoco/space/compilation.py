@@ -1,5 +1,8 @@
 """A scene in space as MuJoCo's model, with data at the start."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import mujoco
 
 from ....cases.space.scene import SpatialScene
@@ -31,3 +34,12 @@ def placed(
     model, data = compiled(scene, start, step, plan)
     with listening():
         return model, data, settle(scene, model, data, start) if settles else {}
+
+
+@contextmanager
+def lent(
+    scene: SpatialScene, start: Start, step: float, plan: Plan, *, settles: bool
+) -> Iterator[tuple[mujoco.MjModel, mujoco.MjData]]:
+    """The same for one run; each compiles its own."""
+    model, data, _ = placed(scene, start, step, plan, settles=settles)
+    yield model, data

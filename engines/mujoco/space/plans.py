@@ -5,7 +5,7 @@ from dataclasses import replace
 from functools import partial
 
 from ....cases.space.scene import SpatialScene
-from ...engine import Choice, Plan, Start
+from ...engine import Choice, Plan, Realised, Start
 from ..compilation import NOMINAL
 from ..scene import HEAVY, LEAST
 from ..tree import driven
@@ -15,8 +15,15 @@ from .settings import soft_groups
 Numbers = Callable[[float], Sequence[Choice]]
 
 
-def plan(scene: SpatialScene, start: Start, numbers: Numbers, *, tuned: bool) -> Plan:
-    """MuJoCo's own elements, and edges by our law. Nothing is withheld: all reactions can be read.
+def ways(scene: SpatialScene, start: Start, *, tuned: bool) -> tuple[Realised, ...]:
+    """MuJoCo's own elements, and edges by our law."""
+    return ("law",) if scene.constraints else ("native",)
+
+
+def plan(
+    scene: SpatialScene, start: Start, realised: Realised, numbers: Numbers, *, tuned: bool
+) -> Plan:
+    """One way's plan. Nothing is withheld: all reactions can be read.
 
     Exponents: Euler and contacts 1, 2; RK4 4, 5; soft constraints of the tuned recipe, which
     follow the step, 2, 3.
@@ -25,7 +32,7 @@ def plan(scene: SpatialScene, start: Start, numbers: Numbers, *, tuned: bool) ->
     first = integrator != "RK4" or bool(scene.contacts)
     following = (1, 2) if first else (2, 3)
     bare = Plan(
-        "law" if scene.constraints else "native",
+        realised,
         held=(1, 2) if first else (4, 5),
         following=following if tuned and soft_groups(scene) else None,
         numbers=numbers,

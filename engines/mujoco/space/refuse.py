@@ -3,12 +3,9 @@
 from ....cases.scene import GROUND
 from ....cases.space.joint import SpatialJoint
 from ....cases.space.scene import SpatialScene
-from ...engine import Plan, Start
-from ..compilation import NOMINAL
 from ..force import ELEMENTS
 from ..hinge import taken
 from ..tree import Tree
-from .compilation import compiled
 from .drive import drives
 from .tree import held_points, left, natives, spanning_tree
 
@@ -56,12 +53,3 @@ def _stands(scene: SpatialScene, tree: Tree[SpatialJoint], body: str) -> bool:
     while body in branches and not natives(scene, branches[body]):
         body = branches[body].parent
     return body == GROUND
-
-
-def uncompilable(scene: SpatialScene, start: Start, plan: Plan) -> str | None:
-    """What MuJoCo's compiler says of the scene."""
-    try:
-        compiled(scene, start, NOMINAL, plan)
-    except ValueError as refusal:
-        return f"engine: MuJoCo does not take the scene: {' '.join(str(refusal).split())}"
-    return None

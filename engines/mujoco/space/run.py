@@ -7,7 +7,7 @@ import numpy as np
 
 from ....cases.space.scene import SpatialScene
 from ....cases.trajectory import Array, Trajectory
-from ...engine import Start
+from ...engine import Realised, Start
 from ..law.signal import swinging, together
 from ..law.stepping import Steps
 from ..read.record import Counts, Record, all_steps, counted, sampled, whole
@@ -32,6 +32,7 @@ def simulate(
     times: Array,
     reactions: tuple[str, ...],
     *,
+    realised: Realised,
     every: bool,
 ) -> Trajectory:
     """The motion at the times, whole multiples of the model's step from 0.
@@ -42,7 +43,8 @@ def simulate(
     counts = counted(times, model.opt.timestep)
     grid = all_steps(times, model.opt.timestep) if every else times
     touching = tuple(name for name in reactions if name.partition(".")[0] in scene.contacts)
-    controls = [swinging(signals(scene)), *edges(scene, model)]
+    laws = edges(scene, model) if realised == "law" else []
+    controls = [swinging(signals(scene)), *laws]
     with listening() as warnings, together(controls):
         record = whole(model, data, len(grid)) if every else _sampled(model, data, counts)
         check(warnings, grid, record)

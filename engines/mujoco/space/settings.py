@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ....cases.space.scene import SpatialScene
-from ...engine import Choice
+from ...engine import Choice, Start
 from ..contact import HARDEST
 from ..settings import TO_THE_END, defaults, overlaid
 from ..tree import driven
@@ -12,8 +12,8 @@ from .contact import recipe
 from .tree import spanning_tree
 
 
-def tuned(scene: SpatialScene, tied_to: float) -> list[Choice]:
-    """The best recipe for the scene; soft constraints follow the step `tied_to`."""
+def tuned(scene: SpatialScene, tied_to: float, start: Start | None = None) -> list[Choice]:
+    """The best recipe for the scene from any start; soft constraints follow the step `tied_to`."""
     choices = [
         Choice("option.integrator", "RK4", "fourth order; every other integrator is of the first"),
         Choice("option.jacobian", "dense", "small scenes; keeps 4.0.0's sparse solver out"),

@@ -18,7 +18,6 @@ from textmech.cases.frame import PLANE
 from textmech.cases.scene import Scene
 from textmech.engines.engine import Plan, Realised, Start
 from textmech.engines.mujoco import MuJoCo, compilation
-from textmech.engines.mujoco.plane import Plane
 from textmech.engines.mujoco.space import compilation as space
 from textmech.reports.judge.compare import compare
 from textmech.reports.trial.start import assembled, first
@@ -67,11 +66,8 @@ def placed(
     engine: MuJoCo, scene: Any, start: Start, step: float, plan: Plan
 ) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """What a run is given."""
-    if scene.frame is PLANE:
-        model, data, _ = Plane(engine)._placed(scene, start, step, plan)
-    else:
-        settles = engine.setting == "tuned"
-        model, data, _ = space.placed(scene, start, step, plan, settles=settles)
+    room = compilation if scene.frame is PLANE else space
+    model, data, _ = room.placed(scene, start, step, plan, settles=engine.setting == "tuned")
     return model, data
 
 
@@ -106,7 +102,7 @@ def left_over(scene: Scene, start: Start, realised: Realised) -> list[str]:
     TUNED.run(scene, start, SHORT, 1e-3, plan, reactions=(), record=True)
     assert len(compilation._SHELF) == 1
     shelved = compilation._SHELF[0].model
-    fresh, began, _ = compilation.settled(scene, start, 5e-4, plan)
+    fresh, began, _ = compilation.placed(scene, start, 5e-4, plan, settles=True)
     with compilation.lent(scene, start, 5e-4, plan, settles=True) as (model, data):
         assert model is shelved
         wrong = [p for p in PARTS if not np.array_equal(getattr(data, p), getattr(began, p))]

@@ -1,0 +1,35 @@
+"""What MuJoCo's plane and its space do otherwise, as functions; `MuJoCo` has the verbs."""
+
+from collections.abc import Callable
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+
+from ...cases.trajectory import Trajectory
+from ..engine import Choice, Plain, Plan, Realised
+
+Built = tuple[mujoco.MjModel, mujoco.MjData]
+
+
+@dataclass(frozen=True)
+class World:
+    """Called with a scene and its start; functions of a run also with its step [s] and plan.
+
+    settles: whether bodies start as deep in the floor as it carries them, as the tuned setting
+    does. lent: what is compiled, for one run.
+    """
+
+    unbuildable: Callable[[Any], str | None]
+    ways: Callable[..., tuple[Realised, ...]]
+    plan: Callable[..., Plan]
+    tuned: Callable[..., list[Choice]]
+    with_own: Callable[..., list[Choice]]
+    compiled: Callable[..., Built]
+    placed: Callable[..., tuple[mujoco.MjModel, mujoco.MjData, Any]]
+    lent: Callable[..., AbstractContextManager[Built]]
+    measured: Callable[..., dict[str, float]]
+    mjcf: Callable[..., str]
+    simulate: Callable[..., Trajectory]
+    plain: Callable[..., Callable[[float], Plain] | None]
