@@ -5,7 +5,8 @@ nothing moves; then the block jumps, and it shows less.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 from ..system import Array, Guard, System
 from .dynamometer import Dynamometer
@@ -23,17 +24,18 @@ class FrictionOfRest(System):
     u: float
     mu_s: float
     mu_k: float
-    drawn: Dynamometer = field(init=False)
 
     def __post_init__(self) -> None:
-        """(2.87) F = μ F_N with F_N = m g [N]."""
-        N, names = self.m * G, ("touch.tangent", "touch.normal")
-        F, Fs = self.mu_k * N, self.mu_s * N
-        drawn = Dynamometer(self.m, self.c, self.u, F, F, Fs, Fs)
-        on_floor = modes(self.m, drawn.pull, drawn.dry)
-        found = {name: replace(mode, N=N, names=names) for name, mode in on_floor.items()}
-        object.__setattr__(self, "drawn", drawn)
+        drawn, N, names = self.drawn, self.m * G, ("touch.tangent", "touch.normal")
+        on_guide = modes(self.m, drawn.pull, drawn.dry)
+        found = {name: replace(mode, N=N, names=names) for name, mode in on_guide.items()}
         object.__setattr__(self, "modes", found)
+
+    @cached_property
+    def drawn(self) -> Dynamometer:
+        """(2.87) The same with F = μ F_N, F_N = m g [N]."""
+        F, Fs = (mu * self.m * G for mu in (self.mu_k, self.mu_s))
+        return Dynamometer(self.m, self.c, self.u, F, F, Fs, Fs)
 
     def start(self) -> tuple[str, Array, Array]:
         """At rest, the spring without force."""

@@ -12,8 +12,8 @@ SYSTEMS = sorted(
     if path.name != "__init__.py"
 )  # fmt: skip
 ALLOWED = {
-    *("numpy", "scipy.special", "math", "cmath", "dataclasses", "typing", "collections.abc"),
-    "itertools",
+    *("numpy", "scipy.special", "math", "cmath", "dataclasses", "functools", "typing"),
+    *("collections.abc", "itertools"),
     # The shape of an answer, and the book's laws of friction and of turning axes: no mechanics of a
     # scene.
     *("..system", "..mode", "..laws.friction", "..laws.rotation", ".stick_slip"),
