@@ -15,6 +15,8 @@ from given.planning import (
     PAIRS,
     TUNED,
     begun,
+    damps,
+    own,
     pair,
     planned,
     refused,
@@ -36,6 +38,9 @@ BUILDER = {
     "pymunk": "textmech.engines.pymunk.build",
 }
 IN_SPACE = "textmech.engines.mujoco.space.compilation.mjcf"
+
+
+BOTH = ("forward", "backward")
 
 
 def expected(scene: Scene, poses: Start) -> dict[str, float]:
@@ -105,10 +110,12 @@ def unknown(engine: Engine, scene: Scene) -> set[str]:
 @pytest.mark.parametrize(("name", "engine"), PAIRS, ids=pair)
 def test_the_engine_holds_the_same_physics(name: str, engine: Engine) -> None:
     scene, start = begun(name)
-    assert (refused(engine, scene, start) is None) == (not scene.constraints)
+    assert (refused(engine, scene, start) is None) == own(engine, scene)
     wanted, lost = expected(scene, start), unknown(engine, scene)
     assert lost <= set(wanted)
     wanted = {key: x for key, x in wanted.items() if key not in lost}
+    for force in damps(engine, scene):
+        wanted |= {f"{force.name}.{way}": force.coefficient.forward for way in BOTH}
     found = engine.measure(scene, start)
     # A zero beside numbers of about 1 (a tensor's axes are turned there and back): rounding.
     assert found == pytest.approx(wanted, rel=EQUAL, abs=1e-15)

@@ -1,11 +1,13 @@
 """The engines that are installed, their plans one way at a time, and one run of a scene."""
 
 from collections.abc import Mapping
+from dataclasses import astuple
 from functools import cache
 
 from textmech import engines
+from textmech.cases.force import of
 from textmech.cases.frame import PLANE
-from textmech.cases.scene import Scene
+from textmech.cases.scene import Scene, Viscous
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Engine, Plan, Realised, Refusal, Start
 from textmech.engines.told import TOLD
@@ -38,21 +40,28 @@ PAIRS = [(name, e) for name, case in EVERY.items() for e in SETTINGS if builds(e
 """Each shipped case with each engine that builds it."""
 
 
-def helped(scene: Scene) -> bool:
-    """Whether it has edges or forces for which no engine has anything of its own."""
-    return bool(scene.constraints) or any(type(force) in TOLD for force in scene.forces.values())
+def damps(engine: Engine, scene: Scene) -> list[Viscous]:
+    """The viscous slides that an engine damps by itself: MuJoCo those alike both ways."""
+    slides = of(Viscous, scene.forces.values()) if engine.name == "mujoco" else ()
+    return [f for f in slides if f.exponent in (1, 2, 3) if len({*astuple(f.coefficient)}) == 1]
+
+
+def own(engine: Engine, scene: Scene) -> bool:
+    """Whether an engine has something of its own for all of a scene."""
+    told = {name for name, force in scene.forces.items() if type(force) in TOLD}
+    return not scene.constraints and not told - {force.name for force in damps(engine, scene)}
 
 
 def way_of(engine: Engine, scene: Scene) -> Realised:
     """How a tuned engine runs it."""
-    if scene.constraints:
-        return EDGES[engine.name]
-    return "law" if helped(scene) else "native"
+    if own(engine, scene):
+        return "native"
+    return EDGES[engine.name] if scene.constraints else "law"
 
 
-NATIVE = [(name, e) for name, e in PAIRS if not helped(EVERY[name].scene)]
+NATIVE = [(name, e) for name, e in PAIRS if own(e, EVERY[name].scene)]
 """Those that the engine runs by itself."""
-HELD = [(n, e) for n, e in PAIRS if helped(EVERY[n].scene) and e.setting == "tuned"]
+HELD = [(n, e) for n, e in PAIRS if not own(e, EVERY[n].scene) and e.setting == "tuned"]
 """Those that it runs with our help, see `way_of`."""
 
 

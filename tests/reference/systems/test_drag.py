@@ -55,7 +55,8 @@ def test_from_one_on_it_never_stops(alpha: float) -> None:
 @pytest.mark.parametrize("wrong", [{"alpha": 1.1}, {"d": 1.05}, {"m": 0.95}, {"d": -0.02}])
 def test_another_law_is_seen_by_the_closed_form(alpha: float, wrong: dict[str, float]) -> None:
     numbers = {"m": 2.0, "d": 3.0, "alpha": alpha}
-    off = Slowing(**{key: value * wrong.get(key, 1.0) for key, value in numbers.items()})
+    m, d, power = (value * wrong.get(key, 1.0) for key, value in numbers.items())
+    off = Slowing(m, d, power)
     assert apart(with_mode(thrown(alpha), "moves", off), thrown(alpha)) > 1e-3
 
 
