@@ -88,7 +88,9 @@ def test_static_bounds_of_the_cone() -> None:
     m, g, mu = 2.0, 9.80665, 0.5
     for beta, b_x, b_y in ((0.1, 4.0, 1.0), (0.1, -4.0, 1.0), (0.0, -4.0, -1.5)):
         block = example("friction_cone", beta=beta, b_x=b_x, b_y=b_y)
-        ((_, t),) = block.closed_events(5.0) or ()
+        events = block.closed_events(5.0)
+        assert events is not None
+        ((_, t),) = events
         along = m * g * np.sin(beta) + b_x * t
         assert abs(along) == pytest.approx(mu * (m * g * np.cos(beta) - b_y * t), rel=1e-14)
 
