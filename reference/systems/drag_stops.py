@@ -89,7 +89,7 @@ class DragStops(System):
             raise ValueError("it slows down with d > 0, alpha > 0 and v0 > 0")
         modes = {"moves": Slowing(self.m, self.d, self.alpha)}
         if self.stops:
-            modes["rests"] = Slowing(self.m, self.d, self.alpha, rests=True)
+            modes["rest"] = Slowing(self.m, self.d, self.alpha, rests=True)
             object.__setattr__(self, "blurred", self._until(NOISE * self.v0))
         object.__setattr__(self, "modes", modes)
 
@@ -108,10 +108,10 @@ class DragStops(System):
 
     def guards(self, mode: str) -> Sequence[Guard]:
         """(2.86) `stops` where v falls to zero, with α < 1."""
-        if mode == "rests" or "rests" not in self.modes:
+        if mode == "rest" or "rest" not in self.modes:
             return ()
         rest = np.zeros(1)
-        return (Guard("stops", lambda t, q, v: float(v[0]), lambda t, q, v: ("rests", q, rest)),)
+        return (Guard("stops", lambda t, q, v: float(v[0]), lambda t, q, v: ("rest", q, rest)),)
 
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.88) v^{1−α} = v₀^{1−α} − (1 − α) k t, x = (v₀^{2−α} − v^{2−α})/((2 − α) k), k = d/m.

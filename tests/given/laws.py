@@ -27,7 +27,7 @@ MULTIPLIERS: dict[At, tuple[str, ...]] = {
     **{at: (name,) for at, name in stiction.HELD.items()},
     ("anisotropic_drift", "stuck"): ("guide.fx",),
     ("bouncing_disk", "rest"): ("touch.normal",),
-    ("drag_stops", "rests"): ("guide.fx",),
+    ("drag_stops", "rest"): ("guide.fx",),
     ("driven_edge", "moving"): ("blade.force", "blade.drive"),
     ("dynamometer", "stuck"): ("guide.fx",),
     ("four_bar", "moving"): ("C.fx", "C.fy"),
@@ -44,7 +44,7 @@ MULTIPLIERS: dict[At, tuple[str, ...]] = {
 RESIDUALS = {
     **dict.fromkeys(stiction.HELD, 0),
     ("anisotropic_drift", "stuck"): 0,
-    ("drag_stops", "rests"): 0,
+    ("drag_stops", "rest"): 0,
     ("driven_edge", "moving"): 0,
     ("dynamometer", "stuck"): 0,
     ("growing_force", "stuck"): 0,
