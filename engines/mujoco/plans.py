@@ -30,7 +30,7 @@ def ways(scene: Scene, start: Start, *, tuned: bool) -> tuple[Realised, ...]:
         driver = tuned and one_slide(scene) and not smooth_only(scene)
         return ("law", "driver") if driver else ("law",)
     if tuned and one_touch(scene) and not falls(scene, start):
-        return ("native", "law")
+        return ("native", "law", "driver")
     if not tuned or not one_slide(scene):
         return ("native",)
     return ("native", "law") if smooth_only(scene) else ("native", "law", "driver")

@@ -3,11 +3,14 @@
 So every step is smooth: what sticks is held, what slides is pushed by a constant force.
 """
 
+from collections.abc import Sequence
+
 import mujoco
 import numpy as np
 
 from ....cases.trajectory import Array
 from .friction import Slide
+from .touch import Touch
 
 
 def room(model: mujoco.MjModel) -> Array:
@@ -15,7 +18,7 @@ def room(model: mujoco.MjModel) -> Array:
     return np.empty(mujoco.mj_stateSize(model, _STATE))
 
 
-def driven_step(slides: list[Slide], step: float, kept: Array) -> None:
+def driven_step(slides: Sequence[Slide | Touch], step: float, kept: Array) -> None:
     """One step, cut at every event in it; kept: its `room`."""
     model, data = slides[0].model, slides[0].data
     left = step
@@ -33,7 +36,7 @@ def driven_step(slides: list[Slide], step: float, kept: Array) -> None:
 _SHORTEST = 1e-12  # of a step: what is left is rounding
 
 
-def _passed(slide: Slide) -> float:
+def _passed(slide: Slide | Touch) -> float:
     """Positive when the event is over: the speed has changed its sign, the force its bound."""
     if slide.sense:
         return -slide.sense * slide.speed
@@ -46,7 +49,7 @@ def _passed(slide: Slide) -> float:
 def _until_event(
     model: mujoco.MjModel,
     data: mujoco.MjData,
-    slides: list[Slide],
+    slides: Sequence[Slide | Touch],
     longest: float,
     kept: Array,
 ) -> tuple[float, bool]:
@@ -74,11 +77,10 @@ _STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 _HALVINGS = 45  # 3e-14 of a step
 
 
-def _switch(slide: Slide) -> None:
+def _switch(slide: Slide | Touch) -> None:
     """What has stopped rests, or goes on the way that the force points; what broke loose slides."""
     if slide.sense:
-        slide.data.qvel[slide.dof] = 0.0
-        slide.data.qfrc_applied[slide.dof] = 0.0
+        slide.halt()
         mujoco.mj_forward(slide.model, slide.data)
     applied, _ = slide.applied()
     slide.sense = slide.starts(applied)

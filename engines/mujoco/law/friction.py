@@ -69,6 +69,11 @@ class Slide:
         self._loss[self.dof] = self._holds
         self._pushed[self.dof] = 0.0
 
+    def halt(self) -> None:
+        """What has stopped is at rest, to the last bit."""
+        self._qvel[self.dof] = 0.0
+        self._pushed[self.dof] = 0.0
+
     def remember(self) -> int:
         """What a reading of this state needs."""
         return self.sense

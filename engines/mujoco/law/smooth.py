@@ -30,7 +30,7 @@ def _friction(model: mujoco.MjModel, name: str, friction: DryFriction, way: floa
     model.dof_frictionloss[dof] = 0.0
     band = friction.smooth
     assert band is not None
-    acts = _alone if uncoupled(model, dof) else _among
+    acts = alone if uncoupled(model, dof) else _among
 
     def bind(data: mujoco.MjData) -> Callable[[], None]:
         acting, rates, forces = acts(model, data, dof), data.qvel, data.qfrc_applied
@@ -44,7 +44,7 @@ def _friction(model: mujoco.MjModel, name: str, friction: DryFriction, way: floa
     return bound(bind)
 
 
-def _alone(model: mujoco.MjModel, data: mujoco.MjData, dof: int) -> Acting:
+def alone(model: mujoco.MjModel, data: mujoco.MjData, dof: int) -> Acting:
     """A callback runs at every stage: no array is made here, and no number taken twice."""
     actuators = [
         (actuator, int(model.actuator_actadr[actuator])) for actuator in range(int(model.nu))

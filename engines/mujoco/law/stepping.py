@@ -71,7 +71,7 @@ def stepping(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, realised:
 
     def by_driver(n: int) -> None:
         for _ in range(n):
-            driven_step(dry, step, kept)
+            driven_step(found, step, kept)
 
     ways = {"law": by_law, "driver": by_driver}
     stages = falling(found) if realised == "driver" else []

@@ -28,6 +28,7 @@ class Touch:
     contact: Contact
     radius: float
     mass: float  # kg that resists the slip: 1/(1/m + R²/J)
+    heavy: float  # kg, m itself
     sense: int = 0
     before: float | None = None
     last: float = 0.0
@@ -67,6 +68,25 @@ class Touch:
         """Friction holds, whatever it takes."""
         self._set(2 * self.contact.static, 0.0)
 
+    def engage(self) -> None:
+        """Hold what sticks, push what slides."""
+        if self.sense:
+            self.push(-self.sense * self.brakes(self.sense, self.speed))
+        else:
+            self.hold()
+
+    def halt(self) -> None:
+        """What has stopped does not slip, to the last bit: by an impulse where it touches."""
+        impulse = -self.speed * self.mass
+        self.data.qvel[self.x] += impulse / self.heavy
+        if self.turn is not None:
+            self.data.qvel[self.turn] = -float(self.data.qvel[self.x]) / self.radius
+        self._set(2 * self.contact.static, 0.0)
+
+    def carried(self, normal: float) -> None:
+        """The normal force [N] is this now, with which its friction goes."""
+        self.normal = self.normal_before = normal
+
     def remember(self) -> tuple[int, float]:
         """What a reading of this state needs."""
         return self.sense, self.normal
@@ -75,10 +95,7 @@ class Touch:
         """Friction as it was."""
         self.sense, self.normal = noted
         self.normal_before = self.normal
-        if self.sense:
-            self.push(-self.sense * self.brakes(self.sense, self.speed))
-        else:
-            self.hold()
+        self.engage()
 
     def _set(self, coefficient: float, force: float) -> None:
         self.model.pair_friction[self.pair, :2] = coefficient
@@ -118,7 +135,8 @@ def touches(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> list[To
             body = scene.bodies[contact.body]
             radius = body.radius or 0.0
             turns = radius**2 / body.inertia if body.inertia else 0.0
-            found.append(Touch(model, data, contact, radius, 1 / (1 / body.mass + turns)))
+            mass = 1 / (1 / body.mass + turns)
+            found.append(Touch(model, data, contact, radius, mass, body.mass))
     return found
 
 
