@@ -211,16 +211,19 @@ def as_text(law: Signal) -> list[str]:
     return [f"{amplitude!r}{factor}" for amplitude in law.amplitude]
 
 
+def _named(*names: str) -> dict[str, Any]:
+    """A line whose numbers have the names of the noun's."""
+
+    def same(of: Any) -> dict[str, float]:
+        return {name: getattr(of, name) for name in names}
+
+    return {"line": same, "numbers": same}
+
+
 ELEMENTS: dict[type[Force], Element] = {
-    Spring: Element(
-        load=pull,
-        line=lambda spring: {"rest_length": spring.rest_length, "stiffness": spring.stiffness},
-        numbers=lambda line: {"stiffness": line.stiffness, "rest_length": line.rest_length},
-    ),
+    Spring: Element(load=pull, **_named("rest_length", "stiffness")),
     Damper: Element(
-        load=pull,
-        line=lambda damper: {"damping": damper.damping},
-        numbers=lambda line: {"damping": line.damping},
+        load=pull, **_named("damping"),
         tell=lambda world, damper, step, drift: told(world, damper, step),
     ),
     Push: Element(load=_push_load, tell=_push, script=_push_script),
@@ -232,13 +235,11 @@ ELEMENTS: dict[type[Force], Element] = {
         numbers=lambda line: {"stiffness": line.stiffness, "rest_angle": -line.rest_angle},
     ),
     TorsionDamper: Element(
-        load=twist,
-        line=lambda damper: {"damping": damper.damping},
-        numbers=lambda line: {"damping": line.damping},
+        load=twist, **_named("damping"),
         tell=lambda world, damper, step, drift: twisted(world, damper, step),
     ),
     Motor: Element(load=motor_load, tell=motor, script=_motor_script),
     Drag: Element(**BY_LAW, lacks="engine: pymunk has no friction by a power of the speed"),
     Viscous: Element(**BY_LAW, lacks="engine: pymunk has no friction by a power of the speed"),
     Magnetic: Element(**BY_LAW, lacks="engine: pymunk has no force of a magnetic field"),
-}
+}  # fmt: skip

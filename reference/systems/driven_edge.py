@@ -1,7 +1,7 @@
 """A sleigh whose blade is driven: along it the point P has the velocity s(t) = A sin(Ω t + α).
 
-q = (x, y, θ): P and the heading of the blade; the centre of mass C lies at a ahead of P. The
-constraint is inhomogeneous, and the force along the blade does work.
+q = (x, y, θ) as of any blade on a plane. The constraint is inhomogeneous, and the force along the
+blade does work.
 """
 
 import math
@@ -10,14 +10,15 @@ from typing import Any
 
 import numpy as np
 
-from ..system import Array, Cut, Load, Mass, Mode, Pose, Vector
+from ..system import Array, Cut, Vector
+from .blade_on_plane import BladeOnPlane
 from .quadrature import integral
 
 PANELS = 4  # per radian of the drive, and of the fastest turn
 
 
 @dataclass(frozen=True)
-class DrivenEdge(Mode):
+class DrivenEdge(BladeOnPlane):
     """m [kg], J about C [kg m²], a [m], w0 [rad/s] at θ = 0; A [m/s], Omega [rad/s], alpha."""
 
     m: float
@@ -27,11 +28,6 @@ class DrivenEdge(Mode):
     A: float
     Omega: float
     alpha: float
-
-    coordinates = ("x", "y", "theta")
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "masses", {"sleigh": Mass(self.m, self.J)})
 
     def start(self) -> tuple[Array, Array]:
         """P at the origin, with the velocity of the drive along x."""
@@ -80,12 +76,6 @@ class DrivenEdge(Mode):
         theta, rate = float(integral(omega, now, panels)), float(omega(now))
         return np.array([path.real, path.imag, theta]), np.array([v.real, v.imag, rate])
 
-    def T(self, t: Any, q: Vector, v: Vector) -> Any:
-        """(2.54) T = ½ m ((ẋ − a θ̇ sin θ)² + (ẏ + a θ̇ cos θ)²) + ½ J θ̇² [J]."""
-        vx = v[0] - self.a * v[2] * np.sin(q[2])
-        vy = v[1] + self.a * v[2] * np.cos(q[2])
-        return self.m * (vx**2 + vy**2) / 2 + self.J * v[2] ** 2 / 2
-
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) −ẋ sin θ + ẏ cos θ = 0, ẋ cos θ + ẏ sin θ = s: rows (2, 3)."""
         cos, sin = np.cos(q[2]), np.sin(q[2])
@@ -94,15 +84,6 @@ class DrivenEdge(Mode):
     def g(self, t: Any, q: Vector) -> Vector:
         """(2.15) (0, s(t)) [m/s], (2,)."""
         return np.array([0.0, self.A * np.sin(self.Omega * t + self.alpha)])
-
-    def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
-        """(2.8) R₁ = (x, y) + a (cos θ, sin θ), angle = θ."""
-        dx, dy = self.a * np.cos(q[2]), self.a * np.sin(q[2])
-        return {"sleigh": (q[0] + dx, q[1] + dy, q[2], v[0] - v[2] * dy, v[1] + v[2] * dx, v[2])}
-
-    def loads(self, t: float, q: Array, v: Array) -> list[Load]:
-        """(2.23) none: the plane is level and smooth."""
-        return []
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
         """The blade, which holds P across itself and drives it along."""

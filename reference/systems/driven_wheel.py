@@ -29,10 +29,6 @@ class DrivenWheel(WheelOnPlane):
     A: float
     nu: float
 
-    def start(self) -> tuple[Array, Array]:
-        """At the origin, rolling along x with R w [m/s]."""
-        return np.zeros(4), np.array([self.R * self.w, 0.0, self.Omega, self.w])
-
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.20) θ̈ = k + A ν cos νt, φ̈ = 0 [rad/s²]; ẍ, ÿ as it rolls, (4,)."""
         return self.rolling(q, v, self.k + self.A * self.nu * math.cos(self.nu * t), 0.0)

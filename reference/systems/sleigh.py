@@ -1,7 +1,6 @@
 """Chaplygin sleigh: a rigid body on a smooth plane, seen from above, on a blade at its point P.
 
-q = (x, y, θ): P and the heading of the blade; the centre of mass C lies at a ahead of P, and u is
-the velocity of P along the blade.
+q = (x, y, θ) as of any blade on a plane; u is the velocity of P along the blade.
 """
 
 import math
@@ -10,14 +9,15 @@ from typing import Any
 
 import numpy as np
 
-from ..system import Array, Cut, Load, Mass, Mode, Pose, Vector
+from ..system import Array, Cut, Vector
+from .blade_on_plane import BladeOnPlane
 from .quadrature import integral
 
 PANELS = 10  # per unit of τ, where tanh τ has its poles at ± i π/2
 
 
 @dataclass(frozen=True)
-class Sleigh(Mode):
+class Sleigh(BladeOnPlane):
     """m [kg], J about C [kg m²], a ≠ 0 [m]; P starts at 0 with θ = 0, v0 [m/s] and w0 [rad/s]."""
 
     m: float
@@ -26,12 +26,10 @@ class Sleigh(Mode):
     v0: float
     w0: float
 
-    coordinates = ("x", "y", "theta")
-
     def __post_init__(self) -> None:
         if self.a == 0:
             raise ValueError("a = 0 is a knife edge, which keeps u and ω as they are")
-        object.__setattr__(self, "masses", {"sleigh": Mass(self.m, self.J)})
+        super().__post_init__()
 
     def start(self) -> tuple[Array, Array]:
         """P at the origin, gliding along x."""
@@ -75,12 +73,6 @@ class Sleigh(Mode):
         v = complex(along(np.array(t)))
         return np.array([path.real, path.imag, theta]), np.array([v.real, v.imag, omega])
 
-    def T(self, t: Any, q: Vector, v: Vector) -> Any:
-        """(2.54) T = ½ m ((ẋ − a θ̇ sin θ)² + (ẏ + a θ̇ cos θ)²) + ½ J θ̇² [J]."""
-        vx = v[0] - self.a * v[2] * np.sin(q[2])
-        vy = v[1] + self.a * v[2] * np.cos(q[2])
-        return self.m * (vx**2 + vy**2) / 2 + self.J * v[2] ** 2 / 2
-
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) −ẋ sin θ + ẏ cos θ = 0: row (1, 3)."""
         return np.array([[-np.sin(q[2]), np.cos(q[2]), 0.0]])
@@ -88,15 +80,6 @@ class Sleigh(Mode):
     def g(self, t: Any, q: Vector) -> Vector:
         """(2.15) nothing is driven, (1,)."""
         return np.zeros(1)
-
-    def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
-        """(2.8) R₁ = (x, y) + a (cos θ, sin θ), angle = θ."""
-        dx, dy = self.a * np.cos(q[2]), self.a * np.sin(q[2])
-        return {"sleigh": (q[0] + dx, q[1] + dy, q[2], v[0] - v[2] * dy, v[1] + v[2] * dx, v[2])}
-
-    def loads(self, t: float, q: Array, v: Array) -> list[Load]:
-        """(2.23) none: the plane is level and smooth."""
-        return []
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
         """The blade, which holds P across itself."""

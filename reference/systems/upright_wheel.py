@@ -24,10 +24,6 @@ class UprightWheel(WheelOnPlane):
     w: float
     Omega: float
 
-    def start(self) -> tuple[Array, Array]:
-        """At the origin, rolling along x with R w [m/s]."""
-        return np.zeros(4), np.array([self.R * self.w, 0.0, self.Omega, self.w])
-
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.60) (J₂₂ + m R²) φ̈ = m g R sin α cos θ, θ̈ = 0 [rad/s²]; ẍ, ÿ from (2.20), (4,)."""
         slope = self.m * G * self.R * math.sin(self.alpha)

@@ -16,11 +16,13 @@ G = 9.80665  # m/s²
 
 
 class WheelOnPlane(Mode):
-    """Thin disk of mass m [kg] and radius R [m] on the slope alpha [rad]."""
+    """Thin disk of mass m [kg] and radius R [m] on the slope alpha [rad]; w, Omega [rad/s]."""
 
     m: float
     R: float
     alpha: float
+    w: float
+    Omega: float
 
     coordinates = ("x", "y", "theta", "phi")
 
@@ -28,6 +30,10 @@ class WheelOnPlane(Mode):
         d = self.diameter()
         J = np.diag([d, self.axle(), d])
         object.__setattr__(self, "masses", {"wheel": Mass(self.m, J)})
+
+    def start(self) -> tuple[Array, Array]:
+        """At the origin, rolling along x with R w [m/s]."""
+        return np.zeros(4), np.array([self.R * self.w, 0.0, self.Omega, self.w])
 
     def axle(self) -> float:
         """(2.32) J₂₂ = m R²/2 [kg m²] about the axle (Exercise 2.2, there the third axis)."""

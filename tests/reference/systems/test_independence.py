@@ -21,7 +21,7 @@ ALLOWED = {
     *(".elliptic", ".nutation", ".polhode"),
     ".tilting_ring",  # of which a disk is one
     ".dynamometer",  # by which a block on a floor is drawn
-    *(".wheel_on_plane", ".triples", ".arm", ".serial_arm", ".quadrature"),
+    *(".blade_on_plane", ".wheel_on_plane", ".triples", ".arm", ".serial_arm", ".quadrature"),
 }
 
 
