@@ -16,7 +16,7 @@ from .claims import answered
 from .compilation import NOMINAL, timestep
 from .plane import PLANE
 from .refuse import not_native, uncompilable
-from .script import commented
+from .script import commented, controls
 from .space.world import SPACE
 from .world import World
 
@@ -87,8 +87,8 @@ class MuJoCo:
         world, choices = _world(scene), [timestep(step), *plan.choices(step)]
         model, *_ = world.placed(scene, start, step, plan, settles=self._tuned)
         begun = model.key_qpos[0].tolist(), model.key_qvel[0].tolist()
-        head = heading(self, title, step, plan)
-        return commented(head) + world.mjcf(scene, start, choices, begun)
+        head = commented(heading(self, title, step, plan)) + controls(model, world.signals(scene))
+        return head + world.mjcf(scene, start, choices, begun)
 
     def run(
         self,

@@ -7,6 +7,7 @@ from typing import Any
 
 import mujoco
 
+from ...cases.signal import Signal
 from ...cases.trajectory import Trajectory
 from ..engine import Choice, Plain, Plan, Realised
 
@@ -31,5 +32,6 @@ class World:
     lent: Callable[..., AbstractContextManager[Built]]
     measured: Callable[..., dict[str, float]]
     mjcf: Callable[..., str]
+    signals: Callable[[Any], list[Signal]]  # of the actuators' controls, in their order
     simulate: Callable[..., Trajectory]
     plain: Callable[..., Callable[[float], Plain] | None]

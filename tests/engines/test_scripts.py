@@ -4,6 +4,7 @@
 # pyright: reportAttributeAccessIssue=false
 
 import ast
+import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -13,29 +14,37 @@ import mujoco
 import numpy as np
 import pytest
 from given import engine_scenes as given
-from given.planning import NATIVE, SETTINGS, begun, moved, pair, planned, words
+from given.planning import NATIVE, SETTINGS, TUNED, begun, moved, pair, planned, words
+from given.scenes import SHIPPED
 
-from textmech.cases.frame import PLANE
+from textmech.cases.frame import SPACE
 from textmech.cases.scene import Scene
 from textmech.cases.shape import bar
+from textmech.cases.space.rotation import matrix
 from textmech.engines.engine import Engine, Start
-from textmech.engines.mujoco import force
-from textmech.engines.mujoco.law.signal import swinging, together
-from textmech.engines.mujoco.space import scene as space
+from textmech.engines.mujoco.law.signal import installed
+from textmech.reports.trial.start import assembled
 
 STEP = 1e-3  # s: whole steps in the 1 s that a script of pymunk's runs
 END = np.array([0.0, 1.0])
 
 
-def by_mujoco(text: str, scene: Scene) -> dict[str, list[float]]:
-    """The places after 1 s of the MJCF file; signals in time are a user's own callback."""
+def stepped(text: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """The MJCF file after 1 s, with the callback that its comment says."""
     model = mujoco.MjModel.from_xml_string(text)
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, 0)
-    laws = force.signals(scene) if scene.frame is PLANE else space.signals(scene)  # type: ignore[arg-type]
-    with together([swinging(laws)]):
+    with installed(None):  # and takes away what is pasted
+        for pasted in re.findall(r"<!--\n(.*?)-->", text, flags=re.DOTALL):
+            exec(pasted, {})
         mujoco.mj_step(model, data, round(1.0 / model.opt.timestep))
     mujoco.mj_kinematics(model, data)
+    return model, data
+
+
+def by_mujoco(text: str, scene: Scene) -> dict[str, list[float]]:
+    """The places after 1 s of the MJCF file."""
+    _, data = stepped(text)
     size = scene.frame.dimension
     return {name: data.body(name).xipos[:size].tolist() for name in scene.bodies}
 
@@ -100,6 +109,32 @@ def test_a_script_with_friction_makes_the_same_motion(what: str, engine: Engine)
 @pytest.mark.parametrize("engine", SETTINGS, ids=words)
 def test_a_script_with_a_slot_makes_the_same_motion(engine: Engine) -> None:
     same(engine, *given.in_a_slot())
+
+
+def turned(name: str, spoil: Callable[[str], str] = str) -> float:
+    """How far the file's bodies stand from the run's after 1 s: entries of their axes."""
+    case, engine = SHIPPED[name], TUNED["mujoco"]
+    start = assembled(case)
+    text = engine.script(case.scene, start, STEP, planned(engine, case.scene, start))
+    _, data = stepped(spoil(text))
+    motion = moved(engine, case.scene, start, END, STEP)
+    ends = {body: matrix(rows[-1, SPACE.attitude]) for body, rows in motion.states.items()}
+    found = {body: data.body(body).xmat.reshape(3, 3) for body in ends}
+    return max(float(np.max(np.abs(found[body] - axes))) for body, axes in ends.items())
+
+
+SINES = ["cat_turn", "sprung_gimbal.driven", "driven_robot"]
+
+
+@pytest.mark.parametrize("name", SINES)
+def test_a_script_in_space_says_its_sines(name: str) -> None:
+    """Those of motors and of drives: what is pasted does all that the run's callback does."""
+    assert turned(name) < 1e-14
+
+
+@pytest.mark.parametrize("name", SINES)
+def test_a_sine_that_is_not_pasted_is_seen(name: str) -> None:
+    assert turned(name, lambda text: text.replace("= math.sin", "= 0 * math.sin")) > 1e-3
 
 
 HOSTILE = 'a\nimport os\r--> <b/> <!-- --- \x00 \x1b[31m  \x85 \'""" end -'

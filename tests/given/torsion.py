@@ -1,19 +1,23 @@
 """What acts about joints: of two bars on pins, one named backward, and of bodies in space."""
 
-ARM = """\
-scene:
-  points: {O: [0, 0]}
-  bodies: {rod: {bar: {mass: 1.2, length: 0.8}}, arm: {bar: {mass: 0.7, length: 0.5}}}
-  joints: {hinge: {pin: [ground.O, rod.start]}, elbow: {pin: [arm.start, rod.end]}}
+_EACH = """\
   forces:
     wire: {torsion: hinge, stiffness: 9.0, rest_angle: -30 deg}
     knee: {torsion: elbow, stiffness: 3.0, rest_angle: 20 deg}
     oil: {torsion_damper: elbow, damping: 0.12}
     drive: {motor: elbow, sine: {amplitude: 1.3, angular_frequency: 4.0}}
     pull: {motor: hinge, ramp: 0.8}
+"""
+
+ARM = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {rod: {bar: {mass: 1.2, length: 0.8}}, arm: {bar: {mass: 0.7, length: 0.5}}}
+  joints: {hinge: {pin: [ground.O, rod.start]}, elbow: {pin: [arm.start, rod.end]}}
+FORCES
 initial: {rod: {angle: 20 deg, omega: 1.0}, arm: {angle: -50 deg, omega: 0}}
 allow: {rod.angle: 1.0e-2, arm.angle: 1.0e-2, wire.torque: 1.0, knee.angle: 1.0e-2, oil.torque: 1.0}
-"""
+""".replace("FORCES\n", _EACH)
 
 FLAT = """\
 scene:
@@ -24,15 +28,10 @@ scene:
   joints:
     hinge: {hinge: [ground.O, rod.start], axis: [0, 0, 1]}
     elbow: {hinge: [arm.start, rod.end], axis: [0, 0, 1]}
-  forces:
-    wire: {torsion: hinge, stiffness: 9.0, rest_angle: -30 deg}
-    knee: {torsion: elbow, stiffness: 3.0, rest_angle: 20 deg}
-    oil: {torsion_damper: elbow, damping: 0.12}
-    drive: {motor: elbow, sine: {amplitude: 1.3, angular_frequency: 4.0}}
-    pull: {motor: hinge, ramp: 0.8}
+FORCES
 initial: {hinge: {angle: 20 deg, omega: 1.0}, elbow: {angle: 70 deg, omega: 1.0}}
 allow: {hinge.angle: 1.0e-2, wire.torque: 1.0, knee.angle: 1.0e-2, oil.torque: 1.0}
-"""
+""".replace("FORCES\n", _EACH)
 """The bars of ARM in the plane z = 0 of space."""
 
 SPATIAL = """\
@@ -53,12 +52,7 @@ scene:
     wrist:
       freedoms: {theta: {hinge: [0, 1, 0]}, phi: {hinge: [3, 1, 4]}}
       of: [arm.center, tip.P]
-  forces:
-    wire: {torsion: hinge, stiffness: 9.0, rest_angle: -30 deg}
-    knee: {torsion: elbow, stiffness: 3.0, rest_angle: 20 deg}
-    oil: {torsion_damper: elbow, damping: 0.12}
-    drive: {motor: elbow, sine: {amplitude: 1.3, angular_frequency: 4.0}}
-    pull: {motor: hinge, ramp: 0.8}
+FORCES
     one: {torsion: wrist.theta, stiffness: 2.0, rest_angle: 10 deg}
     two: {torsion: wrist.phi, stiffness: 1.0, rest_angle: -20 deg}
     soft: {torsion_damper: wrist.theta, damping: 0.05}
@@ -73,5 +67,5 @@ allow: {
   hinge.angle: 1.0e-2, elbow.angle: 1.0e-2, wrist.theta: 1.0e-2, wrist.phi: 1.0e-2,
   hinge.mx: 1.0, elbow.mx: 1.0, wrist.my: 1.0, wire.torque: 1.0, oil.torque: 1.0, two.angle: 1.0,
 }
-"""
+""".replace("FORCES\n", _EACH)
 """Hinges in any direction, the second named backward, and a joint with two skew turns."""

@@ -6,7 +6,7 @@ from .plans import plan, ways
 from .read.measure import measured
 from .refuse import unbuildable
 from .run import simulate
-from .scene import mjcf
+from .scene import mjcf, signals
 from .settings import tuned, with_own
 
 
@@ -15,6 +15,6 @@ def unwritten(*given: object) -> None:
 
 
 SPACE = World(
-    unbuildable, ways, plan, tuned, with_own, compiled, placed, lent, measured, mjcf, simulate,
-    unwritten,
+    unbuildable, ways, plan, tuned, with_own, compiled, placed, lent, measured, mjcf, signals,
+    simulate, unwritten,
 )  # fmt: skip
