@@ -13,6 +13,7 @@ from ..cases.frame import PLANE, SPACE
 from ..cases.mistake import CaseError, Mistake
 from ..cases.observe import observe
 from ..cases.quantity import table
+from ..cases.space.joint import rate_of
 from ..cases.trajectory import Array, Trajectory
 from .generated.either import Generated
 from .motion.bodies import Answer
@@ -164,7 +165,12 @@ def _wound(case: Case, motion: Trajectory) -> Iterator[Mistake]:
     for force in case.scene.forces.values():
         if not force.winds:
             continue
-        wound = np.abs(observe(case.scene, motion, f"{force.name}.angle")) > np.pi
+        angle = observe(case.scene, motion, f"{force.name}.angle")
+        rate = observe(case.scene, motion, f"{force.about}.{rate_of(force.freedom or 'angle')}")
+        # Between two samples as the cubic through them goes, which has their rates.
+        between = (angle[1:] + angle[:-1]) / 2 - np.diff(rate) * np.diff(motion.times) / 8
+        wound = np.abs(angle) > np.pi
+        wound[1:] |= np.abs(between) > np.pi
         if np.any(wound):
             what = (
                 f"is wound by more than half a turn at t = {motion.times[np.argmax(wound)]:.3g} s, "

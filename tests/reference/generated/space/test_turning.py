@@ -11,6 +11,8 @@ from given.multibody_laws import EXACT, balance, lagrangian
 
 from textmech.cases.mistake import CaseError
 from textmech.cases.observe import observe
+from textmech.cases.trajectory import Trajectory
+from textmech.reference import premises
 from textmech.reference.generated.space import turning
 from textmech.reference.generated.space.mode import SpatialMultibody
 from textmech.reference.solve import solve
@@ -120,6 +122,19 @@ def test_a_spring_that_is_wound_by_more_than_half_a_turn_is_refused(tmp_path: Pa
     (mistake,) = refused.value.mistakes
     assert mistake.where == "scene.forces.wire"
     assert mistake.what.startswith("is wound by more than half a turn at t = 0.")
+
+
+@pytest.mark.parametrize(("rate", "wound"), [(10.0, True), (2.0, False)])
+def test_winding_between_samples_is_seen(rate: float, wound: bool, tmp_path: Path) -> None:
+    """From 175° and back within 0.1 s: at 10 rad/s the cubic reaches 189°, at 2 rad/s 178°."""
+    case = scenes.typed(tmp_path, torsion.FLAT)
+    half = np.radians(175.0 / 2)
+    rows = np.tile([0, 0, 0, np.cos(half), 0, 0, np.sin(half), 0, 0, 0, 0, 0, rate], (2, 1))
+    rows[1, -1] = -rate
+    still = np.tile([0.0] * 3 + [1.0] + [0.0] * 9, (2, 1))
+    motion = Trajectory(np.array([0.0, 0.1]), {"rod": rows, "arm": still}, {})
+    found = [mistake.where for mistake in premises._wound(case, motion)]
+    assert found == (["scene.forces.wire", "scene.forces.knee"] if wound else [])
 
 
 @pytest.mark.whole
