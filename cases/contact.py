@@ -46,6 +46,11 @@ class Contact:
         return self.at.body
 
     @property
+    def on(self) -> str:
+        """The name of its plane."""
+        return self.plane.name
+
+    @property
     def friction(self) -> float:
         """The one coefficient that engines know."""
         return self.kinetic

@@ -1,14 +1,14 @@
 """Contacts in space: what rolls without slip on the floor z = 0."""
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from ..frame import SPACE
 from ..kind import Fields
 from ..motion import Motion
-from ..point import Anchor
+from ..point import FLOOR, Anchor
 from ..trajectory import Array
 from .rotation import turned
 
@@ -36,6 +36,7 @@ class SpatialContact:
     at: Anchor
     friction: float
     rim: bool  # of a disk; a sphere has none
+    on: ClassVar[str] = FLOOR  # there is no other plane in space
     ideal: Literal["rolling"] = "rolling"
     restitution: float = 0.0
 

@@ -1,6 +1,6 @@
 """Scenes that MuJoCo has no element for, the adapter does not build, or that do not compile."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from ...cases.scene import GROUND, Joint, Scene
 from ..engine import Plan, Start
@@ -20,17 +20,11 @@ def not_native(scene: Scene) -> list[str]:
 
 def unbuildable(scene: Scene) -> str | None:
     """The first joint or contact that has no counterpart."""
-    for force in scene.forces.values():
-        if type(force) not in ELEMENTS:
-            return f"adapter: {force.name} is a {force.word}, which it does not build"
-    if what := taken(scene):
-        return f"adapter: {what}"
     tree = spanning_tree(scene)
     soft = [*tree.loops, *scene.contacts.values()]
     soft += [joint for joint in scene.joints.values() if joint.dry_friction]
-    for edge in scene.constraints.values():
-        if soft:
-            return f"adapter: {edge.name} beside {soft[0].name}, whose force gives way by itself"
+    if what := unbuilt(scene, [part.name for part in soft]):
+        return what
     if ours := lacking(scene):
         smooth = (j.name for j in scene.joints.values() if (d := j.dry_friction) and d.smooth)
         if beside := [*scene.constraints, *smooth]:
@@ -49,11 +43,9 @@ def unbuildable(scene: Scene) -> str | None:
             reason = _slide(scene, tree, branch, branch.joint)
             if reason is not None:
                 return reason
-    touching = [(contact.at, contact.plane) for contact in scene.contacts.values()]
-    for name, contact in scene.contacts.items():
-        if touching.count((contact.at, contact.plane)) > 1:
-            where = f"{contact.at} with the {contact.plane.name}"
-            return f"adapter: {name} is not the only contact of {where}"
+    if what := touching_twice(scene):
+        return what
+    for contact in scene.contacts.values():
         if 0 < contact.restitution < LEAST_BOUNCE:
             return (
                 f"engine: MuJoCo's floor is a spring and damper, and the damper that throws "
@@ -61,6 +53,28 @@ def unbuildable(scene: Scene) -> str | None:
             )
     if len({contact.restitution for contact in scene.contacts.values()}) > 1:
         return "adapter: contacts that throw back differently would each need a recipe"
+    return None
+
+
+def unbuilt(scene: Scene, soft: Sequence[str]) -> str | None:
+    """The first force or edge that is not built; soft: names of what gives way by itself."""
+    for force in scene.forces.values():
+        if type(force) not in ELEMENTS:
+            return f"adapter: {force.name} is a {force.word}, which it does not build"
+    if what := taken(scene):
+        return f"adapter: {what}"
+    for edge in scene.constraints.values():
+        if soft:
+            return f"adapter: {edge.name} beside {soft[0]}, whose force gives way by itself"
+    return None
+
+
+def touching_twice(scene: Scene) -> str | None:
+    """The first contact of a point that has another."""
+    touching = [(contact.at, contact.on) for contact in scene.contacts.values()]
+    for name, contact in scene.contacts.items():
+        if touching.count((contact.at, contact.on)) > 1:
+            return f"adapter: {name} is not the only contact of {contact.at} with the {contact.on}"
     return None
 
 

@@ -3,6 +3,7 @@
 q = (x, y, θ): the point P of the blade and its heading; the centre of mass C lies at a ahead of P.
 """
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from ..system import Array, Load, Mass, Mode, Pose, Vector
 
 
+@dataclass(frozen=True)
 class BladeOnPlane(Mode):
     """m [kg], J about C [kg m²], a [m]."""
 

@@ -21,9 +21,6 @@ PANELS = 4  # per radian of the drive, and of the fastest turn
 class DrivenEdge(BladeOnPlane):
     """m [kg], J about C [kg m²], a [m], w0 [rad/s] at θ = 0; A [m/s], Omega [rad/s], alpha."""
 
-    m: float
-    J: float
-    a: float
     w0: float
     A: float
     Omega: float

@@ -17,14 +17,8 @@ from .wheel_on_plane import WheelOnPlane
 
 @dataclass(frozen=True)
 class DrivenWheel(WheelOnPlane):
-    """Thin disk [kg, m] that starts at the origin along x; w, Omega, A, nu [rad/s], k [rad/s²]."""
+    """Thin disk with prescribed rates: w, Omega, A, nu [rad/s], k [rad/s²]."""
 
-    m: float
-    R: float
-    mu: float  # friction of the floor: must only be enough
-    alpha: float
-    w: float
-    Omega: float
     k: float
     A: float
     nu: float

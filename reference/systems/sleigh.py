@@ -20,9 +20,6 @@ PANELS = 10  # per unit of τ, where tanh τ has its poles at ± i π/2
 class Sleigh(BladeOnPlane):
     """m [kg], J about C [kg m²], a ≠ 0 [m]; P starts at 0 with θ = 0, v0 [m/s] and w0 [rad/s]."""
 
-    m: float
-    J: float
-    a: float
     v0: float
     w0: float
 

@@ -15,14 +15,7 @@ from .wheel_on_plane import G, WheelOnPlane
 
 @dataclass(frozen=True)
 class UprightWheel(WheelOnPlane):
-    """Thin disk [kg, m] that starts at the origin along x, with φ̇ = w and θ̇ = Omega [rad/s]."""
-
-    m: float
-    R: float
-    mu: float  # friction of the floor: must only be enough
-    alpha: float
-    w: float
-    Omega: float
+    """Thin disk that starts with φ̇ = w and θ̇ = Omega [rad/s]."""
 
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.60) (J₂₂ + m R²) φ̈ = m g R sin α cos θ, θ̈ = 0 [rad/s²]; ẍ, ÿ from (2.20), (4,)."""

@@ -6,6 +6,7 @@ to the left, φ̇ > 0 rolls forward. The x axis points down the slope of angle �
 """
 
 import math
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,11 +16,13 @@ from ..system import Array, Cut, Load, Mass, Mode, Pose, Vector
 G = 9.80665  # m/s²
 
 
+@dataclass(frozen=True)
 class WheelOnPlane(Mode):
-    """Thin disk of mass m [kg] and radius R [m] on the slope alpha [rad]; w, Omega [rad/s]."""
+    """Thin disk [kg, m] on the slope alpha [rad], which starts with w and Omega [rad/s]."""
 
     m: float
     R: float
+    mu: float  # friction of the floor: must only be enough
     alpha: float
     w: float
     Omega: float

@@ -3,13 +3,15 @@
 All from `poses` alone, in ground axes, by the complex step: no angular acceleration is written out.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from textmech.reference.formalisms.derivative import along
 from textmech.reference.system import Array, Mode, Pose
+
+from .laws import difference
 
 Wrench = tuple[str, Any, Any, Any]
 """Body, point, force and moment, in ground axes."""
@@ -71,6 +73,15 @@ def kinetic(mode: Mode, t: float, q: Array, v: Array) -> float:
         mass, omega = mode.masses[body], np.array(pose[10:])
         found += mass.m * np.sum(np.square(pose[7:10])) / 2 + omega @ mass.J @ omega / 2
     return float(found)
+
+
+def moves(mode: Mode, states: Iterable[tuple[float, Array, Array]]) -> float:
+    """`poses` moves as it says, and has the energy T: the largest relative violation."""
+    worst = 0.0
+    for t, q, v in states:
+        worst = max(worst, turning(mode, t, q, v) / abs(v).max())
+        worst = max(worst, difference(kinetic(mode, t, q, v), mode.T(t, q, v)))
+    return worst
 
 
 def force(reactions: Mapping[str, float], name: str, fields: str) -> Array:

@@ -46,11 +46,7 @@ def cut_free(mode: Mode) -> float:
 
 def moves(mode: Mode) -> float:
     """`poses` moves as it says, and has the energy T."""
-    worst = 0.0
-    for t, q, v in states(mode):
-        worst = max(worst, free_cut.turning(mode, t, q, v) / abs(v).max())
-        worst = max(worst, difference(free_cut.kinetic(mode, t, q, v), mode.T(t, q, v)))
-    return worst
+    return free_cut.moves(mode, states(mode))
 
 
 def power(mode: Mode) -> float:

@@ -3,8 +3,7 @@
 from ....cases.scene import GROUND
 from ....cases.space.joint import SpatialJoint
 from ....cases.space.scene import SpatialScene
-from ..force import ELEMENTS
-from ..hinge import taken
+from ..refuse import touching_twice, unbuilt
 from ..tree import Tree
 from .drive import drives
 from .tree import held_points, left, natives, spanning_tree
@@ -12,17 +11,10 @@ from .tree import held_points, left, natives, spanning_tree
 
 def unbuildable(scene: SpatialScene) -> str | None:
     """The first element that has no counterpart."""
-    for force in scene.forces.values():
-        if type(force) not in ELEMENTS:
-            return f"adapter: {force.name} is a {force.word}, which it does not build"
-    if what := taken(scene):
-        return f"adapter: {what}"
     tree = spanning_tree(scene)
     loops = tree.loops
-    soft = [*loops, *scene.contacts.values()]
-    for edge in scene.constraints.values():
-        if soft:
-            return f"adapter: {edge.name} beside {soft[0].name}, whose force gives way by itself"
+    if what := unbuilt(scene, [part.name for part in (*loops, *scene.contacts.values())]):
+        return what
     for joint in loops:
         if all(_stands(scene, tree, end.body) for end in (joint.a, joint.b)):
             return f"engine: MuJoCo leaves out {joint.name}, for nothing that it holds can move"
@@ -40,11 +32,7 @@ def unbuildable(scene: SpatialScene) -> str | None:
             left(scene, drive.joint)[drive.number].kind == "ball"
         ):
             return f"adapter: {drive.joint.name} would have to turn a particle, which has no axes"
-    touching = [contact.at for contact in scene.contacts.values()]
-    for name, contact in scene.contacts.items():
-        if touching.count(contact.at) > 1:
-            return f"adapter: {name} is not the only contact of {contact.at} with the floor"
-    return None
+    return touching_twice(scene)
 
 
 def _stands(scene: SpatialScene, tree: Tree[SpatialJoint], body: str) -> bool:
