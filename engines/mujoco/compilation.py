@@ -95,7 +95,7 @@ def lent(
 def _settle(
     scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, start: Start, plan: Plan
 ) -> dict[str, float]:
-    if plan.realised == "law" and one_touch(scene):
+    if plan.realised != "native" and one_touch(scene):
         touches(scene, model, data)  # friction of MuJoCo's own would press it into the floor
     depths = settle(scene, model, data, start)
     model.key_qpos[0], model.key_qvel[0] = data.qpos, data.qvel

@@ -102,7 +102,7 @@ def test_a_step_that_holds_to_its_end_is_seen(monkeypatch: pytest.MonkeyPatch) -
 
     def holds(slide: Any, now: float, soon: float) -> float:
         limit = slide.friction.static.forward
-        return slide.brakes(slide.sense) if slide.sense * now >= limit else abs(now + soon) / 2
+        return slide.brakes(slide.sense, 0.0) if slide.sense * now >= limit else abs(now + soon) / 2
 
     monkeypatch.setattr(stiction, "_breaking_loose", holds)
     bound = NEAR["mujoco", "law"].growing

@@ -16,6 +16,17 @@ scene:
 initial: {rod: {angle: 0, omega: 0}}
 allow: {rod.angle: 1.0e-2, hinge.friction: 1.0e-2}
 """
+ARM = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {rod: {bar: {mass: 1.2, length: 0.8}}, arm: {bar: {mass: 0.7, length: 0.5}}}
+  joints:
+    hinge: {pin: [ground.O, rod.start]}
+    elbow: {pin: [PARTS], dry_friction: {static: 0.9, kinetic: 0.6, stribeck: {speed: 2.0}}}
+initial: {rod: {angle: -20 deg, omega: 1.0}, arm: {angle: -50 deg, omega: 0}}
+allow: {rod.angle: 1.0e-2, arm.angle: 1.0e-2, elbow.friction: 1.0e-2}
+"""
+SMOOTH = BAR.replace("KINETIC}", "KINETIC, smooth: {band: 0.01, sharpness: 1.0e3}}")
 STATIC, NUDGE = 1.5, 1e-6  # N m, s
 HUNG, HELD = "ground.O, rod.start", "rod.start, ground.O"
 CLUTCH = """\
@@ -30,14 +41,14 @@ allow: {a.angle: 1.0e-2, b.angle: 1.0e-2, clutch.friction: 1.0e-2}
 """
 
 
-def swinging(ends: str, forward: float, backward: float) -> str:
+def swinging(ends: str, forward: float, backward: float, text: str = BAR) -> str:
     """A bar let go level; friction [N m] while it turns counter-clockwise and clockwise.
 
     It is held at rest by 1.5 N m; which of the two parts is named first makes no difference to it.
     """
     ways = (forward, backward) if ends == HUNG else (backward, forward)
     kinetic = f"{{forward: {ways[0]}, backward: {ways[1]}}}"
-    return BAR.replace("ENDS", ends).replace("STATIC", str(STATIC)).replace("KINETIC", kinetic)
+    return text.replace("ENDS", ends).replace("STATIC", str(STATIC)).replace("KINETIC", kinetic)
 
 
 def swung(times: Array, forward: float, backward: float) -> Array:

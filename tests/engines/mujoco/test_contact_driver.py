@@ -1,4 +1,4 @@
-"""A contact with two coefficients by the driver: its steps end where it sticks and where it slips."""
+"""A contact with two coefficients by the driver: steps end where it sticks and where it slips."""
 
 import math
 from typing import Any
@@ -69,7 +69,7 @@ def test_a_block_thrown_up(static: float) -> None:
     assert np.abs(run.states["block"][:, X] - x).max() < THROWN[static]
 
 
-# m and m/s: it rolls on its radius less half of its depth in MuJoCo's floor, 2 g h². Measured 2.4e-5.
+# m and m/s: it rolls on its radius less half of its depth in the floor, 2 g h². Measured 2.4e-5.
 ROLLED = 7e-5
 
 
