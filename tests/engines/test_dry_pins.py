@@ -103,8 +103,9 @@ def test_what_an_engine_holds_is_the_scene_s(engine: str, tmp_path: Path) -> Non
     assert 'frictionloss="0.4"' in script or "SimpleMotor" in script
 
 
-# rad, in 1 s. The elbow sticks, is broken loose and sticks again: each costs a step's mean.
-BENT: dict[Realised, float] = {"law": 1e-5, "driver": 1e-9}
+# rad, in 1 s; of the moment [N m] four times that. The elbow sticks, is broken loose and sticks
+# again: each costs a step's mean. Measured 2.4e-6 and 3.2e-12.
+BENT: dict[Realised, float] = {"law": 7e-6, "driver": 1e-11}
 
 
 @pytest.mark.whole
@@ -124,13 +125,13 @@ def test_an_elbow_rubs_as_the_reference(way: Realised, parts: str, tmp_path: Pat
     for body, rows in states.items():
         assert np.max(np.abs(run.states[body] - rows)[:, ANGLE]) < BENT[way]
     known = solution.trajectory.reactions["elbow.friction"]
-    assert np.max(np.abs(run.reactions["elbow.friction"] - known)) < 1e3 * BENT[way]
+    assert np.max(np.abs(run.reactions["elbow.friction"] - known)) < 4 * BENT[way]
 
 
 @pytest.mark.whole
 @pytest.mark.parametrize(("engine", "ends"), [("mujoco", HUNG), ("mujoco", HELD), ("pymunk", HUNG)])
 def test_the_smooth_law_of_a_pin(engine: str, ends: str, tmp_path: Path) -> None:
-    """(2.95) with 0.01 rad/s for Δ: measured 2.8e-5 and 6.3e-5 rad at this step, 3 m/s² for 1 m/s."""
+    """(2.95) with Δ = 0.01 rad/s: measured 2.8e-5 and 6.3e-5 rad at this step."""
     text = rubbing.swinging(ends, 1.0, 1.4, rubbing.SMOOTH)
     case = scenes.typed(tmp_path, text, tail=scenes.tail(2.0, 21))
     rows = solve(case).trajectory.states["rod"]
