@@ -23,6 +23,8 @@ class Force:
     freedom: ClassVar[Literal["turn", "shift"]] = "turn"
     """Which freedom of the joint that it is about lets it act: a turn, or a shift."""
     winds: ClassVar[bool] = False  # whether it needs a joint's angle, and not only its rate
+    inner: ClassVar[str] = ""
+    """The quantity that is its inner state, which its producer gives; it begins with `begins`."""
     name: str
 
     def refers(self) -> tuple[Anchor, ...]:
@@ -43,6 +45,11 @@ class Force:
     def turn(self) -> str:
         """The turn of that joint, by its name where it has one; else empty."""
         return ""
+
+    @property
+    def begins(self) -> float:
+        """The inner state at the start, of what has one."""
+        raise NotImplementedError
 
     def unfit(self, bodies: Mapping[str, Body]) -> str | None:
         """Why it cannot act on what it refers to, in words for the case file."""

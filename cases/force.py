@@ -17,6 +17,7 @@ from .language.grammar.field import In
 from .language.grammar.signal import InTime
 from .magnetic import Magnetic
 from .motion import Motion
+from .muscle import LinearMuscle, Muscle
 from .point import CENTER, GROUND, Anchor
 from .signal import Signal
 from .trajectory import Array
@@ -137,7 +138,7 @@ class Torque(Force):
         return self.signal.angular_frequency, 0.0
 
 
-NOUNS = (Spring, Damper, Push, Torque, Torsion, TorsionDamper, Motor, Drag, Viscous, Magnetic)
+NOUNS = (Spring, Damper, Push, Torque, Torsion, TorsionDamper, Motor, Drag, Viscous, Magnetic, Muscle, LinearMuscle)
 FORCES: dict[str, type[Force]] = {kind.word: kind for kind in NOUNS}
 """By the word of the case file."""
 

@@ -14,8 +14,10 @@ from .force import (
     Damper,
     Drag,
     Force,
+    LinearMuscle,
     Magnetic,
     Motor,
+    Muscle,
     Push,
     Spring,
     Torque,
@@ -48,8 +50,10 @@ __all__ = [
     "Frame",
     "GroundPoint",
     "Joint",
+    "LinearMuscle",
     "Magnetic",
     "Motor",
+    "Muscle",
     "Push",
     "Scene",
     "Signal",
@@ -110,6 +114,10 @@ class Scene:
 
     def signals(self) -> Iterator[Push | Torque | Motor]:
         return (f for kind in (Push, Torque, Motor) for f in of(kind, self.forces.values()))
+
+    def inner(self) -> dict[str, Force]:
+        """The forces with an inner state, by the quantity that it is."""
+        return {f"{f.name}.{f.inner}": f for f in self.forces.values() if f.inner}
 
     def ends(self, force: Force) -> tuple[Anchor, ...]:
         """The points on which a force acts, or those of the joint about which it does."""

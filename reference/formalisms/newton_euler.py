@@ -72,13 +72,13 @@ def accelerated(system: Mode, t: float, q: Array, v: Array, a: Array) -> Array:
 def gyroscopic_moments(system: Mode, t: float, q: Array, v: Array) -> Array:
     """ω × (J ω) of every body, in the rows of `accelerated`."""
     poses = system.poses(t, q, v)
-    return rows(system, {name: gyroscopic(system.masses[name], poses[name]) for name in poses})
+    return rows(system, {name: gyroscopic(mass, poses[name]) for name, mass in system.masses.items()})
 
 
 def load_forces(system: Mode, t: float, q: Array, v: Array) -> Array:
     """F and M_c of the applied forces, in the rows of `accelerated`."""
     poses = system.poses(t, q, v)
-    total = {name: none(pose) for name, pose in poses.items()}
+    total = {name: none(poses[name]) for name in system.masses}
     for load in system.loads(t, q, v):
         total[load.body] += wrench(load.at, poses[load.body], load.force, load.moment)
     return rows(system, total)
@@ -87,7 +87,7 @@ def load_forces(system: Mode, t: float, q: Array, v: Array) -> Array:
 def reaction_columns(system: Mode, t: float, q: Array, v: Array) -> Array:
     """F and M_c of a unit of each unknown reaction, one column each: + on body b, − on body a."""
     poses = system.poses(t, q, v)
-    nothing = {name: none(pose) for name, pose in poses.items()}
+    nothing = {name: none(poses[name]) for name in system.masses}
     columns = [np.zeros((len(rows(system, nothing)), 0))]  # a free body has no reactions
     for cut in system.cuts(t, q):
         zero = (0.0,) * len(cut.at)

@@ -16,8 +16,10 @@ from ...cases.force import (
     Drag,
     Force,
     Line,
+    LinearMuscle,
     Magnetic,
     Motor,
+    Muscle,
     Push,
     Spring,
     Torque,
@@ -30,6 +32,7 @@ from ..system import Array
 from .coordinates import Coordinates, Point
 from .drag import drag_loss, dragged, slowed, viscous_loss
 from .magnetic import deflected, magnetic_potential
+from .muscle import contracted, pulled, stretched
 from .signal import signal
 from .turning import braked, driven, motor, torsional, torsionally_damped, twisted
 
@@ -46,11 +49,12 @@ class Action:
     """A kind of force element; called with the element, the coordinates, t, q and, but for U, v.
 
     pulls: each force [N] with the point at which it acts. U and V [J], D [W]. Q4: adds its own to
-    a vector (n,). line: whether that element has no direction where its two ends meet.
+    a vector (n,). rate: of its inner state. line: whether that element has no direction where its two ends meet.
     """
 
     pulls: Callable[..., Iterator[tuple[Any, Point]]]
     U: Callable[..., Any] = lambda force, where, t, q: 0.0
+    rate: Callable[..., Any] = lambda force, where, t, q: 0.0
     V: Callable[..., Any] = lambda force, where, t, q, v: 0.0
     D: Callable[..., Any] = lambda force, where, t, q, v: 0.0
     Q4: Callable[..., None] = lambda force, where, t, q, v, Q: None
@@ -85,6 +89,11 @@ def potential(force: Force, where: Coordinates, t: Any, q: Numbers) -> Any:
 def generalized_potential(force: Force, where: Coordinates, t: Any, q: Any, v: Any) -> Any:
     """Its share of V (2.48) [J], of the rates v (n,) or (n, K)."""
     return ACTIONS[type(force)].V(force, where, t, q, v)
+
+
+def inner_rate(force: Force, where: Coordinates, t: Any, q: Numbers) -> Any:
+    """The rate of its inner state."""
+    return ACTIONS[type(force)].rate(force, where, t, q)
 
 
 def dissipation(force: Force, where: Coordinates, t: Any, q: Numbers, v: Numbers) -> Any:
@@ -194,4 +203,6 @@ ACTIONS: dict[type[Force], Action] = {
     Drag: Action(dragged, D=drag_loss),
     Viscous: Action(slowed, D=viscous_loss),
     Magnetic: Action(deflected, V=magnetic_potential),
+    Muscle: Action(pulled, U=stretched, rate=contracted),
+    LinearMuscle: Action(pulled, U=stretched, rate=contracted),
 }

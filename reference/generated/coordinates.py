@@ -64,6 +64,11 @@ class Coordinates:
                 yield f"{body.name}.angle"
 
     @cached_property
+    def inner(self) -> dict[str, int]:
+        """Where the inner states of forces stand, behind the bodies' coordinates."""
+        return {name: len(self.names) + i for i, name in enumerate(self.scene.inner())}
+
+    @cached_property
     def turning(self) -> NDArray[np.bool_]:
         """Which coordinates are angles, (n,)."""
         return np.array([name.endswith(".angle") for name in self.names])
@@ -93,8 +98,10 @@ class Coordinates:
         }
 
     def place(self, poses: Mapping[str, Pose]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """q and v (n,) of given poses."""
-        q, v = np.zeros(len(self.masses)), np.zeros(len(self.masses))
+        """q and v (n,) of given poses; behind the bodies' coordinates the inner states."""
+        q, v = np.zeros(len(self.masses) + len(self.inner)), np.zeros(len(self.masses))
+        for name, place in self.inner.items():
+            q[place] = poses[name][0]
         for name, (xy, phi) in self.columns.items():
             x, y, angle, vx, vy, omega = poses[name]
             q[xy : xy + 2], v[xy : xy + 2] = (x, y), (vx, vy)

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...cases.scene import Scene
 from ..system import Array, Mass, Mode, Pose, Vector
-from .action import act, dissipation, ends_meet, generalized_potential, other, potential
+from .action import act, dissipation, ends_meet, generalized_potential, inner_rate, other, potential
 from .constraint import Constraint, assembled
 from .contact import Braking, Coulomb, row
 from .coordinates import Coordinates
@@ -48,7 +48,7 @@ class Multibody(Mode):
     ) -> None:
         self.scene = scene
         self.where = Coordinates(scene)
-        self.coordinates = self.where.names
+        self.coordinates = (*self.where.names, *self.where.inner)
         self.masses = {b.name: Mass(b.mass, b.inertia) for b in scene.bodies.values()}
         self._start = start
         self._M = np.array(self.where.masses)
@@ -71,6 +71,14 @@ class Multibody(Mode):
     def start(self) -> tuple[Array, Array]:
         """The assembled start."""
         return self._start
+
+    def rates(self, t: Any, q: Vector, v: Vector) -> Vector:
+        """q̇ = v of the bodies; inner states have their own."""
+        if not self.where.inner:
+            return v
+        numbers = q.tolist()
+        own = [inner_rate(force, self.where, t, numbers) for force in self.scene.inner().values()]
+        return np.concatenate([v, own])
 
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.60) M q̈ = Q + λ_b f_aᵇ with f_aᵇ q̈ᵃ = γᵇ, (n,)."""
@@ -162,7 +170,8 @@ class Multibody(Mode):
 
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R_k, E_k: the coordinates themselves."""
-        return self.where.poses(q, v)
+        inner = {name: (q[place],) for name, place in self.where.inner.items()}
+        return self.where.poses(q, v) | inner
 
     def place(self, poses: Mapping[str, Pose]) -> tuple[Array, Array]:
         """q and v of given poses: how another system's motion is read in these coordinates."""
@@ -178,11 +187,12 @@ class Multibody(Mode):
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ Σ m ṙ_c² + ½ Σ J ω² [J]."""
+        v = v[: len(self._M)]
         return 0.5 * self._M.dot(v * v)
 
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = −Σ m g·r_c + Σ ½ c (λ − λ₀)² [J]."""
-        energy = -np.sum(self._weight * q)
+        energy = -np.sum(self._weight * q[: len(self._M)])
         for force in self.scene.forces.values():
             energy = energy + potential(force, self.where, t, q.tolist())
         return energy
@@ -201,7 +211,7 @@ class Multibody(Mode):
 
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.50) Q_a = Σ F·∂r/∂qᵃ of pushes, torques and dry friction, (n,)."""
-        Q = np.zeros(len(q), np.result_type(q, v, t))
+        Q = np.zeros(len(self._M), np.result_type(q, v, t))
         for force in self.scene.forces.values():
             other(force, self.where, t, q.tolist(), v.tolist(), Q)
         for brake in self._braking:
@@ -218,11 +228,11 @@ class Multibody(Mode):
 
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) the rows f_aᵇ, (r, n)."""
-        return self.rows(t, q, q)[0]
+        return self.rows(t, q, q[: len(self._M)])[0]
 
     def g(self, t: Any, q: Vector) -> Vector:
         """(2.15) the right side f_aᵇ q̇ᵃ = gᵇ of driven points, (r,)."""
-        return self.rows(t, q, q)[1]
+        return self.rows(t, q, q[: len(self._M)])[1]
 
 
 def _add(found: dict[str, float], more: Mapping[str, float]) -> None:

@@ -46,14 +46,16 @@ class Answer:
             q, v = mode.parted(y)
             poses = mode.poses(t, q, v)
             times.append(t)
+            inner = {name: pose[0] for name, pose in poses.items() if len(pose) == 1}
             for name, pose in poses.items():
-                states.setdefault(name, []).append(pose)
-            if forces:
+                if name not in inner:
+                    states.setdefault(name, []).append(pose)
+            if forces or inner:
                 try:
                     found = {**self.beside(phase, t, poses), **mode.reactions(t, q, v)}
                 except ArithmeticError as error:
                     raise Stuck(str(error), mode, t, y) from error
-                reactions.append(found)
+                reactions.append(found | inner)
         names = dict.fromkeys(name for found in reactions for name in found)
         return Trajectory(
             np.array(times),

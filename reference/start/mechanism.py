@@ -1,5 +1,7 @@
 """The mechanism of a case's scene at its start."""
 
+import numpy as np
+
 from ...cases.case import Case
 from ...cases.space.scene import SpatialScene
 from ..generated.either import Generated
@@ -14,4 +16,6 @@ def mechanism(case: Case) -> Generated:
     """In the plane or in space. Raises CaseError for a start that cannot be assembled."""
     if isinstance(case.scene, SpatialScene):
         return SpatialMechanism(case.scene, assemble_in_space(case, case.scene))
-    return Mechanism(case.scene, assemble(case), size_of(case))
+    q, v = assemble(case)
+    inner = [force.begins for force in case.scene.inner().values()]
+    return Mechanism(case.scene, (np.append(q, inner), v), size_of(case))
