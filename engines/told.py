@@ -6,11 +6,13 @@ and with the state of each point, in the order of `Scene.ends`, it answers with 
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from ..cases.drag import Drag, Viscous
 from ..cases.element import Force
 from ..cases.magnetic import Magnetic
+from ..cases.muscle import Contracting, LinearMuscle, Muscle
 from ..cases.scene import Scene
 
 
@@ -68,6 +70,54 @@ def _magnetic(scene: Scene, force: Magnetic) -> Law:
     return law
 
 
+@dataclass(frozen=True)
+class Living:
+    """A law with an inner state u: what u begins with, its rate and the forces, by the points."""
+
+    begins: float
+    rate: Callable[[Sequence[Place], float], float]
+    exerts: Callable[[Sequence[Place], float], Exerted]
+
+
+def _contracting(scene: Scene, force: Contracting) -> Living:
+    """c_s (λ − u) of what contracts, and c_p (λ − λ₀) beside it."""
+    series, beside, rest = force.series_stiffness, force.parallel_stiffness, force.rest_length
+    shortening = SHORTENING[type(force)](force)
+
+    def rate(points: Sequence[Place], u: float) -> float:
+        a, b = points
+        return -shortening(series * (math.hypot(b.x - a.x, b.y - a.y) - u))
+
+    def exerts(points: Sequence[Place], u: float) -> Exerted:
+        a, b = points
+        x, y = b.x - a.x, b.y - a.y
+        length = math.hypot(x, y)
+        size = (series * (length - u) + beside * (length - rest)) / length
+        return (size * x, size * y), (-size * x, -size * y)
+
+    return Living(force.begins, rate, exerts)
+
+
+def _hill(force: Muscle) -> Callable[[float], float]:
+    """(F + a)(v + b) = (F₀ + a) b, solved for v."""
+    top, a, b = (force.isometric + force.hill_a) * force.hill_b, force.hill_a, force.hill_b
+    return lambda tension: top / (tension + a) - b
+
+
+def _linear(force: LinearMuscle) -> Callable[[float], float]:
+    """F = F₀ − b v, solved for v."""
+    return lambda tension: (force.isometric - tension) / force.damping
+
+
+SHORTENING: dict[type[Contracting], Callable[[Any], Callable[[float], float]]] = {
+    Muscle: _hill,
+    LinearMuscle: _linear,
+}
+"""How fast what contracts shortens [m/s] under a force [N]."""
+LIVING: dict[type[Force], Callable[[Scene, Any], Living]] = {
+    Muscle: _contracting,
+    LinearMuscle: _contracting,
+}
 TOLD: dict[type[Force], Callable[[Scene, Any], Law]] = {
     Drag: _drag,
     Viscous: _viscous,
@@ -78,3 +128,8 @@ TOLD: dict[type[Force], Callable[[Scene, Any], Law]] = {
 def law_of(scene: Scene, force: Force) -> Law:
     """What a force of the scene exerts."""
     return TOLD[type(force)](scene, force)
+
+
+def living(scene: Scene, force: Force) -> Living:
+    """The law of a force with an inner state."""
+    return LIVING[type(force)](scene, force)

@@ -18,8 +18,10 @@ from ...cases.force import (
     Drag,
     Force,
     Line,
+    LinearMuscle,
     Magnetic,
     Motor,
+    Muscle,
     Push,
     Spring,
     Torque,
@@ -31,6 +33,7 @@ from ...cases.scene import CENTER, GROUND, Anchor, Scene
 from ...cases.signal import Signal
 from ...cases.trajectory import Array
 from .hinge import Hinge, hinge
+from .muscle import ANOTHER, NOTHING, write_muscle
 from .viscous import not_polynomial, viscous_numbers, write_viscous
 from .written import written
 
@@ -66,16 +69,23 @@ def lacking(scene: Scene) -> list[tuple[Force, str]]:
 def write(root: ET.Element, scene: Scene) -> None:
     """The sections of the scene's forces."""
     sections = {name: ET.Element(name) for name in ("tendon", "actuator")}
-    ours = [force for force, _ in lacking(scene)]
     for force in scene.forces.values():
-        if force not in ours:
-            ELEMENTS[type(force)].write(sections, force, *_about(scene, force, root))
+        ELEMENTS[type(force)].write(sections, force, *_about(scene, force, root))
     root.extend(section for section in sections.values() if len(section))
 
 
 def signals(scene: Scene) -> list[Signal]:
     """The laws of the actuators' controls, in MuJoCo's order."""
     return [signal(force) for force, signal in _actuated(scene)]
+
+
+def begun_with(scene: Scene) -> list[float]:
+    """The activations at the start, in MuJoCo's order: of ramps, and of what has an inner state."""
+    return [
+        force.begins if force.inner else 0.0
+        for force, signal in _actuated(scene)
+        if force.inner or signal(force).law == "ramp"
+    ]
 
 
 def numbers(scene: Scene, model: mujoco.MjModel) -> dict[str, float]:
@@ -215,4 +225,6 @@ ELEMENTS: dict[type[Force], Element] = {
     Drag: Element(lacks=lambda force: "engine: MuJoCo has no drag at a point of a body"),
     Viscous: Element(write_viscous, viscous_numbers, lacks=not_polynomial),
     Magnetic: Element(lacks=lambda force: "engine: MuJoCo has no force of a magnetic field"),
+    Muscle: Element(write_muscle, signal=lambda force: NOTHING, lacks=lambda force: ANOTHER),
+    LinearMuscle: Element(write_muscle, signal=lambda force: NOTHING, lacks=lambda force: ANOTHER),
 }

@@ -10,6 +10,7 @@ from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ..engine import Diverged, Realised, Start
 from .law.edge import edges
+from .law.inner import activations, rated
 from .law.signal import installed, signals
 from .law.smooth import smooth
 from .law.stepping import stepping
@@ -65,7 +66,7 @@ def simulate(
     laws = [*smooth(scene, model), *edges(scene, model)] if realised == "law" else steps.controls
     laws = [*laws, *told(scene, model)]
     touching = tuple(name for name in reactions if name.partition(".")[0] in scene.contacts)
-    with listening() as warnings, signals(scene, laws):
+    with listening() as warnings, rated(scene, model), signals(scene, laws):
         if every and not steps.slides:
             record = whole(model, data, len(grid))
         else:
@@ -80,7 +81,9 @@ def simulate(
         if every:
             rows = record.at(counts)
             steps.keep(counts)
-        forces = read(scene, model, data, times, rows, reactions, steps.recall)
+        inner = activations(scene, model, rows.act)
+        felt = tuple(name for name in reactions if name not in inner)
+        forces = read(scene, model, data, times, rows, felt, steps.recall) | inner
         check(warnings, grid, record)
     states = poses(scene, model, record.qpos, record.qvel, start)
     if not every:

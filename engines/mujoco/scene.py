@@ -11,7 +11,7 @@ from xml.etree import ElementTree as ET
 from ...cases.scene import GROUND, Anchor, DryFriction, Scene
 from ..engine import Choice, Start
 from .edge import write_room
-from .force import signals, write
+from .force import begun_with, signals, write
 from .planes import add_geom, add_pairs, add_planes
 from .tree import (
     Branch,
@@ -200,5 +200,7 @@ def _start(
     key = ET.SubElement(ET.SubElement(root, "keyframe"), "key", name="start")
     key.set("qpos", written(*(begun[0] or [position for position, _ in flat])))
     key.set("qvel", written(*(begun[1] or [rate for _, rate in flat])))
+    if activations := begun_with(scene):
+        key.set("act", written(*activations))
     if laws := signals(scene):
         key.set("ctrl", written(*(0 if law.law == "sine" else 1 for law in laws)))

@@ -18,7 +18,9 @@ def not_polynomial(force: Viscous) -> str | None:
 
 
 def write_viscous(sections: object, force: Viscous, along: Hinge) -> None:
-    """The coefficient of its power."""
+    """The coefficient of its power, if MuJoCo has that."""
+    if not_polynomial(force):
+        return
     assert along.element is not None
     d, power = force.coefficient.forward, _POWERS.index(force.exponent)
     along.element.set("damping", written(*[d if i == power else 0.0 for i in range(3)]))

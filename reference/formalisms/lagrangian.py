@@ -14,7 +14,7 @@ from .lagrange import gradient, inertia, rate_matrix, slope
 
 
 def left(system: Mode, t: float, q: Array, v: Array, a: Array) -> Array:
-    """(2.52) d/dt ∂L/∂q̇ᵃ − ∂L/∂qᵃ (m,) at v̇ = a: 0 where nothing is lost, driven or held."""
+    """The left side of (2.51), d/dt ∂L/∂q̇ᵃ − ∂L/∂qᵃ (m,), at v̇ = a."""
     q_dot = system.rates(t, q, v)
 
     def L(t: Any, q: Vector, q_dot: Vector) -> Any:
@@ -27,7 +27,7 @@ def left(system: Mode, t: float, q: Array, v: Array, a: Array) -> Array:
 
 
 def unbalanced(system: Mode, t: float, q: Array, v: Array, a: Array) -> Array:
-    """(2.51) d/dt ∂L/∂q̇ᵃ − ∂L/∂qᵃ = −∂D/∂q̇ᵃ + Q_a⁴: by what v̇ = a misses it (n,).
+    """(2.51), (2.52) d/dt ∂L/∂q̇ᵃ − ∂L/∂qᵃ = −∂D/∂q̇ᵃ + Q_a⁴, or 0: by what v̇ = a misses it (n,).
 
     Of coordinates that nothing binds.
     """

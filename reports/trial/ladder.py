@@ -95,4 +95,5 @@ def wanted_reactions(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
         for name in names
         if name.split(".")[0] in parts and name in known and known[name].kind == "force"
     )
-    return tuple(dict.fromkeys(given for name in forces for given in scene.told_by(name)))
+    told = (given for name in forces for given in scene.told_by(name))
+    return tuple(dict.fromkeys([*told, *scene.inner()]))

@@ -82,7 +82,7 @@ def missed(mode: Mode) -> float:
 
 @pytest.mark.parametrize("name", MODES)
 def test_by_a_force_and_by_the_lagrangian(name: str) -> None:
-    """(2.52) d/dt ∂L/∂q̇ᵃ − ∂L/∂qᵃ = 0."""
+    """d/dt ∂L/∂q̇ᵃ − ∂L/∂qᵃ = 0 (2.52)."""
     mode = MODES[name]
     assert missed(mode) < EXACT
     for t, q, v in drawn(5):

@@ -1,0 +1,57 @@
+"""Inner states of forces as activations, whose rates MuJoCo asks our callback for at every stage.
+
+So they are integrated as places and velocities are, to the same order.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+
+import mujoco
+
+from ....cases.force import Force
+from ....cases.scene import Scene
+from ....cases.trajectory import Array
+from ...told import living
+from .points import Points
+
+Rate = Callable[[mujoco.MjModel, mujoco.MjData, int], float]
+
+
+def activation(model: mujoco.MjModel, force: Force) -> int:
+    """Where the inner state of a force stands among the activations."""
+    return int(model.actuator_actadr[model.actuator(force.name).id])
+
+
+def activations(scene: Scene, model: mujoco.MjModel, act: Array) -> Mapping[str, Array]:
+    """The inner states (N,) by quantity, of all activations (N, ·)."""
+    return {name: act[:, activation(model, f)] for name, f in scene.inner().items()}
+
+
+@contextmanager
+def rated(scene: Scene, model: mujoco.MjModel) -> Iterator[None]:
+    """The callback is one for the whole process: whose it was gets it back."""
+    before = mujoco.get_mjcb_act_dyn()
+    mujoco.set_mjcb_act_dyn(_rates(scene, model) if scene.inner() else before)
+    try:
+        yield
+    finally:
+        mujoco.set_mjcb_act_dyn(before)
+
+
+def _rates(scene: Scene, model: mujoco.MjModel) -> Rate:
+    laws = {
+        int(model.actuator(f.name).id): (f, living(scene, f), activation(model, f))
+        for f in scene.inner().values()
+    }
+    points: dict[int, Points] = {}
+    known: mujoco.MjData | None = None
+
+    def rate(model: mujoco.MjModel, data: mujoco.MjData, actuator: int) -> float:
+        nonlocal known
+        if data is not known:
+            known = data
+            points.update({i: Points(scene, model, data, f) for i, (f, _, _) in laws.items()})
+        _, law, place = laws[actuator]
+        return law.rate(points[actuator].places(), data.act.item(place))
+
+    return rate
