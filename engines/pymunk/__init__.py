@@ -13,6 +13,7 @@ from ..engine import Plain, Plan, Realised, Refusal, Start
 from ..heading import heading
 from . import plans, settings
 from .claims import answered
+from .law.inner import states
 from .plain import plain
 from .plans import named
 from .read.health import Left
@@ -118,5 +119,7 @@ def _run(
     world = placed(scene, start, step, numbers, realised)
     kept = Record(world, step, bool(numbers.get("time.midpoint"))) if record else None
     steps = stepper(world, step, numbers, realised, kept and kept.keep)
-    motion = sampled(world, steps, times, step, numbers, reactions=wanted)
+    felt = tuple(name for name in wanted if name not in scene.inner())
+    motion = sampled(world, steps, times, step, numbers, reactions=felt)
+    motion = replace(motion, reactions={**motion.reactions, **states(world, times, step)})
     return replace(motion, record=kept.trajectory()) if kept else motion

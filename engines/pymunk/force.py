@@ -18,8 +18,10 @@ from ...cases.force import (
     Damper,
     Drag,
     Force,
+    LinearMuscle,
     Magnetic,
     Motor,
+    Muscle,
     Push,
     Spring,
     Torque,
@@ -242,4 +244,6 @@ ELEMENTS: dict[type[Force], Element] = {
     Drag: Element(**BY_LAW, lacks="engine: pymunk has no friction by a power of the speed"),
     Viscous: Element(**BY_LAW, lacks="engine: pymunk has no friction by a power of the speed"),
     Magnetic: Element(**BY_LAW, lacks="engine: pymunk has no force of a magnetic field"),
+    Muscle: Element(**BY_LAW, lacks="engine: pymunk has no muscle"),
+    LinearMuscle: Element(**BY_LAW, lacks="engine: pymunk has no muscle"),
 }  # fmt: skip
