@@ -6,80 +6,13 @@ q = (x,), x down the slope of angle β.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from ..system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
+from ..system import Array, Guard, System
+from .slope import Block
 
 G = 9.80665  # m/s²
-
-
-@dataclass(frozen=True)
-class _Block(Mode):
-    """Sliding with v > 0 (σ = 1) or v < 0 (σ = −1), or sticking (σ = 0)."""
-
-    m: float
-    mu_k: float
-    beta: float
-    sigma: int
-
-    coordinates = ("x",)
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "masses", {"block": Mass(self.m, None)})
-
-    def accelerations(self, t: float, q: Array, v: Array) -> Array:
-        """(2.87) ẍ = g (sin β − σ μ_k cos β); ẍ = 0 where it sticks [m/s²], (1,)."""
-        if self.sigma == 0:
-            return np.zeros(1)
-        slope = math.sin(self.beta) - self.sigma * self.mu_k * math.cos(self.beta)
-        return np.array([G * slope])
-
-    def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
-        """(2.89) F_N = m g cos β, F_fr = −σ μ_k F_N; −m g sin β where it sticks [N]."""
-        F_N = self.m * G * math.cos(self.beta)
-        stuck = -self.m * G * math.sin(self.beta)
-        tangent = -self.sigma * self.mu_k * F_N if self.sigma else stuck
-        return {"touch.tangent": tangent, "touch.normal": F_N}
-
-    def T(self, t: Any, q: Vector, v: Vector) -> Any:
-        """(2.53) T = ½ m ẋ² [J]."""
-        return self.m * v[0] ** 2 / 2
-
-    def U(self, t: Any, q: Vector) -> Any:
-        """(2.45) U = −m g x sin β [J]."""
-        return -self.m * G * q[0] * math.sin(self.beta)
-
-    def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
-        """(2.50) Q = −σ μ_k m g cos β, the friction of sliding [N], (1,)."""
-        return np.array([-self.sigma * self.mu_k * self.m * G * math.cos(self.beta)])
-
-    def f_a(self, t: Any, q: Vector) -> Vector:
-        """(2.15) ẋ = 0 where it sticks: λ is the friction force."""
-        return np.zeros((0, 1)) if self.sigma else np.ones((1, 1))
-
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) the floor does not move."""
-        return np.zeros(len(self.f_a(t, q)))
-
-    def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
-        """(2.8) R₁ = (x, 0)."""
-        return {"block": (q[0], 0.0, 0.0, v[0], 0.0, 0.0)}
-
-    def loads(self, t: float, q: Array, v: Array) -> list[Load]:
-        """(2.81) weight in the axes of the slope, and the friction of sliding."""
-        at, weight = (float(q[0]), 0.0), self.m * G
-        down = (weight * math.sin(self.beta), -weight * math.cos(self.beta))
-        friction = self.mu_k * weight * math.cos(self.beta)
-        return [Load("block", at, down), Load("block", at, (-self.sigma * friction, 0.0))]
-
-    def cuts(self, t: float, q: Array) -> list[Cut]:
-        """The floor: its normal force always, its friction where the block sticks."""
-        at = (float(q[0]), 0.0)
-        if self.sigma == 0:
-            return [Cut(("touch.tangent", "touch.normal"), None, "block", at)]
-        return [Cut(("touch.normal",), None, "block", at, ((0.0, 1.0),))]
 
 
 @dataclass(frozen=True)
@@ -96,7 +29,7 @@ class SlidingBlock(System):
         if not self.mu_s >= self.mu_k >= 0.0:
             raise ValueError(f"0 ≤ μ_k ≤ μ_s is broken by μ_k = {self.mu_k}, μ_s = {self.mu_s}")
         sigmas = {"down": 1, "up": -1, "sticks": 0}
-        modes = {name: _Block(self.m, self.mu_k, self.beta, s) for name, s in sigmas.items()}
+        modes = {name: Block(self.m, self.mu_k, self.beta, s) for name, s in sigmas.items()}
         object.__setattr__(self, "modes", modes)
 
     def start(self) -> tuple[str, Array, Array]:

@@ -22,6 +22,7 @@ ALLOWED = {
     ".tilting_ring",  # of which a disk is one
     ".dynamometer",  # by which a block on a floor is drawn
     *(".blade_on_plane", ".wheel_on_plane", ".triples", ".arm", ".serial_arm", ".quadrature"),
+    ".slope",
 }
 
 
