@@ -138,7 +138,20 @@ class Torque(Force):
         return self.signal.angular_frequency, 0.0
 
 
-NOUNS = (Spring, Damper, Push, Torque, Torsion, TorsionDamper, Motor, Drag, Viscous, Magnetic, Muscle, LinearMuscle)
+NOUNS = (
+    Spring,
+    Damper,
+    Push,
+    Torque,
+    Torsion,
+    TorsionDamper,
+    Motor,
+    Drag,
+    Viscous,
+    Magnetic,
+    Muscle,
+    LinearMuscle,
+)
 FORCES: dict[str, type[Force]] = {kind.word: kind for kind in NOUNS}
 """By the word of the case file."""
 

@@ -51,8 +51,10 @@ class Contracting(Force):
             return length
         u = motion.reaction(f"{self.name}.{self.inner}")
         series, beside = self.series_stiffness, self.parallel_stiffness
-        return u if field == self.inner else series * (length - u) + beside * (
-            length - self.rest_length
+        return (
+            u
+            if field == self.inner
+            else series * (length - u) + beside * (length - self.rest_length)
         )
 
     def potential(self, motion: Motion) -> Array:

@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Vector = NDArray[Any]  # real, or complex while a derivative is taken
 Pose = tuple[Any, ...]
-"""A body's state, or (u,) of an inner one; as the columns of `cases.frame` have it: of the centre of mass x, y, angle, vx,
+"""A body's state, as the columns of `cases.frame` have it: of the centre of mass x, y, angle, vx,
 vy, omega; in space r, the unit quaternion (w, x, y, z) from body to ground axes, v in ground axes
-and ω in body axes."""
+and ω in body axes. Or (u,), an inner state of a force, by its quantity."""
 
 MOVING = "moving"  # the mode of a system that has only one
 

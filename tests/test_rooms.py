@@ -7,7 +7,8 @@ from given.tree import FILES, imported, module
 # joined by + is one room.
 NOUNS = (
     "body+constraint+contact+difference+drag+element+event+force+frame+friction+joint+kind"
-    "+magnetic+motion+plane+point+quantity+scene+shape+signal+space+states+trajectory+turning"
+    "+magnetic+motion+muscle+plane+point+quantity+scene+shape+signal+space+states+trajectory"
+    "+turning"
 )
 ROOMS = {
     "cases": [

@@ -14,6 +14,7 @@ import mujoco
 from ...cases.scene import Scene
 from ...cases.trajectory import Array
 from ..engine import Choice, Plan, Start
+from .law.inner import acting
 from .law.settle import settle
 from .law.signal import installed
 from .law.touch import one_touch, touches
@@ -113,7 +114,7 @@ def _text(scene: Scene, start: Start, nominal: Sequence[Choice]) -> str:
 
 @lru_cache(maxsize=1)  # the rungs of a trial follow each other
 def _model(text: str) -> mujoco.MjModel:
-    with listening(), installed(None):
+    with listening(), installed(None), acting(None):
         return mujoco.MjModel.from_xml_string(text)
 
 

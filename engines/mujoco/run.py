@@ -10,7 +10,7 @@ from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ..engine import Diverged, Realised, Start
 from .law.edge import edges
-from .law.inner import activations, rated
+from .law.inner import acting, activations, rated
 from .law.signal import installed, signals
 from .law.smooth import smooth
 from .law.stepping import stepping
@@ -38,7 +38,7 @@ def listening() -> Iterator[list[str]]:
 
 def started(model: mujoco.MjModel) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """The model, and data at its start."""
-    with listening(), installed(None):
+    with listening(), installed(None), acting(None):
         data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, 0)
     return model, data

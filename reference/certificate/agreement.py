@@ -43,8 +43,10 @@ def relative(a: Array, b: Array, *, least: float = 0.0) -> float:
     return worst(np.abs(a - b).ravel()) / (max(worst(np.abs(a).ravel()), least) or 1.0)
 
 
-def difference(one: Trajectory, other: Trajectory) -> float:
+def difference(one: Trajectory, other: Trajectory, inner: Iterable[str] = ()) -> float:
     """Largest difference of places, angles, velocities and rates, each relative to its size.
+
+    inner: the inner states, which stand among the reactions, too.
 
     A mechanism at rest moves by rounding only, so sizes are not taken below what would carry it
     through its own size, or 1 rad, in the duration.
@@ -58,7 +60,8 @@ def difference(one: Trajectory, other: Trajectory) -> float:
         b[:, frame.attitude] *= np.where(same, 1.0, -1.0)
     groups = [(frame.place, 0.0), (frame.attitude, 1.0)]
     groups += [(frame.velocity, size / duration), (frame.spin, 1.0 / duration)]
-    return worst(relative(a[:, g], b[:, g], least=least) for g, least in groups)
+    found = [relative(a[:, g], b[:, g], least=least) for g, least in groups]
+    return worst([*found, *(relative(one.reactions[u], other.reactions[u]) for u in inner)])
 
 
 def times_apart(one: Sequence[float], other: Sequence[float]) -> float:

@@ -52,20 +52,21 @@ def certify(
     """
     look()
     times, system, followed = case.times, written.system, written.followed
+    inner = case.scene.inner()
     stiff = any(system.modes[mode].stiff for mode in followed.phases)
     name, second = _second(system, times, stiff=stiff)
     others = {name: Answer(system, second, written.beside).trajectory(times)}
-    apart = difference(motion, others[name])
+    apart = difference(motion, others[name], inner)
     checks, found = [], {f"{name}: events": second}
     if system is not generated:
         others["generated"], found["generated events"] = built.trajectory(times), built.followed
-        far = difference(motion, others["generated"])
+        far = difference(motion, others["generated"], inner)
         checks.append(Check("generated motion", far, max(GENERATED, _looser(apart))))
         checks += beside(written, built, generated, times)
     own = max(_own(followed), _looser(apart))
     if (closed := _closed_form(system, times)) is not None:
         others["closed form"] = written.trajectory(times, closed)
-        checks.append(Check("closed form", difference(motion, others["closed form"]), own))
+        checks.append(Check("closed form", difference(motion, others["closed form"], inner), own))
     late = apart * float(times[-1] - times[0])
     checks += _events(system, followed, found, max(_looser(late), system.blurred), float(times[-1]))
     checks += laws(written, generated, times)

@@ -72,7 +72,9 @@ def accelerated(system: Mode, t: float, q: Array, v: Array, a: Array) -> Array:
 def gyroscopic_moments(system: Mode, t: float, q: Array, v: Array) -> Array:
     """ω × (J ω) of every body, in the rows of `accelerated`."""
     poses = system.poses(t, q, v)
-    return rows(system, {name: gyroscopic(mass, poses[name]) for name, mass in system.masses.items()})
+    return rows(
+        system, {name: gyroscopic(mass, poses[name]) for name, mass in system.masses.items()}
+    )
 
 
 def load_forces(system: Mode, t: float, q: Array, v: Array) -> Array:

@@ -49,7 +49,8 @@ class Action:
     """A kind of force element; called with the element, the coordinates, t, q and, but for U, v.
 
     pulls: each force [N] with the point at which it acts. U and V [J], D [W]. Q4: adds its own to
-    a vector (n,). rate: of its inner state. line: whether that element has no direction where its two ends meet.
+    a vector (n,). rate: of its inner state. line: whether that element has no direction where its
+    two ends meet.
     """
 
     pulls: Callable[..., Iterator[tuple[Any, Point]]]

@@ -45,9 +45,7 @@ RATES: dict[type[Contracting], Any] = {
 """How fast what contracts shortens [m/s]."""
 
 
-def _line(
-    force: Contracting, where: Coordinates, t: Any, q: Numbers
-) -> tuple[Point, Point, Any]:
+def _line(force: Contracting, where: Coordinates, t: Any, q: Numbers) -> tuple[Point, Point, Any]:
     a, b = (where.point(at, t, q, q) for at in (force.a, force.b))
     x, y = b.r[0] - a.r[0], b.r[1] - a.r[1]
     return a, b, np.sqrt(x * x + y * y)

@@ -4,7 +4,7 @@ from typing import Any
 
 
 def hill(F_0: float, a: float, b: float, F: Any) -> Any:
-    """v = b (F₀ − F)/(F + a) [m/s] of (F + a)(v + b) = (F₀ + a) b, F > −a; above F₀ it lengthens."""
+    """v = b (F₀ − F)/(F + a) [m/s] of (F + a)(v + b) = (F₀ + a) b, F > −a: v < 0 above F₀."""
     return b * (F_0 - F) / (F + a)
 
 

@@ -26,6 +26,7 @@ from .friction_of_rest import FrictionOfRest
 from .growing_force import GrowingForce
 from .heavy_top import HeavyTop
 from .knife_edge import KnifeEdge
+from .muscle_isometric import MuscleIsometric
 from .muscle_load import LinearMuscleLoad, MuscleLoad
 from .rhombus import Rhombus
 from .rimless_wheel import RimlessWheel
@@ -67,6 +68,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "growing_force": GrowingForce,
     "heavy_top": HeavyTop,
     "knife_edge": KnifeEdge,
+    "muscle_isometric": MuscleIsometric,
     "muscle_load": MuscleLoad,
     "linear_muscle_load": LinearMuscleLoad,
     "rhombus": Rhombus,

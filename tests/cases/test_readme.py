@@ -19,6 +19,7 @@ from textmech.cases.scene import (
     Contact,
     Drag,
     Edge,
+    LinearMuscle,
     Signal,
     Smooth,
     Spring,
@@ -68,6 +69,7 @@ def test_quantities() -> None:
         forces={
             "line": Spring("line", a, b, 1.0, 1.0),
             "torsion": Torsion("torsion", "joint", 1.0, 0.0),
+            "muscle": LinearMuscle("muscle", a, b, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
             "drag": Drag("drag", b, 1.0, 2.0),
             "viscous": Viscous("viscous", "joint", Bounds(1.0, 1.0), 2.0),
         },

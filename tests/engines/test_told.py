@@ -10,11 +10,11 @@ from given import scenes, slowed
 from given.planning import SHIPPED, TUNED, moved, refused, ways
 
 from textmech.cases.case import Case
-from textmech.cases.scene import Bounds, Drag, Magnetic, Viscous
+from textmech.cases.scene import Anchor, Bounds, Drag, LinearMuscle, Magnetic, Muscle, Viscous
 from textmech.cases.trajectory import Trajectory
 from textmech.engines import told
 from textmech.engines.engine import Start
-from textmech.engines.told import Place, law_of
+from textmech.engines.told import Place, law_of, living
 from textmech.reference.solve import solve
 
 TABLE = json.loads((Path(__file__).parent / "law_table.json").read_text())
@@ -45,6 +45,22 @@ def test_typed_values(row: dict[str, Any], known: tuple[Case, Trajectory, Start]
     points = [Place(*place) for place in row["points"]]
     found = law_of(scene, force)(0.0, points)
     np.testing.assert_allclose(found, row["forces"], rtol=1e-12, atol=1e-15)
+
+
+@pytest.mark.parametrize("row", TABLE["living"], ids=str)
+def test_typed_values_of_what_has_a_state(row: dict[str, Any]) -> None:
+    """F₀ = 60 N, c_s = 300 N/m, c_p = 100 N/m from 0.15 m, between (1, 2) and (1.4, 2.3)."""
+    kind = {"muscle": Muscle, "linear_muscle": LinearMuscle}[row["kind"]]
+    ends = (Anchor("ground", "O"), Anchor("bob", "center"))
+    force = kind("calf", *ends, 60.0, 300.0, 100.0, 0.15, 0.2, **row["numbers"])
+    law = living(NOWHERE, force)
+    points = [Place(1.0, 2.0, 0.0, 0.0, 0.0), Place(1.4, 2.3, 5.0, 5.0, 0.7)]
+    assert law.begins == 0.2
+    assert law.rate(points, row["u"]) == pytest.approx(row["rate"], abs=1e-12)
+    np.testing.assert_allclose(law.exerts(points, row["u"]), row["forces"], rtol=1e-12)
+
+
+NOWHERE: Any = None  # a muscle asks nothing of its scene
 
 
 def apart(engine: str, known: tuple[Case, Trajectory, Start], h: float) -> float:

@@ -3,8 +3,8 @@
 So they are integrated as places and velocities are, to the same order.
 """
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 
 import mujoco
 
@@ -22,16 +22,21 @@ def activation(model: mujoco.MjModel, force: Force) -> int:
     return int(model.actuator_actadr[model.actuator(force.name).id])
 
 
-def activations(scene: Scene, model: mujoco.MjModel, act: Array) -> Mapping[str, Array]:
+def activations(scene: Scene, model: mujoco.MjModel, act: Array) -> dict[str, Array]:
     """The inner states (N,) by quantity, of all activations (N, ·)."""
     return {name: act[:, activation(model, f)] for name, f in scene.inner().items()}
 
 
+def rated(scene: Scene, model: mujoco.MjModel) -> AbstractContextManager[None]:
+    """The scene's inner states have their rates, while they are wanted."""
+    return acting(_rates(scene, model) if scene.inner() else None)
+
+
 @contextmanager
-def rated(scene: Scene, model: mujoco.MjModel) -> Iterator[None]:
-    """The callback is one for the whole process: whose it was gets it back."""
+def acting(rate: Rate | None) -> Iterator[None]:
+    """A callback is one for the whole process, compiling included: whose it was gets it back."""
     before = mujoco.get_mjcb_act_dyn()
-    mujoco.set_mjcb_act_dyn(_rates(scene, model) if scene.inner() else before)
+    mujoco.set_mjcb_act_dyn(rate)
     try:
         yield
     finally:

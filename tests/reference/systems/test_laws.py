@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import gimbals, laws, robots, wheels
+from given import gimbals, laws, muscles, robots, wheels
 from given.examples import MODES, PARAMETERS, VARIANTS, example
 from given.spatial import SPATIAL
 from given.states import states
@@ -25,7 +25,7 @@ STATED_IN_PARAMETERS = (laws.start,)  # what a variant changes
 def test_every_system_is_tested():
     """Those in space by their own files."""
     rooms = (wheels.PARAMETERS, wheels.FROM_ABOVE, robots.PARAMETERS, gimbals.PARAMETERS)
-    assert set(SYSTEMS) == set().union(PARAMETERS, SPATIAL, *rooms)
+    assert set(SYSTEMS) == set().union(PARAMETERS, SPATIAL, muscles.PARAMETERS, *rooms)
 
 
 @pytest.mark.whole

@@ -9,7 +9,7 @@ from unittest import mock
 
 import numpy as np
 import pytest
-from given import laws
+from given import laws, slowed
 from given.examples import PARAMETERS, SMOOTH, only
 from given.laws import Law
 from given.mutants import mutant
@@ -33,17 +33,7 @@ PARAMETER: dict[str, dict[str, Law]] = {
     "rhombus": {
         "m": laws.equations, "l": laws.free_cut, "c": laws.power, "l0": laws.equations,
     },
-    "charge_in_field": {
-        "m": laws.equations, "e": laws.equations, "B": laws.free_cut, "F": laws.power,
-    },
-    "falling_drag": {"m": laws.equations, "d": laws.power},
-    "viscous_drift": {
-        "m": laws.equations, "A": laws.power, "w": laws.equations, "d_minus": laws.free_cut,
-        "d_plus": laws.closed_form,
-    },
-    "viscous_growing_force": {
-        "m": laws.equations, "b": laws.power, "d_minus": laws.closed_form, "d_plus": laws.free_cut,
-    },
+    **slowed.SEEN_BY,
     "driven_edge": {
         "m": laws.reactions, "J": laws.multipliers, "a": laws.equations, "A": laws.equations,
         "Omega": laws.equations, "alpha": laws.equations,
