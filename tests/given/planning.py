@@ -10,7 +10,7 @@ from textmech.cases.frame import PLANE
 from textmech.cases.scene import Scene, Viscous
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Engine, Plan, Realised, Refusal, Start
-from textmech.engines.told import TOLD
+from textmech.engines.told import LIVING, TOLD
 from textmech.reports.trial.start import assembled
 
 from .scenes import SHIPPED as EVERY
@@ -48,7 +48,7 @@ def damps(engine: Engine, scene: Scene) -> list[Viscous]:
 
 def own(engine: Engine, scene: Scene) -> bool:
     """Whether an engine has something of its own for all of a scene."""
-    told = {name for name, force in scene.forces.items() if type(force) in TOLD}
+    told = {name for name, force in scene.forces.items() if type(force) in TOLD | LIVING}
     return not scene.constraints and not told - {force.name for force in damps(engine, scene)}
 
 
