@@ -17,6 +17,7 @@ from ...engine import Start
 from ..contact import CLOSED, height
 from .floor import Floor
 from .signal import signals
+from .told import told
 
 _DEEPEST = 1.0  # m, of a point; a disk could be as deep as its radius
 _SETTLED = 1e-12  # of a depth: points that share a load have found it
@@ -32,7 +33,7 @@ def settle(
     contacts = [c for c in scene.contacts.values() if height(scene, c, start) <= CLOSED]
     if not contacts:
         return {}
-    with signals(scene):
+    with signals(scene, told(scene, model)):
         floor = Floor(scene, model, data, contacts)
         for _ in range(_SWEEPS):  # Gauss and Seidel
             before = floor.depths.copy()
