@@ -9,12 +9,15 @@ from dataclasses import dataclass
 from math import sqrt
 from typing import Annotated, TypeVar
 
+import numpy as np
+
 from .body import Body
 from .drag import Drag, Viscous
 from .element import Force
 from .kind import Fields
 from .language.grammar.field import In
 from .language.grammar.signal import InTime
+from .language.grammar.text import Word
 from .magnetic import Magnetic
 from .motion import Motion
 from .muscle import LinearMuscle, Muscle
@@ -51,24 +54,33 @@ class Line(Force):
 
 @dataclass(frozen=True)
 class Spring(Line):
-    """(2.82): F = −c(λ − λ₀) along the line between two points."""
+    """(2.82): F = −c(λ − λ₀) along the line between two points; of a leg or rope on one side."""
 
     word = "spring"
     stiffness: Annotated[float, In("N/m", above=0)]
     rest_length: Annotated[float, In("m", least=0)]
+    only: Annotated[str, Word("side", ("compression", "tension"))] | None = None
 
     def tension(self, length: Array, rate: Array) -> Array:
         """(2.82) c(λ − λ₀)."""
-        return self.stiffness * (length - self.rest_length)
+        return self.stiffness * self._stretch(length)
+
+    def _stretch(self, length: Array) -> Array:
+        """λ − λ₀, and 0 on the side on which it does not act."""
+        least = 0.0 if self.only == "tension" else -np.inf
+        most = 0.0 if self.only == "compression" else np.inf
+        return np.clip(length - self.rest_length, least, most)
 
     def potential(self, motion: Motion) -> Array:
         """(2.45) ½ c (λ − λ₀)²."""
         length, _ = motion.line(self.a, self.b)
-        return 0.5 * self.stiffness * (length - self.rest_length) ** 2
+        return 0.5 * self.stiffness * self._stretch(length) ** 2
 
     def numbers(self) -> dict[str, float]:
-        """c and λ₀."""
-        return {"stiffness": self.stiffness, "rest_length": self.rest_length}
+        """c and λ₀, and whether it pulls when stretched and pushes when pressed."""
+        sides = {"pulls": self.only != "compression", "pushes": self.only != "tension"}
+        numbers = {"stiffness": self.stiffness, "rest_length": self.rest_length}
+        return numbers | {side: float(acts) for side, acts in sides.items()}
 
     def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
         """√(c/m)."""

@@ -109,6 +109,10 @@ class Scene:
     def springs(self) -> Iterator[Spring]:
         return of(Spring, self.forces.values())
 
+    def one_sided(self) -> Iterator[Spring]:
+        """The springs that only press or only pull."""
+        return (spring for spring in self.springs() if spring.only)
+
     def dampers(self) -> Iterator[Damper]:
         return of(Damper, self.forces.values())
 

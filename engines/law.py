@@ -55,8 +55,10 @@ def tension(force: Line, length: float, rate: float) -> float:
 
 
 def _spring(force: Spring, length: float, rate: float) -> float:
-    """(2.82) c (λ − λ₀)."""
-    return force.stiffness * (length - force.rest_length)
+    """(2.82) c (λ − λ₀), nothing on the side on which a one-sided spring does not act."""
+    stretch = length - force.rest_length
+    idle = stretch > 0 if force.only == "compression" else stretch < 0
+    return 0.0 if force.only and idle else force.stiffness * stretch
 
 
 def _damper(force: Damper, length: float, rate: float) -> float:

@@ -6,6 +6,7 @@ from typing import Any
 
 from ..case import Case, Deviation, Event, Origin, Placement
 from ..mistake import Source
+from ..point import anchor
 from ..scene import STANDARD_GRAVITY, Scene
 from ..space.scene import SpatialScene
 from .grammar.file import File
@@ -59,8 +60,8 @@ def resolve_case(name: str, file: File, scene: Scene, source: Source, *, long: b
         parameters={name: amount.value for name, amount in file.parameters.items()},
         drops_out=file.drops_out,
         scene=scene,
-        initial=_placements(file.initial),
-        near=_placements(file.near),
+        initial=_placements(file.initial, scene),
+        near=_placements(file.near, scene),
         duration=file.duration if states is None else states.random - 1.0,
         samples=file.samples if states is None else states.random,
         states=states,
@@ -105,8 +106,17 @@ def _gravity(
     return tuple(along * x + across * d + 0.0 for x, d in zip(slope, down, strict=True))
 
 
-def _placements(places: Mapping[str, Any]) -> dict[str, Placement]:
+def _placements(places: Mapping[str, Any], scene: Scene) -> dict[str, Placement]:
+    given = {name: place.given | _polar(place.polar, scene) for name, place in places.items()}
     return {
-        name: Placement(dict(place.given), dict(place.places), place.attitude, place.stands_on)
+        name: Placement(given[name], dict(place.places), place.attitude, place.stands_on)
         for name, place in places.items()
     }
+
+
+def _polar(given: tuple[str, float, float] | None, scene: Scene) -> dict[str, float]:
+    """x and y of what is so far from a point of the ground, in such a direction."""
+    if given is None or (point := anchor(given[0]).point) not in scene.points:
+        return {}  # the latter is a mistake, see check/polar.py
+    (x, y), (_, length, direction) = scene.points[point].at, given
+    return {"x": x + length * cos(direction), "y": y + length * sin(direction)}

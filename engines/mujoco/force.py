@@ -37,6 +37,8 @@ from .muscle import ANOTHER, NOTHING, write_muscle
 from .viscous import not_polynomial, viscous_numbers, write_viscous
 from .written import written
 
+NEVER = 1e6  # m: a length that no tendon has
+
 Sections = Mapping[str, ET.Element]
 Outer = tuple[Anchor, Array, Array]
 """A body's point at which a force (N, 2) [N] and a torque (N,) [N m] act; in space (N, 3) each."""
@@ -120,22 +122,30 @@ def _actuated(scene: Scene) -> Iterator[tuple[Force, Callable[[Any], Signal]]]:
             yield force, signal
 
 
-def tendon(sections: Sections, force: Line, **attributes: float) -> None:
+def tendon(sections: Sections, force: Line, **attributes: float | tuple[float, ...]) -> None:
     """A tendon between the two ends."""
-    texts = {key: written(value) for key, value in attributes.items()}
+    texts = {
+        key: written(*(value if isinstance(value, tuple) else (value,)))
+        for key, value in attributes.items()
+    }
     spatial = ET.SubElement(sections["tendon"], "spatial", texts, name=force.name)
     for end in (force.a, force.b):
         ET.SubElement(spatial, "site", site=str(end))
 
 
 def _spring(sections: Sections, force: Spring) -> None:
-    tendon(sections, force, stiffness=force.stiffness, springlength=force.rest_length)
+    rest = force.rest_length
+    dead = {"compression": (rest, NEVER), "tension": (0.0, rest)}.get(force.only or "", (rest,))
+    tendon(sections, force, stiffness=force.stiffness, springlength=dead)
 
 
 def _spring_numbers(model: mujoco.MjModel, force: Spring) -> dict[str, float]:
+    """Between two lengths MuJoCo's spring is dead."""
     number = model.tendon(force.name).id
-    rest_length = model.tendon_lengthspring[number, 0]
-    return {"stiffness": model.tendon_stiffness[number], "rest_length": rest_length}
+    low, high = model.tendon_lengthspring[number].tolist()
+    pulls, pushes = high < NEVER, low == high or high == NEVER
+    numbers = {"stiffness": model.tendon_stiffness[number], "rest_length": high if pulls else low}
+    return numbers | {"pulls": float(pulls), "pushes": float(pushes)}
 
 
 def _damper(sections: Sections, force: Damper) -> None:

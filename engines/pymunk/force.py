@@ -33,6 +33,7 @@ from ...cases.scene import Scene
 from ...cases.signal import Signal
 from ..engine import Realised
 from ..law import in_time, value
+from .law import one_side
 from .law.line import Exerted, Load, drifting, pull, told
 from .law.told import BY_LAW
 from .law.turning import couple_as_text, motor, motor_load, twist, twisted
@@ -48,7 +49,7 @@ class Element:
     """What pymunk has, or is told, of one kind; called with the world and the force element.
 
     line: the numbers of its DampedSpring, about a joint its DampedRotarySpring, and back: what the
-    audit reads of one. tell: the force
+    audit reads of one. by_length: its force [N] by that, if not as pymunk has it. tell: the force
     that is given before each step of `step` s, `drift` s ahead (0: at the present place); of what
     has a line too, only where we realise its law. load: what it exerts on a body, by the body's
     name. script: the same as lines of Python. lacks: why pymunk has no element for it, so that it
@@ -58,6 +59,7 @@ class Element:
     load: Callable[[World, Any, str], Exerted]
     line: Callable[[Any], dict[str, float]] | None = None
     numbers: Callable[[Any], dict[str, float]] = lambda line: {}
+    by_length: Callable[[Any], Callable[[Any, float], float] | None] = lambda force: None
     tell: Callable[[World, Any, float, float], Apply] | None = None
     script: Callable[[World, Any, Callable[[Body], str], bool], Iterator[str]] | None = None
     lacks: str = ""
@@ -73,6 +75,7 @@ def lines(world: World, realised: Realised) -> None:
         bodies, places = (world.body(a), world.body(b)), (world.local(a), world.local(b))
         if force.about is None:
             line = DampedSpring(*bodies, *places, **_LINE | element.line(force))
+            line.force_func = element.by_length(force) or line.force_func
         else:
             line = DampedRotarySpring(*bodies, **_TURN | element.line(force))
         world.lines[force.name] = line
@@ -223,7 +226,12 @@ def _named(*names: str) -> dict[str, Any]:
 
 
 ELEMENTS: dict[type[Force], Element] = {
-    Spring: Element(load=pull, **_named("rest_length", "stiffness")),
+    Spring: Element(
+        load=pull,
+        line=_named("rest_length", "stiffness")["line"],
+        numbers=one_side.numbers,
+        by_length=one_side.pushed,
+    ),
     Damper: Element(
         load=pull, **_named("damping"),
         tell=lambda world, damper, step, drift: told(world, damper, step),

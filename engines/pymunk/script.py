@@ -22,6 +22,7 @@ from ..engine import Start
 from .contact import ABOVE, closed, is_tip
 from .edge import joints_as_text, lays_as_text
 from .force import script
+from .law.one_side import as_text
 from .run import COLD
 from .scene import build
 from .slot import LENGTH, carried
@@ -191,6 +192,7 @@ def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
             arguments = (written(getattr(part, key)) for key in _ARGUMENTS[type(part)])
             yield f"    {', '.join(arguments)},"
             yield ")"
+            yield from (as_text(s, "joint") for s in world.scene.one_sided() if s.name == name)
             if part in brakes.get(name, ()):
                 yield "joint.max_bias = 0.0  # a friction joint corrects no position"
                 yield f"joint.max_force = {part.max_force!r}"

@@ -11,8 +11,8 @@
 | slowed, α < 1 | as slide | no force when it sticks         | slip: stops; ±F_a: slips           |
 | ideal, smooth | its only | it rolls; the smooth law (2.95) | nothing                            |
 
-A mode of a scene names the state
-of each element: `touch slides +, rail sticks`.
+Springs that only press or pull are in `one_side`. A mode of a scene names the state of each
+element: `touch slides +, rail sticks, leg slack`.
 """
 
 import math
@@ -28,7 +28,7 @@ from .constraint import Constraint
 from .contact import Braking, Coulomb, at_rest, normal, row, tangent
 from .coordinates import Coordinates
 
-State = Literal["open", "slides +", "slides -", "sticks", "slides"]
+State = Literal["open", "slides +", "slides -", "sticks", "slides", "acts", "slack"]
 REST: tuple[State, ...] = (
     "sticks",
     "slides +",
@@ -56,11 +56,11 @@ def dry(friction: DryFriction) -> Dry:
 class Element:
     """Something that has states; by itself, one that is never left.
 
-    tangent: the row along which it slips. normal: the row that a contact gives up when it opens.
+    slip: the row along which it slips. normal: the row that a contact gives up when it opens.
     """
 
     name: str
-    tangent: Constraint
+    slip: Constraint | None = None
     normal: Constraint | None = None
     only: State | None = None  # its one state
     frictionless: bool = False  # nothing to stick by: then it slides, whichever way
@@ -74,6 +74,12 @@ class Element:
     def slips(self) -> bool:
         """Whether it may; a pivot is assumed not to."""
         return "slides +" in self.rest
+
+    @property
+    def tangent(self) -> Constraint:
+        """The row along which it slips, of what can."""
+        assert self.slip is not None
+        return self.slip
 
     @property
     def body(self) -> str:
@@ -189,12 +195,12 @@ def elements(scene: Scene, where: Coordinates) -> Iterator[Element]:
     """All that has states, in the order of the scene."""
     for contact in scene.touching.values():
         if contact.ideal == "rolling":
-            yield Rolling(name=contact.name, tangent=tangent(contact, where))
+            yield Rolling(name=contact.name, slip=tangent(contact, where))
         else:
             yield Touching(
                 name=contact.name,
                 normal=normal(contact, where),
-                tangent=tangent(contact, where),
+                slip=tangent(contact, where),
                 static=contact.static,
                 kinetic=contact.kinetic,
                 restitution=contact.restitution,
@@ -210,7 +216,7 @@ def elements(scene: Scene, where: Coordinates) -> Iterator[Element]:
             continue
         along = at_rest(joint, where)
         if friction.smooth is not None:
-            yield Smoothed(name=joint.name, tangent=along, friction=friction)
+            yield Smoothed(name=joint.name, slip=along, friction=friction)
         else:
             loose = friction.static.forward == friction.static.backward == 0.0
-            yield Sliding(name=joint.name, tangent=along, friction=friction, frictionless=loose)
+            yield Sliding(name=joint.name, slip=along, friction=friction, frictionless=loose)

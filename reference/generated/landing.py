@@ -32,7 +32,10 @@ def landed(
     except NoImpact as error:
         what = _needed(modes, held, met, v, t) or str(error)
         raise Undetermined(modes.elements[i].name, what, t) from error
-    choices = [closed(e, _slip(e, t, q, v)) for e in modes.elements]
+    choices: list[Options] = [
+        closed(e, _slip(e, t, q, v)) if e.slip is not None else (state,)
+        for e, state in zip(modes.elements, modes.states[mode], strict=True)
+    ]
     for k, e in enumerate(modes.elements):
         if e.normal is not None and k not in touching:
             choices[k] = ("open",)

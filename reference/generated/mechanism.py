@@ -15,6 +15,7 @@ from .drag import blurred
 from .element import REST, Element, State, sign
 from .landing import STILL, landed
 from .modes import Modes, rate
+from .one_side import HAPPENS, OTHER, OneSided
 from .sharing import beside
 
 CLOSED = 1e-9  # of the scene's size: a start this close to the floor stands on it
@@ -51,6 +52,8 @@ class Mechanism(System):
     def _at_start(self, element: Element, q: Array, v: Array) -> Options:
         if element.only:
             return (element.only,)
+        if isinstance(element, OneSided):
+            return (element.began(q, v, CLOSED * self.size),)
         still = STILL * (float(np.max(np.abs(v))) or 1.0)
         if element.normal is not None:
             gap = element.normal.f(0.0, q.tolist())[0]
@@ -71,15 +74,19 @@ class Mechanism(System):
         return closed(element, slip if abs(slip) > still else 0.0)
 
     def guards(self, mode: str) -> Sequence[Guard]:
-        """Opening, landing, stopping and slipping of every element, in this order."""
+        """Opening, landing, stopping, slipping, and what springs do, in this order."""
         states = self.built.states[mode]
         found = [g for i, s in enumerate(states) for g in self._guards(mode, i, s)]
-        order = {"opens": 0, "lands": 1, "stops": 2, "slips": 3}
+        order = {"opens": 0, "lands": 1, "stops": 2, "slips": 3, "slackens": 4, "tightens": 4}
         return sorted(found, key=lambda guard: order[str(guard.event).split()[-1]])
 
     def _guards(self, mode: str, i: int, state: State) -> Iterator[Guard]:
         e = self.elements[i]
         if e.only:
+            return
+        if isinstance(e, OneSided):
+            ends = lambda t, q, v: e.ends(state, t, q)  # noqa: E731
+            yield Guard(f"{e.name} {HAPPENS[state]}", ends, self._to(mode, i, (OTHER[state],)))
             return
         if (normal := e.normal) is not None:
             if state == "open":
@@ -140,6 +147,8 @@ class Mechanism(System):
         force = 1e-9 * (max(map(abs, forces.values())) or 1.0)
         slow = 1e-9 * (float(np.max(np.abs(v))) or 1.0)
         for e, state in zip(self.elements, self.built.states[mode], strict=True):
+            if isinstance(e, OneSided) and e.ends(state, t, q) < -CLOSED * self.size:
+                return f"{e.name} is {state} on the wrong side of its rest length"
             if e.normal is not None:
                 if state == "open":
                     if e.normal.f(t, q.tolist())[0] < -CLOSED * self.size:

@@ -1,6 +1,6 @@
 """Any planar scene as a Mode, in maximal coordinates with multipliers (2.60)."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -34,6 +34,7 @@ class Multibody(Mode):
     q holds x, y, angle of each body in the scene's order (a particle has no angle).
     `held` are constraints beside those of the joints, `braking` and `coulomb` what slides with dry
     friction: the mode of a scene that switches. `shared`: what sticks by several points of a body.
+    `slack`: the springs that do not act.
     """
 
     def __init__(
@@ -45,8 +46,10 @@ class Multibody(Mode):
         braking: Sequence[Braking] = (),
         coulomb: Sequence[Coulomb] = (),
         shared: Sequence[Shared] = (),
+        slack: Collection[str] = (),
     ) -> None:
         self.scene = scene
+        self._forces = [f for f in scene.forces.values() if f.name not in slack]
         self.where = Coordinates(scene)
         self.coordinates = (*self.where.names, *self.where.inner)
         self.masses = {b.name: Mass(b.mass, b.inertia) for b in scene.bodies.values()}
@@ -129,7 +132,7 @@ class Multibody(Mode):
         """(2.60) Q: weights, forces and the friction of slides that move, (n,)."""
         numbers, rates = q.tolist(), v.tolist()
         Q = self._weight.copy()
-        for force in self.scene.forces.values():
+        for force in self._forces:
             act(force, self.where, t, numbers, rates, Q)
         for brake in self._braking:
             Q += brake.force(t, q, v) * row(brake.along, t, q, v)[0]
@@ -162,7 +165,7 @@ class Multibody(Mode):
     def largest(self, t: float, q: Array, v: Array) -> Array:
         """The largest force [N] or moment [N m] along each coordinate that comes from one force."""
         found = [self._weight]
-        for force in self.scene.forces.values():
+        for force in self._forces:
             Q = np.zeros(len(self._M))
             act(force, self.where, t, q.tolist(), v.tolist(), Q)
             found.append(Q)
@@ -179,8 +182,8 @@ class Multibody(Mode):
 
     def without_direction(self, t: float, q: Array, within: float) -> str | None:
         """The first force along a line that is shorter than that [m]."""
-        forces = self.scene.forces.values()
-        meet = (f.name for f in forces if ends_meet(f, self.where, t, q.tolist(), within))
+        here = t, q.tolist(), within
+        meet = (f.name for f in self._forces if ends_meet(f, self.where, *here))
         return next(meet, None)
 
     # The ingredients: the same mechanism from its energies and residuals alone.
@@ -193,7 +196,7 @@ class Multibody(Mode):
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = −Σ m g·r_c + Σ ½ c (λ − λ₀)² [J]."""
         energy = -np.sum(self._weight * q[: len(self._M)])
-        for force in self.scene.forces.values():
+        for force in self._forces:
             energy = energy + potential(force, self.where, t, q.tolist())
         return energy
 
@@ -205,14 +208,14 @@ class Multibody(Mode):
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.46) D = Σ ½ d λ̇² [W], λ̇ = Δ·Δ̇/λ."""
         power = 0.0 * v[0]
-        for force in self.scene.forces.values():
+        for force in self._forces:
             power = power + dissipation(force, self.where, t, q.tolist(), v.tolist())
         return power
 
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.50) Q_a = Σ F·∂r/∂qᵃ of pushes, torques and dry friction, (n,)."""
         Q = np.zeros(len(self._M), np.result_type(q, v, t))
-        for force in self.scene.forces.values():
+        for force in self._forces:
             other(force, self.where, t, q.tolist(), v.tolist(), Q)
         for brake in self._braking:
             Q += brake.force(t, q, v) * row(brake.along, t, q, v)[0]

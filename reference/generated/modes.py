@@ -10,6 +10,7 @@ from .constraint import Constraint
 from .contact import row
 from .element import Element, Smoothed, State, elements
 from .mode import Multibody
+from .one_side import one_sided
 from .sharing import shares
 from .smooth import SmoothMultibody
 
@@ -22,7 +23,8 @@ class Modes(Mapping[str, Multibody]):
     def __init__(self, scene: Scene, start: tuple[Array, Array]) -> None:
         self.scene, self.start = scene, start
         self.base = Multibody(scene, start)  # what holds in all of them
-        self.elements: tuple[Element, ...] = tuple(elements(scene, self.base.where))
+        where = self.base.where
+        self.elements: tuple[Element, ...] = (*elements(scene, where), *one_sided(scene, where))
         self.M = np.array(self.base.where.masses)
         self.states: dict[str, tuple[State, ...]] = {}  # what each element does in a mode
         self._built: dict[str, Multibody] = {}
@@ -50,15 +52,17 @@ class Modes(Mapping[str, Multibody]):
         ]
         braking = [brake for e, s in pairs for brake in e.braking(s)]
         coulomb = [law for e, s in pairs for law in e.coulomb(s)]
+        slack = [e.name for e, s in pairs if s == "slack"]
         smooth = [e for e in self.elements if isinstance(e, Smoothed)]
         if smooth:
             return SmoothMultibody(
                 self.scene, self.start, smooth,
-                held=held, braking=braking, coulomb=coulomb, shared=shared,
+                held=held, braking=braking, coulomb=coulomb, shared=shared, slack=slack,
             )  # fmt: skip
         return Multibody(
-            self.scene, self.start, held=held, braking=braking, coulomb=coulomb, shared=shared
-        )
+            self.scene, self.start,
+            held=held, braking=braking, coulomb=coulomb, shared=shared, slack=slack,
+        )  # fmt: skip
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._built)

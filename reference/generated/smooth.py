@@ -1,7 +1,7 @@
 """A mechanism whose slides have the smooth law of dry friction (2.95): one mode, and stiff."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import Any
 
 import numpy as np
@@ -35,16 +35,20 @@ class SmoothMultibody(Multibody):
         braking: Sequence[Braking] = (),
         coulomb: Sequence[Coulomb] = (),
         shared: Sequence[Shared] = (),
+        slack: Collection[str] = (),
     ) -> None:
         self._laws = [_dry(slide.friction) for slide in slides]
         self._parts: tuple[Array, Array] | None = None  # of rows that are always the same
         self._rests = [slide.tangent for slide in slides]
         resting = [*held, *self._rests]
-        self._resting = Multibody(scene, start, held=resting, braking=braking, coulomb=coulomb)
+        self._resting = Multibody(
+            scene, start, held=resting, braking=braking, coulomb=coulomb, slack=slack
+        )
         smooth = [Braking(part, self._friction(k)) for k, part in enumerate(self._rests)]
         super().__init__(
-            scene, start, held=held, braking=[*braking, *smooth], coulomb=coulomb, shared=shared
-        )
+            scene, start, held=held, braking=[*braking, *smooth], coulomb=coulomb, shared=shared,
+            slack=slack,
+        )  # fmt: skip
 
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
         """(2.60) at rest along the slides, and with F_a + F_fr along them: q̈ and λ are sums."""

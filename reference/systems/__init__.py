@@ -18,6 +18,7 @@ from .driven_edge import DrivenEdge
 from .driven_robot import DrivenRobot
 from .driven_wheel import DrivenWheel
 from .dynamometer import Dynamometer
+from .elastic_pendulum import ElasticPendulum
 from .falling_drag import FallingDrag
 from .five_axis_robot import FiveAxisRobot
 from .four_bar import FourBar
@@ -37,6 +38,7 @@ from .sliding_block import SlidingBlock
 from .sliding_disk import SlidingDisk
 from .smooth_friction import SmoothDynamometer, SmoothGrowingForce
 from .spring_mass_damper import SpringMassDamper
+from .spring_mass_jump import SpringMassJump
 from .sprung_gimbal import SprungGimbal
 from .stribeck_brake import StribeckBrake
 from .stribeck_drive import StribeckDrive
@@ -44,6 +46,7 @@ from .tilting_disk import TiltingDisk
 from .tilting_ring import TiltingRing
 from .torque_free import TorqueFree
 from .torsion_pendulum import TorsionPendulum
+from .trunk_on_legs import TrunkOnLegs
 from .upright_wheel import UprightWheel
 from .viscous_guide import ViscousDrift, ViscousGrowingForce
 from .wheel_from_above import WheelFromAbove
@@ -61,6 +64,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "driven_edge": DrivenEdge,
     "dynamometer": Dynamometer,
     "falling_drag": FallingDrag,
+    "elastic_pendulum": ElasticPendulum,
     "five_axis_robot": FiveAxisRobot,
     "four_bar": FourBar,
     "friction_cone": FrictionCone,
@@ -84,10 +88,12 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "stribeck_brake": StribeckBrake,
     "stribeck_drive": StribeckDrive,
     "sprung_gimbal": SprungGimbal,
+    "spring_mass_jump": SpringMassJump,
     "tilting_disk": TiltingDisk,
     "tilting_ring": TiltingRing,
     "torque_free": TorqueFree,
     "torsion_pendulum": TorsionPendulum,
+    "trunk_on_legs": TrunkOnLegs,
     "upright_wheel": UprightWheel,
     "viscous_drift": ViscousDrift,
     "viscous_growing_force": ViscousGrowingForce,

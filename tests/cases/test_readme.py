@@ -11,6 +11,7 @@ from textmech.cases.language.grammar.contact import Contact as ContactSpec
 from textmech.cases.language.grammar.file import File, Scene
 from textmech.cases.language.grammar.friction import Coefficients, DryFriction
 from textmech.cases.language.grammar.number import amount
+from textmech.cases.language.grammar.part import written
 from textmech.cases.load import load
 from textmech.cases.quantity import event_quantities, table
 from textmech.cases.scene import (
@@ -50,7 +51,7 @@ def test_every_key_is_explained() -> None:
     for kinds in (body.KINDS, joint.KINDS, constraint.KINDS, force.KINDS):
         models += kinds.values()
     for model in models:
-        assert set(model.model_fields) <= said, model
+        assert set(written(model)) <= said, model
     for noun in (Bounds, Smooth, *shape.SHAPES.values()):
         assert set(signature(noun).parameters) - {"name"} <= said, noun
 

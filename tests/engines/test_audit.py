@@ -55,6 +55,8 @@ def elements(scene: Scene) -> dict[str, float]:
     for spring in scene.springs():
         found[f"{spring.name}.stiffness"] = spring.stiffness
         found[f"{spring.name}.rest_length"] = spring.rest_length
+        found[f"{spring.name}.pulls"] = 0.0 if spring.only == "compression" else 1.0
+        found[f"{spring.name}.pushes"] = 0.0 if spring.only == "tension" else 1.0
     found |= {f"{d.name}.damping": d.damping for d in scene.dampers()}
     for wire in of(Torsion, scene.forces.values()):
         found[f"{wire.name}.stiffness"] = wire.stiffness
@@ -152,6 +154,14 @@ WRONG: Mapping[str, tuple[str, Callable[[Scene], Scene]]] = {
     "rest_length": (
         "rhombus",
         lambda s: with_forces(s, Spring, lambda f: replace(f, rest_length=1.05 * f.rest_length)),
+    ),
+    "pulls": (
+        "spring_mass_jump.best",
+        lambda s: with_forces(s, Spring, lambda f: replace(f, only=None)),
+    ),
+    "pushes": (
+        "rhombus",
+        lambda s: with_forces(s, Spring, lambda f: replace(f, only="tension")),
     ),
     "damping": (
         "slider_crank",

@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from textmech.cases.scene import (
@@ -42,6 +43,19 @@ def test_spring_pulls_when_stretched(row: dict[str, float]) -> None:
     spring = Spring("coil", *ENDS, row["stiffness"], row["rest_length"])
     for rate in (0.0, 7.0):
         assert tension(spring, row["length"], rate) == pytest.approx(row["tension"], rel=1e-12)
+
+
+@pytest.mark.parametrize("row", TABLE["one_sided"], ids=str)
+def test_a_one_sided_spring_acts_on_one_side(row: dict[str, Any]) -> None:
+    numbers = row["stiffness"], row["rest_length"]
+    spring = Spring("leg", *ENDS, *numbers, only=row["only"])
+    assert tension(spring, row["length"], 7.0) == pytest.approx(row["tension"], rel=1e-12)
+    shared = spring.tension(np.array([row["length"]]), np.zeros(1))
+    assert shared == pytest.approx([row["tension"]], rel=1e-12)
+    both = Spring("coil", *ENDS, *numbers)
+    assert (tension(both, row["length"], 0.0) == tension(spring, row["length"], 0.0)) == bool(
+        row["tension"] or row["length"] == row["rest_length"]
+    )
 
 
 @pytest.mark.parametrize("row", TABLE["dampers"], ids=str)

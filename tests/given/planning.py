@@ -49,6 +49,7 @@ def damps(engine: Engine, scene: Scene) -> list[Viscous]:
 def own(engine: Engine, scene: Scene) -> bool:
     """Whether an engine has something of its own for all of a scene."""
     told = {name for name, force in scene.forces.items() if type(force) in TOLD | LIVING}
+    told |= {spring.name for spring in scene.one_sided() if engine.name == "pymunk"}
     return not scene.constraints and not told - {force.name for force in damps(engine, scene)}
 
 

@@ -12,7 +12,7 @@ def edges(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         if what := edge.unfit(scene.bodies.get(edge.at.body)):
             yield ("scene", "constraints", name, edge.word), what
     for name, start in parsed.file.initial.items():
-        given = sorted({*start.model_fields_set, *start.places})
+        given = sorted(start.keys)
         if name not in scene.constraints:
             if "speed" in given:
                 yield ("initial", name, "speed"), "only an edge starts with a `speed`"

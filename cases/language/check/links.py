@@ -11,6 +11,7 @@ from ..grammar.file import Scene as Spec
 from ..parse import NAMED, Finding, Parsed
 from .about import about, rubbing
 from .edge import edges
+from .polar import polar
 from .space.spatial import spatial
 from .touch import planes, touches
 
@@ -50,6 +51,7 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     for key in ("initial", "near"):
         yield from _placed(parsed, scene, key, getattr(parsed.file, key))
     yield from edges(parsed, scene)
+    yield from polar(parsed, scene)
 
 
 def _views(spec: Spec, scene: Scene) -> Iterator[Finding]:

@@ -14,12 +14,13 @@ from .gravity import Gravity
 from .ground import GroundPoint
 from .joint import Joint
 from .number import Amount
-from .part import Angle, Name, Part, Position, plain_or_map
+from .part import Angle, Name, Part, Point, Position, plain_or_map, written
 from .plane import Plane
 from .states import Drawn
 from .text import Place, Text, Word, equation, label, no_formula
 from .words import wrong
 
+POLAR = ("from_", "length", "direction")  # how a start gives a place by a distance
 WAYS = ("", ".law", ".driver", ".limit")  # after an engine's name: which of its rows
 
 BookPlace = Annotated[str, Place()]
@@ -87,8 +88,19 @@ class Near(Part):
     @property
     def given(self) -> dict[str, float]:
         """Coordinates and rates by name."""
-        numbers = {key: getattr(self, key) for key in type(self).model_fields}
+        numbers = {key: getattr(self, key) for key in type(self).model_fields if key not in POLAR}
         return {key: number for key, number in numbers.items() if isinstance(number, float)}
+
+    @property
+    def keys(self) -> set[str]:
+        """All that is given, as it is written."""
+        fields = written(type(self)).items()
+        return {key for key, name in fields if name in self.model_fields_set} | {*self.places}
+
+    @property
+    def polar(self) -> tuple[str, float, float] | None:
+        """A point of the ground, and how far [m] and in which direction [rad] the centre is."""
+        return None
 
     @property
     def attitude(self) -> None:
@@ -103,6 +115,12 @@ class Near(Part):
 class Initial(Near):
     """How a body starts: coordinates and rates, or the places of its points; or an edge."""
 
+    from_: Point | None = Field(None, alias="from", description="a point of the ground")
+    length: Annotated[float, In("m", above=0)] | None = Field(
+        None, description="how far from that point the centre is"
+    )
+    direction: Angle | None = Field(None, description="in which direction from it, from x")
+
     vx: Annotated[float, In("m/s")] | None = None
     vy: Annotated[float, In("m/s")] | None = None
     omega: Annotated[float, In("rad/s")] | None = None
@@ -112,6 +130,13 @@ class Initial(Near):
     @property
     def stands_on(self) -> str | None:
         return self.on
+
+    @property
+    def polar(self) -> tuple[str, float, float] | None:
+        """Where all three are given."""
+        if self.from_ is None or self.length is None or self.direction is None:
+            return None
+        return self.from_, self.length, self.direction
 
 
 class Deviation(Part):

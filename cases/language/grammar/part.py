@@ -57,7 +57,12 @@ class Part(BaseModel):
         try:
             return check(value)
         except ValidationError as error:
-            raise in_words(error, tuple(cls.model_fields), value, cls.elsewhere) from None
+            raise in_words(error, tuple(written(cls)), value, cls.elsewhere) from None
+
+
+def written(model: type[BaseModel]) -> dict[str, str]:
+    """The keys of a model as a case file writes them, with the names of their fields."""
+    return {field.alias or name: name for name, field in model.model_fields.items()}
 
 
 def plain_or_map() -> Discriminator:

@@ -21,6 +21,7 @@ ALLOWED = {
     *(".elliptic", ".nutation", ".polhode"),
     ".tilting_ring",  # of which a disk is one
     ".dynamometer",  # by which a block on a floor is drawn
+    ".elastic_pendulum",  # which a mass on a leg is
     *(".blade_on_plane", ".wheel_on_plane", ".triples", ".arm", ".serial_arm", ".quadrature"),
     ".slope",
 }

@@ -9,6 +9,9 @@ from ..part import OneOf
 
 AS_IN_THE_PLANE = ("spring", "damper", "torsion", "torsion_damper", "motor")
 ALONG_THREE_AXES = ("push", "torque")
+SPRING = element("spring", FORCES["spring"], without=("only",), axes=3)
+SPRING.elsewhere = {"only": "a spring in space acts on both sides"}
 KINDS: dict[str, type[Element]] = {word: plane.KINDS[word] for word in AS_IN_THE_PLANE}
+KINDS |= {"spring": SPRING}
 KINDS |= {word: element(word, FORCES[word], axes=3) for word in ALONG_THREE_AXES}
 Force = Annotated[Element, OneOf("force", KINDS)]

@@ -86,6 +86,10 @@ class Start(Part):
         return numbers
 
     @property
+    def polar(self) -> None:
+        """None: in space a place is given by its coordinates."""
+
+    @property
     def places(self) -> dict[str, Vector3]:
         """Where points of the body are."""
         return {
