@@ -21,7 +21,7 @@ from .rests import LOW, rests
 STILL = 1e-9  # of the largest value of its kind: what the reference's own rounding leaves of a zero
 
 
-CURVE = 4  # steps in the curve that a force is continued by: as good as an engine of order 4
+CURVE = 4  # steps in the curve that what falls is continued by: as good as an engine of order 4
 TREMBLE = 1e-6  # steps: two zeros of a curve that touch are not rounding's to lose
 
 
@@ -94,7 +94,7 @@ def engine_events(scene: Scene, record: Trajectory, event: Event) -> Array:
 
 
 def falls(times: Array, u: Array) -> Array:
-    """When u (N,) falls to zero: the zero of the line through the two steps around it.
+    """When u (N,) falls to zero, as `_through` says.
 
     An impact may turn u back before any step sees it at zero: then it is the zero of the line
     through the last two falling steps, if that lies within the next and u then rises. Between two
@@ -115,20 +115,19 @@ def falls(times: Array, u: Array) -> Array:
 
 
 def _through(times: Array, u: Array, i: int) -> float:
-    """The zero between steps i and i + 1.
+    """The zero between steps i and i + 1: of the curve through the steps before, if it is there.
 
-    A force that ends is exactly zero from then on, and the line to that tells nothing: the curve
-    through the steps before it does, as far as its zero is in the step.
+    What happens then, as an impact or the end of a force, spoils a curve to the steps behind, and
+    already the line to the next. That line tells where steps tremble too much for any curve.
     """
-    ended = i >= CURVE - 1 and not np.any(u[i + 1 : i + 3])
-    if not ended:
+    if i < CURVE - 1:
         return _zero(times, u, i)
     h = float(times[i + 1] - times[i])
     rows = slice(i - CURVE + 1, i + 1)
     roots = np.roots(np.polyfit((times[rows] - times[i]) / h, u[rows], CURVE - 1))
     zeros = np.real(roots[np.abs(np.imag(roots)) < TREMBLE])
     inside = zeros[(zeros > 0.0) & (zeros <= 1.0)]
-    return float(times[i]) + h * float(np.min(inside, initial=1.0))
+    return float(times[i]) + h * float(np.min(inside)) if len(inside) else _zero(times, u, i)
 
 
 def _zero(times: Array, u: Array, i: int) -> float:
