@@ -39,12 +39,13 @@ def ways(scene: Scene, start: Start, *, tuned: bool) -> tuple[Realised, ...]:
 def plan(scene: Scene, start: Start, realised: Realised, numbers: Numbers, *, tuned: bool) -> Plan:
     """One way's plan. Nothing is withheld: a joint's force and moment can be read, a contact's too.
 
-    Exponents: Euler, contacts, corners of dry friction 1, 2; RK4 4, 5, with corners of other laws
-    2, 3; soft constraints of the tuned recipe, which follow the step, 2, 3.
+    Exponents: Euler, contacts, corners of dry friction and of springs 1, 2; RK4 4, 5, with corners
+    of other laws 2, 3; soft constraints of the tuned recipe, which follow the step, 2, 3.
     """
     integrator = {choice.name: choice.value for choice in numbers(NOMINAL)}["option.integrator"]
     dry = any(joint.dry_friction for joint in scene.joints.values())
     first = integrator != "RK4" or bool(scene.contacts) or (dry and realised != "driver")
+    first |= any(scene.one_sided())
     corners = any(force.corner for force in scene.forces.values())
     following = (1, 2) if first else (4, 5) if dry else (2, 3)
     bare = Plan(

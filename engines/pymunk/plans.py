@@ -68,12 +68,13 @@ def _at_every_step(choices: Sequence[Choice], step: float) -> Sequence[Choice]:
 def _spoilt(scene: Scene, realised: Realised) -> bool:
     """Where pymunk spoils the midpoint protocol's second order.
 
-    An impact, and a part that turns back without a rest, take whole steps: measured, 1.
+    An impact, and a part that turns back without a rest, take whole steps: measured, 1. Of a step
+    in which a spring begins or ends to act, what is left is anything up to its second order.
     """
     native = realised == "native"
     brakes = native and any(joint.dry_friction for joint in scene.joints.values())
     met = native and any(contact.switches for contact in scene.contacts.values())
-    return (native and damped(scene)) or brakes or met
+    return (native and damped(scene)) or brakes or met or any(scene.one_sided())
 
 
 def _withheld(scene: Scene) -> dict[str, str]:

@@ -29,6 +29,7 @@ PARAMETERS: dict[str, dict[str, float]] = {
     },
     "dynamometer": {"m": 1.0, "c": 2.0, "u": 2.0, **BOOK},
     "falling_drag": {"m": 0.5, "d": 0.2},
+    "elastic_pendulum": {"m": 1.5, "c": 90.0, "l0": 0.7, "r0": 1.0, "phi0": math.radians(-40)},
     "four_bar": {
         "m": 1.0, "a": 0.3, "b": 0.8, "c": 0.6, "d": 0.9, "crank0": math.radians(70),
     },
@@ -57,12 +58,18 @@ PARAMETERS: dict[str, dict[str, float]] = {
     "spring_mass_damper": {"m": 1.0, "c": 36.0, "d": 1.2, "l0": 0.5, "y0": -0.6},
     "stribeck_brake": {"m": 1.3, "F": 3.0, "Fs": 6.0, "v_s": 0.5, "P": 0.5, "v0": 2.0},
     "stribeck_drive": {"m": 2.0, "c": 2.0, "u": 1.0, "F": 3.0, "Fs": 6.0, "v_s": 0.5},
+    "spring_mass_jump": {
+        "m": 80.0, "c": 16000.0, "l0": 1.0, "alpha": math.radians(115), "vx0": 9.0, "vy0": -0.2,
+    },
     "torsion_pendulum": {
         "m": 1.5, "R": 0.3, "c": 2.4, "phi0": math.radians(-15), "d": 0.1, "M": 0.6, "Omega": 7.0,
         "phi": math.radians(70), "w0": 1.0,
     },
     "viscous_drift": {"m": 1.3, "A": 5.0, "w": 6.0, "d_minus": 4.0, "d_plus": 1.0},
     "viscous_growing_force": {"m": 1.3, "b": 1.0, "d_minus": 3.0, "d_plus": 2.0},
+    "trunk_on_legs": {
+        "m": 30.0, "l": 0.9, "c": 4000.0, "l0": 0.6, "y0": 0.8, "phi0": math.radians(12), "w0": 1.0,
+    },
 }  # fmt: skip
 
 _BLOCK = [("block", 0, 0.0, 0.0), ("block", 3, 0.0, 0.0)]
@@ -88,6 +95,10 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
     "drag_stops": [("block", 0, 0.0, 0.0), ("block", 3, 2.0, 0.0)],
     "dynamometer": _BLOCK,
     "falling_drag": [("ball", 1, 0.0, 0.0), ("ball", 4, 0.0, 0.0)],
+    "elastic_pendulum": [
+        ("bob", 0, math.cos(40 * math.pi / 180), 1e-15), ("bob", 3, 0.0, 0.0),
+        ("bob", 1, -math.sin(40 * math.pi / 180), 1e-15), ("bob", 4, 0.0, 0.0),
+    ],
     "four_bar": [
         ("crank", 2, 70 * math.pi / 180, 1e-15), ("rocker", 2, 96 * math.pi / 180, 0.01),
     ],
@@ -120,9 +131,17 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
     "spring_mass_damper": [("mass", 1, -0.6, 0.0), ("mass", 4, 0.0, 0.0)],
     "stribeck_brake": [("block", 0, 0.0, 0.0), ("block", 3, 2.0, 0.0)],
     "stribeck_drive": _BLOCK,
-    "torsion_pendulum": [("disk", 2, 70 * math.pi / 180, 1e-15), ("disk", 5, 1.0, 0.0)],
     "viscous_drift": _BLOCK,
     "viscous_growing_force": _BLOCK,
+    "spring_mass_jump": [
+        ("jumper", 0, math.cos(115 * math.pi / 180), 1e-15), ("jumper", 3, 9.0, 1e-14),
+        ("jumper", 1, math.sin(115 * math.pi / 180), 1e-15), ("jumper", 4, -0.2, 1e-14),
+    ],
+    "torsion_pendulum": [("disk", 2, 70 * math.pi / 180, 1e-15), ("disk", 5, 1.0, 0.0)],
+    "trunk_on_legs": [
+        ("trunk", 0, 0.0, 0.0), ("trunk", 1, 0.8, 0.0), ("trunk", 2, 12 * math.pi / 180, 1e-15),
+        ("trunk", 4, 0.0, 0.0), ("trunk", 5, 1.0, 0.0),
+    ],
 }  # fmt: skip
 
 # Systems of other parameters: changes, and the events that follow in the duration.

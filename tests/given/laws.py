@@ -227,16 +227,20 @@ LAWS: Sequence[Law] = (
 )  # fmt: skip
 _STARTING = {(name, example(name).start()[0]) for name in PARAMETERS}
 _NO_CLOSED_FORM = {
-    "anisotropic_drift", "double_pendulum", "four_bar", "rhombus", "smooth_dynamometer",
-    "smooth_growing_force", "stribeck_drive",
+    "anisotropic_drift", "double_pendulum", "elastic_pendulum", "four_bar", "rhombus",
+    "smooth_dynamometer", "smooth_growing_force", "spring_mass_jump", "stribeck_drive",
+    "trunk_on_legs",
 }  # fmt: skip
-_NO_REACTIONS = {"charge_in_field", "falling_drag", "rhombus", "spring_mass_damper"}
+_FREE = {
+    "charge_in_field", "elastic_pendulum", "falling_drag", "rhombus", "spring_mass_damper",
+    "spring_mass_jump",
+}  # fmt: skip
 # The laws that say nothing about a mode without constraints or reactions, and those of the whole
 # system, which are asked where it starts.
 ONLY: dict[Law, set[At]] = {
     multipliers: set(MULTIPLIERS),
     constraints: set(MULTIPLIERS),
-    reactions: {at for at in MODES if at[0] not in _NO_REACTIONS},
+    reactions: {at for at in MODES if at[0] not in _FREE},
     start: _STARTING,
     closed_form: {at for at in _STARTING if at[0] not in _NO_CLOSED_FORM},
 }

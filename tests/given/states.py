@@ -75,6 +75,18 @@ def _spring_mass_damper(random: np.random.Generator) -> Drawn:
     return random.uniform(-1.5, -0.1, 1), random.uniform(-5, 5, 1)
 
 
+def _on_spring(random: np.random.Generator) -> Drawn:
+    """A length that is far from 0, in any direction."""
+    q = np.array([random.uniform(0.4, 1.5), random.uniform(-math.pi, math.pi)])
+    return q, random.uniform(-5, 5, 2)
+
+
+def _trunk(random: np.random.Generator) -> Drawn:
+    """Pitched between 20° and 60°: level, what the legs push sideways cancels to rounding."""
+    pitch = random.choice([-1, 1]) * random.uniform(math.radians(20), math.radians(60))
+    return np.array([random.uniform(0.5, 1.2), pitch]), random.uniform(-5, 5, 2)
+
+
 def _sleigh(random: np.random.Generator) -> Drawn:
     """Any place and heading, gliding either way."""
     x, y, theta = random.uniform(-3, 3, 3)
@@ -85,6 +97,9 @@ def _sleigh(random: np.random.Generator) -> Drawn:
 _SMOOTH: dict[str, Callable[[np.random.Generator], Drawn]] = {
     "rolling_wheel": _rolling_wheel,
     "bar_pendulum": _bar_pendulum,
+    "elastic_pendulum": _on_spring,
+    "spring_mass_jump": _on_spring,
+    "trunk_on_legs": _trunk,
     "double_pendulum": _double_pendulum,
     "four_bar": _four_bar,
     "rhombus": _rhombus,

@@ -38,6 +38,7 @@ PARAMETER: dict[str, dict[str, Law]] = {
         "m": laws.reactions, "J": laws.multipliers, "a": laws.equations, "A": laws.equations,
         "Omega": laws.equations, "alpha": laws.equations,
     },
+    "elastic_pendulum": {"m": laws.equations, "c": laws.power, "l0": laws.free_cut},
     "knife_edge": {"m": laws.reactions, "beta": laws.power},
     "sleigh": {"m": laws.reactions, "J": laws.multipliers, "a": laws.equations},
     "spring_mass_damper": {
@@ -62,6 +63,7 @@ AT_THE_START: dict[str, dict[str, Law]] = {
     "driven_edge": {
         "w0": laws.start, "A": laws.start, "alpha": laws.start,
     },
+    "elastic_pendulum": {"r0": laws.start, "phi0": laws.start},
     "knife_edge": {"u0": laws.start, "w0": laws.start},
     "sleigh": {"v0": laws.start, "w0": laws.start},
     "spring_mass_damper": {"y0": laws.start},

@@ -1,0 +1,171 @@
+"""Masses on springs that only press: flights, energies, gaits, and mistakes planted in them."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from given import scenes
+from given.examples import example
+from given.mutants import mutant, with_mode
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+from textmech.cases.quantity import at_event
+from textmech.reference.motion.follow import Followed, either, follow
+from textmech.reference.system import Array, Guard, System
+from textmech.reports.events.states import reference_states
+from textmech.reports.events.times import reference_events
+
+G = 9.80665
+STANCE = (80.0, 16000.0, 1.0)
+TIMES = np.linspace(0.0, 0.8, 81)
+
+
+def cartesian(x: float, y: float, vx: float, vy: float) -> tuple[float, Array]:
+    """When the leg of `spring_mass_jump` is at its rest length again [s], and x, y, vx, vy then."""
+    m, c, l0 = STANCE
+
+    def slope(t: float, s: Array) -> list[float]:
+        pushed = c / m * (l0 / math.hypot(s[0], s[1]) - 1.0)
+        return [s[2], s[3], pushed * s[0], pushed * s[1] - G]
+
+    def free(t: float, s: Array) -> float:
+        return math.hypot(s[0], s[1]) - l0
+
+    events: Any = free
+    events.terminal, events.direction = True, 1.0
+    found = solve_ivp(
+        slope, (0.0, 1.0), [x, y, vx, vy], "DOP853", events=events, rtol=1e-13, atol=1e-13
+    )
+    return float(found.t_events[0][-1]), found.y_events[0][-1]
+
+
+def jump(system: System) -> Followed:
+    return follow(system, TIMES)
+
+
+def poses(system: System, mode: str, y: Array) -> Array:
+    q, v = np.split(y, 2)
+    x, height, _, vx, vy, _ = system.modes[mode].poses(0.0, q, v)["jumper"]
+    return np.array([x, height, vx, vy])
+
+
+@pytest.mark.parametrize("alpha", [110.0, 115.0, 120.0])
+def test_take_off_of_the_jump_in_other_coordinates(alpha: float) -> None:
+    """Typed anew in x and y, and by another integrator: then a parabola."""
+    leg = math.radians(alpha)
+    system = example("spring_mass_jump", alpha=leg)
+    found = jump(system)
+    (off,) = found.events
+    time, state = cartesian(math.cos(leg), math.sin(leg), 9.0, -0.2)
+    assert off.name == "takes off"
+    assert off.time == pytest.approx(time, abs=1e-12)
+    assert poses(system, "stance", off.before) == pytest.approx(state, rel=1e-11)
+    s = TIMES[-1] - time
+    parabola = [*(state[:2] + s * state[2:]), state[2], state[3] - G * s]
+    parabola[1] -= G * s * s / 2
+    assert poses(system, "flight", found.y[-1]) == pytest.approx(parabola, rel=1e-11)
+
+
+LATER: dict[str, Any] = {"g": lambda t, q, v: 1.001 - float(q[0])}
+
+
+def test_a_leg_that_pulls_is_seen() -> None:
+    """A take-off that is 1 mm late, and one at which the leg never lets go."""
+    sound = example("spring_mass_jump")
+
+    def late(self: System, mode: str) -> Sequence[Guard]:
+        return [replace(guard, **LATER) for guard in sound.guards(mode)] if mode == "stance" else ()
+
+    wrong = jump(mutant(sound, guards=late))
+    assert abs(wrong.events[0].time - jump(sound).events[0].time) > 1e-4
+    inside = [y for mode, y in zip(wrong.modes, wrong.y, strict=True) if mode == "stance"]
+    beyond = np.array([1.0005, *inside[-1][1:]])
+    assert "longer in stance" in str(sound.possible("stance", 0.0, *np.split(beyond, 2)))
+    glued = jump(with_mode(sound, "flight", sound.modes["stance"]))
+    assert np.abs(glued.y[-1] - jump(sound).y[-1]).max() > 0.1
+
+
+def test_a_start_that_leaves_the_leg_is_refused() -> None:
+    with pytest.raises(ValueError, match="shortened at touch-down"):
+        example("spring_mass_jump", vx0=-9.0)
+
+
+def apex_to_apex(height: float, alpha: float, energy: float) -> float:
+    """The next apex [m] of the running model: the leg is set at alpha in each flight.
+
+    energy: of 80 kg on 20 kN/m, which fixes the speed at the apex; NaN where it stumbles.
+    """
+    leg = {"m": 80.0, "c": 20000.0, "l0": 1.0, "alpha": alpha}
+    down = height - math.sin(alpha)
+    speed = math.sqrt(2 * (energy / 80.0 - G * height))
+    if down < 0.0:
+        return math.nan
+    system = example("spring_mass_jump", **leg, vx0=speed, vy0=-math.sqrt(2 * G * down))
+    found = follow(system, np.linspace(0.0, 0.6, 3), by=partial(either, tolerance=1e-12))
+    if not found.events:
+        return math.nan
+    _, y, vx, vy = poses(system, "stance", found.events[0].before)
+    return y + vy * vy / (2 * G) if vx > 0.0 and vy > 0.0 else math.nan
+
+
+ALPHA, SPEED = math.radians(112.0), 5.0  # 68° of attack at about 5 m/s: as published, it is stable
+RUNS = 0.94030026326  # m: the apex of the gait that repeats itself
+ENERGY = 80.0 * (SPEED**2 / 2 + G)
+
+
+@pytest.mark.whole
+def test_the_running_gait_repeats_itself_and_is_stable() -> None:
+    """Seyfarth et al. 2002: the return map has two fixed points, of which the lower attracts.
+
+    What is just below the upper one falls to the lower, and what is just above it stumbles.
+    """
+
+    def excess(height: float) -> float:
+        return apex_to_apex(height, ALPHA, ENERGY) - height
+
+    heights = np.linspace(math.sin(ALPHA) + 1e-3, 1.4, 12)
+    signs = [(h, excess(h)) for h in heights.tolist()]
+    signs = [(h, e) for h, e in signs if not math.isnan(e)]
+    fixed = [
+        brentq(excess, a, b, xtol=1e-13)
+        for (a, left), (b, right) in pairwise(signs)
+        if left * right < 0
+    ]
+    multipliers = [(excess(h + 1e-5) - excess(h - 1e-5)) / 2e-5 + 1.0 for h in fixed]
+    assert fixed == pytest.approx([RUNS, 1.3377346605], abs=1e-9)
+    assert multipliers == pytest.approx([-0.159873, 1.686630], abs=1e-5)
+    for begins, ends in ((fixed[0] + 0.02, fixed[0]), (fixed[1] - 0.02, fixed[0])):
+        apex = begins
+        for _ in range(14):
+            apex = apex_to_apex(apex, ALPHA, ENERGY)
+        assert apex == pytest.approx(ends, abs=1e-6)
+    off = [abs(apex_to_apex(RUNS + d, ALPHA, ENERGY) - RUNS) / d for d in (1e-4, 1e-5)]
+    assert off == pytest.approx([0.159873] * 2, rel=2e-2)  # as steps tell it, not a difference
+
+
+def test_the_shipped_step_is_that_of_the_periodic_gait() -> None:
+    """What touches down at the apex RUNS above takes off mirrored, and is there again."""
+    case = scenes.SHIPPED["running_step"]
+    numbers = case.parameters
+    assert numbers["alpha"] == ALPHA
+    assert numbers["vx0"] == pytest.approx(math.sqrt(2 * (ENERGY / 80.0 - G * RUNS)), rel=1e-9)
+    assert numbers["vy0"] == pytest.approx(-math.sqrt(2 * G * (RUNS - math.sin(ALPHA))), rel=1e-9)
+    solved = scenes.solved("running_step").trajectory
+    assert solved.record is not None
+    for name, value in {
+        "takes_off.jumper.vx": numbers["vx0"],
+        "takes_off.jumper.vy": -numbers["vy0"],
+        "takes_off.jumper.y": math.sin(ALPHA),
+        "apex.jumper.y": RUNS,
+    }.items():
+        at = at_event(name, case.events)
+        assert at is not None
+        times = reference_events(case.scene, solved.record, case.events[at.event])
+        found = reference_states(case, solved.record, at, times)
+        assert found == pytest.approx([value], rel=1e-8), name
