@@ -144,7 +144,7 @@ class Mechanism(System):
         """(2.87), (2.89) F_N ≥ 0, |F_fr| ≤ μ_s F_N where it sticks, v as it slides, gap ≥ 0."""
         forces = self.built.forces(mode, t, q, v)
         # At an event a force or rate is at its bound, as well as events are located.
-        force = 1e-9 * (max(map(abs, forces.values())) or 1.0)
+        force = 1e-9 * (max(map(abs, forces.values()), default=0.0) or 1.0)
         slow = 1e-9 * (float(np.max(np.abs(v))) or 1.0)
         for e, state in zip(self.elements, self.built.states[mode], strict=True):
             if isinstance(e, OneSided) and e.ends(state, t, q) < -CLOSED * self.size:

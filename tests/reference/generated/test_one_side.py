@@ -134,6 +134,15 @@ def test_impossible_states_are_said(tmp_path: Path) -> None:
     )
 
 
+def test_a_scene_without_any_reaction_is_certified(tmp_path: Path) -> None:
+    """Nothing holds the mass: there is no force to be small beside."""
+    free = HOP.replace("  joints: {guide: {slide: [ground.O, bob.center], along: [0, 1]}}\n", "")
+    free = free.replace("SIDE", "compression").replace(
+        "y: Y, vy: VY", "x: 0.1, y: 0.6, vx: 0.2, vy: 0"
+    )
+    assert solve(scenes.typed(tmp_path, free)).holds
+
+
 def test_energy_is_kept_through_every_event(tmp_path: Path) -> None:
     system = mechanism(tmp_path, 0.8, 0.0)
     times = np.linspace(0.0, 3.0, 61)
@@ -156,7 +165,7 @@ allow: {ball.x: 1.0e-3, ball.angle: 1.0e-2, band.force: 1.0e-2}
 
 
 def test_beside_a_contact(tmp_path: Path) -> None:
-    """It lands, slides, rolls and is pulled back until the band is slack: all is certified."""
+    """It lands and rolls, pulled by the band until that is slack: all is certified."""
     case = scenes.typed(tmp_path, BESIDE, tail=scenes.tail(1.5, 31))
     solution = solve(case)
     assert solution.holds

@@ -42,6 +42,8 @@ def cartesian(x: float, y: float, vx: float, vy: float) -> tuple[float, Array]:
     found = solve_ivp(
         slope, (0.0, 1.0), [x, y, vx, vy], "DOP853", events=events, rtol=1e-13, atol=1e-13
     )
+    assert found.t_events is not None
+    assert found.y_events is not None
     return float(found.t_events[0][-1]), found.y_events[0][-1]
 
 
