@@ -15,7 +15,7 @@ from given.typed_scenes import PENDULUM
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
 from textmech.cases.observe import observe
-from textmech.cases.quantity import table
+from textmech.cases.quantity import at_event, table
 from textmech.reference.certificate.agreement import Check
 from textmech.reference.certificate.errors import EPS, ERROR, SHARE, beyond
 from textmech.reference.formalisms import lagrange
@@ -63,8 +63,12 @@ def test_every_bounded_quantity_has_an_error(name: str) -> None:
     case, solution = scenes.SHIPPED[name], scenes.solved(name)
     names = {quantity for quantity in case.allow if quantity in table(case.scene)}
     times = {f"{event}.time" for event in case.events} & case.allow.keys()
+    states = {name: at for name in case.allow if (at := at_event(name, case.events))}
     found = known(solution)
-    assert found.keys() == names | times
+    assert found.keys() == names | times | states.keys()
+    for name, at in states.items():  # as everywhere in the motion, and not known better
+        size = np.max(np.abs(observe(case.scene, solution.trajectory, at.quantity)))
+        assert EPS * size <= found[name] <= 1e-9 * size
     for quantity in names:
         size = np.max(np.abs(observe(case.scene, solution.trajectory, quantity)))
         assert found[quantity] >= EPS * size
