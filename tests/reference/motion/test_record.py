@@ -33,7 +33,7 @@ SMOOTH = [
     for name, case in scenes.SHIPPED.items()
     if (case.scene.frame is PLANE or name in ONE_OF_EACH_FILE)
     and all(contact.ideal for contact in case.scene.contacts.values())
-    and not (case.scene.frame is PLANE and dry(case))
+    and not (case.scene.frame is PLANE and (dry(case) or any(case.scene.one_sided())))
 ]
 # Where nothing falls through zero, one of the quantities that do not: what creeps to its rest, and
 # what goes on as it began.
