@@ -106,7 +106,7 @@ def _unsaid(case: Case, motion: Trajectory, happened: Collection[str | None]) ->
 
     One that has not landed by the end is no mistake: there is nothing to say yet.
     """
-    said = {event.quantity for event in case.events.values()}
+    said = {event.quantity for event in case.events.values() if event.value == 0.0}
     size = size_of(case)
     for name, contact in case.scene.contacts.items():
         gap = float(observe(case.scene, motion, f"{name}.gap")[0])

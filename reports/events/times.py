@@ -12,7 +12,7 @@ import numpy as np
 from ...cases.case import Case, Event
 from ...cases.mistake import Mistake
 from ...cases.observe import observe
-from ...cases.quantity import table
+from ...cases.quantity import at_event, table
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from .passages import passages
@@ -139,7 +139,7 @@ def never(case: Case, reference: Trajectory) -> list[Mistake]:
     """A mistake for every event of the case that the reference does not know.
 
     A contact that starts above the floor may be named and not land in time: that no engine lets it
-    land earlier is a claim too, and only a bound on its time compares nothing.
+    land earlier is a claim too, and only a bound on its time, or on what is then, compares nothing.
     """
     record = reference.record
     found: list[Mistake] = []
@@ -147,15 +147,12 @@ def never(case: Case, reference: Trajectory) -> list[Mistake]:
         assert record is not None  # of a case with events
         if len(reference_events(case.scene, record, event)):
             continue
-        bound = f"{name}.time"
-        if not _falls_later(case.scene, reference, event):
-            place: tuple[str, ...] = ("events", name)
-        elif bound in case.allow:
-            place = ("allow", bound)
-        else:
-            continue
+        places: list[tuple[str, ...]] = [("events", name)]
+        if _falls_later(case.scene, reference, event):
+            bounds = (b for b in case.allow if b == f"{name}.time" or at_event(b, (name,)))
+            places = [("allow", bound) for bound in bounds]
         what = f"never happens in {case.duration:g} s: nothing is compared"
-        found.append(case.mistake(place, what))
+        found += [case.mistake(place, what) for place in places]
     return found
 
 

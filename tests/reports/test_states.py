@@ -1,6 +1,7 @@
 """States at events of records whose motion is known, and events at a value and rising."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -10,6 +11,7 @@ import pytest
 
 from textmech.cases.event import Event
 from textmech.cases.load import load
+from textmech.cases.mistake import CaseError
 from textmech.cases.quantity import SIDES, AtEvent, Side, at_event
 from textmech.cases.scene import Body, Scene
 from textmech.cases.trajectory import VX, Array, Trajectory, X
@@ -209,6 +211,25 @@ def test_the_reference_of_a_bounce(bouncing: Callable[[str], Any]) -> None:
     through = np.sqrt(2 * 9.80665 * 0.6)
     exact = [-v, 0.5 * v - 9.80665e-3, -through, 0.5 * 2.0 * (1.0 + through**2)]
     assert [found[name] for name in names] == pytest.approx(exact, rel=1e-11)
+
+
+def test_a_state_at_what_never_happens_is_a_mistake(bouncing: Callable[[str], Any]) -> None:
+    """The particle may land after the end; then there is no speed with which it lands."""
+    short = replace(bouncing("lands.bob.vy.after: 1.0e-3"), duration=0.2)
+    events = {"lands": short.events["lands"]}
+    short = replace(short, events=events)
+    (mistake,) = mistaken(short, solve(short).trajectory)
+    assert mistake.where == "allow.lands.bob.vy.after"
+    assert mistake.what == "never happens in 0.2 s: nothing is compared"
+    count = replace(short, allow={"bob.x": 1e-3, "lands.count": 0.5})
+    assert mistaken(count, solve(count).trajectory) == []
+
+
+def test_a_contact_that_lands_is_named_by_its_zero(bouncing: Callable[[str], Any]) -> None:
+    case = bouncing("lands.time: 1.0e-3")
+    other = replace(case, events={"lands": Event("touch.gap", "falls to zero", 0.1)})
+    with pytest.raises(CaseError, match="starts 1 m above the floor"):
+        solve(other)
 
 
 def test_a_jump_needs_a_side(bouncing: Callable[[str], Any]) -> None:
