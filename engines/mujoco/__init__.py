@@ -47,7 +47,7 @@ class MuJoCo:
         return self.setting == "tuned"
 
     def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
-        """Natively; edges and dry friction by our law, the latter also by a driver, if tuned."""
+        """Natively; edges, dry friction and corners of springs in other ways too, if tuned."""
         world = _world(scene)
         refusal = world.unbuildable(scene) or uncompilable(
             world.compiled, scene, start, self._plan(scene, start)

@@ -10,6 +10,7 @@ from ..law import one_number
 from .compilation import NOMINAL, placed
 from .contact import falls
 from .force import lacking
+from .law.corner import has_corners
 from .law.friction import one_slide, smooth_only
 from .law.touch import one_touch
 from .scene import HEAVY
@@ -20,7 +21,8 @@ Numbers = Callable[[float], Sequence[Choice]]
 
 
 def ways(scene: Scene, start: Start, *, tuned: bool) -> tuple[Realised, ...]:
-    """MuJoCo's own elements; dry friction, of which it knows one number, in other ways too.
+    """MuJoCo's own elements; dry friction, of which it knows one number, in other ways too; and
+    springs of one side, whose corners its steps do not know.
 
     Edges, and forces that it has no element for, by our law alone.
     """
@@ -31,6 +33,8 @@ def ways(scene: Scene, start: Start, *, tuned: bool) -> tuple[Realised, ...]:
         return ("law", "driver") if driver else ("law",)
     if tuned and one_touch(scene) and not falls(scene, start):
         return ("native", "law", "driver")
+    if tuned and has_corners(scene):
+        return ("native", "driver")
     if not tuned or not one_slide(scene):
         return ("native",)
     return ("native", "law") if smooth_only(scene) else ("native", "law", "driver")
@@ -45,7 +49,7 @@ def plan(scene: Scene, start: Start, realised: Realised, numbers: Numbers, *, tu
     integrator = {choice.name: choice.value for choice in numbers(NOMINAL)}["option.integrator"]
     dry = any(joint.dry_friction for joint in scene.joints.values())
     first = integrator != "RK4" or bool(scene.contacts) or (dry and realised != "driver")
-    first |= any(scene.one_sided())
+    first |= any(scene.one_sided()) and realised != "driver"
     corners = any(force.corner for force in scene.forces.values())
     following = (1, 2) if first else (4, 5) if dry else (2, 3)
     bare = Plan(
@@ -74,7 +78,8 @@ def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> 
     if ours := [force.name for force, _ in lacking(scene)]:
         words.append(f"{', '.join(ours)} by our law at every stage, which the script has not")
     if plan.realised == "driver":
-        words.append("steps cut at the events of dry friction")
+        acts, dry = "where a spring begins or ends to act", "at the events of dry friction"
+        words.append(f"steps cut {acts if has_corners(scene) else dry}")
     if tuned and scene.contacts:
         if falls(scene, start):
             words.append("starts above the floor: contacts are tuned for impacts")

@@ -67,7 +67,7 @@ def simulate(
     laws = [*laws, *told(scene, model)]
     touching = tuple(name for name in reactions if name.partition(".")[0] in scene.contacts)
     with listening() as warnings, rated(scene, model), signals(scene, laws):
-        if every and not steps.slides:
+        if every and steps.alone:
             record = whole(model, data, len(grid))
         else:
             record = sampled(data, np.arange(len(grid)) if every else counts, steps)

@@ -9,13 +9,14 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.planning import SHIPPED, TUNED, moved, planned, refused, ways
+from given.planning import SHIPPED, TUNED, every, moved, planned, refused, ways
 
 from textmech.cases.case import Case
 from textmech.cases.scene import Spring
 from textmech.engines.engine import Realised, Start
 from textmech.engines.law import TENSIONS
 from textmech.engines.mujoco.force import ELEMENTS
+from textmech.engines.mujoco.law.corner import Corners
 from textmech.reference.solve import solve
 
 BOTH = """\
@@ -31,7 +32,12 @@ allow: {rod.x: 1.0e-3, rod.angle: 1.0e-2, leg.force: 1.0, band.force: 1.0}
 END = scenes.tail(0.6, 13)
 STEP = 5e-4
 WAY: dict[str, Realised] = {"mujoco": "native", "pymunk": "law"}
-REACHED = {"mujoco": 1e-5, "pymunk": 5e-5}  # m, rad; measured at this step: 1.8e-6 and 1.2e-5
+# m, rad; measured at this step: 1.8e-6, 3.2e-9 and 1.2e-5.
+REACHED: dict[tuple[str, Realised], float] = {
+    ("mujoco", "native"): 1e-5,
+    ("mujoco", "driver"): 2e-8,
+    ("pymunk", "law"): 5e-5,
+}
 
 
 @pytest.fixture
@@ -45,18 +51,42 @@ def start(case: Case) -> Start:
     return {body: tuple(rows[0].tolist()) for body, rows in known.states.items()}  # type: ignore[misc]
 
 
-def off(case: Case, engine: str) -> float:
+def off(case: Case, engine: str, way: Realised | None = None, step: float = STEP) -> float:
     known = solve(case).trajectory
-    begin = start(case)
-    run = moved(TUNED[engine], case.scene, begin, case.times, STEP, realised=WAY[engine])
+    begin, way = start(case), way or WAY[engine]
+    run = moved(TUNED[engine], case.scene, begin, case.times, step, realised=way)
     return float(np.max(np.abs(run.states["rod"][:, :3] - known.states["rod"][:, :3])))
 
 
-@pytest.mark.parametrize("engine", WAY)
-def test_engines_follow_the_reference(engine: str, both: Case) -> None:
+@pytest.mark.parametrize(("engine", "way"), REACHED, ids=[".".join(pair) for pair in REACHED])
+def test_engines_follow_the_reference(engine: str, way: Realised, both: Case) -> None:
     switches = len(solve(both).trajectory.switches)
     assert switches >= 2  # or nothing is tried
-    assert off(both, engine) < REACHED[engine]
+    assert off(both, engine, way) < REACHED[engine, way]
+
+
+def test_cut_at_the_corners_runge_and_kutta_keep_their_order(both: Case) -> None:
+    """Of which the steps that cross a corner know nothing."""
+    errors = [off(both, "mujoco", "driver", step) for step in (1e-3, 2e-3)]
+    assert np.log2(errors[1] / errors[0]) == pytest.approx(4.0, abs=0.5)
+    assert off(both, "mujoco", "native", 1e-3) > 100 * errors[0]
+
+
+def test_every_step_of_the_driver_is_recorded(both: Case) -> None:
+    begin, times = start(both), both.times
+    run = moved(TUNED["mujoco"], both.scene, begin, times, STEP, realised="driver", record=True)
+    record = every(run)
+    assert record.times == pytest.approx(np.arange(1201) * STEP)
+    assert record.states["rod"][::100] == pytest.approx(run.states["rod"], abs=0.0)
+
+
+def test_a_corner_that_is_not_cut_would_be_seen(
+    both: Case, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A driver that looks at the wrong rest length takes steps as MuJoCo does."""
+    sound = Corners._over
+    monkeypatch.setattr(Corners, "_over", lambda self: sound(self) + 10.0)
+    assert off(both, "mujoco", "driver") > 1e-7
 
 
 def two_sided(force: Spring, length: float, rate: float) -> float:
@@ -83,7 +113,8 @@ def test_pymunk_has_none_of_its_own(both: Case) -> None:
         assert said == "engine: a spring of pymunk's own acts both ways"
     assert ways(TUNED["pymunk"], both.scene, begin) == ("native", "law")
     assert ways(SHIPPED["pymunk"], both.scene, begin) == ("native",)
-    assert ways(TUNED["mujoco"], both.scene, begin) == ("native",)
+    assert ways(TUNED["mujoco"], both.scene, begin) == ("native", "driver")
+    assert planned(TUNED["mujoco"], both.scene, begin, "driver").held == (4, 5)
     for engine, way in WAY.items():
         assert planned(TUNED[engine], both.scene, begin, way).held == (1, 2)  # corners: no order
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ....cases.scene import Scene
 from ...engine import Realised
+from .corner import Corners
 from .driver import driven_step, room
 from .falling import falling
 from .friction import Slide, slides, smooth_only
@@ -27,6 +28,7 @@ class Steps:
     slides: list[Slide | Touch]
     take: Callable[[int], None]
     controls: list[Control] = field(default_factory=list)  # what every stage needs of us
+    alone: bool = True  # whether MuJoCo's own loop takes them
     noted: list[tuple[Any, ...]] = field(default_factory=list)
 
     def note(self) -> None:
@@ -73,6 +75,14 @@ def stepping(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, realised:
         for _ in range(n):
             driven_step(found, step, kept)
 
-    ways = {"law": by_law, "driver": by_driver}
+    corners = Corners(scene, model, data) if realised == "driver" and not found else None
+
+    def by_corners(n: int) -> None:
+        assert corners is not None
+        for _ in range(n):
+            corners.step(step)
+
+    ways = {"native": native, "law": by_law, "driver": by_driver if found else by_corners}
     stages = falling(found) if realised == "driver" else []
-    return Steps(model, data, found, ways[realised] if found else native, stages)
+    take = ways[realised] if found or corners else native
+    return Steps(model, data, found, take, stages, alone=take is native)
