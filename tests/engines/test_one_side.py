@@ -2,8 +2,7 @@
 
 import subprocess
 import sys
-from dataclasses import replace
-from pathlib import Path
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,12 +11,14 @@ from given import scenes
 from given.planning import SHIPPED, TUNED, every, moved, planned, refused, ways
 
 from textmech.cases.case import Case
-from textmech.cases.scene import Spring
+from textmech.cases.scene import Scene, Spring
+from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Realised, Start
 from textmech.engines.law import TENSIONS
 from textmech.engines.mujoco.force import ELEMENTS
 from textmech.engines.mujoco.law.corner import Corners
 from textmech.reference.solve import solve
+from textmech.reports.trial.start import first
 
 BOTH = """\
 scene:
@@ -40,40 +41,51 @@ REACHED: dict[tuple[str, Realised], float] = {
 }
 
 
-@pytest.fixture
-def both(tmp_path: Path) -> Case:
+@dataclass(frozen=True)
+class Moving:
+    """A case, its certified motion, and where that starts."""
+
+    case: Case
+    known: Trajectory
+
+    @property
+    def scene(self) -> Scene:
+        return self.case.scene
+
+    @property
+    def start(self) -> Start:
+        return first(self.known)
+
+
+@pytest.fixture(scope="module")
+def both(tmp_path_factory: pytest.TempPathFactory) -> Moving:
     """A bar that is caught by a band, and falls on its leg."""
-    return scenes.typed(tmp_path, BOTH, tail=END)
+    case = scenes.typed(tmp_path_factory.mktemp("both"), BOTH, tail=END)
+    return Moving(case, solve(case).trajectory)
 
 
-def start(case: Case) -> Start:
-    known = solve(case).trajectory
-    return {body: tuple(rows[0].tolist()) for body, rows in known.states.items()}  # type: ignore[misc]
-
-
-def off(case: Case, engine: str, way: Realised | None = None, step: float = STEP) -> float:
-    known = solve(case).trajectory
-    begin, way = start(case), way or WAY[engine]
-    run = moved(TUNED[engine], case.scene, begin, case.times, step, realised=way)
-    return float(np.max(np.abs(run.states["rod"][:, :3] - known.states["rod"][:, :3])))
+def off(both: Moving, engine: str, way: Realised | None = None, step: float = STEP) -> float:
+    times, way = both.case.times, way or WAY[engine]
+    run = moved(TUNED[engine], both.scene, both.start, times, step, realised=way)
+    return float(np.max(np.abs(run.states["rod"][:, :3] - both.known.states["rod"][:, :3])))
 
 
 @pytest.mark.parametrize(("engine", "way"), REACHED, ids=[".".join(pair) for pair in REACHED])
-def test_engines_follow_the_reference(engine: str, way: Realised, both: Case) -> None:
-    switches = len(solve(both).trajectory.switches)
+def test_engines_follow_the_reference(engine: str, way: Realised, both: Moving) -> None:
+    switches = len(both.known.switches)
     assert switches >= 2  # or nothing is tried
     assert off(both, engine, way) < REACHED[engine, way]
 
 
-def test_cut_at_the_corners_runge_and_kutta_keep_their_order(both: Case) -> None:
+def test_cut_at_the_corners_runge_and_kutta_keep_their_order(both: Moving) -> None:
     """Of which the steps that cross a corner know nothing."""
     errors = [off(both, "mujoco", "driver", step) for step in (1e-3, 2e-3)]
     assert np.log2(errors[1] / errors[0]) == pytest.approx(4.0, abs=0.5)
     assert off(both, "mujoco", "native", 1e-3) > 100 * errors[0]
 
 
-def test_every_step_of_the_driver_is_recorded(both: Case) -> None:
-    begin, times = start(both), both.times
+def test_every_step_of_the_driver_is_recorded(both: Moving) -> None:
+    begin, times = both.start, both.case.times
     run = moved(TUNED["mujoco"], both.scene, begin, times, STEP, realised="driver", record=True)
     record = every(run)
     assert record.times == pytest.approx(np.arange(1201) * STEP)
@@ -81,7 +93,7 @@ def test_every_step_of_the_driver_is_recorded(both: Case) -> None:
 
 
 def test_a_corner_that_is_not_cut_would_be_seen(
-    both: Case, monkeypatch: pytest.MonkeyPatch
+    both: Moving, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A driver that looks at the wrong rest length takes steps as MuJoCo does."""
     sound = Corners._over
@@ -93,7 +105,7 @@ def two_sided(force: Spring, length: float, rate: float) -> float:
     return force.stiffness * (length - force.rest_length)
 
 
-def test_a_spring_of_both_sides_is_seen(both: Case, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_spring_of_both_sides_is_seen(both: Moving, monkeypatch: pytest.MonkeyPatch) -> None:
     """In the law that pymunk is told, and in the dead band that MuJoCo is."""
     monkeypatch.setitem(TENSIONS, Spring, two_sided)
     assert off(both, "pymunk") > 1e-2
@@ -106,8 +118,8 @@ def test_a_spring_of_both_sides_is_seen(both: Case, monkeypatch: pytest.MonkeyPa
     assert off(both, "mujoco") > 1e-2
 
 
-def test_pymunk_has_none_of_its_own(both: Case) -> None:
-    begin = start(both)
+def test_pymunk_has_none_of_its_own(both: Moving) -> None:
+    begin = both.start
     for engine in (TUNED["pymunk"], SHIPPED["pymunk"]):
         said = refused(engine, both.scene, begin)
         assert said == "engine: a spring of pymunk's own acts both ways"
@@ -119,8 +131,8 @@ def test_pymunk_has_none_of_its_own(both: Case) -> None:
         assert planned(TUNED[engine], both.scene, begin, way).held == (1, 2)  # corners: no order
 
 
-def test_pymunks_script_makes_the_same_motion(both: Case) -> None:
-    engine, begin = TUNED["pymunk"], start(both)
+def test_pymunks_script_makes_the_same_motion(both: Moving) -> None:
+    engine, begin = TUNED["pymunk"], both.start
     plan = planned(engine, both.scene, begin, "law")
     text = engine.script(both.scene, begin, 1e-3, plan)
     assert text.count("force_func") == 2
