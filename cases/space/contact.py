@@ -1,4 +1,4 @@
-"""Contacts in space: what rolls without slip on the floor z = 0."""
+"""Contacts in space: what rolls without slip on the floor z = 0, or stands there on a point."""
 
 from dataclasses import dataclass
 from typing import ClassVar, Literal
@@ -27,9 +27,10 @@ _RIM: Fields = {
 
 @dataclass(frozen=True)
 class SpatialContact:
-    """A disk's rim or a sphere on the floor z = 0, named by its centre; it only rolls.
+    """A disk's rim or a sphere on the floor z = 0, named by its centre, which only rolls.
 
-    The reference assumes it and checks at every sample that friction suffices.
+    Or a point of a body that stays where it stands: a pivot. The reference assumes it and checks
+    at every sample that friction suffices, and that the floor need not pull.
     """
 
     name: str
@@ -37,7 +38,7 @@ class SpatialContact:
     friction: float
     rim: bool  # of a disk; a sphere has none
     on: ClassVar[str] = FLOOR  # there is no other plane in space
-    ideal: Literal["rolling"] = "rolling"
+    ideal: Literal["rolling", "pivot"] = "rolling"
     restitution: float = 0.0
 
     @property
@@ -70,7 +71,7 @@ class SpatialContact:
         return {"friction": self.friction}
 
     def observe(self, motion: Motion, field: str) -> Array:
-        """(N,) of the body's lowest point; else KeyError.
+        """(N,) of the body's lowest point, or of the pivot; else KeyError.
 
         along, side: of the force (fx, fy), along the track axle × z, on which a disk whose axle
         points to the left rolls forward, and along the axle's shadow on the floor.
@@ -97,8 +98,11 @@ class SpatialContact:
         return turned(states[:, SPACE.attitude], motion.bodies[self.body].axle)
 
     def _arm(self, motion: Motion) -> Array:
-        """(N, 3) from the centre to the lowest point."""
+        """(N, 3) from the centre to the lowest point, or to the pivot."""
         body, up = motion.bodies[self.body], np.array([0.0, 0.0, 1.0])
+        if self.ideal == "pivot":
+            states = motion.trajectory.states[self.body]
+            return turned(states[:, SPACE.attitude], body.points[self.at.point])
         if not self.rim:
             return np.tile(-body.radius * up, (len(motion.trajectory.times), 1))
         n = self._axle(motion)

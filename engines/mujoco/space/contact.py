@@ -1,4 +1,4 @@
-"""MuJoCo's recipes for what rolls on the floor z = 0: a sphere, and a disk on its rim.
+"""MuJoCo's recipes for the floor z = 0: a sphere that rolls, a disk on its rim, and a pivot.
 
 MuJoCo asks of a contact the acceleration d (−b v − k r) + (1 − d) a, and leaves out that the
 touching point wanders over the body (J̇ v): a disk that steers slips by h J̇ v, so that its error is
@@ -15,7 +15,7 @@ def recipe(scene: SpatialScene, tied_to: float) -> list[Choice]:
     """The contacts' numbers."""
     if not scene.contacts:
         return []
-    rims = any(contact.rim for contact in scene.contacts.values())
+    rims = any(contact.rim or contact.ideal == "pivot" for contact in scene.contacts.values())
     return [
         *(_rim(tied_to) if rims else _sphere(tied_to)),
         Choice("option.cone", "elliptic", "the pyramid's friction depends on the direction"),

@@ -143,12 +143,16 @@ def _inertial(element: ET.Element, body: SpatialBody) -> None:
 
 
 def _touching(element: ET.Element, body: SpatialBody, contact: SpatialContact) -> None:
-    """A disk as thin as an ideal one, or a sphere."""
-    assert body.radius is not None
+    """A disk as thin as an ideal one, or a sphere; of a pivot one as small as a point."""
     geom = ET.SubElement(
         element, "geom", name=contact.name, pos=written(*body.points[contact.at.point]),
         contype="0", conaffinity="0",
     )  # fmt: skip
+    if contact.ideal == "pivot":
+        geom.set("type", "sphere")
+        geom.set("size", written(THIN))
+        return
+    assert body.radius is not None
     if contact.rim:
         assert body.axle is not None
         geom.set("type", "ellipsoid")

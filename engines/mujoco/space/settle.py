@@ -112,7 +112,10 @@ def _acceleration(
     mujoco.mj_objectVelocity(model, data, kind, number, speed, 0)
     body, omega = scene.bodies[contact.body], speed[:3]
     arm, rate = _arm(body.radius or 0.0, None, omega)
-    if contact.rim:
+    if contact.ideal == "pivot":
+        arm = turned(data.xquat[number], body.points[contact.at.point])
+        rate = np.cross(omega, arm)
+    elif contact.rim:
         axle = turned(data.xquat[number], body.axle)
         arm, rate = _arm(body.radius or 0.0, axle, omega)
     # MuJoCo's accelerations are those of a frame that falls: gravity is missing in them.

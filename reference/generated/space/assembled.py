@@ -6,14 +6,15 @@ from typing import Any
 import numpy as np
 
 from .blades import Blades
-from .held import Blade, Dot, Drive, Held, Line, Rim, Together
+from .held import Blade, Dot, Drive, Held, Line, Pivot, Rim, Together
 from .kinematics import Bodies, Layout
+from .pivots import Pivots
 from .rolling import Drives, Rims
 from .rows import Dots, Kind, Lines, Points
 
 KINDS: dict[type[Any], tuple[type[Any], int]] = {
-    Together: (Points, 3), Line: (Lines, 1), Dot: (Dots, 1), Rim: (Rims, 3), Drive: (Drives, 1),
-    Blade: (Blades, 1),
+    Together: (Points, 3), Line: (Lines, 1), Dot: (Dots, 1), Rim: (Rims, 3), Pivot: (Pivots, 3),
+    Drive: (Drives, 1), Blade: (Blades, 1),
 }  # fmt: skip
 AXES = "xyz"
 
@@ -63,9 +64,10 @@ class SpatialRows:
 
     @property
     def holonomic(self) -> Any:
-        """(r,) which rows have residuals: all but what a rim's point does along the floor,
-        prescribed rates, and blades."""
-        known = {Rim: [False, False, True], Drive: [False], Blade: [False]}
+        """(r,) which rows have residuals: all but what a rim's point or a pivot does along the
+        floor, prescribed rates, and blades."""
+        low = [False, False, True]
+        known = {Rim: low, Pivot: low, Drive: [False], Blade: [False]}
         kinds = [(type(part), KINDS[type(part)][1]) for part in self.parts]
         flat = [x for kind, size in kinds for x in known.get(kind, [True] * size)]
         return np.array(flat, dtype=bool)
@@ -99,7 +101,7 @@ class SpatialRows:
 
 def _told(kind: Any, parts: list[Any], bodies: Bodies, forces: Any) -> Iterator[tuple[str, Any]]:
     """Each reaction with its component."""
-    if isinstance(kind, Points | Rims):
+    if isinstance(kind, Points | Rims | Pivots):
         names = ("fx", "fy", "fz") if isinstance(kind, Points) else ("fx", "fy", "normal")
         for part, force in zip(parts, forces.reshape(-1, 3), strict=True):
             yield from ((f"{part.part}.{n}", x) for n, x in zip(names, force, strict=True))

@@ -93,7 +93,15 @@ class Blade:
     along: Vector3 | None
 
 
-Held = Together | Line | Dot | Rim | Drive | Blade
+@dataclass(frozen=True)
+class Pivot:
+    """Three rows: a point rests on the floor z = 0; the multipliers are the floor's force."""
+
+    part: str
+    at: Anchor
+
+
+Held = Together | Line | Dot | Rim | Pivot | Drive | Blade
 
 
 def held(scene: SpatialScene) -> list[Held]:
@@ -102,6 +110,9 @@ def held(scene: SpatialScene) -> list[Held]:
     for joint in scene.joints.values():
         found += jointed(joint, scene)
     for contact in scene.contacts.values():
+        if contact.ideal == "pivot":
+            found.append(Pivot(contact.name, contact.at))
+            continue
         body = scene.bodies[contact.body]
         assert body.radius is not None  # only what is round rolls
         found.append(Rim(contact.name, contact.body, body.radius, body.axle))

@@ -1,4 +1,4 @@
-"""Contacts in space as a case file writes them: what rolls on the floor without slip."""
+"""Contacts in space as a case file writes them: what rolls on the floor, or stands on a point."""
 
 from collections.abc import Mapping
 from typing import Annotated, Any
@@ -13,17 +13,19 @@ from ..part import Part
 from ..text import Text, Word
 from ..words import wrong
 
-_ONLY = "in space a contact only rolls (slipping in two directions has no finite set of modes)"
+_ONLY = (
+    "in space a contact rolls or is a pivot (slipping in two directions has no finite set of modes)"
+)
 
 
 class Rolling(Part):
-    """A disk's rim or a sphere on the floor z = 0."""
+    """A disk's rim or a sphere that rolls on the floor z = 0, or a point that stands there."""
 
     between: tuple[Annotated[str, Text()], Annotated[str, Text()]] = Field(
-        description="a disk or a sphere, then ground.floor"
+        description="a disk or a sphere, or a point of a body, then ground.floor"
     )
     friction: Coefficient
-    ideal: Annotated[str, Word("ideal", ("rolling",))] = Field(
+    ideal: Annotated[str, Word("ideal", ("rolling", "pivot"))] = Field(
         description="what the reference assumes, and checks at every sample"
     )
 
@@ -35,11 +37,12 @@ class Rolling(Part):
         if isinstance(value, dict) and isinstance(value.get("friction"), dict):
             raise wrong(f"has a map as `friction`: {_ONLY}, and takes one number")
         if isinstance(value, dict) and "ideal" not in value and "between" in value:
-            raise wrong(f"needs `ideal: rolling`: {_ONLY}")
+            raise wrong(f"needs `ideal: rolling` or `ideal: pivot`: {_ONLY}")
         return value
 
     def named(self, name: str, bodies: Mapping[str, SpatialBody]) -> SpatialContact:
         """The contact; of a body with an axle, by its rim."""
         at = anchor(self.between[0])
         body = bodies.get(at.body)
-        return SpatialContact(name, at, self.friction, body is not None and body.axle is not None)
+        rim = self.ideal == "rolling" and body is not None and body.axle is not None
+        return SpatialContact(name, at, self.friction, rim, self.ideal)  # type: ignore[arg-type]

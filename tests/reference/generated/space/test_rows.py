@@ -11,11 +11,12 @@ from given import scenes
 
 from textmech.cases.space.scene import SpatialScene
 from textmech.reference.formalisms.derivative import along
-from textmech.reference.generated.space import attitude, rolling, rows
+from textmech.reference.generated.space import attitude, pivots, rolling, rows
 from textmech.reference.generated.space.mode import SpatialMultibody
 from textmech.reference.start.space.assembly import assemble_in_space
 
 CASES = ["universal_shaft", "spatial_four_bar", "cat_turn", "tilting_disk.circle", "rolling_sphere"]
+CASES += ["top_on_floor"]
 T = 0.13  # s: laws in time are neither at zero nor at rest
 
 
@@ -59,6 +60,7 @@ def test_rows_are_the_rates_of_places_and_gamma_of_rows(name: str) -> None:
 MOVED = [
     (rows.Points, "universal_shaft"), (rows.Dots, "cat_turn"),
     (rolling.Rims, "tilting_disk.circle"), (rolling.Drives, "cat_turn"),
+    (pivots.Pivots, "top_on_floor"),
 ]  # fmt: skip
 
 
