@@ -25,6 +25,7 @@ from .start.mechanism import mechanism
 from .states.answer import answered
 from .system import Pose, System
 from .systems import written as written_system
+from .systems.stated import STATED
 
 
 @dataclass(frozen=True)
@@ -79,6 +80,9 @@ def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
 
 def _written(case: Case) -> System | None:
     """The hand-written system, if there is one. Raises CaseError for what it says it cannot be."""
+    if case.system in STATED:
+        what = f"{case.system!r} answers for states, and this is a motion"
+        raise CaseError([case.mistake(("system",), what)])
     try:
         return written_system(case.system, case.parameters) if case.system else None
     except ValueError as error:

@@ -101,10 +101,10 @@ class CaseFile(pytest.File):
         from ..cases.mistake import CaseError
         from ..engines.engine import Refusal
         from .selection import ENGINES, HANDWRITTEN, choose_book, choose_engines
-        from .trial import states
         from .trial.book import producers
         from .trial.start import assembled
-        from .trial.trial import judged_names, planned
+        from .trial.states import ways_of
+        from .trial.trial import judged_names
         from .trial.work import too_long
 
         try:
@@ -123,12 +123,7 @@ class CaseFile(pytest.File):
             name = f"{case.name}-reference"
             yield CertificateItem.from_parent(self, name=name, case=case)
             for engine in producers(case, engines, book=choose_book(names, [])):
-                ways = (
-                    planned(engine, case.scene, start)
-                    if case.states is None
-                    else (states.ways(engine, case, start))
-                )
-                for way in ways:
+                for way in ways_of(engine, case, start):
                     audit = () if isinstance(way, Refusal) else ("audit",)
                     for quantity in (*audit, *judged_names(case)):
                         how = "" if way.realised == "native" else f".{way.realised}"

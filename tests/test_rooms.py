@@ -19,8 +19,8 @@ ROOMS = {
         "load",
     ],
     "reference": [
-        "system stated coverage integrators",
-        "laws",
+        "system coverage integrators",
+        "laws stated",
         "formalisms",
         "systems generated motion",
         "start",

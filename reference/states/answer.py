@@ -38,9 +38,9 @@ def answered(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
     found, others, checks = built, {}, []
     if written is not None:
         own, others = _trajectory(case, written, written.told), {"generated": built}
-        checks.append(Check("generated states", _apart(case, own, built), LAW))
         # what a system does not tell is the generated mechanism's
         found = replace(own, reactions={**built.reactions, **own.reactions})
+        checks.append(Check("generated states", _apart(case, found, built), LAW))
     checks += _worked(case, generated, built)
     checks += errors(case, found, others, 0.0)
     if mistakes := [*beyond(case, checks), *_constant(case, found)]:
@@ -107,19 +107,22 @@ def _trajectory(
 
 
 def _apart(case: Case, one: Trajectory, other: Trajectory) -> float:
-    """The largest difference of states and of what both tell, relative to the largest of its unit.
+    """The largest difference of states, of what both tell, and of all that is claimed.
 
-    What stays zero, as the x of a vertical axis, trembles by rounding.
+    Relative to the largest of a unit: what stays zero, as the x of a vertical axis, trembles.
     """
+    names = {*case.allow, *(one.reactions.keys() & other.reactions.keys())}
+    known = case.quantities
+    units = {name: known[name].unit if name in known else name for name in names}
+    pairs = [
+        (unit, *(observe(case.scene, found, name) for found in (one, other)))
+        for name, unit in units.items()
+        if not name.endswith(".attitude")  # of which the states tell
+    ]
     sizes: dict[str, float] = {}
-    both = {name: case.quantities.get(name) for name in one.reactions if name in other.reactions}
-    unit = {name: name if known is None else known.unit for name, known in both.items()}
-    for name, own in unit.items():
-        sizes[own] = max(sizes.get(own, 0.0), worst(np.abs(one.reactions[name])))
-    told = (
-        relative(one.reactions[name], other.reactions[name], least=sizes[own])
-        for name, own in unit.items()
-    )
+    for unit, own, _ in pairs:
+        sizes[unit] = max(sizes.get(unit, 0.0), worst(np.abs(own)))
+    told = (relative(own, others, least=sizes[unit]) for unit, own, others in pairs)
     return worst([difference(one, other), *told])
 
 

@@ -10,6 +10,16 @@ SILENT = "adapter: it offers no answers about states"
 AT = ("states", 0.0)  # where the only run of such a trial belongs
 
 
+def ways_of(engine: Engine, case: Case, start: Start) -> tuple[Plan | Refusal, ...]:
+    """How a case is tried, whatever it claims; what an engine raises is a way that fails."""
+    if case.states is None:
+        return planned(engine, case.scene, start)
+    try:
+        return ways(engine, case, start)
+    except (Exception, SystemExit) as error:
+        return (Refusal("native", f"{type(error).__name__}: {error}"),)
+
+
 def ways(engine: Engine, case: Case, start: Start) -> tuple[Plan | Refusal, ...]:
     """The engine's own answer, or why there is none; it is asked of one state what it withholds."""
     if not isinstance(engine, Claims):

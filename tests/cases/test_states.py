@@ -1,13 +1,17 @@
 """Claims about states: what is drawn, what can be bounded, and what such a file must not say."""
 
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 from given.claims import CHAIN, PLANE, claimed
 
+from textmech.cases import shape
+from textmech.cases.language.grammar.states import Drawn
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
+from textmech.cases.quantity import table
 from textmech.cases.states import States, claimable, coordinates
 
 
@@ -160,3 +164,35 @@ def test_a_variant_may_draw_others(tmp_path: Path) -> None:
     assert a.states is not None
     assert b.states is not None
     assert (a.states.seed, b.states.seed, b.states.random) == (0, 9, 4)
+
+
+STATES = (
+    Path(shape.__file__).with_name("README.md").read_text(encoding="utf-8")
+    .partition("## States\n")[2].partition("\n## ")[0]
+)  # fmt: skip
+
+
+def test_the_readme_loads_and_says_every_key(tmp_path: Path) -> None:
+    (example,) = re.findall(r"```yaml\n(.*?)```", STATES, flags=re.DOTALL)
+    assert claimed(tmp_path, example).states == States(100, 1, (-2.5, 2.5), (-3, 3), (-5, 5))
+    assert set(Drawn.model_fields) <= set(re.findall(r"`?([a-z_]+)`?", STATES))
+
+
+def test_the_readme_says_every_quantity_of_states_alone(tmp_path: Path) -> None:
+    """By the words body, point and joint; the units of an effort and of a mass matrix are two."""
+    rows = re.findall(r"^\| (`.*?) \| (.*?) \|", STATES, flags=re.MULTILINE)
+    said = {name: unit for names, unit in rows for name in re.findall(r"`(.*?)`", names)}
+    found: dict[str, str] = {}
+    for text in (CHAIN, PLANE):
+        scene = claimed(tmp_path, text).scene
+        new = {q: of for q, of in claimable(scene).items() if q not in table(scene)}
+        for name, quantity in new.items():
+            part, _, field = name.rpartition(".")
+            point = ".point" if "." in part else ""
+            known = "joint" if part in scene.joints else f"body{point}"
+            found[f"{known}.{field}"] = quantity.unit
+    efforts = {"joint.s_force": "N", "joint.a_torque": "N m", "joint.torque": "N m"}
+    assert {q: found.pop(q) for q in efforts} == efforts
+    assert said.pop("mass_matrix") == "kg m², kg"
+    assert {said.pop(f"joint.{q}") for q in ("torque", "theta_torque", "s_force")} == {"N m, N"}
+    assert said == found

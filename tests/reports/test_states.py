@@ -1,241 +1,144 @@
-"""States at events of records whose motion is known, and events at a value and rising."""
+"""Rows of claims about states: native, without a step or an order, and refused in words."""
 
-from collections.abc import Callable
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
+from given import scenes
+from given.claims import CHAIN, PLANE, claimed
 
-from textmech.cases.event import Event
-from textmech.cases.load import load
+from textmech import engines
+from textmech.cases.case import Case, Deviation
 from textmech.cases.mistake import CaseError
-from textmech.cases.quantity import SIDES, AtEvent, Side, at_event
-from textmech.cases.scene import Body, Scene
-from textmech.cases.trajectory import VX, Array, Trajectory, X
-from textmech.reference.solve import solve
-from textmech.reports.events import times as reading
-from textmech.reports.events.states import engine_states, mistaken, reference_states
-from textmech.reports.events.times import engine_events, reference_events
+from textmech.cases.scene import Scene
+from textmech.cases.trajectory import Array
+from textmech.engines.engine import Engine, Start
+from textmech.engines.pymunk import Pymunk
+from textmech.reports import suite, write
+from textmech.reports.row import AGREES, BEYOND, DEVIATES, FAILS, Comparison
+from textmech.reports.show.script import script
+from textmech.reports.trial.states import SILENT, ways_of
 
-SCENE = Scene(
-    (0.0, 0.0), {}, {"box": Body("box", "particle", 1.0, None, {"center": (0.0, 0.0)})}, {}, {}, {}
-)
-CASE: Any = SimpleNamespace(scene=SCENE, tube=0.0)
-HITS = 0.61803  # s: a speed that is halved and turned there
-SLOW, FAST = -0.4, 0.8
+MUJOCO, PYMUNK = (engines.make(name, "tuned") for name in ("mujoco", "pymunk"))
 
 
-def hit(t: Array, *, after: bool) -> tuple[Array, Array]:
-    """x and vx of what swings onto x = 0, and back at half the speed."""
-    s, w = t - HITS, FAST if not after else SLOW
-    return -w * np.sin(3 * s) / 3, -w * np.cos(3 * s)
+def rows(case: Case, engine: Any) -> dict[str, Comparison]:
+    report = suite.measure([case], [engine], progress=lambda *_: None, book=False)
+    assert report.rungs == []
+    assert report.instants == []
+    return {row.quantity: row for row in report.comparisons}
 
 
-def states(t: Array, after: Any) -> Array:
-    found = np.zeros((len(t), 6))
-    x, vx = np.where(after, hit(t, after=True), hit(t, after=False))
-    found[:, X], found[:, VX] = x, vx
-    return found
+def test_rows(tmp_path: Path) -> None:
+    case = claimed(tmp_path, PLANE)
+    found = rows(case, MUJOCO)
+    assert set(found) == {"audit", *case.allow}
+    for row in found.values():
+        assert (row.realised, row.verdict, row.step, row.when) == ("native", AGREES, None, None)
+        assert row.protocol == ""
+    assert found["wheel.inertia"].unit == "kg m²"
 
 
-def engine(h: float) -> Trajectory:
-    t = np.arange(round(1.0 / h) + 1, dtype=np.float64) * h
-    return Trajectory(t, {"box": states(t, t > HITS)}, {})
+def test_what_is_not_told_is_refused(tmp_path: Path) -> None:
+    case = claimed(tmp_path, PLANE, allow={"wheel.P.ax": 1e-11, "wheel.P.x": 1e-12})
+    found = rows(case, PYMUNK)
+    assert found["wheel.P.ax"].verdict.startswith("refused: engine: pymunk has velocities")
+    assert found["wheel.P.x"].verdict == AGREES
 
 
-def reference() -> Trajectory:
-    """Steps of a twelfth of a second, and the hit as the last and the first row of two pieces."""
-    before, after = np.linspace(0, HITS, 9), np.linspace(HITS, 1.0, 9)
-    t, phase = np.concatenate([before, after]), np.repeat([0, 1], 9)
-    return Trajectory(t, {"box": states(t, phase == 1)}, {}, phase=phase)
+def test_space_is_refused_by_an_engine_of_the_plane(tmp_path: Path) -> None:
+    found = rows(claimed(tmp_path, CHAIN), PYMUNK)
+    assert {row.verdict for row in found.values()} == {
+        "refused: engine: pymunk moves bodies in a plane, and this scene is in space"
+    }
 
 
-EXACT = {
-    "box.vx.before": -FAST,
-    "box.vx.after": -SLOW,
-    "box.x": 0.0,
-}
+def test_twice_the_energy_is_beyond_fails_or_is_declared(tmp_path: Path) -> None:
+    case = claimed(tmp_path, PLANE, allow={"energy.kinetic": 1e-11})
+    shipped = engines.make("pymunk", "shipped")
+    row = rows(case, shipped)["energy.kinetic"]
+    assert row.verdict == BEYOND
+    assert row.because.startswith("largest in state ")
+    assert rows(case, PYMUNK)["energy.kinetic"].verdict == FAILS
+    assert row.largest is not None
+    near = Deviation("it is m v² + J ω²", by=(0.9 * row.largest, 1.1 * row.largest))
+    declared = replace(case, deviates={"pymunk.shipped": {"energy.kinetic": near}})
+    assert rows(declared, shipped)["energy.kinetic"].verdict == DEVIATES
+    gone = Deviation("it is m v² + J ω²", by=(1.1 * row.largest, 1.2 * row.largest))
+    declared = replace(case, deviates={"pymunk.shipped": {"energy.kinetic": gone}})
+    assert rows(declared, shipped)["energy.kinetic"].verdict == FAILS
 
 
-@pytest.mark.parametrize(("name", "value"), EXACT.items())
-def test_each_side_of_a_jump(name: str, value: float) -> None:
-    at = at_event(f"hits.{name}", ["hits"])
-    assert at is not None
-    record, event = reference(), Event("box.x", "falls to zero")
-    assert reference_events(SCENE, record, event) == pytest.approx([HITS], abs=1e-15)
-    found = reference_states(CASE, record, at, np.array([HITS]))
-    assert found == pytest.approx([value], abs=1e-15)
-    for h in (1e-3, 1e-2):
-        times = engine_events(SCENE, engine(h), event)
-        assert times == pytest.approx([HITS], abs=1e-2 * h)
-        found = engine_states(CASE, engine(h), at, times)
-        late = FAST * abs(times[0] - HITS)  # as fast as x is
-        assert found == pytest.approx([value], abs=late + 1e2 * h**4)
+class Silent:
+    """An engine without the verb."""
+
+    name, setting, version, own_step = "silent", "shipped", "1", None
 
 
-@pytest.mark.parametrize(("side", "order"), [("before", 4), ("after", 4)])
-def test_a_side_is_read_with_the_order_of_its_curve(side: Side, order: int) -> None:
-    at, exact = AtEvent("hits", "box.vx", side), EXACT[f"box.vx.{side}"]
-    steps = np.array([HITS / 60.5, HITS / 120.5])  # the event in the middle of a step
-    errors = [
-        abs(engine_states(CASE, engine(h), at, np.array([HITS]))[0] - exact) for h in steps.tolist()
-    ]
-    found = np.log(errors[0] / errors[1]) / np.log(steps[0] / steps[1])
-    assert found == pytest.approx(order, abs=0.1)
+def test_an_engine_without_answers_is_refused(tmp_path: Path) -> None:
+    engine: Any = Silent()
+    (way,) = ways_of(engine, claimed(tmp_path, PLANE), {})
+    assert way.because == SILENT  # type: ignore[union-attr]
 
 
-@pytest.mark.parametrize("side", SIDES[1:])
-def test_the_other_side_would_be_seen(side: Side) -> None:
-    other = "before" if side == "after" else "after"
-    (found,) = engine_states(CASE, engine(1e-3), AtEvent("hits", "box.vx", side), np.array([HITS]))
-    assert abs(found - EXACT[f"box.vx.{other}"]) > 1.0
+class Broken(Pymunk):
+    """One that answers with what is no number."""
+
+    def answer(
+        self, scene: Scene, start: Start, states: Mapping[str, Array], wanted: Sequence[str]
+    ) -> dict[str, Array | str]:
+        n = len(next(iter(states.values())))
+        return {name: np.full(n, np.nan) for name in wanted}
 
 
-@pytest.mark.parametrize("t", [HITS, 0.618])  # between two steps, and on one
-def test_a_step_on_the_event_is_of_no_side(t: float) -> None:
-    times = np.arange(1001, dtype=np.float64) * 1e-3
-    for after in (times > t - 1e-9, times > t + 1e-9):  # what the step on it tells is open
-        found = np.zeros((len(times), 6))
-        found[:, VX] = np.where(after, 2.0, 1.0)
-        record = Trajectory(times, {"box": found}, {})
-        for side, value in zip(SIDES[1:], (1.0, 2.0), strict=True):
-            at = AtEvent("hits", "box.vx", side)
-            assert engine_states(CASE, record, at, np.array([t])) == pytest.approx([value])
+def test_what_is_no_number_fails(tmp_path: Path) -> None:
+    engine: Engine = Broken("tuned")
+    found = rows(claimed(tmp_path, PLANE), engine)
+    assert found["wheel.P.x"].verdict == FAILS
+    assert found["wheel.P.x"].because == "diverged: wheel.P.x is not finite"
 
 
-@pytest.mark.parametrize("tube", [0.05, 0.2])
-def test_after_an_event_may_be_later(tube: float) -> None:
-    """What takes its time for a jump is there within the tube, and read at its end."""
-    case: Any = SimpleNamespace(scene=SCENE, tube=tube)
-    at, times = AtEvent("hits", "box.vx", "after"), np.array([HITS])
-    exact = hit(times + tube, after=True)[1]
-    assert reference_states(case, reference(), at, times) == pytest.approx(exact, abs=1e-9)
-    slow = engine(1e-3)
-    speed = slow.states["box"][:, VX]
-    speed += np.where(slow.times > HITS, -np.exp(-(slow.times - HITS) / 4e-3), 0.0)
-    left = np.exp(-tube / 4e-3)
-    assert engine_states(case, slow, at, times) == pytest.approx(exact - left, abs=1e-8)
-    assert engine_states(CASE, slow, at, times) < exact - 0.9
+class Wrong(Pymunk):
+    """One that cannot be asked."""
+
+    def answer(
+        self, scene: Scene, start: Start, states: Mapping[str, Array], wanted: Sequence[str]
+    ) -> dict[str, Array | str]:
+        raise ZeroDivisionError("no answer")
 
 
-def moving(x: Callable[[Array], Array], h: float = 1e-3) -> Trajectory:
-    t = np.arange(round(1.0 / h) + 1, dtype=np.float64) * h
-    found = np.zeros((len(t), 6))
-    found[:, X] = x(t)
-    return Trajectory(t, {"box": found}, {}, phase=np.zeros(len(t), np.int64))
+def test_what_raises_is_no_refusal_that_passes(tmp_path: Path) -> None:
+    engine: Any = Wrong("tuned")
+    (way,) = ways_of(engine, claimed(tmp_path, PLANE), {})
+    assert way.because == "ZeroDivisionError: no answer"  # type: ignore[union-attr]
+    found = rows(claimed(tmp_path, PLANE), engine)
+    assert {row.verdict for row in found.values()} == {FAILS}
 
 
-@pytest.mark.parametrize(
-    ("rule", "value", "times"),
-    [
-        ("falls to zero", 0.0, [0.5]),
-        ("rises to zero", 0.0, [1.0]),
-        ("falls to zero", 0.5, [5 / 12]),
-        ("rises to zero", 0.5, [1 / 12]),
-        ("falls to zero", -0.5, [7 / 12]),
-        ("rises to zero", -0.5, [11 / 12]),
-    ],
-)
-def test_events_at_a_value_and_rising(rule: Any, value: float, times: list[float]) -> None:
-    record = moving(lambda t: np.sin(2 * np.pi * t - 1e-9))  # so that it rises at the end too
-    for read, exact in ((reference_events, times), (engine_events, times)):
-        found = read(SCENE, moving(lambda t: np.sin(2 * np.pi * t)), Event("box.x", rule, value))
-        if (rule, value) == ("rises to zero", 0.0):
-            found, exact = read(SCENE, record, Event("box.x", rule, value)), []  # behind the end
-        assert found == pytest.approx(exact, abs=1e-6)
+def test_nothing_of_it_can_be_shown(tmp_path: Path) -> None:
+    with pytest.raises(CaseError, match="is a claim about states: nothing is run"):
+        script(claimed(tmp_path, PLANE), MUJOCO)
 
 
-def ending(t: Array, stop: float) -> Array:
-    """A force of compression that ends, and is nothing from then on."""
-    return np.where(t < stop, np.sin(3 * (t - stop)), 0.0)
+@pytest.mark.whole
+@pytest.mark.parametrize("name", scenes.CLAIMS)
+def test_shipped_claims(name: str) -> None:
+    for engine in (MUJOCO, PYMUNK):
+        verdicts = {
+            row.verdict.partition(":")[0] for row in rows(scenes.CLAIMS[name], engine).values()
+        }
+        assert verdicts <= {AGREES, DEVIATES, "refused"}
+        assert engine is PYMUNK or verdicts == {AGREES}
 
 
-@pytest.mark.parametrize("part", [0.01, 0.5, 0.99])
-@pytest.mark.parametrize("h", [1e-3, 1e-2])
-def test_a_force_that_ends_is_continued(part: float, h: float) -> None:
-    stop = 0.4 + part * h
-    (found,) = engine_events(
-        SCENE, moving(lambda t: ending(t, stop), h), Event("box.x", "rises to zero")
-    )
-    assert found == pytest.approx(stop, abs=2e2 * h**5 + 1e-14)
-
-
-def test_a_line_to_what_has_ended_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(reading, "CURVE", 10**6)  # never enough steps before it
-    record = moving(lambda t: ending(t, 0.4005))
-    (found,) = engine_events(SCENE, record, Event("box.x", "rises to zero"))
-    assert found == pytest.approx(0.401)
-
-
-BOUNCES = """\
-title: A particle that bounces
-scene:
-  bodies: {bob: {particle: {mass: 2.0}}}
-  contacts: {touch: {between: [bob, ground.floor], friction: 0, restitution: 0.5}}
-initial: {bob: {x: 0, y: 1, vx: 1, vy: 0}}
-events: {lands: {touch.gap: falls to zero}, passes: {bob.y: {falls to: 0.4}}}
-duration: 0.8
-samples: 11
-tube: 1 ms
-allow: {bob.x: 1.0e-3, NAMES}
-"""
-
-
-@pytest.fixture
-def bouncing(tmp_path: Path) -> Callable[[str], Any]:
-    def case(names: str) -> Any:
-        path = tmp_path / "bounces.yaml"
-        path.write_text(BOUNCES.replace("NAMES", names))
-        (found,) = load(path)
-        return found
-
-    return case
-
-
-def test_the_reference_of_a_bounce(bouncing: Callable[[str], Any]) -> None:
-    names = ("lands.bob.vy.before", "lands.bob.vy.after", "passes.bob.vy", "passes.energy.kinetic")
-    case = bouncing(", ".join(f"{name}: 1.0e-3" for name in names))
-    motion = solve(case).trajectory
-    assert mistaken(case, motion) == []
-    assert motion.record is not None
-    found = {}
-    for name in names:
-        at = at_event(name, case.events)
-        assert at is not None
-        times = reference_events(case.scene, motion.record, case.events[at.event])
-        found[name] = reference_states(case, motion.record, at, times)[0]
-    v = np.sqrt(2 * 9.80665)
-    through = np.sqrt(2 * 9.80665 * 0.6)
-    exact = [-v, 0.5 * v - 9.80665e-3, -through, 0.5 * 2.0 * (1.0 + through**2)]
-    assert [found[name] for name in names] == pytest.approx(exact, rel=1e-11)
-
-
-def test_a_state_at_what_never_happens_is_a_mistake(bouncing: Callable[[str], Any]) -> None:
-    """The particle may land after the end; then there is no speed with which it lands."""
-    short = replace(bouncing("lands.bob.vy.after: 1.0e-3"), duration=0.2)
-    events = {"lands": short.events["lands"]}
-    short = replace(short, events=events)
-    (mistake,) = mistaken(short, solve(short).trajectory)
-    assert mistake.where == "allow.lands.bob.vy.after"
-    assert mistake.what == "never happens in 0.2 s: nothing is compared"
-    count = replace(short, allow={"bob.x": 1e-3, "lands.count": 0.5})
-    assert mistaken(count, solve(count).trajectory) == []
-
-
-def test_a_contact_that_lands_is_named_by_its_zero(bouncing: Callable[[str], Any]) -> None:
-    case = bouncing("lands.time: 1.0e-3")
-    other = replace(case, events={"lands": Event("touch.gap", "falls to zero", 0.1)})
-    with pytest.raises(CaseError, match="starts 1 m above the floor"):
-        solve(other)
-
-
-def test_a_jump_needs_a_side(bouncing: Callable[[str], Any]) -> None:
-    case = bouncing("lands.bob.vx: 1.0e-3, lands.bob.vy: 1.0e-3")
-    (mistake,) = mistaken(case, solve(case).trajectory)
-    assert str(mistake.where) == "allow.lands.bob.vy"
-    assert mistake.what == (
-        "jumps there, from -4.42869 to 2.21435: say lands.bob.vy.before or lands.bob.vy.after"
-    )
+def test_its_rows_can_be_written_and_read(tmp_path: Path) -> None:
+    case = claimed(tmp_path, PLANE)
+    report = suite.measure([case], [MUJOCO], progress=lambda *_: None, book=False)
+    write.write(write.tables(report, [case]), tmp_path)
+    back = write.read(tmp_path / "tolerance.csv", Comparison)
+    assert {(row.quantity, row.verdict, row.step) for row in back} == {
+        (name, AGREES, None) for name in ("audit", *case.allow)
+    }

@@ -49,7 +49,7 @@ def test_the_top_is_the_one_on_a_ball_joint() -> None:
 @pytest.mark.parametrize(
     ("friction", "omega", "said"),
     [
-        (0.05, "[0, 0.9, 150]", "standing on a point is not possible with friction 0.05: at t = "),
+        (0.05, "[0, 0.9, 150]", "pivoting is not possible with friction 0.05: at t = "),
         (9.0, "[20, 0, 150]", "the floor would have to pull at t = 0 s: top leaves it"),
     ],
 )

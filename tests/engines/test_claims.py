@@ -1,0 +1,129 @@
+"""Engines' answers about states: against formulas typed here, and with the physics spoilt."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from given import scenes
+from given.claims import CHAIN, PLANE, claimed
+from given.planning import SETTINGS, words
+
+from textmech import engines
+from textmech.cases.case import Case
+from textmech.cases.states import claimable
+from textmech.engines.engine import Claims, Engine
+from textmech.reports.trial.start import assembled
+from textmech.reports.trial.states import ways
+from textmech.reports.trial.trial import Trial
+
+MUJOCO, PYMUNK = (engines.make(name, "shipped") for name in ("mujoco", "pymunk"))
+
+
+def told(engine: Engine, case: Case, *, wanted: tuple[str, ...] = ()) -> Mapping[str, Any]:
+    """Answers to all that the case claims."""
+    assert isinstance(engine, Claims)
+    assert case.states is not None
+    drawn = case.states.drawn(case.scene)
+    return engine.answer(case.scene, assembled(case), drawn, wanted or tuple(case.allow))
+
+
+@pytest.mark.parametrize("engine", SETTINGS, ids=words)
+def test_a_disk_in_the_plane(engine: Engine, tmp_path: Path) -> None:
+    """P at (0.1, 0.05): r = r_c + d, v = v_c + ω × d; J = m R²/2; p = Σ m v."""
+    case = claimed(tmp_path, PLANE)
+    assert case.states is not None
+    drawn, found = case.states.drawn(case.scene), told(engine, case)
+    (x, vx), (_, vy), (phi, w) = (drawn[f"wheel.{q}"][:, :2].T for q in ("x", "y", "angle"))
+    dx = 0.1 * np.cos(phi) - 0.05 * np.sin(phi)
+    assert found["wheel.P.x"] == pytest.approx(x + dx, rel=1e-14)
+    assert found["wheel.P.vy"] == pytest.approx(vy + w * dx, rel=1e-13)
+    assert found["wheel.inertia"] == pytest.approx(1.3 * 0.2**2 / 2, rel=1e-12)
+    p = 1.3 * vx + 0.4 * drawn["bob.x"][:, 1]
+    assert found["momentum.x"] == pytest.approx(p, rel=1e-12)
+    twice = 2.0 if engine.name == "pymunk" else 1.0
+    T = 1.3 * (vx**2 + vy**2) + 0.026 * w**2 + 0.4 * sum(drawn[f"bob.{q}"][:, 1] ** 2 for q in "xy")
+    energy = told(engine, case, wanted=("energy.kinetic",))["energy.kinetic"]
+    assert energy == pytest.approx(twice * T / 2, rel=1e-12)
+
+
+def test_mujoco_on_one_hinge(tmp_path: Path) -> None:
+    """A bar about its end on a level axis: 1/3 m l² q̈ + m g l/2 cos q, and a = r̈ of its end."""
+    text = CHAIN.replace("axis: [0, 3, 4]", "axis: [0, -1, 0]")
+    start, end = text.index("    box:"), text.index("  joints:")
+    text = text[:start] + text[end:]
+    start, end = text.index("    rail:"), text.index("states:")
+    text = text[:start] + text[end:]
+    start = text.index("allow:")
+    text = text[:start] + "allow: {q1.torque: 1.0e-9, mass_matrix: 1.0e-9, rod.end.az: 1.0e-9}\n"
+    case = claimed(tmp_path, text)
+    assert case.states is not None
+    (states,), found = case.states.drawn(case.scene).values(), told(MUJOCO, case)
+    q, v, a = states.T
+    J = 1.2 * 0.8**2 / 3
+    assert found["mass_matrix"] == pytest.approx(J, rel=1e-12)
+    weight = 1.2 * 9.80665 * 0.4 * np.cos(q)
+    assert found["q1.torque"] == pytest.approx(J * a + weight, rel=1e-11)
+    assert found["rod.end.az"] == pytest.approx(
+        0.8 * (a * np.cos(q) - v * v * np.sin(q)), rel=1e-11
+    )
+
+
+def test_mujoco_answers_all_that_can_be_claimed(tmp_path: Path) -> None:
+    for text in (CHAIN, PLANE):
+        case = claimed(tmp_path, text)
+        found = told(MUJOCO, case, wanted=tuple(claimable(case.scene)))
+        assert not [name for name, rows in found.items() if isinstance(rows, str)]
+
+
+def test_pymunk_says_what_it_does_not_know(tmp_path: Path) -> None:
+    case = claimed(
+        tmp_path, PLANE.replace("disk: {mass: 1.3, ", "rigid: {mass: 1.3, inertia: 0.1, ")
+    )
+    found = told(PYMUNK, case, wanted=tuple(claimable(case.scene)))
+    whys = {name: why for name, why in found.items() if isinstance(why, str)}
+    assert whys == {
+        "wheel.inertia": "adapter: wheel has no shape from which pymunk could compute it",
+        "wheel.P.ax": "engine: pymunk has velocities, and nothing that tells an acceleration",
+        "wheel.P.ay": "engine: pymunk has velocities, and nothing that tells an acceleration",
+        "momentum.angular": "engine: pymunk has no angular momentum",
+        "energy.potential": "engine: pymunk knows no potential energy",
+        "energy.total": "engine: pymunk knows no potential energy",
+    }
+
+
+@pytest.mark.parametrize("name", scenes.CLAIMS)
+@pytest.mark.parametrize("engine", [MUJOCO, PYMUNK], ids=words)
+def test_an_engine_with_another_mass_is_seen(engine: Engine, name: str) -> None:
+    """5 % of the last body's, in the engine's scene alone."""
+    case = scenes.CLAIMS[name]
+    (way,) = ways(engine, case, assembled(case))
+    if engine.name == "pymunk" and case.scene.frame.dimension == 3:
+        return
+    *_, last = case.scene.bodies.values()
+    bodies = {**case.scene.bodies, last.name: replace(last, mass=1.05 * last.mass)}
+    other = replace(case, scene=replace(case.scene, bodies=bodies))
+    trial = Trial(case, scenes.solved(name).trajectory, engine, way)
+    good, bad = (told(engine, one) for one in (case, other))
+    off = {q: float(np.max(np.abs(trial.read(q, bad[q]) - trial.wanted(q)))) for q in trial.motion}
+    assert max(off.values()) > 1e-3
+    beside = [q for q in trial.motion if f"{engine.name}.shipped" not in case.deviates
+              or q not in case.deviates[f"{engine.name}.shipped"]]  # fmt: skip
+    for q in beside:
+        assert np.max(np.abs(trial.read(q, good[q]) - trial.wanted(q))) <= (case.allow[q] or 0.0), q
+
+
+@pytest.mark.parametrize("number", [0, 1, 2], ids=["place", "rate", "acceleration"])
+def test_an_engine_at_another_state_is_seen(number: int) -> None:
+    case = scenes.CLAIMS["robot_states"]
+    (way,) = ways(MUJOCO, case, assembled(case))
+    trial = Trial(case, scenes.solved(case.name).trajectory, MUJOCO, way)
+    assert isinstance(MUJOCO, Claims)
+    assert case.states is not None
+    drawn = {name: rows.copy() for name, rows in case.states.drawn(case.scene).items()}
+    drawn["q3.angle"][:, number] += 1e-6
+    found = MUJOCO.answer(case.scene, trial.start, drawn, trial.motion)
+    off = [np.max(np.abs(trial.read(q, found[q]) - trial.wanted(q))) for q in trial.motion]  # type: ignore[arg-type]
+    assert max(off) > 1e-8

@@ -1,0 +1,218 @@
+"""The reference of claims about states: derivations agree, and each planted mistake is seen."""
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from given import scenes
+from given.claims import CHAIN, claimed
+
+from textmech.cases.case import Case, Placement
+from textmech.cases.mistake import CaseError
+from textmech.cases.scene import Signal
+from textmech.cases.space.joint import rate_of
+from textmech.cases.space.scene import SpatialScene
+from textmech.cases.trajectory import Array
+from textmech.reference.generated.space.chain import SpatialChain
+from textmech.reference.laws import energy, inertia, momentum, rotation
+from textmech.reference.solve import solve
+from textmech.reference.start.mechanism import mechanism
+from textmech.reference.stated import Stated
+from textmech.reference.states.answer import answered, generated_mode, rows
+from textmech.reference.states.derived import derived, efforts
+from textmech.reference.system import Vector
+from textmech.reference.systems import arm, hung_shapes, moving_body, planar_bodies
+from textmech.reference.systems.stated import STATED
+
+LAW = 1e-12  # of the largest: algebra alone
+
+
+def few(name: str) -> Case:
+    """A shipped claim with as many states as a mistake needs to be seen."""
+    case = scenes.CLAIMS[name]
+    assert case.states is not None
+    return replace(case, states=replace(case.states, random=4), samples=4, duration=3.0)
+
+
+def apart(case: Case) -> float:
+    """How far the hand-written answer is from the scene's."""
+    return next(c.difference for c in answered(case)[1] if c.name == "generated states")
+
+
+@pytest.mark.parametrize("name", scenes.CLAIMS)
+def test_shipped_claims_hold(name: str) -> None:
+    solution = scenes.solved(name)
+    assert solution.holds
+    assert {c.name for c in solution.checks} >= {f"error of {q}" for q in scenes.CLAIMS[name].allow}
+
+
+MISTAKES: dict[str, tuple[str, Any, str, Callable[..., Any]]] = {
+    "ω × (ω × x) is lost": (
+        "moving_body", moving_body, "acceleration",
+        lambda a, alpha, omega, x: a + np.cross(alpha, x),
+    ),
+    "ω̇ × x is turned round": (
+        "moving_body", moving_body, "acceleration",
+        lambda a, alpha, omega, x: rotation.acceleration(a, -alpha, omega, x),
+    ),
+    "ω the other way round": (
+        "moving_body", moving_body, "angular_velocity",
+        lambda E, E_dot: -rotation.angular_velocity(E, E_dot),
+    ),
+    "Steiner lost": ("moving_body", moving_body, "steiner", lambda J, m, a: J),
+    "half of (2.53) lost": (
+        "moving_body", moving_body, "of_general_point",
+        lambda m, J, v, omega, x: energy.of_general_point(m, J, v, omega, 0 * x),
+    ),
+    "(2.28) without m r̈_A × a": (
+        "moving_body", moving_body, "moment_change", lambda M, m, a_A, a: M
+    ),
+    "gyroscopic moment lost": (
+        "moving_body", moving_body, "spin_change", lambda J, omega, omega_dot: J @ omega_dot
+    ),
+    "a tensor turned back": (
+        "hung_shapes", hung_shapes, "rotated", lambda J, E: inertia.rotated(J, E.T)
+    ),
+    "a disk's moments exchanged": (
+        "hung_shapes", hung_shapes, "disk", lambda m, R: inertia.disk(m, R)[::-1, ::-1]
+    ),
+    "the bar about its end": (
+        "hung_shapes", hung_shapes, "bar", lambda m, l: 4 * inertia.bar(m, l)
+    ),
+    "products without the minus": (
+        "hung_shapes", hung_shapes, "steiner",
+        lambda J, m, a: J + m * (a @ a * np.eye(3) + np.outer(a, a)),
+    ),
+    "König without spin": (
+        "planar_bodies", planar_bodies, "of_center", lambda m, J, v, omega: m * v @ v / 2
+    ),
+    "D₀ without r × p": (
+        "planar_bodies", planar_bodies, "angular_momentum",
+        lambda m, J, r, v, omega: momentum.angular_momentum(m, J, 0 * r, v, omega),
+    ),
+    "arm without gyroscopic moments": (
+        "robot_states", arm, "cross",
+        lambda a, b: tuple(0.999 * x for x in np.cross(a, b).tolist()),
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_a_mistake_in_a_law_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    name, module, law, wrong = MISTAKES[mistake]
+    case = few(name)
+    assert apart(case) <= LAW
+    monkeypatch.setattr(module, law, wrong)
+    assert apart(case) > 1e-6
+
+
+@pytest.mark.parametrize("name", scenes.CLAIMS)
+def test_a_scene_of_another_mass_is_seen(name: str) -> None:
+    """5 % of the first body's, of which the hand-written system does not know."""
+    case = few(name)
+    first, *_ = case.scene.bodies.values()
+    bodies = {**case.scene.bodies, first.name: replace(first, mass=1.05 * first.mass)}
+    assert apart(replace(case, scene=replace(case.scene, bodies=bodies))) > 1e-6
+
+
+@pytest.mark.parametrize("text", [CHAIN, "robot_states"])
+def test_a_chain_is_the_mechanism_with_driven_joints(text: str, tmp_path: Path) -> None:
+    """In maximal coordinates with multipliers (2.60), started by Newton's method, every freedom
+    driven with its rate and acceleration: the torques and accelerations are those of the chain."""
+    case = few(text) if text in scenes.CLAIMS else claimed(tmp_path, CHAIN)
+    scene, chain = case.scene, generated_mode(case)
+    assert isinstance(scene, SpatialScene)
+    for q, v, a in rows(case, chain):
+        mode = driven(case, scene, chain, q, v, a).base
+        at, moving = mode.start()
+        poses, own = mode.poses(0.0, at, moving), chain.poses(0.0, q, v)
+        for name in poses:
+            one, other = np.array(poses[name], float), np.array(own[name], float)
+            if one[3:7] @ other[3:7] < 0:
+                one[3:7] *= -1.0
+            assert one == pytest.approx(other, abs=1e-11)
+        wanted = derived(chain, scene, {"box.ax", "hand.ax"}, q, v, a)
+        exerted = mode.reactions(0.0, at, moving)
+        for _, effort in efforts(scene):
+            assert exerted[effort] == pytest.approx(wanted[effort], rel=1e-9, abs=1e-9), effort
+        changes = mode.accelerations(0.0, at, moving)
+        last = next(name for name in ("box", "hand") if name in poses)
+        place = mode.where.columns[last].r_dot
+        assert changes[place] == pytest.approx(wanted[f"{last}.ax"], rel=1e-9, abs=1e-9)
+
+
+def driven(case: Case, scene: SpatialScene, chain: Stated, q: Array, v: Array, a: Array) -> Any:
+    """Its mechanism with each rate driven as A sin(t + φ): at t = 0 it is v and rises by a."""
+    drives, initial = {}, {}
+    for joint in scene.joints.values():
+        given = {}
+        for freedom in joint.freedoms:
+            at = chain.coordinates.index(f"{joint.name}.{freedom.name}")
+            rate = rate_of(freedom.name)
+            drives[f"{joint.name}.{rate}"] = Signal(
+                "sine", (math.hypot(v[at], a[at]),), 1.0, math.atan2(v[at], a[at])
+            )
+            given[freedom.name] = q[at]
+        initial[joint.name] = Placement(given)
+    moved = replace(case, scene=replace(scene, drives=drives), initial=initial, states=None)
+    return mechanism(moved)
+
+
+class Heavier(SpatialChain):
+    """Its kinetic energy is 5 % too large."""
+
+    def T(self, t: Any, q: Vector, v: Vector) -> Any:
+        return 1.05 * super().T(t, q, v)
+
+
+def test_energy_against_virtual_work(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    case = claimed(tmp_path, CHAIN)
+    (check,) = [c for c in answered(case)[1] if "d'Alembert" in c.name]
+    assert check.holds
+    monkeypatch.setattr("textmech.reference.states.answer.SpatialChain", Heavier)
+    (check,) = [c for c in answered(case)[1] if "d'Alembert" in c.name]
+    assert not check.holds
+
+
+def refused(case: Case) -> list[tuple[str, str]]:
+    with pytest.raises(CaseError) as caught:
+        solve(case)
+    return [(m.where, m.what) for m in caught.value.mistakes]
+
+
+def test_a_bound_beyond_what_is_known_is_refused() -> None:
+    case = few("robot_states")
+    ((where, what),) = refused(replace(case, allow={**case.allow, "q2.torque": 1e-14}))
+    assert where == "allow.q2.torque"
+    assert "asks more than can be certified" in what
+
+
+def test_what_is_the_same_in_every_state_is_no_claim() -> None:
+    case = few("robot_states")
+    ((where, what),) = refused(replace(case, allow={"base.alpha_x": 1e-10}))
+    assert (where, what) == ("allow.base.alpha_x", "is the same in every state; leave it out")
+
+
+def test_a_system_of_motions_answers_no_states_and_the_other_way() -> None:
+    ((where, what),) = refused(replace(few("robot_states"), system="five_axis_robot"))
+    assert where == "system"
+    assert "answers for a motion; of states there are arm_states" in what
+    ((where, what),) = refused(replace(scenes.SHIPPED["bar_pendulum"], system="arm_states"))
+    assert where == "system"
+    assert "answers for states" in what
+
+
+def test_a_system_of_other_coordinates_is_refused() -> None:
+    parameters = scenes.CLAIMS["hung_shapes"].parameters
+    other = replace(few("robot_states"), system="hung_shapes", parameters=parameters)
+    ((where, what),) = refused(other)
+    assert where == "system"
+    assert "has the coordinates rod_hinge.angle" in what
+
+
+def test_every_system_of_states_has_a_claim() -> None:
+    assert {case.system for case in scenes.CLAIMS.values()} == set(STATED)
