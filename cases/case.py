@@ -15,6 +15,8 @@ from .scene import Scene, Vector
 from .states import States, claimable
 from .trajectory import Array
 
+_KINDS = ("example", "exercise", "figure", "section")
+
 
 @dataclass(frozen=True)
 class Origin:
@@ -23,16 +25,19 @@ class Origin:
     equations: tuple[str, ...] = ()
     example: str | None = None
     exercise: str | None = None
-    figure: str | None = None
+    figures: tuple[str, ...] = ()
     section: str | None = None
 
     def __str__(self) -> str:
-        words = [
-            f"{word} {number}"
-            for word in ("example", "exercise", "figure", "section")
-            if (number := getattr(self, word)) is not None
-        ]
+        words = [f"{kind} {number}" for kind in _KINDS for number in self.places(kind)]
         return ", ".join([*words, *(f"({number})" for number in self.equations)])
+
+    def places(self, kind: str) -> tuple[str, ...]:
+        """Of a kind, as `figure`: there may be several figures, and one of any other."""
+        if kind == "figure":
+            return self.figures
+        number = getattr(self, kind)
+        return () if number is None else (number,)
 
 
 @dataclass(frozen=True)

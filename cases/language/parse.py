@@ -107,6 +107,8 @@ def _path(loc: tuple[str | int, ...]) -> Path:
     if loc[0] in ("scene", "initial", "near"):
         named = 2 if loc[1:2] == ("gravity",) else 3  # so many words are keys, whatever they are
         loc = (*loc[:named], *(word for word in loc[named:] if not str(word).startswith("<")))
+    if loc[:2] == ("source", "figure"):
+        loc = (*loc[:2], *loc[3:])
     if loc[0] == "step":
         loc = (loc[0], *loc[2:])
     return loc[:-1] if len(loc) > 1 and loc[-1] == "[key]" else loc

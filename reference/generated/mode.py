@@ -226,11 +226,11 @@ class Multibody(Mode):
         return Q
 
     def f(self, t: Any, q: Vector) -> Vector:
-        """(2.14) the residuals of all joints and contacts, (r,)."""
+        """(2.10), (2.14) the residuals of all joints and contacts, (r,)."""
         return np.array([entry for c in self._constraints for entry in c.f(t, q.tolist())])
 
     def f_a(self, t: Any, q: Vector) -> Vector:
-        """(2.15) the rows f_aᵇ, (r, n)."""
+        """(2.15), (2.55) the rows f_aᵇ, (r, n)."""
         return self.rows(t, q, q[: len(self._M)])[0]
 
     def g(self, t: Any, q: Vector) -> Vector:

@@ -42,7 +42,7 @@ class TorsionPendulum(Mode):
         return np.array([self.phi]), np.array([self.w0])
 
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
-        """(2.44) J₃₃ φ̈ = −c (φ − φ₀) − d φ̇ + M sin Ω t, (1,)."""
+        """(2.34), (2.44) J₃₃ φ̈ = −c (φ − φ₀) − d φ̇ + M sin Ω t, (1,)."""
         J33 = self.m * self.R**2 / 2
         torque = -self.c * (q[0] - self.phi0) - self.d * v[0] + self.M * math.sin(self.Omega * t)
         return np.array([torque / J33])

@@ -14,7 +14,16 @@ from .gravity import Gravity
 from .ground import GroundPoint
 from .joint import Joint
 from .number import Amount
-from .part import Angle, Name, Part, Point, Position, plain_or_map, written
+from .part import (
+    Angle,
+    Name,
+    Part,
+    Point,
+    Position,
+    plain_or_list,
+    plain_or_map,
+    written,
+)
 from .plane import Plane
 from .states import Drawn
 from .text import Place, Text, Word, equation, label, no_formula
@@ -24,6 +33,10 @@ POLAR = ("from_", "length", "direction")  # how a start gives a place by a dista
 WAYS = ("", ".law", ".driver", ".limit")  # after an engine's name: which of its rows
 
 BookPlace = Annotated[str, Place()]
+Places = Annotated[
+    Annotated[str, Place(), Tag("<plain>")] | Annotated[tuple[BookPlace, ...], Tag("<list>")],
+    plain_or_list(),
+]
 Tolerance = Annotated[Amount, Bound()]
 Seconds = Annotated[float, In("s", above=0)]
 Engine = Annotated[str, Text(description="an engine's name")]  # which there are is checked later
@@ -46,8 +59,13 @@ class Source(Part):
     equations: tuple[Annotated[str, Place(equation, r"^2\.[1-9][0-9]?$")], ...] = ()
     example: BookPlace | None = None
     exercise: BookPlace | None = None
-    figure: BookPlace | None = None
+    figure: Places | None = Field(None, description="one, or a list of several")
     section: BookPlace | None = None
+
+    @property
+    def figures(self) -> tuple[str, ...]:
+        """All that are given."""
+        return (self.figure,) if isinstance(self.figure, str) else self.figure or ()
 
 
 class Scene(Part):

@@ -65,13 +65,14 @@ class SpatialMultibody(Mode):
         return self._equations.solve(rows, gamma, self._applied(t, v, bodies))
 
     def _applied(self, t: float, v: Array, bodies: Any) -> Array:
-        """(2.60) Q (n,): weights, forces, and −ω × J ω of (2.33)."""
+        """(2.23), (2.60) Q (n,): weights, forces, and −ω × J ω beside the moments."""
         Q = self._weight.copy()
         self._gyroscopic(v, Q)
         self._actions.enter(t, bodies, Q)
         return Q
 
     def _gyroscopic(self, v: Array, Q: Array) -> None:
+        """(2.27), (2.33) Ḋ_c = J ω̇ + ω × J ω = M_c: −ω × J ω stands beside the moments."""
         if len(self._J):
             omega = v[self.where.spins]
             Q[self.where.spins] -= cross(omega, carried(self._J, omega))
@@ -157,11 +158,11 @@ class SpatialMultibody(Mode):
         return self._actions.other(t, self.layout.bodies(q, v), self.where.size, kind)
 
     def f(self, t: Any, q: Vector) -> Vector:
-        """(2.14) the residuals of what is holonomic, (≤ r,)."""
+        """(2.10), (2.14) the residuals of what is holonomic, (≤ r,)."""
         return self.constraints.f(t, self.layout.bodies(q, np.zeros(self.where.size)))
 
     def f_a(self, t: Any, q: Vector) -> Vector:
-        """(2.15) the rows f_aᵇ, (r, n), of the velocities v."""
+        """(2.15), (2.55) the rows f_aᵇ, (r, n), of the velocities v."""
         return self.rows(t, q, np.zeros(self.where.size))[0]
 
     def g(self, t: Any, q: Vector) -> Vector:

@@ -45,7 +45,7 @@ class Rims:
         return -self._R * steep, -self._R * np.where(self._rim, steep_dot, 0.0)
 
     def values(self, t: Any, bodies: Bodies) -> tuple[list[Any], Any, Any]:
-        """f = (1, −[ρ]× E); d/dt of it leaves ω × ρ̇ beside the accelerations."""
+        """(2.19) f = (1, −[ρ]× E): ṙ_c + ω × ρ = 0; its rate has ω × ρ̇ beside accelerations."""
         rho, rho_dot = self.arm(bodies)
         blocks = -skew(rho) @ bodies.R.take(self._body, axis=0)
         gamma = -cross(bodies.spin.take(self._body, axis=0), rho_dot)

@@ -6,11 +6,13 @@ from typing import Any
 import numpy as np
 import pytest
 import sympy as sp
+from given.examples import only
 from given.formal import EXACT, FORMAL, drawn
 from given.laws import difference
 from given.mass_points import Elements
 
 from textmech.reference.formalisms import lagrange
+from textmech.reference.formalisms.derivative import along
 from textmech.reference.laws.inertia import steiner
 from textmech.reference.laws.rotation import axes
 from textmech.reference.system import Array, Mode
@@ -147,3 +149,30 @@ def test_multipliers_from_the_dependent_part() -> None:
             size = np.abs(lagrange.forces(mode, *at)).max()
             assert np.abs(left - f.T @ lam).max() < EXACT * size * 10
             assert difference(lam, lagrange.multipliers(mode, *at)[1], size) < 10 * EXACT
+
+
+def loses(mode: Mode, at: At, sign: float) -> float:
+    """The largest of d/dt ∂L/∂q̇ − ∂L/∂q at the accelerations by hand, of its largest term.
+
+    L = T − sign U.
+    """
+    time, place, rates = at
+
+    def slope(t: Any, q: Any, v: Any) -> Any:
+        return lagrange.slope(lambda t, q, v: mode.T(t, q, v) - sign * mode.U(t, q), t, q, v)
+
+    a = mode.accelerations(*at)
+    change = along(slope, (time, place, rates), (1.0, rates, a))
+    force = lagrange.gradient(lambda q: mode.T(time, q, rates) - sign * mode.U(time, q), place)
+    return float(np.abs(change - force).max() / max(np.abs(change).max(), np.abs(force).max()))
+
+
+@pytest.mark.parametrize("name", ["bar_pendulum", "double_pendulum"])
+def test_conservative(name: str) -> None:
+    """(2.52) d/dt ∂L/∂q̇ᵃ − ∂L/∂qᵃ = 0, L = T − U: D = 0 and Q₄ = 0; seen with U turned round."""
+    mode, random = only(name), np.random.default_rng(52)
+    n = len(mode.coordinates)
+    for _ in range(20):
+        at = (0.0, random.uniform(-2.0, 2.0, n), random.uniform(-3.0, 3.0, n))
+        assert loses(mode, at, 1.0) < EXACT * 10
+        assert loses(mode, at, -1.0) > 1e-3

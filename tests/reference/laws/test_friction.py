@@ -123,6 +123,7 @@ def test_edges_on_which_the_forms_disagree():
 
 @pytest.mark.parametrize("dry", [BOOK, UNEVEN], ids=["book", "uneven"])
 def test_away_from_the_edges_all_forms_agree(dry: Dry):
+    """(2.91), (2.92), (2.93) Karnopp's law, and the boxcar's with either interval."""
     random = np.random.default_rng(1)
     for _ in range(500):
         v, F_a = random.uniform(-3 * DELTA, 3 * DELTA), random.uniform(-9.0, 9.0)
