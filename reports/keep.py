@@ -10,7 +10,7 @@ from ..cases.case import Case
 from ..cases.difference import apart
 from ..cases.frame import PLANE, SPACE
 from ..cases.observe import observe
-from ..cases.quantity import table
+from ..cases.states import MASS_MATRIX
 from ..cases.trajectory import Array
 from .replace import replace
 from .suite import Report
@@ -42,8 +42,8 @@ def _motions(report: Report, case: Case) -> pd.DataFrame:
     reference = report.solutions[case.name].trajectory
     here = np.round(case.times, INSTANTS)
     columns: dict[str, pd.Series] = {}
-    known = table(case.scene)
-    for name in (name for name in case.allow if name in known):
+    known = case.quantities
+    for name in (name for name in case.allow if name in known and name != MASS_MATRIX):
         unit = known[name].unit
         columns[f"{name} [{unit}] reference"] = pd.Series(
             _turned(observe(case.scene, reference, name)), here
@@ -61,7 +61,8 @@ def _motions(report: Report, case: Case) -> pd.DataFrame:
         for field, unit, column in POSES[case.scene.frame]:
             values = pd.Series(states[:, column], here)
             columns.setdefault(f"{body}.{field} [{unit}] reference", values)
-    return pd.DataFrame(columns).rename_axis("t [s]").reset_index()
+    head = "t [s]" if case.states is None else "state"
+    return pd.DataFrame(columns).rename_axis(head).reset_index()
 
 
 def _turned(samples: Array) -> Array:

@@ -120,8 +120,7 @@ class CaseFile(pytest.File):
         except CaseError as error:
             raise self.CollectError(str(error)) from None
         for case, start in zip(cases, starts, strict=True):
-            name = f"{case.name}-reference"
-            yield CertificateItem.from_parent(self, name=name, case=case)
+            yield CertificateItem.from_parent(self, name=f"{case.name}-reference", case=case)
             for engine in producers(case, engines, book=choose_book(names, [])):
                 for way in ways_of(engine, case, start):
                     audit = () if isinstance(way, Refusal) else ("audit",)

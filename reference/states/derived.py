@@ -1,6 +1,6 @@
 """What follows of a mode's poses and energies for given q, q̇ and q̈, by the chapter's formalisms."""
 
-from collections.abc import Iterator, Mapping, Set
+from collections.abc import Callable, Iterator, Mapping, Set
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from ...cases.space.scene import SpatialScene
 from ...cases.states import MASS_MATRIX
 from ..formalisms import lagrange
 from ..formalisms.derivative import along
-from ..laws.rotation import acceleration, axes
+from ..laws.rotation import axes
 from ..stated import Stated
 from ..system import Array, Pose
 
@@ -22,30 +22,37 @@ def derived(
 ) -> dict[str, Any]:
     """By quantity: accelerations of bodies and points, inertias, M_ab, and what q̈ needs.
 
-    Of points those alone that are wanted.
+    Accelerations are the derivatives of velocities; of points those alone that are wanted.
     """
     found: dict[str, Any] = {}
-    poses, changes = mode.poses(0.0, q, v), moving(mode, q, v, a)
+    each = spatial if scene.frame is SPACE else planar
     for name, body in scene.bodies.items():
-        each = spatial if scene.frame is SPACE else planar
-        E, omega, (a_c, alpha) = each(poses[name], changes[name])
-        points = {f".{point}": x for point, x in body.points.items()}
-        for end, x in {"": (), **points}.items():
+        for end in ("", *(f".{point}" for point in body.points)):
             names = [f"{name}{end}.a{axis}" for axis in scene.frame.axes]
             if not wanted.isdisjoint(names):
-                d = np.array([*x, 0.0, 0.0, 0.0])[:3] @ E
-                found |= dict(zip(names, acceleration(a_c, alpha, omega, d).tolist(), strict=False))
-        turning = {f"alpha_{i}": x for i, x in zip("xyz", alpha, strict=True)}
-        turning = turning if scene.frame is SPACE else {}
-        inertias = {key: x for key, x in body.numbers().items() if key.startswith("inertia")}
-        found |= {f"{name}.{key}": x for key, x in (turning | inertias).items() if body.turns}
+                x = np.array([*body.points.get(end[1:], ()), 0.0, 0.0, 0.0])[:3]
+                rates = changing(lambda pose, x=x: each(pose, x)[0], mode, name, q, v, a)
+                found |= dict(zip(names, rates.tolist(), strict=False))
+        if body.turns and scene.frame is SPACE:
+            alpha = changing(lambda pose: each(pose, np.zeros(3))[1], mode, name, q, v, a)
+            found |= {f"{name}.alpha_{i}": x for i, x in zip("xyz", alpha, strict=True)}
+        numbers = body.numbers().items()
+        found |= {f"{name}.{key}": x for key, x in numbers if key.startswith("inertia")}
     if isinstance(scene, SpatialScene):
         found |= resisting(mode, scene, q, v, a)
     return found
 
 
+def changing(
+    of: Callable[[Pose], Any], mode: Stated, body: str, q: Array, v: Array, a: Array
+) -> Array:
+    """d/dt of what a body's pose has, along q̇ = v and q̈ = a, by the complex step."""
+    rates: Array = lagrange.derivative(lambda q, v: of(mode.poses(0.0, q, v)[body]), (q, v), (v, a))
+    return rates
+
+
 def moving(mode: Stated, q: Array, v: Array, a: Array) -> dict[str, Array]:
-    """d/dt of every pose along q̇ = v and q̈ = a, by the complex step."""
+    """The same of every pose."""
 
     def flat(q: Any, v: Any) -> Array:
         return np.array(list(mode.poses(0.0, q, v).values()))
@@ -53,18 +60,18 @@ def moving(mode: Stated, q: Array, v: Array, a: Array) -> dict[str, Array]:
     return dict(zip(mode.poses(0.0, q, v), along(flat, (q, v), (v, a)), strict=True))
 
 
-def spatial(pose: Pose, change: Array) -> tuple[Array, Array, tuple[Array, Array]]:
-    """E; ω; r̈_c and ω̇ in ground axes."""
+def spatial(pose: Pose, x: Array) -> tuple[Any, Any]:
+    """(2.6) ṙ of a point x, and ω, in ground axes."""
     E = axes(pose[SPACE.attitude])
-    return E, np.array(pose[SPACE.spin]) @ E, (change[SPACE.velocity], change[SPACE.spin] @ E)
+    omega = np.array(pose[SPACE.spin]) @ E
+    return np.array(pose[SPACE.velocity]) + np.cross(omega, x @ E), omega
 
 
-def planar(pose: Pose, change: Array) -> tuple[Array, Array, tuple[Array, Array]]:
-    """The same as vectors of space, about e₃."""
+def planar(pose: Pose, x: Array) -> tuple[Any, Any]:
+    """(2.6) ṙ of a point x, and ω, as vectors of space."""
     cos, sin = np.cos(pose[2]), np.sin(pose[2])
-    E = np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]])
-    linear, turning = np.array([*change[3:5], 0.0]), np.array([0.0, 0.0, change[5]])
-    return E, np.array([0.0, 0.0, pose[5]]), (linear, turning)
+    dx, dy = cos * x[0] - sin * x[1], sin * x[0] + cos * x[1]
+    return np.array([pose[3] - pose[5] * dy, pose[4] + pose[5] * dx, 0.0 * dx]), pose[5]
 
 
 def resisting(mode: Stated, scene: SpatialScene, q: Array, v: Array, a: Array) -> dict[str, Any]:

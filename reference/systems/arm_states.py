@@ -4,16 +4,16 @@ q = (q₁ … q₅) as of its arm. ω_k follows from Ė_k by (2.3), (2.4), and t
 and one inward, with no energy.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ..formalisms.derivative import along
 from ..laws.rotation import angular_velocity
 from ..stated import Stated
 from ..system import Array
-from .arm import inward, mass_matrix, outward, places
+from .arm import LINKS, inward, mass_matrix, outward, places
 from .serial_arm import NAMES, SerialArm
 from .triples import dot
 
@@ -34,11 +34,24 @@ class ArmStates(SerialArm, Stated):
         found |= _by_axis("hand.P.a", moving[-1].end_ddot)
         for k, (place, (_, M)) in enumerate(zip(where, inward(where, moving), strict=True)):
             found[f"q{k + 1}.torque"] = dot(place.u, M)
-        E_dot = along(lambda q: np.array([place.E for place in places(q)]), (q,), (v,))
-        for name, place, rate in zip(NAMES, where, E_dot, strict=True):
-            omega = angular_velocity(np.array(place.E), rate)
+        for name, place, E_dot in zip(NAMES, where, turning(q, v), strict=True):
+            omega = angular_velocity(np.array(place.E), E_dot)
             found |= {f"{name}.omega_{i}": x for i, x in enumerate(omega, start=1)}
         return found
+
+
+def turning(q: Array, v: Array) -> Iterator[Array]:
+    """Ė_k (3, 3) from joint to joint: E_k = A(q_k) E_{k−1}, so that Ė_k = Ȧ E_{k−1} + A Ė_{k−1}."""
+    E, E_dot = np.eye(3), np.zeros((3, 3))
+    for link, angle, rate in zip(LINKS, q, v, strict=True):
+        b, c = (link.axis + 1) % 3, (link.axis + 2) % 3
+        A, slope = np.eye(3), np.zeros((3, 3))
+        A[b, b] = A[c, c] = slope[b, c] = np.cos(angle)
+        A[b, c], A[c, b] = np.sin(angle), -np.sin(angle)
+        slope[b, b] = slope[c, c] = -np.sin(angle)
+        slope[c, b] = -np.cos(angle)
+        E, E_dot = A @ E, rate * slope @ E + A @ E_dot
+        yield E_dot
 
 
 def _by_axis(begin: str, vector: Any) -> dict[str, float]:

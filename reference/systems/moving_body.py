@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ..formalisms.derivative import along
 from ..laws.energy import of_general_point
 from ..laws.inertia import steiner
 from ..laws.momentum import angular_momentum, moment_change, momentum, spin_change
@@ -66,7 +65,7 @@ class MovingBody(Stated):
     def told(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
         """The point P, the body's accelerations, energy and momenta, and what moves it about Ω."""
         E, omega = self._kinematics(q, v)
-        omega_dot: Array = along(lambda q, v: self._kinematics(q, v)[1], (q, v), (v, a))
+        omega_dot = spin_rates(q[3:], v[3:], a[3:])
         to_c = np.array([self.a1, self.a2, self.a3])
         to_p = to_c + np.array([self.p1, self.p2, self.p3])
         spin, spin_dot = omega @ E, omega_dot @ E
@@ -108,6 +107,20 @@ def slopes(psi: Any, theta: Any, phi: Any) -> tuple[Any, Any, Any]:
         one @ _about(1, theta, slope=True) @ three,
         _about(0, phi, slope=True) @ two @ three,
     )
+
+
+def spin_rates(q: Array, v: Array, a: Array) -> Array:
+    """ω̇ (3,) in body axes, of ω = ψ̇ (−sin θ, cos θ sin φ, cos θ cos φ) + θ̇ (0, cos φ, −sin φ)
+    + φ̇ (1, 0, 0)."""
+    (_, theta, phi), (psi_dot, theta_dot, phi_dot) = q.tolist(), v.tolist()
+    s, c, sf, cf = np.sin(theta), np.cos(theta), np.sin(phi), np.cos(phi)
+    one, two = np.array([-s, c * sf, c * cf]), np.array([0.0, cf, -sf])
+    one_dot = theta_dot * np.array([-c, -s * sf, -s * cf]) + phi_dot * np.array(
+        [0.0, c * cf, -c * sf]
+    )
+    two_dot = phi_dot * np.array([0.0, -sf, -cf])
+    three = np.array([1.0, 0.0, 0.0])
+    return a @ np.array([one, two, three]) + psi_dot * one_dot + theta_dot * two_dot
 
 
 def hinges(psi: Any, theta: Any, phi: Any) -> Any:

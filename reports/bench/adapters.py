@@ -13,6 +13,7 @@ from ...engines.engine import Diverged, Engine, Loop, Plain, Plan, Realised, Ref
 from ..selection import choose_cases
 from ..trial.ladder import wanted_reactions
 from ..trial.start import assembled
+from ..trial.states import moving
 from .turns import Ratio, Work, ratio, turns
 
 RUNGS = 5  # of the ladder that is built: as many as a shipped setting's
@@ -62,13 +63,14 @@ class Row:
 
 def one_of_each_file() -> list[Case]:
     """The first variant of every shipped file: the others step the same scene."""
-    files = {case.source.file: case for case in reversed(choose_cases([]))}
+    cases = [case for case in choose_cases([]) if case.states is None]
+    files = {case.source.file: case for case in reversed(cases)}
     return list(files.values())[::-1]
 
 
 def rows(case: Case, engines: list[Engine], amount: Amount) -> Iterator[Row]:
     """Each way of the engines that have a plain loop."""
-    start = assembled(case)
+    start = assembled(moving(case))
     for engine in engines:
         if isinstance(engine, Loop):
             for way in engine.plans(case.scene, start):

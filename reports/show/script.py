@@ -5,6 +5,7 @@ from ...cases.mistake import CaseError
 from ...engines.engine import Engine, Refusal
 from ..trial.ladder import judged_step
 from ..trial.start import assembled
+from ..trial.states import moving
 from ..trial.trial import ways
 
 
@@ -13,9 +14,7 @@ def script(case: Case, engine: Engine) -> str:
 
     Raises CaseError where the engine does not build the scene natively.
     """
-    if case.states is not None:
-        raise CaseError([case.mistake(("states",), "is a claim about states: nothing is run")])
-    start = assembled(case)
+    start = assembled(moving(case))
     native = next(w for w in ways(engine, case.scene, start) if w.realised == "native")
     if isinstance(native, Refusal):
         raise CaseError([case.mistake(("scene",), f"is refused: {native.because}")])

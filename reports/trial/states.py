@@ -1,6 +1,7 @@
 """A claim about states before an engine: asked once, without a step and so without a ladder."""
 
 from ...cases.case import Case
+from ...cases.mistake import CaseError
 from ...cases.trajectory import Array
 from ...engines.engine import Claims, Engine, Plan, Refusal, Start
 from .rung import Rung
@@ -8,6 +9,13 @@ from .trial import Trial, planned
 
 SILENT = "adapter: it offers no answers about states"
 AT = ("states", 0.0)  # where the only run of such a trial belongs
+
+
+def moving(case: Case) -> Case:
+    """The case, of which something can be run. Raises CaseError for a claim about states."""
+    if case.states is None:
+        return case
+    raise CaseError([case.mistake(("states",), "is a claim about states: nothing is run")])
 
 
 def ways_of(engine: Engine, case: Case, start: Start) -> tuple[Plan | Refusal, ...]:

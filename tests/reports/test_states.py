@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 from given import scenes
 from given.claims import CHAIN, PLANE, claimed
@@ -17,7 +18,9 @@ from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Engine, Start
 from textmech.engines.pymunk import Pymunk
-from textmech.reports import suite, write
+from textmech.reports import keep, suite, write
+from textmech.reports.bench.adapters import Amount
+from textmech.reports.bench.adapters import rows as rows_of_bench
 from textmech.reports.row import AGREES, BEYOND, DEVIATES, FAILS, Comparison
 from textmech.reports.show.script import script
 from textmech.reports.trial.states import SILENT, ways_of
@@ -142,3 +145,18 @@ def test_its_rows_can_be_written_and_read(tmp_path: Path) -> None:
     assert {(row.quantity, row.verdict, row.step) for row in back} == {
         (name, AGREES, None) for name in ("audit", *case.allow)
     }
+
+
+def test_what_is_kept_has_a_row_for_each_state(tmp_path: Path) -> None:
+    case = claimed(tmp_path, PLANE)
+    report = suite.measure([case], [MUJOCO], progress=lambda *_: None, book=False)
+    keep.keep(report, tmp_path / "kept")
+    table = pd.read_csv(tmp_path / "kept" / "claimed.csv")
+    assert table["state"].tolist() == [0, 1, 2, 3]
+    one, other = (table[f"wheel.P.x [m] {who}"] for who in ("reference", "mujoco.tuned.native"))
+    assert np.max(np.abs(one - other)) < 1e-12
+
+
+def test_it_is_no_case_for_the_bench(tmp_path: Path) -> None:
+    with pytest.raises(CaseError, match="is a claim about states: nothing is run"):
+        next(rows_of_bench(claimed(tmp_path, PLANE), [MUJOCO], Amount()))

@@ -28,6 +28,7 @@ from textmech.reference.system import Vector
 from textmech.reference.systems import arm, hung_shapes, moving_body, planar_bodies
 from textmech.reference.systems.stated import STATED
 
+WRITTEN = [name for name, case in scenes.CLAIMS.items() if case.system is not None]
 LAW = 1e-12  # of the largest: algebra alone
 
 
@@ -110,7 +111,7 @@ def test_a_mistake_in_a_law_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatc
     assert apart(case) > 1e-6
 
 
-@pytest.mark.parametrize("name", scenes.CLAIMS)
+@pytest.mark.parametrize("name", WRITTEN)
 def test_a_scene_of_another_mass_is_seen(name: str) -> None:
     """5 % of the first body's, of which the hand-written system does not know."""
     case = few(name)
@@ -215,4 +216,4 @@ def test_a_system_of_other_coordinates_is_refused() -> None:
 
 
 def test_every_system_of_states_has_a_claim() -> None:
-    assert {case.system for case in scenes.CLAIMS.values()} == set(STATED)
+    assert {scenes.CLAIMS[name].system for name in WRITTEN} == set(STATED)
