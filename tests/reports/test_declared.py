@@ -75,7 +75,7 @@ def test_one_number_of_friction_costs_what_is_declared(name: str) -> None:
 
 
 def test_no_other_interval_is_declared() -> None:
-    """But for the elastic bounce, whose numbers are derived beside them."""
+    """But for the elastic bounce and an energy, whose numbers are derived beside them."""
     found = {
         case.name
         for path in shipped().values()
@@ -83,7 +83,28 @@ def test_no_other_interval_is_declared() -> None:
         for of in case.deviates.values()
         if any(deviation.by is not None for deviation in of.values())
     }
-    assert found == {*ONE, "bouncing_disk.elastic"}
+    assert found == {*ONE, "bouncing_disk.elastic", "planar_bodies"}
+
+
+def test_an_energy_that_is_counted_twice_is_off_by_itself() -> None:
+    """Σ ½ m v² + ½ J ω², typed here for the bar, the disk and the rectangle."""
+    case = scenes.CLAIMS["planar_bodies"]
+    p = case.parameters
+    assert case.states is not None
+    drawn = case.states.drawn(case.scene)
+    J = {
+        "rod": (p["m_bar"], p["m_bar"] * p["l"] ** 2 / 12),
+        "wheel": (p["m_disk"], p["m_disk"] * p["R"] ** 2 / 2),
+        "box": (p["m_box"], p["m_box"] * (p["w"] ** 2 + p["h"] ** 2) / 12),
+    }
+    T = np.zeros(case.samples)
+    for name, (m, inertia) in J.items():
+        vx, vy, omega = (drawn[f"{name}.{q}"][:, 1] for q in ("x", "y", "angle"))
+        T += (m * (vx**2 + vy**2) + inertia * omega**2) / 2
+    for setting in ("pymunk.shipped", "pymunk.tuned"):
+        by = case.deviates[setting]["energy.kinetic"].by
+        assert by is not None
+        assert by[0] <= np.max(T) <= by[1] <= NARROW * by[0]
 
 
 def test_the_elastic_bounces_numbers_follow_from_its_duration() -> None:
