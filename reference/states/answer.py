@@ -21,6 +21,7 @@ from ..stated import Stated
 from ..system import Array, Pose
 from ..systems.stated import STATED
 from .derived import by_virtual_work, derived, efforts
+from .held import misread, unheld
 
 LAW = 1e-12  # of the largest of a quantity: all of it is algebra, only rounding may differ
 VARYING = ("coordinate", "velocity", "acceleration")  # kinds that no claim should leave constant
@@ -127,9 +128,14 @@ def _apart(case: Case, one: Trajectory, other: Trajectory) -> float:
 
 
 def _worked(case: Case, mode: Stated, built: Trajectory) -> Iterator[Check]:
-    """Lagrange's equations against d'Alembert's principle, of which they are no part here."""
+    """The chain against what its joints hold, and Lagrange's equations against d'Alembert's."""
     if not isinstance(case.scene, SpatialScene):
         return
+    assert case.states is not None
+    look()
+    yield Check("joints hold (2.10), (2.15)", unheld(mode, case.scene, rows(case, mode)), LAW)
+    read = misread(case.scene, built, case.states.drawn(case.scene))
+    yield Check("coordinates read back", read, LAW)
     look()
     each = [by_virtual_work(mode, case.scene.gravity, *row) for row in rows(case, mode)]
     apart = (

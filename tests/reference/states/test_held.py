@@ -1,0 +1,70 @@
+"""A chain that is put together wrongly is seen by what its joints hold, or read back."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from given.claims import CHAIN, claimed
+
+from textmech.reference.generated.space import chain
+from textmech.reference.generated.space.chain import Moving, SpatialChain
+from textmech.reference.states.answer import answered
+
+CHECKS = ("joints hold (2.10), (2.15)", "coordinates read back")
+AT, SHIFTED, TURNED = Moving.at, Moving.shifted, Moving.turned
+
+
+def broken(case: Any) -> set[str]:
+    """Which of the checks do not hold."""
+    return {c.name for c in answered(case)[1] if c.name in CHECKS and not c.holds}
+
+
+def without_spin(self: Moving, x: Any) -> Moving:
+    """ω × R x is lost."""
+    return replace(AT(self, x), r_dot=self.r_dot)
+
+
+def backward(self: Moving, u: Any, s: Any, s_dot: Any) -> Moving:
+    return SHIFTED(self, u, -s, -s_dot)
+
+
+def along_ground(self: Moving, u: Any, s: Any, s_dot: Any) -> Moving:
+    """Its rate is that of a line which stands still."""
+    return replace(SHIFTED(self, u, s, s_dot), r_dot=self.r_dot + np.multiply.outer(u, s_dot))
+
+
+def twice(self: Moving, u: Any, phi: Any, phi_dot: Any) -> Moving:
+    return TURNED(self, u, 2 * phi, phi_dot)
+
+
+def about_ground(self: Moving, u: Any, phi: Any, phi_dot: Any) -> Moving:
+    """ω grows by φ̇ u of the ground's axes."""
+    return replace(TURNED(self, u, phi, phi_dot), omega=self.omega + np.multiply.outer(u, phi_dot))
+
+
+MISTAKES: dict[str, tuple[Any, str, Callable[..., Any]]] = {
+    "ω × x lost": (Moving, "at", without_spin),
+    "a slide the other way": (Moving, "shifted", backward),
+    "a slide's line that does not turn": (Moving, "shifted", along_ground),
+    "twice the angle": (Moving, "turned", twice),
+    "an axis that does not turn": (Moving, "turned", about_ground),
+    "turns in the other order": (chain, "_product", lambda a, b: PRODUCT(b, a)),
+    "the second point forgotten": (
+        SpatialChain, "_point",
+        lambda self, anchor: POINT(self, anchor) * (0.0 if anchor.point == "in" else 1.0),
+    ),
+}  # fmt: skip
+PRODUCT, POINT = chain._product, SpatialChain._point
+
+
+def test_a_sound_chain(tmp_path: Path) -> None:
+    assert broken(claimed(tmp_path, CHAIN)) == set()
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_mistakes(mistake: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(*MISTAKES[mistake])
+    assert broken(claimed(tmp_path, CHAIN)) != set()
