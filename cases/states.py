@@ -6,6 +6,7 @@ from one state to the next.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from random import Random
 
 import numpy as np
 
@@ -34,11 +35,15 @@ class States:
     q_ddot: Span
 
     def drawn(self, scene: Scene) -> dict[str, Array]:
-        """(N, 3) by coordinate: its places, rates and accelerations."""
-        names, random = coordinates(scene), np.random.default_rng(self.seed)
-        shape = (self.random, len(names))
-        columns = [random.uniform(*span, shape) for span in (self.q, self.q_dot, self.q_ddot)]
-        return {name: np.stack([c[:, i] for c in columns], 1) for i, name in enumerate(names)}
+        """(N, 3) by coordinate: its places, rates and accelerations.
+
+        By Python's generator, whose numbers no version changes.
+        """
+        names, random = coordinates(scene), Random(self.seed)
+        count = 3 * len(names) * self.random
+        parts = np.array([random.random() for _ in range(count)]).reshape(-1, len(names), 3)
+        low, high = np.transpose([self.q, self.q_dot, self.q_ddot])
+        return {name: low + (high - low) * parts[:, i] for i, name in enumerate(names)}
 
 
 def coordinates(scene: Scene) -> dict[str, str]:
