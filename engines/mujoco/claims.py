@@ -40,7 +40,11 @@ def answered(
 ) -> dict[str, Array | str]:
     """Of each wanted quantity its samples, or why there are none. text: the scene as MJCF."""
     with listening(), installed(None):
-        model, data = started(mujoco.MjModel.from_xml_string(shaped(text, scene)))
+        try:
+            model, data = started(mujoco.MjModel.from_xml_string(shaped(text, scene)))
+        except ValueError as refusal:
+            what = " ".join(str(refusal).split())
+            return dict.fromkeys(wanted, f"engine: MuJoCo does not take the shapes: {what}")
         joints = [model.joint(name) for name, _ in _coordinates(scene, states).values()]
         places, dofs = ([int(of[0]) for of in each] for each in zip(
             *((joint.qposadr, joint.dofadr) for joint in joints), strict=True

@@ -1,15 +1,17 @@
 """A scene's MJCF file with shapes for inertias, which MuJoCo's compiler computes, and sensors."""
 
+import math
 from typing import Any
 from xml.etree import ElementTree as ET
 
 import numpy as np
 
 from ...cases.scene import Scene
+from .scene import LEAST
 from .tree import called
 from .written import written
 
-THIN = 1e-7  # m, half of what is ideally thin: 1e-14 of its inertia, and more than MuJoCo's least
+THIN = 1e-7  # m, half of what is ideally thin: 1e-14 of its inertia
 
 SENSORS = ("framepos", "framequat", "framelinvel", "gyro", "framelinacc", "frameangacc")
 
@@ -43,7 +45,9 @@ def _shape(body: Any) -> dict[str, str] | None:
     match body.shape:
         case "bar":
             half = float(np.linalg.norm(np.subtract(body.points["end"], body.points["start"]))) / 2
-            return {"type": "box", "size": written(half, THIN, THIN)}
+            # a light one is thicker: about its own axis MuJoCo takes no less than LEAST of any body
+            thin = max(THIN, math.sqrt(3 * LEAST / body.mass))
+            return {"type": "box", "size": written(half, thin, thin)}
         case "disk":
             axle = getattr(body, "axle", None) or (0.0, 0.0, 1.0)
             return {"type": "cylinder", "size": written(body.radius, THIN), "zaxis": written(*axle)}

@@ -138,10 +138,12 @@ def _worked(case: Case, mode: Stated, built: Trajectory) -> Iterator[Check]:
     yield Check("coordinates read back", read, LAW)
     look()
     each = [by_virtual_work(mode, case.scene.gravity, *row) for row in rows(case, mode)]
-    apart = (
-        relative(built.reactions[effort], np.array([row[name] for row in each]))
+    pairs = [
+        (built.reactions[effort], np.array([row[name] for row in each]))
         for name, effort in efforts(case.scene)
-    )
+    ]
+    size = worst(worst(np.abs(own)) for own, _ in pairs)
+    apart = (relative(own, other, least=size) for own, other in pairs)
     yield Check("Lagrange (2.44) against d'Alembert (2.39)", worst(apart), LAW)
 
 

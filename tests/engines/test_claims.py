@@ -127,3 +127,22 @@ def test_an_engine_at_another_state_is_seen(number: int) -> None:
     found = MUJOCO.answer(case.scene, trial.start, drawn, trial.motion)
     off = [np.max(np.abs(trial.read(q, found[q]) - trial.wanted(q))) for q in trial.motion]  # type: ignore[arg-type]
     assert max(off) > 1e-8
+
+
+@pytest.mark.parametrize("mass", [1e-3, 1e-6])
+def test_light_bars_are_taken(mass: float, tmp_path: Path) -> None:
+    """Though MuJoCo takes no moment below 1e-15 kg m²: they are thicker, and still slender."""
+    case = claimed(tmp_path, CHAIN.replace("m: 1.2", f"m: {mass}"))
+    found = told(MUJOCO, case, wanted=("rod.inertia_33", "rod.inertia_11"))
+    assert found["rod.inertia_33"] == pytest.approx(mass * 0.8**2 / 12, rel=1e-7)
+    assert np.all(found["rod.inertia_11"] < 1e-14)
+
+
+def test_shapes_that_mujoco_does_not_take_are_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("textmech.engines.mujoco.shaped.THIN", 1e-11)
+    monkeypatch.setattr("textmech.engines.mujoco.shaped.LEAST", 0.0)
+    found = told(MUJOCO, claimed(tmp_path, CHAIN))
+    assert len(set(found.values())) == 1
+    assert found["q1.torque"].startswith("engine: MuJoCo does not take the shapes: ")
