@@ -59,7 +59,7 @@ class Source(Part):
     equations: tuple[Annotated[str, Place(equation, r"^2\.[1-9][0-9]?$")], ...] = ()
     example: BookPlace | None = None
     exercise: BookPlace | None = None
-    figure: Places | None = Field(None, description="one, or a list of several")
+    figure: Places | None = None  # one, or a list of several
     section: BookPlace | None = None
 
     @property
