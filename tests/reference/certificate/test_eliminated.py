@@ -1,6 +1,7 @@
 """What needs no multipliers, in the certificate: which formalism a case has, and what it sees."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from given.turning_bodies import J
 from textmech.reference.certificate import laws
 from textmech.reference.certificate.agreement import Check
 from textmech.reference.formalisms import voronets
+from textmech.reference.generated.space.mode import SpatialMultibody
 from textmech.reference.system import Array, Mode
 
 TIMES = np.linspace(0.0, 2.0, 5)
@@ -103,6 +105,21 @@ def test_the_bound_tells_what_uneven_masses_lose(light: float, bound: float) -> 
     (check,) = checks(mode, y).values()
     assert check.holds
     assert check.bound == pytest.approx(bound)
+
+
+@pytest.mark.parametrize(("light", "asked"), [(1e-7, True), (1e-10, False)])
+def test_equations_that_lost_half_of_their_digits_are_not_asked(light: float, asked: bool) -> None:
+    """The lower body of a crossed pendulum as light as that: their condition is about 1 over it."""
+    case = scenes.SHIPPED["crossed_pendulum"]
+    sound = scenes.mechanism(case).base
+    bodies = {**case.scene.bodies}
+    last: Any = list(bodies.values())[-1]
+    inertia = tuple(light * x for x in last.inertia)
+    bodies[last.name] = replace(last, mass=light * last.mass, inertia=inertia)
+    mode = SpatialMultibody(replace(sound.scene, bodies=bodies), sound.start())
+    found = checks(mode, np.array([np.concatenate(mode.start())] * 5))
+    assert list(found) == ([VORONETS, APPELL] if asked else [])
+    assert all(check.holds for check in found.values())
 
 
 @pytest.mark.whole

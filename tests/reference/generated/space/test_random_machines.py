@@ -1,0 +1,67 @@
+"""What holds of every machine in space, on scenes nobody chose: energies, forms, free bodies."""
+
+from collections import Counter
+
+import numpy as np
+import pytest
+from given.machine_laws import EXACT, LAWS, REDUCED
+from given.random_space import MAKES, machine
+from given.space_machine import T
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from textmech.reference.formalisms import appell, chaplygin, voronets
+
+# The same examples in every run: who wants to search longer raises N.
+N = 15
+few = settings(
+    max_examples=N,
+    derandomize=True,
+    deadline=None,  # the machine may be busy
+    suppress_health_check=[HealthCheck.too_slow],
+)
+SEEDS = st.integers(0, 10_000)
+
+
+@pytest.mark.parametrize("kind", MAKES)
+@pytest.mark.parametrize("law", LAWS)
+@few
+@given(seed=SEEDS, driven=st.booleans())
+def test_every_machine_obeys(law: str, kind: str, seed: int, *, driven: bool) -> None:
+    """(2.60), (2.51), (2.23), (2.33), (2.19)."""
+    made = machine(seed, kind, driven=driven)
+    assert LAWS[law](made.mode, T, made.q, made.v()) < EXACT
+
+
+@pytest.mark.parametrize("kind", MAKES)
+@pytest.mark.parametrize("form", [voronets, appell], ids=lambda form: form.__name__.split(".")[-1])
+@few
+@given(seed=SEEDS, driven=st.booleans())
+def test_accelerations_without_multipliers(form, kind: str, seed: int, *, driven: bool) -> None:  # type: ignore[no-untyped-def]
+    """(2.66), (2.80): the rates of a quaternion are bound, and so both apply to all."""
+    made = machine(seed, kind, driven=driven)
+    found = REDUCED[form](made.mode, T, made.q, made.v())
+    assert found is not None
+    assert found < EXACT
+
+
+@pytest.mark.parametrize("kind", MAKES)
+def test_chaplygin_never_applies(kind: str) -> None:
+    """(2.67) A quaternion's rates depend on each other, and it appears everywhere."""
+    made = machine(1, kind)
+    assert chaplygin.accelerations(made.mode, T, made.q, made.v()) is None
+
+
+def test_the_machines_have_everything() -> None:
+    """Negative control of the generator: each kind of joint, body, row and law, and all close."""
+    made = [machine(seed, kind, driven=bool(seed % 2)) for kind in MAKES for seed in range(20)]
+    joints = Counter(joint.kind for m in made for joint in m.joints.values())
+    shapes = Counter(body.shape for m in made for body in m.bodies.values())
+    rows = Counter(type(part).__name__ for m in made for part in m.mode.constraints.parts)
+    laws = {(type(f).__name__, f.signal.law) for m in made for f in m.mode.scene.signals()}
+    assert min(joints[kind] for kind in ("hinge", "ball", "universal", "freedoms", "slide")) > 3
+    assert shapes.keys() == {"rigid", "bar", "particle", "disk", "sphere"}
+    assert rows.keys() == {"Together", "Line", "Dot", "Rim", "Drive", "Blade"}
+    assert min(rows.values()) > 3
+    assert len(laws) == 6
+    assert max(np.max(np.abs(m.mode.f(T, m.q)), initial=0.0) for m in made) < 1e-14  # m
