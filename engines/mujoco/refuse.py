@@ -33,7 +33,8 @@ def unbuildable(scene: Scene) -> str | None:
     for joint in tree.loops:
         if built_as(scene, joint).shifts:
             what = f"{joint.kind} {joint.name}"
-            return f"engine: MuJoCo has no constraint that closes a loop by the {what}"
+            instead = "a loop needs a pin"
+            return f"engine: MuJoCo has no constraint that closes a loop by the {what}: {instead}"
         if joint.dry_friction is not None:
             return f"engine: {joint.name} closes a loop, and MuJoCo rubs in the tree's joints only"
         if not built_as(scene, joint).turns:

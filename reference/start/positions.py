@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator
 import numpy as np
 
 from ..system import Array
-from . import refusal
+from . import messages, refusal
 from .closure import POSITIONS, Closure, held, placed
 
 CLOSED = 1e-12  # residual relative to the largest length; Newton reaches rounding or fails
@@ -144,7 +144,7 @@ def _determined(closure: Closure, q: Array) -> None:
     if loose := undetermined(jacobian, names, RANK):
         raise refusal.open_ended(closure, loose, rank(jacobian, RANK))
     if loose := undetermined(jacobian, names, DEAD):
-        raise refusal.dead_centre(closure, loose)
+        raise messages.dead_centre(closure.case, loose)
 
 
 def rank(jacobian: Array, below: float) -> int:

@@ -6,7 +6,7 @@ import numpy as np
 
 from ...cases.scene import GROUND, Scene
 from ..system import Array
-from . import refusal
+from . import messages, refusal
 from .closure import RATES, Closure
 from .positions import CLOSED, RANK, rank, undetermined
 
@@ -40,7 +40,7 @@ def _of_one(closure: Closure, q: Array, v: Array, columns: list[int], free: list
     residual, violated = _open(rows, g, scaled)
     if violated:
         worst = owners[int(np.argmax(np.abs(residual)))]
-        raise refusal.rates_violate(closure, worst.part)
+        raise messages.rates_violate(closure.case, worst.part)
     names = [_as_rate(closure.where.names[i]) for i in free]
     if loose := undetermined(rows[:, free], names, RANK):
         left = [i for i, name in zip(free, names, strict=True) if name not in loose]

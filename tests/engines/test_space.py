@@ -86,7 +86,7 @@ BODY = rigid("b", 1.0, (0.02, 0.03, 0.04), {"l": (-0.3, 0, 0)})
                     "two.omega": Signal("constant", (1.0,)),
                 },
             ),
-            "adapter: two is driven, and closes a loop of driven joints",
+            "adapter: two is driven, and closes a loop of driven joints: drive fewer",
         ),
     ],
     ids=["slide of a particle", "turn of a particle", "driven loop"],

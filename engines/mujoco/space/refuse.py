@@ -20,14 +20,16 @@ def unbuildable(scene: SpatialScene) -> str | None:
             return f"engine: MuJoCo leaves out {joint.name}, for nothing that it holds can move"
         if held_points(scene, joint) is None:
             what = f"{joint.kind} {joint.name}"
-            return f"engine: MuJoCo has no constraint that closes a loop by the {what}"
+            instead = "a loop needs a ball, a hinge or a weld that is not driven"
+            return f"engine: MuJoCo has no constraint that closes a loop by the {what}: {instead}"
     for joint in scene.joints.values():
         first = joint.a.body
         if joint.shifts and first != GROUND and not scene.bodies[first].turns:
             return f"adapter: {joint.name} starts at a particle, which has no axes"
     for drive in drives(scene):
         if drive.joint in loops:
-            return f"adapter: {drive.joint.name} is driven, and closes a loop of driven joints"
+            what = f"{drive.joint.name} is driven, and closes a loop of driven joints"
+            return f"adapter: {what}: drive fewer"
         if drive.number >= len(left(scene, drive.joint)) or (
             left(scene, drive.joint)[drive.number].kind == "ball"
         ):

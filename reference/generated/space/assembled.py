@@ -45,6 +45,15 @@ class SpatialRows:
         """The part of each row."""
         return [part.part for part in self.parts for _ in range(KINDS[type(part)][1])]
 
+    @property
+    def sources(self) -> list[str]:
+        """The same, but of a prescribed rate its own name: `q1.omega`."""
+        return [
+            part.quantity if isinstance(part, Drive) else part.part
+            for part in self.parts
+            for _ in range(KINDS[type(part)][1])
+        ]
+
     def at(self, t: Any, bodies: Bodies) -> tuple[Any, Any, Any]:
         """(2.15) f_a (r, n) and g (r,), and γ (r,) of f_a v̇ = γ."""
         kind = np.result_type(bodies.r, bodies.omega, np.asarray(t))

@@ -70,6 +70,7 @@ class Drive:
     """
 
     part: str
+    quantity: str  # the rate: `q1.omega`
     name: str  # of the reaction: `torque`, `theta_torque`, `x_force`
     a: Anchor
     b: Anchor
@@ -163,7 +164,7 @@ def driven(scene: SpatialScene, quantity: str, law: Signal) -> Drive:
     what = "force" if freedom.kind == "shift" else "torque"
     name = what if freedom.name in ("angle", "shift") else f"{freedom.name}_{what}"
     return Drive(
-        part, name, joint.a, joint.b,
+        part, quantity, name, joint.a, joint.b,
         freedom.axis if freedom.kind == "shift" else None,
         tuple(f.axis for f in joint.shifts), turns,
         joint.turns.index(freedom) if freedom.kind == "turn" else 0, law,

@@ -19,5 +19,5 @@ def assemble_in_space(case: Case, scene: SpatialScene) -> tuple[Array, Array]:
     q = positions(closure)
     part = closure.dependent(q, RANK)
     if part is not None:
-        raise refusal.dependent(case, part)
+        raise refusal.dependent(closure, part)
     return q, rates(closure, q)

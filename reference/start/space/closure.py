@@ -47,11 +47,14 @@ class SpatialClosure:
         )
 
     def dependent(self, q: Array, below: float) -> str | None:
-        """The first part whose constraints do; singular values `below` of the largest are zero."""
+        """The first part, or drive, whose rows repeat what is held by those before it.
+
+        Singular values `below` of the largest are zero.
+        """
         rows, _, _ = self.mode.rows(0.0, q, np.zeros(self.where.size))
         scale = np.where(self.constraints.angular, 1.0, self.size)
         rows = rows * self.units / scale[:, None]
-        owners = self.constraints.owners
+        owners = self.constraints.sources
         held = np.zeros((0, rows.shape[1]))
         for part in dict.fromkeys(owners):
             mine = [i for i, owner in enumerate(owners) if owner == part]
@@ -88,12 +91,12 @@ def least(rows: Array, right: Array) -> Array:
     return found
 
 
-def null(rows: Array, n: int) -> Array:
-    """(k, n) directions that the rows leave open."""
+def null(rows: Array, n: int, below: float = RANK) -> Array:
+    """(k, n) directions that the rows leave open; singular values `below` count as zero."""
     if not rows.size:
         return np.eye(n)
     _, s, vt = np.linalg.svd(rows)
-    return vt[int(np.sum(s > RANK * s[0])) :]
+    return vt[int(np.sum(s > below * s[0])) :]
 
 
 def rank(rows: Array, below: float = RANK) -> int:

@@ -28,7 +28,10 @@ def laid_out(
     known: dict[str, Pose] = {GROUND: (np.zeros(3), np.array(UPRIGHT))}
     for name in scene.bodies:
         placement = given.get(name)
-        if placement is not None and (placement.attitude is not None or placement.points):
+        if placement is None:
+            continue
+        # Whose attitude nobody gives may be turned as its joint's seeds say, to find other ways.
+        if placement.attitude is not None or (placement.points and not seeds):
             known[name] = _placed(scene, name, placement)
     while len(known) <= len(scene.bodies):
         found = _next(scene, known, given, seeds)

@@ -11,7 +11,9 @@ from . import refusal
 from .branches import closes, faithful, locked
 from .closure import SpatialClosure, least, null
 from .guess import laid_out
+from .ways import several_ways
 
+DEAD = 1e-5  # singular values below this part of the largest: there rounding moves the start
 CLOSED = 1e-12  # residual in sizes or rad; Newton reaches rounding or fails
 SEEDS = 40  # starts from which other assemblies are looked for
 SAME = 1e-6  # solutions nearer than this (in sizes and rad) are the same one
@@ -48,8 +50,11 @@ def positions(closure: SpatialClosure) -> Array:
     loose = null(closure.equations(ways[0])[1], closure.where.size)
     if len(loose):
         raise refusal.open_ended(closure, ways[0], loose)
+    loose = null(closure.equations(ways[0])[1], closure.where.size, DEAD)
+    if len(loose):
+        raise refusal.dead_centre(closure, ways[0], loose)
     if len(ways) > 1:
-        raise refusal.several_ways(closure, ways)
+        raise several_ways(closure, ways)
     return ways[0]
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from ....cases.space.joint import rate_of
 from ...system import Array
+from .. import messages
 from . import refusal
 from .closure import SpatialClosure, least, null, rank
 from .given import Equation
@@ -30,7 +31,8 @@ def rates(closure: SpatialClosure, q: Array) -> Array:
     v = units * least(rows * units, right)
     v = v + units * least(rows * units, right - rows @ v)
     if _violated(rows, right, v):
-        raise refusal.rates_violate(closure.case, names[int(np.argmax(np.abs(rows @ v - right)))])
+        worst = names[int(np.argmax(np.abs(rows @ v - right)))]
+        raise messages.rates_violate(closure.case, worst)
     loose = null(rows * units, closure.where.size)
     if len(loose):
         raise refusal.rates_open(closure, loose)

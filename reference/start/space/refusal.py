@@ -1,7 +1,5 @@
 """Why a start in space is refused, in words that name the part and the number."""
 
-import math
-
 import numpy as np
 
 from ....cases.case import Case
@@ -9,14 +7,11 @@ from ....cases.mistake import CaseError
 from ....cases.space.joint import SpatialJoint
 from ....cases.space.scene import SpatialScene
 from ...system import Array
+from .. import messages
+from ..messages import DEGREES
 from .closure import SpatialClosure
 
-DEGREES = 180 / math.pi
 OPEN = 1e-6  # of a direction's largest entry: smaller ones are rounding
-
-
-def _initial(case: Case, what: str) -> CaseError:
-    return CaseError([case.mistake(("initial",), what)])
 
 
 def cannot_close(closure: SpatialClosure, q: Array) -> CaseError:
@@ -24,10 +19,9 @@ def cannot_close(closure: SpatialClosure, q: Array) -> CaseError:
     residual, rows, owners = closure.equations(q)
     worst = int(np.argmax(np.abs(residual)))
     turns = not np.any(rows[worst][~closure.where.turning])
-    gap = abs(float(residual[worst]))
-    size = f"{gap * DEGREES:.3g} deg" if turns else f"{gap * closure.size:.3g} m"
     why = "the mechanism cannot be assembled from what is given"
-    return _initial(closure.case, f"{why}: {owners[worst]} stays open by {size}")
+    gap = abs(float(residual[worst]))
+    return messages.stays_open(closure.case, why, owners[worst], gap, closure.size, turns=turns)
 
 
 def locked(case: Case, joint: SpatialJoint, angle: float) -> CaseError:
@@ -35,7 +29,7 @@ def locked(case: Case, joint: SpatialJoint, angle: float) -> CaseError:
     first, middle, last = joint.turns
     at = f"{joint.name}.{middle.name} = {angle * DEGREES:.4g} deg"
     axes = f"{first.name!r} and {last.name!r} turn about one axis"
-    return _initial(
+    return messages.initial(
         case, f"at {at} {axes}, so that they determine nothing; start it by the body's `attitude`"
     )
 
@@ -44,42 +38,24 @@ def flat(case: Case) -> CaseError:
     """A rim that lies on the floor."""
     assert isinstance(case.scene, SpatialScene)
     rims = ", ".join(name for name, contact in case.scene.contacts.items() if contact.rim)
-    return _initial(case, f"{rims}: a disk that lies flat has no lowest point; start it tilted")
-
-
-def several_ways(closure: SpatialClosure, ways: list[Array]) -> CaseError:
-    """Names the joint coordinate in which the ways differ most, with its values."""
-    values = [_coordinates(closure, q) for q in ways]
-    names = list(values[0])
-    if not names:
-        what = f"the mechanism can be assembled in {len(ways)} ways; say which by `near`"
-        return _initial(closure.case, what)
-    name = max(names, key=lambda n: max(_differ(values[0][n], v[n]) for v in values))
-    told = list(dict.fromkeys(f"{v[name] * DEGREES:.4g} deg" for v in values))
-    joint, _, field = name.partition(".")
-    return _initial(
-        closure.case,
-        f"the mechanism can be assembled in {len(ways)} ways: {name} = {' or '.join(told)}; say "
-        f"which by `near`, for instance near: {{{joint}: {{{field}: {told[0]}}}}}",
+    return messages.initial(
+        case, f"{rims}: a disk that lies flat has no lowest point; start it tilted"
     )
-
-
-def _coordinates(closure: SpatialClosure, q: Array) -> dict[str, float]:
-    return {
-        f"{joint.name}.{freedom.name}": value
-        for joint in closure.scene.joints.values()
-        for freedom, value, _ in closure.given.coordinates(joint, q)
-        if freedom.name and freedom.kind == "turn"
-    }
-
-
-def _differ(a: float, b: float) -> float:
-    return abs(math.remainder(a - b, math.tau))
 
 
 def open_ended(closure: SpatialClosure, q: Array, loose: Array) -> CaseError:
     """Coordinates that follow from nothing."""
-    names = []
+    return messages.missing(closure.case, len(loose), _open(closure, q, loose))
+
+
+def dead_centre(closure: SpatialClosure, q: Array, loose: Array) -> CaseError:
+    """Coordinates that hardly follow from what is given."""
+    return messages.dead_centre(closure.case, _open(closure, q, loose))
+
+
+def _open(closure: SpatialClosure, q: Array, loose: Array) -> list[str]:
+    """The coordinates that change along the directions `loose` (k, n)."""
+    names: list[str] = []
     for joint in closure.scene.joints.values():
         for freedom, _, row in closure.given.coordinates(joint, q):
             if np.max(np.abs(loose @ (row * closure.units))) > OPEN and freedom.name:
@@ -97,7 +73,7 @@ def open_ended(closure: SpatialClosure, q: Array, loose: Array) -> CaseError:
         ]
         if at.omega is not None and np.max(np.abs(loose[:, at.omega : at.omega + 3])) > OPEN:
             names.append(f"{body}.attitude")
-    return _missing(closure.case, len(loose), names or _open_places(closure, loose))
+    return names or _open_places(closure, loose)
 
 
 def _open_places(closure: SpatialClosure, loose: Array) -> list[str]:
@@ -110,9 +86,8 @@ def _open_places(closure: SpatialClosure, loose: Array) -> list[str]:
 
 def rates_open(closure: SpatialClosure, loose: Array) -> CaseError:
     """Rates that follow from nothing and cannot all be zero."""
-    return _missing(
-        closure.case, len(loose), _open_columns(closure, loose, closure.where.rate_names)
-    )
+    names = _open_columns(closure, loose, closure.where.rate_names)
+    return messages.missing(closure.case, len(loose), names)
 
 
 def _open_columns(closure: SpatialClosure, loose: Array, names: tuple[str, ...]) -> list[str]:
@@ -120,29 +95,10 @@ def _open_columns(closure: SpatialClosure, loose: Array, names: tuple[str, ...])
     return [name for name, is_open in zip(names, open_, strict=True) if is_open]
 
 
-def _missing(case: Case, count: int, names: list[str]) -> CaseError:
-    return _initial(
-        case,
-        f"{count} more needed: {', '.join(names)} {'is' if len(names) == 1 else 'are'} "
-        "not determined by what is given and the constraints",
-    )
-
-
-def dependent(case: Case, part: str) -> CaseError:
-    """A constraint that repeats what others hold."""
-    kind = "joints" if part in case.scene.joints else "contacts"
-    return CaseError(
-        [
-            case.mistake(
-                ("scene", kind, part),
-                "the constraints are not independent: what this one holds is held by the others "
-                "already, for good or in this position, so its reaction has no single value; "
-                "replace it by one that holds less (a ball, a universal joint), or start elsewhere",
-            )
-        ]
-    )
-
-
-def rates_violate(case: Case, part: str) -> CaseError:
-    """The given rates contradict each other."""
-    return _initial(case, f"the rates violate {part}: no motion satisfies all that is given")
+def dependent(closure: SpatialClosure, part: str) -> CaseError:
+    """A joint, contact, constraint or drive that repeats what others hold."""
+    scene = closure.scene
+    sections = {"joints": scene.joints, "contacts": scene.contacts, "drive": scene.drives}
+    section = next((key for key, parts in sections.items() if part in parts), "constraints")
+    such = " (a ball, a universal joint)" if section == "joints" else ""
+    return messages.dependent(closure.case, section, part, such)

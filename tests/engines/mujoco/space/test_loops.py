@@ -123,4 +123,5 @@ def test_what_connect_cannot_close_is_refused(kind: str, freedoms: tuple[Freedom
     start = {"b": state((0.3, 0, 0), (1, 0, 0, 0), STILL, STILL)}
     (refusal,) = MuJoCo("tuned").plans(spatial([body], joints), start)
     assert isinstance(refusal, Refusal)
-    assert refusal.because == f"engine: MuJoCo has no constraint that closes a loop by the {kind} t"
+    why = f"engine: MuJoCo has no constraint that closes a loop by the {kind} t"
+    assert refusal.because == f"{why}: a loop needs a ball, a hinge or a weld that is not driven"

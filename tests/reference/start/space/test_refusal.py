@@ -1,0 +1,171 @@
+"""Starts in space that are refused: where, in which words, and that what they advise helps."""
+
+import re
+from pathlib import Path
+
+import pytest
+from given.scenes import typed
+
+from textmech.cases.mistake import CaseError, Mistake
+from textmech.cases.space.scene import SpatialScene
+from textmech.reference.start.space import positions
+from textmech.reference.start.space.assembly import assemble_in_space
+
+BODY = (
+    "{rigid: {mass: 1.0, inertia: [0.02, 0.03, 0.025, 0, 0, 0]}, "
+    "points: {p: [0.2, 0, 0], q: [-0.2, 0, 0]}}"
+)
+FREE = f"""\
+scene:
+  space: 3
+  points: {{O: [0, 0, 0]}}
+  bodies: {{a: {BODY}, b: {BODY}}}
+  joints:
+    j2: {{hinge: [a.p, b.q], axis: [0, 1, 0]}}
+"""
+PAIR = f"{FREE}    j1: {{hinge: [ground.O, a.q], axis: [0, 0, 1]}}\n"
+SLIDER = """\
+scene:
+  space: 3
+  points: {O: [0, 0, 0]}
+  bodies:
+    a: {bar: {mass: 1.0, length: 0.3}}
+    rod: {bar: {mass: 1.0, length: 0.5}}
+    piston: {particle: {mass: 1.0}}
+  joints:
+    motor: {hinge: [ground.O, a.start], axis: [0, 0, 1]}
+    big_end: {universal: [a.end, rod.start], axes: [[0, 0, 1], [0, 1, 0]]}
+    rail: {slide: [ground.O, piston.center], along: [1, 0, 0]}
+    small_end: {ball: [rod.end, piston.center]}
+"""
+FOUR_BAR = """\
+scene:
+  space: 3
+  points: {O: [0, 0, 0], Q: [0.9, 0, 0]}
+  bodies:
+    a: {bar: {mass: 1.0, length: 0.3}}
+    b: {bar: {mass: 1.0, length: 0.8}}
+    c: {bar: {mass: 1.0, length: 0.6}}
+  joints:
+    A: {hinge: [ground.O, a.start], axis: [0, 0, 1]}
+    B: {hinge: [a.end, b.start], axis: [0, 0, 1]}
+    C: {hinge: [b.end, c.end], axis: [0, 0, 1]}
+    D: {hinge: [ground.Q, c.start], axis: [0, 0, 1]}
+"""
+CROSS = f"""\
+scene:
+  space: 3
+  points: {{O: [0, 0, 0]}}
+  bodies: {{a: {BODY}}}
+  joints: {{cross: {{universal: [ground.O, a.q], axes: [[0, 0, 1], [0, 1, 0]]}}}}
+initial: {{a: {{p: [0.24, 0.32, 0]}}}}
+"""
+
+
+def started(folder: Path, scene: str) -> None:
+    case = typed(folder, f"{scene}allow: {{a.x: 1.0e-3}}\n")
+    assert isinstance(case.scene, SpatialScene)
+    assemble_in_space(case, case.scene)
+
+
+def refused(folder: Path, scene: str) -> Mistake:
+    with pytest.raises(CaseError) as caught:
+        started(folder, scene)
+    (mistake,) = caught.value.mistakes
+    return mistake
+
+
+OPEN = "the mechanism cannot be assembled from what is given: "
+MORE = "not determined by what is given and the constraints"
+WRONG: dict[str, tuple[str, str]] = {
+    "coordinates that contradict each other": (  # what is between them is shared by both
+        f"{PAIR}initial: {{j1: {{angle: 30 deg}}, j2: {{angle: 0}}, "
+        "a: {attitude: {axis: [0, 0, 1], angle: 40 deg}}}\n",
+        f"{OPEN}a.attitude stays open by 5 deg",
+    ),
+    "a point out of reach": (  # 0.03 m: 0.83 of 0.8, shared by four equations
+        f"{SLIDER}initial: {{rail: {{shift: 0.83}}}}\nnear: {{motor: {{angle: 0}}}}\n",
+        f"{OPEN}small_end stays open by 0.0075 m",
+    ),
+    "an open coordinate": (
+        f"{PAIR}initial: {{j1: {{angle: 0}}}}\n",
+        f"1 more needed: j2.angle is {MORE}",
+    ),
+    "rates that contradict each other": (
+        f"{PAIR}initial: {{j1: {{angle: 0, omega: 1}}, j2: {{angle: 0}}, a: {{vx: 2}}}}\n",
+        "the rates violate j1: no motion satisfies all that is given",
+    ),
+    "open rates": (
+        f"{FREE}initial: {{j2: {{angle: 0, omega: 1}}, "
+        "a: {x: 0, y: 0, z: 0, attitude: {axis: [0, 0, 1], angle: 0}}}\n",
+        "6 more needed: a.vx, a.vy, a.vz, a.omega_1",
+    ),
+    "a dead centre": (
+        f"{SLIDER}initial: {{rail: {{shift: 0.79999999999}}}}\nnear: {{motor: {{angle: 0}}}}\n",
+        "the mechanism stands at a dead centre, where what is given hardly determines motor.angle, "
+        "small_end.attitude; give one of these instead",
+    ),
+}
+
+
+@pytest.mark.whole
+@pytest.mark.parametrize("what", WRONG)
+def test_what_is_wrong_is_said(what: str, tmp_path: Path) -> None:
+    text, words = WRONG[what]
+    mistake = refused(tmp_path, text)
+    assert mistake.where == "initial"
+    assert mistake.what.startswith(words)
+
+
+def test_beside_a_dead_centre_it_starts(tmp_path: Path) -> None:
+    near = "near: {motor: {angle: 10 deg}}\n"
+    started(tmp_path, f"{SLIDER}initial: {{rail: {{shift: 0.79}}}}\n{near}")
+
+
+def test_a_dead_centre_is_not_missed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without the question Newton's method stops where the crank is 1e-5 rad off."""
+    monkeypatch.setattr(positions, "DEAD", 1e-9)
+    started(tmp_path, WRONG["a dead centre"][0])
+
+
+DEPENDENT: dict[str, tuple[str, str]] = {
+    "joints.D": (
+        f"{FOUR_BAR}initial: {{A: {{angle: 0}}}}\nnear: {{D: {{angle: 96 deg}}}}\n",
+        "replace it by one that holds less (a ball, a universal joint)",
+    ),
+    "constraints.again": (
+        f"{PAIR}  constraints: {{blade: {{edge: b.p, along: [1, 0, 0]}}, "
+        "again: {edge: b.p, along: [1, 0, 0]}}\ninitial: {j1: {angle: 0}, j2: {angle: 0.2}}\n",
+        "leave it out",
+    ),
+    "drive.rail.shift_dot": (
+        f"{SLIDER}  drive: {{motor.omega: 1.0, rail.shift_dot: 0.0}}\n"
+        "initial: {motor: {angle: 30 deg}}\nnear: {rail: {shift: 0.7}}\n",
+        "leave it out",
+    ),
+}
+
+
+@pytest.mark.parametrize("part", DEPENDENT)
+def test_what_repeats_others_is_named(part: str, tmp_path: Path) -> None:
+    text, words = DEPENDENT[part]
+    mistake = refused(tmp_path, text)
+    assert mistake.where == f"scene.{part}"
+    assert "the constraints are not independent" in mistake.what
+    assert words in mistake.what
+
+
+SEVERAL = {
+    "a shift": (f"{SLIDER}initial: {{motor: {{angle: 30 deg}}}}\n", "rail.shift = "),
+    "an attitude": (CROSS, "a.attitude = {axis: "),
+}
+
+
+@pytest.mark.whole
+@pytest.mark.parametrize("what", SEVERAL)
+def test_ways_are_told_and_the_advice_helps(what: str, tmp_path: Path) -> None:
+    text, told = SEVERAL[what]
+    words = refused(tmp_path, text).what
+    assert told in words
+    (advice,) = re.findall("for instance (near: .*)$", words)
+    started(tmp_path, f"{text}{advice}\n")
