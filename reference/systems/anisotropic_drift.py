@@ -4,15 +4,14 @@ q = (x,).
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ..laws.friction import Dry
-from ..system import Array, Guard, System, Vector
-from .stick_slip import guards, modes, possible
+from ..system import Vector
+from .block_on_guide import BlockOnGuide
+from .stick_slip import Pull
 
 
 @dataclass(frozen=True)
@@ -38,7 +37,7 @@ class _Shake:
 
 
 @dataclass(frozen=True)
-class AnisotropicDrift(System):
+class AnisotropicDrift(BlockOnGuide):
     """m [kg], A [N], w [rad/s], sliding friction F and static friction Fs [N] to −x and to +x."""
 
     m: float
@@ -50,21 +49,11 @@ class AnisotropicDrift(System):
     Fs_plus: float
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "modes", modes(self.m, _Shake(self.A, self.w), self._dry()))
+        super().__post_init__()
         # The force comes and goes while the block rests and its steps could be of any length.
         object.__setattr__(self, "longest", math.pi / (8 * self.w))
 
-    def _dry(self) -> Dry:
-        return Dry(self.F_minus, self.F_plus, self.Fs_minus, self.Fs_plus)
-
-    def start(self) -> tuple[str, Array, Array]:
-        """At rest at x = 0."""
-        return "stuck", np.zeros(1), np.zeros(1)
-
-    def guards(self, mode: str) -> Sequence[Guard]:
-        """(2.89) `slips` and `stops`."""
-        return guards(_Shake(self.A, self.w), self._dry(), mode)
-
-    def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
-        """(2.89) F_a within the static friction where it sticks."""
-        return possible(self.modes[mode], self._dry(), t, q, v) if mode == "stuck" else None
+    @property
+    def pull(self) -> Pull:
+        """What acts on the block but friction."""
+        return _Shake(self.A, self.w)

@@ -5,18 +5,18 @@ here, and its 4 b t is c u t.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..laws.friction import Dry
-from ..system import Array, Guard, System
-from .stick_slip import Drawn, Pull, guards, modes, possible
+from ..system import Array
+from .block_on_guide import BlockOnGuide
+from .stick_slip import Drawn, Pull
 
 
 @dataclass(frozen=True)
-class Dynamometer(System):
+class Dynamometer(BlockOnGuide):
     """m [kg], c [N/m], end moved with u > 0 [m/s], frictions F and static Fs [N] to −x and +x."""
 
     m: float
@@ -30,29 +30,12 @@ class Dynamometer(System):
     def __post_init__(self) -> None:
         if not self.u > 0.0:
             raise ValueError(f"the end of the spring moves with u > 0, not {self.u}")
-        object.__setattr__(self, "modes", modes(self.m, self.pull, self.dry))
+        super().__post_init__()
 
     @property
     def pull(self) -> Pull:
         """What acts on the block but friction."""
         return Drawn(self.c, self.u)
-
-    @property
-    def dry(self) -> Dry:
-        """The bounds of the friction [N]."""
-        return Dry(self.F_minus, self.F_plus, self.Fs_minus, self.Fs_plus)
-
-    def start(self) -> tuple[str, Array, Array]:
-        """At rest, the spring without force."""
-        return "stuck", np.zeros(1), np.zeros(1)
-
-    def guards(self, mode: str) -> Sequence[Guard]:
-        """(2.89) `slips` and `stops`."""
-        return guards(self.pull, self.dry, mode)
-
-    def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
-        """(2.89) F_a within the static friction where it sticks."""
-        return possible(self.modes[mode], self.dry, t, q, v) if mode == "stuck" else None
 
     def spring(self, t: float, q: Array) -> tuple[float, float]:
         """(2.82) x₀ = u t [m] and the force c (x₀ − x₁) [N]: the two axes of fig 2.24."""

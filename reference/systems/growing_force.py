@@ -3,15 +3,14 @@
 q = (x,). The force −b t pulls to −x: the block sticks until it meets F_s₋.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ..laws.friction import Dry
-from ..system import Array, Guard, System, Vector
-from .stick_slip import Pull, guards, modes, possible
+from ..system import Array, Vector
+from .block_on_guide import BlockOnGuide
+from .stick_slip import Pull
 
 
 @dataclass(frozen=True)
@@ -36,7 +35,7 @@ class _Ramp:
 
 
 @dataclass(frozen=True)
-class GrowingForce(System):
+class GrowingForce(BlockOnGuide):
     """m [kg], b > 0 [N/s], sliding friction F and static friction Fs [N], to −x and to +x."""
 
     m: float
@@ -49,29 +48,12 @@ class GrowingForce(System):
     def __post_init__(self) -> None:
         if not self.b > 0.0:
             raise ValueError(f"the force grows with b > 0, not {self.b}")
-        object.__setattr__(self, "modes", modes(self.m, self.pull, self.dry))
+        super().__post_init__()
 
     @property
     def pull(self) -> Pull:
         """What acts on the block but friction."""
         return _Ramp(self.b)
-
-    @property
-    def dry(self) -> Dry:
-        """The bounds of the friction [N]."""
-        return Dry(self.F_minus, self.F_plus, self.Fs_minus, self.Fs_plus)
-
-    def start(self) -> tuple[str, Array, Array]:
-        """At rest at x = 0."""
-        return "stuck", np.zeros(1), np.zeros(1)
-
-    def guards(self, mode: str) -> Sequence[Guard]:
-        """(2.89) `slips` and `stops`."""
-        return guards(self.pull, self.dry, mode)
-
-    def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
-        """(2.89) F_a within the static friction where it sticks."""
-        return possible(self.modes[mode], self.dry, t, q, v) if mode == "stuck" else None
 
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.97) m v = −½ b (t² − t_s²) + F₋ (t − t_s), b t_s = F_s₋, and its integral m x.

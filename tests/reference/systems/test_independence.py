@@ -25,7 +25,7 @@ ALLOWED = {
     ".dynamometer",  # by which a block on a floor is drawn
     ".elastic_pendulum",  # which a mass on a leg is
     *(".blade_on_plane", ".wheel_on_plane", ".triples", ".arm", ".serial_arm", ".quadrature"),
-    ".slope",
+    *(".slope", ".block_on_guide"),
 }
 
 
