@@ -12,6 +12,7 @@ from textmech.reference.formalisms.derivative import along
 from textmech.reference.system import Array, Mode, Pose
 
 from .laws import difference
+from .spatial_laws import matrix as of_quaternion
 
 Wrench = tuple[str, Any, Any, Any]
 """Body, point, force and moment, in ground axes."""
@@ -19,14 +20,7 @@ Wrench = tuple[str, Any, Any, Any]
 
 def matrix(pose: Pose) -> Any:
     """(3, 3) from body axes to ground axes; of a complex pose too."""
-    w, x, y, z = pose[3:7]
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    return of_quaternion(pose[3:7])
 
 
 def momenta(mode: Mode, t: Any, q: Any, v: Any) -> Any:

@@ -9,13 +9,13 @@ from types import ModuleType
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from textmech.cases.scene import GROUND, Anchor, Damper, Push, Spring, Torque
 from textmech.reference.formalisms import appell, chaplygin, lagrange, voronets
 from textmech.reference.generated.space.mode import SpatialMultibody
 from textmech.reference.system import Array
 
+from .free_cut import matrix
 from .multibody_laws import balance, lagrangian
 
 Machine = SpatialMultibody
@@ -53,7 +53,7 @@ def bodies(mode: Machine, t: float, q: Array, v: Array) -> float:
         if at.omega is not None:
             omega, J = np.array(poses[name][10:]), body.tensor
             turning = J @ a[at.omega : at.omega + 3] + np.cross(omega, J @ omega)
-            change[3:] = _axes(poses[name]) @ turning
+            change[3:] = matrix(poses[name]) @ turning
         else:
             acting = acting[:, :3]  # a particle takes no moment
         left = acting.sum(axis=0) - change[: acting.shape[1]]
@@ -70,7 +70,7 @@ def lowest_points(mode: Machine, t: float, q: Array, v: Array) -> float:
     for name, contact in mode.scene.contacts.items():
         mine = [owner == name for owner in mode.constraints.owners]
         pose, at = poses[contact.body], _touching(mode, name, poses)
-        arm, omega = at - pose[:3], _axes(pose) @ pose[10:]
+        arm, omega = at - pose[:3], matrix(pose) @ pose[10:]
         slip = np.array(pose[7:10]) + np.cross(omega, arm)
         worst = max(worst, float(np.max(np.abs(slips[mine] - slip)) / np.max(np.abs(slip))))
     return worst
@@ -98,11 +98,6 @@ LAWS: dict[str, Law] = {
     "lowest points": lowest_points, "lengths": lengths,
 }  # fmt: skip
 REDUCED = {form: without(form) for form in (voronets, appell, chaplygin)}
-
-
-def _axes(pose: Any) -> Array:
-    """R (3, 3): the body axes in ground axes are its columns."""
-    return Rotation.from_quat(np.array(pose[3:7]), scalar_first=True).as_matrix()
 
 
 def _acting(
@@ -133,7 +128,7 @@ def _acting(
             yield wrench(at, told(contact.name, "fx", "fy", "normal"))
     for edge in scene.constraints.values():
         if edge.at.body == name:
-            x, y, _ = _axes(poses[name]) @ edge.along
+            x, y, _ = matrix(poses[name]) @ edge.along
             left = np.array([-y, x, 0.0]) / np.hypot(x, y)
             side, up = told(edge.name, "force", "normal")
             yield wrench(_point(mode, edge.at, t, poses)[0], side * left + up * UP)
@@ -172,7 +167,7 @@ def _point(mode: Machine, anchor: Anchor, t: float, poses: Any) -> tuple[Array, 
         point = mode.scene.points[anchor.point]
         return np.array(point.at) + t * np.array(point.velocity), np.array(point.velocity)
     pose = poses[anchor.body]
-    R, x = _axes(pose), np.array(mode.scene.bodies[anchor.body].points[anchor.point])
+    R, x = matrix(pose), np.array(mode.scene.bodies[anchor.body].points[anchor.point])
     return np.array(pose[:3]) + R @ x, np.array(pose[7:10]) + R @ np.cross(pose[10:], x)
 
 
@@ -182,7 +177,7 @@ def _touching(mode: Machine, contact: str, poses: Any) -> Array:
     pose, radius = poses[body.name], body.radius or 0.0
     if body.axle is None:
         return np.array(pose[:3]) - radius * UP
-    axle = _axes(pose) @ body.axle
+    axle = matrix(pose) @ body.axle
     level = np.cross(UP, axle)
     steep = radius * np.cross(level, axle) / np.linalg.norm(level)
     ends = np.array(pose[:3]) + steep, np.array(pose[:3]) - steep

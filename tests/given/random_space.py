@@ -17,13 +17,9 @@ from textmech.reference.system import Array
 
 from .engine_space import particle, rigid, unit, vector
 from .space_machine import Machine, T
+from .spatial_motions import turn
 
 REGULAR = 0.05  # smallest singular value of the rows: nearer to singular, forces grow large
-
-
-def turned(axis: Array, angle: float) -> Array:
-    """(3, 3)."""
-    return Rotation.from_rotvec(angle * np.asarray(axis)).as_matrix()
 
 
 def solid(made: Machine) -> SpatialBody:
@@ -71,7 +67,7 @@ def hang(made: Machine, body: SpatialBody) -> None:
         else:
             R = R @ (
                 made.turn() if freedom.kind == "ball"
-                else turned(np.array(freedom.axis), made.number(-1.2, 1.2))
+                else turn(freedom.axis, made.number(-1.2, 1.2))
             )  # fmt: skip
     made.bodies[body.name] = body
     arm = made.vector(0.4) if body.turns else np.zeros(3)

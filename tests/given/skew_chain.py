@@ -3,7 +3,6 @@
 Newton (2.23) and Euler (2.27) of each body from the tip inward, by rotation matrices.
 """
 
-import math
 from typing import Any
 
 import numpy as np
@@ -15,6 +14,7 @@ from textmech.cases.trajectory import Array
 from textmech.engines.engine import Start
 
 from .engine_space import hinge, rigid, spatial, state
+from .spatial_motions import turn
 
 G = np.array([0.0, 0.0, -9.80665])
 N = 5
@@ -94,7 +94,7 @@ def _kinematics(q: Array, q_dot: Array, q_ddot: Array) -> list[tuple[Any, ...]]:
     for i in range(N):
         n = R @ AXES[i]
         alpha = alpha + n * q_ddot[i] + _cross(w, n * q_dot[i])
-        w, R, hinged = w + n * q_dot[i], R @ _turn(AXES[i], q[i]), p
+        w, R, hinged = w + n * q_dot[i], R @ turn(AXES[i], q[i]), p
         p, v, a = _carried(p, v, a, w, alpha, R @ -INNER[i])
         found.append((R, w, alpha, p, v, a, hinged, n))
         p, v, a = _carried(p, v, a, w, alpha, R @ OUTER[i])
@@ -112,9 +112,3 @@ def _cross(a: Any, b: Any) -> Any:
     return np.array(
         [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     )
-
-
-def _turn(axis: Any, angle: float) -> Array:
-    """Rodrigues' matrix."""
-    K = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
-    return np.eye(3) + math.sin(angle) * K + (1 - math.cos(angle)) * K @ K
