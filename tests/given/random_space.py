@@ -186,14 +186,14 @@ MAKES: dict[str, Callable[[Machine], None]] = {
 }  # fmt: skip
 
 
-def machine(seed: int, kind: str, *, driven: bool = False) -> Machine:
+def machine(seed: int, kind: str, *, driven: bool = False, t: float = T) -> Machine:
     """The first of its seed whose rows are independent, and which can move."""
     rng = np.random.default_rng([seed, *kind.encode()])
     while True:
-        made = Machine(kind, rng)
+        made = Machine(kind, rng, t)
         MAKES[kind](made)
         push(made, driven=driven)
-        rows = made.mode.rows(T, made.q, np.zeros(made.mode.where.size))[0]
+        rows = made.mode.rows(t, made.q, np.zeros(made.mode.where.size))[0]
         least = np.min(np.linalg.svd(rows, compute_uv=False), initial=1.0)
         if len(rows) < made.mode.where.size and least > REGULAR:
             return made

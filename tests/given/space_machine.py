@@ -23,10 +23,11 @@ T = 0.13  # s: laws in time are neither at zero nor at rest
 
 @dataclass(eq=False)  # each is itself, so that answers to it can be kept
 class Machine:
-    """A scene in the making, and where its parts are at T: r (3,) and R (3, 3) of each."""
+    """A scene in the making, and where its parts are at t: r (3,) and R (3, 3) of each."""
 
     kind: str
     rng: np.random.Generator
+    t: float = T  # s: when the parts are where they are drawn
     bodies: dict[str, SpatialBody] = field(default_factory=dict)
     points: dict[str, GroundPoint] = field(default_factory=dict)
     joints: dict[str, SpatialJoint] = field(default_factory=dict)
@@ -62,7 +63,7 @@ class Machine:
     def v(self) -> Array:
         """Random rates (n,) that the rows allow."""
         v = self.rng.uniform(-3.0, 3.0, self.mode.where.size)
-        rows, g, _ = self.mode.rows(T, self.q, v)
+        rows, g, _ = self.mode.rows(self.t, self.q, v)
         return v - np.linalg.pinv(rows) @ (rows @ v - g) if len(rows) else v
 
     def number(self, low: float, high: float) -> float:
@@ -86,7 +87,7 @@ class Machine:
         """A new named point of the part at a place on the ground's axes."""
         if part == GROUND:
             name, velocity = f"O{len(self.points)}", self.vector(0.5)
-            self.points[name] = point(place - T * velocity, velocity)
+            self.points[name] = point(place - self.t * velocity, velocity)
             return Anchor(GROUND, name)
         body, (r, R) = self.bodies[part], self.poses[part]
         if not body.turns:

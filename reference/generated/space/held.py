@@ -12,7 +12,7 @@ import numpy as np
 from ....cases.scene import Anchor
 from ....cases.signal import Signal
 from ....cases.space.chain import across
-from ....cases.space.joint import SpatialJoint
+from ....cases.space.joint import SpatialJoint, effort_of
 from ....cases.space.rotation import Vector3
 from ....cases.space.scene import SpatialScene
 
@@ -157,22 +157,16 @@ def driven(scene: SpatialScene, quantity: str, law: Signal) -> Drive:
     """A prescribed rate. Raises ValueError of three turns: the middle axis is fixed in no part."""
     part, _, rate = quantity.partition(".")
     joint = scene.joints[part]
-    freedom = next(f for f in joint.named if rate in (_rate(f.name), ""))
+    freedom = joint.rates[rate]
     turns = tuple(f.axis for f in joint.turns)
     if freedom.kind == "turn" and len(turns) > 2:
         raise ValueError(f"{quantity}: of three turns none can be driven")
-    what = "force" if freedom.kind == "shift" else "torque"
-    name = what if freedom.name in ("angle", "shift") else f"{freedom.name}_{what}"
     return Drive(
-        part, quantity, name, joint.a, joint.b,
+        part, quantity, effort_of(freedom), joint.a, joint.b,
         freedom.axis if freedom.kind == "shift" else None,
         tuple(f.axis for f in joint.shifts), turns,
         joint.turns.index(freedom) if freedom.kind == "turn" else 0, law,
     )  # fmt: skip
-
-
-def _rate(name: str) -> str:
-    return "omega" if name == "angle" else f"{name}_dot"
 
 
 def _numbers(vector: object) -> Vector3:

@@ -10,7 +10,9 @@ from given.space_machine import T
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from textmech.cases.quantity import table
 from textmech.reference.formalisms import appell, chaplygin, voronets
+from textmech.reports.trial.ladder import wanted_reactions
 
 # The same examples in every run: who wants to search longer raises N.
 N = 15
@@ -50,6 +52,15 @@ def test_chaplygin_never_applies(kind: str) -> None:
     """(2.67) A quaternion's rates depend on each other, and it appears everywhere."""
     made = machine(1, kind)
     assert chaplygin.accelerations(made.mode, T, made.q, made.v()) is None
+
+
+@pytest.mark.parametrize("kind", MAKES)
+def test_every_force_that_can_be_asked_for_is_told(kind: str) -> None:
+    """Also what drives a slide, a hinge and a named freedom."""
+    for seed in range(1, 40, 2):
+        made = machine(seed, kind, driven=True)
+        scene, told = made.mode.scene, made.mode.reactions(T, made.q, made.v())
+        assert {*wanted_reactions(scene, table(scene))} <= told.keys()
 
 
 def test_the_machines_have_everything() -> None:
