@@ -9,13 +9,14 @@ import numpy as np
 
 from ....cases.scene import GROUND
 from ....cases.space.joint import SpatialJoint
-from ....cases.space.rotation import about, matrix, turned
+from ....cases.space.rotation import UPRIGHT, about, angle_between, matrix, product, turned
 from ....cases.space.scene import SpatialScene
 from ...system import Array
 from .closure import SpatialClosure
 from .given import attitude
 
 LOCKED = 1e-9  # sine: below, a turn about one axis is not told from one about the other
+REACHED = 1e-6  # rad: near gimbal lock half of the digits of an angle are lost
 ALIKE = 0.5  # between the cosine of a held axis, 1, and those of its joint turned over, 0 and -1
 
 
@@ -41,6 +42,20 @@ def faithful(closure: SpatialClosure, q: Array) -> bool:
         if np.min(np.sum((axes @ a.T) * (axes @ b.T), axis=1)) < ALIKE:
             return False
     return True
+
+
+def unreached(closure: SpatialClosure, q: Array) -> Iterator[SpatialJoint]:
+    """Joints of three turns that make no attitude such as this: skew axes leave some out."""
+    for joint in closure.scene.joints.values():
+        if len(joint.turns) < 3:
+            continue
+        known = {freedom.name: angle for freedom, angle, _ in closure.given.coordinates(joint, q)}
+        made = np.array(UPRIGHT)
+        for turn in joint.turns:
+            made = product(made, np.array(about(turn.axis, known[turn.name])))
+        a, b = (attitude(closure.mode, end.body, q) for end in (joint.a, joint.b))
+        if angle_between(product(a, made), b) > REACHED:
+            yield joint
 
 
 def locked(closure: SpatialClosure) -> Iterator[tuple[SpatialJoint, float]]:

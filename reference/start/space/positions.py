@@ -8,7 +8,7 @@ import numpy as np
 from ....cases.case import Case, Placement
 from ...system import Array
 from . import refusal
-from .branches import closes, faithful, locked
+from .branches import closes, faithful, locked, unreached
 from .closure import SpatialClosure, least, null
 from .guess import laid_out
 from .ways import several_ways
@@ -55,6 +55,8 @@ def positions(closure: SpatialClosure) -> Array:
         raise refusal.dead_centre(closure, ways[0], loose)
     if len(ways) > 1:
         raise several_ways(closure, ways)
+    for joint in unreached(closure, ways[0]):
+        raise refusal.unreached(closure.case, joint)
     return ways[0]
 
 

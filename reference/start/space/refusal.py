@@ -34,6 +34,16 @@ def locked(case: Case, joint: SpatialJoint, angle: float) -> CaseError:
     )
 
 
+def unreached(case: Case, joint: SpatialJoint) -> CaseError:
+    """Three turns about skew axes, which cannot make the attitude that is given."""
+    names = ", ".join(repr(turn.name) for turn in joint.turns)
+    return messages.initial(
+        case,
+        f"the turns {names} of {joint.name} cannot make the attitude at which it starts; write a "
+        "ball, or axes of which each is at right angles to the one before it",
+    )
+
+
 def flat(case: Case) -> CaseError:
     """A rim that lies on the floor."""
     assert isinstance(case.scene, SpatialScene)

@@ -155,6 +155,28 @@ def test_what_repeats_others_is_named(part: str, tmp_path: Path) -> None:
     assert words in mistake.what
 
 
+SKEW = f"""\
+scene:
+  space: 3
+  points: {{O: [0, 0, 0]}}
+  bodies: {{a: {BODY}}}
+  joints:
+    s:
+      freedoms: {{p: {{hinge: [0, 0, 1]}}, q: {{hinge: [0.1, 0, 1]}}, r: {{hinge: [0, 0.1, 1]}}}}
+      of: [ground.O, a.center]
+"""
+LYING = "initial: {a: {attitude: {axis: [1, 0, 0], angle: 90 deg}}}\n"
+
+
+def test_an_attitude_that_three_turns_cannot_make(tmp_path: Path) -> None:
+    mistake = refused(tmp_path, f"{SKEW}{LYING}")
+    assert mistake.where == "initial"
+    assert "the turns 'p', 'q', 'r' of s cannot make the attitude" in mistake.what
+    started(tmp_path, f"{SKEW}initial: {{s: {{p: 0.3, q: -0.4, r: 2.0}}}}\n")
+    square = SKEW.replace("[0.1, 0, 1]", "[1, 0, 0]").replace("[0, 0.1, 1]", "[0, 1, 0]")
+    started(tmp_path, f"{square}{LYING}")
+
+
 SEVERAL = {
     "a shift": (f"{SLIDER}initial: {{motor: {{angle: 30 deg}}}}\n", "rail.shift = "),
     "an attitude": (CROSS, "a.attitude = {axis: "),
