@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 from given.damage import damaged, numbers
+from given.same_examples import examples
 from given.spatial_case import SOUND as SPATIAL
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from textmech.cases.language.grammar.number import LARGEST, SMALLEST, NumberMistake, amount
@@ -15,14 +16,8 @@ from textmech.cases.load import load
 from textmech.cases.mistake import CaseError, plain
 from textmech.reports.selection import HANDWRITTEN
 
-# The same examples in every run: who wants to search longer raises N.
 N = 150
-often = settings(
-    max_examples=N,
-    derandomize=True,
-    deadline=None,  # the machine may be busy
-    suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
-)
+often = examples(N)
 WHOLE = ("missing key", "is empty")  # what is said of a file, and of no line in it
 
 

@@ -68,10 +68,6 @@ def test_of_a_disk_that_comes_to_roll(name: str) -> None:
 
 REPEATED = ("towed_pendulum", "slider_crank", "rolling_wheel.pushed")
 IN_SPACE = ("spatial_four_bar", "rolling_sphere", "robot_knife")  # by points, a floor, our law
-    "spatial_four_bar",
-    "rolling_sphere",
-    "robot_knife",
-)  # by points, by a floor, by our law
 
 
 @pytest.mark.parametrize(

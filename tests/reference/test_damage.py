@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 from given.pendulum import pendulum
-from hypothesis import HealthCheck, given, settings
+from given.same_examples import examples
+from hypothesis import given
 from hypothesis import strategies as st
 
 from textmech.cases.load import load
@@ -38,12 +39,7 @@ def test_any_numbers_give_a_motion_or_a_mistake_with_a_place(
     monkeypatch.setattr(refusal, "MOST", 2e4)  # a motion of this scene takes 3e3
     file, seen = tmp_path / "case.yaml", Counter[str]()
 
-    @settings(
-        max_examples=60,
-        derandomize=True,
-        deadline=None,
-        suppress_health_check=[HealthCheck.too_slow],
-    )
+    @examples(60)
     @given(scenes())
     def each(text: str) -> None:
         file.write_text(text, encoding="utf-8")

@@ -7,21 +7,15 @@ from given.drawn_machines import MACHINES, UNITS, Units, in_units, turned, turne
 from given.multibody_laws import EXACT, balance, lagrangian
 from given.random_machines import Build, mechanism
 from given.random_scenes import closed
-from hypothesis import HealthCheck, given, settings
+from given.same_examples import examples
+from hypothesis import given
 from hypothesis import strategies as st
 
 from textmech.cases.scene import GROUND, Anchor, Damper, Push, Scene, Spring, Torque
 from textmech.reference.generated.mode import Multibody
 from textmech.reference.system import Array
 
-# The same examples in every run: who wants to search longer raises N.
-N = 12
-few = settings(
-    max_examples=N,
-    derandomize=True,
-    deadline=None,  # the machine may be busy
-    suppress_health_check=[HealthCheck.too_slow],
-)
+few = examples(12)
 T = 0.02  # s: where ramps have begun, and driven points have not torn a loop
 # Rows may be as dependent as REGULAR 0.05 allows, which costs digits of the larger ones.
 SAME = 1e-11

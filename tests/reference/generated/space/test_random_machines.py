@@ -6,22 +6,16 @@ import numpy as np
 import pytest
 from given.machine_laws import EXACT, LAWS, REDUCED
 from given.random_space import MAKES, machine
+from given.same_examples import examples
 from given.space_machine import T
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from textmech.cases.quantity import table
 from textmech.reference.formalisms import appell, chaplygin, voronets
 from textmech.reports.trial.ladder import wanted_reactions
 
-# The same examples in every run: who wants to search longer raises N.
-N = 15
-few = settings(
-    max_examples=N,
-    derandomize=True,
-    deadline=None,  # the machine may be busy
-    suppress_health_check=[HealthCheck.too_slow],
-)
+few = examples(15)
 SEEDS = st.integers(0, 10_000)
 
 
