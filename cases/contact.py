@@ -72,8 +72,9 @@ class Contact:
         return {self.name: _CONTACT if self.tips else {**_CONTACT, **_ONE_POINT}}
 
     def numbers(self) -> dict[str, float]:
-        """The coefficient of friction."""
-        return {"friction": self.friction}
+        """The coefficient of friction, of every tip."""
+        names = [f"{tip}.friction" for tip in self.tips] or ["friction"]
+        return dict.fromkeys(names, self.friction)
 
     def observe(self, motion: Motion, field: str) -> Array:
         """(N,) of the lowest point of a disk's rim, or of the point that touches; else KeyError."""

@@ -32,7 +32,7 @@ def add_geom(element: ET.Element, scene: Scene, contact: Contact) -> None:
 def add_pairs(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> None:
     """The contacts' pairs, each with a sensor: MuJoCo records its force at every step."""
     contacts = ET.SubElement(root, "contact")
-    for contact in scene.contacts.values():
+    for contact in scene.touching.values():
         # A pair takes one coefficient; two geoms would take the larger of theirs.
         ET.SubElement(
             contacts, "pair", attributes,
@@ -46,7 +46,7 @@ def add_pairs(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> Non
 def _sensors(root: ET.Element, scene: Scene) -> None:
     """The plane's force on each, along the ground's axes."""
     sensors = ET.SubElement(root, "sensor")
-    for name, contact in scene.contacts.items():
+    for name, contact in scene.touching.items():
         ET.SubElement(
             sensors, "contact", geom1=grounded(contact.plane), geom2=name, data="force", num="1",
             reduce="netforce",

@@ -84,7 +84,7 @@ def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> 
         if falls(scene, start):
             words.append("starts above the floor: contacts are tuned for impacts")
         *_, depths = placed(scene, start, step, plan, settles=True)
-        deep = ((scene.contacts[name], depth) for name, depth in depths.items() if depth)
+        deep = ((scene.touching[name], depth) for name, depth in depths.items() if depth)
         words += [f"{_at(c)} started {depth:.1e} m in the {c.plane.name}" for c, depth in deep]
     return "; ".join(words)
 

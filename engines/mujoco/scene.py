@@ -112,7 +112,7 @@ def _bodies(world: ET.Element, scene: Scene, tree: Tree, numbers: dict[str, obje
         _inertial(element, body.mass, least if body.inertia is None else body.inertia)
         for name, at in body.points.items():
             ET.SubElement(element, "site", name=f"{body.name}.{name}", pos=written(*at, 0))
-        for contact in scene.contacts.values():
+        for contact in scene.touching.values():
             if contact.body == body.name:
                 add_geom(element, scene, contact)
 

@@ -80,7 +80,7 @@ def follower(
     a, b = part.points[contact.at.point]
     (nx, ny), level = contact.plane.normal, contact.plane.height(0.0, 0.0)
     impact = now = contact.restitution
-    touched = False
+    touched = contact.ideal == "pivot"  # what already turns at the start stands on the floor
 
     def follow(t: float) -> None:
         nonlocal now, touched
@@ -102,8 +102,21 @@ def follower(
 
 
 def closed(scene: Scene, start: Start) -> list[Contact]:
-    """The contacts that touch at the start: as near to it as the book's scenes are assembled."""
-    return [c for c in scene.contacts.values() if abs(_gap(scene, start, c)) <= TOUCHING]
+    """The contacts that touch at the start, and are not about to rise from the floor.
+
+    As near to it as the book's scenes are assembled.
+    """
+    touching = (c for c in scene.touching.values() if abs(_gap(scene, start, c)) <= TOUCHING)
+    return [c for c in touching if _rising(scene, start, c) <= 0.0]
+
+
+def _rising(scene: Scene, start: Start, contact: Contact) -> float:
+    """How fast [m/s] the point that touches leaves its plane; rounding is no motion."""
+    (nx, ny), (*_, angle, vx, vy, omega) = contact.plane.normal, start[contact.body]
+    a, b = scene.bodies[contact.body].points[contact.at.point]
+    cos, sin = math.cos(angle), math.sin(angle)
+    rate = nx * (vx - omega * (sin * a + cos * b)) + ny * (vy + omega * (cos * a - sin * b))
+    return rate if abs(rate) > TOUCHING * math.hypot(vx, vy) else 0.0
 
 
 def _gap(scene: Scene, start: Start, contact: Contact) -> float:

@@ -73,7 +73,7 @@ class Holding:
 
 def holding(scene: Scene, start: Start) -> Holding | None:
     """By a rehearsal; None where no two rows are solved one after the other."""
-    contacts = scene.contacts.values()
+    contacts = scene.touching.values()
     tips = any(is_tip(scene, contact) for contact in contacts)
     if not scene.joints and not tips and len(contacts) < 2 and count(scene) < 2:
         return None

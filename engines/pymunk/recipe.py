@@ -25,6 +25,12 @@ _SEED = Choice(
     "a circle that only touches falls freely for one step; 1e-9 m is above rounding and "
     "below every reach",
 )
+_PIVOT_SEED = Choice(
+    "start.seed",
+    1e-6,
+    "what turns about its tip from the first step on rises by v² h²/(8 l) in half of it: less would "
+    "open the contact, and leave no force for a step and the double for the next",
+)
 _REFLECTS = Choice(
     "contact.reflects",
     True,
@@ -74,7 +80,8 @@ def recipe(scene: Scene, start: Start) -> Recipe:
     """The best recipe; what nothing would feel is left as it is shipped."""
     always = [_MIDPOINT]
     if scene.contacts:
-        always.append(_SEED)
+        pivots = any(contact.ideal == "pivot" for contact in scene.contacts.values())
+        always.append(_PIVOT_SEED if pivots else _SEED)
     contacts = [contact for contact in scene.contacts.values() if contact.switches]
     tips = [contact for contact in contacts if is_tip(scene, contact)]
     if contacts:

@@ -71,7 +71,7 @@ def _contacts(world: World) -> None:
         segment.filter = told
         world.planes[plane.name] = segment
         world.space.add(segment)
-    for contact in world.scene.contacts.values():
+    for contact in world.scene.touching.values():
         part, body = world.scene.bodies[contact.body], world.bodies[contact.body]
         world.wheels[contact.name] = wheel = circle(contact, part, body)
         only(wheel, known[contact.plane])

@@ -211,7 +211,7 @@ def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
 
 def _followers(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
     """Keeps the circle of a turning body's point above it, see `follower`."""
-    for contact in world.scene.contacts.values():
+    for contact in world.scene.touching.values():
         if not is_tip(world.scene, contact):
             continue
         body, (a, b) = _of(world, world.wheel(contact.name)), world.local(contact.at)
@@ -220,7 +220,8 @@ def _followers(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
             yield f"    low = pymunk.Vec2d({a!r}, {b!r}).rotated({body}.angle)"
             yield f"    low = {_height(contact.plane, f'({body}.position + low)')}"
             yield f"    low -= {wheel}.radius - {ABOVE}"
-            yield "    stays = n > 0 and low < 0"
+            begins = "" if contact.ideal == "pivot" else "n > 0 and "
+            yield f"    stays = {begins}low < 0"
             yield f"    {wheel}.elasticity = 1.0 if stays else {contact.restitution!r}"
         yield f"    turned = {body}.angle + h * {body}.angular_velocity"
         nx, ny = contact.plane.normal

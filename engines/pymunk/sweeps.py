@@ -15,6 +15,7 @@ from pymunk.constraints import Constraint, GearJoint, GrooveJoint, PinJoint, Piv
 from pymunk.space import Space
 from pymunk.vec2d import Vec2d
 
+from ...cases.scene import Contact
 from ...cases.trajectory import Array
 from .world import World
 
@@ -48,8 +49,8 @@ def _steps(world: World) -> Iterator[tuple[Array, Array, Array]]:
     them, and the rows along which it acts. Velocities are multiplied by the roots of the masses.
     """
     columns, weights = _columns(world)
-    for name, contact in world.scene.contacts.items():
-        body, part = world.wheel(name), world.scene.bodies[contact.body]
+    for contact in _together(world):
+        body, part = world.wheel(contact.name), world.scene.bodies[contact.body]
         local = Vec2d(*world.local(contact.at)).rotated(body.angle)
         place = local if part.radius is None else Vec2d(0.0, -part.radius)
         rows = _moves(columns, len(weights), body, place) * weights
@@ -59,6 +60,14 @@ def _steps(world: World) -> Iterator[tuple[Array, Array, Array]]:
         if found is not None:
             rows, normal = found[0] * weights, found[1]
             yield rows, normal @ np.linalg.inv(rows @ rows.T), normal @ rows
+
+
+def _together(world: World) -> Iterator[Contact]:
+    """What may touch at once: of spokes the two lowest tips."""
+    for contact in world.scene.contacts.values():
+        body = world.bodies[contact.body]
+        lowest = sorted(contact.each(), key=lambda c: body.local_to_world(world.local(c.at)).y)
+        yield from lowest[:2]
 
 
 def _columns(world: World) -> tuple[Columns, Array]:

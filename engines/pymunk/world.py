@@ -49,7 +49,7 @@ class World:
 
     def wheel(self, contact: str) -> Body:
         """The body that touches."""
-        return self.bodies[self.scene.contacts[contact].body]
+        return self.bodies[self.scene.touching[contact].body]
 
     def local(self, anchor: Anchor) -> Vector:
         """The anchor in its body's axes from its centre of mass."""

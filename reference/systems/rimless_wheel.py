@@ -12,10 +12,9 @@ from typing import Any
 import numpy as np
 
 from ..system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
-from .quadrature import integral
+from .spoke_steps import SpokeSteps
 
 G = 9.80665  # m/s²
-PANELS = 8  # of 16 nodes for a step: ω₀ near the least that walks over asks most, 1e-14 s then
 
 
 @dataclass(frozen=True)
@@ -187,45 +186,18 @@ class RimlessWheel(System):
             f"spoke {k + way} strikes", lambda t, q, v: way * (phi - float(q[0])), then, rests
         )
 
-    def gained(self, s: Any) -> Any:
-        """(2.51) φ̇² − ω² [rad²/s²] on the way s = θ + α from a strike, ω just after it.
+    def _steps(self) -> SpokeSteps:
+        return SpokeSteps(self.n, self.l, self.J / (self.m * self.l**2), self.gamma)
 
-        ½ (J + m l²) φ̇² + m g l cos(θ + γ) stays what it was at θ = −α.
-        """
-        slower = 2 * np.sin(self.gamma - self.alpha + s / 2) * np.sin(s / 2)
-        return 2 * self.m * G * self.l / self.about_tip * slower
-
-    def next_rate(self, omega: float) -> float:
-        """(2.27) ω⁺ = η √(ω² + gained in a step) [rad/s]: from strike to strike."""
-        return self.eta * math.sqrt(omega**2 + float(self.gained(2 * self.alpha)))
-
-    def limit_cycle(self) -> float:
-        """ω* = η √(D/(1 − η²)) [rad/s] after a strike, D gained in a step; η² is its multiplier.
-
-        Down a slope every rate that walks over comes to it: ω⁺² − ω*² = η² (ω² − ω*²).
-        """
-        return self.eta * math.sqrt(float(self.gained(2 * self.alpha)) / (1 - self.eta**2))
-
-    def walks_over(self, omega: float) -> bool:
-        """Whether it passes the place where it is slowest, θ = −γ, with ω after a strike."""
-        return omega**2 + float(self.gained(max(0.0, self.alpha - self.gamma))) > 0.0
-
-    def step(self, omega: float) -> float:
-        """T = ∫ dθ/φ̇ from −α to α [s], ω after a strike."""
-        return float(
-            integral(lambda s: 1 / np.sqrt(omega**2 + self.gained(s)), 2 * self.alpha, PANELS)
-        )
+    def closed_form(self, t: float) -> tuple[Array, Array] | None:
+        """φ and φ̇ by energy and impact; None where it has come to fall back."""
+        found = self._steps().after(self.w0, t)
+        return found and (np.array(found[:1]), np.array(found[1:]))
 
     def closed_events(self, until: float) -> list[tuple[str, float]] | None:
-        """The strikes up to `until`, step by step; None where it comes to walk over no spoke."""
-        t, omega, found = 0.0, self.w0, list[tuple[str, float]]()
-        while self.walks_over(omega):
-            t += self.step(omega)
-            if t > until:
-                return found
-            found.append((f"spoke {len(found) + 2} strikes", t))
-            omega = self.next_rate(omega)
-        return None
+        """The strikes up to `until` by energy and impact; None where it comes to fall back."""
+        found = self._steps().strikes(self.w0, until)
+        return found and [(f"spoke {k} strikes", t) for k, t in enumerate(found, start=2)]
 
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.89) |F_fr| ≤ μ F_N and F_N > 0 where it stands, and no other tip in the floor."""

@@ -43,6 +43,9 @@ PARAMETERS: dict[str, dict[str, float]] = {
         "m": 0.5, "l": 0.4, "c": 60.0, "l0": 0.5,
         "left0": math.radians(-130), "right0": math.radians(-60),
     },
+    "rimless_wheel": {
+        "n": 8.0, "l": 0.3, "m": 2.0, "J": 0.09, "gamma": 0.1, "mu": 2.0, "w0": 3.3,
+    },
     "rolling_wheel": {
         "m": 1.3, "R": 0.25, "mu": 0.5, "beta": math.radians(20), "F": 2.5, "v0": 0.4, "w0": 1.6,
     },
@@ -112,6 +115,10 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
     "rhombus": [
         ("left", 2, -130 * math.pi / 180, 1e-15), ("lower_right", 2, -130 * math.pi / 180, 1e-15),
         ("right", 2, -60 * math.pi / 180, 1e-15), ("lower_left", 2, -60 * math.pi / 180, 1e-15),
+    ],
+    "rimless_wheel": [
+        ("wheel", 0, 0.0, 1e-16), ("wheel", 1, 0.3 * math.cos(math.pi / 8), 1e-16),
+        ("wheel", 2, 0.0, 0.0), ("wheel", 5, -3.3, 0.0),
     ],
     "rolling_wheel": [
         ("wheel", 0, 0.0, 0.0), ("wheel", 1, 0.25, 0.0), ("wheel", 2, 0.0, 0.0),
@@ -196,6 +203,11 @@ VARIANTS: dict[str, tuple[str, dict[str, float], list[str]]] = {
     "stick-slip": ("dynamometer", {}, ["slips", "stops"] * 2),
     "elastic": ("bouncing_disk", {}, ["bounces"] * 5),
     "plastic": ("bouncing_disk", {"e": 0.0}, ["lands"]),
+    "walks": ("rimless_wheel", {}, [f"spoke {k} strikes" for k in range(2, 8)]),
+    "walks over with few spokes": (
+        "rimless_wheel", {"n": 6.0, "gamma": 0.15, "w0": 4.0},
+        [f"spoke {k} strikes" for k in range(2, 6)],
+    ),
 }  # fmt: skip
 DURATION = {
     "stribeck_brake": 2.0,
@@ -204,6 +216,7 @@ DURATION = {
     "bouncing_disk": 3.0,
     "friction_cone": 5.0,
     "friction_of_rest": 6.0,
+    "rimless_wheel": 2.0,
 }  # 10 s else
 
 

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 
 from ....cases.scene import Scene
 from ...engine import Start
-from ..contact import CLOSED, height
+from ..contact import lies
 from .floor import Floor
 from .signal import signals
 from .told import told
@@ -23,6 +23,7 @@ _DEEPEST = 1.0  # m, of a point; a disk could be as deep as its radius
 _SETTLED = 1e-12  # of a depth: points that share a load have found it
 _SWEEPS = 100  # at most: each takes a third or more of the error, as two ends of one bar do
 _STICKS = 10  # steps of the slip's growth: friction is damped by about 1/h, and holds or does not
+_MOST = 1000  # steps to a zero: where friction gives way the slip jumps, and each only halves
 _STILL = 1e-9  # m/s: what slips less is meant to stick
 
 
@@ -30,7 +31,7 @@ def settle(
     scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, start: Start
 ) -> dict[str, float]:
     """Depth [m] of each contact that is closed, by name; afterwards the data starts there."""
-    contacts = [c for c in scene.contacts.values() if height(scene, c, start) <= CLOSED]
+    contacts = [c for c in scene.touching.values() if lies(scene, c, start)]
     if not contacts:
         return {}
     with signals(scene, told(scene, model)):
@@ -84,4 +85,5 @@ def _zero(slips: Callable[[float], float], before: float, now: float, h: float) 
         reach *= 2
         if abs(reach) > _STICKS * abs(now) * h:
             return 0.0
-    return float(brentq(slips, before, before + reach, xtol=4e-16 * abs(reach)))
+    xtol = 4e-16 * abs(reach)
+    return float(brentq(slips, before, before + reach, xtol=xtol, maxiter=_MOST))

@@ -61,14 +61,17 @@ def contact_force(
 ) -> Array:
     """`touch.normal` or `touch.tangent` (N,) from the sensors' rows; what is in the air has 0.
 
+    Of several points that touch, the sum.
+
     pushed: the rows of what our law pushes with in MuJoCo's place.
     """
     part, _, field = name.rpartition(".")
-    column, plane = 3 * list(scene.contacts).index(part), scene.contacts[part].plane
-    force = felt[:, column : column + 2]
+    contact, names = scene.contacts[part], list(scene.touching)
+    firsts = [3 * names.index(point.name) for point in contact.each()]
+    force = np.sum([felt[:, first : first + 2] for first in firsts], axis=0)
     if field == "normal":
-        return force @ plane.normal
-    x = mujoco.mj_name2id(model, _OBJECT.mjOBJ_JOINT, f"{scene.contacts[part].body}.x")
+        return force @ contact.plane.normal
+    x = mujoco.mj_name2id(model, _OBJECT.mjOBJ_JOINT, f"{contact.body}.x")
     if pushed is None or x < 0:
-        return force @ plane.along
-    return force @ plane.along + pushed[:, model.jnt_dofadr[x]]
+        return force @ contact.plane.along
+    return force @ contact.plane.along + pushed[:, model.jnt_dofadr[x]]

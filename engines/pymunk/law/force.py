@@ -25,6 +25,6 @@ def _followers(world: World, step: float, reflects: bool) -> list[Apply]:
     scene = world.scene
     found = [
         follower(c, scene.bodies[c.body], world.wheels[c.name], step, reflects=reflects)
-        for c in scene.contacts.values()
+        for c in scene.touching.values()
     ]
     return [follow for follow in found if follow]

@@ -20,22 +20,26 @@ def impulses(world: World, reactions: tuple[str, ...]) -> Callable[[], list[floa
         world.joints[name][0] if name in world.joints else None for name, _, _ in parts
     ]
     pins = [world.pins.get(quantity) for quantity in reactions]
-    bodies = _contacts(world, {name for name, _, _ in parts})
     ways = [_way(world, name, what) for name, _, what in parts]
+    contacts = world.scene.contacts
+    points = [
+        [c.name for c in contacts[name].each()] if name in contacts else [] for name, _, _ in parts
+    ]
+    bodies = _contacts(world, {name for names in points for name in names})
 
     def read() -> list[float]:
         felt: Planes = {}
         for body, names in bodies.items():
             body.each_arbiter(_one if len(names) == 1 else _several, names, felt)
         row = []
-        for (name, _, _), way, joint, pin in zip(parts, ways, joints, pins, strict=True):
+        for (x, y), joint, pin, names in zip(ways, joints, pins, points, strict=True):
             if pin:
                 row.append(pin.impulse())
             elif joint:
                 row.append(joint.impulse)
             else:
-                x, y = felt.get(name, (0.0, 0.0))
-                row.append(way[0] * x + way[1] * y)
+                found = (felt[name] for name in names if name in felt)
+                row.append(sum(x * along + y * up for along, up in found))
         return row
 
     return read

@@ -15,7 +15,7 @@ def measured(world: World) -> dict[str, float]:
         if world.scene.bodies[name].turns:
             found[f"{name}.inertia"] = body.moment
     for name, wheel in world.wheels.items():
-        plane = world.planes[world.scene.contacts[name].plane.name]
+        plane = world.planes[world.scene.touching[name].plane.name]
         found[f"{name}.friction"] = wheel.friction * plane.friction
     for name, brake in world.brakes.items():
         friction = world.scene.joints[name].dry_friction
