@@ -15,8 +15,9 @@ from .polar import polar
 from .space.spatial import spatial
 from .touch import planes, touches
 
-_TAKEN = ("x", "y", "angle", "vx", "vy", "omega", "speed", "on")  # `crank.x` is a quantity
-_TAKEN_IN_SPACE = (*_TAKEN, "z", "vz", "attitude", "omega_1", "omega_2", "omega_3")
+_FIELDS = ("x", "y", "angle", "vx", "vy", "omega", "speed")  # `crank.x` is a quantity
+_TAKEN = (*_FIELDS, "on")  # and a start stands `on` a point
+_TAKEN_IN_SPACE = (*_FIELDS, "z", "vz", "attitude", "omega_1", "omega_2", "omega_3")
 
 
 def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:

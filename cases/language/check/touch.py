@@ -55,12 +55,16 @@ def _plane(parsed: Parsed, path: Path, word: str) -> Iterator[Finding]:
 def _not_ideal(body: Body, ideal: str | None) -> str | None:
     """Why the body cannot do what is assumed of it, or None."""
     if ideal == "rolling" and body.radius is None:
-        return f"{body.name!r} is a {body.shape}; only a disk rolls"
+        return f"{_is(body)}; only a disk rolls"
     if ideal == "pivot" and (body.radius is not None or not body.turns):
-        return f"{body.name!r} is a {body.shape}; only spokes and a point of a bar pivot"
+        return f"{_is(body)}; only spokes and a point of a bar pivot"
     if body.tips and ideal is None:
         return f"{body.name!r} has spokes, which only pivot here: write `ideal: pivot`"
     return None
+
+
+def _is(body: Body) -> str:
+    return f"{body.name!r} has spokes" if body.tips else f"{body.name!r} is a {body.shape}"
 
 
 def _cannot_touch(body: Body, point: str) -> str | None:
