@@ -45,6 +45,10 @@ class SpatialContact:
     def body(self) -> str:
         return self.at.body
 
+    def each(self) -> "tuple[SpatialContact, ...]":
+        """One contact for every point that may touch: itself."""
+        return (self,)
+
     @property
     def static(self) -> float:
         return self.friction

@@ -28,8 +28,8 @@ _SEED = Choice(
 _PIVOT_SEED = Choice(
     "start.seed",
     1e-6,
-    "what turns about its tip from the first step on rises by v² h²/(8 l) in half of it: less would "
-    "open the contact, and leave no force for a step and the double for the next",
+    "a tip about which a body turns from the start on rises by v² h²/(8 l) in half a step: less "
+    "would open the contact, and leave no force for a step and the double for the next",
 )
 _REFLECTS = Choice(
     "contact.reflects",

@@ -66,9 +66,8 @@ def _needed(
     except NoImpact:
         return None
     impulse = modes.M * (after - v)
-    along, up = (
-        sum(impulse[xy + i] for xy, _ in modes.base.where.columns.values()) for i in (0, 1)
-    )
+    places = [xy for xy, _ in modes.base.where.columns.values()]
+    along, up = (sum(impulse[xy + i] for xy in places) for i in (0, 1))
     return f"the impact at t = {t:.4g} s would slip: to pivot it needs {abs(along) / up:.3g}"
 
 

@@ -106,9 +106,8 @@ class Multibody(Mode):
             found |= shared.divided(found)
         for contact in self.scene.contacts.values():
             for way in of_floor if contact.tips else ():
-                found[f"{contact.name}.{way}"] = sum(
-                    found[f"{c.name}.{way}"] for c in contact.each()
-                )
+                each = (found[f"{point.name}.{way}"] for point in contact.each())
+                found[f"{contact.name}.{way}"] = sum(each)
         return found
 
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:

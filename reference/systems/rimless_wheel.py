@@ -182,9 +182,8 @@ class RimlessWheel(System):
         def rests(t: float, q: Array, v: Array) -> tuple[str, Array, Array]:
             return f"rests {between}", np.array([phi]), np.zeros(1)
 
-        return Guard(
-            f"spoke {k + way} strikes", lambda t, q, v: way * (phi - float(q[0])), then, rests
-        )
+        left = lambda t, q, v: way * (phi - float(q[0]))  # noqa: E731
+        return Guard(f"spoke {k + way} strikes", left, then, rests)
 
     def _steps(self) -> SpokeSteps:
         return SpokeSteps(self.n, self.l, self.J / (self.m * self.l**2), self.gamma)
@@ -197,7 +196,9 @@ class RimlessWheel(System):
     def closed_events(self, until: float) -> list[tuple[str, float]] | None:
         """The strikes up to `until` by energy and impact; None where it comes to fall back."""
         found = self._steps().strikes(self.w0, until)
-        return found and [(f"spoke {k} strikes", t) for k, t in enumerate(found, start=2)]
+        if found is None:
+            return None
+        return [(f"spoke {k} strikes", t) for k, t in enumerate(found, start=2)]
 
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.89) |F_fr| ≤ μ F_N and F_N > 0 where it stands, and no other tip in the floor."""

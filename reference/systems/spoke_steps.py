@@ -72,7 +72,8 @@ class SpokeSteps:
         """(2.51) The angle s at which T = τ: Newton's method, T' = 1/φ̇ > 0."""
         s = self.between * tau / self.lasts(omega)
         for _ in range(TURNS):
-            s = min(max(s + (tau - self.lasts(omega, s)) * float(self.rate(omega, s)), 0.0), self.between)
+            s += (tau - self.lasts(omega, s)) * float(self.rate(omega, s))
+            s = min(max(s, 0.0), self.between)
         return s
 
     def after(self, omega: float, t: float) -> tuple[float, float] | None:

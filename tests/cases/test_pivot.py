@@ -94,7 +94,7 @@ def test_a_start_that_cannot_be_is_said(tmp_path: Path, start: str, words: str) 
 
 def test_spokes_are_a_whole_number(tmp_path: Path) -> None:
     path = tmp_path / "case.yaml"
-    path.write_text(f"title: x\nparameters: {{n: 8.4}}\n{SCENE.format(**SOUND)}")
-    path.write_text(path.read_text().replace("number: 6", "number: n") + "duration: 1\nsamples: 3\n")
+    scene = SCENE.format(**SOUND).replace("number: 6", "number: n")
+    path.write_text(f"title: x\nparameters: {{n: 8.4}}\n{scene}duration: 1\nsamples: 3\n")
     with pytest.raises(CaseError, match=r"from 3 to 100, is 8.4 \(n\)"):
         load(path)

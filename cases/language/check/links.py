@@ -1,11 +1,9 @@
 """References between the parts of a scene: every name means one thing that is there."""
 
 from collections.abc import Iterator, Mapping
-from typing import Any
 
-from ... import shape
 from ...mistake import Path, nearest
-from ...scene import CENTER, FLOOR, GROUND, Anchor, Edge, Force, Joint, Scene
+from ...scene import FLOOR, GROUND, Anchor, Edge, Force, Joint, Scene
 from ..grammar.file import Near
 from ..grammar.file import Scene as Spec
 from ..parse import NAMED, Finding, Parsed
@@ -82,11 +80,8 @@ def _points(parsed: Parsed) -> Iterator[Finding]:
     if FLOOR in parsed.file.scene.points:
         yield ("scene", "points", FLOOR), f"the name {FLOOR!r} is taken"
     for name, body in parsed.file.scene.bodies.items():
-        ends = ("start", "end") if body.word == "bar" else ()
-        measures: Any = getattr(body, body.word)
-        tips = shape.tips(measures.number) if body.word == "spokes" else ()
         for point in getattr(body, "points", {}):
-            if point in (CENTER, *ends, *tips, *taken):
+            if point in (*body.own_points, *taken):
                 yield ("scene", "bodies", name, "points", point), f"the name {point!r} is taken"
 
 

@@ -20,6 +20,13 @@ class Shaped(Part):
         """The body."""
         return type(self).makes(name=name, **dict(getattr(self, self.word)))
 
+    @property
+    def own_points(self) -> tuple[str, ...]:
+        """The points that the shape has by itself."""
+        named: dict[str, Any] = {"points": {}} if "points" in keys(type(self).makes) else {}
+        made = type(self).makes(name="", **named, **dict(getattr(self, self.word)))
+        return tuple(made.points)
+
 
 class WithPoints(Shaped):
     """A body on which points can be named."""

@@ -1,4 +1,4 @@
-"""What pivots on the floor, generated from the scene: strikes, rest, and what friction cannot hold."""
+"""What pivots on the floor, from the scene alone: strikes, rest, what friction cannot hold."""
 
 import math
 from pathlib import Path
@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from given import scenes
 from given.scenes import tail, typed
-from pytest import MonkeyPatch
 
 from textmech.cases.mistake import CaseError
 from textmech.cases.observe import observe
@@ -50,7 +49,7 @@ def test_strikes_are_those_of_the_energy(tmp_path: Path) -> None:
 
 
 def test_an_impact_in_which_the_old_tip_stays_is_seen(
-    tmp_path: Path, monkeypatch: MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Without a tip that lets go, the wheel stands on two after the first strike."""
     sound = landing.impact
@@ -62,7 +61,9 @@ def test_an_impact_in_which_the_old_tip_stays_is_seen(
     assert len(strikes(tmp_path, 3.3)) == 1
 
 
-def test_another_inertia_in_the_impact_is_seen(tmp_path: Path, monkeypatch: MonkeyPatch) -> None:
+def test_another_inertia_in_the_impact_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Half of J keeps another part of the speed."""
     known = SpokeSteps(8, L, J / (M * L**2), GAMMA).strikes(3.3, 1.0)
     assert known is not None
@@ -132,7 +133,7 @@ def test_friction_that_an_impact_needs_is_enough(tmp_path: Path) -> None:
 
 
 def test_margins_of_a_pivot_are_asked_of_its_samples(
-    tmp_path: Path, monkeypatch: MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A friction cone that is lost lets a rod stand that would slip."""
     scene = ROD.format(mu=0.2, w0=0.1)
