@@ -1,0 +1,234 @@
+"""The compass walker: its equations, its impact by impulses, its limit cycle, and its limit."""
+
+import math
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from given import scenes
+from given.mutants import mutant
+from given.scenes import tail, typed
+from given.walkers import SLOPE, returned
+
+from textmech.reference.formalisms import energy, lagrange, newton_euler
+from textmech.reference.motion.cycle import Cycle, cycle
+from textmech.reference.motion.follow import follow
+from textmech.reference.system import Array
+from textmech.reference.systems.compass_walker import CompassWalker, bars
+
+GAMMA = 0.02
+ENTRIES = (1, 5, 4)  # after a strike on the right leg: its partner's lean, and the rates of both
+# Near the limit cycle on a slope of 0.02; an uneven leg for the laws.
+WALKER = bars(10.0, 5.0, 1.0, GAMMA, a0=0.2135, w0=0.8617, u0=0.6753)
+UNEVEN = CompassWalker(7.0, 1.3, 0.9, 0.35, 0.06, 0.05, 0.3, 1.1, 0.2)
+
+
+def states(count: int = 20) -> list[tuple[Array, Array]]:
+    random = np.random.default_rng(1)
+    q, v = random.uniform(-1.0, 1.0, (count, 3)), random.uniform(-3.0, 3.0, (count, 3))
+    v[:, 0] = 0.0
+    return list(zip(q, v, strict=True))
+
+
+@pytest.mark.parametrize("walker", [WALKER, UNEVEN], ids=["bars", "uneven"])
+@pytest.mark.parametrize("name", ["left lifts", "right swings"])
+def test_accelerations_and_reactions_by_every_formalism(name: str, walker: CompassWalker):
+    mode = walker.modes[name]
+    for q, v in states():
+        a = mode.accelerations(0.0, q, v)
+        derived, friction = lagrange.multipliers(mode, 0.0, q, v)
+        written = mode.reactions(0.0, q, v)
+        size, force = np.abs(a).max(), abs(written["feet.normal"])
+        assert a == pytest.approx(derived, abs=1e-12 * size)
+        assert friction[0] == pytest.approx(written["feet.tangent"], abs=1e-12 * force)
+        unbalanced, cut = newton_euler.balance(mode, 0.0, q, v, a)
+        assert unbalanced < 1e-12
+        assert cut["feet.normal"] == pytest.approx(written["feet.normal"], abs=1e-12 * force)
+        assert abs(energy.power_balance(mode, 0.0, q, v)) < 1e-10
+
+
+def _wrong(lost: str) -> Any:
+    """Accelerations with a term that is lost or turned round."""
+
+    def accelerations(self: Any, t: float, q: Array, v: Array) -> Array:
+        other = {"gravity": 0.0 * v, "coupling": v}[lost]
+        p = self.walker if lost == "coupling" else replace(self.walker, gamma=-self.walker.gamma)
+        sound = type(WALKER.modes["left lifts"])(p, self.k)
+        a = sound.accelerations(t, q, v)
+        if lost == "coupling":  # without what the legs' rates do
+            still = sound.accelerations(t, q, 0.0 * other)
+            a = 0.5 * (a + still)
+        return a
+
+    return accelerations
+
+
+@pytest.mark.parametrize("lost", ["gravity", "coupling"])
+def test_a_lost_term_is_seen(lost: str):
+    off: Any = mutant(WALKER.modes["left lifts"], accelerations=_wrong(lost))
+    q, v = states(1)[0]
+    assert np.abs(off.accelerations(0, q, v) - lagrange.multipliers(off, 0, q, v)[0]).max() > 1e-3
+    assert newton_euler.balance(off, 0.0, q, v, off.accelerations(0, q, v))[0] > 1e-4
+
+
+def impulsive(walker: CompassWalker, k: int, q: Array, v: Array) -> Array:
+    """q̇⁺ by (2.60) over the instant: free bodies, pinned at the hip and at the new foot.
+
+    Nine rates, each leg's x, y and angle, and the hip's x, y; six rows; nothing of one walker's
+    coordinates.
+    """
+    name = ("left", "right")[k]
+    poses = walker.modes[f"{name} swings"].poses(0.0, q, v)
+    before = np.array([*poses["left"][3:], *poses["right"][3:], *poses["hip"][3:5]])
+    M = np.diag([*[walker.m, walker.m, walker.J] * 2, walker.M, walker.M])
+    rows = []
+
+    def moves(leg: str, r: float) -> Array:
+        """How a point r down a leg from its centre moves, (2, 8)."""
+        column = 0 if leg == "left" else 3
+        angle = poses[leg][2]
+        dx, dy = r * math.cos(angle), r * math.sin(angle)
+        row = np.zeros((2, 8))
+        row[0, column], row[1, column + 1] = 1.0, 1.0
+        row[:, column + 2] = -dy, dx
+        return row
+
+    hip = np.zeros((2, 8))
+    hip[0, 6] = hip[1, 7] = 1.0
+    rows = [moves(leg, -walker.c) - hip for leg in ("left", "right")]
+    rows.append(moves(("left", "right")[1 - k], walker.l - walker.c))
+    F = np.vstack(rows)
+    by_mass = np.linalg.solve(M, F.T)
+    after = before - by_mass @ np.linalg.solve(F @ by_mass, F @ before)
+    return -after[[2, 5]]
+
+
+@pytest.mark.parametrize("walker", [WALKER, UNEVEN], ids=["bars", "uneven"])
+@pytest.mark.parametrize("k", [0, 1])
+def test_impact_by_impulsive_multipliers(k: int, walker: CompassWalker):
+    for s, s_dot, w_dot in ((0.2, 1.1, -0.3), (0.35, 0.7, 1.4)):
+        q = np.array([0.7, s, -s] if k == 0 else [0.7, -s, s])
+        v = np.array([0.0, s_dot, w_dot] if k == 0 else [0.0, w_dot, s_dot])
+        mode, after, rates = walker.struck(k, q, v)
+        assert rates[1:] == pytest.approx(impulsive(walker, k, q, v), rel=1e-12)
+        assert mode == f"{('right', 'left')[k]} lifts"
+        places = [walker.modes[m].poses(0.0, x, v) for m, x in ((mode, after), (mode, q))]
+        hips = [
+            walker.modes[f"{('left', 'right')[k]} swings"].poses(0.0, q, v)["hip"],
+            places[0]["hip"],
+        ]
+        assert hips[0][:2] == pytest.approx(hips[1][:2], abs=1e-15)  # no place jumps
+
+
+@pytest.mark.parametrize("lost", ["H", "K"])
+def test_another_impact_is_seen(lost: str):
+    """Bars whose inertia is lost in the momentum about the foot, or about the hip."""
+    wrong = replace(WALKER, J=0.0) if lost == "H" else replace(WALKER, J=2 * WALKER.J)
+    q, v = np.array([0.0, 0.2, -0.2]), np.array([0.0, 1.1, -0.3])
+    assert np.abs(wrong.struck(0, q, v)[2][1:] - impulsive(WALKER, 0, q, v)).max() > 1e-2
+
+
+SCENE = """\
+scene:
+  incline: 0.02
+  points: {O: [0, 0]}
+  bodies:
+    left: {bar: {mass: 5, length: 1}}
+    right: {bar: {mass: 5, length: 1}}
+    hip: {particle: {mass: 10}}
+  joints:
+    foot: {pin: [ground.O, left.end]}
+    left_hip: {pin: [left.start, hip.center]}
+    right_hip: {pin: [right.start, hip.center]}
+initial:
+  left: {angle: A, omega: -0.8617}
+  right: {angle: B, omega: -0.6753}
+allow: {left.angle: 1.0e-3}
+"""
+
+
+def test_between_strikes_it_is_the_mechanism_of_its_scene(tmp_path: Path):
+    """Two bars and a mass, pinned: in maximal coordinates, with multipliers."""
+    angles = {"A": -math.pi / 2 + WALKER.a0, "B": -math.pi / 2 - WALKER.a0}
+    text = SCENE
+    for word, angle in angles.items():
+        text = text.replace(f"angle: {word}", f"angle: {angle!r}")
+    case = typed(tmp_path, text, tail=tail(0.85, 18))
+    mechanism = scenes.mechanism(case)
+    found, own = follow(mechanism, case.times), follow(WALKER, case.times)
+    assert own.events == ()
+    for t, y, mode, x in zip(case.times.tolist(), found.y, own.modes, own.y, strict=True):
+        poses = WALKER.modes[mode].poses(t, *np.split(x, 2))
+        q, v = mechanism.base.place(poses)
+        assert np.split(y, 2)[0] == pytest.approx(q, abs=1e-11)
+        assert np.split(y, 2)[1] == pytest.approx(v, abs=1e-11)
+
+
+def stepped(walker: CompassWalker, x: Array) -> Array:
+    start = {"a0": float(x[0]), "w0": float(x[1]), "u0": float(x[2])}
+    return returned(replace(walker, **start), ENTRIES, until=1.6)[0]
+
+
+@cache
+def found() -> Cycle:
+    return cycle(lambda x: stepped(WALKER, x), np.array([WALKER.a0, WALKER.w0, WALKER.u0]))
+
+
+@pytest.mark.whole
+def test_limit_cycle_closes_and_is_stable():
+    """Its place and multipliers are this computation's; both legs walk alike."""
+    assert found().error < 1e-14
+    assert found().stable
+    assert found().state == pytest.approx([0.21348174188, 0.86165388774, 0.67530270322], abs=1e-10)
+    sizes = np.abs(found().multipliers)
+    assert sizes == pytest.approx([0.34548465, 0.34548465, 0.19443658], abs=1e-7)
+    a0, w0, u0 = found().state.tolist()
+    walker = replace(WALKER, a0=a0, w0=w0, u0=u0)
+    strikes = follow(walker, np.linspace(0.0, 5.5, 3)).events
+    assert len(strikes) == 6
+    step = 2 * math.sin(a0)  # m
+    assert [s.after[0] for s in strikes] == pytest.approx([k * step for k in range(1, 7)], abs=1e-9)
+    assert np.diff([s.time for s in strikes]) == pytest.approx(strikes[0].time, abs=1e-9)
+
+
+def test_a_step_loses_in_the_strike_what_the_slope_gives():
+    """T + U before and after, over one step of the cycle."""
+    a0, w0, u0 = found().state.tolist()
+    walker = replace(WALKER, a0=a0, w0=w0, u0=u0)
+    (strike,) = follow(walker, np.array([0.0, 1.0])).events
+    kinetic = [
+        walker.modes[mode].T(0.0, *np.split(y, 2))
+        for mode, y in (("left swings", strike.before), ("right lifts", strike.after))
+    ]
+    fall = 20.0 * 9.80665 * 2 * math.sin(a0) * math.sin(GAMMA)
+    assert kinetic[0] - kinetic[1] == pytest.approx(fall, rel=1e-10)
+
+
+@pytest.mark.whole
+def test_on_light_feet_it_comes_to_the_simplest_walker():
+    """m/M → 0 with the legs' mass in the feet: an error of m/M, extrapolated to 0."""
+    published = np.array([0.200310900544287, 0.199832473004977])
+    places, beta = [], 2e-4
+    g = 9.80665
+    for m in (beta, beta / 2):
+        x = np.array([*published, published[1] * math.cos(0.4)])
+        feet = CompassWalker(1.0, m, g, g, 0.0, SLOPE, *x)
+
+        def step(y: Array, feet: CompassWalker = feet) -> Array:
+            start = {"a0": float(y[0]), "w0": float(y[1]), "u0": float(y[2])}
+            return returned(replace(feet, **start), ENTRIES)[0]
+
+        places.append(cycle(step, x).state[:2])
+    assert np.abs(places[0] - published).max() < 10 * beta
+    assert 2 * places[1] - places[0] == pytest.approx(published, abs=20 * beta**2)
+
+
+def test_what_cannot_walk_is_said():
+    with pytest.raises(ValueError, match="ahead of the other"):
+        replace(WALKER, a0=-0.1)
+    fast = np.array([0.0, 9.0, 0.0])
+    says = WALKER.possible("left lifts", 0.0, np.array([0.0, -0.2, 0.2]), fast)
+    assert "would have to pull" in str(says)
