@@ -16,9 +16,9 @@ Map = Callable[[Array], Array]
 
 TURNS = 30  # of Newton's method; from a guess that is 10 % off it takes six
 RAW = 1e-4  # of the state's size: how far it is moved for a derivative that is good to 1e-7
-# The same for a central difference of eighth order: 2e-3 is off by 5e-10 where a walker is about to
-# stumble, 5e-4 and 1e-3 differ by 2e-12, and rounding is not seen before 1e-4.
-FINE = 5e-4
+# The same for a central difference of eighth order. Of two walkers, whose maps are steep where they
+# are about to stumble, 1e-3 is off by 5e-12 and 2e-10, 5e-4 by 1e-11; rounding is 3e-12.
+FINE = 2.5e-4
 STENCIL = ((1, 4 / 5), (2, -1 / 5), (3, 4 / 105), (4, -1 / 280))
 ENDS = 1e-13  # of the state's size: steps that only rounding makes
 
