@@ -12,6 +12,7 @@ from .bar_pendulum import BarPendulum
 from .bearing import Bearing
 from .bouncing_disk import BouncingDisk
 from .charge_in_field import ChargeInField
+from .compass_walker import CompassWalker
 from .double_pendulum import DoublePendulum
 from .drag_stops import DragStops
 from .driven_edge import DrivenEdge
@@ -57,6 +58,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "bearing": Bearing,
     "bouncing_disk": BouncingDisk,
     "charge_in_field": ChargeInField,
+    "compass_walker": CompassWalker,
     "double_pendulum": DoublePendulum,
     "drag_stops": DragStops,
     "driven_robot": DrivenRobot,

@@ -3,7 +3,7 @@
 q = (x, a, b): the place of the standing foot, and the left and the right leg, from foot to hip,
 against the normal of the slope, clockwise: a leg that leans forward, down the slope, has a > 0.
 Midway a swinging leg passes through the floor; it strikes in front, where a + b = 0, and the foot
-behind leaves without impulse.
+behind leaves without impulse.  In the figure's place (2.12) the legs are slender bars.
 """
 
 import math
@@ -17,7 +17,7 @@ from ..system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 
 G = 9.80665  # m/s²
 LEGS = ("left", "right")
-WHAT = ("lifts", "swings")
+PASSES = 1e-3  # rad: nearer to each other, the legs are passing, and the floor is not met
 
 
 @dataclass(frozen=True)
@@ -109,12 +109,12 @@ class _Stance(Mode):
         return {"feet.tangent": tangent, "feet.normal": normal}
 
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
-        """(2.8) R_k; a leg's angle is that from its start, at the hip: −90° − a."""
+        """(2.8) R_k; a leg's angle is that of a bar from foot to hip: 90° − a."""
         stands, swings, hip = self._places(q, v)
         both = (stands, swings) if self.k == 0 else (swings, stands)
         found: dict[str, Pose] = {}
         for name, (x, y, x_dot, y_dot), a, a_dot in zip(LEGS, both, q[1:], v[1:], strict=True):
-            found[name] = (x, y, -math.pi / 2 - a, x_dot, y_dot, -a_dot)
+            found[name] = (x, y, math.pi / 2 - a, x_dot, y_dot, -a_dot)
         x, y, x_dot, y_dot = hip
         return {**found, "hip": (x, y, 0.0, x_dot, y_dot, 0.0)}
 
@@ -138,27 +138,35 @@ class _Stance(Mode):
 
 @dataclass(frozen=True)
 class CompassWalker(System):
-    """M [kg] at the hip; legs of m [kg], l [m], J [kg m²] about a centre c [m] below the hip.
+    """M [kg] at the hip; legs that are slender bars of m [kg], l [m]; slope gamma [rad]; friction.
 
-    On a slope gamma [rad]. It starts just after a strike, on the left leg, which leans back by a0
-    [rad]; w0 and u0 [rad/s] are the rates of the left and the right leg.
+    It starts on the left leg. left0 and right0 [rad] are the angles of the legs from foot to hip,
+    counter-clockwise from down the slope; w0 and u0 [rad/s] turn them forward.
     """
 
     M: float
     m: float
     l: float
-    c: float
-    J: float
     gamma: float
-    a0: float
+    mu: float
+    left0: float
+    right0: float
     w0: float
     u0: float
 
     def __post_init__(self) -> None:
-        if not 0.0 < self.a0 < math.pi / 2:
-            raise ValueError(f"a foot is ahead of the other: 0 < a0 < π/2, not {self.a0:g}")
-        modes = {f"{leg} {what}": _Stance(self, k) for k, leg in enumerate(LEGS) for what in WHAT}
+        modes = {f"{leg} stands": _Stance(self, k) for k, leg in enumerate(LEGS)}
         object.__setattr__(self, "modes", modes)
+
+    @property
+    def c(self) -> float:
+        """l/2 [m]: how far below the hip a leg has its centre."""
+        return self.l / 2
+
+    @property
+    def J(self) -> float:
+        """(2.32) m l²/12 [kg m²] about it (Exercise 2.3)."""
+        return self.m * self.l**2 / 12
 
     @property
     def about_foot(self) -> float:
@@ -171,22 +179,19 @@ class CompassWalker(System):
         return self.m * self.c**2 + self.J
 
     def start(self) -> tuple[str, Array, Array]:
-        """x = 0, a = −a0, b = a0."""
-        q = np.array([0.0, -self.a0, self.a0])
-        return "left lifts", q, np.array([0.0, self.w0, self.u0])
+        """x = 0, a = 90° − left0, b = 90° − right0."""
+        q = np.array([0.0, math.pi / 2 - self.left0, math.pi / 2 - self.right0])
+        return "left stands", q, np.array([0.0, self.w0, self.u0])
 
     def guards(self, mode: str) -> Sequence[Guard]:
-        """`strikes` where a + b rises through 0, which it also does just after a strike.
+        """`strikes` in front, where a + b rises through 0; behind and midway nothing does."""
+        k = LEGS.index(mode.split()[0])
 
-        Then the swinging foot behind is lifted; it passes the floor and comes out of it in front.
-        """
-        leg, what = mode.split()
-        if what == "lifts":
-            behind = lambda t, q, v: float(q[1] + q[2])  # noqa: E731
-            return (Guard(None, behind, lambda t, q, v: (f"{leg} swings", q, v)),)
-        k = LEGS.index(leg)
-        then = lambda t, q, v: self.struck(k, q, v)  # noqa: E731
-        return (Guard("strikes", lambda t, q, v: -float(q[1] + q[2]), then),)
+        def above(t: float, q: Array, v: Array) -> float:
+            s, w = q[1 + k], q[2 - k]
+            return float(2 * max(0.0, PASSES - (s - w)) - (s + w))
+
+        return (Guard("strikes", above, lambda t, q, v: self.struck(k, q, v)),)
 
     def struck(self, k: int, q: Array, v: Array) -> tuple[str, Array, Array]:
         """(2.27) The other leg stands: moments of momentum about its foot, and of the old one about
@@ -204,14 +209,14 @@ class CompassWalker(System):
         x = float(q[0]) + 2 * self.l * math.sin(s)
         legs = [(-s, stands), (s, swings)]
         (a, a_dot), (b, b_dot) = legs if k == 1 else reversed(legs)
-        return f"{LEGS[1 - k]} lifts", np.array([x, a, b]), np.array([0.0, a_dot, b_dot])
+        return f"{LEGS[1 - k]} stands", np.array([x, a, b]), np.array([0.0, a_dot, b_dot])
 
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
-        """F_N > 0."""
-        normal = self.modes[mode].reactions(t, q, v)["feet.normal"]
-        return None if normal > 0.0 else f"the floor would have to pull: {normal:.3g} N"
-
-
-def bars(M: float, m: float, l: float, gamma: float, **start: float) -> CompassWalker:
-    """Legs that are slender bars: c = l/2, J = m l²/12 (Exercise 2.3)."""
-    return CompassWalker(M, m, l, l / 2, m * l**2 / 12, gamma, **start)
+        """(2.89) F_N > 0 and |F_fr| ≤ μ F_N."""
+        forces = self.modes[mode].reactions(t, q, v)
+        normal, tangent = forces["feet.normal"], abs(forces["feet.tangent"])
+        if not normal > 0.0:
+            return f"the floor would have to pull: {normal:.3g} N"
+        if tangent > self.mu * normal:
+            return f"to pivot it needs friction {tangent / normal:.4g}, not {self.mu:.4g}"
+        return None
