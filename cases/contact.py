@@ -29,7 +29,8 @@ class Contact:
 
     It opens, slides and sticks or rolls as friction says, and an impact goes by `restitution`.
     `ideal: rolling` assumes that it only rolls, `ideal: pivot` that what stands on the plane never
-    slips; the reference checks that at every sample.
+    slips; the reference checks that at every sample. With `ahead_of` a point swings through the
+    plane and strikes it only where it is further along it than that other point.
     """
 
     name: str
@@ -40,6 +41,7 @@ class Contact:
     ideal: Literal["rolling", "pivot"] | None = None
     plane: Plane = LEVEL
     tips: tuple[str, ...] = ()  # of spokes named by their centre: the points that may touch
+    ahead_of: Anchor | None = None
 
     @property
     def body(self) -> str:

@@ -130,7 +130,8 @@ def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         doing = "rolling" if contact.ideal == "rolling" else "pivoting"
         normal = motion.reactions[f"{contact.name}.normal"]
         tangent = _along_floor(motion, contact.name)
-        fails = (normal <= 0) | (tangent > (contact.friction + ROUNDING) * normal)
+        fails = tangent > (contact.friction + ROUNDING) * normal
+        fails |= (_carried(case, motion) if contact.ahead_of else normal) <= 0
         if not np.any(fails):
             continue
         first = int(np.argmax(fails))
@@ -143,6 +144,12 @@ def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
                 f"it would slip; {_needed(normal, tangent, contact.body, doing)}"
             )
         yield case.mistake(("scene", "contacts", contact.name, "ideal"), what)
+
+
+def _carried(case: Case, motion: Trajectory) -> Array:
+    """(N,) what the feet carry [N] that stand one after the other."""
+    feet = [name for name, contact in case.scene.contacts.items() if contact.ahead_of]
+    return np.sum([motion.reactions[f"{name}.normal"] for name in feet], axis=0)
 
 
 def _along_floor(motion: Trajectory, contact: str) -> Array:

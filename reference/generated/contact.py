@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from ...cases.scene import CENTER, Contact, Joint
+from ...cases.scene import CENTER, Anchor, Contact, Joint
 from .constraint import Constraint
 from .coordinates import Coordinates
 from .rows import FIRST, SECOND, Along, Line, Term, Turning
@@ -27,6 +27,11 @@ def tangent(contact: Contact, where: Coordinates) -> Constraint:
     """(2.16) u·ṙ_P + R ω = 0: it sticks, a rim: it rolls, somewhere; λ is the friction force."""
     row = (Along(FIRST, contact.plane.along), Turning(FIRST, _radius(contact, where)))
     return Constraint(contact.name, (contact.at,), (row,), (("tangent",),), None, where)
+
+
+def foot(at: Anchor, where: Coordinates) -> Constraint:
+    """x of a point, which nothing holds."""
+    return Constraint(str(at), (at,), ((Along(FIRST, X),),), ((),), None, where)
 
 
 def at_rest(joint: Joint, where: Coordinates) -> Constraint:

@@ -24,10 +24,11 @@ from ...cases.drag import Viscous
 from ...cases.force import of
 from ...cases.scene import DryFriction, Scene
 from ..laws.friction import Dry, stiction, stribeck
-from .constraint import Constraint
-from .contact import Braking, Coulomb, at_rest, normal, row, tangent
+from .constraint import Constraint, Numbers
+from .contact import Braking, Coulomb, at_rest, foot, normal, row, tangent
 from .coordinates import Coordinates
 
+AHEAD = 1e-3  # of the scene's size: feet that are nearer are passing each other
 State = Literal["open", "slides +", "slides -", "sticks", "slides", "acts", "slack"]
 REST: tuple[State, ...] = (
     "sticks",
@@ -65,6 +66,7 @@ class Element:
     only: State | None = None  # its one state
     frictionless: bool = False  # nothing to stick by: then it slides, whichever way
     rest: tuple[State, ...] = REST  # what it may do at slip 0
+    other: Constraint | None = None  # the row of the foot that it has to be ahead of to strike
     kinetic: float = 0.0  # coefficient of a contact that slides
     static: float = 0.0  # of one that sticks
     restitution: float = 0.0
@@ -90,6 +92,13 @@ class Element:
     def together(self) -> tuple[str, str]:
         """What has one slip with all its points: a body on a plane."""
         return self.body, self.plane
+
+    def behind(self, t: float, q: Numbers, size: float) -> float:
+        """How far [m] it is from being well ahead of the other foot, where it passes the floor."""
+        if self.other is None:
+            return 0.0
+        ahead = self.tangent.places(t, q)[0] - self.other.places(t, q)[0]
+        return float(max(0.0, AHEAD * size - ahead))
 
     def held(self, state: State) -> list[Constraint]:
         """The constraints of the state."""
@@ -207,6 +216,7 @@ def elements(scene: Scene, where: Coordinates) -> Iterator[Element]:
                 frictionless=contact.static == 0.0,
                 plane=contact.plane.name,
                 rest=REST if contact.ideal is None else ("sticks",),
+                other=foot(contact.ahead_of, where) if contact.ahead_of else None,
             )
     stopped = {force.joint for force in of(Viscous, scene.forces.values()) if force.exponent < 1}
     for joint in scene.joints.values():

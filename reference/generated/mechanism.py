@@ -11,6 +11,7 @@ import numpy as np
 from ...cases.scene import Scene
 from ..system import Array, Guard, System
 from .choosing import After, Options, closed, opening, painleve, settled, staying
+from .constraint import Constraint
 from .drag import blurred
 from .element import REST, Element, State, sign
 from .landing import STILL, landed
@@ -19,6 +20,7 @@ from .one_side import HAPPENS, OTHER, OneSided
 from .sharing import beside
 
 CLOSED = 1e-9  # of the scene's size: a start this close to the floor stands on it
+STEEP = 2.0  # how deep a foot may be for each metre that it is behind
 PIECES = 16  # of the shortest period of a force: a guard at rest sees nothing else of time
 
 
@@ -59,6 +61,9 @@ class Mechanism(System):
             gap = element.normal.f(0.0, q.tolist())[0]
             if gap > CLOSED * self.size:
                 return ("open",)
+            passes = element.behind(0.0, q.tolist(), self.size) > 0.0
+            if passes and (gap < -CLOSED * self.size or rate(element.normal, 0.0, q, v) < -still):
+                return ("open",)
             if gap < -CLOSED * self.size:
                 raise BadStart(f"{element.name} starts {-gap * 1e3:.3g} mm in the {element.plane}")
             rising = rate(element.normal, 0.0, q, v)
@@ -90,7 +95,7 @@ class Mechanism(System):
             return
         if (normal := e.normal) is not None:
             if state == "open":
-                gap = lambda t, q, v: normal.f(t, q.tolist())[0]  # noqa: E731
+                gap = self._clear(e, normal)
                 rest = self._lands(mode, i, rests=True)
                 yield Guard(f"{e.name} lands", gap, self._lands(mode, i), rest)
                 return
@@ -104,6 +109,15 @@ class Mechanism(System):
             return
         for k, way in enumerate(("slides +", "slides -")):
             yield Guard(f"{e.name} slips", self._margin(mode, e, k), self._to(mode, i, (way,)))
+
+    def _clear(self, e: Element, normal: Constraint) -> Callable[[float, Array, Array], float]:
+        """Its height; more, where it passes through the floor, which is never steeper than 2."""
+
+        def clear(t: float, q: Array, v: Array) -> float:
+            numbers = q.tolist()
+            return normal.f(t, numbers)[0] + STEEP * e.behind(t, numbers, self.size)
+
+        return clear
 
     def _margin(self, mode: str, e: Element, k: int) -> Callable[[float, Array, Array], float]:
         return lambda t, q, v: e.margins(self.built.forces(mode, t, q, v))[k]
@@ -151,7 +165,8 @@ class Mechanism(System):
                 return f"{e.name} is {state} on the wrong side of its rest length"
             if e.normal is not None:
                 if state == "open":
-                    if e.normal.f(t, q.tolist())[0] < -CLOSED * self.size:
+                    height = e.normal.f(t, q.tolist())[0]
+                    if not e.behind(t, q.tolist(), self.size) and height < -CLOSED * self.size:
                         return f"{e.name} is in the {e.plane}"
                     continue
                 if forces[f"{e.name}.normal"] < -force:

@@ -26,6 +26,8 @@ def touches(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
             yield (*path, "between", 0), f"{touching!r} already touches in {first[at, on]!r}"
         elif what := _not_ideal(body, contact.ideal):
             yield (*path, "ideal") if contact.ideal else path, what
+        elif contact.ahead_of is not None:
+            yield from _other_foot(parsed, scene, name)
         first.setdefault((at, on), name)
         yield from _plane(parsed, (*path, "between", 1), plane)
 
@@ -50,6 +52,27 @@ def _plane(parsed: Parsed, path: Path, word: str) -> Iterator[Finding]:
         return
     hint = nearest(word, [f"{GROUND}.{plane}" for plane in known])
     yield path, f"should be a plane of the ground, is {word!r}{hint}"
+
+
+def _other_foot(parsed: Parsed, scene: Scene, name: str) -> Iterator[Finding]:
+    """What is wrong with the point that a foot has to be ahead of."""
+    path, other = ("scene", "contacts", name, "ahead_of"), scene.contacts[name].ahead_of
+    assert other is not None
+    body = scene.bodies.get(other.body)
+    if body is None:
+        if not parsed.hides(other.body):
+            hint = nearest(other.body, parsed.names("bodies", scene.bodies))
+            yield path, f"unknown body {other.body!r}{hint}"
+    elif other.point not in body.points:
+        hint = nearest(other.point, body.points)
+        yield path, f"body {other.body!r} has no point {other.point!r}{hint}"
+    elif scene.bodies[scene.contacts[name].body].tips:
+        yield path, "spokes strike one after the other, and none passes through the floor"
+    elif not any(
+        contact.at == other and contact.ahead_of == scene.contacts[name].at
+        for contact in scene.contacts.values()
+    ):
+        yield path, f"{str(other)!r} should be the other foot, with a contact ahead of this one"
 
 
 def _not_ideal(body: Body, ideal: str | None) -> str | None:

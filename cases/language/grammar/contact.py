@@ -11,7 +11,7 @@ from ...plane import LEVEL, Plane
 from ...point import CENTER, anchor
 from .field import In
 from .friction import Friction
-from .part import Part
+from .part import Part, Point
 from .text import Text, Word
 from .words import wrong
 
@@ -27,6 +27,9 @@ class Contact(Part):
     ideal: Annotated[str, Word("ideal", ("rolling", "pivot"))] | None = Field(
         None, description="what the reference assumes, and checks at every sample"
     )
+    ahead_of: Point | None = Field(
+        None, description="the other foot: this one strikes only where it is further along x"
+    )
 
     def model_post_init(self, context: object) -> None:
         if self.ideal == "rolling" and "restitution" in self.model_fields_set:
@@ -35,6 +38,8 @@ class Contact(Part):
             raise wrong("`restitution` is 0 beside `ideal: pivot`: what strikes the floor stays")
         if self.ideal == "pivot" and self.friction.static != self.friction.kinetic:
             raise wrong("`friction` is one number beside `ideal: pivot`: nothing slides")
+        if self.ahead_of is not None and self.ideal != "pivot":
+            raise wrong("`ahead_of` is a foot's, which pivots: write `ideal: pivot`")
 
     def named(self, name: str, bodies: Mapping[str, Body], planes: Mapping[str, Plane]) -> Noun:
         """The contact; with the floor where there is no such plane (check/touch.py says so)."""
@@ -43,4 +48,5 @@ class Contact(Part):
         plane = planes.get(self.between[1].partition(".")[2], LEVEL)
         body = bodies.get(at.body)
         tips = body.tips if body is not None and at.point == CENTER else ()
-        return Noun(name, at, static, kinetic, self.restitution, ideal, plane, tips)  # type: ignore[arg-type]
+        other = None if self.ahead_of is None else anchor(self.ahead_of)
+        return Noun(name, at, static, kinetic, self.restitution, ideal, plane, tips, other)  # type: ignore[arg-type]
