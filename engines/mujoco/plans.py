@@ -7,6 +7,7 @@ from functools import partial
 from ...cases.scene import CENTER, Contact, Scene
 from ..engine import Choice, Plan, Realised, Start
 from ..law import one_number
+from ..stride import strides
 from .compilation import NOMINAL, placed
 from .contact import falls
 from .force import lacking
@@ -28,6 +29,8 @@ def ways(scene: Scene, start: Start, *, tuned: bool) -> tuple[Realised, ...]:
     """
     if scene.constraints:
         return ("law",)
+    if strides(scene):
+        return ("driver",)
     if lacking(scene):
         driver = tuned and one_slide(scene) and not smooth_only(scene)
         return ("law", "driver") if driver else ("law",)
@@ -77,7 +80,9 @@ def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> 
         words.append(f"dry friction by our law before every {when}")
     if ours := [force.name for force, _ in lacking(scene)]:
         words.append(f"{', '.join(ours)} by our law at every stage, which the script has not")
-    if plan.realised == "driver":
+    if strides(scene):
+        words.append("before each step the floor is told which foot it meets")
+    elif plan.realised == "driver":
         acts, dry = "where a spring begins or ends to act", "at the events of dry friction"
         words.append(f"steps cut {acts if has_corners(scene) else dry}")
     if tuned and scene.contacts:

@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 
 from ...cases.scene import GROUND, Joint, Scene
 from ..engine import Plan, Start
+from ..stride import NO_STRIDE, strides
 from .compilation import NOMINAL
 from .contact import LEAST_BOUNCE
 from .force import ELEMENTS, lacking
@@ -15,7 +16,9 @@ NO_EDGE = "engine: MuJoCo has no constraint of a velocity across a line that tur
 
 def not_native(scene: Scene) -> list[str]:
     """Why MuJoCo has nothing of its own for the scene; our laws have."""
-    return ([NO_EDGE] if scene.constraints else [why for _, why in lacking(scene)])[:1]
+    edges = [NO_EDGE] if scene.constraints else []
+    strode = [NO_STRIDE] if strides(scene) else []
+    return [*edges, *strode, *(why for _, why in lacking(scene))][:1]
 
 
 def unbuildable(scene: Scene) -> str | None:
@@ -25,6 +28,8 @@ def unbuildable(scene: Scene) -> str | None:
     soft += [joint for joint in scene.joints.values() if joint.dry_friction]
     if what := unbuilt(scene, [part.name for part in soft]):
         return what
+    if strides(scene) and any(joint.dry_friction for joint in scene.joints.values()):
+        return "adapter: feet that pass the floor beside dry friction would need one driver for all"
     if ours := lacking(scene):
         smooth = (j.name for j in scene.joints.values() if (d := j.dry_friction) and d.smooth)
         if beside := [*scene.constraints, *smooth]:

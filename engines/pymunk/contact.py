@@ -7,7 +7,7 @@ tiny one falls through the floor at v h > r.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from pymunk.body import Body
 from pymunk.shape_filter import ShapeFilter
@@ -17,6 +17,7 @@ from ...cases.plane import Plane
 from ...cases.scene import Body as Part
 from ...cases.scene import Contact, Scene, Vector
 from ..engine import Start
+from ..stride import Place, Stride
 
 FLOOR_FRICTION = 1.0  # pymunk multiplies the frictions of two shapes: the circle carries all of µ
 FLOOR_ELASTICITY = 1.0  # likewise the restitution
@@ -24,6 +25,7 @@ ABOVE = 0.1  # m; it must only be more than a step's way: up to 10 m/s with a us
 Follow = Callable[[float], None]  # before the step that starts at t [s]
 TOUCHING = 1e-9  # m: a start that the assembly has found to 1e-12, and no visible height
 _TOGETHER = 1  # the group of all circles: they touch planes and not each other
+_NOTHING = ShapeFilter(group=_TOGETHER, mask=0)
 
 
 def is_tip(scene: Scene, contact: Contact) -> bool:
@@ -99,6 +101,19 @@ def follower(
         shape.unsafe_set_offset((a + along * ABOVE, b + up * ABOVE))
 
     return follow
+
+
+def steers(walks: Stride, shapes: Mapping[str, Circle], place: Place) -> Follow:
+    """Before each step, lets the floor meet the feet that it has to, and no other."""
+
+    meeting = {name: shapes[name].filter for name in walks.meets}
+
+    def steer(t: float) -> None:
+        walks.look(place)
+        for name, meets in walks.meets.items():
+            shapes[name].filter = meeting[name] if meets else _NOTHING
+
+    return steer
 
 
 def closed(scene: Scene, start: Start) -> list[Contact]:

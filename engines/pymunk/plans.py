@@ -8,6 +8,7 @@ from ...cases.quantity import table
 from ...cases.scene import Scene
 from ..engine import Choice, Plan, Realised, Start
 from ..law import one_number
+from ..stride import strides
 from .contact import closed
 from .edge import alone
 from .force import damped
@@ -24,7 +25,7 @@ def ways(scene: Scene) -> tuple[Realised, ...]:
 
     Dry friction too: pymunk's has one bound, where the textbook's has up to four.
     """
-    if scene.constraints:
+    if scene.constraints or strides(scene):
         return ("driver",)
     if lacking(scene):
         return ("law",)
@@ -73,7 +74,8 @@ def _spoilt(scene: Scene, realised: Realised) -> bool:
     """
     native = realised == "native"
     brakes = native and any(joint.dry_friction for joint in scene.joints.values())
-    met = native and any(contact.switches for contact in scene.contacts.values())
+    met = native or strides(scene)
+    met &= any(contact.switches for contact in scene.contacts.values())
     return (native and damped(scene)) or brakes or met or any(scene.one_sided())
 
 
@@ -104,6 +106,8 @@ def _words(scene: Scene, start: Start, recipe: Recipe, step: float) -> str:
         words.append(f"{', '.join(slots)} held across by a pin joint that is carried along")
     if ours := [force.name for force, _ in lacking(scene)]:
         words.append(f"{', '.join(ours)} by our law before each step, which the script has not")
+    if strides(scene):
+        words.append("before each step the floor is told which foot it meets")
     if scene.constraints:
         words.append(
             f"{', '.join(scene.constraints)} held by pin joints that are laid anew before each step"

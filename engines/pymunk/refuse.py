@@ -4,6 +4,7 @@ import math
 
 from ...cases.frame import PLANE
 from ...cases.scene import GROUND, Scene
+from ..stride import NO_STRIDE, strides
 from .edge import NO_EDGE
 from .force import ELEMENTS
 from .lacking import lacking
@@ -11,7 +12,9 @@ from .lacking import lacking
 
 def not_native(scene: Scene) -> list[str]:
     """Why pymunk has nothing of its own for the scene; our laws and our driver have."""
-    return ([NO_EDGE] if scene.constraints else [why for _, why in lacking(scene)])[:1]
+    edges = [NO_EDGE] if scene.constraints else []
+    strode = [NO_STRIDE] if strides(scene) else []
+    return [*edges, *strode, *(why for _, why in lacking(scene))][:1]
 
 
 def unbuildable(scene: Scene) -> str | None:

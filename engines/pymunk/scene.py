@@ -15,7 +15,8 @@ from pymunk.space import Space
 
 from ...cases.scene import GROUND, Anchor, DryFriction, Joint, Scene, Vector
 from ..engine import Realised, Start
-from .contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle, only, planes
+from ..stride import stride
+from .contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle, closed, only, planes
 from .edge import add_edges
 from .force import lines
 from .slot import line, pinned
@@ -32,7 +33,8 @@ def build(scene: Scene, start: Start, numbers: Mapping[str, Any], realised: Real
     """The scene at its start, with a setting's numbers; `law` leaves the dampers to a force."""
     space = Space()
     space.gravity = scene.gravity
-    world = World(scene, space, numbers.get("ground.reach", NEAR))
+    walks = stride(scene, [contact.name for contact in closed(scene, start)])
+    world = World(scene, space, numbers.get("ground.reach", NEAR), stride=walks)
     _bodies(world, start)
     _contacts(world)
     _joints(world, start, across=bool(numbers.get("slot.across")))

@@ -14,6 +14,7 @@ from pymunk.shapes import Circle, Segment
 from pymunk.space import Space
 
 from ...cases.scene import GROUND, Anchor, Scene, Vector
+from ..stride import Stride
 from .pin import Pin
 from .slot import Line
 
@@ -41,6 +42,7 @@ class World:
     wheels: dict[str, Circle] = field(default_factory=dict)
     planes: dict[str, Segment] = field(default_factory=dict)
     inner: dict[str, list[float]] = field(default_factory=dict)
+    stride: Stride | None = None
 
     def body(self, anchor: Anchor) -> Body:
         if anchor.body != GROUND:
@@ -56,3 +58,8 @@ class World:
         if anchor.body != GROUND:
             return self.scene.bodies[anchor.body].points[anchor.point]
         return (0.0, 0.0) if anchor.point in self.driven else self.scene.points[anchor.point].at
+
+    def place(self, anchor: Anchor) -> tuple[float, float]:
+        """x and y [m] of a point."""
+        x, y = self.body(anchor).local_to_world(self.local(anchor))
+        return x, y

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from ...cases.scene import CENTER, Anchor, Contact, Joint
+from ...cases.scene import CENTER, Contact, Joint
 from .constraint import Constraint
 from .coordinates import Coordinates
 from .rows import FIRST, SECOND, Along, Line, Term, Turning
@@ -29,9 +29,11 @@ def tangent(contact: Contact, where: Coordinates) -> Constraint:
     return Constraint(contact.name, (contact.at,), (row,), (("tangent",),), None, where)
 
 
-def foot(at: Anchor, where: Coordinates) -> Constraint:
-    """x of a point, which nothing holds."""
-    return Constraint(str(at), (at,), ((Along(FIRST, X),),), ((),), None, where)
+def foot(contact: Contact, where: Coordinates) -> Constraint:
+    """Where along its plane the point is that a foot has to be ahead of; nothing holds it."""
+    assert contact.ahead_of is not None
+    at, row = contact.ahead_of, (Along(FIRST, contact.plane.along),)
+    return Constraint(str(at), (at,), (row,), ((),), None, where)
 
 
 def at_rest(joint: Joint, where: Coordinates) -> Constraint:

@@ -216,7 +216,7 @@ def elements(scene: Scene, where: Coordinates) -> Iterator[Element]:
                 frictionless=contact.static == 0.0,
                 plane=contact.plane.name,
                 rest=REST if contact.ideal is None else ("sticks",),
-                other=foot(contact.ahead_of, where) if contact.ahead_of else None,
+                other=foot(contact, where) if contact.ahead_of else None,
             )
     stopped = {force.joint for force in of(Viscous, scene.forces.values()) if force.exponent < 1}
     for joint in scene.joints.values():

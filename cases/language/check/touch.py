@@ -66,6 +66,8 @@ def _other_foot(parsed: Parsed, scene: Scene, name: str) -> Iterator[Finding]:
     elif other.point not in body.points:
         hint = nearest(other.point, body.points)
         yield path, f"body {other.body!r} has no point {other.point!r}{hint}"
+    elif scene.contacts[name].on != FLOOR:
+        yield path, f"a foot passes {GROUND}.{FLOOR}, and no other plane"
     elif scene.bodies[scene.contacts[name].body].tips:
         yield path, "spokes strike one after the other, and none passes through the floor"
     elif not any(

@@ -16,6 +16,7 @@ from .falling import falling
 from .friction import Slide, slides, smooth_only
 from .signal import Control
 from .stiction import bounded
+from .stride import Feet, feet
 from .touch import Touch, one_touch, touches
 
 
@@ -25,7 +26,7 @@ class Steps:
 
     model: mujoco.MjModel
     data: mujoco.MjData
-    slides: list[Slide | Touch]
+    slides: list[Slide | Touch | Feet]
     take: Callable[[int], None]
     controls: list[Control] = field(default_factory=list)  # what every stage needs of us
     alone: bool = True  # whether MuJoCo's own loop takes them
@@ -47,6 +48,19 @@ class Steps:
             slide.recall(noted)
 
 
+def walking(
+    model: mujoco.MjModel, data: mujoco.MjData, walks: Feet
+) -> Callable[[int], None]:
+    """Steps before each of which the floor is told which feet it meets."""
+
+    def take(n: int) -> None:
+        for _ in range(n):
+            walks.look()
+            mujoco.mj_step(model, data)
+
+    return take
+
+
 def stepping(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, realised: Realised) -> Steps:
     """Steps of the model's size; smooth friction is a callback and needs nothing here."""
     ours = realised != "native" and not (smooth_only(scene) and not one_touch(scene))
@@ -58,6 +72,9 @@ def stepping(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, realised:
     for slide in found:
         applied, _ = slide.applied()
         slide.sense = slide.sense or slide.starts(applied)
+    walks = feet(scene, model, data) if realised == "driver" else None
+    if walks is not None:
+        return Steps(model, data, [walks], walking(model, data, walks), alone=False)
     step = float(model.opt.timestep)
 
     def native(n: int) -> None:

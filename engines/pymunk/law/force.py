@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from ..contact import follower
+from ..contact import follower, steers
 from ..edge import driver
 from ..force import tells
 from ..world import World
@@ -18,7 +18,8 @@ def forces(world: World, step: float, *, midpoint: bool, law: bool, reflects: bo
     """
     friction = laws(world, step) if law else []
     told = [*tells(world, step, midpoint=midpoint), *friction, *_followers(world, step, reflects)]
-    return [*told, *driver(world, step)]  # which has to know what has been told
+    walks = [steers(world.stride, world.wheels, world.place)] if world.stride else []
+    return [*told, *walks, *driver(world, step)]  # which has to know what has been told
 
 
 def _followers(world: World, step: float, reflects: bool) -> list[Apply]:
