@@ -40,6 +40,11 @@ class Stride:
                 for behind, contact in self.feet.items():
                     self.meets[behind] &= contact.at != foot.ahead_of
 
+    def stands(self, place: Place) -> str:
+        """The foot that carries: of those that meet the floor the one behind."""
+        met = [name for name, meets in self.meets.items() if meets]
+        return min(met or self.feet, key=lambda name: place(self.feet[name].at)[0])
+
 
 def stride(scene: Scene, standing: Collection[str]) -> Stride | None:
     """At the start; standing: the contacts that lie on the floor there. None without such feet."""

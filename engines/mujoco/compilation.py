@@ -31,7 +31,8 @@ _HELD = {
     "slide.solreffriction": "dof_solref",
 }
 # What else a run writes: friction by our laws, and the start in the floor.
-_WRITTEN = (*_HELD.values(), "dof_frictionloss", "pair_friction", "key_qpos", "key_qvel")
+_WRITTEN = (*_HELD.values(), "dof_frictionloss", "pair_friction", "pair_margin")
+_WRITTEN += ("key_qpos", "key_qvel")
 
 
 def compiled(

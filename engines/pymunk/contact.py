@@ -24,8 +24,8 @@ FLOOR_ELASTICITY = 1.0  # likewise the restitution
 ABOVE = 0.1  # m; it must only be more than a step's way: up to 10 m/s with a user's 10 ms
 Follow = Callable[[float], None]  # before the step that starts at t [s]
 TOUCHING = 1e-9  # m: a start that the assembly has found to 1e-12, and no visible height
-_TOGETHER = 1  # the group of all circles: they touch planes and not each other
-_NOTHING = ShapeFilter(group=_TOGETHER, mask=0)
+GROUP = 1  # of circles, which touch planes and not each other
+_PASSES = ShapeFilter(group=GROUP, mask=0)
 
 
 def is_tip(scene: Scene, contact: Contact) -> bool:
@@ -43,7 +43,7 @@ def circle(contact: Contact, part: Part, body: Body) -> Circle:
         shape = Circle(body, part.radius)
     shape.friction = contact.friction
     shape.elasticity = contact.restitution
-    shape.filter = ShapeFilter(group=_TOGETHER)
+    shape.filter = ShapeFilter(group=GROUP)
     return shape
 
 
@@ -58,7 +58,7 @@ def planes(scene: Scene) -> dict[Plane, ShapeFilter]:
 def only(shape: Circle, plane: ShapeFilter) -> None:
     """Lets the circle touch one plane of several: what stands over a point is no part of a body."""
     if plane != ShapeFilter():
-        shape.filter = ShapeFilter(group=_TOGETHER, mask=plane.categories)
+        shape.filter = ShapeFilter(group=GROUP, mask=plane.categories)
 
 
 def above(plane: Plane, point: Vector, angle: float) -> Vector:
@@ -111,7 +111,7 @@ def steers(walks: Stride, shapes: Mapping[str, Circle], place: Place) -> Follow:
     def steer(t: float) -> None:
         walks.look(place)
         for name, meets in walks.meets.items():
-            shapes[name].filter = meeting[name] if meets else _NOTHING
+            shapes[name].filter = meeting[name] if meets else _PASSES
 
     return steer
 

@@ -17,9 +17,9 @@ from pymunk.constraints import (
 )
 
 from ...cases.plane import LEVEL, Plane
-from ...cases.scene import Scene
+from ...cases.scene import Anchor, Scene
 from ..engine import Start
-from .contact import ABOVE, closed, is_tip
+from .contact import ABOVE, GROUP, closed, is_tip
 from .edge import joints_as_text, lays_as_text
 from .force import script
 from .law.one_side import as_text
@@ -103,6 +103,8 @@ def building(world: World, start: Start, numbers: Mapping[str, Any]) -> list[str
         *joints_as_text(world, lambda body: _of(world, body)),
     ]
     midpoint, seed = numbers.get("time.midpoint"), numbers.get("start.seed")
+    if world.stride:
+        lines.append(f"meets = {world.stride.meets!r}  # the feet that the floor meets")
     if seed:
         lines += _seeds(world, start, seed)
     return lines + ([_SHIFT] if midpoint else [])
@@ -112,7 +114,27 @@ def before_each(world: World, numbers: Mapping[str, Any]) -> list[str]:
     """What is done before step n, indented."""
     midpoint = bool(numbers.get("time.midpoint"))
     lines = script(world, lambda body: _of(world, body), midpoint=midpoint)
-    return [*lines, *_followers(world, numbers), *lays_as_text(world)]
+    return [*lines, *_followers(world, numbers), *_feet(world), *lays_as_text(world)]
+
+
+def _feet(world: World) -> Iterator[str]:
+    """Lets the floor meet the feet that it has to, as `Stride.look` says."""
+    if world.stride is None:
+        return
+    places = [f"({_point(world, foot.at)}, {name!r})" for name, foot in world.stride.feet.items()]
+    yield f"    behind, front = sorted([{', '.join(places)}])"
+    yield f"    if front[0].x > behind[0].x + {world.stride.ahead!r}:"
+    yield "        if front[0].y > 0:"
+    yield "            meets[front[1]] = True"
+    yield "        elif meets[front[1]]:"
+    yield "            meets[behind[1]] = False"
+    yield "    for name in meets:"
+    yield "        mask = pymunk.ShapeFilter.ALL_MASKS() if meets[name] else 0"
+    yield f"        wheels[name].filter = pymunk.ShapeFilter(group={GROUP}, mask=mask)"
+
+
+def _point(world: World, at: Anchor) -> str:
+    return f"{_of(world, world.body(at))}.local_to_world({written(world.local(at))})"
 
 
 def _sweeps(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:

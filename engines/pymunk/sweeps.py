@@ -63,8 +63,11 @@ def _steps(world: World) -> Iterator[tuple[Array, Array, Array]]:
 
 
 def _together(world: World) -> Iterator[Contact]:
-    """What may touch at once: of spokes the two lowest tips."""
+    """What may touch at once: of spokes the two lowest tips, of two feet the one that stands."""
+    stands = world.stride and world.stride.stands(world.place)
     for contact in world.scene.contacts.values():
+        if contact.ahead_of is not None and contact.name != stands:
+            continue
         body = world.bodies[contact.body]
         lowest = sorted(contact.each(), key=lambda c: body.local_to_world(world.local(c.at)).y)
         yield from lowest[:2]

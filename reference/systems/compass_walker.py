@@ -95,18 +95,30 @@ class _Stance(Mode):
         return np.zeros(1)
 
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
-        """(2.23) F = Σ m (r̈_c − g) [N]: the floor's on the foot that stands."""
-        p, (s, w), (s_dot, w_dot) = self.walker, self._legs(q.tolist()), self._legs(v.tolist())
-        s_ddot, w_ddot = self._legs(self.accelerations(t, q, v).tolist())
-        # Σ m r̈_c is that of `standing` a metre up one leg less that of `swinging` up the other
-        standing, swinging = p.M * p.l + p.m * (p.l - p.c) + p.m * p.l, p.m * p.c
-        x = standing * (s_ddot * math.cos(s) - s_dot**2 * math.sin(s))
-        x -= swinging * (w_ddot * math.cos(w) - w_dot**2 * math.sin(w))
-        y = -standing * (s_ddot * math.sin(s) + s_dot**2 * math.cos(s))
-        y += swinging * (w_ddot * math.sin(w) + w_dot**2 * math.cos(w))
-        weight = (p.M + 2 * p.m) * G
-        tangent, normal = x - weight * math.sin(p.gamma), y + weight * math.cos(p.gamma)
-        return {"feet.tangent": tangent, "feet.normal": normal}
+        """(2.23) m r̈_c = m g + F [N]: of the floor on the foot that stands, of each leg on the hip.
+
+        A metre up a leg has the acceleration (ä cos a − ȧ² sin a, −ä sin a − ȧ² cos a) more.
+        """
+        p, legs = self.walker, (self._legs(q.tolist()), self._legs(v.tolist()))
+        rates = self._legs(self.accelerations(t, q, v).tolist())
+        up = [
+            np.array([cos * a_ddot - sin * a_dot**2, -sin * a_ddot - cos * a_dot**2])
+            for a, a_dot, a_ddot in zip(*legs, rates, strict=True)
+            for sin, cos in [(math.sin(a), math.cos(a))]
+        ]
+        g = G * np.array([math.sin(p.gamma), -math.cos(p.gamma)])
+        stands, hip = (p.l - p.c) * up[0], p.l * up[0]
+        swinging = -p.m * (hip - p.c * up[1] - g)  # the force of the swinging leg on the hip
+        standing = p.M * (hip - g) - swinging
+        floor = p.m * (stands - g) + standing
+        found = {f"{LEGS[self.k]}_foot": floor}
+        names = ("tangent", "normal"), ("fx", "fy")
+        found |= {f"{LEGS[self.k]}_hip": standing, f"{LEGS[1 - self.k]}_hip": swinging}
+        return {
+            f"{part}.{name}": float(x)
+            for part, force in found.items()
+            for name, x in zip(names["hip" in part], force, strict=True)
+        }
 
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R_k; a leg's angle is that of a bar from foot to hip: 90° − a."""
@@ -132,7 +144,9 @@ class _Stance(Mode):
         *_, (x, y, *_) = self._places(q, q)
         hip = (float(x), float(y))
         pins = [Cut((f"{leg}_hip.fx", f"{leg}_hip.fy"), leg, "hip", hip) for leg in LEGS]
-        foot = Cut(("feet.tangent", "feet.normal"), None, LEGS[self.k], (float(q[0]), 0.0))
+        leg = LEGS[self.k]
+        names = (f"{leg}_foot.tangent", f"{leg}_foot.normal")
+        foot = Cut(names, None, leg, (float(q[0]), 0.0))
         return [foot, *pins]
 
 
@@ -214,7 +228,8 @@ class CompassWalker(System):
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.89) F_N > 0 and |F_fr| ≤ μ F_N."""
         forces = self.modes[mode].reactions(t, q, v)
-        normal, tangent = forces["feet.normal"], abs(forces["feet.tangent"])
+        foot = f"{mode.split()[0]}_foot"
+        normal, tangent = forces[f"{foot}.normal"], abs(forces[f"{foot}.tangent"])
         if not normal > 0.0:
             return f"the floor would have to pull: {normal:.3g} N"
         if tangent > self.mu * normal:

@@ -98,3 +98,31 @@ def test_spokes_are_a_whole_number(tmp_path: Path) -> None:
     path.write_text(f"title: x\nparameters: {{n: 8.4}}\n{scene}duration: 1\nsamples: 3\n")
     with pytest.raises(CaseError, match=r"from 3 to 100, is 8.4 \(n\)"):
         load(path)
+
+
+FEET = """\
+scene:
+  bodies: {{a: {{bar: {{mass: 1, length: 1}}}}, b: {{bar: {{mass: 1, length: 1}}}}}}
+  joints: {{hip: {{pin: [a.end, b.end]}}}}
+  contacts:
+    one: {{between: [a.start, ground.floor], friction: 1, ideal: pivot, ahead_of: {one}}}
+    two: {{between: [b.start, ground.floor], friction: 1, ideal: pivot{two}}}
+initial: {{a: {{start: [0, 0], on: start, angle: 100 deg}}, b: {{angle: 80 deg}}}}
+allow: {{a.angle: 1.0e-3}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("one", "two", "words"),
+    [
+        ("b.start", "", "'b.start' should be the other foot, with a contact ahead of this one"),
+        ("b.end", ", ahead_of: a.start", "'b.end' should be the other foot"),
+        ("b.stop", ", ahead_of: a.start", "body 'b' has no point 'stop'"),
+        ("c.start", ", ahead_of: a.start", "unknown body 'c'"),
+    ],
+)
+def test_feet_are_two(tmp_path: Path, one: str, two: str, words: str) -> None:
+    with pytest.raises(CaseError) as caught:
+        typed(tmp_path, FEET.format(one=one, two=two))
+    assert words in str(caught.value)
+    typed(tmp_path, FEET.format(one="b.start", two=", ahead_of: a.start"))

@@ -18,6 +18,11 @@ PARAMETERS: dict[str, dict[str, float]] = {
     },
     "bouncing_disk": {"m": 0.8, "R": 0.2, "e": 1.0, "y0": 0.7},
     "charge_in_field": {"m": 1.3, "e": 0.7, "B": 5.0, "v0": 2.0, "F": 1.5},
+    "compass_walker": {
+        "M": 10.0, "m": 5.0, "l": 1.0, "gamma": 0.02, "mu": 1.0,
+        "left0": 1.7842780686758, "right0": 1.3573145849140,
+        "w0": 0.8616538877376, "u0": 0.6753027032217,
+    },
     "double_pendulum": {
         "m1": 1.0, "l1": 0.6, "m2": 0.7, "l2": 0.9,
         "a0": math.radians(-61), "b0": math.radians(-33),
@@ -86,6 +91,10 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
     "charge_in_field": [
         ("electron", 0, 0.0, 0.0), ("electron", 1, 0.0, 0.0), ("electron", 3, 2.0, 0.0),
         ("electron", 4, 0.0, 0.0),
+    ],
+    "compass_walker": [
+        ("left", 2, 1.7842780686758, 0.0), ("right", 2, 1.3573145849140, 1e-15),
+        ("left", 5, -0.8616538877376, 0.0), ("right", 5, -0.6753027032217, 0.0),
     ],
     "double_pendulum": [
         ("upper", 2, -61 * math.pi / 180, 1e-15), ("lower", 2, -33 * math.pi / 180, 1e-15),

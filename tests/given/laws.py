@@ -28,6 +28,8 @@ MULTIPLIERS: dict[At, tuple[str, ...]] = {
     ("anisotropic_drift", "stuck"): ("guide.fx",),
     ("bouncing_disk", "rest"): ("touch.normal",),
     ("drag_stops", "rest"): ("guide.fx",),
+    ("compass_walker", "left stands"): ("left_foot.tangent",),
+    ("compass_walker", "right stands"): ("right_foot.tangent",),
     ("driven_edge", "moving"): ("blade.force", "blade.drive"),
     ("dynamometer", "stuck"): ("guide.fx",),
     ("four_bar", "moving"): ("C.fx", "C.fy"),
@@ -45,6 +47,8 @@ RESIDUALS = {
     **dict.fromkeys(stiction.HELD, 0),
     ("anisotropic_drift", "stuck"): 0,
     ("drag_stops", "rest"): 0,
+    ("compass_walker", "left stands"): 0,
+    ("compass_walker", "right stands"): 0,
     ("driven_edge", "moving"): 0,
     ("dynamometer", "stuck"): 0,
     ("growing_force", "stuck"): 0,
@@ -227,8 +231,8 @@ LAWS: Sequence[Law] = (
 )  # fmt: skip
 _STARTING = {(name, example(name).start()[0]) for name in PARAMETERS}
 _NO_CLOSED_FORM = {
-    "anisotropic_drift", "double_pendulum", "elastic_pendulum", "four_bar", "rhombus",
-    "smooth_dynamometer", "smooth_growing_force", "spring_mass_jump", "stribeck_drive",
+    "anisotropic_drift", "compass_walker", "double_pendulum", "elastic_pendulum", "four_bar",
+    "rhombus", "smooth_dynamometer", "smooth_growing_force", "spring_mass_jump", "stribeck_drive",
     "trunk_on_legs",
 }  # fmt: skip
 _FREE = {

@@ -10,6 +10,7 @@ from textmech.cases.frame import PLANE
 from textmech.cases.scene import Scene, Viscous
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Engine, Plan, Realised, Refusal, Start
+from textmech.engines.stride import strides
 from textmech.engines.told import LIVING, TOLD
 from textmech.reports.trial.start import assembled
 
@@ -50,13 +51,16 @@ def own(engine: Engine, scene: Scene) -> bool:
     """Whether an engine has something of its own for all of a scene."""
     told = {name for name, force in scene.forces.items() if type(force) in TOLD | LIVING}
     told |= {spring.name for spring in scene.one_sided() if engine.name == "pymunk"}
-    return not scene.constraints and not told - {force.name for force in damps(engine, scene)}
+    alone = not scene.constraints and not strides(scene)
+    return alone and not told - {force.name for force in damps(engine, scene)}
 
 
 def way_of(engine: Engine, scene: Scene) -> Realised:
     """How a tuned engine runs it."""
     if own(engine, scene):
         return "native"
+    if strides(scene):
+        return "driver"
     return EDGES[engine.name] if scene.constraints else "law"
 
 

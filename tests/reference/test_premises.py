@@ -50,7 +50,7 @@ def test_the_floor_does_not_pull(tmp_path: Path) -> None:
     """m g / 20 N/s: the wheel is lifted after 0.490 s, seen at the next sample."""
     text = WHEEL.replace("BETA", "0").replace("MU", "0.5").replace("UP", "20")
     mistake = refused(scenes.typed(tmp_path, text))
-    assert "the floor would have to pull at t = 0.52 s: the disk leaves it" in mistake.what
+    assert "the floor would have to pull at t = 0.52 s: wheel leaves it" in mistake.what
 
 
 def test_what_fails_first_is_told(tmp_path: Path) -> None:

@@ -7,8 +7,8 @@ import pytest
 from given import written_scenes
 
 from textmech.cases.mistake import CaseError
-from textmech.reference.generated import choosing, impact, landing, mechanism
 from textmech.reference.generated import element as contact_modes
+from textmech.reference.generated import impact, landing, mechanism
 from textmech.reference.generated.contact import Coulomb
 from textmech.reference.generated.element import State, Touching, sign
 from textmech.reference.solve import solve
@@ -46,7 +46,7 @@ def test_mutant_sign_of_kinetic_friction(tmp_path: Path, monkeypatch: pytest.Mon
 
 @pytest.mark.whole
 def test_mutant_without_sticking(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for module in (choosing, mechanism):
+    for module in (contact_modes, mechanism):
         monkeypatch.setattr(module, "REST", ("slides +", "slides -"))
     assert failing(tmp_path, "braking")
     assert failing(tmp_path, "backspin")

@@ -25,6 +25,12 @@ def dry(case: Case) -> bool:
     return any(joint.dry_friction for joint in case.scene.joints.values())
 
 
+def switches(case: Case) -> bool:
+    """Whether something of it touches and lets go."""
+    touches = any(contact.ideal != "rolling" for contact in case.scene.contacts.values())
+    return touches or any(case.scene.one_sided())
+
+
 ONE_OF_EACH_FILE = [case.name for case in one_of_each_file()]
 # In space one of each file: a spatial motion costs ten planar ones, and another start of the same
 # mechanism has the same record.
@@ -32,8 +38,7 @@ SMOOTH = [
     name
     for name, case in scenes.SHIPPED.items()
     if (case.scene.frame is PLANE or name in ONE_OF_EACH_FILE)
-    and all(contact.ideal for contact in case.scene.contacts.values())
-    and not (case.scene.frame is PLANE and (dry(case) or any(case.scene.one_sided())))
+    and not (case.scene.frame is PLANE and (dry(case) or switches(case)))
 ]
 STILL = 1e-6  # m, rad, m/s, rad/s: what stays below does not move but by rounding
 LOCATED = 1e-9  # s: a curve of seventh degree through the steps around it
