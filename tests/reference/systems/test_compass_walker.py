@@ -1,8 +1,7 @@
-"""The compass walker: its equations, its impact by impulses, its limit cycle, and its limit."""
+"""The compass walker: its equations, its impact by impulses, and its scene."""
 
 import math
-from dataclasses import asdict, dataclass, replace
-from functools import cache
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -11,44 +10,12 @@ import pytest
 from given import scenes
 from given.mutants import mutant
 from given.scenes import tail, typed
-from given.walkers import SLOPE, returned
+from given.walkers import UNEVEN, WALKER, Legs
 
 from textmech.reference.formalisms import energy, lagrange, newton_euler
-from textmech.reference.motion.cycle import Cycle, cycle, derivative
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array
 from textmech.reference.systems.compass_walker import CompassWalker
-
-GAMMA = 0.02
-ENTRIES = (1, 5, 4)  # after a strike on the right leg: its partner's lean, and the rates of both
-UP = math.pi / 2
-# Near the limit cycle on a slope of 0.02.
-WALKER = CompassWalker(10.0, 5.0, 1.0, GAMMA, 1.0, UP + 0.2135, UP - 0.2135, 0.8617, 0.6753)
-
-
-@dataclass(frozen=True)
-class Legs(CompassWalker):
-    """Legs that are no bars."""
-
-    center: float
-    inertia: float
-
-    @property
-    def c(self) -> float:
-        return self.center
-
-    @property
-    def J(self) -> float:
-        return self.inertia
-
-
-UNEVEN = Legs(7.0, 1.3, 0.9, 0.05, 1.0, UP + 0.3, UP - 0.3, 1.1, 0.2, 0.35, 0.06)
-
-
-def begun(walker: CompassWalker, x: Array) -> Any:
-    """With both feet on the floor, the left leg leaning back by x₀, and both rates."""
-    a0, w0, u0 = map(float, x)
-    return replace(walker, left0=UP + a0, right0=UP - a0, w0=w0, u0=u0)
 
 
 def states(count: int = 20) -> list[tuple[Array, Array]]:
@@ -185,64 +152,6 @@ def test_between_strikes_it_is_the_mechanism_of_its_scene(tmp_path: Path):
         q, v = mechanism.base.place(poses)
         assert np.split(y, 2)[0] == pytest.approx(q, abs=1e-11)
         assert np.split(y, 2)[1] == pytest.approx(v, abs=1e-11)
-
-
-def stepped(walker: CompassWalker, x: Array) -> Array:
-    return returned(begun(walker, x), ENTRIES, until=1.6)[0]
-
-
-@cache
-def found() -> Cycle:
-    return cycle(lambda x: stepped(WALKER, x), np.array([0.2135, 0.8617, 0.6753]))
-
-
-@pytest.mark.whole
-def test_limit_cycle_closes_and_is_stable():
-    """Its place and multipliers are this computation's; both legs walk alike."""
-    assert found().error < 1e-14
-    assert found().stable
-    assert found().state == pytest.approx([0.21348174188, 0.86165388774, 0.67530270322], abs=1e-10)
-    sizes = np.abs(found().multipliers)
-    assert sizes == pytest.approx([0.345484939, 0.345484939, 0.194436579], abs=2e-9)
-    coarser = derivative(lambda x: stepped(WALKER, x), found().state, part=1e-3)
-    values = np.sort_complex(np.linalg.eigvals(coarser))
-    assert values == pytest.approx(np.sort_complex(found().multipliers), abs=1e-10)
-    a0, walker = float(found().state[0]), begun(WALKER, found().state)
-    strikes = follow(walker, np.linspace(0.0, 5.5, 3)).events
-    assert len(strikes) == 6
-    step = 2 * math.sin(a0)  # m
-    assert [s.after[0] for s in strikes] == pytest.approx([k * step for k in range(1, 7)], abs=1e-9)
-    assert np.diff([s.time for s in strikes]) == pytest.approx(strikes[0].time, abs=1e-9)
-
-
-def test_a_step_loses_in_the_strike_what_the_slope_gives():
-    """T + U before and after, over one step of the cycle."""
-    a0, walker = float(found().state[0]), begun(WALKER, found().state)
-    (strike,) = follow(walker, np.array([0.0, 1.0])).events
-    kinetic = [
-        walker.modes[mode].T(0.0, *np.split(y, 2))
-        for mode, y in (("left stands", strike.before), ("right stands", strike.after))
-    ]
-    fall = 20.0 * 9.80665 * 2 * math.sin(a0) * math.sin(GAMMA)
-    assert kinetic[0] - kinetic[1] == pytest.approx(fall, rel=1e-10)
-
-
-@pytest.mark.whole
-def test_on_light_feet_it_comes_to_the_simplest_walker():
-    """m/M → 0 with the legs' mass in the feet: an error of m/M, extrapolated to 0."""
-    published = np.array([0.200310900544287, 0.199832473004977])
-    places, beta = [], 2e-4
-    g = 9.80665
-    for m in (beta, beta / 2):
-        x = np.array([*published, published[1] * math.cos(0.4)])
-        feet = Legs(1.0, m, g, SLOPE, 1.0, UP, UP, 0.0, 0.0, g, 0.0)
-
-        def step(y: Array, feet: CompassWalker = feet) -> Array:
-            return returned(begun(feet, y), ENTRIES)[0]
-
-        places.append(cycle(step, x).state[:2])
-    assert np.abs(places[0] - published).max() < 10 * beta
-    assert 2 * places[1] - places[0] == pytest.approx(published, abs=20 * beta**2)
 
 
 def test_what_cannot_walk_is_said():
