@@ -134,6 +134,7 @@ def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         fails |= (_carried(case, motion) if contact.ahead_of else normal) <= 0
         if not np.any(fails):
             continue
+        stands = normal > 0 if contact.ahead_of else np.full(len(normal), True)
         first = int(np.argmax(fails))
         t = motion.times[first]
         if normal[first] <= 0:
@@ -141,7 +142,7 @@ def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         else:
             what = (
                 f"{doing} is not possible with friction {contact.friction:.3g}: at t = {t:.3g} s "
-                f"it would slip; {_needed(normal, tangent, contact.body, doing)}"
+                f"it would slip; {_needed(normal[stands], tangent[stands], contact.body, doing)}"
             )
         yield case.mistake(("scene", "contacts", contact.name, "ideal"), what)
 

@@ -29,7 +29,7 @@ def unbuildable(scene: Scene) -> str | None:
     if what := unbuilt(scene, [part.name for part in soft]):
         return what
     if strides(scene) and any(joint.dry_friction for joint in scene.joints.values()):
-        return "adapter: feet that pass the floor beside dry friction would need one driver for all"
+        return "adapter: feet that pass the floor, beside a slide's dry friction, need one driver"
     if ours := lacking(scene):
         smooth = (j.name for j in scene.joints.values() if (d := j.dry_friction) and d.smooth)
         if beside := [*scene.constraints, *smooth]:

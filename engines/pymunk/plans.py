@@ -74,9 +74,9 @@ def _spoilt(scene: Scene, realised: Realised) -> bool:
     """
     native = realised == "native"
     brakes = native and any(joint.dry_friction for joint in scene.joints.values())
-    met = native or strides(scene)
-    met &= any(contact.switches for contact in scene.contacts.values())
-    return (native and damped(scene)) or brakes or met or any(scene.one_sided())
+    met = any(contact.switches for contact in scene.contacts.values())
+    sided = any(scene.one_sided())
+    return (native and (damped(scene) or met)) or brakes or strides(scene) or sided
 
 
 def _withheld(scene: Scene) -> dict[str, str]:

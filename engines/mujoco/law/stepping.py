@@ -48,9 +48,7 @@ class Steps:
             slide.recall(noted)
 
 
-def walking(
-    model: mujoco.MjModel, data: mujoco.MjData, walks: Feet
-) -> Callable[[int], None]:
+def walking(model: mujoco.MjModel, data: mujoco.MjData, walks: Feet) -> Callable[[int], None]:
     """Steps before each of which the floor is told which feet it meets."""
 
     def take(n: int) -> None:
