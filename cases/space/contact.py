@@ -58,6 +58,11 @@ class SpatialContact:
         return self.friction
 
     @property
+    def ahead_of(self) -> None:
+        """None: nothing walks in space."""
+        return None
+
+    @property
     def switches(self) -> bool:
         """Whether it may open, slide and stick: slipping in two directions has no finite modes."""
         return False
