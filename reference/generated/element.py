@@ -213,7 +213,7 @@ def elements(scene: Scene, where: Coordinates) -> Iterator[Element]:
                 static=contact.static,
                 kinetic=contact.kinetic,
                 restitution=contact.restitution,
-                frictionless=contact.static == 0.0,
+                frictionless=contact.static == 0.0 and contact.ideal is None,
                 plane=contact.plane.name,
                 rest=REST if contact.ideal is None else ("sticks",),
                 other=foot(contact, where) if contact.ahead_of else None,

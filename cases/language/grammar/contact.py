@@ -34,9 +34,9 @@ class Contact(Part):
     def model_post_init(self, context: object) -> None:
         if self.ideal == "rolling" and "restitution" in self.model_fields_set:
             raise wrong("`restitution` cannot stand beside `ideal: rolling`: it has no impacts")
-        if self.ideal == "pivot" and self.restitution:
+        if self.ideal == "pivot" and self.restitution > 0:  # a mistaken number is nan
             raise wrong("`restitution` is 0 beside `ideal: pivot`: what strikes the floor stays")
-        if self.ideal == "pivot" and self.friction.static != self.friction.kinetic:
+        if self.ideal == "pivot" and self.friction.static > self.friction.kinetic:
             raise wrong("`friction` is one number beside `ideal: pivot`: nothing slides")
         if self.ahead_of is not None and self.ideal != "pivot":
             raise wrong("`ahead_of` is a foot's, which pivots: write `ideal: pivot`")
