@@ -16,6 +16,7 @@ from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 from textmech.cases.observe import observe
 from textmech.cases.trajectory import Array, Trajectory
+from textmech.reference.generated.choosing import Undetermined
 from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import either, follow
 from textmech.reference.motion.stuck import Stuck
@@ -68,7 +69,7 @@ def ratios(file: Path, name: str, folder: Path, part: float) -> Iterator[float]:
     for case, before in as_written(file):
         try:
             after = samples(changed(file, case, name, folder), part)
-        except (CaseError, ZenoError, Stuck):  # bound to another parameter
+        except (CaseError, ZenoError, Stuck, Undetermined):  # bound to another parameter
             yield inf
             continue
         for quantity, values in after.items():
