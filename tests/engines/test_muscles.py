@@ -1,5 +1,8 @@
 """Inner states in engines: orders, what they begin with, and planted mistakes."""
 
+# MuJoCo's bindings are compiled and have no stubs.
+# pyright: reportAttributeAccessIssue=false
+
 import math
 from dataclasses import replace
 from typing import Any
