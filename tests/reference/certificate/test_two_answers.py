@@ -29,6 +29,8 @@ Plant = Callable[[Case, System, Patch], tuple[Case, System]]
 PENDULUM = replace(scenes.SHIPPED["bar_pendulum"], duration=0.8, samples=6)
 SPRING = replace(scenes.SHIPPED["spring_mass_damper.underdamped"], duration=0.8, samples=6)
 
+CHARGE = replace(scenes.SHIPPED["charge_in_field.drifting"], duration=0.8, samples=6)
+
 
 def in_mode(**methods: Callable[..., Any]) -> Plant:
     """In the mode in which the system starts."""
@@ -167,6 +169,9 @@ CHECKS: dict[str, Two] = {
     ),
     "reactions by Newton-Euler": Two(
         PENDULUM, in_mode(**times(1.01, "reactions")), in_mode(loads=heavier)
+    ),
+    "Lagrangian (2.51), (2.52)": Two(
+        CHARGE, in_mode(**times(1.01, "accelerations")), in_mode(**times(1.01, "V"))
     ),
     "generated motion": Two(
         PENDULUM, in_mode(**times(1.01, "accelerations")), in_scene(gravity=(0.0, -9.8))
