@@ -1,7 +1,8 @@
-"""A block with one number of dry friction, (2.88) stepped with (2.89): what engines know of it."""
+"""A part with one number of dry friction, (2.88) stepped with (2.89): what engines know of it."""
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -10,26 +11,46 @@ from textmech.cases.trajectory import Array
 STEPS = 400  # a sample interval: first order, so some 1e-4 of the motion
 
 
-def one_number(
-    applied: Callable[[float, float], float], m: float, bound: float, times: Array
-) -> tuple[Array, Array, list[float], list[float]]:
-    """x, v (N,) at the times, and when [s] it slips and stops; at rest it holds up to `bound` [N].
+@dataclass(frozen=True)
+class OneNumber:
+    """What acts beside friction [N or N m], the mass [kg or kg m²], and the bound, by the time.
 
-    A step changes v by the applied force, then friction takes its impulse from what is left.
+    of: place, speed and friction as the case calls them.
     """
-    h = float(times[1] - times[0]) / STEPS
-    x = v = 0.0
-    xs, vs = [x], [v]
+
+    applied: Callable[[float, float], float]
+    m: float
+    bound: Callable[[float], float]
+    v0: float = 0.0
+    damping: float = 0.0
+    of: tuple[str, str, str] = ("block.x", "block.vx", "guide.friction")
+
+
+@dataclass(frozen=True)
+class Moved:
+    """x, v and friction (N,) at the times, and when [s] it slips and stops."""
+
+    x: Array
+    v: Array
+    friction: Array
+    slips: list[float]
+    stops: list[float]
+
+
+def one_number(part: OneNumber, times: Array) -> Moved:
+    """A step changes v by the applied force, then friction takes its impulse from what is left."""
+    h, m = float(times[1] - times[0]) / STEPS, part.m
+    x, v, rows = 0.0, part.v0, []
     slips: list[float] = []
     stops: list[float] = []
-    for i in range(STEPS * (len(times) - 1)):
+    for i in range(STEPS * (len(times) - 1) + 1):
         moved = v
-        free = v + h * applied(i * h, x) / m
-        v = math.copysign(max(0.0, abs(free) - h * bound / m), free)
+        free = v + h * (part.applied(i * h, x) - part.damping * v) / m
+        v = math.copysign(max(0.0, abs(free) - h * part.bound(i * h) / m), free)
+        if i % STEPS == 0:
+            rows.append((x, moved, (v - free) * m / h))
         x += h * v
         if (v == 0.0) != (moved == 0.0):
             (stops if v == 0.0 else slips).append((i + 1) * h)
-        if (i + 1) % STEPS == 0:
-            xs.append(x)
-            vs.append(v)
-    return np.array(xs), np.array(vs), slips, stops
+    places, speeds, forces = np.array(rows).T
+    return Moved(places, speeds, forces, slips, stops)
