@@ -139,7 +139,7 @@ WAYS: dict[str, tuple[tuple[Scene, Start], dict[str, dict[str, tuple[int, int]]]
     "a floor with two coefficients": (
         TWO,
         {
-            "mujoco": {"native": (1, 2), "law": (1, 2)},
+            "mujoco": {"native": (1, 2), "law": (1, 2), "driver": (1, 2)},
             "pymunk": {"native": (1, 2), "law": (2, 3)},
         },
     ),
