@@ -222,7 +222,7 @@ def elements(scene: Scene, where: Coordinates) -> Iterator[Element]:
     for joint in scene.joints.values():
         if (friction := joint.dry_friction) is None:
             if joint.name in stopped:
-                yield Stopping(name=joint.name, tangent=at_rest(joint, where))
+                yield Stopping(name=joint.name, slip=at_rest(joint, where))
             continue
         along = at_rest(joint, where)
         if friction.smooth is not None:
