@@ -123,6 +123,11 @@ class Scene:
         """The forces with an inner state, by the quantity that it is."""
         return {f"{f.name}.{f.inner}": f for f in self.forces.values() if f.inner}
 
+    def laws(self) -> Iterator[Signal]:
+        """All that is given in time, of forces and of what is prescribed."""
+        yield from (force.signal for force in self.signals())
+        yield from (law for edge in self.constraints.values() if (law := edge.speed) is not None)
+
     def ends(self, force: Force) -> tuple[Anchor, ...]:
         """The points on which a force acts, or those of the joint about which it does."""
         return force.refers() if force.about is None else self.joints[force.about].refers()

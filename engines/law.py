@@ -2,6 +2,7 @@
 
 A law is written three times on purpose, because a mistake here would cancel nowhere else: with
 the book's letters in `reference/`, here, and as a table of typed values in tests/engines.
+Laws in time stand in signal.py.
 """
 
 import math
@@ -12,41 +13,7 @@ from typing import Any
 from ..cases.force import Damper, Line, Spring
 from ..cases.friction import DryFriction, Smooth
 from ..cases.scene import Scene
-from ..cases.signal import Signal
 from ..cases.turning import Torsion, TorsionDamper, Turning
-
-
-def value(signal: Signal, t: float) -> tuple[float, ...]:
-    """The law in time at t [s]: N for a push, N m for a torque."""
-    if signal.law == "sine":
-        factor = math.sin(signal.angular_frequency * t + signal.phase)
-    else:
-        factor = t if signal.law == "ramp" else 1.0
-    return tuple([amplitude * factor for amplitude in signal.amplitude])
-
-
-def rate(signal: Signal, t: float) -> tuple[float, ...]:
-    """How fast `value` changes at t [s], per second."""
-    if signal.law == "sine":
-        factor = signal.angular_frequency * math.cos(signal.angular_frequency * t + signal.phase)
-    else:
-        factor = 1.0 if signal.law == "ramp" else 0.0
-    return tuple([amplitude * factor for amplitude in signal.amplitude])
-
-
-def in_time(signal: Signal) -> Callable[[float], tuple[float, ...]]:
-    """`value` of one law, for a loop: what does not change is looked up once."""
-    amplitude, frequency, phase = signal.amplitude, signal.angular_frequency, signal.phase
-    if signal.law == "constant":
-        return lambda t: amplitude
-    if signal.law == "ramp":
-        return lambda t: tuple([size * t for size in amplitude])
-
-    def sine(t: float) -> tuple[float, ...]:
-        factor = math.sin(frequency * t + phase)
-        return tuple([size * factor for size in amplitude])
-
-    return sine
 
 
 def tension(force: Line, length: float, rate: float) -> float:

@@ -67,7 +67,8 @@ def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
         beside = reactions_of(generated, found, followed)
         answer = built if system is generated else Answer(system, followed, beside)
         look()
-        switches = np.array([change.time for change in followed.changes], dtype=float)
+        corners = [t for t in system.corners if 0.0 < t < case.duration]
+        switches = np.array([*(change.time for change in followed.changes), *corners], dtype=float)
         motion = replace(answer.trajectory(case.times), switches=switches)
         if case.events:
             motion = replace(motion, record=answer.record(forces=_felt(case)))

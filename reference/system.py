@@ -84,6 +84,7 @@ class Mode:
     masses: Mapping[str, Mass]
     stiff: bool = False  # whether an explicit integrator would creep
     undetermined: Sequence[str] = ()  # reactions of which equilibrium knows a sum only
+    corners: Sequence[float] = ()  # as of a system, of a mode that is a whole system (`Only`)
 
     def start(self) -> tuple[Array, Array]:
         """q (n,) and v (n,) at t = 0, of a mode that is a whole system (`Only`)."""
@@ -180,6 +181,7 @@ class System:
     modes: Mapping[str, Mode]
     longest: float | None = None  # no step [s] is longer: a guard may know more of time than q does
     blurred: float = 0.0  # s: how far apart answers have a stop that speeds fall to without slope
+    corners: Sequence[float] = ()  # s: where what is given in time jumps or bends, steps end
 
     def start(self) -> tuple[str, Array, Array]:
         """The mode at t = 0, q (n,) and v (n,)."""
@@ -188,6 +190,10 @@ class System:
     def guards(self, mode: str) -> Sequence[Guard]:
         """What ends the mode; of guards that fall together, the first."""
         return ()
+
+    def beyond(self, mode: str, t: float, q: Array, v: Array) -> tuple[str, Array, Array]:
+        """The mode after a corner at t, and its state: what acts may have jumped."""
+        return mode, q, v
 
     def closed_form(self, t: float) -> tuple[Array, Array] | None:
         """q and v at time t by known functions, where there are any."""
@@ -210,6 +216,7 @@ class Only(System):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "modes", {MOVING: self.mode})
+        object.__setattr__(self, "corners", self.mode.corners)
 
     def start(self) -> tuple[str, Array, Array]:
         """As the mode states it."""

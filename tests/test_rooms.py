@@ -28,7 +28,7 @@ ROOMS = {
         "states",
         "solve",
     ],
-    "engines": ["engine law stride told", "heading", "mujoco pymunk"],
+    "engines": ["engine law signal stride told", "heading", "mujoco pymunk"],
     "reports": [
         "own_settings",
         "row pins selection coverage events lock ending cluster pytest_short",

@@ -1,6 +1,6 @@
 """The scene of Definition 2.1 in space as data. z is up, SI units."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from ..frame import SPACE, Frame
@@ -36,6 +36,11 @@ class SpatialScene(Scene):
     def frame(self) -> Frame:
         """Of space."""
         return SPACE
+
+    def laws(self) -> Iterator[Signal]:
+        """All that is given in time, of forces and of what is prescribed."""
+        yield from (force.signal for force in self.signals())
+        yield from self.drives.values()
 
     def driven(self) -> dict[str, Fields]:
         """By joint, what the prescribed rates exert: `q1` → `torque`."""

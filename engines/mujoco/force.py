@@ -1,7 +1,7 @@
 """MuJoCo's element for each force element, and what is read back of it: one table, ELEMENTS.
 
 A tendon carries a spring or a damper. An actuator carries what follows a law in time: control 1
-makes a constant, the integral of 1 a ramp; a sine's control is a callback.
+makes a constant, the integral of 1 a ramp; any other law's control is a callback.
 """
 
 import math
@@ -38,6 +38,7 @@ from .viscous import not_polynomial, viscous_numbers, write_viscous
 from .written import written
 
 NEVER = 1e6  # m: a length that no tendon has
+BY_ITSELF = ("constant", "ramp")  # the laws that need no callback
 
 Sections = Mapping[str, ET.Element]
 Outer = tuple[Anchor, Array, Array]

@@ -5,7 +5,6 @@ loop in Python; signals in time are a callback. Of a law or a driver it is the f
 instant, set before each step of a loop in Python, which is of first order.
 """
 
-import math
 from collections.abc import Callable
 from functools import partial
 
@@ -16,8 +15,9 @@ from ...cases.force import of
 from ...cases.scene import GROUND, Push, Scene, Signal
 from ...cases.trajectory import Array
 from ..engine import Plain, Plan, Start
-from ..law import dry_friction, smooth_friction, value
-from .force import signals
+from ..law import dry_friction, smooth_friction
+from ..signal import factor, value
+from .force import BY_ITSELF, signals
 from .law.friction import one_slide
 from .law.signal import Control, installed
 from .read.poses import poses
@@ -58,7 +58,7 @@ def _states(
 
 
 def _bare(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Take:
-    control = _sines(signals(scene))
+    control = _in_time(signals(scene))
 
     def take(n: int) -> None:
         with listening(), installed(control):
@@ -67,16 +67,14 @@ def _bare(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Take:
     return take
 
 
-def _sines(laws: list[Signal]) -> Control | None:
-    sines = [(i, law) for i, law in enumerate(laws) if law.law == "sine"]
-    if not sines:
-        return None
+def _in_time(laws: list[Signal]) -> Control | None:
+    told = [(i, factor(law)) for i, law in enumerate(laws) if law.law not in BY_ITSELF]
 
     def control(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        for i, law in sines:
-            data.ctrl[i] = math.sin(law.angular_frequency * data.time + law.phase)
+        for i, size in told:
+            data.ctrl[i] = size(data.time)
 
-    return control
+    return control if told else None
 
 
 def _told(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Take:
@@ -87,7 +85,7 @@ def _told(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Take:
     model.dof_frictionloss[dof] = 0.0
     mujoco.mj_forward(model, data)
     law = partial(smooth_friction, friction, smooth=friction.smooth) if friction.smooth else None
-    sines, sense = _sines(signals(scene)), 0
+    laws, sense = _in_time(signals(scene)), 0
 
     pushes = [f for f in of(Push, scene.forces.values()) if f.at.body == joint.b.body]
 
@@ -100,8 +98,8 @@ def _told(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Take:
         return force
 
     def blurred(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        if sines:
-            sines(model, data)
+        if laws:
+            laws(model, data)
         assert law
         data.qfrc_applied[dof] = law(data.qvel[dof], pushed())
 
@@ -111,7 +109,7 @@ def _told(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Take:
 
     def by_loop(n: int) -> None:
         nonlocal sense
-        with listening(), installed(sines):
+        with listening(), installed(laws):
             for _ in range(n):
                 if sense * data.qvel[dof] <= 0:
                     sense, data.qvel[dof] = 0, 0.0

@@ -47,17 +47,19 @@ def plan(scene: Scene, start: Start, realised: Realised, numbers: Numbers, *, tu
     """One way's plan. Nothing is withheld: a joint's force and moment can be read, a contact's too.
 
     Exponents: Euler, contacts, corners of dry friction and of springs 1, 2; RK4 4, 5, with corners
-    of other laws 2, 3; soft constraints of the tuned recipe, which follow the step, 2, 3.
+    of other laws and the mean of a force that jumps 2, 3; soft constraints of the tuned recipe,
+    which follow the step, 2, 3.
     """
     integrator = {choice.name: choice.value for choice in numbers(NOMINAL)}["option.integrator"]
     dry = any(joint.dry_friction for joint in scene.joints.values())
+    jumps = any(law.corners for law in scene.laws())
     first = integrator != "RK4" or bool(scene.contacts) or (dry and realised != "driver")
     first |= any(scene.one_sided()) and realised != "driver"
     corners = any(force.corner for force in scene.forces.values())
     following = (1, 2) if first else (4, 5) if dry else (2, 3)
     bare = Plan(
         realised,
-        held=(1, 2) if first else (2, 3) if corners else (4, 5),
+        held=(1, 2) if first else (2, 3) if corners or jumps else (4, 5),
         following=following if tuned and ties(scene) else None,
         alike=realised != "native" and only_slides(scene),  # what our law holds lies still
         numbers=numbers,

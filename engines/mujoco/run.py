@@ -9,9 +9,10 @@ import numpy as np
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ..engine import Diverged, Realised, Start
+from .force import signals as controls
 from .law.edge import edges
 from .law.inner import acting, activations, rated
-from .law.signal import installed, signals
+from .law.signal import Corners, installed, signals
 from .law.smooth import smooth
 from .law.stepping import stepping
 from .law.told import told
@@ -66,8 +67,10 @@ def simulate(
     laws = [*smooth(scene, model), *edges(scene, model)] if realised == "law" else steps.controls
     laws = [*laws, *told(scene, model)]
     touching = tuple(name for name in reactions if name.partition(".")[0] in scene.contacts)
-    with listening() as warnings, rated(scene, model), signals(scene, laws):
-        if every and steps.alone:
+    corners = Corners(controls(scene), float(model.opt.timestep))
+    steps.take = corners.held(steps.take)
+    with listening() as warnings, rated(scene, model), signals(scene, laws, corners):
+        if every and steps.alone and not corners.any:
             record = whole(model, data, len(grid))
         else:
             record = sampled(data, np.arange(len(grid)) if every else counts, steps)

@@ -11,7 +11,7 @@ from xml.etree import ElementTree as ET
 from ...cases.scene import GROUND, Anchor, DryFriction, Scene
 from ..engine import Choice, Start
 from .edge import write_room
-from .force import begun_with, signals, write
+from .force import BY_ITSELF, begun_with, signals, write
 from .planes import add_geom, add_pairs, add_planes
 from .tree import (
     Branch,
@@ -203,4 +203,4 @@ def _start(
     if activations := begun_with(scene):
         key.set("act", written(*activations))
     if laws := signals(scene):
-        key.set("ctrl", written(*(0 if law.law == "sine" else 1 for law in laws)))
+        key.set("ctrl", written(*(int(law.law in BY_ITSELF) for law in laws)))

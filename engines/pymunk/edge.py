@@ -8,9 +8,9 @@ from pymunk.constraints import PinJoint
 from pymunk.vec2d import Vec2d
 
 from ...cases.scene import Edge, Scene, Signal, Vector
-from ..law import in_time
-from .force import as_text
+from ..signal import in_time
 from .pin import LENGTH, Pin, Rates, Way, laid
+from .wording import as_text
 from .world import World
 from .written import written
 

@@ -30,13 +30,13 @@ from ...cases.force import (
     Viscous,
 )
 from ...cases.scene import Scene
-from ...cases.signal import Signal
 from ..engine import Realised
-from ..law import in_time, value
+from ..signal import acting, value
 from .law import one_side
 from .law.line import Exerted, Load, drifting, pull, told
 from .law.told import BY_LAW
 from .law.turning import couple_as_text, motor, motor_load, twist, twisted
+from .wording import as_text
 from .world import World
 from .written import written
 
@@ -144,17 +144,17 @@ def script(world: World, of: Callable[[Body], str], *, midpoint: bool) -> Iterat
 
 def _push(world: World, force: Push, step: float, drift: float) -> Apply:
     body, (a, b) = world.body(force.at), world.local(force.at)
-    pushed, ahead = in_time(force.signal), drift / 2
+    pushed = acting(force.signal, drift)
 
     def apply(t: float) -> None:
         angle = body.angle + drift * body.angular_velocity
         cos, sin = math.cos(angle), math.sin(angle)
         lever = (cos * a - sin * b, sin * a + cos * b)
-        fx, fy = pushed(t + ahead)
+        fx, fy = pushed(t)
         body.apply_force_at_world_point((fx, fy), body.position + lever)
 
     def central(t: float) -> None:  # as most are: turning does not move a centre
-        fx, fy = pushed(t + ahead)
+        fx, fy = pushed(t)
         body.apply_force_at_world_point((fx, fy), body.position)
 
     return apply if a or b else central
@@ -180,15 +180,15 @@ def _push_script(
         turn = "body.angle + h * body.angular_velocity" if midpoint else "body.angle"
         yield f"    lever = pymunk.Vec2d{written(world.local(force.at))}.rotated({turn})"
         place += " + lever"
-    pair = ", ".join(as_text(force.signal))
+    pair = ", ".join(as_text(force.signal, midpoint=midpoint))
     yield f"    body.apply_force_at_world_point(({pair}), {place})"
 
 
 def _torque(world: World, force: Torque, step: float, drift: float) -> Apply:
-    body, turned, ahead = world.bodies[force.body], in_time(force.signal), drift / 2
+    body, turned = world.bodies[force.body], acting(force.signal, drift)
 
     def apply(t: float) -> None:
-        body.torque += turned(t + ahead)[0]
+        body.torque += turned(t)[0]
 
     return apply
 
@@ -200,20 +200,14 @@ def _torque_load(world: World, force: Torque, name: str) -> Exerted:
 def _torque_script(
     world: World, force: Torque, of: Callable[[Body], str], midpoint: bool
 ) -> Iterator[str]:
-    yield f"    {of(world.bodies[force.body])}.torque += {as_text(force.signal)[0]}"
+    (torque,) = as_text(force.signal, midpoint=midpoint)
+    yield f"    {of(world.bodies[force.body])}.torque += {torque}"
 
 
 def _motor_script(
     world: World, force: Motor, of: Callable[[Body], str], midpoint: bool
 ) -> Iterator[str]:
-    yield from couple_as_text(world, force, of, as_text(force.signal)[0])
-
-
-def as_text(law: Signal) -> list[str]:
-    """The law in time, in the script's words."""
-    sine = f" * math.sin({law.angular_frequency!r} * t + {law.phase!r})"
-    factor = {"constant": "", "ramp": " * t", "sine": sine}[law.law]
-    return [f"{amplitude!r}{factor}" for amplitude in law.amplitude]
+    yield from couple_as_text(world, force, of, as_text(force.signal, midpoint=midpoint)[0])
 
 
 def _named(*names: str) -> dict[str, Any]:

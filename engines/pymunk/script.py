@@ -26,6 +26,7 @@ from .law.one_side import as_text
 from .run import COLD
 from .scene import build
 from .slot import LENGTH, carried
+from .wording import helpers
 from .world import World
 from .written import written
 
@@ -96,6 +97,7 @@ def building(world: World, start: Start, numbers: Mapping[str, Any]) -> list[str
         *(f"{name} = {written(x)}" for name, x in numbers.items() if name.startswith("space.")),
         "ground = space.static_body",
         "bodies = {}",
+        *helpers(world.scene.laws()),
         *(["", *_CARRIED] if world.slots else []),
         *_bodies(world),
         *_planes(world, reflects=bool(numbers.get("contact.reflects"))),

@@ -35,6 +35,7 @@ class Mechanism(System):
         self.size = size
         self.modes = self.built = Modes(scene, start)
         self.base, self.elements = self.built.base, self.built.elements
+        self.corners = [corner for law in scene.laws() for corner in law.corners]
         sines = [f.signal for f in scene.signals() if f.signal.law == "sine"]
         fastest = max((abs(s.angular_frequency) for s in sines), default=0.0)
         self.longest = math.tau / fastest / PIECES if fastest else None
@@ -147,6 +148,12 @@ class Mechanism(System):
             return after
 
         return then
+
+    def beyond(self, mode: str, t: float, q: Array, v: Array) -> After:
+        """What holds by friction, and what touches, may do another thing under another force."""
+        if all(e.only for e in self.elements):
+            return mode, q, v
+        return settled(self.built, staying(self.built, mode), t, q, v)
 
     def _lands(
         self, mode: str, i: int, *, rests: bool = False

@@ -1,5 +1,6 @@
 """The motion of a system, from event to event: every event is the end of a step."""
 
+import math
 from collections import defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -15,6 +16,7 @@ from ..integrators.march import IntegrationError, Method, Slope, Step, march
 from ..integrators.radau import radau_table
 from ..system import Array, Guard, Mode, System
 from .crossing import INSIDE, TOGETHER, Fall, Within, clear, first
+from .stops import between, on_samples, stops
 from .stuck import Stuck, Watched, slope
 from .zeno import MOST, ZenoError, accumulation, ends_here, settles
 
@@ -105,6 +107,7 @@ class _Walk:
     changes: list[Change] = field(default_factory=list)
     rows: list[Kept] = field(default_factory=list)
     steps: int = 0
+    passed: float = -math.inf  # the last corner
     spent: int | None = None  # the guard that has just fired, if its mode goes on
     fired: defaultdict[str, list[float]] = field(default_factory=lambda: defaultdict(list))
 
@@ -114,6 +117,7 @@ class _Walk:
         self.t, self.now = float(self.times[0]), np.concatenate([q, v]).astype(np.float64)
         # An event on the last sample may be found just behind it.
         self.stops = np.append(self.times, self.times[-1] + TOGETHER)
+        self.corners = on_samples(self.system.corners, self.stops)
         self._enter(mode)
         self._keep(self.t)
 
@@ -122,7 +126,7 @@ class _Walk:
         return self.t < self.stops[-1]
 
     def through_one_mode(self) -> None:
-        """Steps until a guard of the mode falls or the samples end."""
+        """Steps until a guard of the mode falls, a corner is met or the samples end."""
         mode = self.system.modes[self.phases[-1]]
         f = Watched(mode, float(self.times[-1] - self.times[0]), self.now)
         try:
@@ -132,13 +136,17 @@ class _Walk:
         except (ArithmeticError, LinAlgError) as error:
             raise Stuck(str(error), mode, self.t, f.y) from error
 
-    def _walk(self, mode: Mode, f: Slope) -> None:
+    def _walk(self, mode: Mode, watched: Slope) -> None:
         guards = self.system.guards(self.phases[-1])
-        falls = [_falling(mode, guard) for guard in guards]
-        method, probe = self.by(mode, f, len(self.now)), self.by(mode, slope(mode), len(self.now))
+        corner = next((t for t in self.corners if t > self.t), math.inf)
+        here = between(self.passed, corner)
+        ends = stops(self.t, self.stops, corner, self.system.longest if guards else None)
+        falls = [here(_falling(mode, guard)) for guard in guards]
+        f, bare = here(watched), here(slope(mode))
+        method, probe = self.by(mode, f, len(self.now)), self.by(mode, bare, len(self.now))
         begins = True
         look()
-        for step in march(method, self._stops(guards), self.now):
+        for step in march(method, ends, self.now):
             self.steps += 1
             state = _within(step, probe)
             length = step.t_next - step.t
@@ -160,17 +168,15 @@ class _Walk:
             self._note(step.t, points[1:], state, states[1:])
             self.t, self.now = step.t_next, step.y_next
             self._keep(self.t)
+        if self.t == corner:
+            self._cross(mode)
 
-    def _stops(self, guards: Sequence[Guard]) -> Array:
-        """Now and the samples to come, and times between them where steps must not be longer."""
-        stops = np.append(self.t, self.stops[self.stops > self.t])
-        longest = self.system.longest if guards else None
-        if longest is None:
-            return stops
-        pieces = np.ceil(np.diff(stops) / longest).astype(int)
-        spans = zip(stops[:-1], stops[1:], pieces, strict=True)
-        between = [np.linspace(a, b, n, endpoint=False) for a, b, n in spans]
-        return np.append(np.concatenate(between), stops[-1])
+    def _cross(self, mode: Mode) -> None:
+        """A corner: the mode may be another one beyond it."""
+        self.passed, self.spent, before = self.t, None, self.now
+        name, q, v = self.system.beyond(self.phases[-1], self.t, *mode.parted(before))
+        if name != self.phases[-1]:
+            self._change(Change(None, 0, self.t, self.phases[-1], name, before, np.append(q, v)))
 
     def _keep(self, t: float) -> None:
         """A sample, if there is one at t."""
@@ -202,14 +208,16 @@ class _Walk:
         if self._piles_up(name, t, refused=guard.at_last is None) and guard.at_last is not None:
             mode, q, v = guard.at_last(t, *parted)
         self.spent = i if mode == ended else None
-        after = np.concatenate([q, v])
-        k = len(self.fired[name])
-        self.changes.append(Change(guard.event, k, t, ended, mode, before, after))
-        self.t, self.now = t, after
-        self._enter(mode)
-        if t - self.times[len(self.y) - 1] <= TOGETHER:
-            self.y[-1], self.phase[-1] = after, len(self.changes)
-        self._keep(t)
+        k, after = len(self.fired[name]), np.concatenate([q, v])
+        self._change(Change(guard.event, k, t, ended, mode, before, after))
+
+    def _change(self, change: Change) -> None:
+        self.changes.append(change)
+        self.t, self.now = change.time, change.after
+        self._enter(change.mode_after)
+        if self.t - self.times[len(self.y) - 1] <= TOGETHER:
+            self.y[-1], self.phase[-1] = self.now, len(self.changes)
+        self._keep(self.t)
 
     def _piles_up(self, name: str, t: float, *, refused: bool) -> bool:
         """Whether this was the last of infinitely many; raises ZenoError if that is refused."""

@@ -11,7 +11,7 @@ from given.planning import SHIPPED, TUNED, moved, refused, ways
 
 from textmech.cases.scene import Anchor, Edge
 from textmech.engines.engine import Start
-from textmech.engines.law import rate, value
+from textmech.engines.signal import rate, value
 from textmech.reference.solve import solve
 
 # By the tuned settings at these steps over 0.4 s: MuJoCo by RK4, pymunk of second order.

@@ -20,29 +20,53 @@ from textmech.cases.scene import (
     Torsion,
     TorsionDamper,
 )
-from textmech.engines.law import dry_friction, in_time, smooth_friction, tension, turning, value
+from textmech.engines.law import dry_friction, smooth_friction, tension, turning
+from textmech.engines.signal import acting, derivative, in_time, rate, value
 
 TABLE = json.loads((Path(__file__).parent / "law_table.json").read_text())
 ENDS = (Anchor("ground", "O"), Anchor("mass", "center"))
 
 
+def _signal(row: dict[str, Any]) -> Signal:
+    numbers = {key: row[key] for key in ("angular_frequency", "phase") if key in row}
+    lists = {key: tuple(row[key]) for key in ("amplitude", "times", "values") if key in row}
+    return Signal(row["law"], **lists, **numbers)
+
+
 @pytest.mark.parametrize("row", TABLE["signals"], ids=str)
 def test_signal(row: dict[str, Any]) -> None:
-    signal = Signal(
-        law=row["law"],
-        amplitude=tuple(row["amplitude"]),
-        angular_frequency=row.get("angular_frequency", 0.0),
-        phase=row.get("phase", 0.0),
-    )
+    signal = _signal(row)
     assert value(signal, row["t"]) == pytest.approx(tuple(row["value"]), rel=1e-12, abs=1e-15)
     assert in_time(signal)(row["t"]) == value(signal, row["t"])
+    if "rate" in row:
+        assert rate(signal, row["t"]) == pytest.approx(tuple(row["rate"]), rel=1e-12, abs=1e-15)
+
+
+@pytest.mark.parametrize("row", TABLE["means"], ids=str)
+def test_what_acts_in_a_step_with_a_corner_is_the_mean(row: dict[str, Any]) -> None:
+    told = acting(_signal(row), row["step"])
+    assert told(row["t"]) == pytest.approx(row["mean"], rel=1e-12)
+
+
+def test_the_derivative_of_a_law_is_its_rate() -> None:
+    """Of a table the sum of steps, at all times but its corners."""
+    for row in TABLE["signals"]:
+        signal = _signal(row)
+        if signal.law in ("step", "pulse"):
+            continue
+        for t in (0.1, 1.2, 2.5, 7.0):
+            parts = [value(part, t) for part in derivative(signal)]
+            total = [sum(each) for each in zip(*parts, strict=True)] or [0.0] * len(
+                signal.amplitude
+            )
+            assert total == pytest.approx(rate(signal, t), rel=1e-12, abs=1e-12)
 
 
 @pytest.mark.parametrize("row", TABLE["springs"], ids=str)
 def test_spring_pulls_when_stretched(row: dict[str, float]) -> None:
     spring = Spring("coil", *ENDS, row["stiffness"], row["rest_length"])
-    for rate in (0.0, 7.0):
-        assert tension(spring, row["length"], rate) == pytest.approx(row["tension"], rel=1e-12)
+    for speed in (0.0, 7.0):
+        assert tension(spring, row["length"], speed) == pytest.approx(row["tension"], rel=1e-12)
 
 
 @pytest.mark.parametrize("row", TABLE["one_sided"], ids=str)
@@ -68,8 +92,8 @@ def test_damper_pulls_when_lengthening(row: dict[str, float]) -> None:
 @pytest.mark.parametrize("row", TABLE["torsion"], ids=str)
 def test_a_torsion_spring_turns_back(row: dict[str, float]) -> None:
     spring = Torsion("wire", "hinge", row["stiffness"], row["rest_angle"])
-    for rate in (0.0, 7.0):
-        assert turning(spring, row["angle"], rate) == pytest.approx(row["torque"], rel=1e-12)
+    for speed in (0.0, 7.0):
+        assert turning(spring, row["angle"], speed) == pytest.approx(row["torque"], rel=1e-12)
 
 
 @pytest.mark.parametrize("row", TABLE["torsion_dampers"], ids=str)

@@ -13,7 +13,8 @@ from textmech.cases.scene import GROUND, Anchor, Damper, Push, Scene, Spring
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Plan, Refusal, Start
 from textmech.engines.heading import heading
-from textmech.engines.law import tension, value
+from textmech.engines.law import tension
+from textmech.engines.signal import value
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
-from .number import Amount, Names, NumberMistake, amount, number, shown
+from .number import Amount, Names, NumberMistake, amount, number, per_second, shown
 from .words import wrong
 
 LITERAL_OR_UNIT = "a number in SI, or a quantity with its unit as text (`30 deg`)"
@@ -98,6 +98,32 @@ class AnyUnit(Plain):
 
     def schema(self) -> dict[str, Any]:
         return {"anyOf": [{"type": "number"}, {"type": "string"}], "description": NUMBER}
+
+
+@dataclass(frozen=True)
+class Coefficients(Plain):
+    """Those of a polynomial in time: the unit, then each "per second" once more (None: any)."""
+
+    unit: str | None
+
+    def check(self, value: object, known: Names) -> tuple[Any, ...]:
+        if not isinstance(value, tuple | list):
+            raise NumberMistake(f"should be a list [c0, c1, …], is {shown(value)}")
+        if not value:
+            raise NumberMistake("should not be empty")
+        found = []
+        for k, entry in enumerate(value):
+            unit = None if self.unit is None else per_second(self.unit, k)
+            try:
+                amount = number(entry, unit, known) or Amount(float("nan"))
+            except NumberMistake as mistake:
+                raise NumberMistake(f"coefficient {k} {mistake}") from None
+            found.append(amount if self.unit is None else amount.value)
+        return tuple(found)
+
+    def schema(self) -> dict[str, Any]:
+        literal = {"anyOf": [{"type": "number"}, {"type": "string"}], "description": NUMBER}
+        return {"type": "array", "minItems": 1, "items": literal}
 
 
 @dataclass(frozen=True)

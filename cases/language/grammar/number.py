@@ -126,6 +126,18 @@ def fitting(found: Amount, unit: str | None) -> Amount:
     raise NumberMistake(f"is {found.text!r}, but {unit} was expected")
 
 
+def per_second(unit: str, times: int) -> str:
+    """The unit's rate: N once is N/s, m/s once is m/s²."""
+    if not times:
+        return unit
+    exponent = times + unit.endswith("/s")
+    raised = "" if exponent == 1 else str(exponent).translate(_RAISED)
+    return f"{unit.removesuffix('/s')}/s{raised}"
+
+
+_RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
 def _measured(value: float, unit: str, text: str) -> Amount:
     converted = _quantity(value, unit)
     size = _sized(float(converted.magnitude), repr(text))

@@ -14,7 +14,7 @@ import numpy as np
 
 from ....cases.scene import Edge, Scene, Vector
 from ....cases.trajectory import Array
-from ...law import rate
+from ...signal import rate
 from ..edge import held
 from ..tree import called
 from .signal import Control, bound

@@ -1,23 +1,71 @@
-"""Sines as controls of their actuators, set by MuJoCo's callback at every RK4 stage.
+"""Laws in time as controls of their actuators, set by MuJoCo's callback at every RK4 stage.
 
-A control set between steps would be held during the step: first order, without a warning.
+A control set between steps would be held during the step: first order, without a warning. In a step
+with a corner it is held all the same, at the law's mean: else the stages would weigh a jump by
+where they happen to lie, which is of first order with any integrator.
 """
 
 import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass, field
 
 import mujoco
 
 from ....cases.scene import Scene, Signal
+from ...signal import NEAR, factor, mean
+from ..force import BY_ITSELF
 from ..force import signals as laws
 
 Control = Callable[[mujoco.MjModel, mujoco.MjData], None]
+Take = Callable[[int], None]
 
 
-def signals(scene: Scene, others: Sequence[Control] = ()) -> AbstractContextManager[None]:
-    """The scene's sines, and what else needs them set, while they are wanted."""
-    return together([swinging(laws(scene)), *others])
+@dataclass
+class Corners:
+    """The corners [s] of a run's laws, and the step [s] that has one, while that is taken."""
+
+    laws: Sequence[Signal]
+    step: float
+    now: float | None = field(default=None, init=False)
+
+    @property
+    def any(self) -> bool:
+        """Whether there are any."""
+        return any(law.corners for law in self.laws)
+
+    def held(self, take: Take) -> Take:
+        """What takes n steps, so that one with a corner is taken alone."""
+        alone = sorted(set(self._touched()))
+        done = 0
+
+        def taken(n: int) -> None:
+            nonlocal done
+            end = done + n
+            for k in [k for k in alone if done <= k < end]:
+                if k > done:
+                    take(k - done)
+                self.now = k * self.step
+                take(1)
+                self.now, done = None, k + 1
+            if end > done:
+                take(end - done)
+            done = end
+
+        return taken if alone else take
+
+    def _touched(self) -> Iterator[int]:
+        """The numbers of the steps with a corner inside or at an end."""
+        for corner in {corner for law in self.laws for corner in law.corners}:
+            place = corner / self.step
+            yield from range(max(0, math.ceil(place - 1 - NEAR)), math.floor(place + NEAR) + 1)
+
+
+def signals(
+    scene: Scene, others: Sequence[Control] = (), corners: Corners | None = None
+) -> AbstractContextManager[None]:
+    """The controls of the scene's laws, and what else needs them set, while they are wanted."""
+    return together([following(laws(scene), corners), *others])
 
 
 def together(wanted: Sequence[Control | None]) -> AbstractContextManager[None]:
@@ -62,20 +110,21 @@ def _nothing() -> None:
     """Before there are data."""
 
 
-def swinging(laws: Sequence[Signal]) -> Control | None:
-    """What sets the controls of those of the actuators whose laws are sines, in their order."""
-    sines = [
-        (i, law.angular_frequency, law.phase) for i, law in enumerate(laws) if law.law == "sine"
-    ]
+def following(laws: Sequence[Signal], corners: Corners | None = None) -> Control | None:
+    """What sets the controls of the actuators, in their order, that do not follow by themselves."""
+    told = [(i, law, factor(law)) for i, law in enumerate(laws) if law.law not in BY_ITSELF]
 
     def bind(data: mujoco.MjData) -> Callable[[], None]:
         controls = data.ctrl
 
         def control() -> None:
-            t = data.time
-            for i, frequency, phase in sines:
-                controls[i] = math.sin(frequency * t + phase)
+            t, now = data.time, corners and corners.now
+            for i, law, size in told:
+                if now is not None and corners and law.corners:
+                    controls[i] = mean(law, corners.step)(now)
+                else:
+                    controls[i] = size(t)
 
         return control
 
-    return bound(bind) if sines else None
+    return bound(bind) if told else None

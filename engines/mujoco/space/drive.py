@@ -4,13 +4,13 @@ As a driven point is a heavy mass, a driven freedom has a heavy armature, and an
 it the acceleration of the law: right at every RK4 stage, and all forces follow.
 """
 
-import math
 from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
 from ....cases.signal import Signal
 from ....cases.space.joint import SpatialJoint, rate_of
 from ....cases.space.scene import SpatialScene
+from ...signal import derivative
 from ..scene import HEAVY
 from ..written import written
 from .tree import coordinate
@@ -39,14 +39,9 @@ class Drive:
         return f"{self.joint.name}.{freedom.name}_{kind}"
 
     @property
-    def acceleration(self) -> Signal | None:
-        """The derivative of the law; of a constant rate nothing is left."""
-        (size,) = self.rate.amplitude
-        if self.rate.law == "sine":
-            frequency = self.rate.angular_frequency
-            ahead = self.rate.phase + math.pi / 2
-            return Signal("sine", (size * frequency,), frequency, ahead)
-        return Signal("constant", (size,)) if self.rate.law == "ramp" else None
+    def accelerations(self) -> list[Signal]:
+        """The derivative of the law, as a sum; of a constant rate nothing is left."""
+        return derivative(self.rate)
 
 
 def drives(scene: SpatialScene) -> list[Drive]:
@@ -62,7 +57,7 @@ def drives(scene: SpatialScene) -> list[Drive]:
 
 def signals(scene: SpatialScene) -> list[Signal]:
     """The laws of the drives' actuators, in MuJoCo's order."""
-    return [law for drive in drives(scene) if (law := drive.acceleration)]
+    return [law for drive in drives(scene) for law in drive.accelerations]
 
 
 def write(root: ET.Element, scene: SpatialScene) -> None:
@@ -70,11 +65,11 @@ def write(root: ET.Element, scene: SpatialScene) -> None:
     joints = {joint.attrib["name"]: joint for joint in root.iter("joint")}
     for drive in drives(scene):
         joints[drive.name].set("armature", written(HEAVY))
-        if law := drive.acceleration:
+        for i, law in enumerate(drive.accelerations):
             section = root.find("actuator")
             section = ET.SubElement(root, "actuator") if section is None else section
             # The gear is what is heavy: a control above 1e10 would be "huge".
             ET.SubElement(
-                section, "general", name=f"{drive.name}.drive", joint=drive.name,
+                section, "general", name=f"{drive.name}.drive.{i}", joint=drive.name,
                 gear=written(HEAVY * law.amplitude[0]),
             )  # fmt: skip

@@ -26,14 +26,15 @@ def plan(
     """One way's plan. Nothing is withheld: all reactions can be read.
 
     Exponents: Euler and contacts 1, 2; RK4 4, 5; soft constraints of the tuned recipe, which
-    follow the step, 2, 3.
+    follow the step, and steps with the mean of a force that jumps, 2, 3.
     """
     integrator = {choice.name: choice.value for choice in numbers(NOMINAL)}["option.integrator"]
+    jumps = any(law.corners for law in scene.laws())
     first = integrator != "RK4" or bool(scene.contacts)
     following = (1, 2) if first else (2, 3)
     bare = Plan(
         realised,
-        held=(1, 2) if first else (4, 5),
+        held=(1, 2) if first else (2, 3) if jumps else (4, 5),
         following=following if tuned and soft_groups(scene) else None,
         numbers=numbers,
     )

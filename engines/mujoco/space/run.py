@@ -8,7 +8,7 @@ import numpy as np
 from ....cases.space.scene import SpatialScene
 from ....cases.trajectory import Array, Trajectory
 from ...engine import Realised, Start
-from ..law.signal import swinging, together
+from ..law.signal import Corners, following, together
 from ..law.stepping import Steps
 from ..read.record import Counts, Record, all_steps, counted, sampled, whole
 from ..run import check, listening
@@ -44,27 +44,35 @@ def simulate(
     grid = all_steps(times, model.opt.timestep) if every else times
     touching = tuple(name for name in reactions if name.partition(".")[0] in scene.contacts)
     laws = edges(scene, model) if realised == "law" else []
-    controls = [swinging(signals(scene)), *laws]
+    corners = Corners(signals(scene), float(model.opt.timestep))
+    controls = [following(signals(scene), corners), *laws]
     with listening() as warnings, together(controls):
-        record = whole(model, data, len(grid)) if every else _sampled(model, data, counts)
+        if every and not corners.any:
+            record = whole(model, data, len(grid))
+        else:
+            record = _sampled(model, data, np.arange(len(grid)) if every else counts, corners)
         check(warnings, grid, record)
         rows = record.at(counts) if every else record
         known = seen(model, data, times, rows, _needed(scene, reactions))
-        each = seen(model, data, grid, record, set()) if every else known
+        alone = record.felt is None  # our loop kept it, and not MuJoCo's, which keeps its sensors
+        each = seen(model, data, grid, record, {*TOUCHING} if alone else set()) if every else known
         check(warnings, grid, record)
     forces = read(scene, model, known, reactions)
     found = states(scene, model, each, start)
     if not every:
         return Trajectory(times, found, forces)
-    assert record.felt is not None
-    felt = {name: contact_force(scene, name, record.felt) for name in touching}
+    floor = each["sensordata"] if record.felt is None else record.felt
+    felt = {name: contact_force(scene, name, floor) for name in touching}
     phase = np.zeros(len(grid), dtype=np.int64)  # an engine does not say when one ends
     samples = {name: rows[counts] for name, rows in found.items()}
     return Trajectory(times, samples, forces, record=Trajectory(grid, found, felt, phase=phase))
 
 
-def _sampled(model: mujoco.MjModel, data: mujoco.MjData, counts: Counts) -> Record:
-    return sampled(data, counts, Steps(model, data, [], lambda n: mujoco.mj_step(model, data, n)))
+def _sampled(
+    model: mujoco.MjModel, data: mujoco.MjData, counts: Counts, corners: Corners
+) -> Record:
+    take = corners.held(lambda n: mujoco.mj_step(model, data, n))
+    return sampled(data, counts, Steps(model, data, [], take))
 
 
 def _needed(scene: SpatialScene, reactions: tuple[str, ...]) -> set[str]:

@@ -17,8 +17,8 @@ from ....cases.space.joint import SpatialJoint
 from ....cases.space.rotation import Vector3
 from ....cases.space.scene import SpatialScene
 from ...engine import Choice, Start
+from ..force import BY_ITSELF, write
 from ..force import signals as laws
-from ..force import write
 from ..scene import FLOOR, HEAVY, LEAST
 from ..tree import Branch, called
 from ..written import attributes, written
@@ -236,4 +236,4 @@ def _start(
     key.set("qpos", written(*(begun[0] or [x for places, _ in each for x in places])))
     key.set("qvel", written(*(begun[1] or [x for _, rates in each for x in rates])))
     if laws := signals(scene):
-        key.set("ctrl", written(*(0 if law.law == "sine" else 1 for law in laws)))
+        key.set("ctrl", written(*(int(law.law in BY_ITSELF) for law in laws)))

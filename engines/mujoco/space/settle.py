@@ -16,7 +16,7 @@ from ....cases.space.rotation import turned
 from ....cases.space.scene import SpatialScene
 from ....cases.trajectory import Array
 from ...engine import Start
-from ..law.signal import installed, swinging
+from ..law.signal import following, installed
 from ..tree import called
 from .scene import signals
 from .start import started
@@ -50,7 +50,7 @@ def settle(
         mujoco.mj_rnePostConstraint(model, data)
         return np.concatenate([_acceleration(scene, model, data, c) for c in contacts])
 
-    with installed(swinging(signals(scene))):
+    with installed(following(signals(scene))):
         x = _zero(left, np.tile([DEEP, 0.0, 0.0], len(contacts)))
     x = np.zeros(3 * len(contacts)) if x is None else x
     mujoco.mj_resetDataKeyframe(model, data, 0)  # the run must not inherit a warm start

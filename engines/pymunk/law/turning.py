@@ -5,7 +5,8 @@ from collections.abc import Callable, Iterator
 from pymunk.body import Body
 
 from ....cases.turning import Motor, Turning
-from ...law import in_time, turning, value
+from ...law import turning
+from ...signal import acting, value
 from ..world import World
 from .line import Exerted, Load
 
@@ -42,8 +43,8 @@ def twisted(world: World, force: Turning, step: float) -> Callable[[float], None
 
 def motor(world: World, force: Motor, step: float, drift: float) -> Callable[[float], None]:
     """Its torque in the middle of the step, or at its start."""
-    (a, b), torque, ahead = _parts(world, force), in_time(force.signal), drift / 2
-    return lambda t: _couple(a, b, torque(t + ahead)[0])
+    (a, b), torque = _parts(world, force), acting(force.signal, drift)
+    return lambda t: _couple(a, b, torque(t)[0])
 
 
 def motor_load(world: World, force: Motor, name: str) -> Exerted:

@@ -11,6 +11,7 @@ class SpatialMechanism(System):
     def __init__(self, scene: SpatialScene, start: tuple[Array, Array]) -> None:
         self.base = SpatialMultibody(scene, start)
         self.modes = {MOVING: self.base}
+        self.corners = [corner for law in scene.laws() for corner in law.corners]
 
     def start(self) -> tuple[str, Array, Array]:
         """The assembled start."""

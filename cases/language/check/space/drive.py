@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator
 
-from ....mistake import nearest
+from ....mistake import Path, nearest
 from ....space.scene import SpatialScene
-from ...grammar.number import NumberMistake, fitting
+from ...grammar.number import NumberMistake, fitting, per_second
 from ...grammar.space.drive import Drive
 from ...parse import Finding, Parsed
 
@@ -28,11 +28,16 @@ def drives(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
             why = "their middle axis is fixed in neither part; put a body between, on a joint more"
             yield path, f"{part!r} leaves three turns, and of these none can be driven: {why}"
         unit = "m/s" if rates[rate].kind == "shift" else "rad/s"
-        key = () if drive.law == "constant" else (drive.law,)
+        yield from fits(path, drive, unit)
+
+
+def fits(path: Path, drive: Drive, unit: str) -> Iterator[Finding]:
+    """Whether each number of the law can be measured in the unit of the rate, per s, per s² …"""
+    for at, amount, times in drive.amounts:
         try:
-            fitting(drive.amount, f"{unit}²" if drive.law == "ramp" else unit)
+            fitting(amount, per_second(unit, times))
         except NumberMistake as mistake:
-            yield (*path, *key), str(mistake)
+            yield (*path, *at), str(mistake)
 
 
 def _no_rate(scene: SpatialScene, part: str, rate: str) -> str:

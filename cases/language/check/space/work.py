@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from ....mistake import Path
+from ....signal import fastest
 from ....space.scene import SpatialScene
 from ...grammar.file import File
 
@@ -24,5 +25,4 @@ def spins(file: File, scene: Any) -> Iterator[tuple[float, Path]]:
         yield signal.angular_frequency, path
         freedom = driven.joints[part].rates.get(name) if part in driven.joints else None
         if freedom is not None and freedom.kind == "turn":
-            fastest = abs(signal.amplitude[0]) * (file.duration if signal.law == "ramp" else 1.0)
-            yield fastest, path
+            yield fastest(signal, file.duration), path

@@ -3,52 +3,43 @@
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from pydantic import Tag
+from pydantic import Tag, create_model
 
-from ....signal import Law, Signal
+from ....mistake import Path
+from ....signal import Signal
 from ..field import AnyUnit
 from ..number import Amount
 from ..part import Made, plain_or_map
-from ..signal import LAWS, Following, Sine
+from ..signal import Prescribed, keys
 
 _Amount = Annotated[Amount, AnyUnit()]
 
 
 @dataclass(frozen=True)
 class Drive:
-    """A law in time whose unit is that of the rate it prescribes."""
+    """A law in time whose unit is that of the rate it prescribes.
 
-    law: Law
-    amount: Amount
-    angular_frequency: float = 0.0
-    phase: float = 0.0
+    amounts: where its numbers stand, and how often each is "per second" more than the rate.
+    """
 
-    @property
-    def signal(self) -> Signal:
-        """Its numbers in SI."""
-        return Signal(self.law, (self.amount.value,), self.angular_frequency, self.phase)
+    signal: Signal
+    amounts: tuple[tuple[Path, Amount, int], ...]
 
 
-class _DriveSine(Sine):
-    amplitude: _Amount
+_fields: dict[str, Any] = keys("Drive", None, 1, Prescribed.laws)
+_InTime = create_model("Drive", __base__=Prescribed, __doc__="A law in time.", **_fields)
 
 
-class _InTime(Following):
-    constant: _Amount | None = None
-    ramp: _Amount | None = None
-    sine: _DriveSine | None = None
+def _number(amount: Amount) -> Drive:
+    return Drive(Signal("constant", (amount.value,)), (((), amount, 0),))
 
 
-def _drive(written: Any) -> Drive:
-    law: Law = next(law for law in LAWS if getattr(written, law) is not None)
-    given = getattr(written, law)
-    if isinstance(given, _DriveSine):
-        return Drive(law, given.amplitude, given.angular_frequency, given.phase)
-    return Drive(law, given)
+def _law(written: Any) -> Drive:
+    return Drive(written.signal, tuple(written.amounts()))
 
 
 Driven = Annotated[
-    Annotated[Drive, Made(_Amount, lambda amount: Drive("constant", amount)), Tag("<plain>")]
-    | Annotated[Drive, Made(_InTime, _drive), Tag("<map>")],
+    Annotated[Drive, Made(_Amount, _number), Tag("<plain>")]
+    | Annotated[Drive, Made(_InTime, _law), Tag("<map>")],
     plain_or_map(),
 ]
