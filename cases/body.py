@@ -22,6 +22,11 @@ _TURNING: Fields = {
     "angle": ("rad", "coordinate"),
     "omega": ("rad/s", "velocity"),
 }
+_ACCELERATION: Fields = {  # as the producer gives it
+    "ax": ("m/s²", "acceleration"),
+    "ay": ("m/s²", "acceleration"),
+}
+_ANGULAR: Fields = {"alpha": ("rad/s²", "acceleration")}
 
 
 @dataclass(frozen=True)
@@ -43,7 +48,7 @@ class Body:
 
     def quantities(self) -> dict[str, Fields]:
         """Its fields, and those of each of its points."""
-        own = {**_POINT, **(_TURNING if self.turns else {})}
+        own = {**_POINT, **_ACCELERATION, **({**_TURNING, **_ANGULAR} if self.turns else {})}
         return {self.name: own, **{f"{self.name}.{point}": _POINT for point in self.points}}
 
     def numbers(self) -> dict[str, float]:
@@ -60,13 +65,13 @@ class Body:
         return (self.inertia or 0.0) + self.mass * math.hypot(*self.points[point]) ** 2
 
     def observe(self, states: Array, point: str, field: str) -> Array:
-        """(N,) a field of the point ("": of itself), from its states (N, 6)."""
+        """(N,) a field of the point ("": of itself), from its states (N, 6); else KeyError."""
         if field in _TURNING:
             return states[:, ANGLE if field == "angle" else OMEGA]
         p = self.point(states, point or CENTER)
         if field == "speed":
             return np.hypot(p[:, 2], p[:, 3])
-        return p[:, ("x", "y", "vx", "vy").index(field)]
+        return p[:, {"x": 0, "y": 1, "vx": 2, "vy": 3}[field]]
 
     def point(self, states: Array, point: str) -> Array:
         """(N, 4): x, y, vx, vy of a point (2.1), (2.6)."""

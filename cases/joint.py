@@ -1,11 +1,13 @@
 """Joints: each kind is the freedoms that it leaves."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field
 
+from .body import Body
 from .friction import DryFriction
 from .kind import Fields
 from .language.grammar.part import Angle, Direction
@@ -28,6 +30,14 @@ _JOINT: Fields = {
     "gap": ("m", "residual"),  # constraint drift
 }
 _HOLDS_ANGLE: Fields = {"torque": ("N m", "force")}
+TURN: Fields = {  # of the second part against the first
+    "angle": ("rad", "coordinate"),
+    "omega": ("rad/s", "velocity"),
+}
+SHIFT: Fields = {  # of the second point along the line, from the first
+    "shift": ("m", "coordinate"),
+    "speed": ("m/s", "velocity"),
+}
 _DRY: Fields = {
     "friction": ("N", "force"),  # on the second part, along the slide
     "slip": ("m/s", "residual"),  # of the second part along the slide; zero while it sticks
@@ -69,6 +79,12 @@ class Joint:
         """Whether the second point may leave the first, along the line."""
         return "shift" in FREEDOMS[self.kind]
 
+    def coordinates(self, bodies: Mapping[str, Body]) -> Fields:
+        """Those of its freedoms: a turn needs two parts that have an angle."""
+        ends = [bodies[at.body] for at in self.refers() if at.body in bodies]
+        turns = self.turns and all(body.turns for body in ends)
+        return {**(TURN if turns else {}), **(SHIFT if self.shifts else {})}
+
     def refers(self) -> tuple[Anchor, ...]:
         """The points it joins, in the order of the file."""
         return (self.a, self.b)
@@ -94,7 +110,9 @@ class Joint:
         if field == "force":
             fx, fy = (motion.reaction(f"{self.name}.{axis}") for axis in ("fx", "fy"))
             return np.hypot(fx, fy)
-        if field not in ("gap", "slip"):
+        if field in TURN:
+            return self.turn(motion)[list(TURN).index(field)]
+        if field not in ("gap", "slip", *SHIFT):
             raise KeyError(f"{self.name}.{field}")
         if field == "slip" and not self.shifts:
             return self.turn(motion)[1]
@@ -107,4 +125,6 @@ class Joint:
         gap = ux * d[:, 1] - uy * d[:, 0]
         if field == "gap":
             return gap
+        if field == "shift":
+            return ux * d[:, 0] + uy * d[:, 1]
         return ux * d[:, 2] + uy * d[:, 3] + turning * gap  # d/dt (u · d): the line turns too

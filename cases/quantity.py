@@ -51,8 +51,9 @@ def table(scene: Scene) -> dict[str, Quantity]:
     parts: dict[str, Fields] = {}
     for element in scene.elements():
         parts |= element.quantities()
-    for joint, exerted in scene.driven().items():
-        parts[joint] = {**parts[joint], **exerted}
+    for more in (scene.coordinates(), scene.driven()):
+        for joint, fields in more.items():
+            parts[joint] = {**parts[joint], **fields}
     momentum = _MOMENTUM if scene.frame.dimension == 2 else _SPATIAL_MOMENTUM
     return _named(parts | {"energy": _ENERGY, "momentum": momentum})
 

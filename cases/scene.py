@@ -91,6 +91,10 @@ class Scene:
         """By joint, what prescribed rates exert; in the plane none are prescribed."""
         return {}
 
+    def coordinates(self) -> Mapping[str, Fields]:
+        """By joint, what its freedoms are observed as."""
+        return {name: joint.coordinates(self.bodies) for name, joint in self.joints.items()}
+
     def told_by(self, reaction: str) -> tuple[str, ...]:
         """The reactions of a producer from which one follows; in the plane it gives each."""
         return (reaction,)

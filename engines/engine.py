@@ -136,7 +136,8 @@ class Engine(Protocol):
     ) -> Trajectory:
         """The motion at `times`, whole multiples of `step` [s] from 0, by a plan for the scene.
 
-        reactions: the wanted `joint.fx|fy|force|torque|friction` and `contact.normal|tangent`, in
+        reactions: the wanted `joint.fx|fy|force|torque|friction`, `contact.normal|tangent` and, of
+        bodies, `body.ax|ay|alpha`, in
         space `joint.fx|fy|fz|mx|my|mz`, `contact.fx|fy|normal` and what drives exert (`q1.torque`),
         of which those not withheld are given; others are not computed. record: keep the states
         of every step too, from which event times are read. Raises Diverged.

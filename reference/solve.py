@@ -62,10 +62,11 @@ def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
             check_start(case, written, generated)
         followed = follow(system, case.times, every=bool(case.events))
         found = followed if system is generated else follow(generated, case.times)
-        built = Answer(generated, found)
+        asked = _accelerations(case)
+        built = Answer(generated, found, accelerates=asked)
         check_shares(case, built)
         beside = reactions_of(generated, found, followed)
-        answer = built if system is generated else Answer(system, followed, beside)
+        answer = built if system is generated else Answer(system, followed, beside, asked)
         look()
         corners = [t for t in system.corners if 0.0 < t < case.duration]
         switches = np.array([*(change.time for change in followed.changes), *corners], dtype=float)
@@ -106,6 +107,12 @@ def reactions_of(generated: Generated, found: Followed, followed: Followed) -> B
         return mode.reactions(t, *generated.base.place(poses))
 
     return reactions
+
+
+def _accelerations(case: Case) -> bool:
+    """Whether an acceleration is asked for."""
+    known = table(case.scene)
+    return any(known[name].kind == "acceleration" for name in case.allow if name in known)
 
 
 def _felt(case: Case) -> bool:

@@ -42,6 +42,10 @@ class SpatialScene(Scene):
         yield from (force.signal for force in self.signals())
         yield from self.drives.values()
 
+    def coordinates(self) -> Mapping[str, Fields]:
+        """Nothing more: a joint in space has them by itself."""
+        return {}
+
     def driven(self) -> dict[str, Fields]:
         """By joint, what the prescribed rates exert: `q1` → `torque`."""
         found: dict[str, dict[str, tuple[str, str]]] = {}

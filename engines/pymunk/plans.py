@@ -87,11 +87,21 @@ def _withheld(scene: Scene) -> dict[str, str]:
         if quantity.part in scene.constraints and quantity.field in ("force", "drive")
         if not alone(scene, quantity.part)
     }
-    return edges | {
-        name: "engine: pymunk reports a joint's impulse as a magnitude only"
+    moved = {
+        name: "engine: pymunk knows velocities and impulses, and no accelerations"
         for name, quantity in table(scene).items()
-        if quantity.part in scene.joints and quantity.field in ("fx", "fy", "torque", "friction")
+        if quantity.kind == "acceleration"
     }
+    return (
+        edges
+        | moved
+        | {
+            name: "engine: pymunk reports a joint's impulse as a magnitude only"
+            for name, quantity in table(scene).items()
+            if quantity.part in scene.joints
+            and quantity.field in ("fx", "fy", "torque", "friction")
+        }
+    )
 
 
 def _words(scene: Scene, start: Start, recipe: Recipe, step: float) -> str:

@@ -55,7 +55,7 @@ def certify(
     inner = case.scene.inner()
     stiff = any(system.modes[mode].stiff for mode in followed.phases)
     name, second = _second(system, times, stiff=stiff)
-    others = {name: Answer(system, second, written.beside).trajectory(times)}
+    others = {name: replace(written, followed=second).trajectory(times)}
     apart = difference(motion, others[name], inner)
     checks, found = [], {f"{name}: events": second}
     if system is not generated:

@@ -138,10 +138,10 @@ class Carried:
 
 @dataclass(frozen=True)
 class Given:
-    """A prescribed velocity, with the opposite sign: −s(t) [m/s]."""
+    """A prescribed velocity, with the opposite sign: −s(t) [m/s], or of a turn [rad/s]."""
 
     law: Signal
-    angular = False
+    angular: bool = False
 
     def place(self, ends: Ends) -> Any:
         """(2.15) There is none. Raises TypeError."""

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from ...cases.trajectory import Trajectory
-from ..system import Array, Pose, System
+from ..formalisms.derivative import along
+from ..system import Array, Mode, Pose, System
 from .follow import Followed, Kept
 from .stuck import Stuck
 
@@ -17,11 +18,15 @@ Beside = Callable[[int, float, Mapping[str, Pose]], Mapping[str, float]]
 
 @dataclass(frozen=True)
 class Answer:
-    """A system, how it moved, and who derives the reactions that it does not know itself."""
+    """A system, how it moved, and who derives the reactions that it does not know itself.
+
+    accelerates: whether its bodies' accelerations are asked for too.
+    """
 
     system: System
     followed: Followed
     beside: Beside = lambda phase, t, poses: {}
+    accelerates: bool = False
 
     def trajectory(self, times: Array, y: Array | None = None) -> Trajectory:
         """The samples; of another motion y (N, ·) through the same phases, if given.
@@ -55,6 +60,8 @@ class Answer:
                     found = {**self.beside(phase, t, poses), **mode.reactions(t, q, v)}
                 except ArithmeticError as error:
                     raise Stuck(str(error), mode, t, y) from error
+                if self.accelerates:
+                    found |= accelerations(mode, t, q, v)
                 reactions.append(found | inner)
         names = dict.fromkeys(name for found in reactions for name in found)
         return Trajectory(
@@ -62,3 +69,20 @@ class Answer:
             {name: np.array(poses, float) for name, poses in states.items()},
             {name: np.array([found.get(name, 0.0) for found in reactions]) for name in names},
         )
+
+
+def accelerations(mode: Mode, t: float, q: Array, v: Array) -> dict[str, float]:
+    """(2.22) ẍ, ÿ and φ̈ of each body, by quantity: the change of the velocities in its pose."""
+
+    def velocities(t: Any, q: Any, v: Any) -> Any:
+        return np.array([pose[3:] for pose in mode.poses(t, q, v).values() if len(pose) > 1])
+
+    names = [name for name, pose in mode.poses(t, q, v).items() if len(pose) > 1]
+    rates = (1.0, mode.rates(t, q, v), mode.accelerations(t, q, v))
+    changes = along(velocities, (t, q, v), rates).tolist()
+    fields = ("ax", "ay", "alpha")
+    return {
+        f"{name}.{field}": a
+        for name, row in zip(names, changes, strict=True)
+        for field, a in zip(fields, row, strict=True)
+    }

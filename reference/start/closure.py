@@ -16,6 +16,7 @@ from ..generated.coordinates import ORIGIN, Coordinates
 from ..generated.permanent import constraints, gliding
 from ..generated.rows import FIRST, Along, X, Y
 from ..system import Array
+from .posed import moving, posed
 
 POSITIONS = {"x": 0, "y": 1, "angle": 2}
 RATES = {"vx": 0, "vy": 1, "omega": 2}
@@ -42,13 +43,16 @@ class Closure:
         self.places += [_at(anchor, place, self.where) for anchor, place in self.placed]
         standing = [Anchor(b, p.on) for b, p in case.initial.items() if p.on is not None]
         self.places += [_on_floor(anchor, self.where) for anchor in standing]
+        self.posed = list(posed(case, self.where))
+        self.places += self.posed
         self.gliding = [
             gliding(edge, speed, self.where)
             for name, edge in case.scene.constraints.items()
             if name in case.initial and (speed := case.initial[name].given.get("speed")) is not None
         ]
+        self.gliding += moving(case, self.where)
         self.still = [_at(anchor, ORIGIN, self.where) for anchor in standing]
-        self.locks = [lock for c in self.parts for lock in self._locks(c)]
+        self.locks = [lock for c in (*self.parts, *self.posed) for lock in self._locks(c)]
         self.given = held(self.locks, self.numbers(case.initial, POSITIONS))
         self.free = np.array([i for i in range(self.n) if i not in self.given], int)
         self.turning = self.where.turning
@@ -65,7 +69,7 @@ class Closure:
             self.where.columns[body][0] + fields[key]: value
             for body, placement in placements.items()
             for key, value in placement.given.items()
-            if key in fields
+            if key in fields and body in self.where.columns
         }
 
     def equations(self, q: Array) -> tuple[Array, Array]:

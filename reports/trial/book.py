@@ -54,7 +54,8 @@ class Book:
                 withheld={
                     name: "adapter: only the motion is read"
                     for name, quantity in table(scene).items()
-                    if quantity.part in scene.joints and quantity.field in forces
+                    if (quantity.part in scene.joints and quantity.field in forces)
+                    or quantity.kind == "acceleration"
                 },
             )
         ]

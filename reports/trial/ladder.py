@@ -88,12 +88,14 @@ def _upward(h: float, interval: float) -> Iterator[float]:
 
 def wanted_reactions(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
     """The reactions, that only the producer can give, from which the quantities follow."""
-    parts = {*scene.joints, *scene.constraints, *scene.contacts}
+    parts = {*scene.joints, *scene.constraints, *scene.contacts, *scene.bodies}
     known = table(scene)
     forces = (
         name
         for name in names
-        if name.split(".")[0] in parts and name in known and known[name].kind == "force"
+        if name.split(".")[0] in parts
+        and name in known
+        and known[name].kind in ("force", "acceleration")
     )
     told = (given for name in forces for given in scene.told_by(name))
     return tuple(dict.fromkeys([*told, *scene.inner()]))

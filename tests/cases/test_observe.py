@@ -125,6 +125,10 @@ def test_joints() -> None:
     apart = wheel(T)[0] - at(T, bar, 0.1 + 0.2j)
     same("rail.gap", (apart * along.conj()).imag)  # the part across the line, with its sign
     same("rail.slip", rate(shifted, T))
+    same("rail.shift", shifted(T))
+    same("rail.speed", rate(shifted, T))
+    same("pin.angle", bar(T)[1])
+    same("pin.omega", rate(lambda t: bar(t)[1], T))
 
 
 def shifted(t: Array) -> Array:
@@ -222,6 +226,7 @@ def test_every_quantity_is_seen_or_refused() -> None:
         except KeyError:
             missing.append(name)
     fields = ("fx", "fy", "force", "torque", "friction")
-    assert missing == [*(f"rail.{field}" for field in fields), "touch.tangent"]
+    given = [f"{body}.{field}" for body in SCENE.bodies for field in ("ax", "ay", "alpha")]
+    assert missing == [*given, *(f"rail.{field}" for field in fields), "touch.tangent"]
     with pytest.raises(KeyError):
         seen("bar.angel")

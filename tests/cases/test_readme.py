@@ -1,6 +1,7 @@
 """cases/README.md says what the grammar and the table of quantities say, but for space."""
 
 import re
+from dataclasses import replace
 from inspect import signature
 from pathlib import Path
 
@@ -78,7 +79,8 @@ def test_quantities() -> None:
     )
     rows = re.findall(r"^\| (`[a-z]+\..*?) \| (.*?) \|", PLANE, flags=re.MULTILINE)
     said = {name: unit for names, unit in rows for name in re.findall(r"`(.*?)`", names)}
-    quantities = table(scene) | event_quantities(["event"])
+    pinned = replace(scene, joints={"joint": Connection("joint", "pin", a, b)})
+    quantities = table(scene) | table(pinned) | event_quantities(["event"])
     known = {name: q.unit for name, q in quantities.items() if ".center." not in name}
     assert said == known
 

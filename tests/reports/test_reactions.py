@@ -23,7 +23,7 @@ def test_in_the_plane_each_force_is_asked_for_by_itself() -> None:
         forces = [
             q.name
             for q in table(one.scene).values()
-            if q.kind == "force" and q.part not in one.scene.forces
+            if q.kind in ("force", "acceleration") and q.part not in one.scene.forces
         ]
         assert wanted_reactions(one.scene, forces) == tuple(forces)
         assert wanted_reactions(one.scene, table(one.scene)) == tuple(forces)

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 
+from ...joint import SHIFT, TURN
 from ...mistake import Path, nearest
 from ...quantity import EVENT_FIELDS, Quantity, at_event, at_events, event_quantities, table
 from ...scene import Scene
@@ -36,7 +37,7 @@ def _marks(scene: Scene, quantity: Quantity) -> bool:
     drift = quantity.field == "drift" or (quantity.field == "gap" and quantity.part in scene.joints)
     drift |= quantity.field == "slip" and quantity.part in scene.constraints
     turned = quantity.field == "attitude"
-    return quantity.kind not in ("energy", "momentum") and not drift and not turned
+    return quantity.kind not in ("energy", "momentum", "acceleration") and not drift and not turned
 
 
 def _bounds(parsed: Parsed, known: Mapping[str, Quantity]) -> Iterator[Finding]:
@@ -118,10 +119,19 @@ def _unknown(
         yield path, f"{part!r} has no `dry_friction`, so no {name!r}"
     elif _undriven(known, part, field):
         yield path, f"no `drive` prescribes the rate, so no {name!r}"
+    elif field in (*TURN, *SHIFT) and f"{part}.gap" in known and part in parsed.file.scene.joints:
+        yield path, _no_freedom(known, part, field)
     elif field == "angle" and f"{part}.attitude" in known:
         yield path, f"a body in space has no angle; its quantity is '{part}.attitude'"
     else:
         yield path, f"unknown quantity {name!r}{nearest(name, known)}"
+
+
+def _no_freedom(known: Mapping[str, Quantity], part: str, field: str) -> str:
+    """Why a joint has no such coordinate."""
+    left = [f"'{part}.{name}'" for name in (*TURN, *SHIFT) if f"{part}.{name}" in known]
+    has = f"it has {' and '.join(left)}" if left else "it leaves nothing that has one"
+    return f"{part!r} has no {field}: {has}"
 
 
 def _hidden(parsed: Parsed, name: str) -> bool:

@@ -14,8 +14,9 @@ def edges(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     for name, start in parsed.file.initial.items():
         given = sorted(start.keys)
         if name not in scene.constraints:
-            if "speed" in given:
-                yield ("initial", name, "speed"), "only an edge starts with a `speed`"
+            if "speed" in given and name not in scene.joints:
+                what = "only an edge or a joint that slides starts with a `speed`"
+                yield ("initial", name, "speed"), what
             continue
         for key in given:
             if key != "speed":

@@ -10,11 +10,13 @@ from ..parse import NAMED, Finding, Parsed
 from .about import about, rubbing
 from .edge import edges
 from .polar import polar
+from .posed import posed
 from .space.spatial import spatial
 from .touch import planes, touches
 
-_FIELDS = ("x", "y", "angle", "vx", "vy", "omega", "speed")  # `crank.x` is a quantity
-_TAKEN = (*_FIELDS, "on")  # and a start stands `on` a point
+_FIELDS = ("x", "y", "angle", "vx", "vy", "omega", "speed", "ax", "ay", "alpha")
+# `crank.x` is a quantity, and a start stands `on` a point
+_TAKEN = (*_FIELDS, "on")
 _TAKEN_IN_SPACE = (*_FIELDS, "z", "vz", "attitude", "omega_1", "omega_2", "omega_3")
 
 
@@ -51,6 +53,7 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         yield from _placed(parsed, scene, key, getattr(parsed.file, key))
     yield from edges(parsed, scene)
     yield from polar(parsed, scene)
+    yield from posed(parsed, scene)
 
 
 def _views(spec: Spec, scene: Scene) -> Iterator[Finding]:
@@ -117,14 +120,26 @@ def _body(parsed: Parsed, scene: Scene, path: Path, name: str) -> Iterator[Findi
         yield path, f"unknown body {name!r}{nearest(name, parsed.names('bodies', scene.bodies))}"
 
 
+def _nobody(parsed: Parsed, scene: Scene, key: str, name: str) -> str:
+    """A start may be given by a joint, a guess only by a body."""
+    known = parsed.names("bodies", scene.bodies)
+    if key == "near" and name in scene.joints:
+        return f"{name!r} is a joint; a guess is given by a body"
+    if key == "initial":
+        known += parsed.names("joints", scene.joints)
+    kinds = "body or joint" if key == "initial" else "body"
+    return f"unknown {kinds} {name!r}{nearest(name, known)}"
+
+
 def _placed(
     parsed: Parsed, scene: Scene, key: str, places: Mapping[str, Near]
 ) -> Iterator[Finding]:
     for name, place in places.items():
-        if name in scene.constraints and key == "initial":
+        if key == "initial" and (name in scene.constraints or name in scene.joints):
             continue
-        yield from _body(parsed, scene, (key, name), name)
         if name not in scene.bodies:
+            if not parsed.hides(name):
+                yield (key, name), _nobody(parsed, scene, key, name)
             continue
         for point in place.places:
             if point not in scene.bodies[name].points:

@@ -77,6 +77,10 @@ def _spins(file: File, scene: Scene) -> Iterator[tuple[float, Path]]:
     if scene.frame.dimension == 3:
         yield from spins(file, scene)
         return
+    for name in scene.joints:
+        start = file.initial.get(name)
+        if start is not None and start.omega is not None:
+            yield abs(start.omega), ("initial", name)
     for at in _pins(scene):
         start = file.initial.get(at.body)
         if start is not None and start.omega is not None and any(_arm(scene, at)):

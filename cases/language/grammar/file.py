@@ -131,7 +131,7 @@ class Near(Part):
 
 
 class Initial(Near):
-    """How a body starts: coordinates and rates, or the places of its points; or an edge."""
+    """How a body starts: coordinates and rates, or places of its points; or an edge, or a joint."""
 
     from_: Point | None = Field(None, alias="from", description="a point of the ground")
     length: Annotated[float, In("m", above=0)] | None = Field(
@@ -142,7 +142,10 @@ class Initial(Near):
     vx: Annotated[float, In("m/s")] | None = None
     vy: Annotated[float, In("m/s")] | None = None
     omega: Annotated[float, In("rad/s")] | None = None
-    speed: Annotated[float, In("m/s")] | None = Field(None, description="of an edge, along it")
+    shift: Annotated[float, In("m")] | None = Field(None, description="of a joint, along its line")
+    speed: Annotated[float, In("m/s")] | None = Field(
+        None, description="of an edge or a joint, along it"
+    )
     on: Name | None = Field(None, description="the point of the body that stands on the floor")
 
     @property

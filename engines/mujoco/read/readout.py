@@ -14,6 +14,7 @@ from ....cases.scene import Scene
 from ....cases.trajectory import Array
 from ..edge import fields
 from ..tree import Tree, spanning_tree
+from .acceleration import NEEDED, acceleration
 from .friction import SlideFriction
 from .reaction import contact_force, joint_force
 from .record import Record
@@ -52,6 +53,8 @@ def read(
             found[name] = dry.forces[part]
         elif part in scene.constraints:
             found[name] = seen["userdata"][:, fields(scene).index(name)]
+        elif part in scene.bodies:
+            found[name] = acceleration(model, seen, part, field)
         elif part in scene.joints:
             found[name] = of_joint(part)[("fx", "fy", "torque", "force").index(field)]
         else:
@@ -68,6 +71,8 @@ def _needed(scene: Scene, tree: Tree, reactions: tuple[str, ...]) -> set[str]:
         part, _, field = name.partition(".")
         if part in scene.constraints:
             names.add("userdata")
+        elif part in scene.bodies:
+            names |= {*NEEDED}
         elif part not in scene.joints:
             names |= {*_TOUCHING}
         elif field != "friction":
@@ -87,7 +92,7 @@ def _seen(
     """MuJoCo's own arrays at every row, (N, …) each."""
     mujoco.mj_resetDataKeyframe(model, probe, 0)  # the run's last solution must not start the first
     states = np.column_stack([times, record.qpos, record.qvel, record.act])
-    loops, joints = "efc_force" in names, "cfrc_int" in names
+    loops, after = "efc_force" in names, not names.isdisjoint({"cfrc_int", "cacc"})
     views = {name: getattr(probe, name) for name in names if name != "efc_force"}
     seen = {name: np.empty((len(times), *part.shape)) for name, part in views.items()}
     pairs = [(seen[name], part) for name, part in views.items()]
@@ -96,7 +101,7 @@ def _seen(
         mujoco.mj_setState(model, probe, state, _STATE)
         recall(i)
         mujoco.mj_forward(model, probe)
-        if joints:
+        if after:
             mujoco.mj_rnePostConstraint(model, probe)
         for kept, part in pairs:
             kept[i] = part
