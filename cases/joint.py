@@ -38,6 +38,10 @@ SHIFT: Fields = {  # of the second point along the line, from the first
     "shift": ("m", "coordinate"),
     "speed": ("m/s", "velocity"),
 }
+DRIVES = {  # by the rate that is prescribed, what its drive exerts on the second part
+    "omega": ("torque", "N m"),
+    "speed": ("drive", "N"),
+}
 _DRY: Fields = {
     "friction": ("N", "force"),  # on the second part, along the slide
     "slip": ("m/s", "residual"),  # of the second part along the slide; zero while it sticks

@@ -28,8 +28,8 @@ from .force import (
 )
 from .frame import PLANE, Frame
 from .friction import Bounds, DryFriction, Smooth, Stribeck
-from .joint import Joint
-from .kind import Fields
+from .joint import DRIVES, Joint
+from .kind import Fields, Kind
 from .point import CENTER, FLOOR, GROUND, Anchor, GroundPoint, Vector
 from .signal import Signal
 
@@ -81,6 +81,8 @@ class Scene:
     contacts: Mapping[str, Contact]
     forces: Mapping[str, Force]
     constraints: Mapping[str, Edge] = field(default_factory=dict)
+    drives: Mapping[str, Signal] = field(default_factory=dict)
+    """Prescribed rates [rad/s, m/s] of joints' freedoms, by the quantity: `hinge.omega`."""
 
     @property
     def frame(self) -> Frame:
@@ -88,8 +90,14 @@ class Scene:
         return PLANE
 
     def driven(self) -> Mapping[str, Fields]:
-        """By joint, what prescribed rates exert; in the plane none are prescribed."""
-        return {}
+        """By joint, what prescribed rates exert: `hinge` → `torque`."""
+        found: dict[str, dict[str, tuple[str, Kind]]] = {}
+        for quantity in self.drives:
+            part, _, rate = quantity.rpartition(".")
+            if part in self.joints and rate in DRIVES:
+                effort, unit = DRIVES[rate]
+                found.setdefault(part, {})[effort] = (unit, "force")
+        return found
 
     def coordinates(self) -> Mapping[str, Fields]:
         """By joint, what its freedoms are observed as."""
@@ -131,6 +139,7 @@ class Scene:
         """All that is given in time, of forces and of what is prescribed."""
         yield from (force.signal for force in self.signals())
         yield from (law for edge in self.constraints.values() if (law := edge.speed) is not None)
+        yield from self.drives.values()
 
     def ends(self, force: Force) -> tuple[Anchor, ...]:
         """The points on which a force acts, or those of the joint about which it does."""

@@ -28,6 +28,7 @@ def resolve_scene(file: File) -> Scene:
         contacts={n: contact.named(n, bodies, planes) for n, contact in s.contacts.items()},
         forces=_named(s.forces),
         constraints=_named(s.constraints),
+        drives={rate: drive.signal for rate, drive in s.drive.items()},
     )
 
 

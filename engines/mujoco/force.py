@@ -117,6 +117,15 @@ def outer(scene: Scene, model: mujoco.MjModel, sizes: Array) -> Iterator[Outer]:
         yield from ELEMENTS[type(force)].outer(force, sizes[:, i], gear)
 
 
+def about(scene: Scene, model: mujoco.MjModel, joint: str, sizes: Array) -> Array:
+    """(N,) what the actuators exert about a joint, as MuJoCo counts its angle."""
+    total = np.zeros(len(sizes))
+    for i, (force, _) in enumerate(_actuated(scene)):
+        if force.about == joint:
+            total += sizes[:, i] * model.actuator_gear[i, 0]
+    return total
+
+
 def _actuated(scene: Scene) -> Iterator[tuple[Force, Callable[[Any], Signal]]]:
     for force in scene.forces.values():
         if signal := ELEMENTS[type(force)].signal:

@@ -17,7 +17,8 @@ from ...cases.trajectory import Array
 from ..engine import Plain, Plan, Start
 from ..law import dry_friction, smooth_friction
 from ..signal import factor, value
-from .force import BY_ITSELF, signals
+from .drive import controls
+from .force import BY_ITSELF
 from .law.friction import one_slide
 from .law.signal import Control, installed
 from .read.poses import poses
@@ -58,7 +59,7 @@ def _states(
 
 
 def _bare(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Take:
-    control = _in_time(signals(scene))
+    control = _in_time(controls(scene))
 
     def take(n: int) -> None:
         with listening(), installed(control):
@@ -85,7 +86,7 @@ def _told(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Take:
     model.dof_frictionloss[dof] = 0.0
     mujoco.mj_forward(model, data)
     law = partial(smooth_friction, friction, smooth=friction.smooth) if friction.smooth else None
-    laws, sense = _in_time(signals(scene)), 0
+    laws, sense = _in_time(controls(scene)), 0
 
     pushes = [f for f in of(Push, scene.forces.values()) if f.at.body == joint.b.body]
 

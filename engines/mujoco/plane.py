@@ -1,7 +1,7 @@
 """What MuJoCo does with planar scenes."""
 
 from .compilation import compiled, lent, placed
-from .force import signals
+from .drive import controls
 from .plain import plain
 from .plans import plan, ways
 from .read.measure import measured
@@ -12,6 +12,6 @@ from .settings import tuned, with_own
 from .world import World
 
 PLANE = World(
-    unbuildable, ways, plan, tuned, with_own, compiled, placed, lent, measured, mjcf, signals,
+    unbuildable, ways, plan, tuned, with_own, compiled, placed, lent, measured, mjcf, controls,
     simulate, plain,
 )  # fmt: skip

@@ -73,6 +73,8 @@ def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> 
     words = []
     if any(driven(scene)):
         words.append(f"driven points are masses of {HEAVY:g} kg")
+    if scene.drives:
+        words.append(f"prescribed rates are armatures of {HEAVY:g} kg m² (kg of a slide)")
     if plan.simplified:
         words.append(plan.simplified)
     if scene.constraints:

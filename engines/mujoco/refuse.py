@@ -28,6 +28,10 @@ def unbuildable(scene: Scene) -> str | None:
     soft += [joint for joint in scene.joints.values() if joint.dry_friction]
     if what := unbuilt(scene, [part.name for part in soft]):
         return what
+    for quantity in scene.drives:
+        part = quantity.rpartition(".")[0]
+        if scene.joints[part] in tree.loops:
+            return f"adapter: {part} is driven and closes a loop, where MuJoCo has no joint"
     if strides(scene) and any(joint.dry_friction for joint in scene.joints.values()):
         return "adapter: feet that pass the floor, beside a slide's dry friction, need one driver"
     if ours := lacking(scene):

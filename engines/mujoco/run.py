@@ -9,7 +9,7 @@ import numpy as np
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ..engine import Diverged, Realised, Start
-from .force import signals as controls
+from .drive import controls
 from .law.edge import edges
 from .law.inner import acting, activations, rated
 from .law.signal import Corners, installed, signals

@@ -10,8 +10,10 @@ from xml.etree import ElementTree as ET
 
 from ...cases.scene import GROUND, Anchor, DryFriction, Scene
 from ..engine import Choice, Start
+from .drive import controls
+from .drive import write as write_drives
 from .edge import write_room
-from .force import BY_ITSELF, begun_with, signals, write
+from .force import BY_ITSELF, begun_with, write
 from .planes import add_geom, add_pairs, add_planes
 from .tree import (
     Branch,
@@ -59,6 +61,7 @@ def mjcf(
     if tree.loops:
         _loops(root, tree, attributes(numbers, "connect"))
     write(root, scene)
+    write_drives(root, scene)
     write_room(root, scene)
     _start(root, scene, tree, start, begun, out=_leaves_plane(scene, numbers))
     ET.indent(root)
@@ -202,5 +205,5 @@ def _start(
     key.set("qvel", written(*(begun[1] or [rate for _, rate in flat])))
     if activations := begun_with(scene):
         key.set("act", written(*activations))
-    if laws := signals(scene):
+    if laws := controls(scene):
         key.set("ctrl", written(*(int(law.law in BY_ITSELF) for law in laws)))

@@ -81,7 +81,8 @@ def _key(group: str, name: str) -> str:
 
 def _solver(scene: Scene) -> list[Choice]:
     """Solve to the end where a driven point's mass would tell the solver that it has arrived."""
-    return [TO_THE_END] if _soft(scene) and any(driven(scene)) else []
+    heavy = any(driven(scene)) or bool(scene.drives)
+    return [TO_THE_END] if _soft(scene) and heavy else []
 
 
 def ties(scene: Scene) -> bool:

@@ -106,10 +106,14 @@ def node(scene: Scene, anchor: Anchor) -> str:
 
 
 def spanning_tree(scene: Scene) -> Tree[Joint]:
-    """The tree over the joints, pins last that do not rub, each kind in the scene's order."""
+    """The tree over the joints, pins last that do not rub, each kind in the scene's order.
+
+    What is driven comes before other pins: only a joint of the tree can be.
+    """
+    prescribed = {quantity.rpartition(".")[0] for quantity in scene.drives}
 
     def closes(joint: Joint) -> bool:
-        loose = joint.dry_friction is None
+        loose = joint.dry_friction is None and joint.name not in prescribed
         return loose and built_as(scene, joint) == Left(turns=True, shifts=False)
 
     return spanned(scene, sorted(scene.joints.values(), key=closes))

@@ -99,7 +99,7 @@ def _withheld(scene: Scene) -> dict[str, str]:
             name: "engine: pymunk reports a joint's impulse as a magnitude only"
             for name, quantity in table(scene).items()
             if quantity.part in scene.joints
-            and quantity.field in ("fx", "fy", "torque", "friction")
+            and quantity.field in ("fx", "fy", "torque", "drive", "friction")
         }
     )
 

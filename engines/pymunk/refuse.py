@@ -5,6 +5,7 @@ import math
 from ...cases.frame import PLANE
 from ...cases.scene import GROUND, Scene
 from ..stride import NO_STRIDE, strides
+from .drive import NO_LINE
 from .edge import NO_EDGE
 from .force import ELEMENTS
 from .lacking import lacking
@@ -32,6 +33,9 @@ def unbuildable(scene: Scene) -> str | None:
     for force in scene.forces.values():
         if type(force) not in ELEMENTS:
             return f"adapter: {force.name} is a {force.word}, which it does not build"
+    for quantity in scene.drives:
+        if quantity.endswith(".speed"):
+            return f"{NO_LINE}, as {quantity} is driven"
     beside = [*scene.contacts.values(), *(j for j in scene.joints.values() if j.dry_friction)]
     for edge in scene.constraints.values():
         if beside:

@@ -97,6 +97,9 @@ def _joints(world: World, start: Start, *, across: bool) -> None:
             parts = [PivotJoint(a, b, world.local(joint.a), world.local(joint.b))]
         if not joint.turns and holds_angle(world.scene, joint):
             parts.append(GearJoint(a, b, phase(joint, start), 1.0))
+        if law := world.scene.drives.get(f"{joint.name}.omega"):
+            world.motors[joint.name] = motor = SimpleMotor(a, b, -law.at_start()[0])
+            parts.append(motor)
         world.joints[joint.name] = tuple(parts)
         world.space.add(*parts)
         if joint.dry_friction:

@@ -19,6 +19,7 @@ from pymunk.constraints import (
 from ...cases.plane import LEVEL, Plane
 from ...cases.scene import Anchor, Scene
 from ..engine import Start
+from . import drive
 from .contact import ABOVE, GROUP, closed, is_tip
 from .edge import joints_as_text, lays_as_text
 from .force import script
@@ -97,6 +98,7 @@ def building(world: World, start: Start, numbers: Mapping[str, Any]) -> list[str
         *(f"{name} = {written(x)}" for name, x in numbers.items() if name.startswith("space.")),
         "ground = space.static_body",
         "bodies = {}",
+        *(["motors = {}"] if world.motors else []),
         *helpers(world.scene.laws()),
         *(["", *_CARRIED] if world.slots else []),
         *_bodies(world),
@@ -116,7 +118,9 @@ def before_each(world: World, numbers: Mapping[str, Any]) -> list[str]:
     """What is done before step n, indented."""
     midpoint = bool(numbers.get("time.midpoint"))
     lines = script(world, lambda body: _of(world, body), midpoint=midpoint)
-    return [*lines, *_followers(world, numbers), *_feet(world), *lays_as_text(world)]
+    turned = drive.as_lines(world, midpoint=midpoint)
+    followed = [*_followers(world, numbers), *_feet(world)]
+    return [*lines, *turned, *followed, *lays_as_text(world)]
 
 
 def _feet(world: World) -> Iterator[str]:
@@ -225,6 +229,8 @@ def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
             for key, value in numbers.items():
                 if name in world.joints and key.startswith("constraint."):
                     yield f"joint.{key.removeprefix('constraint.')} = {written(value)}"
+            if part is world.motors.get(name):
+                yield f"motors[{name!r}] = joint"
             if isinstance(part, PinJoint):
                 cut = world.slots[name]
                 yield f"joint.distance = {LENGTH!r}"

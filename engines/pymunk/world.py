@@ -25,8 +25,9 @@ class World:
 
     A joint's first constraint carries its force. reach: half the length [m] of planes and of
     grooves of the ground. driven: the driven points' bodies. brakes: what rubs in slides and pins.
-    slots: the lines that pin joints hold. pins: those of edges, by the reaction: `blade.force`.
-    inner: what forces with an inner state have had, at the start and in the middle of each step.
+    motors: those of driven joints. slots: the lines that pin joints hold. pins: those of edges, by
+    the reaction: `blade.force`. inner: what forces with an inner state have had, at the start and
+    in the middle of each step.
     """
 
     scene: Scene
@@ -37,6 +38,7 @@ class World:
     joints: dict[str, tuple[Constraint, ...]] = field(default_factory=dict)
     brakes: dict[str, GrooveJoint | SimpleMotor] = field(default_factory=dict)
     lines: dict[str, DampedSpring | DampedRotarySpring] = field(default_factory=dict)
+    motors: dict[str, SimpleMotor] = field(default_factory=dict)
     slots: dict[str, Line] = field(default_factory=dict)
     pins: dict[str, Pin] = field(default_factory=dict)
     wheels: dict[str, Circle] = field(default_factory=dict)

@@ -25,6 +25,7 @@ def constraints(
         held = jointed(joint, where)
         found.append(held if start is None else _on_its_turn(held, start))
     found += [edged(edge, where) for edge in scene.constraints.values()]
+    found += [driven(scene, quantity, law, where) for quantity, law in scene.drives.items()]
     for contact in scene.contacts.values():
         if contact.switches:
             continue  # what it holds, and when, is for its modes to say
@@ -51,6 +52,18 @@ def edged(edge: Edge, where: Coordinates) -> Constraint:
         rows.append((Carried(FIRST, edge.along), Given(edge.speed)))
         names.append(("drive",))
     return Constraint(edge.name, (edge.at,), tuple(rows), tuple(names), None, where)
+
+
+def driven(scene: Scene, quantity: str, law: Signal, where: Coordinates) -> Constraint:
+    """(2.15) ω_B − ω_A = s(t), λ being the torque on B; or d/dt u·(r_B − r_A) = s(t), λ along u."""
+    part, _, rate = quantity.rpartition(".")
+    joint = scene.joints[part]
+    row: tuple[Term, ...]
+    if rate == "omega":
+        row, names = (Turning(SECOND), Turning(FIRST, -1.0), Given(law, angular=True)), ("torque",)
+    else:
+        row, names = (Line(FIRST, SECOND, joint.along), Given(law)), ("fx", "fy", "drive")
+    return Constraint(part, (joint.a, joint.b), (row,), (names,), None, where)
 
 
 def gliding(edge: Edge, speed: float, where: Coordinates) -> Constraint:

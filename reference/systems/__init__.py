@@ -16,6 +16,7 @@ from .compass_walker import CompassWalker
 from .double_pendulum import DoublePendulum
 from .drag_stops import DragStops
 from .driven_edge import DrivenEdge
+from .driven_knee import DrivenKnee
 from .driven_robot import DrivenRobot
 from .driven_wheel import DrivenWheel
 from .dynamometer import Dynamometer
@@ -64,6 +65,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "driven_robot": DrivenRobot,
     "driven_wheel": DrivenWheel,
     "driven_edge": DrivenEdge,
+    "driven_knee": DrivenKnee,
     "dynamometer": Dynamometer,
     "falling_drag": FallingDrag,
     "elastic_pendulum": ElasticPendulum,

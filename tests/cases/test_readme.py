@@ -80,9 +80,11 @@ def test_quantities() -> None:
     rows = re.findall(r"^\| (`[a-z]+\..*?) \| (.*?) \|", PLANE, flags=re.MULTILINE)
     said = {name: unit for names, unit in rows for name in re.findall(r"`(.*?)`", names)}
     pinned = replace(scene, joints={"joint": Connection("joint", "pin", a, b)})
-    quantities = table(scene) | table(pinned) | event_quantities(["event"])
-    known = {name: q.unit for name, q in quantities.items() if ".center." not in name}
-    assert said == known
+    driven = replace(scene, drives={"joint.speed": Signal("constant", (1.0,))})
+    known = table(scene) | table(pinned) | table(driven)
+    quantities = known | event_quantities(["event"])
+    units = {name: q.unit for name, q in quantities.items() if ".center." not in name}
+    assert said == units
 
 
 def test_units() -> None:

@@ -62,4 +62,4 @@ def test_the_plane_keeps_its_words(tmp_path: Path) -> None:
     path = tmp_path / "own.yaml"
     path.write_text(SPATIAL.replace("  space: 3\n", ""), encoding="utf-8")
     places = {place.partition(":")[0] for place in found(path)}
-    assert {".scene.drive", ".scene.joints.q1", ".initial.top.P"} <= places
+    assert {".scene.joints.q1", ".initial.top.P"} <= places

@@ -32,6 +32,7 @@ PARAMETERS: dict[str, dict[str, float]] = {
         "m": 1.7, "J": 0.09, "a": 0.35, "w0": 1.5, "A": 0.8, "Omega": 2.0,
         "alpha": math.radians(50),
     },
+    "driven_knee": {"m": 3.5, "l": 0.45, "c": 40.0, "d": 1.5, "A": 2.5, "Omega": 5.0},
     "dynamometer": {"m": 1.0, "c": 2.0, "u": 2.0, **BOOK},
     "falling_drag": {"m": 0.5, "d": 0.2},
     "elastic_pendulum": {"m": 1.5, "c": 90.0, "l0": 0.7, "r0": 1.0, "phi0": math.radians(-40)},
@@ -105,6 +106,10 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
         ("sleigh", 5, 1.5, 0.0),
     ],
     "drag_stops": [("block", 0, 0.0, 0.0), ("block", 3, 2.0, 0.0)],
+    "driven_knee": [
+        ("shank", 0, 0.225, 1e-15), ("shank", 1, 0.0, 0.0), ("shank", 2, 0.0, 0.0),
+        ("shank", 5, 0.0, 0.0),
+    ],
     "dynamometer": _BLOCK,
     "falling_drag": [("ball", 1, 0.0, 0.0), ("ball", 4, 0.0, 0.0)],
     "elastic_pendulum": [

@@ -8,6 +8,7 @@ from ..grammar.file import Near
 from ..grammar.file import Scene as Spec
 from ..parse import NAMED, Finding, Parsed
 from .about import about, rubbing
+from .drive import drives
 from .edge import edges
 from .polar import polar
 from .posed import posed
@@ -54,6 +55,7 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     yield from edges(parsed, scene)
     yield from polar(parsed, scene)
     yield from posed(parsed, scene)
+    yield from drives(parsed, scene)
 
 
 def _views(spec: Spec, scene: Scene) -> Iterator[Finding]:

@@ -10,6 +10,7 @@ from typing import Any
 
 from ...mistake import Path
 from ...scene import Anchor, Body, Scene
+from ...signal import fastest
 from ..grammar.file import File
 from ..parse import Finding
 from .space.work import spins
@@ -77,6 +78,9 @@ def _spins(file: File, scene: Scene) -> Iterator[tuple[float, Path]]:
     if scene.frame.dimension == 3:
         yield from spins(file, scene)
         return
+    for rate, signal in scene.drives.items():
+        yield fastest(signal, file.duration), ("scene", "drive", rate)
+        yield signal.angular_frequency, ("scene", "drive", rate)
     for name in scene.joints:
         start = file.initial.get(name)
         if start is not None and start.omega is not None:

@@ -7,6 +7,7 @@ from pydantic import ConfigDict, Field, Tag
 from .body import Body
 from .constraint import Constraint
 from .contact import Contact
+from .drive import Driven, Rate
 from .event import Event, Quantity
 from .field import Bound, In, Literal, Space
 from .force import Force
@@ -71,8 +72,6 @@ class Source(Part):
 class Scene(Part):
     """Bodies and what joins, touches and drives them."""
 
-    elsewhere = {"drive": "rates are prescribed in space (`space: 3`)"}  # noqa: RUF012
-
     space: Annotated[int, Space()] | None = Field(None, description="3: a scene in space")
     gravity: Gravity | None = Field(None, description=GRAVITY)
     seen: Annotated[str, Word("view", ("from above",))] | None = Field(
@@ -86,6 +85,7 @@ class Scene(Part):
     constraints: dict[Name, Constraint] = Field({}, description="that cannot be integrated")
     contacts: dict[Name, Contact] = Field({})
     forces: dict[Name, Force] = Field({})
+    drive: dict[Rate, Driven] = Field({}, description="prescribed rates of joints' freedoms")
 
 
 class Near(Part):

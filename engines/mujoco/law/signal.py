@@ -14,8 +14,8 @@ import mujoco
 
 from ....cases.scene import Scene, Signal
 from ...signal import NEAR, factor, mean
+from ..drive import controls
 from ..force import BY_ITSELF
-from ..force import signals as laws
 
 Control = Callable[[mujoco.MjModel, mujoco.MjData], None]
 Take = Callable[[int], None]
@@ -65,7 +65,7 @@ def signals(
     scene: Scene, others: Sequence[Control] = (), corners: Corners | None = None
 ) -> AbstractContextManager[None]:
     """The controls of the scene's laws, and what else needs them set, while they are wanted."""
-    return together([following(laws(scene), corners), *others])
+    return together([following(controls(scene), corners), *others])
 
 
 def together(wanted: Sequence[Control | None]) -> AbstractContextManager[None]:

@@ -12,6 +12,8 @@ import numpy as np
 
 from ....cases.scene import Scene
 from ....cases.trajectory import Array
+from ..drive import NEEDED as DRIVING
+from ..drive import drives, effort
 from ..edge import fields
 from ..tree import Tree, spanning_tree
 from .acceleration import NEEDED, acceleration
@@ -46,6 +48,7 @@ def read(
     names = _needed(scene, tree, reactions)
     seen = _seen(model, data, times, record, names, dry, recall)
     of_joint = cache(lambda part: joint_force(scene, tree, model, seen, scene.joints[part]))
+    driving = {drive.effort: drive for drive in drives(scene)}
     found: dict[str, Array] = {}
     for name in reactions:
         part, _, field = name.partition(".")
@@ -55,6 +58,8 @@ def read(
             found[name] = seen["userdata"][:, fields(scene).index(name)]
         elif part in scene.bodies:
             found[name] = acceleration(model, seen, part, field)
+        elif name in driving:
+            found[name] = effort(scene, model, seen, driving[name], of_joint(part))
         elif part in scene.joints:
             found[name] = of_joint(part)[("fx", "fy", "torque", "force").index(field)]
         else:
@@ -76,6 +81,7 @@ def _needed(scene: Scene, tree: Tree, reactions: tuple[str, ...]) -> set[str]:
         elif part not in scene.joints:
             names |= {*_TOUCHING}
         elif field != "friction":
+            names |= {*DRIVING} if scene.drives else set()
             names |= {"efc_force"} if scene.joints[part] in tree.loops else {*_JOINTS}
     return names
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from .. import drive
 from ..contact import follower, steers
 from ..edge import driver
 from ..force import tells
@@ -17,7 +18,9 @@ def forces(world: World, step: float, *, midpoint: bool, law: bool, reflects: bo
     reflects: whether a point stays on the floor as `follower` says.
     """
     friction = laws(world, step) if law else []
-    told = [*tells(world, step, midpoint=midpoint), *friction, *_followers(world, step, reflects)]
+    turned = drive.tells(world, step, midpoint=midpoint)
+    told = [*turned, *tells(world, step, midpoint=midpoint), *friction]
+    told += _followers(world, step, reflects)
     walks = [steers(world.stride, world.wheels, world.place)] if world.stride else []
     return [*told, *walks, *driver(world, step)]  # which has to know what has been told
 

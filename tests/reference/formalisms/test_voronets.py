@@ -32,7 +32,8 @@ SHIPPED: dict[At, set[str]] = dict.fromkeys(MODES, FREE) | {
     ("sliding_disk", "slips backward"): set(FORMS),
     ("sliding_disk", "slips forward"): set(FORMS),
 }
-SHIPPED |= {at: set() for at in MODES if at[1] in ("rest", "stuck", "sticks")}  # nothing is free
+NOTHING_FREE = ("rest", "stuck", "sticks")
+SHIPPED |= {at: set() for at in MODES if at[1] in NOTHING_FREE or at[0] == "driven_knee"}
 
 
 def apart(form: ModuleType, mode: Mode, at: Any) -> float | None:

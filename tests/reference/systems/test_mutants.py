@@ -39,6 +39,10 @@ PARAMETER: dict[str, dict[str, Law]] = {
         "Omega": laws.equations, "alpha": laws.equations,
     },
     "elastic_pendulum": {"m": laws.equations, "c": laws.power, "l0": laws.free_cut},
+    "driven_knee": {
+        "m": laws.multipliers, "l": laws.reactions, "c": laws.multipliers, "d": laws.multipliers,
+        "A": laws.equations, "Omega": laws.equations,
+    },
     "knife_edge": {"m": laws.reactions, "beta": laws.power},
     "sleigh": {"m": laws.reactions, "J": laws.multipliers, "a": laws.equations},
     "spring_mass_damper": {

@@ -2,23 +2,19 @@
 
 from collections.abc import Iterator
 
-from ....mistake import Path, nearest
+from ....mistake import nearest
 from ....space.scene import SpatialScene
-from ...grammar.number import NumberMistake, fitting, per_second
-from ...grammar.space.drive import Drive
 from ...parse import Finding, Parsed
+from ..drive import fits, unknown
 
 
 def drives(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
     """Every mistake in the sound drives."""
-    written: dict[str, Drive] = getattr(parsed.file.scene, "drive")  # noqa: B009  # in space only
-    for quantity, drive in written.items():
+    for quantity, drive in parsed.file.scene.drive.items():
         path = ("scene", "drive", quantity)
         part, _, rate = quantity.rpartition(".")
         if part not in scene.joints:
-            if not parsed.hides(part, ("joints",)):
-                hint = nearest(part, parsed.names("joints", scene.joints))
-                yield path, f"unknown joint {part!r}{hint}"
+            yield from unknown(parsed, scene, path, part)
             continue
         rates = scene.joints[part].rates
         if rate not in rates:
@@ -29,15 +25,6 @@ def drives(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
             yield path, f"{part!r} leaves three turns, and of these none can be driven: {why}"
         unit = "m/s" if rates[rate].kind == "shift" else "rad/s"
         yield from fits(path, drive, unit)
-
-
-def fits(path: Path, drive: Drive, unit: str) -> Iterator[Finding]:
-    """Whether each number of the law can be measured in the unit of the rate, per s, per s² …"""
-    for at, amount, times in drive.amounts:
-        try:
-            fitting(amount, per_second(unit, times))
-        except NumberMistake as mistake:
-            yield (*path, *at), str(mistake)
 
 
 def _no_rate(scene: SpatialScene, part: str, rate: str) -> str:

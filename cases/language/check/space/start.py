@@ -9,8 +9,8 @@ from ....space.scene import SpatialScene
 from ...grammar.number import Amount, NumberMistake, fitting, shown
 from ...grammar.space.start import Start, Vector
 from ...parse import Finding, Parsed
+from ..drive import agrees
 
-TYPED = 1e-9  # of a number: it is typed with up to ten digits, and a sine's phase too
 _TURNING = ("attitude", "omega")
 _PLACES = dict.fromkeys("xyz", "m")
 _RATES = dict.fromkeys(("vx", "vy", "vz"), "m/s")
@@ -74,11 +74,8 @@ def _of_joint(path: Path, joint: SpatialJoint, start: Start, *, rates: bool) -> 
 
 
 def _against_drives(path: Path, scene: SpatialScene, start: Start) -> Iterator[Finding]:
-    """A rate that is prescribed need not be given; what is given has to agree."""
     for key, given in start.given.items():
-        driven = scene.drives.get(f"{path[-1]}.{key}")
-        if driven is not None and abs(given - driven.at_start()[0]) > TYPED * abs(given):
-            yield (*path, key), f"is {given:g}, but its drive begins with {driven.at_start()[0]:g}"
+        yield from agrees((*path, key), given, scene.drives.get(f"{path[-1]}.{key}"))
 
 
 def _unknown(key: str, known: list[str], kind: str = "") -> str:

@@ -4,20 +4,17 @@ from typing import Annotated
 
 from pydantic import Field
 
+from ..drive import Driven, Rate
 from ..field import Space
 from ..file import GRAVITY, INCLINE
 from ..part import Angle, Name, Part
-from ..text import IDENTIFIER, Text, rate
 from .body import Body
 from .constraint import Constraint
 from .contact import Rolling
-from .drive import Driven
 from .force import Force
 from .ground import GroundPoint
 from .joint import Joint
 from .vector import Gravity
-
-Rate = Annotated[str, Text(rate, rf"^{IDENTIFIER}\.{IDENTIFIER}$", "joint.rate, as q1.omega")]
 
 
 class SpatialScene(Part):

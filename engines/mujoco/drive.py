@@ -1,0 +1,106 @@
+"""Prescribed rates in the plane: motions that no force of the scene can hold back.
+
+As a driven point is a heavy mass, a driven freedom has a heavy armature, and actuators that give it
+the acceleration of the law: right at every RK4 stage, and all forces follow.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from xml.etree import ElementTree as ET
+
+import mujoco
+import numpy as np
+
+from ...cases.joint import DRIVES
+from ...cases.scene import GROUND, Joint, Scene
+from ...cases.signal import Signal
+from ...cases.trajectory import Array
+from ..law import TORQUES
+from ..signal import derivative
+from . import force
+from .read.reaction import Seen
+from .tree import called, coordinate, spanning_tree
+from .written import written
+
+HEAVY = 1e15  # kg m² (kg of a slide): what a scene exerts changes the rate by 1e-15 of it
+NEEDED = ("qpos", "qvel", "xmat", "actuator_force")
+
+
+@dataclass(frozen=True)
+class Drive:
+    """What one prescribed rate is to MuJoCo; effort: what it exerts, such as `hinge.torque`.
+
+    way: 1.0 if MuJoCo's joint counts as the scene's does, from the first part to the second.
+    """
+
+    joint: Joint
+    name: str
+    way: float
+    law: Signal
+    effort: str
+
+
+def drives(scene: Scene) -> Iterator[Drive]:
+    """In the scene's order."""
+    forward = {b.joint.name: b.forward for b in spanning_tree(scene).branches if b.joint}
+    for quantity, law in scene.drives.items():
+        part, _, rate = quantity.rpartition(".")
+        joint, turns = scene.joints[part], rate == "omega"
+        way = -1.0 if turns and not forward.get(part, True) else 1.0
+        name = coordinate(joint, "turn" if turns else "shift")
+        yield Drive(joint, name, way, law, f"{part}.{DRIVES[rate][0]}")
+
+
+def controls(scene: Scene) -> list[Signal]:
+    """The laws of all actuators' controls, in MuJoCo's order."""
+    return [*force.signals(scene), *(law for _, law in _accelerations(scene))]
+
+
+def _accelerations(scene: Scene) -> Iterator[tuple[Drive, Signal]]:
+    for drive in drives(scene):
+        yield from ((drive, law) for law in derivative(drive.law))
+
+
+def write(root: ET.Element, scene: Scene) -> None:
+    """Armatures, and actuators after those of the scene's forces."""
+    joints = {joint.attrib["name"]: joint for joint in root.iter("joint")}
+    for drive in drives(scene):
+        joints[drive.name].set("armature", written(HEAVY))
+    for i, (drive, law) in enumerate(_accelerations(scene)):
+        section = root.find("actuator")
+        section = ET.SubElement(root, "actuator") if section is None else section
+        # The gear is what is heavy: a control above 1e10 would be "huge".
+        gear = written(drive.way * HEAVY * law.amplitude[0])
+        ET.SubElement(section, "general", name=f"drive.{i}", joint=drive.name, gear=gear)
+
+
+def effort(
+    scene: Scene, model: mujoco.MjModel, seen: Seen, drive: Drive, held: tuple[Array, ...]
+) -> Array:
+    """(N,) what the drive exerts on the second part [N m or N].
+
+    held: fx, fy and torque of all that holds the second part, from which what else acts about the
+    joint is taken away.
+    """
+    fx, fy, torque, *_ = held
+    if drive.effort.endswith(".drive"):
+        ux, uy = _line(model, seen, drive.joint)
+        return ux * fx + uy * fy
+    place = model.joint(drive.name)
+    angle = drive.way * seen["qpos"][:, place.qposadr[0]]
+    rate = drive.way * seen["qvel"][:, place.dofadr[0]]
+    for other in scene.forces.values():
+        if other.about == drive.joint.name and (law := TORQUES.get(type(other))):  # type: ignore[arg-type]
+            torque = torque - law(other, angle, rate)  # type: ignore[arg-type]
+    sizes = seen["actuator_force"]
+    return torque - drive.way * force.about(scene, model, drive.joint.name, sizes)
+
+
+def _line(model: mujoco.MjModel, seen: Seen, joint: Joint) -> tuple[Array, Array]:
+    """(N,) each: the line of a slide in ground axes, which turns with its first part."""
+    ux, uy = joint.along
+    if joint.a.body == GROUND:
+        ones = np.ones(len(seen["xmat"]))
+        return ux * ones, uy * ones
+    axes = seen["xmat"][:, model.body(called(joint.a.body)).id].reshape(-1, 3, 3)
+    return axes[:, 0, 0] * ux + axes[:, 0, 1] * uy, axes[:, 1, 0] * ux + axes[:, 1, 1] * uy

@@ -1,0 +1,89 @@
+"""Prescribed rates in every engine that has them: motion, what the drive exerts, refusals."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from given import scenes
+from given.planning import TUNED, moved, refused
+
+from textmech.engines.mujoco import drive
+from textmech.engines.pymunk import drive as motors
+from textmech.reference.solve import solve
+from textmech.reports.trial.start import first
+
+# The knee is named backward, from the shank to the ground, and has all that may act beside a drive.
+LEG = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {shank: {bar: {mass: 1.2, length: 0.8}}, foot: {bar: {mass: 0.4, length: 0.3}}}
+  joints: {knee: {pin: [shank.start, ground.O]}, ankle: {pin: [shank.end, foot.start]}}
+  forces:
+    coil: {torsion: knee, stiffness: 10.0, rest_angle: 0.3}
+    oil: {torsion_damper: knee, damping: 0.4}
+    help: {motor: knee, sine: {amplitude: 1.5, angular_frequency: 4.0}}
+    hand: {push: foot.end, constant: [2.0, 1.0]}
+  drive: {knee.omega: {table: {times: [0, 0.3141, 0.8], values: [0, 2.0, -1.0]}}}
+initial: {knee: {angle: 0}, ankle: {angle: 20 deg, omega: 1.0}}
+allow: {knee.angle: 1.0e-2, knee.torque: 1.0, foot.angle: 1.0}
+"""
+# Measured: MuJoCo 1.4e-6 rad, as a corner lies inside a step; pymunk 3e-6 rad.
+REACHED = {"mujoco": 1e-5, "pymunk": 5e-5}
+FORCES = ("knee.fx", "knee.fy", "knee.torque")
+
+
+def off(engine: str, folder: Path) -> tuple[float, float]:
+    """Of the motion [rad, m], and of what holds and drives the knee [N, N m]."""
+    case = scenes.typed(folder, LEG, tail=scenes.tail(1.0, 11))
+    known = solve(case).trajectory
+    wanted = FORCES if engine == "mujoco" else ()
+    found = moved(TUNED[engine], case.scene, first(known), case.times, 5e-4, reactions=wanted,
+                  realised="law" if engine == "pymunk" else "native")  # fmt: skip
+    apart = [np.max(np.abs(found.states[b][:, :3] - known.states[b][:, :3])) for b in known.states]
+    forces = [np.max(np.abs(found.reactions[n] - known.reactions[n])) for n in wanted]
+    return float(max(apart)), float(max(forces, default=0.0))
+
+
+@pytest.mark.parametrize("engine", REACHED)
+def test_engines_move_as_the_reference(engine: str, tmp_path: Path) -> None:
+    motion, forces = off(engine, tmp_path)
+    assert motion < REACHED[engine]
+    assert forces < 1e-4
+
+
+def test_what_else_acts_about_the_joint_is_not_the_drive_s(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(drive, "TORQUES", {})
+    assert off("mujoco", tmp_path)[1] > 1.0
+
+
+def test_a_motor_told_the_present_rate_is_late(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sound = motors.tells
+    monkeypatch.setattr(
+        motors, "tells", lambda world, step, *, midpoint: sound(world, step, midpoint=False)
+    )
+    assert off("pymunk", tmp_path)[0] > 1e-4
+
+
+def test_refusals(tmp_path: Path) -> None:
+    rail = LEG.replace(
+        "ankle: {pin: [shank.end, foot.start]}",
+        "ankle: {slide: [shank.end, foot.start], along: [1, 0]}",
+    )
+    rail = rail.replace("drive: {", "drive: {ankle.speed: 0.2, ").replace(
+        "ankle: {angle: 20 deg, omega: 1.0}", "ankle: {shift: 0}"
+    )
+    scene = scenes.typed(tmp_path, rail).scene
+    assert refused(TUNED["pymunk"], scene) == (
+        "engine: pymunk has no motor along a line, as ankle.speed is driven"
+    )
+    loop = LEG.replace("ankle: {pin", "tip: {pin: [ground.Q, foot.end]}, ankle: {pin")
+    loop = loop.replace("O: [0, 0]", "O: [0, 0], Q: [1.0, 0]").replace(
+        "drive: {", "drive: {tip.omega: 1, ankle.omega: 1, "
+    )
+    said = refused(TUNED["mujoco"], scenes.typed(tmp_path, loop).scene)
+    assert said is not None
+    assert said.endswith("is driven and closes a loop, where MuJoCo has no joint")
