@@ -10,23 +10,25 @@ from pydantic import Field
 from .body import Body
 from .friction import DryFriction
 from .kind import Fields
+from .language.grammar.field import In
 from .language.grammar.part import Angle, Direction
 from .motion import Motion
 from .point import Anchor
 from .trajectory import Array
 
-Freedom = Literal["turn", "shift"]
+Freedom = Literal["turn", "shift", "swing"]
 FREEDOMS: dict[str, frozenset[Freedom]] = {
     "pin": frozenset({"turn"}),
     "slide": frozenset({"shift"}),
     "slot": frozenset({"turn", "shift"}),
     "weld": frozenset(),
+    "distance": frozenset({"turn", "swing"}),
 }
 
 _JOINT: Fields = {
     "fx": ("N", "force"),  # what the first part exerts on the second, in ground axes
     "fy": ("N", "force"),
-    "force": ("N", "force"),  # its magnitude
+    "force": ("N", "force"),  # its magnitude; of a rod its tension
     "gap": ("m", "residual"),  # constraint drift
 }
 _HOLDS_ANGLE: Fields = {"torque": ("N m", "force")}
@@ -56,8 +58,10 @@ _DRY_TURN: Fields = {
 class Joint:
     """What joins a point of one part to a point of another, and leaves the kind's freedoms.
 
-    A shift is along one line: `along` is a unit vector in the axes of the first part. `angle`
-    [rad] is the angle of the second part against the first, held by what leaves no turn.
+    A swing is that of the second point about the first, at the `length` [m] of a massless rod, or
+    at that of the start. A shift is along one line: `along` is a unit vector in the axes of the
+    first part. `angle` [rad] is the angle of the second part against the first, held by what leaves
+    no turn.
     """
 
     name: str
@@ -67,6 +71,7 @@ class Joint:
     along: Annotated[Direction, Field(description="in the axes of the first part")] = (1.0, 0.0)
     angle: Angle = 0.0
     dry_friction: DryFriction | None = None
+    length: Annotated[float, In("m", above=0)] | None = None
 
     @property
     def word(self) -> str:
@@ -83,10 +88,15 @@ class Joint:
         """Whether the second point may leave the first, along the line."""
         return "shift" in FREEDOMS[self.kind]
 
+    @property
+    def swings(self) -> bool:
+        """Whether it holds nothing but a distance."""
+        return "swing" in FREEDOMS[self.kind]
+
     def coordinates(self, bodies: Mapping[str, Body]) -> Fields:
         """Those of its freedoms: a turn needs two parts that have an angle."""
         ends = [bodies[at.body] for at in self.refers() if at.body in bodies]
-        turns = self.turns and all(body.turns for body in ends)
+        turns = self.turns and not self.swings and all(body.turns for body in ends)
         return {**(TURN if turns else {}), **(SHIFT if self.shifts else {})}
 
     def refers(self) -> tuple[Anchor, ...]:
@@ -113,7 +123,7 @@ class Joint:
         """(N,) what follows from the states and the given reactions; else KeyError."""
         if field == "force":
             fx, fy = (motion.reaction(f"{self.name}.{axis}") for axis in ("fx", "fy"))
-            return np.hypot(fx, fy)
+            return self._tension(motion, fx, fy) if self.swings else np.hypot(fx, fy)
         if field in TURN:
             return self.turn(motion)[list(TURN).index(field)]
         if field not in ("gap", "slip", *SHIFT):
@@ -122,7 +132,9 @@ class Joint:
             return self.turn(motion)[1]
         d = motion.point(self.b) - motion.point(self.a)
         if not self.shifts:
-            return np.hypot(d[:, 0], d[:, 1])
+            apart = np.hypot(d[:, 0], d[:, 1])
+            held = apart[0] if self.length is None else self.length
+            return apart - held if self.swings else apart
         turned, turning = motion.turned(self.a.body)
         ux = np.cos(turned) * self.along[0] - np.sin(turned) * self.along[1]
         uy = np.sin(turned) * self.along[0] + np.cos(turned) * self.along[1]
@@ -132,3 +144,8 @@ class Joint:
         if field == "shift":
             return ux * d[:, 0] + uy * d[:, 1]
         return ux * d[:, 2] + uy * d[:, 3] + turning * gap  # d/dt (u · d): the line turns too
+
+    def _tension(self, motion: Motion, fx: Array, fy: Array) -> Array:
+        """(N,) positive when the rod pulls its ends together [N]."""
+        x, y = (motion.point(self.b) - motion.point(self.a))[:, :2].T
+        return -(fx * x + fy * y) / np.hypot(x, y)

@@ -104,7 +104,13 @@ class Scene:
         return {name: joint.coordinates(self.bodies) for name, joint in self.joints.items()}
 
     def told_by(self, reaction: str) -> tuple[str, ...]:
-        """The reactions of a producer from which one follows; in the plane it gives each."""
+        """The reactions of a producer from which one follows; in the plane it gives each.
+
+        But for the tension of a rod, which has a sign.
+        """
+        part, _, field = reaction.rpartition(".")
+        if field == "force" and part in self.joints and self.joints[part].swings:
+            return f"{part}.fx", f"{part}.fy"
         return (reaction,)
 
     @property

@@ -16,6 +16,7 @@ from .claims import answered
 from .compilation import NOMINAL, timestep
 from .plane import PLANE
 from .refuse import not_native, uncompilable
+from .rods import of_scene
 from .script import commented, controls
 from .space.world import SPACE
 from .world import World
@@ -49,6 +50,7 @@ class MuJoCo:
     def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
         """Natively; edges, dry friction and corners of springs in other ways too, if tuned."""
         world = _world(scene)
+        scene, start = world.built(scene, start)
         refusal = world.unbuildable(scene) or uncompilable(
             world.compiled, scene, start, self._plan(scene, start)
         )
@@ -70,8 +72,12 @@ class MuJoCo:
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as the compiled model holds it."""
-        world, plan = _world(scene), self._plan(scene, start)
-        return world.measured(scene, *world.compiled(scene, start, NOMINAL, plan))
+        world = _world(scene)
+        built, begun = world.built(scene, start)
+        model = world.compiled(built, begun, NOMINAL, self._plan(built, begun))
+        lent = built.bodies.keys() - scene.bodies
+        found = world.measured(built, *model)
+        return {name: x for name, x in found.items() if name.partition(".")[0] not in lent}
 
     def answer(
         self, scene: Scene, start: Start, states: Mapping[str, Array], wanted: Sequence[str]
@@ -85,6 +91,7 @@ class MuJoCo:
     ) -> str:
         """The MJCF file with its start as a keyframe, headed by comments."""
         world, choices = _world(scene), [timestep(step), *plan.choices(step)]
+        scene, start = world.built(scene, start)
         model, *_ = world.placed(scene, start, step, plan, settles=self._tuned)
         begun = model.key_qpos[0].tolist(), model.key_qvel[0].tolist()
         head = commented(heading(self, title, step, plan)) + controls(model, world.signals(scene))
@@ -103,17 +110,20 @@ class MuJoCo:
     ) -> Trajectory:
         """The motion, stepped by `mj_step(model, data, n)` between samples or steps."""
         world, realised = _world(scene), plan.realised
-        with world.lent(scene, start, step, plan, settles=self._tuned) as built:
-            return world.simulate(
-                scene, *built, start, times, reactions, realised=realised, every=record
+        built, begun = world.built(scene, start)
+        with world.lent(built, begun, step, plan, settles=self._tuned) as lent:
+            found = world.simulate(
+                built, *lent, begun, times, reactions, realised=realised, every=record
             )
+        return of_scene(scene, found)
 
     def plain(
         self, scene: Scene, start: Start, step: float, plan: Plan
     ) -> Callable[[float], Plain] | None:
         """`mj_step(model, data, n)` on the file of `show`, or our law's force before each step."""
         text = self.script(scene, start, step, plan)
-        return _world(scene).plain(scene, start, plan, text)
+        world = _world(scene)
+        return world.plain(*world.built(scene, start), plan, text)
 
 
 def _world(scene: Scene) -> World:

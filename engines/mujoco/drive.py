@@ -17,7 +17,7 @@ from ...cases.signal import Signal
 from ...cases.trajectory import Array
 from ..law import TORQUES
 from ..signal import derivative
-from . import force
+from .force import about, signals
 from .read.reaction import Seen
 from .tree import called, coordinate, spanning_tree
 from .written import written
@@ -53,7 +53,7 @@ def drives(scene: Scene) -> Iterator[Drive]:
 
 def controls(scene: Scene) -> list[Signal]:
     """The laws of all actuators' controls, in MuJoCo's order."""
-    return [*force.signals(scene), *(law for _, law in _accelerations(scene))]
+    return [*signals(scene), *(law for _, law in _accelerations(scene))]
 
 
 def _accelerations(scene: Scene) -> Iterator[tuple[Drive, Signal]]:
@@ -93,7 +93,7 @@ def effort(
         if other.about == drive.joint.name and (law := TORQUES.get(type(other))):  # type: ignore[arg-type]
             torque = torque - law(other, angle, rate)  # type: ignore[arg-type]
     sizes = seen["actuator_force"]
-    return torque - drive.way * force.about(scene, model, drive.joint.name, sizes)
+    return torque - drive.way * about(scene, model, drive.joint.name, sizes)
 
 
 def _line(model: mujoco.MjModel, seen: Seen, joint: Joint) -> tuple[Array, Array]:

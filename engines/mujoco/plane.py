@@ -6,6 +6,7 @@ from .plain import plain
 from .plans import plan, ways
 from .read.measure import measured
 from .refuse import unbuildable
+from .rods import with_rods
 from .run import simulate
 from .scene import mjcf
 from .settings import tuned, with_own
@@ -13,5 +14,5 @@ from .world import World
 
 PLANE = World(
     unbuildable, ways, plan, tuned, with_own, compiled, placed, lent, measured, mjcf, controls,
-    simulate, plain,
+    simulate, plain, with_rods,
 )  # fmt: skip

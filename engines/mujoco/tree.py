@@ -197,14 +197,15 @@ def _turn(scene: Scene, tree: Tree, branch: Branch, start: Start) -> tuple[float
 def _shift(scene: Scene, tree: Tree, branch: Branch, start: Start) -> tuple[float, float]:
     joint = branch.joint
     assert joint is not None
-    first, second = (_point(scene, end, start) for end in (joint.a, joint.b))
+    first, second = (place(scene, end, start) for end in (joint.a, joint.b))
     base = 0.0 if joint.a.body == GROUND else start[joint.a.body][2]
     u = turned(joint.along, base)
     d = [after - before for before, after in zip(first, second, strict=True)]
     return d[0] * u[0] + d[1] * u[1], d[2] * u[0] + d[3] * u[1]
 
 
-def _point(scene: Scene, anchor: Anchor, start: Start) -> tuple[float, float, float, float]:
+def place(scene: Scene, anchor: Anchor, start: Start) -> tuple[float, float, float, float]:
+    """x, y, vx, vy of a point at the start."""
     if anchor.body == GROUND:
         ground = scene.points[anchor.point]
         return (*ground.at, *ground.velocity)

@@ -9,7 +9,7 @@ import mujoco
 
 from ...cases.signal import Signal
 from ...cases.trajectory import Trajectory
-from ..engine import Choice, Plain, Plan, Realised
+from ..engine import Choice, Plain, Plan, Realised, Start
 
 Built = tuple[mujoco.MjModel, mujoco.MjData]
 
@@ -19,7 +19,8 @@ class World:
     """Called with a scene and its start; functions of a run also with its step [s] and plan.
 
     settles: whether bodies start as deep in the floor as it carries them, as the tuned setting
-    does. lent: what is compiled, for one run.
+    does. lent: what is compiled, for one run. built: the scene with what stands for joints that
+    MuJoCo has not, and its start.
     """
 
     unbuildable: Callable[[Any], str | None]
@@ -35,3 +36,4 @@ class World:
     signals: Callable[[Any], list[Signal]]  # of the actuators' controls, in their order
     simulate: Callable[..., Trajectory]
     plain: Callable[..., Callable[[float], Plain] | None]
+    built: Callable[..., tuple[Any, Start]] = lambda scene, start: (scene, start)

@@ -17,6 +17,8 @@ from .law.friction import ruled
 from .recipe import Recipe
 from .scene import oblique
 
+SIGNED = ("fx", "fy", "torque", "drive", "friction")
+
 
 def ways(scene: Scene) -> tuple[Realised, ...]:
     """Edges by our driver, forces that pymunk has no element for by our law.
@@ -92,16 +94,13 @@ def _withheld(scene: Scene) -> dict[str, str]:
         for name, quantity in table(scene).items()
         if quantity.kind == "acceleration"
     }
-    return (
-        edges
-        | moved
-        | {
-            name: "engine: pymunk reports a joint's impulse as a magnitude only"
-            for name, quantity in table(scene).items()
-            if quantity.part in scene.joints
-            and quantity.field in ("fx", "fy", "torque", "drive", "friction")
-        }
-    )
+    joints = {
+        name: "engine: pymunk reports a joint's impulse as a magnitude only"
+        for name, quantity in table(scene).items()
+        if quantity.part in scene.joints and quantity.kind == "force"
+        if quantity.field in SIGNED or scene.joints[quantity.part].swings
+    }
+    return edges | moved | joints
 
 
 def _words(scene: Scene, start: Start, recipe: Recipe, step: float) -> str:

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from pymunk.body import Body
-from pymunk.constraints import Constraint, GearJoint, GrooveJoint, PivotJoint, SimpleMotor
+from pymunk.constraints import Constraint, GearJoint, GrooveJoint, PinJoint, PivotJoint, SimpleMotor
 from pymunk.shapes import Segment
 from pymunk.space import Space
 
@@ -93,6 +93,8 @@ def _joints(world: World, start: Start, *, across: bool) -> None:
             if across and oblique(world.scene, joint):
                 world.slots[joint.name] = cut = line(first, last)
                 parts = [pinned(a, b, cut, anchor)]
+        elif joint.swings:
+            parts = [PinJoint(a, b, world.local(joint.a), world.local(joint.b))]
         else:
             parts = [PivotJoint(a, b, world.local(joint.a), world.local(joint.b))]
         if not joint.turns and holds_angle(world.scene, joint):

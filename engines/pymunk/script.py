@@ -231,7 +231,7 @@ def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
                     yield f"joint.{key.removeprefix('constraint.')} = {written(value)}"
             if part is world.motors.get(name):
                 yield f"motors[{name!r}] = joint"
-            if isinstance(part, PinJoint):
+            if isinstance(part, PinJoint) and name in world.slots:
                 cut = world.slots[name]
                 yield f"joint.distance = {LENGTH!r}"
                 point, along = (f"Vec2d{written(v)}" for v in (cut.point, cut.along))

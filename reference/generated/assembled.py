@@ -14,7 +14,7 @@ from ...cases.scene import Signal, Vector
 from ..system import Array
 from .blades import Blades, Laws
 from .coordinates import Attached, moved
-from .rows import FIRST, GAMMA, SECOND, G, Line, Term, opposite
+from .rows import FIRST, GAMMA, SECOND, Distance, G, Line, Term, opposite
 
 NOWHERE = -1  # the target of what a particle or a point of the ground has no column for
 
@@ -22,8 +22,8 @@ Row = tuple[Sequence[Attached], Sequence[Term]]
 """The points that the terms name by their place here, and the terms."""
 Lever = tuple[int, Attached, Vector]
 """The number of its row, the point, and the direction u."""
-Turn = tuple[int, Attached, Attached, Vector]
-"""The number of its row, the points a and b, and the direction u in the axes of a."""
+Turn = tuple[int, Attached, Attached, Line | Distance]
+"""The number of its row, the points a and b, and what tells its direction."""
 
 
 class Rows:
@@ -98,7 +98,11 @@ class Rows:
             self.along(i, b, u)
             self.along(i, a, opposite(u))
         else:
-            self._turns.append((i, a, b, u))
+            self._turns.append((i, a, b, Line(FIRST, SECOND, u)))
+
+    def between(self, i: int, a: Attached, b: Attached, way: Distance) -> None:
+        """(2.15) The rate of a distance: its direction follows both points."""
+        self._turns.append((i, a, b, way))
 
     def carried(self, i: int, p: Attached, u: Vector) -> None:
         """(2.15) u·ṙ_p, u turning with p: f = (u, d × u), d × u being the same in any axes."""
@@ -155,10 +159,10 @@ class Levers:
 
 
 class Lines:
-    """`Line` for all a on bodies that turn, b being anywhere."""
+    """`Line` for all a on bodies that turn, b being anywhere, and `Distance`."""
 
     def __init__(self, turns: Sequence[Turn], width: int) -> None:
-        self._turns = [(a, b, Line(FIRST, SECOND, u)) for _, a, b, u in turns]
+        self._turns = [turn[1:] for turn in turns]
         self.targets = np.array([self._places(*turn[:3], width) for turn in turns]).ravel()
 
     def _places(self, row: int, a: Attached, b: Attached, width: int) -> list[int]:

@@ -11,7 +11,20 @@ from ...cases.scene import GROUND, Edge, Joint, Scene, Signal, Vector
 from .constraint import Constraint
 from .contact import normal, tangent
 from .coordinates import Coordinates
-from .rows import FIRST, SECOND, Along, Carried, Given, Line, Term, Turning, X, Y, opposite
+from .rows import (
+    FIRST,
+    SECOND,
+    Along,
+    Carried,
+    Distance,
+    Given,
+    Line,
+    Term,
+    Turning,
+    X,
+    Y,
+    opposite,
+)
 
 Held = tuple[tuple[Term, ...], tuple[str, ...], float]  # a row, its reactions, where it is held
 
@@ -23,7 +36,9 @@ def constraints(
     found = []
     for joint in scene.joints.values():
         held = jointed(joint, where)
-        found.append(held if start is None else _on_its_turn(held, start))
+        if start is not None:
+            held = _rolling(held, start) if held.held is None else _on_its_turn(held, start)
+        found.append(held)
     found += [edged(edge, where) for edge in scene.constraints.values()]
     found += [driven(scene, quantity, law, where) for quantity, law in scene.drives.items()]
     for contact in scene.contacts.values():
@@ -35,7 +50,10 @@ def constraints(
 
 
 def jointed(joint: Joint, where: Coordinates) -> Constraint:
-    """(2.14) What a joint does not leave free: to shift along its line, to turn."""
+    """(2.14) What a joint does not leave free: to shift along its line, to turn, to come nearer."""
+    if joint.swings:
+        row, at = (Distance(FIRST, SECOND),), None if joint.length is None else (-joint.length,)
+        return Constraint(joint.name, (joint.a, joint.b), (row,), (("fx", "fy"),), at, where)
     held = [across(joint.along)] if joint.shifts else [together(X, "fx"), together(Y, "fy")]
     bodies = [where.scene.bodies[end.body] for end in (joint.a, joint.b) if end.body != GROUND]
     if not joint.turns and all(body.turns for body in bodies):
@@ -96,5 +114,8 @@ def _on_its_turn(joint: Constraint, start: Sequence[float]) -> Constraint:
 
 
 def _rolling(part: Constraint, start: Sequence[float]) -> Constraint:
-    """x_c − R φ = C₁ (2.17), with the book's clockwise φ: C₁ is known once the start is."""
+    """x_c − R φ = C₁ (2.17), with the book's clockwise φ: C₁ is known once the start is.
+
+    So is the length of a rod that nobody gave.
+    """
     return replace(part, held=tuple(part.places(0.0, start)))

@@ -1,7 +1,9 @@
-"""The terms that rows of constraints are sums of: `Along`, `Turning`, `Line`, `Carried`, `Given`.
+"""The terms that rows of constraints are sums of.
+
+`Along`, `Turning`, `Line`, `Distance`, `Carried`, `Given`.
 
 Each is a rate, written in the coordinates as f_a q̇ᵃ − g (2.15); `assembled` adds them up.  The
-first three are the rate of a `place`; what a blade holds, and what is prescribed, has none.  Terms
+first four are the rate of a `place`; what a blade holds, and what is prescribed, has none.  Terms
 are linear in their direction or axis: its opposite makes a difference of two terms, a factor weighs
 them.
 """
@@ -26,6 +28,7 @@ class Assembly(Protocol):
     def along(self, i: int, p: Attached, u: Vector) -> None: ...
     def turning(self, i: int, p: Attached, axis: float) -> None: ...
     def line(self, i: int, a: Attached, b: Attached, u: Vector) -> None: ...
+    def between(self, i: int, a: Attached, b: Attached, way: "Distance") -> None: ...
     def carried(self, i: int, p: Attached, u: Vector) -> None: ...
     def given(self, i: int, law: Signal) -> None: ...
 
@@ -115,6 +118,50 @@ class Line:
 
 
 @dataclass(frozen=True)
+class Distance:
+    """How fast b nears a: −d/dt λ of their distance λ = √(Δ·Δ), Δ = r_b − r_a.
+
+    The force on b is then along −u, u = Δ/λ, and the multiplier pulls both together.
+    """
+
+    a: int
+    b: int
+    angular = False
+
+    def place(self, ends: Ends) -> Any:
+        """−λ [m]."""
+        return -_length(*_apart(ends[self.a].r, ends[self.b].r))
+
+    def direction(self, ends: Ends) -> Direction:
+        """−u, in ground axes; any where there is none, of which only a guess can be."""
+        x, y = _apart(ends[self.a].r, ends[self.b].r)
+        length = _length(x, y)
+        return (-x / length, -y / length) if length else (-1.0, 0.0)
+
+    def enter(self, i: int, ends: Sequence[Attached], rows: Assembly) -> None:
+        """Adds it to the i-th row."""
+        rows.between(i, ends[self.a], ends[self.b], self)
+
+    def numbers(self, a: Point, b: Point) -> tuple[Any, ...]:
+        """(2.15) w·Δ̇, w = −u: f of a and of b (x, y and φ of each), g, and γ.
+
+        They are f of b less that of a as `Along` w has it.  Differentiated again that is
+        w·Δ̈ + ẇ·Δ̇, with u̇·Δ̇ = (Δ̇² − (u·Δ̇)²)/λ: γ has that beside the ω² w·d of `Along`.
+        """
+        x, y = self.direction((a, b))
+        rate = _apart(a.r_dot, b.r_dot)
+        along, speed = x * rate[0] + y * rate[1], rate[0] * rate[0] + rate[1] * rate[1]
+        length = _length(*_apart(a.r, b.r)) or 1.0
+        g = (x * a.r_dot[0] + y * a.r_dot[1]) if a.xy is None else 0.0
+        g = g - (x * b.r_dot[0] + y * b.r_dot[1]) if b.xy is None else g
+        gamma = (speed - along * along) / length
+        gamma = gamma + b.omega * b.omega * (x * b.d[0] + y * b.d[1])
+        gamma = gamma - a.omega * a.omega * (x * a.d[0] + y * a.d[1])
+        f_a, f_b = a.d[1] * x - a.d[0] * y, b.d[0] * y - b.d[1] * x
+        return -x, -y, f_a, x, y, f_b, g, gamma
+
+
+@dataclass(frozen=True)
 class Carried:
     """The velocity of a point along a direction that its body carries: u·ṙ_p [m/s], u = E u'."""
 
@@ -156,9 +203,17 @@ class Given:
         rows.given(i, self.law)
 
 
-Term = Along | Turning | Line | Carried | Given
+Term = Along | Turning | Line | Distance | Carried | Given
 
 
 def opposite(u: Direction) -> Direction:
     """−u."""
     return -u[0], -u[1]
+
+
+def _apart(a: Direction, b: Direction) -> Direction:
+    return b[0] - a[0], b[1] - a[1]
+
+
+def _length(x: Any, y: Any) -> Any:
+    return (x * x + y * y) ** 0.5

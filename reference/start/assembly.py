@@ -3,6 +3,8 @@
 Positions by Newton's method from a guess, rates by linear algebra.
 """
 
+import math
+
 import numpy as np
 
 from ...cases.case import Case
@@ -16,6 +18,8 @@ from .positions import RANK, positions, rank
 from .rates import rates
 from .space.assembly import assemble_in_space
 
+SHORT = 1e-9  # of the mechanism's size: a rod of that length has no direction
+
 
 def assemble(case: Case) -> tuple[Array, Array]:
     """q (n,) and v (n,) at t = 0 in maximal coordinates.
@@ -25,6 +29,7 @@ def assemble(case: Case) -> tuple[Array, Array]:
     """
     closure = Closure(case)
     q = positions(closure)
+    _long(closure, q)
     _independent(closure, q)
     return q, rates(closure, q)
 
@@ -35,6 +40,17 @@ def start_poses(case: Case) -> dict[str, Pose]:
         q, v = assemble_in_space(case, case.scene)
         return SpatialCoordinates(case.scene).poses(q, v)
     return Coordinates(case.scene).poses(*assemble(case))
+
+
+def _long(closure: Closure, q: Array) -> None:
+    """Refuses a rod without length: it would have no direction."""
+    for joint in closure.case.scene.joints.values():
+        if joint.swings:
+            a, b = (
+                closure.where.point(at, 0.0, q.tolist(), q.tolist()) for at in (joint.a, joint.b)
+            )
+            if math.hypot(b.r[0] - a.r[0], b.r[1] - a.r[1]) < SHORT * closure.size:
+                raise refusal.without_length(closure, joint.name)
 
 
 def _independent(closure: Closure, q: Array) -> None:

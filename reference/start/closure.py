@@ -108,6 +108,7 @@ class Closure:
         bodies = self.case.scene.bodies.values()
         lengths = [abs(x) for body in bodies for p in body.points.values() for x in p]
         lengths += [body.radius for body in bodies if body.radius]
+        lengths += [joint.length for joint in self.case.scene.joints.values() if joint.length]
         return max(lengths) or self.reach
 
     def _reach(self) -> float:

@@ -78,8 +78,11 @@ def _seeds(closure: Closure) -> Iterator[Array]:
     q = np.zeros(closure.n)
     q[list(closure.given)] = list(closure.given.values())
     rng = np.random.default_rng(seed=1)  # any: the same starts in every run
-    for _ in range(SEEDS if angles else 0):
+    rods = any(joint.swings for joint in closure.case.scene.joints.values())
+    places = [i for i in closure.free if not closure.turning[i]] if rods else []
+    for _ in range(SEEDS if angles or places else 0):
         q[angles] = rng.uniform(-math.pi, math.pi, len(angles))
+        q[places] = closure.reach * rng.uniform(-2.0, 2.0, len(places))
         yield _laid_out(closure, q)
 
 

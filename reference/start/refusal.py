@@ -52,3 +52,9 @@ def dependent(closure: Closure, part: str) -> CaseError:
     scene = closure.case.scene
     kind = next(s for s in ("joints", "constraints", "contacts") if part in getattr(scene, s))
     return messages.dependent(closure.case, kind, part)
+
+
+def without_length(closure: Closure, name: str) -> CaseError:
+    """A rod whose points start at one place."""
+    what = "has no length: its two points start at the same place, and it would have no direction"
+    return CaseError([closure.case.mistake(("scene", "joints", name), what)])

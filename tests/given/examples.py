@@ -45,6 +45,7 @@ PARAMETERS: dict[str, dict[str, float]] = {
     "friction_of_rest": {"m": 1.0, "c": 10.0, "u": 0.5, "mu_s": 0.6, "mu_k": 0.3},
     "growing_force": {"m": 1.0, "b": 1.0, **BOOK},
     "knife_edge": {"m": 1.4, "J": 0.06, "beta": math.radians(15), "u0": 0.3, "w0": 1.3},
+    "particle_pendulum": {"m": 0.6, "x0": 0.45, "y0": 0.6},
     "rhombus": {
         "m": 0.5, "l": 0.4, "c": 60.0, "l0": 0.5,
         "left0": math.radians(-130), "right0": math.radians(-60),
@@ -125,6 +126,9 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
     "knife_edge": [
         ("blade", 0, 0.0, 0.0), ("blade", 1, 0.0, 0.0), ("blade", 2, 0.0, 0.0),
         ("blade", 3, 0.3, 0.0), ("blade", 4, 0.0, 0.0), ("blade", 5, 1.3, 0.0),
+    ],
+    "particle_pendulum": [
+        ("bob", 0, 0.45, 1e-15), ("bob", 1, 0.6, 1e-15), ("bob", 3, 0.0, 0.0), ("bob", 4, 0.0, 0.0),
     ],
     "rhombus": [
         ("left", 2, -130 * math.pi / 180, 1e-15), ("lower_right", 2, -130 * math.pi / 180, 1e-15),

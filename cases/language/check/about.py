@@ -18,6 +18,9 @@ def about(parsed: Parsed, scene: Scene, path: Path, force: Force) -> Iterator[Fi
             yield path, f"unknown joint {name!r}{nearest(name, known)}"
         return
     joint = scene.joints[name]
+    if joint.swings:
+        yield path, f"{name!r} is a {joint.kind}, and no axis about which anything could act"
+        return
     if force.freedom == "shift":
         if not joint.shifts:
             yield path, f"{name!r} is a {joint.kind}, and lets nothing shift"

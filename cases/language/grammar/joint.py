@@ -32,6 +32,7 @@ def _joint(kind: str) -> type[Element]:
     turns, shifts = "turn" in FREEDOMS[kind], "shift" in FREEDOMS[kind]
     brakes = shifts != turns
     asked = {"kind": False, "along": shifts, "angle": not turns, "dry_friction": brakes}
+    asked["length"] = "swing" in FREEDOMS[kind]
     return element(
         kind,
         Noun,

@@ -108,6 +108,12 @@ def _missing(
         ra = _turned(a, joint.anchor_a)
         gap = b[:2] + rb - a[:2] - ra
         return np.hypot(*(_speed(b, rb) - _speed(a, ra) + share / step * gap))
+    if name not in world.slots and isinstance(joint, PinJoint):
+        d = b[:2] + rb - a[:2] - _turned(a, joint.anchor_a)
+        length = np.hypot(*d)
+        ra = _turned(a, joint.anchor_a)
+        closing = np.sum(d / length * (_speed(b, rb) - _speed(a, ra)), axis=0)
+        return np.abs(closing + share / step * (length - joint.distance))
     cut = world.slots[name] if isinstance(joint, PinJoint) else line(joint.groove_a, joint.groove_b)
     normal = _turned(a, cut.across)
     gap = np.sum(normal * (b[:2] + rb - a[:2] - _turned(a, cut.point)), axis=0)

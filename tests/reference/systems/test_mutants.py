@@ -30,6 +30,7 @@ PARAMETER: dict[str, dict[str, Law]] = {
     "four_bar": {
         "m": laws.multipliers, "a": laws.equations, "b": laws.free_cut, "c": laws.power,
     },
+    "particle_pendulum": {"m": laws.reactions, "x0": laws.equations, "y0": laws.equations},
     "rhombus": {
         "m": laws.equations, "l": laws.free_cut, "c": laws.power, "l0": laws.equations,
     },
@@ -39,10 +40,8 @@ PARAMETER: dict[str, dict[str, Law]] = {
         "Omega": laws.equations, "alpha": laws.equations,
     },
     "elastic_pendulum": {"m": laws.equations, "c": laws.power, "l0": laws.free_cut},
-    "driven_knee": {
-        "m": laws.multipliers, "l": laws.reactions, "c": laws.multipliers, "d": laws.multipliers,
-        "A": laws.equations, "Omega": laws.equations,
-    },
+    "driven_knee": dict.fromkeys("mlcd", laws.reactions)
+    | dict.fromkeys(("A", "Omega"), laws.equations),
     "knife_edge": {"m": laws.reactions, "beta": laws.power},
     "sleigh": {"m": laws.reactions, "J": laws.multipliers, "a": laws.equations},
     "spring_mass_damper": {

@@ -106,6 +106,7 @@ KINDS: dict[str, type[SpatialJointed]] = {
 }
 IN_THE_PLANE = {
     "pin": "in space it is `hinge`, with its `axis`",
+    "distance": "rods join points of the plane",
     "slot": "in space it is `freedoms`, a slide and the hinges after it",
 }
 Joint = Annotated[SpatialJointed, OneOf("joint", KINDS, IN_THE_PLANE)]
