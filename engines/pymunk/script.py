@@ -19,8 +19,8 @@ from pymunk.constraints import (
 from ...cases.plane import LEVEL, Plane
 from ...cases.scene import Anchor, Scene
 from ..engine import Start
-from . import drive
 from .contact import ABOVE, GROUP, closed, is_tip
+from .drive import as_lines
 from .edge import joints_as_text, lays_as_text
 from .force import script
 from .law.one_side import as_text
@@ -118,7 +118,7 @@ def before_each(world: World, numbers: Mapping[str, Any]) -> list[str]:
     """What is done before step n, indented."""
     midpoint = bool(numbers.get("time.midpoint"))
     lines = script(world, lambda body: _of(world, body), midpoint=midpoint)
-    turned = drive.as_lines(world, midpoint=midpoint)
+    turned = as_lines(world, midpoint=midpoint)
     followed = [*_followers(world, numbers), *_feet(world)]
     return [*lines, *turned, *followed, *lays_as_text(world)]
 

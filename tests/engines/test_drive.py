@@ -8,7 +8,7 @@ from given import scenes
 from given.planning import TUNED, moved, refused
 
 from textmech.engines.mujoco import drive
-from textmech.engines.pymunk import drive as motors
+from textmech.engines.pymunk.law import force as told
 from textmech.reference.solve import solve
 from textmech.reports.trial.start import first
 
@@ -27,7 +27,7 @@ scene:
 initial: {knee: {angle: 0}, ankle: {angle: 20 deg, omega: 1.0}}
 allow: {knee.angle: 1.0e-2, knee.torque: 1.0, foot.angle: 1.0}
 """
-# Measured: MuJoCo 1.4e-6 rad, as a corner lies inside a step; pymunk 3e-6 rad.
+# Measured: MuJoCo 1.4e-6 rad and 1e-5 N, as a corner lies inside a step; pymunk 1.2e-5 rad.
 REACHED = {"mujoco": 1e-5, "pymunk": 5e-5}
 FORCES = ("knee.fx", "knee.fy", "knee.torque")
 
@@ -61,9 +61,9 @@ def test_what_else_acts_about_the_joint_is_not_the_drive_s(
 def test_a_motor_told_the_present_rate_is_late(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    sound = motors.tells
+    sound = told.turned
     monkeypatch.setattr(
-        motors, "tells", lambda world, step, *, midpoint: sound(world, step, midpoint=False)
+        told, "turned", lambda world, step, *, midpoint: sound(world, step, midpoint=False)
     )
     assert off("pymunk", tmp_path)[0] > 1e-4
 

@@ -2,8 +2,8 @@
 
 from collections.abc import Callable
 
-from .. import drive
 from ..contact import follower, steers
+from ..drive import tells as turned
 from ..edge import driver
 from ..force import tells
 from ..world import World
@@ -18,9 +18,8 @@ def forces(world: World, step: float, *, midpoint: bool, law: bool, reflects: bo
     reflects: whether a point stays on the floor as `follower` says.
     """
     friction = laws(world, step) if law else []
-    turned = drive.tells(world, step, midpoint=midpoint)
-    told = [*turned, *tells(world, step, midpoint=midpoint), *friction]
-    told += _followers(world, step, reflects)
+    told = [*turned(world, step, midpoint=midpoint), *tells(world, step, midpoint=midpoint)]
+    told += [*friction, *_followers(world, step, reflects)]
     walks = [steers(world.stride, world.wheels, world.place)] if world.stride else []
     return [*told, *walks, *driver(world, step)]  # which has to know what has been told
 
