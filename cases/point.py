@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .signal import Signal
 from .trajectory import Array
 
 GROUND = "ground"
@@ -35,21 +36,28 @@ def anchor(word: str) -> Anchor:
 
 @dataclass(frozen=True)
 class GroundPoint:
-    """A point of the ground, or one driven at a constant velocity (rheonomous)."""
+    """A point of the ground, or one driven at a constant velocity, or by a law (rheonomous).
+
+    moves: by how much [m] it is away from `at`, in ground axes.
+    """
 
     at: Vector
     velocity: Vector = (0.0, 0.0)
+    moves: Signal | None = None
 
     @property
     def driven(self) -> bool:
-        return any(self.velocity)
-
-    def position(self, t: float) -> Vector:
-        """Position [m] at time t [s]."""
-        return (self.at[0] + self.velocity[0] * t, self.at[1] + self.velocity[1] * t)
+        return any(self.velocity) or self.moves is not None
 
     def states(self, times: Array) -> Array:
         """(N, 4): x, y, vx, vy at the times [s]; in space (N, 6)."""
         velocity = np.asarray(self.velocity) if self.driven else np.zeros(len(self.at))
         position = np.asarray(self.at) + velocity * times[:, None]
-        return np.hstack([position, np.broadcast_to(velocity, position.shape)])
+        rate = np.broadcast_to(velocity, position.shape)
+        if self.moves is not None:
+            position, rate = position + self.moves.at(times), rate + self.moves.rate(times)
+        return np.hstack([position, rate])
+
+    def state(self, t: float) -> tuple[float, ...]:
+        """x, y, vx, vy at time t [s]; in space six numbers."""
+        return tuple(self.states(np.array([t]))[0].tolist())

@@ -146,6 +146,7 @@ class Scene:
         yield from (force.signal for force in self.signals())
         yield from (law for edge in self.constraints.values() if (law := edge.speed) is not None)
         yield from self.drives.values()
+        yield from (law for point in self.points.values() if (law := point.moves) is not None)
 
     def ends(self, force: Force) -> tuple[Anchor, ...]:
         """The points on which a force acts, or those of the joint about which it does."""

@@ -37,6 +37,10 @@ class Signal:
         """(N, axes) its values at the times [s]; on a jump those after it."""
         return NUMBERS[self.law](self, times)[:, None] * np.array(self.amplitude)
 
+    def rate(self, times: Array) -> Array:
+        """(N, axes) how fast its values change at the times [s], of one that moves a point."""
+        return RATES[self.law](self, times)[:, None] * np.array(self.amplitude)
+
     def at_start(self) -> tuple[float, ...]:
         """Its values at t = 0."""
         return tuple(self.at(np.zeros(1))[0].tolist())
@@ -52,6 +56,17 @@ NUMBERS: dict[Law, Callable[[Signal, Array], Any]] = {
     "table": lambda signal, t: np.interp(t, signal.times, signal.values),
 }
 """(N,) the number that follows the law, at the times [s]."""
+
+RATES: dict[Law, Callable[[Signal, Array], Any]] = {
+    "ramp": lambda signal, t: np.ones_like(t),
+    "sine": lambda signal, t: (
+        signal.angular_frequency * np.cos(signal.angular_frequency * t + signal.phase)
+    ),
+    "polynomial": lambda signal, t: np.polynomial.polynomial.polyval(
+        t, np.polynomial.polynomial.polyder(signal.values)
+    ),
+}
+"""(N,) how fast it changes, of laws without corners."""
 
 
 def fastest(signal: Signal, until: float) -> float:

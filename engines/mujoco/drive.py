@@ -53,12 +53,19 @@ def drives(scene: Scene) -> Iterator[Drive]:
 
 def controls(scene: Scene) -> list[Signal]:
     """The laws of all actuators' controls, in MuJoCo's order."""
-    return [*signals(scene), *(law for _, law in _accelerations(scene))]
+    return [*signals(scene), *(law for *_, law in _accelerations(scene))]
 
 
-def _accelerations(scene: Scene) -> Iterator[tuple[Drive, Signal]]:
+def _accelerations(scene: Scene) -> Iterator[tuple[str, float, Signal]]:
+    """MuJoCo's joint, how large its acceleration is, and the law that it follows."""
     for drive in drives(scene):
-        yield from ((drive, law) for law in derivative(drive.law))
+        for law in derivative(drive.law):
+            yield drive.name, drive.way * law.amplitude[0], law
+    for name, point in scene.points.items():
+        rates = derivative(point.moves) if point.moves else []
+        for law in (law for rate in rates for law in derivative(rate)):
+            for axis, size in zip("xy", law.amplitude, strict=True):
+                yield f"{GROUND}.{name}.{axis}", size, law
 
 
 def write(root: ET.Element, scene: Scene) -> None:
@@ -66,12 +73,12 @@ def write(root: ET.Element, scene: Scene) -> None:
     joints = {joint.attrib["name"]: joint for joint in root.iter("joint")}
     for drive in drives(scene):
         joints[drive.name].set("armature", written(HEAVY))
-    for i, (drive, law) in enumerate(_accelerations(scene)):
+    for i, (name, size, _) in enumerate(_accelerations(scene)):
         section = root.find("actuator")
         section = ET.SubElement(root, "actuator") if section is None else section
         # The gear is what is heavy: a control above 1e10 would be "huge".
-        gear = written(drive.way * HEAVY * law.amplitude[0])
-        ET.SubElement(section, "general", name=f"drive.{i}", joint=drive.name, gear=gear)
+        gear = written(HEAVY * size)
+        ET.SubElement(section, "general", name=f"drive.{i}", joint=name, gear=gear)
 
 
 def effort(

@@ -189,8 +189,8 @@ def _start(
     """The start as a keyframe, in the order in which MuJoCo numbers joints: depth first."""
     pairs: dict[str, list[tuple[float, float]]] = {}
     for name in driven(scene):
-        point = scene.points[name.partition(".")[2]]
-        pairs[name] = list(zip(point.at, point.velocity, strict=True))
+        x, y, vx, vy = scene.points[name.partition(".")[2]].state(0.0)
+        pairs[name] = [(x, vx), (y, vy)]
     for branch in tree.branches:
         pairs[called(branch.body)] = coordinates(scene, tree, branch, start)
         if branch.joint is None and out:

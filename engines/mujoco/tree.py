@@ -207,8 +207,7 @@ def _shift(scene: Scene, tree: Tree, branch: Branch, start: Start) -> tuple[floa
 def place(scene: Scene, anchor: Anchor, start: Start) -> tuple[float, float, float, float]:
     """x, y, vx, vy of a point at the start."""
     if anchor.body == GROUND:
-        ground = scene.points[anchor.point]
-        return (*ground.at, *ground.velocity)
+        return scene.points[anchor.point].state(0.0)  # type: ignore[return-value]
     x, y, angle, vx, vy, omega = start[anchor.body]
     dx, dy = turned(scene.bodies[anchor.body].points[anchor.point], angle)
     return (x + dx, y + dy, vx - omega * dy, vy + omega * dx)

@@ -36,6 +36,10 @@ def unbuildable(scene: Scene) -> str | None:
     for quantity in scene.drives:
         if quantity.endswith(".speed"):
             return f"{NO_LINE}, as {quantity} is driven"
+    for joint in scene.joints.values():
+        point = scene.points.get(joint.a.point) if joint.a.body == GROUND else None
+        if joint.dry_friction and point and point.moves:
+            return f"adapter: {joint.name} has dry friction on a point that moves by a law"
     beside = [*scene.contacts.values(), *(j for j in scene.joints.values() if j.dry_friction)]
     for edge in scene.constraints.values():
         if beside:

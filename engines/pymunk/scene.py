@@ -58,7 +58,8 @@ def _bodies(world: World, start: Start) -> None:
     for name, point in world.scene.points.items():
         if point.driven:
             part = Body(body_type=Body.KINEMATIC)
-            part.position, part.velocity = point.at, point.velocity
+            x, y, vx, vy = point.state(0.0)
+            part.position, part.velocity = (x, y), (vx, vy)
             world.driven[name] = part
     world.space.add(*world.bodies.values(), *world.driven.values())
 

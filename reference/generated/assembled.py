@@ -12,9 +12,10 @@ import numpy as np
 
 from ...cases.scene import Signal, Vector
 from ..system import Array
-from .blades import Blades, Laws
+from .blades import Blades, Laws, Moves
 from .coordinates import Attached, moved
 from .rows import FIRST, GAMMA, SECOND, Distance, G, Line, Term, opposite
+from .signal import bend
 
 NOWHERE = -1  # the target of what a particle or a point of the ground has no column for
 
@@ -35,10 +36,11 @@ class Rows:
         self._turns: list[Turn] = []
         self._blades: list[Lever] = []
         self._laws: list[tuple[int, Signal]] = []
+        self._moves: list[tuple[int, Signal, Vector]] = []
         for i, (ends, terms) in enumerate(rows):
             for term in terms:
                 term.enter(i, ends, self)
-        self._kinds: list[Levers | Lines | Blades | Laws] = []
+        self._kinds: list[Levers | Lines | Blades | Laws | Moves] = []
         if self._levers:
             self._kinds.append(Levers(self._levers, n + 2))
         if self._turns:
@@ -47,6 +49,8 @@ class Rows:
             self._kinds.append(Blades(self._blades, n + 2))
         if self._laws:
             self._kinds.append(Laws(self._laws, n + 2))
+        if self._moves:
+            self._kinds.append(Moves(self._moves, n + 2))
         self._target()
         self._keep()
 
@@ -82,6 +86,8 @@ class Rows:
         """(2.15) u·ṙ_p with ṙ_p = ṙ_c + ω × d: f = (u, d × u); of a ground point g = −u·ṙ_p."""
         if p.xy is None:
             self._fixed[i, G] -= u[0] * p.velocity[0] + u[1] * p.velocity[1]
+            if p.moves is not None:
+                self._moves.append((i, p.moves, u))
             return
         self._fixed[i, p.xy : p.xy + 2] += u
         if p.phi is not None and p.at is not None:
@@ -173,7 +179,23 @@ class Lines:
     def __call__(self, t: Any, q: Any, v: Any) -> list[Any]:
         """One by one: there are few."""
         q, v = q.tolist(), v.tolist()
-        return [line.numbers(moved(a, t, q, v), moved(b, t, q, v)) for a, b, line in self._turns]
+        return [
+            _bent(way.numbers(moved(a, t, q, v), moved(b, t, q, v)), t, a, b)
+            for a, b, way in self._turns
+        ]
+
+
+def _bent(numbers: tuple[Any, ...], t: Any, a: Attached, b: Attached) -> tuple[Any, ...]:
+    """The same with u·r̈ of points of the ground that move by a law; u stands in f of b."""
+    if a.moves is None and b.moves is None:
+        return numbers
+    *others, gamma = numbers
+    x, y = others[3:5]
+    for point, way in ((a, 1.0), (b, -1.0)):
+        if point.moves is not None:
+            ax, ay = bend(point.moves, t)
+            gamma = gamma + way * (x * ax + y * ay)
+    return (*others, gamma)
 
 
 def _next(column: int | None) -> int | None:

@@ -8,7 +8,7 @@ import numpy as np
 from ...cases.scene import Signal, Vector
 from .coordinates import Attached
 from .rows import GAMMA, G
-from .signal import signal, slope
+from .signal import bend, signal, slope
 
 
 class Blades:
@@ -43,3 +43,20 @@ class Laws:
     def __call__(self, t: Any, q: Any, v: Any) -> list[Any]:
         """(2.15) g = s(t), and γ = ṡ(t)."""
         return [[signal(law, t)[0] for law in self._laws], [slope(law, t)[0] for law in self._laws]]
+
+
+class Moves:
+    """What `Along` has of points of the ground that move by a law."""
+
+    def __init__(self, moves: Sequence[tuple[int, Signal, Vector]], width: int) -> None:
+        self._moves = [(law, u) for _, law, u in moves]
+        end = (np.array([i for i, *_ in moves]) + 1) * width
+        self.targets = np.concatenate([end + G, end + GAMMA])
+
+    def __call__(self, t: Any, q: Any, v: Any) -> list[Any]:
+        """(2.15) g = −u·ṙ_p, and γ = −u·r̈_p."""
+        return [[self._along(u, rate(law, t)) for law, u in self._moves] for rate in (slope, bend)]
+
+    @staticmethod
+    def _along(u: Vector, rate: Sequence[Any]) -> Any:
+        return -(u[0] * rate[0] + u[1] * rate[1])

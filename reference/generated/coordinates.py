@@ -10,8 +10,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...cases.scene import GROUND, Anchor, Scene, Vector
+from ...cases.scene import GROUND, Anchor, Scene, Signal, Vector
 from ..system import Pose
+from .signal import signal, slope
 
 ORIGIN = (0.0, 0.0)
 
@@ -35,6 +36,7 @@ class Attached(NamedTuple):
     phi: int | None
     at: Vector | None  # None: a particle, or the centre of mass itself
     velocity: Vector = (0.0, 0.0)  # of a point of the ground
+    moves: Signal | None = None  # how far such a point is away, if by a law
 
 
 @dataclass(frozen=True)
@@ -120,7 +122,7 @@ class Coordinates:
     def attached(self) -> dict[tuple[str, str], Attached]:
         """Each point on its body, by the names of body and point."""
         ground = {
-            (GROUND, name): Attached(None, None, point.at, point.velocity)
+            (GROUND, name): Attached(None, None, point.at, point.velocity, point.moves)
             for name, point in self.scene.points.items()
         }
         return ground | {
@@ -136,9 +138,12 @@ class Coordinates:
 
 def moved(point: Attached, t: Any, q: Sequence[Any], v: Sequence[Any]) -> Point:
     """(2.1) r = r_c + d and (2.6) ṙ = ṙ_c + ω × d, for q and v as lists of numbers."""
-    xy, phi, at, velocity = point
+    xy, phi, at, velocity, moves = point
     if xy is None:
         (x, y), (u, w) = at or ORIGIN, velocity
+        if moves is not None:
+            (dx, dy), rate = signal(moves, t), slope(moves, t)
+            return Point((x + dx, y + dy), rate, ORIGIN, 0.0, 0.0, None, None)
         return Point((x + u * t, y + w * t), velocity, ORIGIN, 0.0, 0.0, None, None)
     r, r_dot = (q[xy], q[xy + 1]), (v[xy], v[xy + 1])
     if phi is None:

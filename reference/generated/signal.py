@@ -23,6 +23,12 @@ def slope(law: Signal, t: Any) -> tuple[Any, ...]:
     return tuple(entry * size for entry in law.amplitude)
 
 
+def bend(law: Signal, t: Any) -> tuple[Any, ...]:
+    """The rate of `slope`: A s̈(t), of what moves a point."""
+    size = BENDS[law.law](law, t)
+    return tuple(entry * size for entry in law.amplitude)
+
+
 def _polynomial(coefficients: tuple[float, ...], t: Any) -> Any:
     """c₀ + t (c₁ + t (c₂ + …))."""
     size = 0.0
@@ -69,3 +75,10 @@ SLOPES: dict[Law, Callable[[Signal, Any], Any]] = {
     "table": lambda law, t: _line(law, t)[2],
 }
 """ṡ(t); nothing that jumps is prescribed."""
+
+BENDS: dict[Law, Callable[[Signal, Any], Any]] = {
+    "ramp": lambda law, t: 0.0,
+    "sine": lambda law, t: -(law.angular_frequency**2) * SIZES["sine"](law, t),
+    "polynomial": lambda law, t: _polynomial(_derivative(_derivative(law.values)), t),
+}
+"""s̈(t)."""

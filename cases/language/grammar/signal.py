@@ -152,6 +152,16 @@ class Prescribed(Following):
     )
 
 
+class Moving(Following):
+    """A law in time of a place, whose velocity cannot jump either."""
+
+    laws: ClassVar[tuple[Word, ...]] = ("ramp", "sine", "polynomial")
+    model_config = ConfigDict(json_schema_extra={"oneOf": [{"required": [law]} for law in laws]})
+    elsewhere = dict.fromkeys(
+        (*JUMPS, "table"), "a velocity that jumps is a blow; take a `polynomial`"
+    )
+
+
 def law(title: str, signal: Any, axes: int | None = None) -> dict[str, tuple[Any, Any]]:
     """The keys that give the `signal` of a force, as fields of its model.
 

@@ -127,11 +127,12 @@ def _motion(world: World, body: Body, rows: Array, times: Array) -> Array:
     for i, other in enumerate(world.bodies.values()):
         if other is body:
             return rows[:, i].T
-    (x, y), (vx, vy), angle = (0.0, 0.0), body.velocity, np.zeros_like(times)
+    still = np.zeros_like(times)
     for name, other in world.driven.items():
         if other is body:
-            x, y = world.scene.points[name].at
-    return np.array([x + vx * times, y + vy * times, angle, angle + vx, angle + vy, angle])
+            x, y, vx, vy = world.scene.points[name].states(times).T
+            return np.array([x, y, still, vx, vy, still])
+    return np.array([still] * 6)
 
 
 def _turned(motion: Array, point: tuple[float, float]) -> Array:
