@@ -50,7 +50,7 @@ def samples(case: Case, part: float) -> Mapping[str, Array]:
     times = case.times[: ceil(part * len(case.times))]
     mechanism = scenes.mechanism(case)
     followed = follow(mechanism, times, by=partial(either, tolerance=TOLERANCE))
-    return observed(case, Answer(mechanism, followed).trajectory(times))
+    return observed(case, Answer(mechanism, followed, accelerates=True).trajectory(times))
 
 
 def changed(file: Path, case: Case, name: str, folder: Path) -> Case:

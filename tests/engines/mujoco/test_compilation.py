@@ -18,6 +18,7 @@ from textmech.cases.frame import PLANE
 from textmech.cases.scene import Scene
 from textmech.engines.engine import Plan, Realised, Start
 from textmech.engines.mujoco import MuJoCo, compilation
+from textmech.engines.mujoco.rods import with_rods
 from textmech.engines.mujoco.space import compilation as space
 from textmech.reports.judge.compare import compare
 from textmech.reports.trial.start import assembled, first
@@ -67,6 +68,8 @@ def placed(
 ) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """What a run is given."""
     room = compilation if scene.frame is PLANE else space
+    if scene.frame is PLANE:
+        scene, start = with_rods(scene, start)
     model, data, _ = room.placed(scene, start, step, plan, settles=engine.setting == "tuned")
     return model, data
 
