@@ -30,6 +30,7 @@ class ParticlePendulum(Mode):
 
     @property
     def _l(self) -> float:
+        """(2.14) l = √(x₀² + y₀²), which the rod holds [m]."""
         return math.sqrt(self.x0**2 + self.y0**2)
 
     def start(self) -> tuple[Array, Array]:
