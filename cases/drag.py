@@ -2,14 +2,13 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated
 
 import numpy as np
 
 from .body import Body
 from .element import Force
 from .friction import Bounds
-from .joint import Freedom
 from .kind import Fields
 from .language.grammar.field import In
 from .language.grammar.friction import FrictionForce
@@ -61,7 +60,7 @@ class Viscous(Force):
     """
 
     word = "viscous"
-    freedom: ClassVar[Freedom] = "shift"
+    freedom = "shift"
     joint: str
     coefficient: Annotated[Bounds, FrictionForce]
     exponent: Annotated[float, In("1", above=0)]

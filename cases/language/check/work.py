@@ -68,6 +68,9 @@ def _rates(scene: Scene) -> Iterator[tuple[float, Path]]:
     for name, force in scene.forces.items():
         swings, decays = force.pace(mobility)
         yield max(swings, decays / DAMPED), ("scene", "forces", name)
+    for name, point in scene.points.items():
+        if point.moves is not None:
+            yield point.moves.angular_frequency, ("scene", "points", name)
     g = hypot(*scene.gravity)
     for at in _pins(scene):
         yield _pendulum(scene.bodies[at.body], at.point, g), ("scene", "bodies", at.body)
