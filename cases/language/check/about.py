@@ -18,7 +18,7 @@ def about(parsed: Parsed, scene: Scene, path: Path, force: Force) -> Iterator[Fi
             yield path, f"unknown joint {name!r}{nearest(name, known)}"
         return
     joint = scene.joints[name]
-    if joint.swings:
+    if scene.frame.dimension == 2 and joint.swings:
         yield path, f"{name!r} is a {joint.kind}, and no axis about which anything could act"
         return
     if force.freedom == "shift":

@@ -31,6 +31,8 @@ def switches(case: Case) -> bool:
     return touches or any(case.scene.one_sided())
 
 
+# Straight again for an instant: a double zero, which rounding knows to 1e-6 s and not to 1e-9.
+TOUCHING = ("driven_knee.spring", "driven_knee.damped")
 ONE_OF_EACH_FILE = [case.name for case in one_of_each_file()]
 # In space one of each file: a spatial motion costs ten planar ones, and another start of the same
 # mechanism has the same record.
@@ -39,6 +41,7 @@ SMOOTH = [
     for name, case in scenes.SHIPPED.items()
     if (case.scene.frame is PLANE or name in ONE_OF_EACH_FILE)
     and not (case.scene.frame is PLANE and (dry(case) or switches(case)))
+    and name not in TOUCHING
 ]
 STILL = 1e-6  # m, rad, m/s, rad/s: what stays below does not move but by rounding
 LOCATED = 1e-9  # s: a curve of seventh degree through the steps around it
