@@ -51,7 +51,7 @@ class Placement:
     given: Mapping[str, float] = field(default_factory=dict)  # x, y, angle, vx, vy, omega
     points: Mapping[str, Vector] = field(default_factory=dict)
     attitude: tuple[float, float, float, float] | None = None
-    on: str | None = None  # the point with which the body stands on the floor
+    on: tuple[str, ...] = ()  # the points with which the body stands on planes
 
 
 @dataclass(frozen=True)

@@ -174,7 +174,7 @@ def _wound(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         if not force.winds:
             continue
         angle = observe(case.scene, motion, f"{force.name}.angle")
-        rate = observe(case.scene, motion, f"{force.about}.{rate_of(force.freedom or 'angle')}")
+        rate = observe(case.scene, motion, f"{force.about}.{rate_of(force.turn or 'angle')}")
         # Between two samples as the cubic through them goes, which has their rates.
         between = (angle[1:] + angle[:-1]) / 2 - np.diff(rate) * np.diff(motion.times) / 8
         wound = np.abs(angle) > np.pi

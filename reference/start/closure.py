@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...cases.case import Case, Placement
+from ...cases.plane import LEVEL
 from ...cases.scene import Anchor, Vector
 from ..generated.constraint import Constraint, assembled
 from ..generated.coordinates import ORIGIN, Coordinates
@@ -41,8 +42,8 @@ class Closure:
         self.placed = placed(case.initial)
         self.places = [c for c in self.parts if c.holonomic]  # C₁ of (2.17) is free
         self.places += [_at(anchor, place, self.where) for anchor, place in self.placed]
-        standing = [Anchor(b, p.on) for b, p in case.initial.items() if p.on is not None]
-        self.places += [_on_floor(anchor, self.where) for anchor in standing]
+        standing = [Anchor(b, point) for b, p in case.initial.items() for point in p.on]
+        self.places += [_on_plane(anchor, self.where) for anchor in standing]
         self.posed = list(posed(case, self.where))
         self.places += self.posed
         self.gliding = [
@@ -134,9 +135,12 @@ def _at(anchor: Anchor, place: Vector, where: Coordinates) -> Constraint:
     return Constraint(str(anchor), (anchor,), rows, ((), ()), place, where)
 
 
-def _on_floor(anchor: Anchor, where: Coordinates) -> Constraint:
-    """y_P = 0, for the search only."""
-    return Constraint(str(anchor), (anchor,), ((Along(FIRST, Y),),), ((),), (0.0,), where)
+def _on_plane(anchor: Anchor, where: Coordinates) -> Constraint:
+    """n·r_P = n·r₀ of the plane that it touches, or of the floor; for the search only."""
+    touching = (c.plane for c in where.scene.touching.values() if c.at == anchor)
+    plane = next(touching, LEVEL)
+    row, at = (Along(FIRST, plane.normal),), -plane.height(0.0, 0.0)
+    return Constraint(str(anchor), (anchor,), (row,), ((),), (at,), where)
 
 
 def held(locks: Sequence[Lock], known: Mapping[int, float]) -> dict[int, float]:

@@ -39,6 +39,7 @@ from .rolling_wheel import RollingWheel
 from .sleigh import Sleigh
 from .sliding_block import SlidingBlock
 from .sliding_disk import SlidingDisk
+from .sliding_ladder import SlidingLadder
 from .smooth_friction import SmoothDynamometer, SmoothGrowingForce
 from .spring_mass_damper import SpringMassDamper
 from .spring_mass_jump import SpringMassJump
@@ -88,6 +89,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "sleigh": Sleigh,
     "sliding_block": SlidingBlock,
     "sliding_disk": SlidingDisk,
+    "sliding_ladder": SlidingLadder,
     "smooth_dynamometer": SmoothDynamometer,
     "smooth_growing_force": SmoothGrowingForce,
     "spring_mass_damper": SpringMassDamper,

@@ -42,6 +42,7 @@ MULTIPLIERS: dict[At, tuple[str, ...]] = {
     ("sliding_disk", "rolling"): ("touch.normal", "touch.tangent"),
     ("sliding_disk", "slips backward"): ("touch.normal",),
     ("sliding_disk", "slips forward"): ("touch.normal",),
+    ("sliding_ladder", "leans"): ("top.normal",),
 }
 # How many rows have a residual (2.14), where not all: what sticks or rolls has no place of its own.
 RESIDUALS = {
@@ -72,6 +73,7 @@ APPLIED: dict[At, str] = {
     ("sliding_block", "down"): "touch.tangent",
     ("sliding_block", "up"): "touch.tangent",
     ("sliding_disk", "slips backward"): "touch.tangent",
+    ("sliding_ladder", "slides"): "top.normal",
     ("sliding_disk", "slips forward"): "touch.tangent",
     ("smooth_dynamometer", "moving"): "guide.fx",
     ("smooth_growing_force", "moving"): "guide.fx",
@@ -234,8 +236,8 @@ LAWS: Sequence[Law] = (
 _STARTING = {(name, example(name).start()[0]) for name in PARAMETERS}
 _NO_CLOSED_FORM = {
     "anisotropic_drift", "compass_walker", "double_pendulum", "elastic_pendulum", "four_bar",
-    "rhombus", "smooth_dynamometer", "smooth_growing_force", "spring_mass_jump", "stribeck_drive",
-    "trunk_on_legs",
+    "rhombus", "smooth_dynamometer", "smooth_growing_force", "sliding_ladder", "spring_mass_jump",
+    "stribeck_drive", "trunk_on_legs",
 }  # fmt: skip
 _FREE = {
     "charge_in_field", "elastic_pendulum", "falling_drag", "rhombus", "spring_mass_damper",

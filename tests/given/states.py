@@ -27,6 +27,8 @@ def _switching(random: np.random.Generator, name: str, mode: str, t: float) -> D
     q, v = random.uniform(-2.0, 2.0, n), random.uniform(-5.0, 5.0, n)
     if name == "sliding_disk":
         q[1] = 0.25
+    if name == "sliding_ladder" and mode == "leans":
+        q[0] = 0.75 * math.cos(q[1])
     if name == "bouncing_disk":
         q = np.zeros(1) if mode == "rest" else q + 2.0
     rows = system.f_a(t, q)

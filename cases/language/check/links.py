@@ -146,8 +146,9 @@ def _placed(
         for point in place.places:
             if point not in scene.bodies[name].points:
                 yield from _anchor(parsed, scene, (key, name, point), Anchor(name, point))
-        if place.stands_on is not None:
-            yield from _anchor(parsed, scene, (key, name, "on"), Anchor(name, place.stands_on))
+        for i, point in enumerate(place.stands_on):
+            path = (key, name, "on", i) if len(place.stands_on) > 1 else (key, name, "on")
+            yield from _anchor(parsed, scene, path, Anchor(name, point))
         for turning in ("angle", "omega"):
             if not scene.bodies[name].turns and getattr(place, turning, None) is not None:
                 yield (key, name, turning), f"{name!r} is a particle and cannot turn"

@@ -125,9 +125,9 @@ class Near(Part):
         """None in the plane, where a body has an angle."""
 
     @property
-    def stands_on(self) -> str | None:
-        """The point that stands on the floor: only a start has one."""
-        return None
+    def stands_on(self) -> tuple[str, ...]:
+        """The points that stand on their planes: only a start has any."""
+        return ()
 
 
 class Initial(Near):
@@ -146,11 +146,14 @@ class Initial(Near):
     speed: Annotated[float, In("m/s")] | None = Field(
         None, description="of an edge or a joint, along it"
     )
-    on: Name | None = Field(None, description="the point of the body that stands on the floor")
+    on: Annotated[
+        Annotated[Name, Tag("<plain>")] | Annotated[tuple[Name, Name], Tag("<list>")],
+        plain_or_list(),
+    ] | None = Field(None, description="the point of the body that stands on its plane, or two")
 
     @property
-    def stands_on(self) -> str | None:
-        return self.on
+    def stands_on(self) -> tuple[str, ...]:
+        return (self.on,) if isinstance(self.on, str) else self.on or ()
 
     @property
     def polar(self) -> tuple[str, float, float] | None:

@@ -72,9 +72,9 @@ class Start(Part):
         return self.__pydantic_extra__
 
     @property
-    def stands_on(self) -> None:
-        """None in space, where nothing pivots on the floor by a point."""
-        return None
+    def stands_on(self) -> tuple[str, ...]:
+        """None in space, where a start is given by joints and attitudes."""
+        return ()
 
     @property
     def given(self) -> dict[str, float]:
