@@ -2,8 +2,7 @@
 
 A spring or a damper is a DampedSpring. What pymunk has no element for is told before every step
 through its force input. pymunk drifts first, so a force set before a step acts at positions one
-drift later. The midpoint protocol evaluates it there, and half a step later in time; else it is
-what a user writes who does not know: the force at the present time and place.
+drift later. The midpoint protocol evaluates it there; else it is the force at the present place.
 """
 
 import math

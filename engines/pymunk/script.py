@@ -1,6 +1,7 @@
 """A scene as a stand-alone Python script, written from the very objects that would be stepped."""
 
 from collections.abc import Iterable, Iterator, Mapping
+from functools import partial
 from inspect import getsource
 from typing import Any
 
@@ -16,10 +17,9 @@ from pymunk.constraints import (
     SimpleMotor,
 )
 
-from ...cases.plane import LEVEL, Plane
-from ...cases.scene import Anchor, Scene
+from ...cases.scene import Scene
 from ..engine import Start
-from .contact import ABOVE, GROUP, closed, is_tip
+from .contact import closed
 from .drive import as_lines
 from .edge import joints_as_text, lays_as_text
 from .force import script
@@ -27,6 +27,7 @@ from .law.one_side import as_text
 from .run import COLD
 from .scene import build
 from .slot import LENGTH, carried
+from .touching import feet, followers, planes
 from .wording import helpers
 from .world import World
 from .written import written
@@ -92,6 +93,7 @@ def text(
 
 def building(world: World, start: Start, numbers: Mapping[str, Any]) -> list[str]:
     """What builds `space`, `bodies` and `wheels`, where h is the step [s]."""
+    of = partial(_of, world)
     lines = [
         "space = pymunk.Space()",
         f"space.gravity = {written(world.space.gravity)}",
@@ -102,9 +104,9 @@ def building(world: World, start: Start, numbers: Mapping[str, Any]) -> list[str
         *helpers(world.scene.laws()),
         *(["", *_CARRIED] if world.slots else []),
         *_bodies(world),
-        *_planes(world, reflects=bool(numbers.get("contact.reflects"))),
+        *planes(world, of, reflects=bool(numbers.get("contact.reflects"))),
         *_constraints(world, numbers),
-        *joints_as_text(world, lambda body: _of(world, body)),
+        *joints_as_text(world, of),
     ]
     midpoint, seed = numbers.get("time.midpoint"), numbers.get("start.seed")
     if world.stride:
@@ -119,28 +121,9 @@ def before_each(world: World, numbers: Mapping[str, Any]) -> list[str]:
     midpoint = bool(numbers.get("time.midpoint"))
     lines = script(world, lambda body: _of(world, body), midpoint=midpoint)
     turned = as_lines(world, midpoint=midpoint)
-    followed = [*_followers(world, numbers), *_feet(world)]
+    of = partial(_of, world)
+    followed = [*followers(world, of, numbers), *feet(world, of)]
     return [*lines, *turned, *followed, *lays_as_text(world)]
-
-
-def _feet(world: World) -> Iterator[str]:
-    """Lets the floor meet the feet that it has to, as `Stride.look` says."""
-    if world.stride is None:
-        return
-    places = [f"({_point(world, foot.at)}, {name!r})" for name, foot in world.stride.feet.items()]
-    yield f"    behind, front = sorted([{', '.join(places)}])"
-    yield f"    if front[0].x > behind[0].x + {world.stride.ahead!r}:"
-    yield "        if front[0].y > 0:"
-    yield "            meets[front[1]] = True"
-    yield "        elif meets[front[1]]:"
-    yield "            meets[behind[1]] = False"
-    yield "    for name in meets:"
-    yield "        mask = pymunk.ShapeFilter.ALL_MASKS() if meets[name] else 0"
-    yield f"        wheels[name].filter = pymunk.ShapeFilter(group={GROUP}, mask=mask)"
-
-
-def _point(world: World, at: Anchor) -> str:
-    return f"{_of(world, world.body(at))}.local_to_world({written(world.local(at))})"
 
 
 def _sweeps(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
@@ -183,31 +166,6 @@ def _bodies(world: World) -> Iterator[str]:
         yield "space.add(body)"
 
 
-def _planes(world: World, *, reflects: bool) -> Iterator[str]:
-    several = len(world.planes) > 1
-    for name, shape in world.planes.items():
-        yield ""
-        ends = f"{written(shape.a)}, {written(shape.b)}"
-        yield f"plane = pymunk.Segment(ground, {ends}, 0.0)  # {name}"
-        yield f"plane.friction = {shape.friction!r}"
-        if reflects or any(wheel.elasticity for wheel in world.wheels.values()):
-            yield f"plane.elasticity = {shape.elasticity!r}"
-        if several:
-            yield f"plane.filter = pymunk.ShapeFilter(categories={shape.filter.categories})"
-        yield "space.add(plane)"
-    if world.planes:
-        yield "wheels = {}"
-    for name, wheel in world.wheels.items():
-        size = f"{wheel.radius!r}, {written(wheel.offset)}" if any(wheel.offset) else wheel.radius
-        yield f"wheels[{name!r}] = wheel = pymunk.Circle({_of(world, world.wheel(name))}, {size})"
-        yield f"wheel.friction = {wheel.friction!r}  # pymunk takes the product of both"
-        if wheel.elasticity:
-            yield f"wheel.elasticity = {wheel.elasticity!r}  # of these too"
-        mask = f", mask={wheel.filter.mask}" if several else ""
-        yield f"wheel.filter = pymunk.ShapeFilter(group={wheel.filter.group}{mask})"
-        yield "space.add(wheel)"
-
-
 def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
     brakes = {name: (brake,) for name, brake in world.brakes.items()}
     named = {name: (*parts, *brakes.get(name, ())) for name, parts in world.joints.items()}
@@ -237,37 +195,3 @@ def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
                 point, along = (f"Vec2d{written(v)}" for v in (cut.point, cut.along))
                 yield f"joint.pre_solve = carried({point}, {along})"
             yield "space.add(joint)"
-
-
-def _followers(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
-    """Keeps the circle of a turning body's point above it, see `follower`."""
-    for contact in world.scene.touching.values():
-        if not is_tip(world.scene, contact):
-            continue
-        body, (a, b) = _of(world, world.wheel(contact.name)), world.local(contact.at)
-        wheel = f"wheels[{contact.name!r}]"
-        if numbers.get("contact.reflects"):
-            yield f"    low = pymunk.Vec2d({a!r}, {b!r}).rotated({body}.angle)"
-            yield f"    low = {_height(contact.plane, f'({body}.position + low)')}"
-            yield f"    low -= {wheel}.radius - {ABOVE}"
-            begins = "" if contact.ideal == "pivot" else "n > 0 and "
-            yield f"    stays = {begins}low < 0"
-            yield f"    {wheel}.elasticity = 1.0 if stays else {contact.restitution!r}"
-        yield f"    turned = {body}.angle + h * {body}.angular_velocity"
-        nx, ny = contact.plane.normal
-        along = _sum(a, (ABOVE * nx, "math.cos(turned)"), (ABOVE * ny, "math.sin(turned)"))
-        up = _sum(b, (ABOVE * ny, "math.cos(turned)"), (-ABOVE * nx, "math.sin(turned)"))
-        offset = f"({along}, {up})"
-        yield f"    {wheel}.unsafe_set_offset({offset})"
-
-
-def _height(plane: Plane, place: str) -> str:
-    """How far a place is above the plane."""
-    if plane == LEVEL:
-        return f"{place}.y"
-    return f"({place} - {written(plane.at)}).dot({written(plane.normal)})"
-
-
-def _sum(first: float, *terms: tuple[float, str]) -> str:
-    """Without the terms that are nothing."""
-    return " + ".join([repr(first), *(f"{size!r} * {what}" for size, what in terms if size)])

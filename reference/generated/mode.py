@@ -99,9 +99,8 @@ class Multibody(Mode):
             _add(found, brake.along.reactions(t, numbers, [brake.force(t, q, v)]))
         for at, law in self._coulomb:
             _add(found, law.tangent.reactions(t, numbers, [law.factor * multipliers[at]]))
-        for joint in self.scene.joints.values():
-            if not joint.turns:  # a particle takes no moment
-                found.setdefault(f"{joint.name}.torque", 0.0)
+        held = (joint.name for joint in self.scene.joints.values() if not joint.turns)
+        found = {f"{name}.torque": 0.0 for name in held} | found  # a particle takes no moment
         for shared in self._shared:
             found |= shared.divided(found)
         for contact in self.scene.contacts.values():
@@ -201,8 +200,7 @@ class Multibody(Mode):
 
     def V(self, t: Any, q: Vector, v: Vector) -> Any:
         """V = Σ ½ e B (y ẋ − x ẏ) [J] as (2.48) has it."""
-        forces = self.scene.forces.values()
-        return sum((generalized_potential(f, self.where, t, q, v) for f in forces), 0.0)
+        return sum((generalized_potential(f, self.where, t, q, v) for f in self._forces), 0.0)
 
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.46) D = Σ ½ d λ̇² [W], λ̇ = Δ·Δ̇/λ."""

@@ -23,7 +23,7 @@ class _Ladder(Mode):
     """On the floor, and leaning on the wall or not."""
 
     m: float
-    l: float  # noqa: E741  # the book's letter
+    l: float  # the book's letter
     leans: bool
 
     coordinates = ("x", "phi")
@@ -97,7 +97,7 @@ class SlidingLadder(System):
     """m [kg], l [m], released at rest at the angle 0 < phi0 < 90° [rad] with the floor."""
 
     m: float
-    l: float  # noqa: E741
+    l: float
     phi0: float
 
     def __post_init__(self) -> None:

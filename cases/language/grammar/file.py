@@ -146,10 +146,13 @@ class Initial(Near):
     speed: Annotated[float, In("m/s")] | None = Field(
         None, description="of an edge or a joint, along it"
     )
-    on: Annotated[
-        Annotated[Name, Tag("<plain>")] | Annotated[tuple[Name, Name], Tag("<list>")],
-        plain_or_list(),
-    ] | None = Field(None, description="the point of the body that stands on its plane, or two")
+    on: (
+        Annotated[
+            Annotated[Name, Tag("<plain>")] | Annotated[tuple[Name, Name], Tag("<list>")],
+            plain_or_list(),
+        ]
+        | None
+    ) = Field(None, description="the point of the body that stands on its plane, or two")
 
     @property
     def stands_on(self) -> tuple[str, ...]:

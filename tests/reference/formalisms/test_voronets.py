@@ -33,6 +33,11 @@ SHIPPED: dict[At, set[str]] = dict.fromkeys(MODES, FREE) | {
     ("sliding_disk", "slips forward"): set(FORMS),
 }
 NOTHING_FREE = ("rest", "stuck", "sticks")
+# Where one leg stands, or leans, no place appears: one rate gives the other.
+SHIPPED |= dict.fromkeys(
+    [at for at in MODES if at[0] == "compass_walker" or at == ("sliding_ladder", "leans")],
+    set(FORMS),
+)
 SHIPPED |= {at: set() for at in MODES if at[1] in NOTHING_FREE or at[0] == "driven_knee"}
 
 

@@ -33,6 +33,7 @@ def switches(case: Case) -> bool:
 
 # Straight again for an instant: a double zero, which rounding knows to 1e-6 s and not to 1e-9.
 TOUCHING = ("driven_knee.spring", "driven_knee.damped")
+HELD = ("muscle_isometric.rise", "muscle_isometric.release")  # nothing of it moves but inside
 ONE_OF_EACH_FILE = [case.name for case in one_of_each_file()]
 # In space one of each file: a spatial motion costs ten planar ones, and another start of the same
 # mechanism has the same record.
@@ -41,7 +42,7 @@ SMOOTH = [
     for name, case in scenes.SHIPPED.items()
     if (case.scene.frame is PLANE or name in ONE_OF_EACH_FILE)
     and not (case.scene.frame is PLANE and (dry(case) or switches(case)))
-    and name not in TOUCHING
+    and name not in (*TOUCHING, *HELD)
 ]
 STILL = 1e-6  # m, rad, m/s, rad/s: what stays below does not move but by rounding
 LOCATED = 1e-9  # s: a curve of seventh degree through the steps around it
@@ -78,7 +79,7 @@ def with_event(case: Case) -> tuple[Case, bool]:
     }
     case = replace(case, scene=replace(case.scene, bodies=bodies))
     motion = scenes.solved(case.name).trajectory
-    falling, staying = [], []
+    falling, staying, leaving = [], [], []
     for name, quantity in table(case.scene).items():
         moves = quantity.kind in ("coordinate", "velocity") and quantity.field != "attitude"
         if not moves or quantity.part in case.scene.forces:
@@ -91,7 +92,9 @@ def with_event(case: Case) -> tuple[Case, bool]:
             falling.append((int(falls[-1]) + 2, name))
         if np.min(np.abs(u)) > size and np.ptp(u) > STILL:
             staying.append((len(case.times) // 4, name))
-    last, name = min(falling or staying)
+        if np.min(u[1:]) > size and np.ptp(u) > STILL:
+            leaving.append((len(case.times) // 4, name))  # it begins at zero
+    last, name = min(falling or staying or leaving)
     return until(case, name, last), bool(falling)
 
 

@@ -59,13 +59,9 @@ AT_THE_START: dict[str, dict[str, Law]] = {
     "rolling_wheel": {"R": laws.start, "v0": laws.start, "w0": laws.start},
     "bar_pendulum": {"phi0": laws.closed_form},
     "double_pendulum": {"a0": laws.start, "b0": laws.start},
-    "four_bar": {
-        "a": laws.start, "b": laws.start, "c": laws.start, "d": laws.start, "crank0": laws.start,
-    },
+    "four_bar": dict.fromkeys(("a", "b", "c", "d", "crank0"), laws.start),
     "rhombus": {"left0": laws.start, "right0": laws.start},
-    "driven_edge": {
-        "w0": laws.start, "A": laws.start, "alpha": laws.start,
-    },
+    "driven_edge": {"w0": laws.start, "A": laws.start, "alpha": laws.start},
     "elastic_pendulum": {"r0": laws.start, "phi0": laws.start},
     "knife_edge": {"u0": laws.start, "w0": laws.start},
     "sleigh": {"v0": laws.start, "w0": laws.start},
