@@ -34,10 +34,8 @@ SHIPPED: dict[At, set[str]] = dict.fromkeys(MODES, FREE) | {
 }
 NOTHING_FREE = ("rest", "stuck", "sticks")
 # Where one leg stands, or leans, no place appears: one rate gives the other.
-SHIPPED |= dict.fromkeys(
-    [at for at in MODES if at[0] == "compass_walker" or at == ("sliding_ladder", "leans")],
-    set(FORMS),
-)
+LEANS = [at for at in MODES if at[0] == "compass_walker" or at == ("sliding_ladder", "leans")]
+SHIPPED |= {at: set(FORMS) for at in LEANS}
 SHIPPED |= {at: set() for at in MODES if at[1] in NOTHING_FREE or at[0] == "driven_knee"}
 
 

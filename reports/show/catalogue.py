@@ -1,0 +1,13 @@
+"""The list of all shipped cases: what each claims, and where in the book it comes from."""
+
+from ...cases.find import shipped
+from ...cases.load import load
+
+
+def catalogue() -> list[list[str]]:
+    """Lines of cells, the head first: a file, its title, and its places in the book."""
+    lines = [["case", "what it claims", "in the book"]]
+    for name, path in sorted(shipped().items()):
+        first = load(path)[0]
+        lines.append([f"`{name}`", first.title, str(first.origin)])
+    return lines
