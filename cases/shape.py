@@ -16,6 +16,7 @@ from .point import CENTER, Vector
 
 Points = Mapping[str, Vector]
 Inertia = Annotated[float, In("kg m²", above=0)]
+CORNERS = ("lower_left", "lower_right", "upper_left", "upper_right")
 Spokes = Annotated[int, Count(least=3, most=100)]  # with 100 it is as good as round
 
 
@@ -32,10 +33,11 @@ def disk(*, name: str, mass: Mass, radius: Length, points: Points) -> Body:
 
 
 def block(*, name: str, mass: Mass, width: Length, height: Length, points: Points) -> Body:
-    """Homogeneous rectangle: J = m (w² + h²)/12."""
+    """Homogeneous rectangle with its corners: J = m (w² + h²)/12."""
     inertia = mass * (width**2 + height**2) / 12
-    size = (width, height)
-    return Body(name, "block", mass, inertia, {CENTER: (0.0, 0.0), **points}, size=size)
+    places = [(x * width / 2, y * height / 2) for y in (-1, 1) for x in (-1, 1)]
+    own = {CENTER: (0.0, 0.0), **dict(zip(CORNERS, places, strict=True)), **points}
+    return Body(name, "block", mass, inertia, own, size=(width, height))
 
 
 def particle(*, name: str, mass: Mass) -> Body:

@@ -48,6 +48,7 @@ from .stribeck_brake import StribeckBrake
 from .stribeck_drive import StribeckDrive
 from .tilting_disk import TiltingDisk
 from .tilting_ring import TiltingRing
+from .tipping_block import TippingBlock
 from .torque_free import TorqueFree
 from .torsion_pendulum import TorsionPendulum
 from .trunk_on_legs import TrunkOnLegs
@@ -99,6 +100,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "spring_mass_jump": SpringMassJump,
     "tilting_disk": TiltingDisk,
     "tilting_ring": TiltingRing,
+    "tipping_block": TippingBlock,
     "torque_free": TorqueFree,
     "torsion_pendulum": TorsionPendulum,
     "trunk_on_legs": TrunkOnLegs,

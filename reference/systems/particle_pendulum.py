@@ -53,7 +53,7 @@ class ParticlePendulum(Mode):
         phi0 = math.atan2(self.y0, self.x0)
         theta0 = math.remainder(phi0 + math.pi / 2, 2 * math.pi)
         k, k1 = math.sin(theta0 / 2), math.cos(theta0 / 2)
-        Omega = math.sqrt(G / self._l)
+        Omega = math.sqrt(G / math.hypot(self.x0, self.y0))
         sn, cn = jacobi(Omega * t, k1)
         dn = math.sqrt(k1 * k1 + k * k * cn * cn)
         theta = 2 * math.atan2(k * cn, k1)

@@ -64,6 +64,7 @@ PARAMETERS: dict[str, dict[str, float]] = {
         "m": 1.3, "R": 0.25, "mu": 0.4, "beta": math.radians(10), "v0": 3.0, "w0": 20.0,
     },
     "sliding_ladder": {"m": 2.0, "l": 1.5, "phi0": math.radians(70)},
+    "tipping_block": {"m": 3.0, "w": 0.3, "H": 0.6, "b": 12.0, "mu": 0.8},
     "smooth_dynamometer": {"m": 1.0, "c": 2.0, "u": 2.0, **BOOK, **BAND},
     "smooth_growing_force": {"m": 1.0, "b": 1.0, **BOOK, **BAND},
     "spring_mass_damper": {"m": 1.0, "c": 36.0, "d": 1.2, "l0": 0.5, "y0": -0.6},
@@ -135,7 +136,6 @@ VARIANTS: dict[str, tuple[str, dict[str, float], list[str]]] = {
     "stick-slip": ("dynamometer", {}, ["slips", "stops"] * 2),
     "elastic": ("bouncing_disk", {}, ["bounces"] * 5),
     "plastic": ("bouncing_disk", {"e": 0.0}, ["lands"]),
-    "leaves the wall": ("sliding_ladder", {}, ["top opens"]),
     "walks": ("rimless_wheel", {}, [f"spoke {k} strikes" for k in range(2, 8)]),
     "walks over with few spokes": (
         "rimless_wheel", {"n": 6.0, "gamma": 0.15, "w0": 4.0},
@@ -151,6 +151,7 @@ DURATION = {
     "friction_of_rest": 6.0,
     "rimless_wheel": 2.0,
     "sliding_ladder": 0.7,
+    "tipping_block": 1.0,
 }  # 10 s else
 
 

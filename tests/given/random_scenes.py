@@ -58,7 +58,8 @@ def joint(random: Random, name: str, kind: str, a: Anchor, b: Anchor) -> Joint:
     """A joint with an odd direction and angle."""
     turn, angle = random.uniform(-3.0, 3.0, 2).tolist()
     along = (float(np.cos(turn)), float(np.sin(turn)))
-    return Joint(name, kind, a, b, along=along, angle=angle)  # type: ignore[arg-type]
+    length = 1.3 if kind == "distance" else None
+    return Joint(name, kind, a, b, along=along, angle=angle, length=length)  # type: ignore[arg-type]
 
 
 def scene(random: Random, *, free: bool = False, loops: bool = True) -> Scene:

@@ -87,6 +87,9 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
         ("jumper", 0, math.cos(115 * math.pi / 180), 1e-15), ("jumper", 3, 9.0, 1e-14),
         ("jumper", 1, math.sin(115 * math.pi / 180), 1e-15), ("jumper", 4, -0.2, 1e-14),
     ],
+    "tipping_block": [
+        ("box", 0, 0.0, 0.0), ("box", 1, 0.3, 0.0), ("box", 2, 0.0, 0.0), ("box", 5, 0.0, 0.0),
+    ],
     "torsion_pendulum": [("disk", 2, 70 * math.pi / 180, 1e-15), ("disk", 5, 1.0, 0.0)],
     "trunk_on_legs": [
         ("trunk", 0, 0.0, 0.0), ("trunk", 1, 0.8, 0.0), ("trunk", 2, 12 * math.pi / 180, 1e-15),

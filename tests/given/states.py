@@ -29,6 +29,8 @@ def _switching(random: np.random.Generator, name: str, mode: str, t: float) -> D
         q[1] = 0.25
     if name == "sliding_ladder" and mode == "leans":
         q[0] = 0.75 * math.cos(q[1])
+    if name == "tipping_block" and mode == "stands":
+        q = np.array([math.atan2(0.6, 0.3)])
     if name == "bouncing_disk":
         q = np.zeros(1) if mode == "rest" else q + 2.0
     rows = system.f_a(t, q)

@@ -26,6 +26,7 @@ MULTIPLIERS: dict[At, tuple[str, ...]] = {
     ("sliding_disk", "slips backward"): ("touch.normal",),
     ("sliding_disk", "slips forward"): ("touch.normal",),
     ("sliding_ladder", "leans"): ("top.normal",),
+    ("tipping_block", "stands"): ("left.normal",),
 }
 # How many rows have a residual (2.14), where not all: what sticks or rolls has no place of its own.
 RESIDUALS = {
@@ -57,6 +58,7 @@ APPLIED: dict[At, str] = {
     ("sliding_block", "up"): "touch.tangent",
     ("sliding_disk", "slips backward"): "touch.tangent",
     ("sliding_ladder", "slides"): "top.normal",
+    ("tipping_block", "tips"): "left.normal",
     ("sliding_disk", "slips forward"): "touch.tangent",
     ("smooth_dynamometer", "moving"): "guide.fx",
     ("smooth_growing_force", "moving"): "guide.fx",

@@ -101,14 +101,10 @@ def _cannot_touch(body: Body, point: str) -> str | None:
         return None
     if body.tips:
         return f"{body.name!r} touches with its tips: write {body.name!r}" if point else None
-    if body.shape != "bar":
-        return (
-            f"{body.name!r} is a {body.shape}; only a disk, a particle, a point of a bar or spokes "
-            "can touch the floor"
-        )
-    if not point:
+    if not point or point == CENTER:
         points = ", ".join(f"{body.name}.{p}" for p in body.points if p != CENTER)
-        return f"{body.name!r} is a bar and touches with one point: {points}"
+        what = f"touches with one point: {points}" if points else "needs `points` to touch with"
+        return f"{body.name!r} is a {body.shape} and {what}"
     if point not in body.points:
         return f"body {body.name!r} has no point {point!r}{nearest(point, body.points)}"
     return None

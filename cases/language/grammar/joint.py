@@ -30,9 +30,10 @@ class _NeverBrakes(_Joint):
 
 def _joint(kind: str) -> type[Element]:
     turns, shifts = "turn" in FREEDOMS[kind], "shift" in FREEDOMS[kind]
-    brakes = shifts != turns
+    swings = "swing" in FREEDOMS[kind]
+    brakes = shifts != turns and not swings
     asked = {"kind": False, "along": shifts, "angle": not turns, "dry_friction": brakes}
-    asked["length"] = "swing" in FREEDOMS[kind]
+    asked["length"] = swings
     return element(
         kind,
         Noun,
