@@ -12,6 +12,7 @@ from given import scenes
 
 from textmech.cases.case import Case
 from textmech.cases.find import shipped
+from textmech.cases.frame import PLANE
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 from textmech.cases.observe import observe
@@ -50,7 +51,8 @@ def samples(case: Case, part: float) -> Mapping[str, Array]:
     times = case.times[: ceil(part * len(case.times))]
     mechanism = scenes.mechanism(case)
     followed = follow(mechanism, times, by=partial(either, tolerance=TOLERANCE))
-    return observed(case, Answer(mechanism, followed, accelerates=True).trajectory(times))
+    asked = case.scene.frame is PLANE  # in space no quantity is an acceleration
+    return observed(case, Answer(mechanism, followed, accelerates=asked).trajectory(times))
 
 
 def changed(file: Path, case: Case, name: str, folder: Path) -> Case:

@@ -124,7 +124,9 @@ class Tree:
                 first = self.places[place][0]
                 what = f"duplicate key {key!r}, already on line {first}"
                 self.mistakes.append(self.at(event.start_mark, place, what))
+                said = len(self.mistakes)
                 self.node(next(events), events, (*path, f"{key} (again)"))
+                del self.mistakes[said:]  # it has to go as a whole
                 continue
             self.places[place] = (event.start_mark.line + 1, event.start_mark.column + 1)
             data[key] = self.node(next(events), events, place)

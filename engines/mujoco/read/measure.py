@@ -24,7 +24,7 @@ def measured(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[s
             found[f"{joint.name}.friction_forward"] = loss
             found[f"{joint.name}.friction_backward"] = loss
     found |= numbers(scene, model)
-    if not any(driven(scene)):  # their mass drowns the rest
+    if not (any(driven(scene)) or scene.drives):  # their mass drowns the rest
         mujoco.mj_forward(model, data)
         mujoco.mj_energyVel(model, data)
         mujoco.mj_subtreeVel(model, data)

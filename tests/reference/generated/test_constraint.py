@@ -138,7 +138,7 @@ def test_residuals_of_floor_and_rolling() -> None:
 
 @pytest.mark.parametrize("name", KINDS)
 def test_what_a_joint_leaves_free_and_holds(name: str) -> None:
-    """(2.14) r_B − r_A, of a slide its part across; φ_B − φ_A − angle, but of a pin."""
+    """(2.14) r_B − r_A, of a slide its part across, of a rod l − |r_B − r_A|; φ_B − φ_A − angle."""
     scene = made(name)
     joint, where = scene.joints["j"], Coordinates(scene)
     for t, q, _ in states(scene):
@@ -147,6 +147,8 @@ def test_what_a_joint_leaves_free_and_holds(name: str) -> None:
         x, y = np.subtract(b.r, a.r)
         turn = phi_a + np.arctan2(joint.along[1], joint.along[0])
         expected = [y * np.cos(turn) - x * np.sin(turn)] if joint.shifts else [x, y]
+        if joint.swings:
+            expected = [1.3 - np.hypot(x, y)]
         if not joint.turns and "particle" not in name:
             expected.append(phi_b - phi_a - joint.angle)
         (c,) = constraints(scene, where)

@@ -55,7 +55,7 @@ def errors(name: str, step: float, *, told: bool, monkeypatch: pytest.MonkeyPatc
     model.opt.impratio = IMPRATIO
     if told:
         control = wandering(disk.radius, model.body(called(disk.name)).id, np.array(disk.axle))  # type: ignore[attr-defined]
-        monkeypatch.setattr(settle, "swinging", lambda laws: control)
+        monkeypatch.setattr(settle, "following", lambda signals: control)
         monkeypatch.setattr(run, "together", lambda controls: installed(control))
     settle.settle(case.scene, model, data, start)  # type: ignore[arg-type]
     times = case.times[: ENDS[name]]
