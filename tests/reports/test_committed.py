@@ -98,7 +98,7 @@ def test_certificates_are_current(report: Report) -> None:
     for row in report.certificates:
         before = committed[(row.case, row.check)]
         assert (row.system, row.verdict) == (before.system, "holds")
-        next_to = 11 if row.check in FOLLOWING else 1
+        next_to = 11 if row.check in FOLLOWING else 1.01  # the committed one has three digits
         assert before.bound / next_to <= row.bound <= next_to * before.bound, row.check
         if row.certified is not None:
             assert before.certified is not None
