@@ -117,9 +117,11 @@ def _run(
     numbers: Mapping[str, Any],
 ) -> Trajectory:
     world = placed(scene, start, step, numbers, realised)
-    kept = Record(world, step, bool(numbers.get("time.midpoint"))) if record else None
-    steps = stepper(world, step, numbers, realised, kept and kept.keep)
     felt = tuple(name for name in wanted if name not in scene.inner())
+    touching = tuple(name for name in felt if name.rpartition(".")[0] in scene.contacts)
+    midpoint = bool(numbers.get("time.midpoint"))
+    kept = Record(world, step, midpoint, touching) if record else None
+    steps = stepper(world, step, numbers, realised, kept and kept.keep)
     motion = sampled(world, steps, times, step, numbers, reactions=felt)
     motion = replace(motion, reactions={**motion.reactions, **states(world, times, step)})
     return replace(motion, record=kept.trajectory()) if kept else motion

@@ -127,8 +127,9 @@ def before_each(world: World, numbers: Mapping[str, Any]) -> list[str]:
 
 
 def _sweeps(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
-    if cold := numbers.get("start.iterations"):
-        yield f"    space.iterations = {cold} if n < {COLD} else {world.space.iterations}"
+    cold, usual = numbers.get("start.iterations"), world.space.iterations
+    if cold and cold != usual:
+        yield f"    space.iterations = {cold} if n < {COLD} else {usual}"
 
 
 def _seeds(world: World, start: Start, seed: float) -> list[str]:

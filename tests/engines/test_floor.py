@@ -73,7 +73,7 @@ NEAR = {
         falling=(1e-15, 4e-7),  # 0: nothing pushes it sideways; 1.5e-7
         leaning=(1e-8, 4e-7),  # 4.0e-9, 1.5e-7
         lying=(4e-14, 5e-15),  # 1.1e-14, 1.6e-15
-        lying_forces=2e-7,  # 7.4e-8: what the seed leaves between two ends that stick
+        lying_forces=2e-6,  # 7.4e-7: what the seed of 1e-8 m leaves between two ends that stick
     ),
 }
 # Degrees, coefficient of friction, speed [m/s]: what it does.

@@ -98,16 +98,7 @@ def test_two_runs_are_equal_bit_for_bit(name: str, engine: Engine) -> None:
         assert all(np.array_equal(read.reactions[n], again.reactions[n]) for n in read.reactions)
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        "mujoco",
-        pytest.param(
-            "pymunk",
-            marks=pytest.mark.xfail(strict=True, reason="its forces are read at samples only"),
-        ),
-    ],
-)
+@pytest.mark.parametrize("name", ["mujoco", "pymunk"])
 def test_a_contact_opens_when_its_force_falls_to_zero(name: str) -> None:
     """A block that is pulled up by 20 N more each second leaves when it weighs nothing."""
     pull = Push("pull", Anchor("block", "center"), Signal("ramp", (0.0, 20.0)))

@@ -6,16 +6,18 @@ import numpy as np
 import pytest
 from given.closed_motions import drawn, pendulum
 from given.engine_scenes import BLOCK, DRAWN, RESTS, guided, incline, thrown, touching
-from given.planning import TUNED, begun, moved
+from given.planning import TUNED, begun, every, moved
 from given.scenes import SHIPPED
 from given.swings import energy_drift, swing_error
 
 from textmech.cases.observe import observe
 from textmech.cases.scene import Bounds, DryFriction, Joint
 from textmech.cases.trajectory import ANGLE, X, Y
+from textmech.engines.engine import Choice
 from textmech.engines.pymunk import scene as builder
 from textmech.engines.pymunk.law import breakaway
 from textmech.engines.pymunk.recipe import Recipe
+from textmech.reports.events.times import engine_events
 
 ENGINE = TUNED["pymunk"]
 STEP = 1e-4
@@ -44,6 +46,25 @@ def test_a_wheel_that_only_touches_falls_for_one_step(monkeypatch: pytest.Monkey
     scene, start = begun("rolling_wheel.downhill")
     run = moved(ENGINE, scene, start, SHIPPED["rolling_wheel.downhill"].times, 1e-3)
     assert np.abs(observe(scene, run, "touch.gap")).max() > 1e-6
+
+
+@pytest.mark.parametrize(("seed", "often"), [(1e-8, 1), (1e-9, 3)])
+def test_a_ladder_uses_up_a_smaller_seed(
+    monkeypatch: pytest.MonkeyPatch, seed: float, often: int
+) -> None:
+    """Then its contacts open for a step on the way, and its event happens three times."""
+    whole = Recipe.__call__
+
+    def seeded(self: Recipe, h: float) -> list[Choice]:
+        return [replace(c, value=seed) if c.name == "start.seed" else c for c in whole(self, h)]
+
+    monkeypatch.setattr(Recipe, "__call__", seeded)
+    case, (scene, start) = SHIPPED["sliding_ladder"], begun("sliding_ladder")
+    times, wanted = np.linspace(0.0, 0.6, 7), ("top.normal",)
+    run = moved(ENGINE, scene, start, times, STEP, reactions=wanted, record=True)
+    found = engine_events(scene, every(run), case.events["leaves"])
+    assert len(found) == often
+    assert abs(found[-1] - 0.5175626) < 2 * STEP
 
 
 def test_a_block_falls_for_one_step_without_the_seed(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -33,10 +33,11 @@ SHIPPED: dict[At, set[str]] = dict.fromkeys(MODES, FREE) | {
     ("sliding_disk", "slips forward"): set(FORMS),
 }
 NOTHING_FREE = ("rest", "stuck", "sticks")
+HELD = ("driven_knee", "moving"), ("tipping_block", "stands")
 # Where one leg stands, or leans, no place appears: one rate gives the other.
 LEANS = [at for at in MODES if at[0] == "compass_walker" or at == ("sliding_ladder", "leans")]
 SHIPPED |= {at: set(FORMS) for at in LEANS}
-SHIPPED |= {at: set() for at in MODES if at[1] in NOTHING_FREE or at[0] == "driven_knee"}
+SHIPPED |= {at: set() for at in MODES if at[1] in NOTHING_FREE or at in HELD}
 
 
 def apart(form: ModuleType, mode: Mode, at: Any) -> float | None:
