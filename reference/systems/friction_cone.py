@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..system import Array, Guard, System
-from .slope import Block
+from .slope import Block, impossible
 
 G = 9.80665  # m/s²
 
@@ -60,14 +60,8 @@ class FrictionCone(System):
         )
 
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
-        """(2.89) the reaction inside the cone, |F_fr| ≤ F_N tan ρ, where it sticks; F_N > 0."""
-        forces = self.modes[mode].reactions(t, q, v)
-        normal, tangent = forces["touch.normal"], forces["touch.tangent"]
-        if not normal > 0.0:
-            return f"the floor would have to pull: touch.normal = {normal:.3g} N"
-        if mode == "sticks" and abs(tangent) > self.mu_s * normal:
-            return f"outside the cone: {abs(tangent) / normal:.4g} is above tan ρ = {self.mu_s:.4g}"
-        return None
+        """(2.89) F_N > 0, and |F_fr| ≤ μ_s F_N where it sticks."""
+        return impossible(self.modes[mode].reactions(t, q, v), self.mu_s, mode)
 
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.87) m x = ½ σ (μ_s − μ_k) F_N τ² + ⅙ (b_x + σ μ_k b_y) τ³, τ = t − t₀, F_N at t₀."""

@@ -24,6 +24,10 @@ class Hanging(Mode):
     L: float
 
     coordinates = ("y", "u")
+    body = "load"
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "masses", {self.body: Mass(self.m, None)})
 
     def shortening(self, F: Any) -> Any:
         """v = −u̇ [m/s] under the force F [N]."""
@@ -54,13 +58,13 @@ class Hanging(Mode):
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (0, y), and the inner state."""
         load = (0.0, q[0], 0.0, 0.0, v[0], 0.0)
-        return {"load": load, "muscle.contractile_length": (q[1],)}
+        return {self.body: load, "muscle.contractile_length": (q[1],)}
 
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight, (2.82) the two springs, towards the hook."""
         y, u = q.tolist()
         forces = (-self.m * G, -self.cs * (y + u), -self.cp * (y + self.L))
-        return [Load("load", (0.0, y), (0.0, force)) for force in forces]
+        return [Load(self.body, (0.0, y), (0.0, force)) for force in forces]
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
         """The guide holds the load sideways only."""
@@ -79,9 +83,6 @@ class MuscleLoad(Hanging):
     cp: float
     L: float
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "masses", {"load": Mass(self.m, None)})
-
     def shortening(self, F: Any) -> Any:
         """v = (F₀ + a) b/(F + a) − b [m/s]."""
         return (self.F0 + self.a) * self.b / (F + self.a) - self.b
@@ -97,9 +98,6 @@ class LinearMuscleLoad(Hanging):
     cs: float
     cp: float
     L: float
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "masses", {"load": Mass(self.m, None)})
 
     def shortening(self, F: Any) -> Any:
         """v = (F₀ − F)/b [m/s]."""

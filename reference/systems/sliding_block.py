@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..system import Array, Guard, System
-from .slope import Block
+from .slope import Block, impossible
 
 G = 9.80665  # m/s²
 
@@ -89,11 +89,5 @@ class SlidingBlock(System):
         return G * (math.sin(self.beta) - math.copysign(self.mu_k, self.beta) * math.cos(self.beta))
 
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
-        """(2.89) |F_fr| ≤ μ_s F_N where it sticks, F_N > 0."""
-        forces = self.modes[mode].reactions(t, q, v)
-        normal, tangent = forces["touch.normal"], forces["touch.tangent"]
-        if not normal > 0.0:
-            return f"the floor would have to pull: touch.normal = {normal:.3g} N"
-        if mode == "sticks" and abs(tangent) > self.mu_s * normal:
-            return f"sticking needs friction {abs(tangent) / normal:.4g}, there is {self.mu_s:.4g}"
-        return None
+        """(2.89) F_N > 0, and |F_fr| ≤ μ_s F_N where it sticks."""
+        return impossible(self.modes[mode].reactions(t, q, v), self.mu_s, mode)

@@ -4,6 +4,7 @@ q = (x,), x down the slope of angle β; the pull is (b_x, b_y) t [N].
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -90,3 +91,13 @@ class Block(Mode):
         if self.sigma == 0:
             return [Cut(("touch.tangent", "touch.normal"), None, "block", at)]
         return [Cut(("touch.normal",), None, "block", at, ((0.0, 1.0),))]
+
+
+def impossible(forces: Mapping[str, float], mu_s: float, mode: str) -> str | None:
+    """(2.89) F_N > 0, and where it sticks the reaction inside the cone, |F_fr| ≤ F_N tan ρ."""
+    normal, tangent = forces["touch.normal"], forces["touch.tangent"]
+    if not normal > 0.0:
+        return f"the floor would have to pull: touch.normal = {normal:.3g} N"
+    if mode == "sticks" and abs(tangent) > mu_s * normal:
+        return f"sticking needs friction {abs(tangent) / normal:.4g}, there is {mu_s:.4g}"
+    return None
