@@ -59,3 +59,14 @@ def test_given(body: Body, turns: bool) -> None:
     assert body.turns == turns
     assert body.points == {"center": (0.0, 0.0)}
     assert body.inertia == (0.2 if turns else None)
+
+
+def test_corners_of_a_block() -> None:
+    """Its mass lies between them, and they are where their names say."""
+    box = shape.block(name="box", mass=1.0, width=0.4, height=0.6, points={})
+    assert {name: box.points[name] for name in shape.CORNERS} == {
+        "lower_left": (-0.2, -0.3),
+        "lower_right": (0.2, -0.3),
+        "upper_left": (-0.2, 0.3),
+        "upper_right": (0.2, 0.3),
+    }

@@ -113,3 +113,16 @@ def test_a_contact_opens_when_its_force_falls_to_zero(name: str) -> None:
     assert normal[::100] == pytest.approx(run.reactions["touch.normal"], abs=1e-9)
     assert normal == pytest.approx(np.maximum(weight - 20.0 * record.times, 0.0), abs=20 * step)
     assert not record.reactions["touch.tangent"].any()
+
+
+def test_forces_stand_beside_the_rows_of_a_bounce() -> None:
+    """pymunk's record has a row more for each bounce between two steps."""
+    case, (scene, start) = EVERY["bouncing_disk.elastic"], begun("bouncing_disk.elastic")
+    wanted, times = ("touch.normal",), case.times
+    step = 1e-4
+    record = every(moved(TUNED["pymunk"], scene, start, times, step, reactions=wanted, record=True))
+    assert len(record.times) > round(times[-1] / step) + 2
+    normal, high = record.reactions["touch.normal"], record.states["wheel"][:, 1]
+    assert len(normal) == len(record.times)
+    assert not normal[high > high.min() + 0.01].any()
+    assert normal.max() > 100.0  # N: an impact within a step
