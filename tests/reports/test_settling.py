@@ -37,7 +37,7 @@ def settling(t: Array, *, e: float = 0.4, g: float = 9.80665) -> tuple[Array, Ar
 
 @pytest.mark.parametrize("h", [1e-4, 1e-3])
 def test_a_ball_that_settles_is_seen_to_bounce_as_long_as_steps_can_tell(h: float) -> None:
-    t = np.arange(round(1.5 / h) + 1) * h
+    t = np.arange(round(1.5 / h) + 1, dtype=np.float64) * h
     height, impacts = settling(t - h / 3)  # no step meets an impact
     impacts += h / 3
     found = falls(t, height)
