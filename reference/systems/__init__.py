@@ -36,6 +36,7 @@ from .rhombus import Rhombus
 from .rimless_wheel import RimlessWheel
 from .robot_knife import RobotKnife
 from .rolling_wheel import RollingWheel
+from .running_gait import RunningGait
 from .sleigh import Sleigh
 from .sliding_block import SlidingBlock
 from .sliding_disk import SlidingDisk
@@ -87,6 +88,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "rimless_wheel": RimlessWheel,
     "robot_knife": RobotKnife,
     "rolling_wheel": RollingWheel,
+    "running_gait": RunningGait,
     "sleigh": Sleigh,
     "sliding_block": SlidingBlock,
     "sliding_disk": SlidingDisk,

@@ -83,6 +83,11 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
     "stribeck_drive": _BLOCK,
     "viscous_drift": _BLOCK,
     "viscous_growing_force": _BLOCK,
+    "running_gait": [
+        ("jumper", 0, math.cos(112 * math.pi / 180), 1e-15), ("jumper", 3, 5.11575105401509, 1e-14),
+        ("jumper", 1, math.sin(112 * math.pi / 180), 1e-15),
+        ("jumper", 4, -0.5072041586666318, 1e-14),
+    ],
     "spring_mass_jump": [
         ("jumper", 0, math.cos(115 * math.pi / 180), 1e-15), ("jumper", 3, 9.0, 1e-14),
         ("jumper", 1, math.sin(115 * math.pi / 180), 1e-15), ("jumper", 4, -0.2, 1e-14),
