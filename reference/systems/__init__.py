@@ -29,6 +29,7 @@ from .friction_of_rest import FrictionOfRest
 from .growing_force import GrowingForce
 from .heavy_top import HeavyTop
 from .knife_edge import KnifeEdge
+from .light_feet import LightFeet
 from .muscle_isometric import MuscleIsometric
 from .muscle_load import LinearMuscleLoad, MuscleLoad
 from .particle_pendulum import ParticlePendulum
@@ -80,6 +81,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "growing_force": GrowingForce,
     "heavy_top": HeavyTop,
     "knife_edge": KnifeEdge,
+    "light_feet": LightFeet,
     "muscle_isometric": MuscleIsometric,
     "muscle_load": MuscleLoad,
     "linear_muscle_load": LinearMuscleLoad,
