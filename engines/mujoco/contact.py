@@ -10,8 +10,9 @@ import math
 
 from scipy.optimize import brentq
 
-from ...cases.scene import CENTER, Contact, Scene
+from ...cases.scene import CENTER, Anchor, Contact, Scene
 from ..engine import Choice, Start
+from .planes import touching
 
 HARDEST = 0.9999  # of d: MuJoCo clamps it
 SOFTEST = 1.01e-4  # of d: MuJoCo clamps it at 1e-4
@@ -20,7 +21,7 @@ CLOSED = 1e-9  # m: what is nearer to the floor than that lies on it
 
 def recipe(scene: Scene, tied_to: float, start: Start | None) -> list[Choice]:
     """The contacts' numbers; without a start everything is taken to lie on the floor."""
-    contacts = scene.touching.values()
+    contacts = touching(scene).values()
     if not any(contact.switches for contact in contacts):
         return _rolling(tied_to)
     if any(contact.ideal == "pivot" for contact in contacts):
@@ -63,11 +64,15 @@ def lies(scene: Scene, contact: Contact, start: Start) -> bool:
 def height(scene: Scene, contact: Contact, start: Start) -> float:
     """How high [m] what touches is above its plane."""
     body = scene.bodies[contact.body]
-    dx, dy = body.points[contact.at.point]
-    x, y, angle, *_ = start[contact.body]
+    return float(contact.plane.height(*place(scene, contact.at, start))) - (body.radius or 0.0)
+
+
+def place(scene: Scene, at: Anchor, start: Start) -> tuple[float, float]:
+    """x and y [m] of a point of a body."""
+    dx, dy = scene.bodies[at.body].points[at.point]
+    x, y, angle, *_ = start[at.body]
     cos, sin = math.cos(angle), math.sin(angle)
-    place = x + cos * dx - sin * dy, y + sin * dx + cos * dy
-    return float(contact.plane.height(*place)) - (body.radius or 0.0)
+    return x + cos * dx - sin * dy, y + sin * dx + cos * dy
 
 
 def _rolling(h: float) -> list[Choice]:

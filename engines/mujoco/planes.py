@@ -9,9 +9,14 @@ from .written import written
 POINT = 1e-12  # m, radius of a point that touches: too small to be an arm or a gap
 
 
+def touching(scene: Scene) -> dict[str, Contact]:
+    """What MuJoCo's planes meet: every point that may touch, but for feet, which are pinned."""
+    return {name: one for name, one in scene.touching.items() if one.ahead_of is None}
+
+
 def add_planes(world: ET.Element, scene: Scene) -> None:
     """The planes that are touched."""
-    for plane in dict.fromkeys(contact.plane for contact in scene.contacts.values()):
+    for plane in dict.fromkeys(contact.plane for contact in touching(scene).values()):
         at = {"pos": written(*plane.at, 0)} if any(plane.at) else {}
         ET.SubElement(
             world, "geom", at, name=grounded(plane), type="plane", size="0 0 1",
@@ -32,7 +37,7 @@ def add_geom(element: ET.Element, scene: Scene, contact: Contact) -> None:
 def add_pairs(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> None:
     """The contacts' pairs, each with a sensor: MuJoCo records its force at every step."""
     contacts = ET.SubElement(root, "contact")
-    for contact in scene.touching.values():
+    for contact in touching(scene).values():
         # A pair takes one coefficient; two geoms would take the larger of theirs.
         ET.SubElement(
             contacts, "pair", attributes,
@@ -46,7 +51,7 @@ def add_pairs(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> Non
 def _sensors(root: ET.Element, scene: Scene) -> None:
     """The plane's force on each, along the ground's axes."""
     sensors = ET.SubElement(root, "sensor")
-    for name, contact in scene.touching.items():
+    for name, contact in touching(scene).items():
         ET.SubElement(
             sensors, "contact", geom1=grounded(contact.plane), geom2=name, data="force", num="1",
             reduce="netforce",

@@ -14,6 +14,7 @@ from .force import lacking
 from .law.corner import has_corners
 from .law.friction import one_slide, smooth_only
 from .law.touch import one_touch
+from .planes import touching
 from .scene import HEAVY
 from .settings import only_slides, ties
 from .tree import driven
@@ -53,7 +54,7 @@ def plan(scene: Scene, start: Start, realised: Realised, numbers: Numbers, *, tu
     integrator = {choice.name: choice.value for choice in numbers(NOMINAL)}["option.integrator"]
     dry = any(joint.dry_friction for joint in scene.joints.values())
     jumps = any(law.corners for law in scene.laws())
-    first = integrator != "RK4" or bool(scene.contacts) or (dry and realised != "driver")
+    first = integrator != "RK4" or bool(touching(scene)) or (dry and realised != "driver")
     first |= any(scene.one_sided()) and realised != "driver"
     corners = any(force.corner for force in scene.forces.values())
     following = (1, 2) if first else (4, 5) if dry else (2, 3)
@@ -85,11 +86,11 @@ def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> 
     if ours := [force.name for force, _ in lacking(scene)]:
         words.append(f"{', '.join(ours)} by our law at every stage, which the script has not")
     if strides(scene):
-        words.append("before each step the floor is told which foot it meets")
+        words.append("the foot that stands is pinned; steps are cut where one strikes: an impulse")
     elif plan.realised == "driver":
         acts, dry = "where a spring begins or ends to act", "at the events of dry friction"
         words.append(f"steps cut {acts if has_corners(scene) else dry}")
-    if tuned and scene.contacts:
+    if tuned and touching(scene):
         if falls(scene, start):
             words.append("starts above the floor: contacts are tuned for impacts")
         *_, depths = placed(scene, start, step, plan, settles=True)

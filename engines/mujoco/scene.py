@@ -13,8 +13,9 @@ from ..engine import Choice, Start
 from .drive import controls
 from .drive import write as write_drives
 from .edge import write_room
+from .feet import add_pins
 from .force import BY_ITSELF, begun_with, write
-from .planes import add_geom, add_pairs, add_planes
+from .planes import add_geom, add_pairs, add_planes, touching
 from .tree import (
     Branch,
     Tree,
@@ -56,10 +57,11 @@ def mjcf(
     world = ET.SubElement(root, "worldbody")
     _world(world, scene)
     _bodies(world, scene, tree, numbers)
-    if scene.contacts:
+    if touching(scene):
         add_pairs(root, scene, attributes(numbers, "pair"))
     if tree.loops:
         _loops(root, tree, attributes(numbers, "connect"))
+    add_pins(root, scene, start, attributes(numbers, "connect"))
     write(root, scene)
     write_drives(root, scene)
     write_room(root, scene)
@@ -115,7 +117,7 @@ def _bodies(world: ET.Element, scene: Scene, tree: Tree, numbers: dict[str, obje
         _inertial(element, body.mass, least if body.inertia is None else body.inertia)
         for name, at in body.points.items():
             ET.SubElement(element, "site", name=f"{body.name}.{name}", pos=written(*at, 0))
-        for contact in scene.touching.values():
+        for contact in touching(scene).values():
             if contact.body == body.name:
                 add_geom(element, scene, contact)
 
@@ -123,7 +125,7 @@ def _bodies(world: ET.Element, scene: Scene, tree: Tree, numbers: dict[str, obje
 def _leaves_plane(scene: Scene, numbers: dict[str, object]) -> bool:
     """Whether free bodies may move along z: nothing pushes them there, but without that freedom
     MuJoCo's noslip solver silently does nothing."""
-    return bool(scene.contacts) and numbers.get("option.noslip_iterations", 0) != 0
+    return bool(touching(scene)) and numbers.get("option.noslip_iterations", 0) != 0
 
 
 def _hang(element: ET.Element, scene: Scene, branch: Branch, soft: dict[str, str]) -> None:

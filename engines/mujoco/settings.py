@@ -8,8 +8,10 @@ from typing import Any
 
 from ...cases.scene import Scene
 from ..engine import Choice, Start
+from ..stride import strides
 from .contact import HARDEST, recipe
 from .options import SOFT, as_written
+from .planes import touching
 from .tree import driven, spanning_tree
 
 SHIPPED_STEP = 2e-3  # s, the default of <option timestep>
@@ -60,7 +62,7 @@ def tuned(scene: Scene, tied_to: float, start: Start | None = None) -> list[Choi
             ]
     if "slide" in _soft(scene):
         choices.append(Choice("option.noslip_iterations", 5, "what sticks does not creep"))
-    if scene.contacts:
+    if touching(scene):
         known = {choice.name for choice in choices}
         choices += [c for c in recipe(scene, tied_to, start) if c.name not in known]
     return choices
@@ -97,9 +99,9 @@ def only_slides(scene: Scene) -> bool:
 
 def _soft(scene: Scene) -> list[str]:
     """The groups of soft constraints in the scene."""
-    loops = ["connect"] if spanning_tree(scene).loops else []
+    loops = ["connect"] if spanning_tree(scene).loops or strides(scene) else []
     dry = ["slide"] if any(joint.dry_friction for joint in scene.joints.values()) else []
-    return loops + dry + (["pair"] if scene.contacts else [])
+    return loops + dry + (["pair"] if touching(scene) else [])
 
 
 def with_own(options: Mapping[str, Any], scene: Scene, tied_to: float) -> list[Choice]:

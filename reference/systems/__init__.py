@@ -29,6 +29,7 @@ from .friction_of_rest import FrictionOfRest
 from .growing_force import GrowingForce
 from .heavy_top import HeavyTop
 from .knife_edge import KnifeEdge
+from .light_feet import LightFeet
 from .muscle_isometric import MuscleIsometric
 from .muscle_load import LinearMuscleLoad, MuscleLoad
 from .particle_pendulum import ParticlePendulum
@@ -36,6 +37,7 @@ from .rhombus import Rhombus
 from .rimless_wheel import RimlessWheel
 from .robot_knife import RobotKnife
 from .rolling_wheel import RollingWheel
+from .running_gait import RunningGait
 from .sleigh import Sleigh
 from .sliding_block import SlidingBlock
 from .sliding_disk import SlidingDisk
@@ -79,6 +81,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "growing_force": GrowingForce,
     "heavy_top": HeavyTop,
     "knife_edge": KnifeEdge,
+    "light_feet": LightFeet,
     "muscle_isometric": MuscleIsometric,
     "muscle_load": MuscleLoad,
     "linear_muscle_load": LinearMuscleLoad,
@@ -87,6 +90,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "rimless_wheel": RimlessWheel,
     "robot_knife": RobotKnife,
     "rolling_wheel": RollingWheel,
+    "running_gait": RunningGait,
     "sleigh": Sleigh,
     "sliding_block": SlidingBlock,
     "sliding_disk": SlidingDisk,

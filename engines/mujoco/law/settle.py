@@ -15,6 +15,7 @@ from scipy.optimize import brentq
 from ....cases.scene import Scene
 from ...engine import Start
 from ..contact import lies
+from ..planes import touching
 from .floor import Floor
 from .signal import signals
 from .told import told
@@ -31,7 +32,7 @@ def settle(
     scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, start: Start
 ) -> dict[str, float]:
     """Depth [m] of each contact that is closed, by name; afterwards the data starts there."""
-    contacts = [c for c in scene.touching.values() if lies(scene, c, start)]
+    contacts = [c for c in touching(scene).values() if lies(scene, c, start)]
     if not contacts:
         return {}
     with signals(scene, told(scene, model)):
