@@ -14,6 +14,7 @@ from ...cases.plane import LEVEL
 from ...cases.scene import Anchor, Vector
 from ..generated.constraint import Constraint, assembled
 from ..generated.coordinates import ORIGIN, Coordinates
+from ..generated.pair import apart
 from ..generated.permanent import constraints, gliding
 from ..generated.rows import FIRST, Along, X, Y
 from ..system import Array
@@ -136,7 +137,10 @@ def _at(anchor: Anchor, place: Vector, where: Coordinates) -> Constraint:
 
 
 def _on_plane(anchor: Anchor, where: Coordinates) -> Constraint:
-    """n·r_P = n·r₀ of the plane that it touches, or of the floor; for the search only."""
+    """n·r_P = n·r₀ of the plane or face that it touches, or of the floor; for the search only."""
+    for pair in where.scene.pairs.values():
+        if pair.at == anchor:
+            return apart(pair, where)
     touching = (c.plane for c in where.scene.touching.values() if c.at == anchor)
     plane = next(touching, LEVEL)
     row, at = (Along(FIRST, plane.normal),), -plane.height(0.0, 0.0)
