@@ -70,6 +70,11 @@ class Pair:
         return f"rim of {self.touched}" if self.face is None else f"{self.face} of {self.touched}"
 
     @property
+    def switches(self) -> bool:
+        """It may open, slide and stick."""
+        return True
+
+    @property
     def friction(self) -> float:
         """The one coefficient that engines know."""
         return self.kinetic
@@ -106,14 +111,19 @@ class Pair:
         """(N,) how far both are apart, or how fast one slips on the other; else KeyError."""
         if field not in ("gap", "slip"):
             raise KeyError(f"{self.name}.{field}")
-        normal, gap = self.normal(motion)
-        if field == "gap":
-            return gap
-        point = motion.point(self.at)
-        place = point[:, :2] - self.radius(motion.bodies) * normal  # where it touches
-        states = motion.trajectory.states
+        return self.normal(motion)[1] if field == "gap" else self.moves(motion)[0]
+
+    def place(self, motion: Motion) -> Array:
+        """(N, 2) where it touches, or is nearest."""
+        touching: Array = motion.point(self.at)[:, :2]
+        return touching - self.radius(motion.bodies) * self.normal(motion)[0]
+
+    def moves(self, motion: Motion) -> tuple[Array, Array]:
+        """(N,) how fast [m/s] it slips, and how fast the gap grows."""
+        normal, place, states = self.normal(motion)[0], self.place(motion), motion.trajectory.states
         moves = _moves(states[self.body], place) - _moves(states[self.touched], place)
-        return moves[:, 0] * normal[:, 1] - moves[:, 1] * normal[:, 0]
+        slip = moves[:, 0] * normal[:, 1] - moves[:, 1] * normal[:, 0]
+        return slip, np.sum(moves * normal, axis=1)
 
     def normal(self, motion: Motion) -> tuple[Array, Array]:
         """(N, 2) the unit normal, and (N,) the gap [m]."""
@@ -128,7 +138,6 @@ class Pair:
         normal = np.stack([cos * x - sin * y, sin * x + cos * y], axis=1)
         apart = place - motion.point(self.corner)[:, :2]
         return normal, np.sum(normal * apart, axis=1) - self.radius(motion.bodies)
-
 
     def beyond(self, motion: Motion) -> NDArray[np.bool_]:
         """(N,) whether what touches is past an end of the face."""

@@ -62,8 +62,6 @@ def _shares(first: Element, e: Element, state: State) -> bool:
     return e.restitution > 0.0 or ((e.two or state == "open") and first.restitution > 0.0)
 
 
-def _strikes_too(
-    e: Element, t: float, q: Array, v: Array, near: float, small: float
-) -> bool:
+def _strikes_too(e: Element, t: float, q: Array, v: Array, near: float, small: float) -> bool:
     assert e.normal is not None
     return e.normal.f(t, q.tolist())[0] <= near and rate(e.normal, t, q, v) < -small

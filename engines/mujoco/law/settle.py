@@ -12,9 +12,9 @@ import mujoco
 import numpy as np
 from scipy.optimize import brentq
 
-from ....cases.scene import Scene
+from ....cases.scene import Contact, Pair, Scene
 from ...engine import Start
-from ..contact import lies
+from ..contact import lies, meet
 from .floor import Floor
 from .signal import signals
 from .told import told
@@ -32,13 +32,15 @@ def settle(
 ) -> dict[str, float]:
     """Depth [m] of each contact that is closed, by name; afterwards the data starts there."""
     contacts = [c for c in scene.touching.values() if lies(scene, c, start)]
-    if not contacts:
+    pairs = [pair for pair in scene.pairs.values() if meet(scene, pair, start)]
+    both: list[Contact | Pair] = [*contacts, *pairs]
+    if not both:
         return {}
     with signals(scene, told(scene, model)):
-        floor = Floor(scene, model, data, contacts)
+        floor = Floor(scene, model, data, contacts, pairs)
         for _ in range(_SWEEPS):  # Gauss and Seidel
             before = floor.depths.copy()
-            for i, contact in enumerate(contacts):
+            for i, contact in enumerate(both):
                 _sink(floor, i, scene.bodies[contact.body].radius or _DEEPEST)
                 if contact.friction and not model.opt.noslip_iterations:
                     _creep(floor, i)
@@ -46,7 +48,7 @@ def settle(
                 break
     mujoco.mj_resetDataKeyframe(model, data, 0)  # the run must not inherit a warm start
     floor.place()
-    return dict(zip([c.name for c in contacts], floor.depths.tolist(), strict=True))
+    return dict(zip([c.name for c in both], floor.depths.tolist(), strict=True))
 
 
 def _sink(floor: Floor, i: int, deepest: float) -> None:
