@@ -39,8 +39,10 @@ def recipe(scene: Scene, tied_to: float, start: Start | None) -> list[Choice]:
 def alone(scene: Scene, contact: Contact) -> bool:
     """Whether a disk or a particle touches, and nothing else holds it."""
     joined = (end.body for joint in scene.joints.values() for end in (joint.a, joint.b))
-    touching = [other.body for other in scene.touching.values()].count(contact.body)
-    return contact.at.point == CENTER and touching == 1 and contact.body not in joined
+    touching = [other.body for other in scene.touching.values()]
+    touching += [body for pair in scene.pairs.values() for body in (pair.body, pair.touched)]
+    once = touching.count(contact.body) == 1
+    return contact.at.point == CENTER and once and contact.body not in joined
 
 
 def falls(scene: Scene, start: Start) -> bool:

@@ -86,14 +86,15 @@ def recipe(scene: Scene, start: Start) -> Recipe:
     """The best recipe; what nothing would feel is left as it is shipped."""
     always = [_MIDPOINT]
     contacts = [contact for contact in scene.contacts.values() if contact.switches]
-    tips = [contact for contact in contacts if is_tip(scene, contact)]
-    if scene.contacts:
+    tips = [*(c for c in contacts if is_tip(scene, c)), *scene.pairs.values()]
+    if scene.contacts or scene.pairs:
         pivots = any(contact.ideal == "pivot" for contact in scene.contacts.values())
         always.append(_PIVOT_SEED if pivots else _TIP_SEED if tips else _SEED)
-    if contacts:
+    if contacts or scene.pairs:
         always.append(_TIP_SLOP if tips else _SLOP)
         always += [_REFLECTS] if tips else []
-        always += [_LANDING] if all(_rises(scene, contact) for contact in contacts) else []
+        stays = [*contacts, *scene.pairs.values()]
+        always += [_LANDING] if all(_rises(scene, contact) for contact in stays) else []
     if any(oblique(scene, joint) for joint in scene.joints.values()):
         always.append(_ACROSS)
     return Recipe(tuple(always), holding(scene, start))
