@@ -53,7 +53,9 @@ def plan(scene: Scene, start: Start, realised: Realised, numbers: Numbers, *, tu
     integrator = {choice.name: choice.value for choice in numbers(NOMINAL)}["option.integrator"]
     dry = any(joint.dry_friction for joint in scene.joints.values())
     jumps = any(law.corners for law in scene.laws())
-    first = integrator != "RK4" or bool(scene.contacts or scene.pairs) or (dry and realised != "driver")
+    first = (
+        integrator != "RK4" or bool(scene.contacts or scene.pairs) or (dry and realised != "driver")
+    )
     first |= any(scene.one_sided()) and realised != "driver"
     corners = any(force.corner for force in scene.forces.values())
     following = (1, 2) if first else (4, 5) if dry else (2, 3)

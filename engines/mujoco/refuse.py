@@ -62,7 +62,7 @@ def unbuildable(scene: Scene) -> str | None:
     for contact in touching:
         if 0 < contact.restitution < LEAST_BOUNCE:
             return (
-                f"engine: what is touched in MuJoCo is a spring and damper, and the damper that throws "
+                "engine: MuJoCo's floor is a spring and damper, and the damper that throws "
                 f"{contact.body} back with only {contact.restitution:g} of its speed is unstable"
             )
     if len({contact.restitution for contact in touching}) > 1:

@@ -87,10 +87,11 @@ def _over(world: World, pair: Pair, step: float) -> Follow:
 def _reflecting(world: World, pair: Pair) -> Follow:
     circle, gap = world.pairs[pair.name][0], _gap(world, pair)
     now, touched = pair.restitution, False
+    size = pair.radius(world.scene.bodies) or ABOVE  # without what it has grown at the start
 
     def follow(t: float) -> None:
         nonlocal now, touched
-        wanted = 1.0 if touched and gap() < 0.0 else pair.restitution
+        wanted = 1.0 if touched and gap() < circle.radius - size else pair.restitution
         touched = True
         if now != wanted:
             circle.elasticity = now = wanted

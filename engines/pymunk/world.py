@@ -26,8 +26,8 @@ class World:
     A joint's first constraint carries its force. reach: half the length [m] of planes and of
     grooves of the ground. driven: the driven points' bodies. brakes: what rubs in slides and pins.
     motors: those of driven joints. slots: the lines that pin joints hold. pins: those of edges, by
-    the reaction: `blade.force`. pairs: what touches, and what is touched. inner: what forces with an inner state have had, at the start and
-    in the middle of each step.
+    the reaction: `blade.force`. pairs: what touches another body, and what of that it touches.
+    inner: what forces with an inner state have had, at the start and in the middle of each step.
     """
 
     scene: Scene
