@@ -66,10 +66,18 @@ class Floor:
 
     def acceleration(self, i: int) -> tuple[float, float]:
         """Of what touches there [m/s²]: how its slip grows, and how its height does."""
+        self._look()
+        return self._touching[i].acceleration()
+
+    def accelerations(self) -> Array:
+        """(2, contacts): of all that touches."""
+        self._look()
+        return np.transpose([touching.acceleration() for touching in self._touching])
+
+    def _look(self) -> None:
         self.place()
         mujoco.mj_forward(self.model, self.data)
         mujoco.mj_rnePostConstraint(self.model, self.data)
-        return self._touching[i].acceleration()
 
 
 def _falling(scene: Scene, model: mujoco.MjModel) -> list[int]:

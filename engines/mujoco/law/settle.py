@@ -16,11 +16,13 @@ from ....cases.scene import Contact, Pair, Scene
 from ...engine import Start
 from ..contact import lies, meet
 from .floor import Floor
+from .newton import together
 from .signal import signals
 from .told import told
 
 _DEEPEST = 1.0  # m, of a point; a disk could be as deep as its radius
 _SETTLED = 1e-12  # of a depth: points that share a load have found it
+_ALL_AT_ONCE = (1, 4)  # sweeps before which Newton may try: he knows not what carries
 _SWEEPS = 100  # at most: each takes a third or more of the error, as two ends of one bar do
 _STICKS = 10  # steps of the slip's growth: friction is damped by about 1/h, and holds or does not
 _MOST = 1000  # steps to a zero: where friction gives way the slip jumps, and each only halves
@@ -38,7 +40,9 @@ def settle(
         return {}
     with signals(scene, told(scene, model)):
         floor = Floor(scene, model, data, contacts, pairs)
-        for _ in range(_SWEEPS):  # Gauss and Seidel
+        for sweep in range(_SWEEPS):  # Gauss and Seidel
+            if len(both) > 2 and sweep in _ALL_AT_ONCE and together(floor):
+                break
             before = floor.depths.copy()
             for i, contact in enumerate(both):
                 _sink(floor, i, scene.bodies[contact.body].radius or _DEEPEST)
