@@ -1,4 +1,4 @@
-"""MuJoCo's recipes for contacts with planes of the ground, chosen by the scene and its start.
+"""MuJoCo's recipes for contacts, chosen by the scene and its start.
 
 MuJoCo asks of a contact the acceleration d (−b v − k r) + (1 − d) a, where a is the one without
 the contact. What holds a wheel (d near 1) makes a sliding body hop and takes the friction out of
@@ -10,7 +10,8 @@ import math
 
 from scipy.optimize import brentq
 
-from ...cases.scene import CENTER, Anchor, Contact, Scene
+from ...cases.scene import CENTER, Anchor, Contact, Pair, Scene
+from ..begun import begun
 from ..engine import Choice, Start
 from .planes import touching
 
@@ -21,17 +22,17 @@ CLOSED = 1e-9  # m: what is nearer to the floor than that lies on it
 
 def recipe(scene: Scene, tied_to: float, start: Start | None) -> list[Choice]:
     """The contacts' numbers; without a start everything is taken to lie on the floor."""
-    contacts = touching(scene).values()
+    contacts = (*touching(scene).values(), *scene.pairs.values())
     if not any(contact.switches for contact in contacts):
         return _rolling(tied_to)
-    if any(contact.ideal == "pivot" for contact in contacts):
+    if any(contact.ideal == "pivot" for contact in scene.contacts.values()):
         return _pivoting(tied_to)
     if bounce := max(contact.restitution for contact in contacts):
         return _bouncing(bounce, tied_to)
     if start is not None and falls(scene, start):
         bodies = [contact.body for contact in contacts]
         return _landing(tied_to, shared=max(map(bodies.count, bodies)))
-    if all(alone(scene, contact) for contact in contacts):
+    if not scene.pairs and all(alone(scene, c) for c in scene.touching.values()):
         return _sliding(tied_to)
     return _tip(tied_to)
 
@@ -39,12 +40,16 @@ def recipe(scene: Scene, tied_to: float, start: Start | None) -> list[Choice]:
 def alone(scene: Scene, contact: Contact) -> bool:
     """Whether a disk or a particle touches, and nothing else holds it."""
     joined = (end.body for joint in scene.joints.values() for end in (joint.a, joint.b))
-    touching = [other.body for other in scene.touching.values()].count(contact.body)
-    return contact.at.point == CENTER and touching == 1 and contact.body not in joined
+    touching = [other.body for other in scene.touching.values()]
+    touching += [body for pair in scene.pairs.values() for body in (pair.body, pair.touched)]
+    once = touching.count(contact.body) == 1
+    return contact.at.point == CENTER and once and contact.body not in joined
 
 
 def falls(scene: Scene, start: Start) -> bool:
-    """Whether something starts above its plane: of spokes, all tips."""
+    """Whether something starts above its plane, of spokes all tips, or apart from the other."""
+    if any(pair.normal(begun(scene, start))[1][0] > CLOSED for pair in scene.pairs.values()):
+        return True
     return any(
         min(height(scene, point, start) for point in contact.each()) > CLOSED
         for contact in scene.contacts.values()
@@ -59,6 +64,14 @@ def lies(scene: Scene, contact: Contact, start: Start) -> bool:
     rises = nx * (vx - omega * (sin * dx + cos * dy)) + ny * (vy + omega * (cos * dx - sin * dy))
     still = CLOSED * (math.hypot(vx, vy) or 1.0)
     return height(scene, contact, start) <= CLOSED and rises <= still
+
+
+def meet(scene: Scene, pair: Pair, start: Start) -> bool:
+    """Whether two bodies start in contact, and are not about to part."""
+    motion = begun(scene, start)
+    still = CLOSED * (max(math.hypot(*start[name][3:5]) for name in scene.bodies) or 1.0)
+    gap, parting = pair.normal(motion)[1][0], pair.moves(motion)[1][0]
+    return bool(gap <= CLOSED and parting <= still)
 
 
 def height(scene: Scene, contact: Contact, start: Start) -> float:

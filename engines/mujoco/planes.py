@@ -34,23 +34,20 @@ def add_geom(element: ET.Element, scene: Scene, contact: Contact) -> None:
     )  # fmt: skip
 
 
-def add_pairs(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> None:
-    """The contacts' pairs, each with a sensor: MuJoCo records its force at every step."""
-    contacts = ET.SubElement(root, "contact")
+def add_pairs(contacts: ET.Element, scene: Scene, attributes: dict[str, str]) -> None:
+    """The contacts with planes, as pairs."""
     for contact in touching(scene).values():
         # A pair takes one coefficient; two geoms would take the larger of theirs.
         ET.SubElement(
             contacts, "pair", attributes,
             name=contact.name, geom1=grounded(contact.plane), geom2=contact.name,
-            condim=_dimensions(contact),
+            condim=dimensions(contact.friction),
             friction=written(contact.friction, contact.friction, 0, 0, 0),
         )  # fmt: skip
-    _sensors(root, scene)
 
 
-def _sensors(root: ET.Element, scene: Scene) -> None:
+def add_sensors(sensors: ET.Element, scene: Scene) -> None:
     """The plane's force on each, along the ground's axes."""
-    sensors = ET.SubElement(root, "sensor")
     for name, contact in touching(scene).items():
         ET.SubElement(
             sensors, "contact", geom1=grounded(contact.plane), geom2=name, data="force", num="1",
@@ -58,9 +55,9 @@ def _sensors(root: ET.Element, scene: Scene) -> None:
         )  # fmt: skip
 
 
-def _dimensions(contact: Contact) -> str:
+def dimensions(friction: float) -> str:
     """What is smooth gets no friction at all: MuJoCo knows no coefficient below 1e-5."""
-    return "3" if contact.friction else "1"
+    return "3" if friction else "1"
 
 
 def grounded(plane: Plane) -> str:

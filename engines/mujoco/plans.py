@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
-from ...cases.scene import CENTER, Contact, Scene
+from ...cases.scene import CENTER, Contact, Pair, Scene
 from ..engine import Choice, Plan, Realised, Start
 from ..law import one_number
 from ..stride import strides
@@ -54,7 +54,11 @@ def plan(scene: Scene, start: Start, realised: Realised, numbers: Numbers, *, tu
     integrator = {choice.name: choice.value for choice in numbers(NOMINAL)}["option.integrator"]
     dry = any(joint.dry_friction for joint in scene.joints.values())
     jumps = any(law.corners for law in scene.laws())
-    first = integrator != "RK4" or bool(touching(scene)) or (dry and realised != "driver")
+    first = (
+        integrator != "RK4"
+        or bool(touching(scene) or scene.pairs)
+        or (dry and realised != "driver")
+    )
     first |= any(scene.one_sided()) and realised != "driver"
     corners = any(force.corner for force in scene.forces.values())
     following = (1, 2) if first else (4, 5) if dry else (2, 3)
@@ -90,15 +94,16 @@ def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> 
     elif plan.realised == "driver":
         acts, dry = "where a spring begins or ends to act", "at the events of dry friction"
         words.append(f"steps cut {acts if has_corners(scene) else dry}")
-    if tuned and touching(scene):
+    if tuned and (touching(scene) or scene.pairs):
         if falls(scene, start):
             words.append("starts above the floor: contacts are tuned for impacts")
         *_, depths = placed(scene, start, step, plan, settles=True)
-        deep = ((scene.touching[name], depth) for name, depth in depths.items() if depth)
-        words += [f"{_at(c)} started {depth:.1e} m in the {c.plane.name}" for c, depth in deep]
+        both = {**scene.touching, **scene.pairs}
+        deep = ((both[name], depth) for name, depth in depths.items() if depth)
+        words += [f"{_at(c)} started {depth:.1e} m in the {c.on}" for c, depth in deep]
     return "; ".join(words)
 
 
-def _at(contact: Contact) -> str:
+def _at(contact: Contact | Pair) -> str:
     """`wheel`, `rod.end`."""
     return contact.body if contact.at.point == CENTER else str(contact.at)

@@ -14,6 +14,7 @@ from .edge import alone
 from .force import damped
 from .lacking import lacking
 from .law.friction import ruled
+from .pair import closed_pairs
 from .recipe import Recipe
 from .scene import oblique
 
@@ -76,7 +77,7 @@ def _spoilt(scene: Scene, realised: Realised) -> bool:
     """
     native = realised == "native"
     brakes = native and any(joint.dry_friction for joint in scene.joints.values())
-    met = any(contact.switches for contact in scene.contacts.values())
+    met = bool(scene.pairs) or any(contact.switches for contact in scene.contacts.values())
     sided = any(scene.one_sided())
     return (native and (damped(scene) or met)) or brakes or strides(scene) or sided
 
@@ -107,9 +108,9 @@ def _words(scene: Scene, start: Start, recipe: Recipe, step: float) -> str:
     """The half step along the velocities, contacts' depth at the start, and what holds a slot."""
     numbers = named(recipe(step))
     words = [f"started {step / 2:g} s back, positions read {step / 2:g} s ahead"]
-    if touching := closed(scene, start):
+    if touching := [*closed(scene, start), *closed_pairs(scene, start)]:
         bodies = ", ".join(dict.fromkeys(contact.body for contact in touching))
-        planes = " and the ".join(dict.fromkeys(contact.plane.name for contact in touching))
+        planes = " and the ".join(dict.fromkeys(contact.on for contact in touching))
         words.append(f"{bodies} started {numbers['start.seed']:g} m in the {planes}")
     if slots := [joint.name for joint in scene.joints.values() if oblique(scene, joint)]:
         words.append(f"{', '.join(slots)} held across by a pin joint that is carried along")

@@ -13,6 +13,8 @@ from .bearing import Bearing
 from .bouncing_disk import BouncingDisk
 from .charge_in_field import ChargeInField
 from .compass_walker import CompassWalker
+from .cradle import Cradle
+from .disk_on_disk import DiskOnDisk
 from .double_pendulum import DoublePendulum
 from .drag_stops import DragStops
 from .driven_edge import DrivenEdge
@@ -46,6 +48,7 @@ from .smooth_friction import SmoothDynamometer, SmoothGrowingForce
 from .spring_mass_damper import SpringMassDamper
 from .spring_mass_jump import SpringMassJump
 from .sprung_gimbal import SprungGimbal
+from .stacked_blocks import StackedBlocks
 from .stribeck_brake import StribeckBrake
 from .stribeck_drive import StribeckDrive
 from .tilting_disk import TiltingDisk
@@ -65,6 +68,8 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "bouncing_disk": BouncingDisk,
     "charge_in_field": ChargeInField,
     "compass_walker": CompassWalker,
+    "cradle": Cradle,
+    "disk_on_disk": DiskOnDisk,
     "double_pendulum": DoublePendulum,
     "drag_stops": DragStops,
     "driven_robot": DrivenRobot,
@@ -98,6 +103,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "smooth_dynamometer": SmoothDynamometer,
     "smooth_growing_force": SmoothGrowingForce,
     "spring_mass_damper": SpringMassDamper,
+    "stacked_blocks": StackedBlocks,
     "stribeck_brake": StribeckBrake,
     "stribeck_drive": StribeckDrive,
     "sprung_gimbal": SprungGimbal,

@@ -184,5 +184,6 @@ def never(case: Case, reference: Trajectory) -> list[Mistake]:
 
 def _falls_later(scene: Scene, reference: Trajectory, event: Event) -> bool:
     part, _, field = event.quantity.rpartition(".")
-    above = part in scene.contacts and field == "gap" and event.rule == "falls to zero"
+    touches = part in (*scene.contacts, *scene.pairs)
+    above = touches and field == "gap" and event.rule == "falls to zero"
     return above and bool(np.all(observe(scene, reference, event.quantity) > 0.0))

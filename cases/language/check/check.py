@@ -29,7 +29,7 @@ def check(
         yield from engines(parsed.file, known)
     unfit = [] if parsed.file.states is None else [*states(parsed, scene)]
     yield from unfit
-    if not any(twice(parsed, scene)) and not unfit and not parsed.lacks("states"):
+    if not any(twice(parsed)) and not unfit and not parsed.lacks("states"):
         yield from claims(parsed, scene)
     if not parsed.lacks("duration") and not parsed.lacks("samples") and not parsed.lacks("step"):
         yield from sampling(parsed.file)

@@ -16,7 +16,7 @@ def measured(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[s
         found[f"{body.name}.mass"] = model.body_mass[number]
         if body.turns:
             found[f"{body.name}.inertia"] = model.body_inertia[number, 2]
-    for contact in touching(scene):
+    for contact in (*touching(scene), *scene.pairs):
         found[f"{contact}.friction"] = model.pair(contact).friction[0]
     for joint in scene.joints.values():
         dry = joint.dry_friction

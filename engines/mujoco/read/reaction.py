@@ -8,6 +8,7 @@ import numpy as np
 from ....cases.scene import Anchor, Joint, Scene
 from ....cases.trajectory import Array
 from ..force import outer
+from ..pairs import pair_force
 from ..planes import touching
 from ..tree import Tree, called
 
@@ -71,6 +72,8 @@ def contact_force(
     pushed: the rows of what our law pushes with in MuJoCo's place.
     """
     part, _, field = name.rpartition(".")
+    if part in scene.pairs:
+        return pair_force(scene, name, felt)
     contact, names = scene.contacts[part], list(touching(scene))
     firsts = [3 * names.index(point.name) for point in contact.each()]
     force = np.sum([felt[:, first : first + 2] for first in firsts], axis=0)
