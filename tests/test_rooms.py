@@ -33,6 +33,7 @@ ROOMS = {
         "own_settings",
         "row pins selection coverage events lock ending cluster pytest_short",
         "processes trial replace",
+        "diff",
         "pool judge",
         "cache",
         "unit results",
