@@ -1,4 +1,4 @@
-"""The command `textmech`: run, check, list, show, bench, diff."""
+"""The command `textmech`: run, check, list, show, bench, diff, versions."""
 
 import sys
 import warnings
@@ -11,6 +11,7 @@ from .command.bench import bench
 from .command.diff import diff
 from .command.done import done
 from .command.run import BAD_INPUT, FAILED, allow_long, run
+from .command.versions import versions
 from .show.say import prepare, say, tell
 
 
@@ -64,6 +65,7 @@ def command() -> None:
 command.add_command(run)
 command.add_command(bench)
 command.add_command(diff)
+command.add_command(versions)
 
 
 @command.command()

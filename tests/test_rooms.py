@@ -41,6 +41,7 @@ ROOMS = {
         "suite",
         "write keep session",
         "show committed bench",
+        "versions",
         "command",
         "cli pytest_plugin",
     ],

@@ -22,7 +22,7 @@ def text(found: Difference, *, width: int = WIDTH, most: int | None = MOST) -> s
             if len(changes[:most]) < len(changes):
                 lines.append(f"  and {len(changes) - len(changes[:most])} more: --all shows them")
     lines += ["", summary(found)]
-    return "\n".join(part for line in lines for part in _fitted(line, width))
+    return "\n".join(part for line in lines for part in fitted(line, width))
 
 
 def _listed(changes: Sequence[Change]) -> Iterator[str]:
@@ -31,7 +31,8 @@ def _listed(changes: Sequence[Change]) -> Iterator[str]:
         yield from (f"    {names}: {said}" for names, said in told)
 
 
-def _fitted(line: str, width: int) -> list[str]:
+def fitted(line: str, width: int) -> list[str]:
+    """The line in as many lines as it needs, further ones indented."""
     indent = len(line) - len(line.lstrip())
     further = " " * (indent + 4)
     return wrap(line, max(width, 40), subsequent_indent=further, break_on_hyphens=False) or [""]

@@ -47,9 +47,10 @@ def looked_at(found: Difference) -> Iterator[str]:
 
 
 def verdict(change: Change) -> str:
-    """`agrees → beyond`, or the one that both say."""
-    words = [seen.words for seen in (change.was, change.now) if seen]
-    return words[0] if len({*words}) == 1 else " → ".join(words)
+    """`agrees → beyond`, or the one that both say; of the old one without its reason."""
+    if change.was is None or change.now is None or change.was.words == change.now.words:
+        return (change.now or change.was or Seen("")).words
+    return f"{change.was.words.partition(':')[0]} → {change.now.words}"
 
 
 def numbers(change: Change) -> str:

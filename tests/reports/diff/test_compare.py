@@ -10,7 +10,7 @@ from given.report_folders import CERTIFICATE, COVERED, INSTANT, ROW, RUNGS, repo
 
 from textmech.cases.mistake import CaseError
 from textmech.reports import write
-from textmech.reports.diff.change import BETTER, CHANGED, LOST, NEW, WORSE, Change
+from textmech.reports.diff.change import BETTER, CHANGED, LOST, NEW, WORSE, Change, Seen
 from textmech.reports.diff.compare import Difference, difference
 from textmech.reports.diff.files import FILES
 from textmech.reports.diff.folder import opened
@@ -199,10 +199,7 @@ def test_a_file_that_nobody_knows_is_compared_cell_by_cell(tmp_path: Path) -> No
     change = only(found(tmp_path, {"further": {"c.csv": CURES}}, {"further": {"c.csv": other}}))
     assert (change.kind, change.place.case, change.place.column) == (CHANGED, "swing", "mujoco")
     assert change.place.what == "bar.angle, step"
-    assert (change.was, change.now) == (
-        replace(change.was, words="cost 2"),
-        replace(change.now, words="cost 3"),
-    )
+    assert (change.was, change.now) == (Seen("cost 2"), Seen("cost 3"))
 
 
 def test_rows_of_an_unknown_file_that_nothing_names_are_lost_and_new(tmp_path: Path) -> None:
