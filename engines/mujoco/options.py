@@ -25,7 +25,7 @@ _MOST = 2**31 - 1  # MuJoCo's int
 def check(options: Mapping[str, Any]) -> None:
     """Raises ValueError with all mistakes: unknown names with the nearest right one, and values."""
     found = [mistake for name, value in options.items() if (mistake := _mistake(name, value))]
-    mistakes = found or (_refused(options) if options else [])
+    mistakes = found or _refused(options)
     if mistakes:
         raise ValueError("\n".join(mistakes))
 

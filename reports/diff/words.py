@@ -77,8 +77,11 @@ def sentence(change: Change) -> str:
     """All but its name: `agrees → beyond; 0.0021 → 0.0042 rad ×2, allowed 0.001`."""
     if change.now is None:
         return note(change)
-    if change.now.number is None and change.was is not None and change.now.words:
-        return f"now {change.now.words}"
+    if change.was is not None and change.was.words != change.now.words:
+        if change.now.number is None:
+            return f"now {change.now.words}"
+        if change.was.number is None:
+            return verdict(change)
     return "; ".join(filter(None, (verdict(change), numbers(change), note(change))))
 
 

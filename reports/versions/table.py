@@ -15,8 +15,9 @@ from .wanted import Release
 
 NAME = "versions.csv"
 COLUMNS = ("case", "engine", "version", "setting", "realised", "quantity", "unit")
-NUMBERS = {"error": "largest", "allow": "allowed", "verdict": "verdict"}
+NUMBERS = {"error": "largest", "allow": "allowed"}
 """By the column here the column of tolerance.csv."""
+FURTHER = ("verdict", "moved", "change")
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,7 @@ def steps(measured: Sequence[Measured]) -> list[Step]:
 
 
 def table(steps: Sequence[Step], cases: Sequence[str]) -> pd.DataFrame:
-    """A row for each number. moved: the kind of change, of one of `textmech diff`; or nothing.
+    """A row for each number. moved: `yes` where it is not as one release before; change: how.
 
     Of a release that cannot be run a row for each of the cases says why.
     """
@@ -61,10 +62,21 @@ def table(steps: Sequence[Step], cases: Sequence[str]) -> pd.DataFrame:
         for row in step.rows:
             told = {name: row[name] for name in COLUMNS}
             told |= {name: row[column] for name, column in NUMBERS.items()}
-            rows.append(told | {"moved": moved.get(place(row), "")})
+            change = moved.get(place(row), "")
+            told |= {"verdict": _verdict(row), "moved": "yes" if change else "", "change": change}
+            rows.append(told)
         if not step.now.folder:
             release = step.now.release
             head = {"engine": release.engine, "version": release.version}
             rows += [head | {"case": case, "verdict": step.now.because} for case in cases]
-    frame = pd.DataFrame(rows, columns=[*COLUMNS, *NUMBERS, "moved"]).fillna("")
+    columns = [*COLUMNS, *NUMBERS, *FURTHER]
+    whole = [{name: row.get(name, "") for name in columns} for row in rows]
+    frame = pd.DataFrame(whole, columns=columns)
     return frame.sort_values(["engine", "case"], kind="stable", ignore_index=True)
+
+
+def _verdict(row: Row) -> str:
+    """With its reason, where no number says more."""
+    if row["largest"] or not row["because"]:
+        return row["verdict"]
+    return f"{row['verdict']}: {row['because']}"
