@@ -1,4 +1,4 @@
-"""The command `textmech`: run, check, list, show, bench."""
+"""The command `textmech`: run, check, list, show, bench, diff, versions."""
 
 import sys
 import warnings
@@ -8,8 +8,10 @@ import click
 from ..cases.mistake import CaseError, Mistake
 from . import ending
 from .command.bench import bench
+from .command.diff import diff
 from .command.done import done
 from .command.run import BAD_INPUT, FAILED, allow_long, run
+from .command.versions import versions
 from .show.say import prepare, say, tell
 
 
@@ -62,6 +64,8 @@ def command() -> None:
 
 command.add_command(run)
 command.add_command(bench)
+command.add_command(diff)
+command.add_command(versions)
 
 
 @command.command()
