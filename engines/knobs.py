@@ -38,9 +38,19 @@ def merged(*options: Options) -> dict[str, Any]:
     for some in options:
         for name, value in some.items():
             before = found.get(name)
-            groups = isinstance(before, Mapping) and isinstance(value, Mapping)
-            found[name] = merged(before, value) if groups else value
+            if isinstance(before, Mapping) and isinstance(value, Mapping):
+                found[name] = merged(before, value)
+            else:
+                found[name] = value
     return found
+
+
+def said(value: Any) -> str:
+    """A number, or several, in the shortest words: 1e6, `-0.04/h2 0`."""
+    if isinstance(value, list | tuple):
+        return " ".join(map(said, value))
+    text = f"{value:g}" if isinstance(value, float) else str(value)
+    return text.replace("e+0", "e").replace("e-0", "e-").replace("e+", "e")
 
 
 def as_text(options: Options) -> str:

@@ -15,9 +15,9 @@ from ..knobs import Knob, Options
 from . import options, settings
 from .claims import answered
 from .compilation import NOMINAL, timestep
-from .plane import PLANE
 from .knobs import STEPS, cost, knobs
 from .own import as_options, unfit
+from .plane import PLANE
 from .refuse import not_native, uncompilable
 from .rods import of_scene
 from .script import commented, controls
@@ -78,19 +78,14 @@ class MuJoCo:
             numbers = partial(world.tuned, scene, start=start)
         else:
             numbers = partial(world.with_own, self.options, scene, start)
-        return world.plan(
-            scene, start, realised, numbers, settles=self._settles, tuned=self._tuned
-        )
+        return world.plan(scene, start, realised, numbers, settles=self._settles, tuned=self._tuned)
 
     def knobs(self, scene: Scene, start: Start) -> list[Knob]:
         """See `Tunable`."""
         world = _world(scene)
         scene, start = world.built(scene, start)
-        bundles = {
-            word: recipe(scene)
-            for word, recipe in (world.recipes.items() if scene.contacts else ())
-            if not unfit({"contacts": word}, scene, list(world.recipes))
-        }
+        worth = world.worth(scene) if scene.contacts else []
+        bundles = {word: world.recipes[word](scene) for word in worth}
         return knobs(scene, world.best(scene, start), world.soft(scene), bundles)
 
     def recipe(self, scene: Scene, start: Start) -> Options:

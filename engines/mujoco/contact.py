@@ -38,6 +38,14 @@ def chosen(scene: Scene, start: Start | None) -> str:
     return "slide" if all(alone(scene, contact) for contact in contacts) else "tip"
 
 
+def worth(scene: Scene) -> list[str]:
+    """Which of the recipes may do something for the scene, from whatever start."""
+    contacts = scene.touching.values()
+    thrown = ["bounce"] if any(contact.restitution for contact in contacts) else []
+    tips = [] if all(alone(scene, contact) for contact in contacts) else ["tip", "pivot"]
+    return ["roll", "slide", *tips, *thrown, "land"]
+
+
 def alone(scene: Scene, contact: Contact) -> bool:
     """Whether a disk or a particle touches, and nothing else holds it."""
     joined = (end.body for joint in scene.joints.values() for end in (joint.a, joint.b))

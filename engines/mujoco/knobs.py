@@ -8,7 +8,7 @@ from typing import Any
 
 from ...cases.scene import Scene
 from ..engine import Choice
-from ..knobs import Knob, Options, Value
+from ..knobs import Knob, Options, Value, said
 from .contact import HARDEST, SOFTEST
 from .own import as_options
 
@@ -47,7 +47,7 @@ def knobs(
         start = Value("a settled start", {"settled": True})
         found.append(Knob("start", (start,), start, "protocol"))
         recipes = tuple(
-            Value(f"the recipe to {word}", as_options(scene, choices))
+            Value(f"contacts: {word}", as_options(scene, choices))
             for word, choices in bundles.items()
         )
         found.append(Knob("contacts", recipes, kind="bundle"))
@@ -71,7 +71,7 @@ def _of(name: str, value: Any) -> Value:
         return Value(name.partition("_")[0], {name: value})
     if isinstance(value, str):
         return Value(value if name == "integrator" else f"{value} {name}", {name: value})
-    return Value(f"{name} {value:g}", {name: value})
+    return Value(f"{name} {said(value)}", {name: value})
 
 
 _GROUPS = {"connect": "connect", "pair": "pair", "slide": "joint"}
@@ -85,32 +85,25 @@ def _softness(element: str, tuned: Options) -> Knob:
         pushes, holds = "solreffriction", "solimpfriction"
     whose = _WHOSE[element]
 
-    def value(words: str, **numbers: Any) -> Value:
-        return Value(f"{whose}: {words}", {element: numbers})
+    def value(**numbers: Any) -> Value:
+        words = (f"d = {n[0]:g}" if k == holds else f"{k} {said(n)}" for k, n in numbers.items())
+        return Value(f"{whose}: {', '.join(words)}", {element: numbers})
 
     springs: list[list[Any]] = [[text, 1.0] for text in _STIFF]
-    hardness = {"d = 0.9999": _HARD, "d = 0.99": _MIDDLE}
+    hardness = [_HARD, _MIDDLE]
     if element == "pair":
         springs += [["-0.25/h2", "-1/h"], ["-0.04/h2", 0.0]]
-        hardness["d = 0.0001"] = _SOFT
+        hardness.append(_SOFT)
     values = [
-        *(value(f"{pushes} {_said(spring)}", **{pushes: spring}) for spring in springs),
-        *(value(words, **{holds: d}) for words, d in hardness.items()),
-        *(
-            value(f"{pushes} {_said(spring)}, d = 0.9999", **{pushes: spring, holds: _HARD})
-            for spring in springs[:2]
-        ),
+        *(value(**{pushes: spring}) for spring in springs),
+        *(value(**{holds: d}) for d in hardness),
+        *(value(**{pushes: spring, holds: _HARD}) for spring in springs[:2]),
     ]
     numbers = tuned.get(element)
-    best = value("tuned", **numbers) if numbers else None
-    known = [one.options for one in values]
-    if best and best.options not in known:
+    best = value(**numbers) if numbers else None
+    if best and best.options not in [one.options for one in values]:
         values.append(best)
     return Knob(f"softness of {whose}", tuple(values), best)
-
-
-def _said(numbers: Sequence[Any]) -> str:
-    return " ".join(f"{x:g}" if isinstance(x, float) else str(x) for x in numbers)
 
 
 def cost(options: Options, step: float) -> float:

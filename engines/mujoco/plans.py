@@ -82,9 +82,7 @@ def follows(numbers: Numbers) -> bool:
     return here != there
 
 
-def _words(
-    scene: Scene, start: Start, plan: Plan, settles: bool, tuned: bool, step: float
-) -> str:
+def _words(scene: Scene, start: Start, plan: Plan, settles: bool, tuned: bool, step: float) -> str:
     """Driven points, laws and drivers, and how deep a disk is started in the floor."""
     words = []
     if any(driven(scene)):

@@ -8,7 +8,7 @@ from typing import Any
 
 from ...cases.scene import Scene
 from ..engine import Start
-from ..knobs import Knob, Options, Value
+from ..knobs import Knob, Options, Value, said
 from .options import BY_THE_SCENE
 from .own import as_options
 
@@ -18,12 +18,12 @@ STEPS = (0.02, 0.01, 5e-3, 2.5e-3, 1.25e-3, 6.25e-4, 3.125e-4, 1.5625e-4)  # s
 def knobs(scene: Scene, start: Start) -> list[Knob]:
     """Those that matter for the scene."""
     tuned = as_options(scene, start)
-    bias = tuned.get("error_bias")
     found = [Knob("midpoint", (_ON["midpoint"],), _ON["midpoint"], "protocol")]
     if scene.joints:
         closed = Value("error_bias 0", {"error_bias": 0.0})
         share = Value("error_bias by the scene", {"error_bias": BY_THE_SCENE})
-        found.append(Knob("error_bias", (closed,), share if bias else closed))
+        best = share if tuned["error_bias"] == BY_THE_SCENE else closed
+        found.append(Knob("error_bias", (closed,), best))
     if "iterations" in tuned:
         found.append(_sweeps(tuned))
     return [*found, *_contacts(tuned), *_slots(tuned)]
@@ -46,7 +46,7 @@ def _sweeps(tuned: Options) -> Knob:
 def _contacts(tuned: Options) -> Iterator[Knob]:
     """The seed, and what helps beside others only."""
     if "seed" in tuned:
-        seed = Value(f"a seed of {tuned['seed']:g} m", {"seed": tuned["seed"]})
+        seed = Value(f"a seed of {said(tuned['seed'])} m", {"seed": tuned["seed"]})
         yield Knob("seed", (seed,), seed, "protocol")
     for name in ("collision_slop", "collision_bias"):
         if name in tuned:
@@ -61,4 +61,4 @@ def _slots(tuned: Options) -> Iterator[Knob]:
 
 
 def _number(name: str, value: Any) -> Value:
-    return Value(f"{name} {value:g}", {name: value})
+    return Value(f"{name} {said(value)}", {name: value})

@@ -8,7 +8,7 @@ from ...cases.scene import Scene
 from ..engine import Choice, Start
 from .contact import is_tip
 from .holding import Holding, holding
-from .options import BY_THE_SCENE, CONSTRAINT, PROTOCOL, full
+from .options import BY_THE_SCENE, PROTOCOL, full
 from .recipe import recipe
 from .scene import oblique
 from .settings import DEFAULT, defaults
@@ -80,5 +80,7 @@ def as_options(scene: Scene, start: Start) -> dict[str, Any]:
     found = {named.get(c.name, c.name.partition(".")[2]): c.value for c in best.always}
     if best.held is None:
         return found
-    asked = ("iterations", "start_iterations", *([CONSTRAINT[0]] if scene.joints else []))
-    return found | dict.fromkeys(asked, BY_THE_SCENE)
+    found |= dict.fromkeys(("iterations", "start_iterations"), BY_THE_SCENE)
+    if scene.joints:
+        found["error_bias"] = BY_THE_SCENE if best.held.biased else 0.0
+    return found

@@ -24,6 +24,11 @@ def chosen(scene: SpatialScene, start: Start | None = None) -> str:
     return "rim" if rims else "roll"
 
 
+def worth(scene: SpatialScene) -> list[str]:
+    """Which of the recipes may do something for the scene."""
+    return list(RECIPES)
+
+
 def _sphere(scene: SpatialScene) -> list[Choice]:
     return [
         Choice("pair.solref", ["2h", 1.0], "the stiffest that stays stable: 2 h"),
