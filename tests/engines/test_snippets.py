@@ -15,10 +15,9 @@ from pymunk.constraints import DampedRotarySpring, DampedSpring
 from textmech.engines.engine import Choice
 from textmech.engines.knobs import Options
 from textmech.engines.mujoco import MuJoCo
-from textmech.engines.mujoco.compilation import compiled, timestep
-from textmech.engines.mujoco.scene import mjcf
-from textmech.engines.mujoco.space.compilation import compiled as compiled_in_space
-from textmech.engines.mujoco.space.scene import mjcf as mjcf_in_space
+from textmech.engines.mujoco.compilation import timestep
+from textmech.engines.mujoco.plane import PLANE
+from textmech.engines.mujoco.space.world import SPACE
 from textmech.engines.pymunk import Pymunk
 from textmech.engines.pymunk.plans import named
 from textmech.engines.pymunk.run import placed
@@ -47,18 +46,16 @@ def test_elements_for_mujoco(name: str, options: Options) -> None:
     scene, start = begun(name)
     options = options or MuJoCo("shipped").recipe(scene, start)
     engine = MuJoCo("own", {**options, "step": STEP})
-    write, compile_ = mjcf, compiled
-    if scene.frame.dimension == 3:
-        write, compile_ = mjcf_in_space, compiled_in_space
+    world = SPACE if scene.frame.dimension == 3 else PLANE
     plan = planned(engine, scene, start)
     given = [c for c in planned(MuJoCo("shipped"), scene, start).choices(STEP) if _heavy(c)]
     # noslip needs a freedom more, which no option is
     given += [Choice(c.name, 1, "") for c in plan.choices(STEP) if "noslip" in c.name]
-    bare = write(scene, start, [timestep(1.0), *given])
+    bare = world.mjcf(scene, start, [timestep(1.0), *given])
     snippet = engine.snippet(scene, start, options, STEP)
     head, tag, rest = bare.partition("<worldbody>")
     both = mujoco.MjModel.from_xml_string(head + snippet + tag + rest)
-    wanted, _ = compile_(scene, start, STEP, plan)
+    wanted, _ = world.compiled(scene, start, STEP, plan)
     for field in ("dof_solref", "dof_solimp"):  # a default is also for joints that do not rub
         idle = wanted.dof_frictionloss == 0
         getattr(both, field)[idle] = getattr(wanted, field)[idle]

@@ -1,5 +1,8 @@
 """Two models of MuJoCo, field by field."""
 
+# MuJoCo's bindings are compiled and have no stubs.
+# pyright: reportAttributeAccessIssue=false
+
 from collections.abc import Iterator
 from typing import Any
 
