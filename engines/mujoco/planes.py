@@ -2,6 +2,7 @@
 
 from xml.etree import ElementTree as ET
 
+from ...cases.pair import Pair
 from ...cases.plane import Plane
 from ...cases.scene import GROUND, Contact, Scene
 from .written import written
@@ -12,6 +13,11 @@ POINT = 1e-12  # m, radius of a point that touches: too small to be an arm or a 
 def touching(scene: Scene) -> dict[str, Contact]:
     """What MuJoCo's planes meet: every point that may touch, but for feet, which are pinned."""
     return {name: one for name, one in scene.touching.items() if one.ahead_of is None}
+
+
+def met(scene: Scene) -> list[Contact | Pair]:
+    """What MuJoCo's own contacts hold: on planes, and of two bodies."""
+    return [*touching(scene).values(), *scene.pairs.values()]
 
 
 def add_planes(world: ET.Element, scene: Scene) -> None:

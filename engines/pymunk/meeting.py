@@ -38,7 +38,7 @@ def shapes(world: World, of: Of) -> Iterator[str]:
         yield "space.add(rim, other)"
 
 
-def seeds(world: World, start: Start, seed: float) -> Iterator[str]:
+def pair_seeds(world: World, start: Start, seed: float) -> Iterator[str]:
     """What touches at the start does so a little deeper."""
     for pair in closed_pairs(world.scene, start):
         grown = world.pairs[pair.name][0].radius + seed
