@@ -86,7 +86,7 @@ class MuJoCo:
         world = _world(scene)
         scene, start = world.built(scene, start)
         bundles = {word: world.recipes[word](scene) for word in world.worth(scene)}
-        return knobs(scene, world.best(scene, start), world.soft(scene), bundles)
+        return knobs(world.best(scene, start), world.soft(scene), bundles)
 
     def recipe(self, scene: Scene, start: Start) -> Options:
         """See `Tunable`."""

@@ -6,7 +6,6 @@ A group's solref, solimp and solreffriction are one knob: they spoil each other 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from ...cases.scene import Scene
 from ..engine import Choice
 from ..knobs import Knob, Options, Value, said
 from .contact import HARDEST, SOFTEST
@@ -19,7 +18,6 @@ _STIFF = ("2h", "4h", "10h")  # time constants
 
 
 def knobs(
-    scene: Scene,
     best: Sequence[Choice],
     soft: Sequence[str],
     bundles: Mapping[str, Sequence[Choice]],
@@ -38,7 +36,7 @@ def knobs(
         *(_softness(_GROUPS[group], tuned) for group in soft),
     ]
     if bundles:
-        found += _contacts(scene, tuned)
+        found += _contacts(tuned)
     if "noslip_iterations" in tuned or bundles:
         found.append(_knob("noslip_iterations", [5], tuned))
     if "diagexact" in tuned:
@@ -53,11 +51,10 @@ def knobs(
     return found
 
 
-def _contacts(scene: Scene, tuned: Options) -> Iterator[Knob]:
+def _contacts(tuned: Options) -> Iterator[Knob]:
     """The pyramid's friction and its creep."""
-    if any(contact.friction for contact in scene.contacts.values()):
-        yield _knob("cone", ["elliptic"], tuned)
-        yield _knob("impratio", [10.0, 100.0, 1e4, 1e6], tuned)
+    yield _knob("cone", ["elliptic"], tuned)
+    yield _knob("impratio", [10.0, 100.0, 1e4, 1e6], tuned)
 
 
 def _knob(name: str, values: Sequence[Any], tuned: Options) -> Knob:

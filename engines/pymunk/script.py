@@ -24,7 +24,7 @@ from .drive import as_lines
 from .edge import joints_as_text, lays_as_text
 from .force import script
 from .law.one_side import as_text
-from .meeting import followed, seeds, shapes
+from .meeting import followed, pair_seeds, shapes
 from .run import COLD
 from .scene import build
 from .slot import LENGTH, carried
@@ -143,7 +143,7 @@ def seeds(world: World, start: Start, seed: float) -> list[str]:
             lines.append(f"{body}.position -= ({seed * nx!r}, {seed * ny!r})")
         else:
             lines.append(f"wheels[{contact.name!r}].unsafe_set_radius({wheel.radius + seed!r})")
-    lines += seeds(world, start, seed)
+    lines += pair_seeds(world, start, seed)
     return lines if len(lines) > 2 else []
 
 
