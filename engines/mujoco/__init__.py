@@ -87,13 +87,14 @@ class MuJoCo:
         scene, start = world.built(scene, start)
         worth = world.worth(scene) if scene.contacts else []
         bundles = {word: world.recipes[word](scene) for word in worth}
-        return knobs(scene, world.best(scene, start), world.soft(scene), bundles)
+        best, lies = world.best(scene, start), world.closed(scene, start)
+        return knobs(scene, best, world.soft(scene), bundles, lies=lies)
 
     def recipe(self, scene: Scene, start: Start) -> Options:
         """See `Tunable`."""
         world = _world(scene)
         scene, start = world.built(scene, start)
-        return as_options(scene, world.best(scene, start))
+        return as_options(world.best(scene, start), settled=world.closed(scene, start))
 
     def cost(self, options: Options, step: float, scene: Scene) -> float:
         """Evaluations of the dynamics in a simulated second: steps × stages."""

@@ -71,6 +71,11 @@ def lies(scene: Scene, contact: Contact, start: Start) -> bool:
     return height(scene, contact, start) <= CLOSED and rises <= still
 
 
+def closed(scene: Scene, start: Start) -> bool:
+    """Whether anything lies on its plane at the start."""
+    return any(lies(scene, contact, start) for contact in scene.touching.values())
+
+
 def height(scene: Scene, contact: Contact, start: Start) -> float:
     """How high [m] what touches is above its plane."""
     body = scene.bodies[contact.body]
