@@ -86,13 +86,14 @@ class MuJoCo:
         world = _world(scene)
         scene, start = world.built(scene, start)
         bundles = {word: world.recipes[word](scene) for word in world.worth(scene)}
-        return knobs(world.best(scene, start), world.soft(scene), bundles)
+        best, lies = world.best(scene, start), world.closed(scene, start)
+        return knobs(best, world.soft(scene), bundles, lies=lies)
 
     def recipe(self, scene: Scene, start: Start) -> Options:
         """See `Tunable`."""
         world = _world(scene)
         scene, start = world.built(scene, start)
-        return as_options(world.best(scene, start))
+        return as_options(world.best(scene, start), settled=world.closed(scene, start))
 
     def cost(self, options: Options, step: float, scene: Scene) -> float:
         """Evaluations of the dynamics in a simulated second: steps × stages."""

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 from ...cases.scene import CENTER, Anchor, Contact, Pair, Scene
 from ..begun import begun
 from ..engine import Choice, Start
-from .planes import met
+from .planes import met, touching
 
 HARDEST = 0.9999  # of d: MuJoCo clamps it
 SOFTEST = 1.01e-4  # of d: MuJoCo clamps it at 1e-4
@@ -88,6 +88,12 @@ def meet(scene: Scene, pair: Pair, start: Start) -> bool:
     still = CLOSED * (max(math.hypot(*start[name][3:5]) for name in scene.bodies) or 1.0)
     gap, parting = pair.normal(motion)[1][0], pair.moves(motion)[1][0]
     return bool(gap <= CLOSED and parting <= still)
+
+
+def closed(scene: Scene, start: Start) -> bool:
+    """Whether anything lies on its plane at the start, or on another body."""
+    on_planes = any(lies(scene, contact, start) for contact in touching(scene).values())
+    return on_planes or any(meet(scene, pair, start) for pair in scene.pairs.values())
 
 
 def height(scene: Scene, contact: Contact, start: Start) -> float:

@@ -21,12 +21,14 @@ def knobs(
     best: Sequence[Choice],
     soft: Sequence[str],
     bundles: Mapping[str, Sequence[Choice]],
+    *,
+    lies: bool,
 ) -> list[Knob]:
     """Those that matter for the scene. best: the tuned recipe; soft: its groups.
 
-    bundles: the recipes for contacts that fit it.
+    bundles: the recipes for contacts that fit it. lies: whether something starts on the floor.
     """
-    tuned = as_options(best)
+    tuned = as_options(best, settled=lies)
     found = [
         Knob(
             "integrator",
@@ -41,11 +43,13 @@ def knobs(
         found.append(_knob("noslip_iterations", [5], tuned))
     if "diagexact" in tuned:
         found.append(_knob("diagexact", [True], tuned))
-    if bundles:
+    if lies:
         start = Value("a settled start", {"settled": True})
         found.append(Knob("start", (start,), start, "protocol"))
+    if bundles:
         recipes = tuple(
-            Value(f"contacts: {word}", as_options(choices)) for word, choices in bundles.items()
+            Value(f"contacts: {word}", as_options(choices, settled=lies))
+            for word, choices in bundles.items()
         )
         found.append(Knob("contacts", recipes, kind="bundle"))
     return found

@@ -54,8 +54,8 @@ _ELEMENTS = {"connect": "connect", "pair": "pair", "joint": "slide"}
 """Our groups of soft constraints, by the elements that MJCF has for them."""
 
 
-def as_options(choices: Sequence[Choice]) -> dict[str, Any]:
-    """Choices in terms of h as own options, started as the floor carries what touches."""
+def as_options(choices: Sequence[Choice], *, settled: bool) -> dict[str, Any]:
+    """Choices in terms of h as own options; settled: started as the floor carries what touches."""
     elements = {group: element for element, group in _ELEMENTS.items()}
     found: dict[str, Any] = {}
     for choice in choices:
@@ -64,7 +64,7 @@ def as_options(choices: Sequence[Choice]) -> dict[str, Any]:
             found.setdefault(elements[where], {})[name] = choice.value
         else:
             found[name] = choice.value == "enable" if where == "flag" else choice.value
-    return found | ({"settled": True} if "pair" in found else {})
+    return found | ({"settled": True} if settled else {})
 
 
 def unfit(options: Mapping[str, Any], recipes: Sequence[str], worth: Sequence[str]) -> str | None:

@@ -24,6 +24,11 @@ def chosen(scene: SpatialScene, start: Start | None = None) -> str:
     return "rim" if rims else "roll"
 
 
+def closed(scene: SpatialScene, start: Start) -> bool:
+    """Whether anything lies on the floor: all that touches does, from the start on."""
+    return bool(scene.contacts)
+
+
 def worth(scene: SpatialScene) -> list[str]:
     """Which of the recipes may do something for the scene."""
     return list(RECIPES) if scene.contacts else []
