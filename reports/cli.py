@@ -52,11 +52,13 @@ def command() -> None:
       textmech run --settings mine.yaml       your own engine options as a further column, mine
       textmech check my_case.yaml             all mistakes of a file, without running it
       textmech show bar_pendulum --engine mujoco.tuned > pendulum.xml
+      textmech diff before after              what changed between two report folders
+      textmech versions pymunk==7.0.1 pymunk==7.3.1     and between releases of an engine
 
     \b
     Exit codes:
       0    all is as expected; findings (`beyond`) are no failures
-      1    a verdict FAILS
+      1    a verdict FAILS; of diff: something got worse
       2    a mistake in the command or in a file, which is left out; the other files run
       130  interrupted
     """

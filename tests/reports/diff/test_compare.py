@@ -10,7 +10,7 @@ from given.report_folders import CERTIFICATE, COVERED, INSTANT, ROW, RUNGS, repo
 
 from textmech.cases.mistake import CaseError
 from textmech.reports import write
-from textmech.reports.diff.change import BETTER, CHANGED, LOST, NEW, WORSE, Change, Seen
+from textmech.reports.diff.change import BETTER, CHANGED, LOST, NEW, WORSE, Change, Place, Seen
 from textmech.reports.diff.compare import Difference, difference
 from textmech.reports.diff.files import FILES
 from textmech.reports.diff.folder import opened
@@ -189,17 +189,30 @@ def test_thresholds_are_options(tmp_path: Path) -> None:
 
 
 CURES = pd.DataFrame(
-    [("swing", "mujoco", "bar.angle", "RK4", 1.0), ("swing", "mujoco", "bar.angle", "step", 2.0)],
-    columns=["case", "engine", "quantity", "cure", "cost"],
+    [
+        ("swing", "mujoco", "bar.angle", "RK4", 1.0, ""),
+        ("swing", "mujoco", "bar.angle", "step", 2.0, "1/h"),
+    ],
+    columns=["case", "engine", "quantity", "cure", "cost", "law"],
 )
 
 
-def test_a_file_that_nobody_knows_is_compared_cell_by_cell(tmp_path: Path) -> None:
-    other = CURES.assign(cost=[1.0, 3.0])
-    change = only(found(tmp_path, {"further": {"c.csv": CURES}}, {"further": {"c.csv": other}}))
-    assert (change.kind, change.place.case, change.place.column) == (CHANGED, "swing", "mujoco")
-    assert change.place.what == "bar.angle, step"
-    assert (change.was, change.now) == (Seen("cost 2"), Seen("cost 3"))
+@pytest.mark.parametrize(
+    ("column", "cells", "was", "now"),
+    [
+        ("cost", [1.0, 3.0], "cost 2", "cost 3"),
+        ("cost", [1.0, 2.001], None, None),
+        ("law", ["", "h"], "law 1/h", "law h"),
+    ],
+)
+def test_a_file_that_nobody_knows_is_compared_cell_by_cell(
+    tmp_path: Path, column: str, cells: list[Any], was: str | None, now: str | None
+) -> None:
+    other = CURES.assign(**{column: cells})
+    changes = found(tmp_path, {"further": {"c.csv": CURES}}, {"further": {"c.csv": other}}).changes
+    assert [(c.was, c.now) for c in changes] == ([(Seen(was), Seen(now or ""))] if was else [])
+    for change in changes:
+        assert (change.kind, change.place) == (CHANGED, Place("swing", "mujoco", "bar.angle, step"))
 
 
 def test_rows_of_an_unknown_file_that_nothing_names_are_lost_and_new(tmp_path: Path) -> None:
