@@ -57,6 +57,7 @@ from .tipping_block import TippingBlock
 from .torque_free import TorqueFree
 from .torsion_pendulum import TorsionPendulum
 from .trunk_on_legs import TrunkOnLegs
+from .turning_sled import TurningSled
 from .upright_wheel import UprightWheel
 from .viscous_guide import ViscousDrift, ViscousGrowingForce
 from .wheel_from_above import WheelFromAbove
@@ -114,6 +115,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "torque_free": TorqueFree,
     "torsion_pendulum": TorsionPendulum,
     "trunk_on_legs": TrunkOnLegs,
+    "turning_sled": TurningSled,
     "upright_wheel": UprightWheel,
     "viscous_drift": ViscousDrift,
     "viscous_growing_force": ViscousGrowingForce,

@@ -87,6 +87,10 @@ PARAMETERS: dict[str, dict[str, float]] = {
         "m": 1.5, "R": 0.3, "c": 2.4, "phi0": math.radians(-15), "d": 0.1, "M": 0.6, "Omega": 7.0,
         "phi": math.radians(70), "w0": 1.0,
     },
+    "turning_sled": {
+        "m": 1.5, "l": 0.8, "d": 0.6, "d_across": 7.0, "phi0": math.radians(50), "u0": 3.0,
+        "w0": -0.5,
+    },
     "viscous_drift": {"m": 1.3, "A": 5.0, "w": 6.0, "d_minus": 4.0, "d_plus": 1.0},
     "viscous_growing_force": {"m": 1.3, "b": 1.0, "d_minus": 3.0, "d_plus": 2.0},
     "trunk_on_legs": {

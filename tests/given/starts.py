@@ -36,6 +36,10 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
         ("shank", 5, 0.0, 0.0),
     ],
     "dynamometer": _BLOCK,
+    "turning_sled": [
+        ("sled", 0, 0.0, 0.0), ("sled", 1, 0.0, 0.0), ("sled", 2, 50 * math.pi / 180, 1e-15),
+        ("sled", 3, 3.0, 0.0), ("sled", 4, -0.5, 0.0), ("sled", 5, 0.0, 0.0),
+    ],
     "falling_drag": [("ball", 1, 0.0, 0.0), ("ball", 4, 0.0, 0.0)],
     "elastic_pendulum": [
         ("bob", 0, math.cos(40 * math.pi / 180), 1e-15), ("bob", 3, 0.0, 0.0),
