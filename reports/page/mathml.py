@@ -1,0 +1,101 @@
+"""A line of a docstring as MathML: `J_O φ̈ = −m g (l/2) cos φ [rad/s²], (1,).`
+
+Letters become identifiers, with their dots, primes, indices and exponents; what is a word stays
+text. Nothing is understood, only set: an unknown sign is an operator.
+"""
+
+import re
+import unicodedata
+from html import escape
+
+FUNCTIONS = frozenset(
+    "sin cos tan cot arccos arcsin arctan arctan2 sinh cosh tanh exp log ln sqrt arg sign max min "
+    "sn cn dn cd det Re Im".split()
+)
+SUBSCRIPTS = {ord(a): b for a, b in zip("₀₁₂₃₄₅₆₇₈₉₊₋ᵢⱼₖₐᵦᵣₓₛₜₙ", "0123456789+−ijkaβrxstn", strict=True)}
+SUPERSCRIPTS = {ord(a): b for a, b in zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻ᵀᵃᵇⁿᵗᵢ", "0123456789+−Tabnti", strict=True)}
+OVER = {"\u0307": "˙", "\u0308": "¨", "\u0303": "~", "\u0304": "¯", "\u0302": "^"}
+
+LOW = "".join(map(chr, SUBSCRIPTS))
+HIGH = "".join(map(chr, SUPERSCRIPTS)).replace("ᵢ", "")
+MARKS = "".join(OVER)
+BASE = rf"(?:[^\W\d_{LOW}{HIGH}])"
+WORD = r"[A-Za-z]{2,}"
+TOKEN = re.compile(
+    rf"(?P<word>{WORD}(?![{MARKS}_{LOW}]))"
+    rf"|(?P<name>{BASE}[{MARKS}]*)"
+    r"|(?P<number>\d+(?:\.\d+)?)"
+    r"|(?P<space>\s+)"
+    r"|(?P<sign>.)"
+)
+AFTER = re.compile(
+    rf"(?P<primes>[′']*)(?:(?P<low>[{LOW}]+)|_(?:\{{(?P<braced>[^}}]*)\}}|(?P<one>\w)))?"
+    rf"(?P<high>[{HIGH}]*)(?:\^(?:\{{(?P<over>[^}}]*)\}}|(?P<up>[−\w])))?"
+)
+CLOSING = ")]}|"
+
+
+def mathml(line: str) -> str:
+    """One `<math>` element; all that was markup in the line is escaped."""
+    return f'<math display="inline">{_row(unicodedata.normalize("NFD", line))}</math>'
+
+
+def _row(text: str) -> str:
+    out: list[str] = []
+    place = 0
+    while place < len(text):
+        found = TOKEN.match(text, place)
+        if found is None:
+            break
+        place = found.end()
+        element = _element(found)
+        if element and (found["name"] or found["number"] or found[0] in CLOSING or _named(found)):
+            after = AFTER.match(text, place)
+            if after and after[0]:
+                element, place = _scripted(element, after), after.end()
+        out.append(element)
+    return "".join(out)
+
+
+def _named(found: re.Match[str]) -> bool:
+    return found["word"] in FUNCTIONS
+
+
+def _element(found: re.Match[str]) -> str:
+    text = found[0]
+    if found["space"]:
+        return ""
+    if found["word"]:
+        if text in FUNCTIONS:
+            return f'<mi mathvariant="normal">{text}</mi><mo>&#x2061;</mo>'
+        return f"<mtext>&#xA0;{escape(text)}&#xA0;</mtext>"
+    if found["number"]:
+        return f"<mn>{text}</mn>"
+    if found["name"]:
+        letter, marks = text[0], text[1:]
+        base = f"<mi>{escape(unicodedata.normalize('NFC', letter))}</mi>"
+        for mark in marks:
+            base = f'<mover accent="true">{base}<mo>{OVER[mark]}</mo></mover>'
+        return base
+    return f"<mo>{escape(text)}</mo>"
+
+
+def _scripted(element: str, after: re.Match[str]) -> str:
+    """The element with what stands below and above it."""
+    low = (after["low"] or "").translate(SUBSCRIPTS) or after["braced"] or after["one"] or ""
+    high = (after["high"] or "").translate(SUPERSCRIPTS) or after["over"] or after["up"] or ""
+    primes = len(after["primes"]) * "′"
+    above = (f"<mo>{primes}</mo>" if primes else "") + (_row(high) if high else "")
+    below = f"<mrow>{_row(low)}</mrow>" if low else ""
+    base, tail = _split(element)
+    if below and above:
+        return f"<msubsup>{base}{below}<mrow>{above}</mrow></msubsup>{tail}"
+    if below:
+        return f"<msub>{base}{below}</msub>{tail}"
+    return f"<msup>{base}<mrow>{above}</mrow></msup>{tail}" if above else element
+
+
+def _split(element: str) -> tuple[str, str]:
+    """A function's name, and the sign behind it that joins its argument."""
+    apply = "<mo>&#x2061;</mo>"
+    return (element.removesuffix(apply), apply) if element.endswith(apply) else (element, "")
