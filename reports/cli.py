@@ -1,4 +1,4 @@
-"""The command `textmech`: run, check, list, show, bench."""
+"""The command `textmech`: run, check, list, show, bench, page."""
 
 import sys
 import warnings
@@ -9,6 +9,7 @@ from ..cases.mistake import CaseError, Mistake
 from . import ending
 from .command.bench import bench
 from .command.done import done
+from .command.page import page
 from .command.run import BAD_INPUT, FAILED, allow_long, run
 from .show.say import prepare, say, tell
 
@@ -62,6 +63,7 @@ def command() -> None:
 
 command.add_command(run)
 command.add_command(bench)
+command.add_command(page)
 
 
 @command.command()

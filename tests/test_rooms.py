@@ -39,7 +39,7 @@ ROOMS = {
         "trials",
         "suite",
         "write keep session",
-        "show committed bench",
+        "show committed bench page",
         "command",
         "cli pytest_plugin",
     ],

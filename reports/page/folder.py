@@ -34,8 +34,8 @@ class Folder:
     run: str  # the run's name, as its files end
 
 
-def folder(path: Path) -> Folder:
-    """All that is there.
+def folder(path: Path, beside: Path | None = None) -> Folder:
+    """All that is there; what other commands add may lie elsewhere, `beside`.
 
     Raises Missing where there are no reports, ValueError where a file is cut or of another run.
     """
@@ -48,7 +48,7 @@ def folder(path: Path) -> Folder:
         instants=read(path / "events.csv", Instant),
         certificates=read(path / "reference.csv", Certificate),
         coverage=_text(path / "coverage.csv"),
-        beside={name: _text(path / name) for name in BESIDE if (path / name).is_file()},
+        beside={name: _text(file) for name in BESIDE if (file := (beside or path) / name).is_file()},
         run=(path / NAMES[0]).read_text(encoding="utf-8").rstrip().rpartition(" of run ")[2],
     )
 

@@ -9,7 +9,7 @@ ENGINES = {"mujoco": "#0072B2", "pymunk": "#D55E00", "book": "#009E73"}
 OTHERS = ("#CC79A7", "#E69F00", "#56B4E9")
 MARKERS = {"mujoco": "o", "pymunk": "^", "book": "D"}
 DASHES = {"shipped": (0, (4, 2)), "tuned": "-"}
-WAYS = {"law": (0, (1, 1.5)), "driver": (0, (5, 1.5, 1, 1.5))}
+WAYS = {"law": (0, (1, 1.5)), "driver": (0, (5, 1.5, 1, 1.5)), "any way": (0, (1, 1.5))}
 
 
 def colour(engine: str) -> str:

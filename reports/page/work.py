@@ -1,12 +1,10 @@
-"""Work against precision, a panel for each theme: the median of its cases, step by step."""
+"""Work against precision, a panel for each theme: how many of its cases a step is enough for."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from io import StringIO
-from math import log10
 from typing import Any
 
 import matplotlib
-import numpy as np
 from matplotlib.figure import Figure
 
 from ..row import Comparison, Rungs
@@ -14,36 +12,36 @@ from .column import Column, column
 from .paint import INK, ink, style
 
 SHOWN = ("pins", "loops", "springs", "rolling", "friction", "impacts", "space")
-PER_DECADE = 4  # groups of steps: the cases have steps of their own
-LEAST, MOST = 1e-6, 1e4  # of error over allowed: what is smaller or larger changes no choice
-ACROSS = 3
+PRECISIONS = ((1.0, 1.5), (1e-2, 0.7))  # parts of what is allowed, each with the width of its line
+ACROSS = 4
+ANY = "any way"  # native, or with a law or a driver of ours: whichever takes the larger step
+LEAST, MOST = 10.0, 1e5  # steps per second that are shown
 
-Points = list[tuple[float, float]]
+Steps = Mapping[tuple[str, Column], Mapping[float, float]]
+"""By case and column: step [s] → the worst error there, over allowed."""
 
 
 def work(
     rows: Sequence[Comparison], rungs: Sequence[Rungs], themes: Mapping[str, tuple[str, ...]]
 ) -> str:
     """The figure as SVG, or nothing where there is no ladder of any theme."""
-    curves = _curves(rows, rungs)
-    panels = [
-        (theme, found)
-        for theme in SHOWN
-        if (found := {at: points for at, points in curves.items() if theme in themes.get(at[0], ())})
-    ]
-    if not panels:
+    ladders = worst(rows, rungs)
+    moving = {case: about for case, about in themes.items() if "states" not in about}
+    panels = [(theme, [case for case in moving if theme in moving[case]]) for theme in SHOWN]
+    told = [(theme, cases) for theme, cases in panels if any(at[0] in cases for at in ladders)]
+    if not told:
         return ""
-    down = -(-len(panels) // ACROSS)
-    figure = Figure(figsize=(3.5 * ACROSS, 2.9 * down), layout="constrained")
+    down = -(-(len(told) + 1) // ACROSS)
+    figure = Figure(figsize=(2.9 * ACROSS, 2.7 * down), layout="constrained")
     axes = figure.subplots(down, ACROSS, sharex=True, sharey=True, squeeze=False).ravel()
-    for one, (theme, found) in zip(axes, panels, strict=False):
-        _panel(one, theme, found)
-    for one in axes[len(panels) :]:
+    lines: dict[str, Any] = {}
+    for one, (theme, cases) in zip(axes, told, strict=False):
+        lines |= _panel(one, theme, cases, ladders)
+    for one in axes[len(told) :]:
         one.set_axis_off()
-    labelled = {label: line for one in axes for line, label in zip(*one.get_legend_handles_labels(), strict=True)}
-    figure.legend(labelled.values(), labelled.keys(), loc="outside lower center", ncols=4, frameon=False)
-    figure.supxlabel("steps per simulated second", fontsize=9)
-    figure.supylabel("worst error / allowed", fontsize=9)
+    axes[len(told)].legend(lines.values(), lines, loc="center left", frameon=False, fontsize=9)
+    figure.supxlabel("steps per simulated second", fontsize=10)
+    figure.supylabel("cases within tolerance [%]", fontsize=10)
     return svg(figure, "work")
 
 
@@ -55,53 +53,78 @@ def svg(figure: Figure, salt: str) -> str:
     return ink(out.getvalue())
 
 
-def _curves(
-    rows: Sequence[Comparison], rungs: Sequence[Rungs]
-) -> dict[tuple[str, Column], Points]:
-    """By case and column, of its first ladder: steps per second and the worst error there."""
+def worst(rows: Iterable[Comparison], rungs: Iterable[Rungs]) -> Steps:
+    """Of each case's first ladder: tuned numbers follow the step, where any are tied to it."""
     allowed = {(row.case, column(row), row.quantity): row.allowed for row in rows}
-    worst: dict[tuple[str, Column], dict[str, dict[float, float]]] = {}
+    found: dict[tuple[str, Column], dict[str, dict[float, float]]] = {}
     for rung in rungs:
         allow = allowed.get((rung.case, column(rung), rung.quantity))
         if not allow or rung.engine == "book":
             continue
-        at = worst.setdefault((rung.case, column(rung)), {}).setdefault(rung.ladder, {})
+        at = found.setdefault((rung.case, column(rung)), {}).setdefault(rung.ladder, {})
         for h, error in zip(rung.steps.split(), rung.errors.split(), strict=False):
             at[float(h)] = max(at.get(float(h), 0.0), float(error) / allow)
     return {
-        at: sorted((1 / h, ratio) for h, ratio in ladders[_first(ladders)].items())
-        for at, ladders in worst.items()
+        at: ladders["following" if "following" in ladders else "held"]
+        for at, ladders in found.items()
     }
 
 
-def _first(ladders: Mapping[str, Any]) -> str:
-    return "following" if "following" in ladders else "held"
+def enough(ladder: Mapping[float, float], precision: float) -> float | None:
+    """The largest step from which on, downward, all is within that part of what is allowed."""
+    largest = None
+    for h in sorted(ladder):
+        if not ladder[h] <= precision:
+            break
+        largest = h
+    return largest
 
 
-def _panel(axes: Any, theme: str, curves: Mapping[tuple[str, Column], Points]) -> None:
-    by: dict[Column, list[Points]] = {}
-    for (_, of), points in curves.items():
-        by.setdefault(of, []).append(points)
-    axes.set(xscale="log", yscale="log", ylim=(LEAST / 2, MOST * 2))
-    axes.set_title(f"{theme} ({len({case for case, _ in curves})} cases)", fontsize=9, loc="left")
-    axes.axhspan(LEAST / 2, 1.0, color=INK, alpha=0.05, lw=0)
-    axes.axhline(1.0, color=INK, lw=0.8)
-    for of in sorted(by):
-        x, low, middle, high = _middle(by[of])
-        look = style(of)
-        axes.plot(x, middle, label=of.title, markersize=4, lw=1.3, **look)
-        axes.fill_between(x, low, high, color=look["color"], alpha=0.1, lw=0)
+def _panel(axes: Any, theme: str, cases: Sequence[str], ladders: Steps) -> dict[str, Any]:
+    """Its lines, drawn, and one of each kind by its label."""
+    axes.set(xscale="log", xlim=(LEAST, MOST), ylim=(-3, 103))
+    axes.set_title(f"{theme}: {len(cases)} cases", fontsize=10, loc="left")
     axes.grid(color=INK, alpha=0.15, lw=0.5)
-    axes.tick_params(labelsize=8)
+    axes.tick_params(labelsize=9)
+    lines: dict[str, Any] = {}
+    for of in _kinds(ladders):
+        for precision, width in PRECISIONS:
+            x, y = _profile(of, cases, ladders, precision)
+            look = style(of) if precision == 1.0 else {**style(of), "marker": ""}
+            ends = {"drawstyle": "steps-post", "markevery": slice(1, -1), "markersize": 3.5}
+            (line,) = axes.plot(x, y, lw=width, **look, **ends)
+            lines.setdefault(_label(of), line)
+    return lines
 
 
-def _middle(curves: Sequence[Points]) -> tuple[list[float], ...]:
-    """Steps per second in groups; of each the quartiles of all errors there."""
-    groups: dict[int, list[float]] = {}
-    for points in curves:
-        for x, ratio in points:
-            groups.setdefault(round(PER_DECADE * log10(x)), []).append(min(max(ratio, LEAST), MOST))
-    told = sorted(groups.items())
-    quartiles = [np.percentile(ratios, (25, 50, 75)) for _, ratios in told]
-    x = [10 ** (group / PER_DECADE) for group, _ in told]
-    return (x, *(list(map(float, one)) for one in np.transpose(quartiles)))
+def _kinds(ladders: Steps) -> list[Column]:
+    """Of every engine the settings by themselves, and those with our laws where there are any."""
+    seen = {of for _, of in ladders}
+    native = {of for of in seen if of.realised == "native"}
+    helped = {Column(of.engine, of.setting, ANY) for of in seen - native}
+    return sorted(native | helped)
+
+
+def _label(of: Column) -> str:
+    return f"{of.engine} {of.setting}" + (" + law or driver" if of.realised == ANY else "")
+
+
+def _profile(
+    of: Column, cases: Sequence[str], ladders: Steps, precision: float
+) -> tuple[list[float], list[float]]:
+    """Steps per second, and the share [%] of all the theme's cases that so many are enough for."""
+    steps: list[float] = []
+    for case in cases:
+        ways = [
+            ladder
+            for (name, other), ladder in ladders.items()
+            if name == case
+            and (other.engine, other.setting) == (of.engine, of.setting)
+            and of.realised in (ANY, other.realised)
+        ]
+        found = [h for ladder in ways if (h := enough(ladder, precision))]
+        if found:
+            steps.append(1 / max(found))
+    corners = sorted(set(steps))
+    shares = [100 * sum(step <= x for step in steps) / len(cases) for x in corners]
+    return [LEAST, *corners, MOST], [0.0, *shares, max(shares, default=0.0)]

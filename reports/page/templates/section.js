@@ -30,12 +30,11 @@ function quantityFigures(motion, data, quantity) {
       figure('Off the reference; the largest is marked, the shade is within.', errorPlot(quantity, allow, found, rows)));
     const climbed = ladderPlot(quantity, allow, ladders);
     if (climbed) parts.push(figure('Largest error by step: what falls is the step’s, what stays is the model’s.', climbed));
-    return html('div', {}, keys, html('div', {class: 'figures'}, ...parts), folded('Orders and limits', () => orders(ladders) || html('p', {}, 'No ladder.')));
+    return {parts, keys, below: orders(ladders)};
   }
   const climbed = ladderPlot(quantity, allow, ladders);
   if (climbed) parts.push(figure('Largest error by step.', climbed));
-  return html('div', {}, keyOf(ladders.map((row) => ({...COLUMNS[row[0]]}))), html('div', {class: 'figures'}, ...parts),
-    orders(ladders) || html('p', {class: 'note'}, 'It has no ladder of steps.'));
+  return {parts, keys: ladders.length ? keyOf(ladders.map((row) => COLUMNS[row[0]])) : null, below: orders(ladders)};
 }
 
 function worstFirst(data) {
@@ -73,16 +72,24 @@ const checks = (data) => table(['check', 'difference', 'bound', 'certified to', 
 function build(section) {
   const body = section.querySelector('.body'), name = section.id, motion = MOTIONS[name];
   const data = ROWS.cases[name] || {rows: [], ladders: [], instants: [], checks: []};
-  const names = worstFirst(data), place = html('div', {});
+  const names = worstFirst(data), above = html('div', {}), below = html('div', {});
+  const figures = html('div', {class: 'figures'}, motion ? animation(name, motion) : null);
+  const fixed = figures.children.length;
   const choice = html('select', {}, ...names.map((one) => html('option', {}, one)));
-  const show = (quantity) => { choice.value = quantity; place.replaceChildren(quantityFigures(motion, data, quantity)); };
+  const show = (quantity) => {
+    const {parts, keys, below: orders} = quantityFigures(motion, data, quantity);
+    choice.value = quantity;
+    figures.replaceChildren(...[...figures.children].slice(0, fixed), ...parts);
+    above.replaceChildren(...[keys].filter(Boolean));
+    below.replaceChildren(orders ? folded('Orders and limits', () => orders) : html('p', {class: 'note'}, 'It has no ladder of steps.'));
+  };
   choice.addEventListener('change', () => { show(choice.value); history.replaceState(null, '', `#${name}/${encodeURIComponent(choice.value)}`); });
   section.show = (quantity) => { if (names.includes(quantity)) show(quantity); };
-  if (motion) body.append(html('div', {class: 'figures'}, animation(name, motion)));
   if (names.length) {
-    body.append(html('div', {class: 'controls'}, html('label', {}, 'quantity ', choice), html('span', {class: 'note'}, 'the worst first')), place);
+    body.append(html('div', {class: 'controls'}, html('label', {}, 'quantity ', choice), html('span', {class: 'note'}, 'the worst first')), above);
     show(names[0]);
   }
+  body.append(figures, below);
   const happened = events(data);
   if (happened) body.append(folded('Events', () => happened));
   body.append(folded('All numbers', () => numbers(data)), folded('How the reference is certified', () => checks(data)));
