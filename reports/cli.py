@@ -1,4 +1,4 @@
-"""The command `textmech`: run, check, list, show, bench, page."""
+"""The command `textmech`: run, check, list, show, bench, page, plot."""
 
 import sys
 import warnings
@@ -10,6 +10,7 @@ from . import ending
 from .command.bench import bench
 from .command.done import done
 from .command.page import page
+from .command.plot import plot
 from .command.run import BAD_INPUT, FAILED, allow_long, run
 from .show.say import prepare, say, tell
 
@@ -64,6 +65,7 @@ def command() -> None:
 command.add_command(run)
 command.add_command(bench)
 command.add_command(page)
+command.add_command(plot)
 
 
 @command.command()

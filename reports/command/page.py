@@ -61,9 +61,7 @@ def page(
     try:
         if not named:
             _there(rows)
-        report = looked_at(
-            cases, names, settings, jobs=jobs, cached=not no_cache, long=allow_long
-        )
+        report = looked_at(cases, names, settings, jobs=jobs, cached=not no_cache, long=allow_long)
         if named:
             write_measured(report, folder)
         else:

@@ -92,7 +92,9 @@ def _moved(text: str) -> bool:
 def _by_release(one: tuple[tuple[str, str, str], Any]) -> tuple[str, str, list[tuple[bool, Any]]]:
     """3.10 after 3.9."""
     engine, version, setting = one[0]
-    parts = [(not part.isdigit(), int(part) if part.isdigit() else part) for part in version.split(".")]
+    parts = [
+        (not part.isdigit(), int(part) if part.isdigit() else part) for part in version.split(".")
+    ]
     return engine, setting, parts
 
 

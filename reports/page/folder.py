@@ -1,4 +1,4 @@
-"""A folder of reports, read: the rows that every run writes, and what other commands add to them."""
+"""A folder of reports, read: the rows of a run, and what other commands add to them."""
 
 from dataclasses import dataclass
 from io import StringIO
@@ -41,14 +41,18 @@ def folder(path: Path, beside: Path | None = None) -> Folder:
     """
     lacking = [name for name in NAMES if not (path / name).is_file()]
     if lacking:
-        raise Missing(f"{path} has no {', '.join(lacking)}: `textmech run --out {path}` writes them")
+        raise Missing(
+            f"{path} has no {', '.join(lacking)}: `textmech run --out {path}` writes them"
+        )
     return Folder(
         comparisons=read(path / "tolerance.csv", Comparison),
         rungs=read(path / "convergence.csv", Rungs),
         instants=read(path / "events.csv", Instant),
         certificates=read(path / "reference.csv", Certificate),
         coverage=_text(path / "coverage.csv"),
-        beside={name: _text(file) for name in BESIDE if (file := (beside or path) / name).is_file()},
+        beside={
+            name: _text(file) for name in BESIDE if (file := (beside or path) / name).is_file()
+        },
         run=(path / NAMES[0]).read_text(encoding="utf-8").rstrip().rpartition(" of run ")[2],
     )
 

@@ -54,9 +54,7 @@ class Cell:
         return "; ".join(parts)
 
 
-def cells(
-    rows: Sequence[Comparison], rungs: Sequence[Rungs]
-) -> dict[tuple[str, Column], Cell]:
+def cells(rows: Sequence[Comparison], rungs: Sequence[Rungs]) -> dict[tuple[str, Column], Cell]:
     """By case and column, of those that have rows."""
     compared: dict[tuple[str, Column], list[Comparison]] = {}
     climbed: dict[tuple[str, Column], list[Rungs]] = {}
@@ -82,7 +80,7 @@ def _cell(rows: Sequence[Comparison], ladders: Sequence[Rungs]) -> Cell:
     known = [step for step in steps if step is not None]
     return Cell(
         kind,
-        _short(ratio),
+        short(ratio),
         worst.quantity,
         ratio,
         beyond,
@@ -92,7 +90,7 @@ def _cell(rows: Sequence[Comparison], ladders: Sequence[Rungs]) -> Cell:
 
 
 def _kind(rows: Sequence[Comparison], beyond: int) -> str:
-    """The gravest of the verdicts; what is declared counts for itself where nothing is beyond it."""
+    """The gravest of the verdicts; what is declared counts where nothing else is beyond."""
     verdicts = [row.verdict for row in rows]
     for word in (FAILS, CRASHED, DIVERGED, CHANGED, BEYOND, DEVIATES):
         if any(verdict.startswith(word) for verdict in verdicts):
@@ -100,8 +98,8 @@ def _kind(rows: Sequence[Comparison], beyond: int) -> str:
     return BEYOND if beyond else AGREES
 
 
-def _short(ratio: float) -> str:
-    """`470`, `2.3`, `.02`, `3e5`, in few letters."""
+def short(ratio: float) -> str:
+    """`470`, `2.3`, `0.02`, `3e5`: a ratio in few letters."""
     if ratio == 0.0:
         return "0"
     if ratio >= 1e4 or ratio < 1e-3:

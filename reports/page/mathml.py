@@ -9,10 +9,13 @@ import unicodedata
 from html import escape
 
 FUNCTIONS = frozenset(
-    "sin cos tan cot arccos arcsin arctan arctan2 sinh cosh tanh exp log ln sqrt arg sign max min "
-    "sn cn dn cd det Re Im".split()
-)
-SUBSCRIPTS = {ord(a): b for a, b in zip("₀₁₂₃₄₅₆₇₈₉₊₋ᵢⱼₖₐᵦᵣₓₛₜₙ", "0123456789+−ijkaβrxstn", strict=True)}
+    ("sin", "cos", "tan", "cot", "arccos", "arcsin", "arctan", "atan", "sinh", "cosh", "tanh",
+     "exp", "log", "ln", "sqrt", "arg", "sign", "max", "min", "sn", "cn", "dn", "cd", "det",
+     "Re", "Im")
+)  # fmt: skip
+SUBSCRIPTS = {
+    ord(a): b for a, b in zip("₀₁₂₃₄₅₆₇₈₉₊₋ᵢⱼₖₐᵦᵣₓₛₜₙ", "0123456789+−ijkaβrxstn", strict=True)
+}
 SUPERSCRIPTS = {ord(a): b for a, b in zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻ᵀᵃᵇⁿᵗᵢ", "0123456789+−Tabnti", strict=True)}
 OVER = {"\u0307": "˙", "\u0308": "¨", "\u0303": "~", "\u0304": "¯", "\u0302": "^"}
 
@@ -30,7 +33,7 @@ TOKEN = re.compile(
 )
 AFTER = re.compile(
     rf"(?P<primes>[′']*)(?:(?P<low>[{LOW}]+)|_(?:\{{(?P<braced>[^}}]*)\}}|(?P<one>\w)))?"
-    rf"(?P<high>[{HIGH}]*)(?:\^(?:\{{(?P<over>[^}}]*)\}}|(?P<up>[−\w])))?"
+    rf"(?P<more>[′']*)(?P<high>[{HIGH}]*)(?:\^(?:\{{(?P<over>[^}}]*)\}}|(?P<up>[−\w])))?"
 )
 CLOSING = ")]}|"
 
@@ -84,7 +87,7 @@ def _scripted(element: str, after: re.Match[str]) -> str:
     """The element with what stands below and above it."""
     low = (after["low"] or "").translate(SUBSCRIPTS) or after["braced"] or after["one"] or ""
     high = (after["high"] or "").translate(SUPERSCRIPTS) or after["over"] or after["up"] or ""
-    primes = len(after["primes"]) * "′"
+    primes = len(after["primes"] + after["more"]) * "′"
     above = (f"<mo>{primes}</mo>" if primes else "") + (_row(high) if high else "")
     below = f"<mrow>{_row(low)}</mrow>" if low else ""
     base, tail = _split(element)

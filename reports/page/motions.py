@@ -136,5 +136,3 @@ def _off(one: Tried, name: str, reference: Array) -> Any:
         values = off if samples.ndim > 1 else samples
         curve |= {"times": packed(one.pair.sampled.times[kept]), "values": packed(values[kept])}
     return curve
-
-

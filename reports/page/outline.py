@@ -78,6 +78,6 @@ def _circle(radius: float, axes: Array) -> Line:
 
 def _across(axle: Array) -> Array:
     """(2, 3) two unit vectors that span the plane of a disk with this axle."""
-    first = np.cross(axle, np.eye(3)[int(np.argmin(np.abs(axle)))])
+    first: Array = np.cross(axle, np.eye(3)[int(np.argmin(np.abs(axle)))]).astype(float)
     first = first / np.linalg.norm(first)
     return np.array([first, np.cross(axle, first)])

@@ -35,7 +35,8 @@ def unpacked(found: Sequence[float | str]) -> Array:
     """(N,) to within half a level."""
     low, step, letters = found
     places = np.array([LETTERS.index(letter) for letter in str(letters)], dtype=np.int64)
-    return float(low) + float(step) * (places[0::2] * BASE + places[1::2])
+    levels = (places[0::2] * BASE + places[1::2]).astype(np.float64)
+    return float(low) + float(step) * levels
 
 
 def _between(numbers: Array, low: float, high: float) -> Packed:

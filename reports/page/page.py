@@ -151,13 +151,10 @@ def _files(
     return out
 
 
-def _stick_slip(
-    cases: Sequence[Case], motions: Mapping[str, Motion]
-) -> list[dict[str, str]]:
+def _stick_slip(cases: Sequence[Case], motions: Mapping[str, Motion]) -> list[dict[str, str]]:
     by_system = {case.system: case.name for case in cases if case.system and case.name in motions}
     return [
         {"case": by_system[system], "quantity": quantity, "caption": caption}
         for (system, quantity), caption in APPROXIMATED.items()
-        if system in by_system
-        and quantity in motions[by_system[system]]["curves"]["quantities"]
+        if system in by_system and quantity in motions[by_system[system]]["curves"]["quantities"]
     ]

@@ -1,10 +1,17 @@
-"""Colours that colour-blind people tell apart (Okabe and Ito), with a shape and a dash beside each."""
+"""Colours that colour-blind people tell apart (Okabe and Ito), each with a shape and a dash."""
 
+from io import StringIO
+from pathlib import Path
 from typing import Any
+
+import matplotlib
+from matplotlib.figure import Figure
 
 from .column import Column
 
 INK = "#010203"  # replaced by the colour of the page's text
+DPI = 130  # of a picture in dots: a quarter more than a screen's
+UNDATED = {"Date": None, "Creator": None}
 ENGINES = {"mujoco": "#0072B2", "pymunk": "#D55E00", "book": "#009E73"}
 OTHERS = ("#CC79A7", "#E69F00", "#56B4E9")
 MARKERS = {"mujoco": "o", "pymunk": "^", "book": "D"}
@@ -18,7 +25,7 @@ def colour(engine: str) -> str:
 
 
 def style(column: Column) -> dict[str, Any]:
-    """How its line is drawn: the engine's colour and marker; hollow as shipped, dashed by its way."""
+    """How its line is drawn: colour and marker by engine, hollow as shipped, dashed by its way."""
     shipped = column.setting == "shipped"
     return {
         "color": colour(column.engine),
@@ -28,7 +35,18 @@ def style(column: Column) -> dict[str, Any]:
     }
 
 
-def ink(svg: str) -> str:
-    """The drawing in the ink of the page, so that it is read in the dark too."""
-    drawing = svg[svg.index("<svg") :]
+def svg(figure: Figure, salt: str) -> str:
+    """To stand in a page: in the ink of its text, and with the same bytes every time."""
+    with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": salt}):
+        out = StringIO()
+        figure.savefig(out, format="svg", transparent=True, metadata=UNDATED)
+    drawing = out.getvalue()
+    drawing = drawing[drawing.index("<svg") :]
     return drawing.replace(INK, "currentColor").replace("#000000", "currentColor")
+
+
+def save(figure: Figure, file: Path) -> None:
+    """As a file of its own, on white. Raises OSError."""
+    dated = UNDATED if file.suffix.lower() == ".svg" else {}
+    with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": file.stem}):
+        figure.savefig(file, dpi=DPI, metadata=dated)

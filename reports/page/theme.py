@@ -40,8 +40,10 @@ def themes(case: Case) -> tuple[str, ...]:
         "states": case.states is not None,
     }
     chosen = tuple(name for name in THEMES if found.get(name))
-    return chosen if set(chosen) - {"driven", "space"} else tuple(
-        name for name in THEMES if name == "pins" or name in chosen
+    return (
+        chosen
+        if set(chosen) - {"driven", "space"}
+        else tuple(name for name in THEMES if name == "pins" or name in chosen)
     )
 
 

@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from typing import Any
 
-
 from ...reference.certificate.errors import ERROR
 from ..row import FAILS, Certificate
 from .folder import Folder

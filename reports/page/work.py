@@ -1,15 +1,13 @@
 """Work against precision, a panel for each theme: how many of its cases a step is enough for."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from io import StringIO
 from typing import Any
 
-import matplotlib
 from matplotlib.figure import Figure
 
 from ..row import Comparison, Rungs
 from .column import Column, column
-from .paint import INK, ink, style
+from .paint import INK, style, svg
 
 SHOWN = ("pins", "loops", "springs", "rolling", "friction", "impacts", "space")
 PRECISIONS = ((1.0, 1.5), (1e-2, 0.7))  # parts of what is allowed, each with the width of its line
@@ -43,14 +41,6 @@ def work(
     figure.supxlabel("steps per simulated second", fontsize=10)
     figure.supylabel("cases within tolerance [%]", fontsize=10)
     return svg(figure, "work")
-
-
-def svg(figure: Figure, salt: str) -> str:
-    """Without a date and with the same bytes every time; ink takes the colour of the page."""
-    with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": salt}):
-        out = StringIO()
-        figure.savefig(out, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
-    return ink(out.getvalue())
 
 
 def worst(rows: Iterable[Comparison], rungs: Iterable[Rungs]) -> Steps:

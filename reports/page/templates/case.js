@@ -104,8 +104,8 @@ function ladderPlot(quantity, allow, ladders) {
   const curves = ladders.map(([column, , ladder, steps, errors]) => {
     const x = word(steps).split(' ').map(Number), all = errors.split(' ').map(Number);
     const kept = x.map((h, k) => [h, all[k] / allow]).filter(([, e]) => e > 0 && isFinite(e));
-    const one = COLUMNS[column];
-    return {x: kept.map((p) => p[0]), y: kept.map((p) => p[1]), look: one.look, title: `${one.title}, ${word(ladder)}`, dots: 9};
+    const one = COLUMNS[column], held = word(ladder) === 'held' && ladders.some((l) => l[0] === column && l[2] !== ladder);
+    return {x: kept.map((p) => p[0]), y: kept.map((p) => p[1]), look: one.look + (held ? ' held' : ''), title: `${one.title}, ${word(ladder)}`, dots: 9};
   }).filter((c) => c.x.length > 1);
   if (!curves.length) return null;
   const x = [least(curves.map((c) => c.x)) / 1.3, most(curves.map((c) => c.x)) * 1.3];

@@ -29,7 +29,7 @@ function quantityFigures(motion, data, quantity) {
     parts.push(figure('In its tolerance tube.', tubePlot(quantity, unit, allow, found)),
       figure('Off the reference; the largest is marked, the shade is within.', errorPlot(quantity, allow, found, rows)));
     const climbed = ladderPlot(quantity, allow, ladders);
-    if (climbed) parts.push(figure('Largest error by step: what falls is the step’s, what stays is the model’s.', climbed));
+    if (climbed) parts.push(figure('Largest error by step: what falls is the step’s, what stays is the model’s. Thin: tuned numbers held as of the largest step.', climbed));
     return {parts, keys, below: orders(ladders)};
   }
   const climbed = ladderPlot(quantity, allow, ladders);
