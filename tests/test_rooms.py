@@ -38,6 +38,7 @@ ROOMS = {
         "unit results",
         "trials",
         "suite",
+        "poses",
         "write keep session",
         "show committed bench page",
         "command",
