@@ -9,6 +9,7 @@ from .folder import BESIDE
 
 YES = ("yes", "true", "1", "moved")
 WITHIN = "agrees"
+AS_ALLOWED = "as the case allows"  # where no tolerance is written
 
 Themes = Mapping[str, tuple[str, ...]]
 
@@ -27,7 +28,12 @@ def advice(frame: pd.DataFrame | None, themes: Themes) -> dict[str, Any] | None:
         "shipped_cost", "worst", "quantity", "remains",
     )  # fmt: skip
     rows = [
-        {**row, "themes": " ".join(themes.get(row["case"], ())), "linked": row["case"] in themes}
+        {
+            **row,
+            "tolerance": row["tolerance"] or AS_ALLOWED,
+            "themes": " ".join(themes.get(row["case"], ())),
+            "linked": row["case"] in themes,
+        }
         for row in _rows(frame, columns)
     ]
     return {

@@ -8,7 +8,6 @@ from typing import Any
 
 from ...cases.case import Case
 from ...reference.systems import SYSTEMS
-from ...reference.systems.stated import STATED
 from .mathml import mathml
 
 ORDER = (
@@ -20,28 +19,33 @@ NUMBERS = re.compile(r"((?:\(2\.\d+\)(?:, |–| and )?)+) ?(.*)", re.DOTALL)
 SHAPE = re.compile(r",? \((?:\w+, ?)+\w*\)(?=[.:]?$)")
 UNIT = re.compile(r" \[((?:rad|kg|[NmsJW])\b[^\]]*)\]")
 STATES = re.compile(r"[=≤≥<>]")
+TAIL = re.compile(r"[,:;] (?=(?:[A-Za-z’']{2,} ){2})")  # where words begin that go on
 PROSE = re.compile(r"(?:[A-Za-z’']{3,}[ ,.;:]*){3}")  # three words in a row
 
 
 @dataclass(frozen=True)
 class Equation:
-    """A statement with the book's numbers: `html` its MathML, or nothing where it is prose."""
+    """A statement with the book's numbers: its MathML, and the words and the unit behind it."""
 
     numbers: str
     html: str
-    text: str
+    words: str
     unit: str
-    what: str
 
 
 def equations(case: Case) -> list[Equation]:
     """Of its hand-written system; none where the mechanism is generated from the scene."""
-    system = (SYSTEMS | STATED).get(case.system or "")
-    if system is None:
+    if case.system not in SYSTEMS:  # generated, or a claim about states
         return []
+    system: Any = SYSTEMS[case.system](**case.parameters)
+    modes = dict.fromkeys(type(mode) for mode in getattr(system, "modes", {}).values())
+    found = [one for kind in (type(system), *modes) for one in _of(kind)]
+    return list({(one.numbers, one.html): one for one in found}.values())
+
+
+def _of(system: type) -> list[Equation]:
     told = (getattr(system, name, None) for name in ORDER)
-    found = [one for method in told if inspect.isfunction(method) for one in _stated(method)]
-    return list({(one.numbers, one.text): one for one in found}.values())
+    return [one for method in told if inspect.isfunction(method) for one in _stated(method)]
 
 
 def _stated(method: Any) -> Iterator[Equation]:
@@ -50,18 +54,20 @@ def _stated(method: Any) -> Iterator[Equation]:
     found = NUMBERS.match(lines[0]) if lines else None
     if found is None:
         return
-    numbers, opening = found[1].strip(), found[2]
-    yield _equation(numbers, opening, method.__name__)
-    if method.__name__ == ORDER[0]:
-        for line in lines[1:]:
-            if STATES.search(line) and not PROSE.search(line):
-                yield _equation("", line, method.__name__)
+    more = [("", line) for line in lines[1:]] if method.__name__ == ORDER[0] else []
+    for numbers, line in [(found[1].strip(), found[2]), *more]:
+        equation = _equation(numbers, line)
+        if equation is not None:
+            yield equation
 
 
-def _equation(numbers: str, line: str, what: str) -> Equation:
+def _equation(numbers: str, line: str) -> Equation | None:
+    """None of a line that states none."""
     line = SHAPE.sub("", line.rstrip(".:"))
     unit = UNIT.search(line)
     text = UNIT.sub("", line).rstrip(".,: ")
-    is_equation = STATES.search(text) and not PROSE.search(text)
-    html = mathml(text) if is_equation else ""
-    return Equation(numbers, html, text, unit[1] if unit else "", what)
+    tail = TAIL.search(text)
+    stated, words = (text[: tail.start()], text[tail.start() :]) if tail else (text, "")
+    if not STATES.search(stated) or PROSE.search(stated):
+        return None
+    return Equation(numbers, mathml(stated), words, unit[1] if unit else "")

@@ -17,11 +17,10 @@ SUBSCRIPTS = {
     ord(a): b for a, b in zip("₀₁₂₃₄₅₆₇₈₉₊₋ᵢⱼₖₐᵦᵣₓₛₜₙ", "0123456789+−ijkaβrxstn", strict=True)
 }
 SUPERSCRIPTS = {ord(a): b for a, b in zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻ᵀᵃᵇⁿᵗᵢ", "0123456789+−Tabnti", strict=True)}
-OVER = {"\u0307": "˙", "\u0308": "¨", "\u0303": "~", "\u0304": "¯", "\u0302": "^"}
+MARKS = "\u0307\u0308\u0303\u0304\u0302"  # dots, tilde, bar, hat
 
 LOW = "".join(map(chr, SUBSCRIPTS))
 HIGH = "".join(map(chr, SUPERSCRIPTS)).replace("ᵢ", "")
-MARKS = "".join(OVER)
 BASE = rf"(?:[^\W\d_{LOW}{HIGH}])"
 WORD = r"[A-Za-z]{2,}"
 TOKEN = re.compile(
@@ -32,10 +31,13 @@ TOKEN = re.compile(
     r"|(?P<sign>.)"
 )
 AFTER = re.compile(
-    rf"(?P<primes>[′']*)(?:(?P<low>[{LOW}]+)|_(?:\{{(?P<braced>[^}}]*)\}}|(?P<one>\w)))?"
+    rf"(?P<primes>[′']*)(?:(?P<low>[{LOW}]+)|_(?:\{{(?P<braced>[^}}]*)\}}|(?P<one>\w+)))?"
     rf"(?P<more>[′']*)(?P<high>[{HIGH}]*)(?:\^(?:\{{(?P<over>[^}}]*)\}}|(?P<up>[−\w])))?"
 )
-CLOSING = ")]}|"
+CLOSING = ")]}|∞"
+FENCES = "()[]{}|"
+SPACE = '<mspace width="0.4em"/>'
+APPLIED = '<mo>&#x2061;</mo><mspace width="0.17em"/>'
 
 
 def mathml(line: str) -> str:
@@ -70,17 +72,17 @@ def _element(found: re.Match[str]) -> str:
         return ""
     if found["word"]:
         if text in FUNCTIONS:
-            return f'<mi mathvariant="normal">{text}</mi><mo>&#x2061;</mo>'
+            return f'<mi mathvariant="normal">{text}</mi>{APPLIED}'
         return f"<mtext>&#xA0;{escape(text)}&#xA0;</mtext>"
     if found["number"]:
         return f"<mn>{text}</mn>"
     if found["name"]:
-        letter, marks = text[0], text[1:]
-        base = f"<mi>{escape(unicodedata.normalize('NFC', letter))}</mi>"
-        for mark in marks:
-            base = f'<mover accent="true">{base}<mo>{OVER[mark]}</mo></mover>'
-        return base
-    return f"<mo>{escape(text)}</mo>"
+        letter = escape(unicodedata.normalize("NFC", text))
+        # As one letter with its dots: as an accent beside it they are lost where no font for
+        # mathematics is installed. Such a letter is not slanted by itself.
+        return f"<mi>{letter}</mi>" if len(text) == 1 else f'<mi class="dotted">{letter}</mi>'
+    stretchy = ' stretchy="false"' if text in FENCES else ""
+    return f"<mo{stretchy}>{escape(text)}</mo>{SPACE if text in ',;' else ''}"
 
 
 def _scripted(element: str, after: re.Match[str]) -> str:
@@ -99,6 +101,6 @@ def _scripted(element: str, after: re.Match[str]) -> str:
 
 
 def _split(element: str) -> tuple[str, str]:
-    """A function's name, and the sign behind it that joins its argument."""
-    apply = "<mo>&#x2061;</mo>"
-    return (element.removesuffix(apply), apply) if element.endswith(apply) else (element, "")
+    """A function's name, and what joins its argument to it."""
+    name = element.removesuffix(APPLIED)
+    return (name, APPLIED) if name != element else (element, "")

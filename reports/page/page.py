@@ -25,14 +25,15 @@ from .work import work
 SCRIPTS = ("read", "plot", "mechanism", "case", "section", "filter", "start")
 STYLES = ("style", "heat", "print")
 MOTIONS = re.compile(r'<script type="application/json" id="motions">(.*?)</script>', re.DOTALL)
-APPROXIMATED = {
-    ("growing_force", "block.vx"): "As figures 2.29 and 2.30: the speed under a force that grows.",
-    ("growing_force", "block.x"): "Its place: below the static limit it must not move.",
-    ("dynamometer", "block.vx"): "As figures 2.31 and 2.32: the speed at the moving spring.",
-    ("dynamometer", "block.x"): "Its place, a staircase.",
-    ("dynamometer", "scale.force"): "As figures 2.23 and 2.24: what the dynamometer shows.",
-}
-"""The book's Examples 2.3 and 2.4: system and quantity, and what the picture shows."""
+APPROXIMATED = (
+    ("growing_force", "block.vx", "tube", "Figures 2.29, 2.30: the speed under a growing force."),
+    ("growing_force", "block.vx", "error", "By how much each law and engine is off that."),
+    ("dynamometer", "block.vx", "tube", "Figures 2.31, 2.32: the speed behind a moving spring."),
+    ("dynamometer", "block.vx", "error", "By how much each law and engine is off that."),
+    ("dynamometer", "block.x", "tube", "Its place: a staircase."),
+    ("dynamometer", "scale.force", "tube", "Figures 2.23, 2.24: what the dynamometer shows."),
+)
+"""The book's Examples 2.3 and 2.4: system, quantity, plot, and what it shows."""
 
 
 def page(folder: Folder, cases: Sequence[Case], motions: Mapping[str, Motion]) -> str:
@@ -154,7 +155,7 @@ def _files(
 def _stick_slip(cases: Sequence[Case], motions: Mapping[str, Motion]) -> list[dict[str, str]]:
     by_system = {case.system: case.name for case in cases if case.system and case.name in motions}
     return [
-        {"case": by_system[system], "quantity": quantity, "caption": caption}
-        for (system, quantity), caption in APPROXIMATED.items()
+        {"case": by_system[system], "quantity": quantity, "plot": plot, "caption": caption}
+        for system, quantity, plot, caption in APPROXIMATED
         if system in by_system and quantity in motions[by_system[system]]["curves"]["quantities"]
     ]

@@ -13,6 +13,8 @@ INK = "#010203"  # replaced by the colour of the page's text
 DPI = 130  # of a picture in dots: a quarter more than a screen's
 UNDATED = {"Date": None, "Creator": None}
 ENGINES = {"mujoco": "#0072B2", "pymunk": "#D55E00", "book": "#009E73"}
+THEIRS = [(code.lower(), f"var(--{name})") for name, code in ENGINES.items()]
+"""As the page's style has them, lighter in the dark."""
 OTHERS = ("#CC79A7", "#E69F00", "#56B4E9")
 MARKERS = {"mujoco": "o", "pymunk": "^", "book": "D"}
 DASHES = {"shipped": (0, (4, 2)), "tuned": "-"}
@@ -42,7 +44,9 @@ def svg(figure: Figure, salt: str) -> str:
         figure.savefig(out, format="svg", transparent=True, metadata=UNDATED)
     drawing = out.getvalue()
     drawing = drawing[drawing.index("<svg") :]
-    return drawing.replace(INK, "currentColor").replace("#000000", "currentColor")
+    for code, name in ((INK, "currentColor"), ("#000000", "currentColor"), *THEIRS):
+        drawing = drawing.replace(code, name)
+    return drawing
 
 
 def save(figure: Figure, file: Path) -> None:

@@ -1,5 +1,5 @@
 // One plot: curves over a range, linear or logarithmic, with a tube, a bound and marks.
-const PLOT = {width: 460, height: 270, left: 62, right: 12, top: 10, bottom: 40};
+const PLOT = {width: 460, height: 270, left: 74, right: 12, top: 10, bottom: 40};
 let plots = 0;
 
 function linearTicks(low, high) {
@@ -77,7 +77,7 @@ function plot({title, xLabel, yLabel, x, y, xLog = false, yLog = false, curves, 
   for (const {x: mx, y: my, text} of marks) {
     const [px, py] = [at(mx), up(my)], end = px > width * .6;
     drawn.append(svg('circle', {class: 'largest', cx: px, cy: py, r: 6}),
-      svg('text', {class: 'label', x: px + (end ? -10 : 10), y: Math.max(py + 4, top + 12), 'text-anchor': end ? 'end' : 'start'}, text));
+      svg('text', {class: 'label', x: px, y: py < top + 28 ? py + 21 : py - 11, 'text-anchor': end ? 'end' : 'start'}, text));
   }
   root.append(drawn, svg('rect', {class: 'axis', ...inside}),
     svg('text', {class: 'label', x: (left + width - right) / 2, y: height - 6, 'text-anchor': 'middle'}, xLabel),

@@ -32,8 +32,9 @@ function stickSlip() {
     const motion = MOTIONS[place.dataset.case], {quantity} = place.dataset;
     const rows = ROWS.cases[place.dataset.case].rows.filter((row) => word(row[1]) === quantity);
     const found = curvesOf(motion, quantity, (one) => one.engine === 'book' || one.realised !== 'driver');
-    place.append(tubePlot(quantity, word(rows[0][2]), (rows.find((row) => row[4]) || [])[4] || 0, found),
-      keyOf([{look: 'reference', title: 'exact law'}, ...found.engines]));
+    const allow = (rows.find((row) => row[4]) || [])[4] || 1;
+    place.append(place.dataset.plot === 'tube' ? tubePlot(quantity, word(rows[0][2]), allow, found) : errorPlot(quantity, allow, found, rows));
+    document.getElementById('stick-slip-keys').replaceChildren(keyOf([{look: 'reference', title: 'exact law'}, ...found.engines]));
   }
 }
 
