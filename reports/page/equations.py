@@ -63,7 +63,7 @@ def _stated(method: Any) -> Iterator[Equation]:
 
 def _equation(numbers: str, line: str) -> Equation | None:
     """None of a line that states none."""
-    line = SHAPE.sub("", line.rstrip(".:"))
+    line = SHAPE.sub("", line.rstrip(".:")).replace("`", "")
     unit = UNIT.search(line)
     text = UNIT.sub("", line).rstrip(".,: ")
     tail = TAIL.search(text)

@@ -31,7 +31,7 @@ TOKEN = re.compile(
     r"|(?P<sign>.)"
 )
 AFTER = re.compile(
-    rf"(?P<primes>[′']*)(?:(?P<low>[{LOW}]+)|_(?:\{{(?P<braced>[^}}]*)\}}|(?P<one>\w+)))?"
+    rf"(?P<primes>[′']*)(?:(?P<low>[{LOW}]+)|_(?:\{{(?P<braced>[^}}]*)\}}|(?P<one>(?:(?![{HIGH}])\w)+)))?"
     rf"(?P<more>[′']*)(?P<high>[{HIGH}]*)(?:\^(?:\{{(?P<over>[^}}]*)\}}|(?P<up>[−\w])))?"
 )
 CLOSING = ")]}|∞"

@@ -28,7 +28,7 @@ def packed_around_zero(numbers: Array) -> Packed:
     """Over a range around zero, which has a level of its own: an error of 0 stays 0."""
     largest = float(np.max(np.abs(numbers), initial=0.0))
     step = _few(2 * largest / (LEVELS - 2))
-    return _levels(numbers, _few(-step * (LEVELS // 2)), step)
+    return _levels(numbers, -step * (LEVELS // 2), step)  # a power of two: nothing is rounded
 
 
 def unpacked(found: Sequence[float | str]) -> Array:

@@ -73,13 +73,14 @@ def enough(ladder: Mapping[float, float], precision: float) -> float | None:
 def _panel(axes: Any, theme: str, cases: Sequence[str], ladders: Steps) -> dict[str, Any]:
     """Its lines, drawn, and one of each kind by its label."""
     axes.set(xscale="log", xlim=(LEAST, MOST), ylim=(-3, 103))
-    axes.set_title(f"{theme}: {len(cases)} cases", fontsize=10, loc="left")
+    count = f"{len(cases)} case" if len(cases) == 1 else f"{len(cases)} cases"
+    axes.set_title(f"{theme}: {count}", fontsize=10, loc="left")
     axes.grid(color=INK, alpha=0.15, lw=0.5)
     axes.tick_params(labelsize=9)
     lines: dict[str, Any] = {}
     for of in _kinds(ladders):
         for precision, width in PRECISIONS:
-            x, y = _profile(of, cases, ladders, precision)
+            x, y = profile(of, cases, ladders, precision)
             look = style(of) if precision == 1.0 else {**style(of), "marker": ""}
             ends = {"drawstyle": "steps-post", "markevery": slice(1, -1), "markersize": 3.5}
             (line,) = axes.plot(x, y, lw=width, **look, **ends)
@@ -99,7 +100,7 @@ def _label(of: Column) -> str:
     return f"{of.engine} {of.setting}" + (" + law or driver" if of.realised == ANY else "")
 
 
-def _profile(
+def profile(
     of: Column, cases: Sequence[str], ladders: Steps, precision: float
 ) -> tuple[list[float], list[float]]:
     """Steps per second, and the share [%] of all the theme's cases that so many are enough for."""
