@@ -66,8 +66,8 @@ def page(folder: Folder, cases: Sequence[Case], motions: Mapping[str, Motion]) -
         trust=trust(folder),
         style=_text(f"{name}.css" for name in STYLES),
         script=_text(f"{name}.js" for name in SCRIPTS),
-        motions=_json(motions),
-        rows=_json(rows(folder, shown)),
+        motions=embedded(motions),
+        rows=embedded(rows(folder, shown)),
     )
 
 
@@ -94,7 +94,7 @@ def _text(names: Any) -> str:
     return "\n".join((folder / name).read_text(encoding="utf-8").rstrip() for name in names)
 
 
-def _json(value: Any) -> str:
+def embedded(value: Any) -> str:
     """As it may stand within a script element: no letter there can close it."""
     text = json.dumps(value, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")

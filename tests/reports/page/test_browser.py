@@ -1,5 +1,6 @@
 """The page as a person meets it, in a real browser: it works, and asks nobody for anything."""
 
+import json
 from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
@@ -8,7 +9,12 @@ import numpy as np
 import pytest
 from given.browser import Tab, browser, found
 
+from textmech.cases.space.rotation import turned
+from textmech.reports import write
+from textmech.reports.page.write import NAME
+
 WIDTHS = (390, 900, 1500)
+COMMITTED = write.HERE / NAME
 
 pytestmark = [
     pytest.mark.skipif(found() is None, reason="there is no Chromium on this machine to look with"),
@@ -112,6 +118,41 @@ def test_the_drawn_bar_is_where_the_reference_is(
     for ((x0, y0), (x1, y1)), state in zip(told, states, strict=True):
         assert np.hypot(x0, y0) == pytest.approx(0.0, abs=1e-3)
         assert np.arctan2(y1, x1) == pytest.approx(state[2], abs=2e-3)
+
+
+def test_places_turn_with_their_part(tab: Tab, page: str) -> None:
+    """The script's rotations, in the plane and in space, against those of the cases."""
+    random = np.random.default_rng(3)
+    tab.open(page)
+
+    def told(pose: np.ndarray, place: np.ndarray) -> list[float]:
+        return tab.ask(f"placed({json.dumps(pose.tolist())}, {json.dumps(place.tolist())})")
+
+    for _ in range(5):
+        x, y, angle, a, b = random.normal(size=5)
+        turned_by = (a + 1j * b) * np.exp(1j * angle)
+        found = told(np.array([x, y, angle]), np.array([a, b]))
+        assert found == pytest.approx([x + turned_by.real, y + turned_by.imag])
+        q = random.normal(size=4)
+        q /= np.linalg.norm(q)
+        place, centre = random.normal(size=(2, 3))
+        found = told(np.concatenate([centre, q]), place)
+        assert found == pytest.approx(centre + turned(q, place))
+
+
+@pytest.mark.skipif(not COMMITTED.is_file(), reason="no page is committed: `textmech page` does it")
+def test_every_committed_case_opens(tab: Tab) -> None:
+    tab.errors.clear()
+    tab.open(COMMITTED.as_uri(), width=390, prefers_reduced_motion="reduce")
+    assert tab.ask("document.documentElement.scrollWidth") <= 390
+    count = tab.ask(
+        """(() => { const all = [...document.querySelectorAll('details.case')];
+        for (const one of all) { one.open = true; fill(one); }
+        return all.filter((one) => one.querySelector('table, svg, select')).length; })()"""
+    )
+    assert count == tab.ask("document.querySelectorAll('details.case').length") > 100
+    assert tab.ask("document.documentElement.scrollWidth") <= 390
+    assert tab.errors == []
 
 
 def test_filters_choose_rows_and_stand_in_the_address(tab: Tab, page: str) -> None:

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import pytest
 
 from textmech.reports.page.folder import BESIDE, Missing, folder
-from textmech.reports.page.page import motions_of, page
+from textmech.reports.page.page import embedded, motions_of, page
 
 VOID = {"meta", "link", "input", "br", "img", "hr"}
 
@@ -82,8 +82,10 @@ def test_a_title_is_text_wherever_it_stands(made: SimpleNamespace, parsed: Parse
 
 
 def test_words_in_the_data_close_no_script(made: SimpleNamespace) -> None:
+    words = {"because": "</script><script><!-- \u2028"}
+    assert "<" not in embedded(words)
+    assert json.loads(embedded(words)) == words
     rows = made.text.partition('id="rows">')[2].partition("</script>")[0]
-    assert "<" not in rows
     assert json.loads(rows)["cases"].keys() == {"swing", "hostile"}
 
 
