@@ -7,6 +7,7 @@ READY := $(VENV)/.ready
 
 reports: $(READY)
 	$(VENV)/bin/textmech run
+	$(VENV)/bin/textmech page
 
 test: $(READY)
 	$(VENV)/bin/pytest -n auto --dist worksteal

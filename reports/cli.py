@@ -1,4 +1,4 @@
-"""The command `textmech`: run, check, list, show, bench, diff, versions."""
+"""The command `textmech`: run, check, list, show, bench, diff, versions, page, plot."""
 
 import sys
 import warnings
@@ -10,6 +10,8 @@ from . import ending
 from .command.bench import bench
 from .command.diff import diff
 from .command.done import done
+from .command.page import page
+from .command.plot import plot
 from .command.run import BAD_INPUT, FAILED, allow_long, run
 from .command.versions import versions
 from .show.say import prepare, say, tell
@@ -68,6 +70,8 @@ command.add_command(run)
 command.add_command(bench)
 command.add_command(diff)
 command.add_command(versions)
+command.add_command(page)
+command.add_command(plot)
 
 
 @command.command()

@@ -55,8 +55,8 @@ def named_engines(beside: str = "") -> Callable[[Any], Any]:
 @click.option(
     "--keep",
     type=Folder(),
-    help="Write the trajectories too, one CSV a case, reference and engines side by side, and one "
-    "with the times of its events.",
+    help="Write the trajectories too, one CSV a case, reference and engines side by side, one "
+    "with the times of its events, and one long table of all poses (Parquet where pyarrow is).",
 )
 @click.option(
     "--no-cache",

@@ -84,8 +84,8 @@ class Trial:
 
     def read(self, quantity: str, samples: Array) -> Array:
         """A run's samples beside `wanted`: of an attitude the turn from the reference's."""
-        if samples.ndim == 1:  # numbers, and times of events
-            return samples
+        if samples.ndim == 1 or quantity in self.case.scene.bodies:
+            return samples  # numbers, times of events, and a body's poses
         return from_reference(samples, observe(self.case.scene, self.reference, quantity))
 
     @cached_property
