@@ -27,7 +27,7 @@ from .part import (
 )
 from .plane import Plane
 from .states import Drawn
-from .text import Place, Text, Word, equation, label, no_formula
+from .text import THREAD, Place, Text, Word, asked, equation, label, no_formula
 from .words import wrong
 
 POLAR = ("from_", "length", "direction")  # how a start gives a place by a distance
@@ -55,13 +55,16 @@ INCLINE = "turns gravity, never the ground: x points down the slope"
 
 
 class Source(Part):
-    """Where in the book the case comes from, as text: "2.10" is not 2.1."""
+    """Where the case comes from: places in the book as text, for "2.10" is not 2.1; a question."""
 
     equations: tuple[Annotated[str, Place(equation, r"^2\.[1-9][0-9]?$")], ...] = ()
     example: BookPlace | None = None
     exercise: BookPlace | None = None
     figure: Places | None = None  # one, or a list of several
     section: BookPlace | None = None
+    thread: Annotated[str, Text(asked, THREAD)] | None = Field(
+        None, description="the public question that it answers: owner/repository#number"
+    )
 
     @property
     def figures(self) -> tuple[str, ...]:
