@@ -7,7 +7,7 @@ from typing import Any
 from .. import engines
 from ..cases.language.check.work import GO_ON
 from ..cases.language.grammar.number import SMALLEST
-from ..cases.language.read.document import read
+from ..cases.language.read.document import Document, read
 from ..cases.mistake import CaseError, Mistake, Source, nearest
 from ..engines.engine import Engine
 
@@ -19,7 +19,11 @@ def read_settings(file: Path, offered: Sequence[str], *, long: bool = False) -> 
     if not file.exists() and file.suffix not in (".yaml", ".yml"):
         hint = nearest(str(file), offered) or f"; {', '.join(offered)}, or a YAML file"
         raise CaseError([Mistake("--settings", 0, 0, str(file), f"no such setting{hint}")])
-    document = read(file)
+    return made(read(file), file.stem, long=long)
+
+
+def made(document: Document, setting: str, *, long: bool = False) -> dict[str, Engine]:
+    """Engines with the options of a document, by name. Raises CaseError."""
     mistakes, found = list(document.mistakes), {}
     for name, options in document.data.items():
         if name not in engines.names():
@@ -31,7 +35,7 @@ def read_settings(file: Path, offered: Sequence[str], *, long: bool = False) -> 
         elif endless := [*_endless(document.source, name, options, long=long)]:
             mistakes += endless
         else:
-            mistakes += _options(document.source, (name, file.stem), options, found)
+            mistakes += _options(document.source, (name, setting), options, found)
     if mistakes:
         raise CaseError(mistakes)
     return found

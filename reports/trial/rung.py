@@ -35,6 +35,11 @@ class Rung:
     bounds: Mapping[str, float]
 
     @property
+    def name(self) -> str:
+        """For whoever waits for it."""
+        return f"{self.case.name} in {self.engine.name}.{self.engine.setting}"
+
+    @property
     def steps(self) -> float:
         """How many the engine takes."""
         return self.case.duration / self.step
