@@ -7,8 +7,7 @@ from typing import Any
 
 from ruamel.yaml import YAML
 
-from ...cases.find import questions as files
-from ...cases.load import load
+from ...cases.find import QUESTIONS
 
 LISTED = Path(__file__).parents[1] / "questions.yaml"
 WORDS = {
@@ -38,10 +37,9 @@ def questions() -> list[list[str]]:
     """Lines of cells, the head first."""
     lines = [["question", "case", "answer", "setting"]]
     for name, question in listed().items():
-        thread = load(files()[name])[0].origin.thread
         settings = (f"{e}: {_setting(s)}" for e, s in question.settings.items())
-        asks = f"{question.asks} ({thread})"
-        lines.append([asks, f"`{name}`", question.answer, "<br>".join(settings)])
+        case = f"[`{name}`](cases/{QUESTIONS}/{name}.yaml)"
+        lines.append([question.asks, case, question.answer, "<br>".join(settings)])
     return lines
 
 
