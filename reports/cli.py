@@ -21,6 +21,9 @@ def main() -> None:
     prepare()
     try:
         sys.exit(command(standalone_mode=False))  # an exit code, or None
+    except click.exceptions.NoArgsIsHelpError as error:
+        tell(error.format_message())
+        sys.exit(BAD_INPUT)
     except click.ClickException as error:
         tell(f"Error: {error.format_message()}")
         sys.exit(BAD_INPUT)
@@ -49,7 +52,7 @@ def command() -> None:
     \b
       textmech run                            all cases: regenerates reports/*.csv
       textmech run bar_pendulum               one case: prints its rows, writes nothing
-      textmech run --settings mine.yaml       your own engine options as a further column, mine
+      textmech run --settings mine.yaml       your own engine options beside them, as mine
       textmech check my_case.yaml             all mistakes of a file, without running it
       textmech show bar_pendulum --engine mujoco.tuned > pendulum.xml
 
@@ -68,7 +71,7 @@ command.add_command(list_)
 command.add_command(bench)
 
 
-@command.command()
+@command.command(short_help="A scene as the engine's own file or script, with reasons.")
 @click.argument("case")
 @click.option(
     "--engine",

@@ -16,10 +16,13 @@ if TYPE_CHECKING:
 WIDTH = 80
 
 
-@click.command("list")
+@click.command("list", short_help="The shipped cases, with titles and sources.")
+@click.argument("words", nargs=-1, metavar="[WORD]...")
 @as_json
-def list_(wants_json: bool) -> None:
-    """The shipped cases, with their titles and sources: the textbook's, then public questions.
+def list_(words: tuple[str, ...], wants_json: bool) -> None:
+    """The shipped cases, with titles and sources: the textbook's, then public questions.
+
+    With WORDS those that have all of them in name, title or source, as in `textmech list wheel`.
 
     Below a file's name are its variants: `sliding_block .below` is run as sliding_block.below.
     """
@@ -27,14 +30,25 @@ def list_(wants_json: bool) -> None:
     from ..selection import choose_cases
     from ..show import document
 
+    cases = [case for case in choose_cases([], known=None) if _has(case, words)]
     if wants_json:
-        document.write(document.of_cases(choose_cases([], known=None)))
+        document.write(document.of_cases(cases))
         return
+    if not cases:
+        raise click.UsageError(f"no shipped case has {' and '.join(words)} in it")
     for title, files in (("Textbook mechanics", of_the_book()), ("What people ask", questions())):
-        say(f"{title}\n")
-        for line in _lines(choose_cases(list(files), known=None)):
+        group = [case for case in cases if case.name.partition(".")[0] in files]
+        if group:
+            say(f"{title}\n")
+        for line in _lines(group):
             say(f"  {line}")
-        say()
+        if group:
+            say()
+
+
+def _has(case: "Case", words: Sequence[str]) -> bool:
+    text = f"{case.name} {case.title} {case.origin}".lower()
+    return all(word.lower() in text for word in words)
 
 
 def _lines(cases: "Sequence[Case]") -> Iterator[str]:

@@ -5,9 +5,10 @@ from collections.abc import Sequence
 from itertools import groupby
 from pathlib import Path
 
-from ..row import AGREES, FAILS, Certificate, Comparison
+from ..row import AGREES, FAILS, Comparison
 from ..suite import Report
 from .notes import without_effect
+from .rows import known, rows
 from .say import say
 from .summary import Cures, approximations, summary
 from .table import narrow
@@ -18,8 +19,8 @@ def show(
 ) -> None:
     """The rows of named cases, the summary, what fails, and where it was written."""
     if detailed:
-        _rows(report.comparisons)
-        _known(report.certificates)
+        for told in (*rows(report.comparisons), *known(report.certificates)):
+            say(told)
     _summary(report, cures or {})
     for check in report.certificates:
         if check.verdict == FAILS:
@@ -35,23 +36,11 @@ def show(
 
 
 def _summary(report: Report, cures: Cures) -> None:
-    rows, rungs = report.comparisons, report.rungs
-    for lines in (summary(rows, rungs, cures), approximations(rows, rungs)):
+    found, rungs = report.comparisons, report.rungs
+    for lines in (summary(found, rungs, cures), approximations(found, rungs)):
         if lines:
             say(f"\n{narrow(lines)}")
     say()
-
-
-def _known(certificates: Sequence[Certificate]) -> None:
-    """What each reference is known to, of all that its case bounds."""
-    for case, rows in groupby(certificates, key=lambda row: row.case):
-        known = [
-            f"{row.check.removeprefix('error of ')} to {row.certified:.0e} {row.unit}"
-            for row in rows
-            if row.certified is not None
-        ]
-        if known:
-            say(f"\n{case}: the reference is certified: {', '.join(known)}")
 
 
 def _fails(rows: Sequence[Comparison]) -> None:
@@ -61,17 +50,6 @@ def _fails(rows: Sequence[Comparison]) -> None:
         more = f" and {len(others)} more" if others else ""
         what = f"{first.engine}.{first.setting} {first.quantity}"
         say(f"FAILS: {case}: {what}{more}: {because}")
-
-
-def _rows(comparisons: Sequence[Comparison]) -> None:
-    for _, rows in groupby(comparisons, key=lambda r: (r.case, r.engine, r.setting, r.realised)):
-        first, *others = rows
-        how = "" if first.realised == "native" else f" ({first.realised})"
-        say(f"\n{first.case} in {first.engine} {first.version} {first.setting}{how}")
-        if first.protocol:
-            say(f"  {first.protocol}")
-        for row in (first, *others):
-            say("  " + line(row))
 
 
 def line(row: Comparison) -> str:
