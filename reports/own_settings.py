@@ -12,12 +12,14 @@ from ..cases.mistake import CaseError, Mistake, Source, nearest
 from ..engines.engine import Engine
 
 SWEEPS = 10_000  # what a chain of 200 pins needs in pymunk; as shipped engines take 10 and 100
+SUFFIXES = (".yaml", ".yml")
 
 
 def read_settings(file: Path, offered: Sequence[str], *, long: bool = False) -> dict[str, Engine]:
     """A file of engine → options as engines with a setting of its name. Raises CaseError."""
-    if not file.exists() and file.suffix not in (".yaml", ".yml"):
-        hint = nearest(str(file), offered) or f"; {', '.join(offered)}, or a YAML file"
+    if not file.exists() and file.suffix not in SUFFIXES:
+        files = [str(f) for f in map(file.with_suffix, SUFFIXES) if f.is_file()]
+        hint = nearest(str(file), [*offered, *files])
         raise CaseError([Mistake("--settings", 0, 0, str(file), f"no such setting{hint}")])
     return made(read(file), file.stem, long=long)
 

@@ -27,7 +27,7 @@ def named_engines(beside: str = "") -> Callable[[Any], Any]:
         multiple=True,
         metavar="E",
         help=f"An installed engine, as mujoco, pymunk; {beside}or with its setting, as "
-        "mujoco.tuned.",
+        "mujoco.tuned. May be repeated.",
     )
 
 
@@ -38,7 +38,7 @@ def named_engines(beside: str = "") -> Callable[[Any], Any]:
     "--settings",
     multiple=True,
     metavar="shipped|tuned|FILE",
-    help="Only this setting; a FILE of your own engine options is a further column, with its name. "
+    help="Only this setting; a FILE of your own engine options stands beside them, by its name. "
     "May be repeated.",
 )
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default.")
