@@ -1,5 +1,6 @@
 """Every command and every program in the README runs, and every link leads somewhere."""
 
+import json
 import re
 import shlex
 import subprocess
@@ -85,6 +86,23 @@ def test_the_first_command_prints_what_stands_below_it() -> None:
     table = first.split("```\n")[1]
     assert table.count("\n") > 2
     assert table in textmech("run", "four_bar").stdout
+
+
+@pytest.mark.whole
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("run", ["my_case.yaml", "--engine", "mujoco.tuned"]),
+        ("check", ["my_case.yaml"]),
+        ("list", ["four_bar"]),
+        ("any, if it ends before that", ["run", "my_cse.yaml"]),
+    ],
+)
+def test_the_keys_of_json_are_those_it_names(name: str, words: list[str], folder: Path) -> None:
+    (said,) = re.findall(rf"^\| `?{name}`? \| (.*) \|$", TEXT, flags=re.MULTILINE)
+    words = words if name.startswith("any") else [name, *words]
+    found = json.loads(textmech(*words, "--json", folder=folder).stdout)
+    assert re.findall(r"`(\w+)`", said) == list(found)
 
 
 def test_links_lead_somewhere() -> None:
