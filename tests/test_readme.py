@@ -5,7 +5,6 @@ import re
 import shlex
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -15,7 +14,9 @@ from textmech.reports.cli import command
 
 ROOT = Path(__file__).parents[1]
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
-PARSED = {"textmech run", "textmech bench"}  # they take minutes
+LONG = ("textmech run", "textmech bench")  # they take minutes, and are only parsed
+ELSEWHERE = ("textmech versions", "pip")  # they ask a package index
+KINDS = {"textmech", "make", "pip", "pytest"}
 
 
 def fenced(kind: str) -> list[str]:
@@ -23,14 +24,12 @@ def fenced(kind: str) -> list[str]:
     return re.findall(rf"^```{kind}\n(.*?)^```$", TEXT, flags=re.DOTALL | re.MULTILINE)
 
 
-def commands() -> Iterator[str]:
-    """Each line of the shell's blocks once, without what is said of it."""
-    lines = [line for block in fenced("sh") for line in block.splitlines()]
-    yield from dict.fromkeys(line.partition("  #")[0].strip() for line in lines)
+def commands(block: str) -> list[str]:
+    """The lines of a shell's block, without what is said of them."""
+    return [line.partition("  #")[0].strip() for line in block.splitlines()]
 
 
-def of(program: str) -> list[str]:
-    return [line for line in commands() if line.split()[0] == program]
+SHELL = [commands(block) for block in (*fenced("sh"), *fenced("shell"))]
 
 
 @pytest.fixture
@@ -43,34 +42,41 @@ def folder(tmp_path: Path) -> Path:
 
 
 def test_nothing_else_is_in_the_shells_blocks() -> None:
-    assert {line.split()[0] for line in commands()} == {"textmech", "make", "pip", "pytest"}
+    assert {line.split()[0] for block in SHELL for line in block} == KINDS
 
 
 @pytest.mark.whole
-@pytest.mark.parametrize("line", of("textmech"))
-def test_a_command_runs(line: str, folder: Path) -> None:
-    _, name, *words = shlex.split(line)
-    if line in PARSED:
-        assert command.commands[name].make_context(name, words) is not None
-        return
-    done = textmech(name, *words, folder=folder)
-    assert done.returncode == 0, done.stderr
-    assert done.stdout
+@pytest.mark.parametrize("block", SHELL, ids=lambda block: block[0])
+def test_commands_run_one_after_another(block: list[str], folder: Path) -> None:
+    for line in block:
+        if line.startswith("pytest"):
+            by_pytest(line, folder)
+        elif line.startswith("make"):
+            by_make(line)
+        elif line in LONG or line.startswith(ELSEWHERE):
+            only_parsed(line)
+        else:
+            done = textmech(*shlex.split(line)[1:], folder=folder)
+            assert done.returncode == 0, done.stderr
+            assert done.stdout
 
 
-@pytest.mark.whole
-@pytest.mark.parametrize("line", of("pytest"))
-def test_a_case_is_tested(line: str, folder: Path) -> None:
+def by_pytest(line: str, folder: Path) -> None:
     words = [sys.executable, "-m", *shlex.split(line), "-p", "no:cacheprovider"]
     done = subprocess.run(words, capture_output=True, text=True, cwd=folder, check=False)
     assert done.returncode == 0, done.stdout
     assert "passed" in done.stdout
 
 
-@pytest.mark.parametrize("line", of("make"))
-def test_a_target_of_make_exists(line: str) -> None:
+def by_make(line: str) -> None:
     (target,) = line.split()[1:]
     assert re.search(rf"^{target}:", (ROOT / "Makefile").read_text(), flags=re.MULTILINE)
+
+
+def only_parsed(line: str) -> None:
+    program, name, *words = shlex.split(line)
+    if program == "textmech":
+        assert command.commands[name].make_context(name, words) is not None
 
 
 @pytest.mark.whole
