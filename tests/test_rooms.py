@@ -34,7 +34,7 @@ ROOMS = {
         "row pins selection coverage events lock ending cluster pytest_short",
         "processes trial replace",
         "diff",
-        "pool judge",
+        "pool judge asking",
         "cache",
         "unit results",
         "trials",
@@ -43,7 +43,7 @@ ROOMS = {
         "write keep session",
         "show committed bench page",
         "versions",
-        "command",
+        "command interface",
         "cli pytest_plugin",
     ],
 }

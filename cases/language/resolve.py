@@ -61,7 +61,9 @@ def resolve_case(name: str, file: File, scene: Scene, source: Source, *, long: b
     return Case(
         name=name,
         title=file.title,
-        origin=Origin(book.equations, book.example, book.exercise, book.figures, book.section),
+        origin=Origin(
+            book.equations, book.example, book.exercise, book.figures, book.section, book.thread
+        ),
         system=file.system,
         parameters={name: amount.value for name, amount in file.parameters.items()},
         drops_out=file.drops_out,
