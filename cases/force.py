@@ -12,6 +12,7 @@ from typing import Annotated, TypeVar
 import numpy as np
 
 from .body import Body
+from .couple import Couple
 from .drag import Drag, Viscous
 from .element import Force
 from .kind import Fields
@@ -155,6 +156,7 @@ NOUNS = (
     Damper,
     Push,
     Torque,
+    Couple,
     Torsion,
     TorsionDamper,
     Motor,

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from .body import Body
 from .constraint import Edge
 from .contact import Contact
+from .couple import Couple
 from .force import (
     Damper,
     Drag,
@@ -134,8 +135,9 @@ class Scene:
     def dampers(self) -> Iterator[Damper]:
         return of(Damper, self.forces.values())
 
-    def signals(self) -> Iterator[Push | Torque | Motor]:
-        return (f for kind in (Push, Torque, Motor) for f in of(kind, self.forces.values()))
+    def signals(self) -> Iterator[Push | Torque | Couple | Motor]:
+        kinds = (Push, Torque, Couple, Motor)
+        return (f for kind in kinds for f in of(kind, self.forces.values()))
 
     def inner(self) -> dict[str, Force]:
         """The forces with an inner state, by the quantity that it is."""

@@ -14,6 +14,7 @@ import mujoco
 import numpy as np
 
 from ...cases.force import (
+    Couple,
     Damper,
     Drag,
     Force,
@@ -32,6 +33,7 @@ from ...cases.force import (
 from ...cases.scene import CENTER, GROUND, Anchor, Scene
 from ...cases.signal import Signal
 from ...cases.trajectory import Array
+from .couple import couple_outer, write_couple
 from .hinge import Hinge, hinge
 from .muscle import ANOTHER, NOTHING, write_muscle
 from .viscous import not_polynomial, viscous_numbers, write_viscous
@@ -239,6 +241,7 @@ ELEMENTS: dict[type[Force], Element] = {
     Damper: Element(_damper, _damper_numbers),
     Push: Element(_push, signal=lambda force: force.signal, outer=_push_outer),
     Torque: Element(_torque, signal=lambda force: force.signal, outer=_torque_outer),
+    Couple: Element(write_couple, signal=lambda force: force.signal, outer=couple_outer),
     Torsion: Element(_torsion, _torsion_numbers),
     TorsionDamper: Element(_torsion_damper, _torsion_damping),
     Motor: Element(_motor, signal=lambda force: force.signal),

@@ -14,6 +14,7 @@ from pymunk.body import Body
 from pymunk.constraints import DampedRotarySpring, DampedSpring
 
 from ...cases.force import (
+    Couple,
     Damper,
     Drag,
     Force,
@@ -31,6 +32,7 @@ from ...cases.force import (
 from ...cases.scene import Scene
 from ..engine import Realised
 from ..signal import acting, value
+from .couple import couple, couple_load, couple_script
 from .law import one_side
 from .law.line import Exerted, Load, drifting, pull, told
 from .law.told import BY_LAW
@@ -231,6 +233,7 @@ ELEMENTS: dict[type[Force], Element] = {
     ),
     Push: Element(load=_push_load, tell=_push, script=_push_script),
     Torque: Element(load=_torque_load, tell=_torque, script=_torque_script),
+    Couple: Element(load=couple_load, tell=couple, script=couple_script),
     Torsion: Element(
         load=twist,
         # pymunk counts the first body's angle against the second's

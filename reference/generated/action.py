@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ...cases.force import (
+    Couple,
     Damper,
     Drag,
     Force,
@@ -30,6 +31,7 @@ from ...cases.force import (
 from ..laws.force import damper, spring
 from ..system import Array
 from .coordinates import Coordinates, Point
+from .couple import coupled, turned_apart
 from .drag import drag_loss, dragged, slowed, viscous_loss
 from .magnetic import deflected, magnetic_potential
 from .muscle import contracted, pulled, stretched
@@ -198,6 +200,7 @@ ACTIONS: dict[type[Force], Action] = {
     Damper: Action(_damper, D=_damped, line=lambda damper: True),
     Push: Action(_push, Q4=_pushed),
     Torque: Action(_torque, Q4=_turned),
+    Couple: Action(coupled, Q4=turned_apart),
     Torsion: Action(torsional, U=twisted),
     TorsionDamper: Action(torsionally_damped, D=braked),
     Motor: Action(motor, Q4=driven),

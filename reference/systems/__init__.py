@@ -31,6 +31,7 @@ from .heavy_top import HeavyTop
 from .knife_edge import KnifeEdge
 from .muscle_isometric import MuscleIsometric
 from .muscle_load import LinearMuscleLoad, MuscleLoad
+from .paired_rotors import PairedRotors
 from .particle_pendulum import ParticlePendulum
 from .rhombus import Rhombus
 from .rimless_wheel import RimlessWheel
@@ -82,6 +83,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "muscle_isometric": MuscleIsometric,
     "muscle_load": MuscleLoad,
     "linear_muscle_load": LinearMuscleLoad,
+    "paired_rotors": PairedRotors,
     "particle_pendulum": ParticlePendulum,
     "rhombus": Rhombus,
     "rimless_wheel": RimlessWheel,

@@ -45,6 +45,9 @@ PARAMETERS: dict[str, dict[str, float]] = {
     "friction_of_rest": {"m": 1.0, "c": 10.0, "u": 0.5, "mu_s": 0.6, "mu_k": 0.3},
     "growing_force": {"m": 1.0, "b": 1.0, **BOOK},
     "knife_edge": {"m": 1.4, "J": 0.06, "beta": math.radians(15), "u0": 0.3, "w0": 1.3},
+    "paired_rotors": {
+        "m1": 1.5, "R1": 0.3, "m2": 0.8, "R2": 0.2, "M": 0.3, "Omega": 6.0, "w0": 2.0,
+    },
     "particle_pendulum": {"m": 0.6, "x0": 0.45, "y0": 0.6},
     "rhombus": {
         "m": 0.5, "l": 0.4, "c": 60.0, "l0": 0.5,

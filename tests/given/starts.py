@@ -47,6 +47,9 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
         ("blade", 0, 0.0, 0.0), ("blade", 1, 0.0, 0.0), ("blade", 2, 0.0, 0.0),
         ("blade", 3, 0.3, 0.0), ("blade", 4, 0.0, 0.0), ("blade", 5, 1.3, 0.0),
     ],
+    "paired_rotors": [
+        ("one", 2, 0.0, 0.0), ("one", 5, 2.0, 0.0), ("two", 2, 0.0, 0.0), ("two", 5, 2.0, 0.0),
+    ],
     "particle_pendulum": [
         ("bob", 0, 0.45, 1e-15), ("bob", 1, 0.6, 1e-15), ("bob", 3, 0.0, 0.0), ("bob", 4, 0.0, 0.0),
     ],
