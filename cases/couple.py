@@ -4,11 +4,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Annotated
 
+import numpy as np
+
 from .body import Body
 from .element import Force
 from .language.grammar.signal import InTime
+from .motion import Motion
 from .point import CENTER, Anchor
 from .signal import Signal
+from .trajectory import Array
 
 
 @dataclass(frozen=True)
@@ -28,6 +32,11 @@ class Couple(Force):
         """A particle takes no torque."""
         still = [b for b in (self.first, self.second) if b in bodies and not bodies[b].turns]
         return f"{still[0]!r} is a particle and cannot turn" if still else None
+
+    def power(self, motion: Motion) -> Array:
+        """M (ω₂ − ω₁)."""
+        rate = motion.spin(self.second) - motion.spin(self.first)
+        return np.sum(self.signal.at(motion.trajectory.times) * rate, axis=1)
 
     def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
         """That of a sine."""

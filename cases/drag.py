@@ -46,6 +46,11 @@ class Drag(Force):
         velocity = motion.point(self.at)[:, 2:]
         return self.coefficient * np.sqrt(np.sum(velocity**2, axis=1)) ** self.exponent
 
+    def power(self, motion: Motion) -> Array:
+        """−F |v|."""
+        velocity = motion.point(self.at)[:, 2:]
+        return -self.observe(motion, "force") * np.sqrt(np.sum(velocity**2, axis=1))
+
     def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
         """d/m at 1 m/s."""
         return 0.0, self.coefficient * sum(mobility(at) for at in self.refers())
@@ -94,3 +99,7 @@ class Viscous(Force):
             return speed
         d = np.where(speed > 0, self.coefficient.forward, self.coefficient.backward)
         return -d * np.copysign(np.abs(speed) ** self.exponent, speed)
+
+    def power(self, motion: Motion) -> Array:
+        """F v."""
+        return self.observe(motion, "force") * self.observe(motion, "speed")

@@ -25,6 +25,7 @@ class Force:
     winds: ClassVar[bool] = False  # whether it needs a joint's angle, and not only its rate
     inner: ClassVar[str] = ""
     """The quantity that is its inner state, which its producer gives; it begins with `begins`."""
+    works: ClassVar[bool] = True  # whether it has a power
     name: str
 
     def refers(self) -> tuple[Anchor, ...]:
@@ -62,6 +63,10 @@ class Force:
     def observe(self, motion: Motion, field: str) -> Array:
         """(N,) one of its quantities; else KeyError."""
         raise KeyError(f"{self.name}.{field}")
+
+    def power(self, motion: Motion) -> Array:
+        """(N,) what it does to all that it acts on [W], of what works."""
+        raise NotImplementedError
 
     def potential(self, motion: Motion) -> Array | float:
         """(N,) its potential energy [J], its share of U in (2.45)."""

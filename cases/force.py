@@ -48,6 +48,11 @@ class Line(Force):
         length, rate = motion.line(self.a, self.b)
         return length if field == "length" else self.tension(length, rate)
 
+    def power(self, motion: Motion) -> Array:
+        """−F λ̇ on both ends."""
+        length, rate = motion.line(self.a, self.b)
+        return -self.tension(length, rate) * rate
+
     def tension(self, length: Array, rate: Array) -> Array:
         """(N,) with what force [N] it pulls its ends together."""
         raise NotImplementedError
@@ -124,6 +129,11 @@ class Push(Force):
         """The ground takes no push."""
         return "pushes the ground; a push acts on a body" if self.at.body == GROUND else None
 
+    def power(self, motion: Motion) -> Array:
+        """F·v of its point."""
+        _, velocity = np.hsplit(motion.point(self.at), 2)
+        return np.sum(self.signal.at(motion.trajectory.times) * velocity, axis=1)
+
     def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
         """That of a sine."""
         return self.signal.angular_frequency, 0.0
@@ -145,6 +155,11 @@ class Torque(Force):
         """A particle takes no torque."""
         turns = self.body not in bodies or bodies[self.body].turns
         return None if turns else f"{self.body!r} is a particle and cannot turn"
+
+    def power(self, motion: Motion) -> Array:
+        """M·ω."""
+        given = self.signal.at(motion.trajectory.times)
+        return np.sum(given * motion.spin(self.body), axis=1)
 
     def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
         """That of a sine."""

@@ -30,7 +30,7 @@ from .force import (
 from .frame import PLANE, Frame
 from .friction import Bounds, DryFriction, Smooth, Stribeck
 from .joint import DRIVES, Joint
-from .kind import Fields, Kind
+from .kind import WORK, Fields, Kind
 from .point import CENTER, FLOOR, GROUND, Anchor, GroundPoint, Vector
 from .signal import Signal
 
@@ -100,6 +100,11 @@ class Scene:
                 found.setdefault(part, {})[effort] = (unit, "force")
         return found
 
+    def working(self) -> Mapping[str, Fields]:
+        """What has a power: forces, and joints whose rates are prescribed."""
+        names = [force.name for force in self.forces.values() if force.works]
+        return dict.fromkeys((*names, *self.driven()), WORK)
+
     def coordinates(self) -> Mapping[str, Fields]:
         """By joint, what its freedoms are observed as."""
         return {name: joint.coordinates(self.bodies) for name, joint in self.joints.items()}
@@ -107,9 +112,11 @@ class Scene:
     def told_by(self, reaction: str) -> tuple[str, ...]:
         """The reactions of a producer from which one follows; in the plane it gives each.
 
-        But for the tension of a rod, which has a sign.
+        But for the tension of a rod, which has a sign, and what drives have done.
         """
         part, _, field = reaction.rpartition(".")
+        if field in WORK and part in self.joints:
+            return tuple(f"{part}.{effort}" for effort in self.driven()[part])
         if field == "force" and part in self.joints and self.joints[part].swings:
             return f"{part}.fx", f"{part}.fy"
         return (reaction,)

@@ -6,8 +6,8 @@ from given.tree import FILES, imported, module
 # Which room may know which: those of a line know all lines above it, and not each other. What is
 # joined by + is one room.
 NOUNS = (
-    "body+constraint+contact+difference+drag+element+event+force+frame+friction+joint+kind"
-    "+magnetic+motion+muscle+plane+point+quantity+scene+shape+signal+space+states+trajectory"
+    "body+constraint+contact+couple+difference+drag+element+event+force+frame+friction+joint+kind"
+    "+magnetic+motion+muscle+plane+point+power+quantity+scene+shape+signal+space+states+trajectory"
     "+turning"
 )
 ROOMS = {

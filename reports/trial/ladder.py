@@ -95,7 +95,7 @@ def wanted_reactions(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
         for name in names
         if name.split(".")[0] in parts
         and name in known
-        and known[name].kind in ("force", "acceleration")
+        and known[name].kind in ("force", "acceleration", "energy")  # of a joint: its drives' work
     )
     told = (given for name in forces for given in scene.told_by(name))
     return tuple(dict.fromkeys([*told, *scene.inner()]))
