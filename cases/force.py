@@ -23,6 +23,7 @@ from .magnetic import Magnetic
 from .motion import Motion
 from .muscle import LinearMuscle, Muscle
 from .point import CENTER, GROUND, Anchor
+from .rope import Rope
 from .signal import Signal
 from .trajectory import Array
 from .turning import Motor, Torsion, TorsionDamper
@@ -180,6 +181,7 @@ NOUNS = (
     Magnetic,
     Muscle,
     LinearMuscle,
+    Rope,
 )
 FORCES: dict[str, type[Force]] = {kind.word: kind for kind in NOUNS}
 """By the word of the case file."""

@@ -32,6 +32,7 @@ from .friction import Bounds, DryFriction, Smooth, Stribeck
 from .joint import DRIVES, Joint
 from .kind import WORK, Fields, Kind
 from .point import CENTER, FLOOR, GROUND, Anchor, GroundPoint, Vector
+from .rope import Rope
 from .signal import Signal
 
 __all__ = [
@@ -138,6 +139,9 @@ class Scene:
     def one_sided(self) -> Iterator[Spring]:
         """The springs that only press or only pull."""
         return (spring for spring in self.springs() if spring.only)
+
+    def ropes(self) -> Iterator[Rope]:
+        return of(Rope, self.forces.values())
 
     def dampers(self) -> Iterator[Damper]:
         return of(Damper, self.forces.values())

@@ -7,7 +7,7 @@ from given.tree import FILES, imported, module
 # joined by + is one room.
 NOUNS = (
     "body+constraint+contact+couple+difference+drag+element+event+force+frame+friction+joint+kind"
-    "+magnetic+motion+muscle+plane+point+power+quantity+scene+shape+signal+space+states+trajectory"
+    "+magnetic+motion+muscle+plane+point+power+quantity+rope+scene+shape+signal+space+states+trajectory"
     "+turning"
 )
 ROOMS = {

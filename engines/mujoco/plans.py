@@ -11,6 +11,7 @@ from ..stride import strides
 from .compilation import NOMINAL, placed
 from .contact import falls
 from .force import lacking
+from .law.catch import catches
 from .law.corner import has_corners
 from .law.friction import one_slide, smooth_only
 from .law.touch import one_touch
@@ -36,7 +37,7 @@ def ways(scene: Scene, start: Start, *, tuned: bool) -> tuple[Realised, ...]:
         return ("law", "driver") if driver else ("law",)
     if tuned and one_touch(scene) and not falls(scene, start):
         return ("native", "law", "driver")
-    if tuned and has_corners(scene):
+    if tuned and (has_corners(scene) or catches(scene)):
         return ("native", "driver")
     if not tuned or not one_slide(scene):
         return ("native",)
@@ -54,6 +55,7 @@ def plan(scene: Scene, start: Start, realised: Realised, numbers: Numbers, *, tu
     dry = any(joint.dry_friction for joint in scene.joints.values())
     jumps = any(law.corners for law in scene.laws())
     first = integrator != "RK4" or bool(scene.contacts) or (dry and realised != "driver")
+    first |= any(scene.ropes()) and realised != "driver"
     first |= any(scene.one_sided()) and realised != "driver"
     corners = any(force.corner for force in scene.forces.values())
     following = (1, 2) if first else (4, 5) if dry else (2, 3)
@@ -88,12 +90,17 @@ def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> 
         words.append("before each step the floor is told which foot it meets")
     elif plan.realised == "driver":
         acts, dry = "where a spring begins or ends to act", "at the events of dry friction"
-        words.append(f"steps cut {acts if has_corners(scene) else dry}")
-    if tuned and scene.contacts:
+        taut = "where a rope comes taut, and the impact taken there"
+        acts = taut if catches(scene) else acts
+        words.append(f"steps cut {dry if one_slide(scene) or one_touch(scene) else acts}")
+    if tuned and (scene.contacts or any(scene.ropes())):
         if falls(scene, start):
             words.append("starts above the floor: contacts are tuned for impacts")
         *_, depths = placed(scene, start, step, plan, settles=True)
-        deep = ((scene.touching[name], depth) for name, depth in depths.items() if depth)
+        touching = scene.touching
+        longer = ((n, depths[n]) for n in depths if n not in touching)
+        words += [f"{name} started {more:.1e} m too long" for name, more in longer]
+        deep = ((touching[n], depth) for n, depth in depths.items() if depth and n in touching)
         words += [f"{_at(c)} started {depth:.1e} m in the {c.plane.name}" for c, depth in deep]
     return "; ".join(words)
 

@@ -28,6 +28,7 @@ def unbuildable(scene: Scene) -> str | None:
             return f"adapter: {joint.name} is a massless rod that closes a loop, and is not built"
     tree = spanning_tree(scene)
     soft = [*tree.loops, *scene.contacts.values()]
+    soft += [*scene.ropes()]
     soft += [joint for joint in scene.joints.values() if joint.dry_friction]
     if what := unbuilt(scene, [part.name for part in soft]):
         return what

@@ -15,6 +15,7 @@ from .drive import write as write_drives
 from .edge import write_room
 from .force import BY_ITSELF, begun_with, write
 from .planes import add_geom, add_pairs, add_planes
+from .rope import finish_ropes
 from .tree import (
     Branch,
     Tree,
@@ -63,6 +64,7 @@ def mjcf(
     write(root, scene)
     write_drives(root, scene)
     write_room(root, scene)
+    finish_ropes(root, scene, attributes(numbers, "rope"))
     _start(root, scene, tree, start, begun, out=_leaves_plane(scene, numbers))
     ET.indent(root)
     return ET.tostring(root, encoding="unicode") + "\n"

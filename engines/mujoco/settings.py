@@ -10,6 +10,7 @@ from ...cases.scene import Scene
 from ..engine import Choice, Start
 from .contact import HARDEST, recipe
 from .options import SOFT, as_written
+from .rope import recipe as ropes
 from .tree import driven, spanning_tree
 
 SHIPPED_STEP = 2e-3  # s, the default of <option timestep>
@@ -60,6 +61,8 @@ def tuned(scene: Scene, tied_to: float, start: Start | None = None) -> list[Choi
             ]
     if "slide" in _soft(scene):
         choices.append(Choice("option.noslip_iterations", 5, "what sticks does not creep"))
+    if "rope" in _soft(scene):
+        choices += ropes(tied_to)
     if scene.contacts:
         known = {choice.name for choice in choices}
         choices += [c for c in recipe(scene, tied_to, start) if c.name not in known]
@@ -75,8 +78,11 @@ _BECAUSE = {
 
 
 def _key(group: str, name: str) -> str:
-    """As MJCF spells it: a joint's own friction has names of its own."""
-    return f"slide.{name}friction" if group == "slide" else f"{group}.{name}"
+    """As MJCF spells it: a joint's own friction and a tendon's limit have names of their own."""
+    return f"{group}.{name}{_NAMED.get(group, '')}"
+
+
+_NAMED = {"slide": "friction", "rope": "limit"}
 
 
 def _solver(scene: Scene) -> list[Choice]:
@@ -99,7 +105,8 @@ def _soft(scene: Scene) -> list[str]:
     """The groups of soft constraints in the scene."""
     loops = ["connect"] if spanning_tree(scene).loops else []
     dry = ["slide"] if any(joint.dry_friction for joint in scene.joints.values()) else []
-    return loops + dry + (["pair"] if scene.contacts else [])
+    ropes = ["rope"] if any(scene.ropes()) else []
+    return loops + dry + ropes + (["pair"] if scene.contacts else [])
 
 
 def with_own(options: Mapping[str, Any], scene: Scene, tied_to: float) -> list[Choice]:

@@ -19,6 +19,7 @@ from ..stride import stride
 from .contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle, closed, only, planes
 from .edge import add_edges
 from .force import lines
+from .rope import add_ropes
 from .slot import line, pinned
 from .world import World
 
@@ -39,11 +40,14 @@ def build(scene: Scene, start: Start, numbers: Mapping[str, Any], realised: Real
     _contacts(world)
     _joints(world, start, across=bool(numbers.get("slot.across")))
     add_edges(world)
+    add_ropes(world)
     lines(world, realised)
     joints = [part for parts in world.joints.values() for part in parts]
+    ropes = list(world.ropes.values())
+    joints += ropes
     for name, value in numbers.items():
         owner, _, attribute = name.partition(".")
-        for part in {"space": [space], "constraint": joints}.get(owner, ()):
+        for part in {"space": [space], "constraint": joints, "rope": ropes}.get(owner, ()):
             setattr(part, attribute, value)
     return world
 

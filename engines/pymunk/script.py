@@ -15,6 +15,7 @@ from pymunk.constraints import (
     PinJoint,
     PivotJoint,
     SimpleMotor,
+    SlideJoint,
 )
 
 from ...cases.scene import Scene
@@ -39,6 +40,7 @@ _ARGUMENTS: dict[type[Constraint], tuple[str, ...]] = {
     GearJoint: ("phase", "ratio"),
     SimpleMotor: ("rate",),
     DampedRotarySpring: ("rest_angle", "stiffness", "damping"),
+    SlideJoint: ("anchor_a", "anchor_b", "min", "max"),
     DampedSpring: ("anchor_a", "anchor_b", "rest_length", "stiffness", "damping"),
 }
 _CARRIED = [
@@ -167,10 +169,17 @@ def _bodies(world: World) -> Iterator[str]:
         yield "space.add(body)"
 
 
+def _owners(world: World, name: str) -> tuple[str, ...]:
+    """Whose numbers a joint has."""
+    if name in world.ropes:
+        return "constraint", "rope"
+    return ("constraint",) if name in world.joints else ()
+
+
 def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
     brakes = {name: (brake,) for name, brake in world.brakes.items()}
     named = {name: (*parts, *brakes.get(name, ())) for name, parts in world.joints.items()}
-    named |= {name: (line,) for name, line in world.lines.items()}
+    named |= {name: (line,) for name, line in (world.lines | world.ropes).items()}
     for name, parts in named.items():
         for part in parts:
             yield ""
@@ -186,8 +195,9 @@ def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
                 yield "space.add(joint)"
                 continue
             for key, value in numbers.items():
-                if name in world.joints and key.startswith("constraint."):
-                    yield f"joint.{key.removeprefix('constraint.')} = {written(value)}"
+                owner, _, attribute = key.partition(".")
+                if owner in _owners(world, name):
+                    yield f"joint.{attribute} = {written(value)}"
             if part is world.motors.get(name):
                 yield f"motors[{name!r}] = joint"
             if isinstance(part, PinJoint) and name in world.slots:

@@ -44,7 +44,7 @@ def _defaults() -> dict[str, Any]:
 
 def _matters(name: str, scene: Scene) -> bool:
     if name.startswith("constraint."):
-        return bool(scene.joints)
+        return bool(scene.joints) or any(scene.ropes())
     if "collision" in name:
         return bool(scene.contacts)
     return True

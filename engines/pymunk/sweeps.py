@@ -11,7 +11,15 @@ from collections.abc import Iterator
 
 import numpy as np
 from pymunk.body import Body
-from pymunk.constraints import Constraint, GearJoint, GrooveJoint, PinJoint, PivotJoint, SimpleMotor
+from pymunk.constraints import (
+    Constraint,
+    GearJoint,
+    GrooveJoint,
+    PinJoint,
+    PivotJoint,
+    SimpleMotor,
+    SlideJoint,
+)
 from pymunk.space import Space
 from pymunk.vec2d import Vec2d
 
@@ -100,11 +108,13 @@ def _joint(space: Space, joint: Constraint, columns: Columns, n: int) -> tuple[A
         here = there + b.position - a.position
         along = (joint.groove_b - joint.groove_a).rotated(a.angle).normalized()
         normal = np.array([[-along.y, along.x]])
-    elif isinstance(joint, PinJoint):
+    elif isinstance(joint, PinJoint | SlideJoint):  # a rope counts as taut, as a contact as closed
         if joint.pre_solve:
             joint.pre_solve(joint, space)  # across its slot at this pose
         there, here = joint.anchor_b.rotated(b.angle), joint.anchor_a.rotated(a.angle)
         across = there + b.position - a.position - here
+        if not across.length:
+            return None
         rows = _moves(columns, n, b, there) - _moves(columns, n, a, here)
         return np.array([across.normalized()]) @ rows, np.eye(1)
     else:

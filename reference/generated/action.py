@@ -22,6 +22,7 @@ from ...cases.force import (
     Motor,
     Muscle,
     Push,
+    Rope,
     Spring,
     Torque,
     Torsion,
@@ -209,4 +210,5 @@ ACTIONS: dict[type[Force], Action] = {
     Magnetic: Action(deflected, V=magnetic_potential),
     Muscle: Action(pulled, U=stretched, rate=contracted),
     LinearMuscle: Action(pulled, U=stretched, rate=contracted),
+    Rope: Action(lambda *_: iter(())),  # taut it is a constraint
 }

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 
 from ..system import Mode, Only, System
 from .anisotropic_drift import AnisotropicDrift
+from .ball_on_rope import BallOnRope
 from .bar_pendulum import BarPendulum
 from .bearing import Bearing
 from .bouncing_disk import BouncingDisk
@@ -59,6 +60,7 @@ from .wheel_from_above import WheelFromAbove
 
 SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "anisotropic_drift": AnisotropicDrift,
+    "ball_on_rope": BallOnRope,
     "bar_pendulum": BarPendulum,
     "bearing": Bearing,
     "bouncing_disk": BouncingDisk,

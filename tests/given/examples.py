@@ -12,6 +12,7 @@ PARAMETERS: dict[str, dict[str, float]] = {
         "m": 1.0, "A": 5.0, "w": 2 * math.pi,
         "F_minus": 3.0, "F_plus": 1.0, "Fs_minus": 4.0, "Fs_plus": 1.5,
     },
+    "ball_on_rope": {"m": 0.6, "L": 1.0, "x0": 0.6, "y0": 0.25, "vx0": 0.0, "vy0": 0.0},
     "bar_pendulum": {"m": 1.2, "l": 0.8, "phi0": math.radians(24.6)},
     "bearing": {
         "m": 1.5, "R": 0.3, "M_s": 0.5, "M_k": 0.3, "d": 0.05, "M": 0.1, "k": 0.0, "w0": 9.0,
@@ -149,6 +150,7 @@ DURATION = {
     "stribeck_brake": 2.0,
     "sliding_block": 1.0,
     "sliding_disk": 2.0,
+    "ball_on_rope": 1.5,
     "bouncing_disk": 3.0,
     "friction_cone": 5.0,
     "friction_of_rest": 6.0,

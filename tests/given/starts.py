@@ -7,6 +7,9 @@ _BLOCK = [("block", 0, 0.0, 0.0), ("block", 3, 0.0, 0.0)]
 # the rocker they only say near which of the two ways to close the loop it is.
 STARTS: dict[str, list[tuple[str, int, float, float]]] = {
     "anisotropic_drift": _BLOCK,
+    "ball_on_rope": [
+        ("ball", 0, 0.6, 0.0), ("ball", 1, 0.25, 0.0), ("ball", 3, 0.0, 0.0), ("ball", 4, 0.0, 0.0),
+    ],
     "bar_pendulum": [("bar", 2, 24.6 * math.pi / 180, 1e-15), ("bar", 5, 0.0, 0.0)],
     "bearing": [("disk", 2, 0.0, 0.0), ("disk", 5, 9.0, 0.0)],
     "bouncing_disk": [("wheel", 1, 0.7, 0.0), ("wheel", 4, 0.0, 0.0), ("wheel", 5, 0.0, 0.0)],

@@ -9,6 +9,7 @@ At = tuple[str, str]
 MULTIPLIERS: dict[At, tuple[str, ...]] = {
     **{at: (name,) for at, name in stiction.HELD.items()},
     ("anisotropic_drift", "stuck"): ("guide.fx",),
+    ("ball_on_rope", "swings"): ("rope.force",),
     ("bouncing_disk", "rest"): ("touch.normal",),
     ("drag_stops", "rest"): ("guide.fx",),
     ("compass_walker", "left stands"): ("left_foot.tangent",),

@@ -8,6 +8,7 @@ import numpy as np
 from ....cases.scene import Anchor, Joint, Scene
 from ....cases.trajectory import Array
 from ..force import outer
+from ..rope import tension
 from ..tree import Tree, called
 
 Seen = Mapping[str, Array]
@@ -54,6 +55,16 @@ def _site(model: mujoco.MjModel, seen: Seen, anchor: Anchor) -> Array:
 
 def _cross(a: Array, b: Array) -> Array:
     return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+
+
+def felt_force(
+    scene: Scene, model: mujoco.MjModel, name: str, felt: Array, pushed: Array | None = None
+) -> Array:
+    """(N,) of a contact, see `contact_force`, or of a rope, from the sensors' rows."""
+    part = name.rpartition(".")[0]
+    if part in scene.contacts:
+        return contact_force(scene, model, name, felt, pushed)
+    return tension(model, part, felt)
 
 
 def contact_force(

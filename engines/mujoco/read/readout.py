@@ -18,7 +18,7 @@ from ..edge import fields
 from ..tree import Tree, spanning_tree
 from .acceleration import NEEDED, acceleration
 from .friction import SlideFriction
-from .reaction import contact_force, joint_force
+from .reaction import felt_force, joint_force
 from .record import Record
 
 _TOUCHING = ("sensordata", "qfrc_applied")
@@ -63,9 +63,7 @@ def read(
         elif part in scene.joints:
             found[name] = of_joint(part)[("fx", "fy", "torque", "force").index(field)]
         else:
-            found[name] = contact_force(
-                scene, model, name, seen["sensordata"], seen["qfrc_applied"]
-            )
+            found[name] = felt_force(scene, model, name, seen["sensordata"], seen["qfrc_applied"])
     return found
 
 

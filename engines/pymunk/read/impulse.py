@@ -14,10 +14,11 @@ Planes = dict[str, tuple[float, float]]
 
 
 def impulses(world: World, reactions: tuple[str, ...]) -> Callable[[], list[float]]:
-    """A function that reads them [N s]: a joint's size, an edge's, a plane's two."""
+    """A function that reads them [N s]: a joint's or a rope's size, an edge's, a plane's two."""
     parts = [quantity.rpartition(".") for quantity in reactions]
     joints: list[Constraint | None] = [
-        world.joints[name][0] if name in world.joints else None for name, _, _ in parts
+        world.joints[name][0] if name in world.joints else world.ropes.get(name)
+        for name, _, _ in parts
     ]
     pins = [world.pins.get(quantity) for quantity in reactions]
     ways = [_way(world, name, what) for name, _, what in parts]

@@ -9,7 +9,7 @@ from unittest import mock
 
 import numpy as np
 import pytest
-from given import laws, slowed
+from given import laws, rotors, slowed
 from given.examples import PARAMETERS, SMOOTH, only
 from given.laws import Law
 from given.mutants import mutant
@@ -30,15 +30,11 @@ PARAMETER: dict[str, dict[str, Law]] = {
     "four_bar": {
         "m": laws.multipliers, "a": laws.equations, "b": laws.free_cut, "c": laws.power,
     },
-    "paired_rotors": {
-        "m1": laws.free_cut, "R1": laws.equations, "m2": laws.reactions, "R2": laws.power,
-        "M": laws.equations, "Omega": laws.free_cut,
-    },
     "particle_pendulum": {"m": laws.reactions, "x0": laws.equations, "y0": laws.equations},
     "rhombus": {
         "m": laws.equations, "l": laws.free_cut, "c": laws.power, "l0": laws.equations,
     },
-    **slowed.SEEN_BY,
+    **slowed.SEEN_BY, **rotors.SEEN_BY,
     "driven_edge": {
         "m": laws.reactions, "J": laws.multipliers, "a": laws.equations, "A": laws.equations,
         "Omega": laws.equations, "alpha": laws.equations,
@@ -69,8 +65,7 @@ AT_THE_START: dict[str, dict[str, Law]] = {
     "elastic_pendulum": {"r0": laws.start, "phi0": laws.start},
     "knife_edge": {"u0": laws.start, "w0": laws.start},
     "sleigh": {"v0": laws.start, "w0": laws.start},
-    "paired_rotors": {"w0": laws.start},
-    "spring_mass_damper": {"y0": laws.start},
+    "spring_mass_damper": {"y0": laws.start}, "paired_rotors": {"w0": laws.start},
     "torsion_pendulum": {"phi": laws.start, "w0": laws.start},
 }  # fmt: skip
 
@@ -143,8 +138,7 @@ def test_parameter_that_drops_out(name: str, parameter: str):
 
 # Of those that gravity moves: a sleigh has none, and a pin through its centre carries a disk's.
 HEAVY = [name for name in PARAMETER if hasattr(module_of(only(name)), "G")]
-HEAVY.remove("torsion_pendulum")
-HEAVY.remove("paired_rotors")
+HEAVY = [name for name in HEAVY if name not in ("torsion_pendulum", "paired_rotors")]
 
 
 @pytest.mark.whole
