@@ -25,6 +25,8 @@ class Force:
     winds: ClassVar[bool] = False  # whether it needs a joint's angle, and not only its rate
     inner: ClassVar[str] = ""
     """The quantity that is its inner state, which its producer gives; it begins with `begins`."""
+    given: ClassVar[Mapping[str, tuple[str, ...]]] = {}
+    """Of its quantities, by what reactions of its own a producer tells each."""
     works: ClassVar[bool] = True  # whether it has a power
     name: str
 

@@ -25,6 +25,7 @@ from .muscle import LinearMuscle, Muscle
 from .point import CENTER, GROUND, Anchor
 from .rope import Rope
 from .signal import Signal
+from .stops import Stops
 from .trajectory import Array
 from .turning import Motor, Torsion, TorsionDamper
 
@@ -182,6 +183,7 @@ NOUNS = (
     Muscle,
     LinearMuscle,
     Rope,
+    Stops,
 )
 FORCES: dict[str, type[Force]] = {kind.word: kind for kind in NOUNS}
 """By the word of the case file."""

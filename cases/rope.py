@@ -1,7 +1,8 @@
 """A rope between two points: without mass, and never longer than it is."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from .element import Force
 from .kind import Fields
@@ -20,6 +21,7 @@ class Rope(Force):
     """
 
     word = "rope"
+    given: ClassVar[Mapping[str, tuple[str, ...]]] = {"force": ("force",)}
     works = False  # taut it has one length; what an impact takes is none of its power
     a: Anchor
     b: Anchor

@@ -34,6 +34,7 @@ from .kind import WORK, Fields, Kind
 from .point import CENTER, FLOOR, GROUND, Anchor, GroundPoint, Vector
 from .rope import Rope
 from .signal import Signal
+from .stops import Stops
 
 __all__ = [
     "CENTER",
@@ -116,6 +117,9 @@ class Scene:
         But for the tension of a rod, which has a sign, and what drives have done.
         """
         part, _, field = reaction.rpartition(".")
+        if part in self.forces:
+            told = self.forces[part].given.get(field, (field,))
+            return tuple(f"{part}.{name}" for name in told)
         if field in WORK and part in self.joints:
             return tuple(f"{part}.{effort}" for effort in self.driven()[part])
         if field == "force" and part in self.joints and self.joints[part].swings:
@@ -142,6 +146,14 @@ class Scene:
 
     def ropes(self) -> Iterator[Rope]:
         return of(Rope, self.forces.values())
+
+    def stops(self) -> Iterator[Stops]:
+        return of(Stops, self.forces.values())
+
+    def limits(self) -> Iterator[str]:
+        """The reactions of ropes and stops, by quantity: they may be none."""
+        for force in self.forces.values():
+            yield from (f"{force.name}.{name}" for told in force.given.values() for name in told)
 
     def dampers(self) -> Iterator[Damper]:
         return of(Damper, self.forces.values())

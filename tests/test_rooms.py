@@ -7,8 +7,8 @@ from given.tree import FILES, imported, module
 # joined by + is one room.
 NOUNS = (
     "body+constraint+contact+couple+difference+drag+element+event+force+frame+friction+joint+kind"
-    "+magnetic+motion+muscle+plane+point+power+quantity+rope+scene+shape+signal+space+states+trajectory"
-    "+turning"
+    "+magnetic+motion+muscle+plane+point+power+quantity+rope+scene+shape+signal+space+states+stops"
+    "+trajectory+turning"
 )
 ROOMS = {
     "cases": [

@@ -31,6 +31,7 @@ _HELD = {
     "pair.solreffriction": "pair_solreffriction",
     "slide.solreffriction": "dof_solref",
     "rope.solreflimit": "tendon_solref_lim",
+    "stop.solreflimit": "jnt_solref",
 }
 # What else a run writes: friction by our laws, and the start in the floor.
 _WRITTEN = (*_HELD.values(), "dof_frictionloss", "pair_friction", "pair_margin")

@@ -25,6 +25,7 @@ from ...cases.force import (
     Push,
     Rope,
     Spring,
+    Stops,
     Torque,
     Torsion,
     TorsionDamper,
@@ -37,6 +38,7 @@ from .couple import couple_outer, write_couple
 from .hinge import Hinge, hinge
 from .muscle import ANOTHER, NOTHING, write_muscle
 from .rope import rope_length, write_rope
+from .stops import stop_numbers, write_stops
 from .turning import motor, torsion, torsion_damper, torsion_damping, torsion_numbers
 from .viscous import not_polynomial, viscous_numbers, write_viscous
 from .written import written
@@ -225,4 +227,5 @@ ELEMENTS: dict[type[Force], Element] = {
     Muscle: Element(write_muscle, signal=lambda force: NOTHING, lacks=lambda force: ANOTHER),
     LinearMuscle: Element(write_muscle, signal=lambda force: NOTHING, lacks=lambda force: ANOTHER),
     Rope: Element(write_rope, rope_length),
+    Stops: Element(write_stops, stop_numbers),
 }

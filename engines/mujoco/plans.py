@@ -55,6 +55,7 @@ def plan(scene: Scene, start: Start, realised: Realised, numbers: Numbers, *, tu
     dry = any(joint.dry_friction for joint in scene.joints.values())
     jumps = any(law.corners for law in scene.laws())
     first = integrator != "RK4" or bool(scene.contacts) or (dry and realised != "driver")
+    first |= any(scene.stops())
     first |= any(scene.ropes()) and realised != "driver"
     first |= any(scene.one_sided()) and realised != "driver"
     corners = any(force.corner for force in scene.forces.values())

@@ -66,7 +66,7 @@ def simulate(
     steps = stepping(scene, model, data, realised)
     laws = [*smooth(scene, model), *edges(scene, model)] if realised == "law" else steps.controls
     laws = [*laws, *told(scene, model)]
-    sensed = {*scene.contacts, *(rope.name for rope in scene.ropes())}
+    sensed = {*scene.contacts, *(force.name for force in scene.forces.values() if force.given)}
     touching = tuple(name for name in reactions if name.partition(".")[0] in sensed)
     corners = Corners(controls(scene), float(model.opt.timestep))
     steps.take = corners.held(steps.take)

@@ -16,6 +16,7 @@ from .edge import write_room
 from .force import BY_ITSELF, begun_with, write
 from .planes import add_geom, add_pairs, add_planes
 from .rope import finish_ropes
+from .stops import finish_stops
 from .tree import (
     Branch,
     Tree,
@@ -65,6 +66,7 @@ def mjcf(
     write_drives(root, scene)
     write_room(root, scene)
     finish_ropes(root, scene, attributes(numbers, "rope"))
+    finish_stops(root, scene, attributes(numbers, "stop"))
     _start(root, scene, tree, start, begun, out=_leaves_plane(scene, numbers))
     ET.indent(root)
     return ET.tostring(root, encoding="unicode") + "\n"

@@ -11,6 +11,7 @@ from ..engine import Choice, Start
 from .contact import HARDEST, recipe
 from .options import SOFT, as_written
 from .rope import recipe as ropes
+from .stops import recipe as stopped
 from .tree import driven, spanning_tree
 
 SHIPPED_STEP = 2e-3  # s, the default of <option timestep>
@@ -63,6 +64,10 @@ def tuned(scene: Scene, tied_to: float, start: Start | None = None) -> list[Choi
         choices.append(Choice("option.noslip_iterations", 5, "what sticks does not creep"))
     if "rope" in _soft(scene):
         choices += ropes(tied_to)
+    if "stop" in _soft(scene):
+        bounce = max(stops.restitution for stops in scene.stops())
+        known = {choice.name for choice in choices}
+        choices += [c for c in stopped(bounce, tied_to) if c.name not in known]
     if scene.contacts:
         known = {choice.name for choice in choices}
         choices += [c for c in recipe(scene, tied_to, start) if c.name not in known]
@@ -82,7 +87,7 @@ def _key(group: str, name: str) -> str:
     return f"{group}.{name}{_NAMED.get(group, '')}"
 
 
-_NAMED = {"slide": "friction", "rope": "limit"}
+_NAMED = {"slide": "friction", "rope": "limit", "stop": "limit"}
 
 
 def _solver(scene: Scene) -> list[Choice]:
@@ -106,6 +111,7 @@ def _soft(scene: Scene) -> list[str]:
     loops = ["connect"] if spanning_tree(scene).loops else []
     dry = ["slide"] if any(joint.dry_friction for joint in scene.joints.values()) else []
     ropes = ["rope"] if any(scene.ropes()) else []
+    ropes += ["stop"] if any(scene.stops()) else []
     return loops + dry + ropes + (["pair"] if scene.contacts else [])
 
 

@@ -118,7 +118,7 @@ def _run(
 ) -> Trajectory:
     world = placed(scene, start, step, numbers, realised)
     felt = tuple(name for name in wanted if name not in scene.inner())
-    touches = {*scene.contacts, *world.ropes}
+    touches = {*scene.contacts, *world.ropes, *world.stops}
     touching = tuple(name for name in felt if name.rpartition(".")[0] in touches)
     midpoint = bool(numbers.get("time.midpoint"))
     kept = Record(world, step, midpoint, touching) if record else None

@@ -25,6 +25,7 @@ from ...cases.force import (
     Push,
     Rope,
     Spring,
+    Stops,
     Torque,
     Torsion,
     TorsionDamper,
@@ -38,6 +39,7 @@ from .law import one_side
 from .law.line import Exerted, Load, drifting, pull, told
 from .law.told import BY_LAW
 from .law.turning import couple_as_text, motor, motor_load, twist, twisted
+from .stops import stop_numbers
 from .torque import torque, torque_load, torque_script
 from .wording import as_text
 from .world import World
@@ -105,8 +107,11 @@ def tells(world: World, step: float, *, midpoint: bool) -> list[Apply]:
 
 
 def numbers(world: World) -> dict[str, float]:
-    """What pymunk's lines and ropes hold, as `Force.numbers` names it."""
+    """What pymunk's lines, ropes and stops hold, as `Force.numbers` names it."""
     ropes = {f"{name}.length": joint.max for name, joint in world.ropes.items()}
+    for stops in world.scene.stops():
+        held = stop_numbers(world.stops[stops.name], stops)
+        ropes |= {f"{stops.name}.{side}": at for side, at in held.items()}
     return ropes | {
         f"{name}.{key}": number
         for name, line in world.lines.items()
@@ -234,4 +239,5 @@ ELEMENTS: dict[type[Force], Element] = {
     Muscle: Element(**BY_LAW, lacks="engine: pymunk has no muscle"),
     LinearMuscle: Element(**BY_LAW, lacks="engine: pymunk has no muscle"),
     Rope: Element(load=lambda world, rope, name: lambda t, drift: (0.0, 0.0, 0.0)),  # a joint
+    Stops: Element(load=lambda world, stops, name: lambda t, drift: (0.0, 0.0, 0.0)),
 }  # fmt: skip

@@ -75,8 +75,8 @@ def holding(scene: Scene, start: Start) -> Holding | None:
     """By a rehearsal; None where no two rows are solved one after the other."""
     contacts = scene.touching.values()
     tips = any(is_tip(scene, contact) for contact in contacts)
-    held = bool(scene.joints) or any(scene.ropes())
+    held = bool(scene.joints) or any(scene.limits())
     if not held and not tips and len(contacts) < 2 and count(scene) < 2:
         return None
-    impacts = any(contact.switches for contact in contacts) or any(scene.ropes())
+    impacts = any(contact.switches for contact in contacts) or any(scene.limits())
     return Holding(most_halving(scene, start), impacts)

@@ -77,7 +77,7 @@ def _spoilt(scene: Scene, realised: Realised) -> bool:
     native = realised == "native"
     brakes = native and any(joint.dry_friction for joint in scene.joints.values())
     met = any(contact.switches for contact in scene.contacts.values())
-    sided, roped = any(scene.one_sided()), any(scene.ropes())
+    sided, roped = any(scene.one_sided()), any(scene.limits())
     return (native and (damped(scene) or met)) or brakes or strides(scene) or sided or roped
 
 

@@ -72,11 +72,11 @@ class Recipe:
 
     always: tuple[Choice, ...]
     held: Holding | None
-    ropes: tuple[Choice, ...] = ()  # behind what holds joints, which ropes are too
+    limits: tuple[Choice, ...] = ()  # behind what holds joints, which they are too
 
     def __call__(self, step: float) -> Sequence[Choice]:
         """The numbers for a step [s]."""
-        return [*self.always, *(self.held.choices(step) if self.held else []), *self.ropes]
+        return [*self.always, *(self.held.choices(step) if self.held else []), *self.limits]
 
     @property
     def follows(self) -> bool:
@@ -98,8 +98,8 @@ def recipe(scene: Scene, start: Start) -> Recipe:
         always += [_LANDING] if all(_rises(scene, contact) for contact in contacts) else []
     if any(oblique(scene, joint) for joint in scene.joints.values()):
         always.append(_ACROSS)
-    ropes = (EASES,) if any(scene.ropes()) else ()
-    return Recipe(tuple(always), holding(scene, start), ropes)
+    limits = (EASES,) if any(scene.limits()) else ()
+    return Recipe(tuple(always), holding(scene, start), limits)
 
 
 def _across(a: Vector, b: Vector) -> float:

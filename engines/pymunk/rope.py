@@ -2,7 +2,7 @@
 
 A step finds one too long by how far its ends have parted in it. With error_bias = 0 it takes all of
 that back at once, and throws back what it has caught by up to its whole speed: so a rope has a bias
-of its own.
+of its own, and the stops of joints have the same.
 """
 
 import math
@@ -25,8 +25,9 @@ def add_ropes(world: World) -> None:
 
 
 EASES = Choice(
-    "rope.error_bias",
+    "limit.error_bias",
     math.exp(-RATE),
-    f"what is too long of a rope falls as exp(−{RATE:g} t/s): with 0 it is taken back in one step, "
-    "and throws back what was caught; the default, exp(−6.3 t/s), takes a tenth of a second",
+    f"what is too long of a rope, or beyond a stop, falls as exp(−{RATE:g} t/s): with 0 it is "
+    "taken back in one step, and throws back what was caught; the default takes a tenth of a "
+    "second",
 )

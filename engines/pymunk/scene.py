@@ -21,6 +21,7 @@ from .edge import add_edges
 from .force import lines
 from .rope import add_ropes
 from .slot import line, pinned
+from .stops import add_stops
 from .world import World
 
 # Half the length [m] of planes, and of a slide's groove, which pymunk wants finite. Every step
@@ -41,13 +42,14 @@ def build(scene: Scene, start: Start, numbers: Mapping[str, Any], realised: Real
     _joints(world, start, across=bool(numbers.get("slot.across")))
     add_edges(world)
     add_ropes(world)
+    add_stops(world)
     lines(world, realised)
     joints = [part for parts in world.joints.values() for part in parts]
-    ropes = list(world.ropes.values())
-    joints += ropes
+    limits = [*world.ropes.values(), *world.stops.values()]
+    joints += limits
     for name, value in numbers.items():
         owner, _, attribute = name.partition(".")
-        for part in {"space": [space], "constraint": joints, "rope": ropes}.get(owner, ()):
+        for part in {"space": [space], "constraint": joints, "limit": limits}.get(owner, ()):
             setattr(part, attribute, value)
     return world
 

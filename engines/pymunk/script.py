@@ -14,6 +14,7 @@ from pymunk.constraints import (
     GrooveJoint,
     PinJoint,
     PivotJoint,
+    RotaryLimitJoint,
     SimpleMotor,
     SlideJoint,
 )
@@ -40,6 +41,7 @@ _ARGUMENTS: dict[type[Constraint], tuple[str, ...]] = {
     GearJoint: ("phase", "ratio"),
     SimpleMotor: ("rate",),
     DampedRotarySpring: ("rest_angle", "stiffness", "damping"),
+    RotaryLimitJoint: ("min", "max"),
     SlideJoint: ("anchor_a", "anchor_b", "min", "max"),
     DampedSpring: ("anchor_a", "anchor_b", "rest_length", "stiffness", "damping"),
 }
@@ -171,15 +173,15 @@ def _bodies(world: World) -> Iterator[str]:
 
 def _owners(world: World, name: str) -> tuple[str, ...]:
     """Whose numbers a joint has."""
-    if name in world.ropes:
-        return "constraint", "rope"
+    if name in world.ropes or name in world.stops:
+        return "constraint", "limit"
     return ("constraint",) if name in world.joints else ()
 
 
 def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
     brakes = {name: (brake,) for name, brake in world.brakes.items()}
     named = {name: (*parts, *brakes.get(name, ())) for name, parts in world.joints.items()}
-    named |= {name: (line,) for name, line in (world.lines | world.ropes).items()}
+    named |= {name: (line,) for name, line in (world.lines | world.ropes | world.stops).items()}
     for name, parts in named.items():
         for part in parts:
             yield ""

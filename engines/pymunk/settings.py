@@ -44,7 +44,7 @@ def _defaults() -> dict[str, Any]:
 
 def _matters(name: str, scene: Scene) -> bool:
     if name.startswith("constraint."):
-        return bool(scene.joints) or any(scene.ropes())
+        return bool(scene.joints) or any(scene.limits())
     if "collision" in name:
         return bool(scene.contacts)
     return True

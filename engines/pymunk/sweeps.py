@@ -17,6 +17,7 @@ from pymunk.constraints import (
     GrooveJoint,
     PinJoint,
     PivotJoint,
+    RotaryLimitJoint,
     SimpleMotor,
     SlideJoint,
 )
@@ -94,7 +95,7 @@ def _columns(world: World) -> tuple[Columns, Array]:
 def _joint(space: Space, joint: Constraint, columns: Columns, n: int) -> tuple[Array, Array] | None:
     """The relative velocities that it measures, and the normals along which it acts."""
     a, b = joint.a, joint.b
-    if isinstance(joint, GearJoint | SimpleMotor):
+    if isinstance(joint, GearJoint | SimpleMotor | RotaryLimitJoint):  # as if it were struck
         row = np.zeros((1, n))
         for body, sign in ((a, -1.0), (b, getattr(joint, "ratio", 1.0))):
             if body in columns:

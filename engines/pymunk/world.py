@@ -8,6 +8,7 @@ from pymunk.constraints import (
     DampedRotarySpring,
     DampedSpring,
     GrooveJoint,
+    RotaryLimitJoint,
     SimpleMotor,
     SlideJoint,
 )
@@ -42,6 +43,7 @@ class World:
     motors: dict[str, SimpleMotor] = field(default_factory=dict)
     slots: dict[str, Line] = field(default_factory=dict)
     ropes: dict[str, SlideJoint] = field(default_factory=dict)
+    stops: dict[str, RotaryLimitJoint] = field(default_factory=dict)
     pins: dict[str, Pin] = field(default_factory=dict)
     wheels: dict[str, Circle] = field(default_factory=dict)
     planes: dict[str, Segment] = field(default_factory=dict)

@@ -24,6 +24,7 @@ from ...cases.force import (
     Push,
     Rope,
     Spring,
+    Stops,
     Torque,
     Torsion,
     TorsionDamper,
@@ -211,4 +212,5 @@ ACTIONS: dict[type[Force], Action] = {
     Muscle: Action(pulled, U=stretched, rate=contracted),
     LinearMuscle: Action(pulled, U=stretched, rate=contracted),
     Rope: Action(lambda *_: iter(())),  # taut it is a constraint
+    Stops: Action(lambda *_: iter(())),  # as what rests on one
 }

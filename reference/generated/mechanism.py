@@ -84,6 +84,7 @@ class Mechanism(System):
         states = self.built.states[mode]
         found = [g for i, s in enumerate(states) for g in self._guards(mode, i, s)]
         order = {"opens": 0, "lands": 1, "stops": 2, "slips": 3, "slackens": 4, "tightens": 4}
+        order |= {"leaves": 0, "strikes": 1}
         return sorted(found, key=lambda guard: order[str(guard.event).split()[-1]])
 
     def _guards(self, mode: str, i: int, state: State) -> Iterator[Guard]:

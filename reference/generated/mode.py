@@ -99,7 +99,7 @@ class Multibody(Mode):
         for at, law in self._coulomb:
             _add(found, law.tangent.reactions(t, numbers, [law.factor * multipliers[at]]))
         idle = [f"{joint.name}.torque" for joint in self.scene.joints.values() if not joint.turns]
-        idle += [f"{rope.name}.force" for rope in self.scene.ropes()]
+        idle += self.scene.limits()
         found = dict.fromkeys(idle, 0.0) | found  # a particle takes no moment, a rope may be slack
         for shared in self._shared:
             found |= shared.divided(found)

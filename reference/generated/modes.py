@@ -14,6 +14,7 @@ from .one_side import one_sided
 from .rope import roped
 from .sharing import shares
 from .smooth import SmoothMultibody
+from .stop import stopped
 
 ROUNDING = 1e-10  # of the accelerations that the forces give alone
 
@@ -28,6 +29,7 @@ class Modes(Mapping[str, Multibody]):
         self.elements: tuple[Element, ...] = (
             *elements(scene, where),
             *roped(scene, where),
+            *stopped(scene, where),
             *one_sided(scene, where),
         )
         self.M = np.array(self.base.where.masses)

@@ -1,8 +1,5 @@
 """A rope (2.14) on one side: nothing while it is slack, and taut no farther than its length.
 
-| rope | open | nothing | gap L − λ: tightens                |
-| rope | acts | λ = L   | its force, the multiplier: slackens |
-
 It comes taut by an impact, as what lands on a floor without a rebound.
 """
 
@@ -13,25 +10,15 @@ from ...cases.rope import Rope
 from ...cases.scene import Scene
 from .constraint import Constraint
 from .coordinates import Coordinates
-from .element import Element, State
+from .limit import Limit
 from .rows import FIRST, SECOND, Distance
 
 
 @dataclass(frozen=True, kw_only=True)
-class Roped(Element):
-    """A rope, which slips along nothing."""
+class Roped(Limit):
+    """A rope's end."""
 
-    rest: tuple[State, ...] = ("acts",)
     endings: tuple[str, str] = ("slackens", "tightens")
-
-    @property
-    def push(self) -> str:
-        return f"{self.name}.force"
-
-    @property
-    def together(self) -> tuple[str, str]:
-        """It shares its friction with nothing: it has none."""
-        return self.name, ""
 
     def amiss(self, depth: float, speed: float) -> str:
         if depth:
@@ -41,10 +28,6 @@ class Roped(Element):
     @property
     def pulls(self) -> str:
         return f"{self.name} would have to push"
-
-    def held(self, state: State) -> list[Constraint]:
-        """Nothing, or its length."""
-        return [self.normal] if state == "acts" and self.normal is not None else []
 
 
 def taut(rope: Rope, where: Coordinates) -> Constraint:
@@ -56,4 +39,7 @@ def taut(rope: Rope, where: Coordinates) -> Constraint:
 def roped(scene: Scene, where: Coordinates) -> Iterator[Roped]:
     """All of the scene."""
     for rope in scene.ropes():
-        yield Roped(name=rope.name, normal=taut(rope, where), plane="end of its length")
+        yield Roped(
+            name=rope.name, quantity=f"{rope.name}.force", normal=taut(rope, where),
+            plane="end of its length",
+        )  # fmt: skip

@@ -46,6 +46,7 @@ from .smooth_friction import SmoothDynamometer, SmoothGrowingForce
 from .spring_mass_damper import SpringMassDamper
 from .spring_mass_jump import SpringMassJump
 from .sprung_gimbal import SprungGimbal
+from .stopped_pendulum import StoppedPendulum
 from .stribeck_brake import StribeckBrake
 from .stribeck_drive import StribeckDrive
 from .tilting_disk import TiltingDisk
@@ -98,6 +99,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "smooth_dynamometer": SmoothDynamometer,
     "smooth_growing_force": SmoothGrowingForce,
     "spring_mass_damper": SpringMassDamper,
+    "stopped_pendulum": StoppedPendulum,
     "stribeck_brake": StribeckBrake,
     "stribeck_drive": StribeckDrive,
     "sprung_gimbal": SprungGimbal,

@@ -89,7 +89,7 @@ def _upward(h: float, interval: float) -> Iterator[float]:
 def wanted_reactions(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
     """The reactions, that only the producer can give, from which the quantities follow."""
     parts = {*scene.joints, *scene.constraints, *scene.contacts, *scene.bodies}
-    parts |= {rope.name for rope in scene.ropes()}
+    parts |= {force.name for force in scene.forces.values() if force.given}
     known = table(scene)
     forces = (
         name

@@ -32,6 +32,7 @@ from textmech.cases.scene import (
 from textmech.cases.scene import DryFriction as Dry
 from textmech.cases.scene import Joint as Connection
 from textmech.cases.scene import Scene as Resolved
+from textmech.cases.stops import Stops
 
 WHOLE = Path(shape.__file__).with_name("README.md").read_text(encoding="utf-8")
 PLANE, _, _rest = WHOLE.partition("## Space\n")
@@ -74,6 +75,7 @@ def test_quantities() -> None:
             "torsion": Torsion("torsion", "joint", 1.0, 0.0),
             "muscle": LinearMuscle("muscle", a, b, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
             "rope": Rope("rope", a, b, 1.0),
+            "stops": Stops("stops", "joint", 0.0, 1.0),
             "drag": Drag("drag", b, 1.0, 2.0),
             "viscous": Viscous("viscous", "joint", Bounds(1.0, 1.0), 2.0),
         },

@@ -72,6 +72,9 @@ PARAMETERS: dict[str, dict[str, float]] = {
     "smooth_dynamometer": {"m": 1.0, "c": 2.0, "u": 2.0, **BOOK, **BAND},
     "smooth_growing_force": {"m": 1.0, "b": 1.0, **BOOK, **BAND},
     "spring_mass_damper": {"m": 1.0, "c": 36.0, "d": 1.2, "l0": 0.5, "y0": -0.6},
+    "stopped_pendulum": {
+        "m": 1.2, "l": 0.8, "phi0": math.radians(10), "low": math.radians(-60), "e": 0.0,
+    },
     "stribeck_brake": {"m": 1.3, "F": 3.0, "Fs": 6.0, "v_s": 0.5, "P": 0.5, "v0": 2.0},
     "stribeck_drive": {"m": 2.0, "c": 2.0, "u": 1.0, "F": 3.0, "Fs": 6.0, "v_s": 0.5},
     "spring_mass_jump": {

@@ -184,7 +184,7 @@ _STARTING = {(name, example(name).start()[0]) for name in PARAMETERS}
 _NO_CLOSED_FORM = {
     "anisotropic_drift", "ball_on_rope", "compass_walker", "double_pendulum", "elastic_pendulum",
     "four_bar", "rhombus", "smooth_dynamometer", "smooth_growing_force", "sliding_ladder",
-    "spring_mass_jump", "stribeck_drive", "tipping_block", "trunk_on_legs",
+    "spring_mass_jump", "stopped_pendulum", "stribeck_drive", "tipping_block", "trunk_on_legs",
 }  # fmt: skip
 _FREE = {
     "charge_in_field", "elastic_pendulum", "falling_drag", "rhombus", "spring_mass_damper",

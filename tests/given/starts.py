@@ -85,6 +85,7 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
     "smooth_dynamometer": _BLOCK,
     "smooth_growing_force": _BLOCK,
     "spring_mass_damper": [("mass", 1, -0.6, 0.0), ("mass", 4, 0.0, 0.0)],
+    "stopped_pendulum": [("bar", 2, 10 * math.pi / 180, 1e-15), ("bar", 5, 0.0, 0.0)],
     "stribeck_brake": [("block", 0, 0.0, 0.0), ("block", 3, 2.0, 0.0)],
     "stribeck_drive": _BLOCK,
     "viscous_drift": _BLOCK,

@@ -29,6 +29,8 @@ def _switching(random: np.random.Generator, name: str, mode: str, t: float) -> D
         q[1] = 0.25
     if name == "ball_on_rope" and mode == "swings":
         q = q / np.linalg.norm(q)
+    if name == "stopped_pendulum" and mode == "rests":
+        q = np.array([math.radians(-60)])
     if name == "sliding_ladder" and mode == "leans":
         q[0] = 0.75 * math.cos(q[1])
     if name == "tipping_block" and mode == "stands":

@@ -27,6 +27,7 @@ MULTIPLIERS: dict[At, tuple[str, ...]] = {
     ("sliding_disk", "slips backward"): ("touch.normal",),
     ("sliding_disk", "slips forward"): ("touch.normal",),
     ("sliding_ladder", "leans"): ("top.normal",),
+    ("stopped_pendulum", "rests"): ("stop.low",),
     ("tipping_block", "stands"): ("left.normal",),
 }
 # How many rows have a residual (2.14), where not all: what sticks or rolls has no place of its own.

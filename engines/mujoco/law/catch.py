@@ -24,7 +24,8 @@ _SHORTEST = 1e-12  # of a step: what is left is rounding
 def catches(scene: Scene) -> bool:
     """Whether ropes are all that switches or gives way in the scene."""
     dry = any(joint.dry_friction for joint in scene.joints.values())
-    soft = scene.contacts or scene.constraints or dry or any(scene.one_sided())
+    soft = scene.contacts or scene.constraints or dry
+    soft = soft or any(scene.one_sided()) or any(scene.stops())
     return any(scene.ropes()) and not soft and not spanning_tree(scene).loops
 
 

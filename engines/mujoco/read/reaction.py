@@ -9,6 +9,7 @@ from ....cases.scene import Anchor, Joint, Scene
 from ....cases.trajectory import Array
 from ..force import outer
 from ..rope import tension
+from ..stops import pushing
 from ..tree import Tree, called
 
 Seen = Mapping[str, Array]
@@ -60,11 +61,13 @@ def _cross(a: Array, b: Array) -> Array:
 def felt_force(
     scene: Scene, model: mujoco.MjModel, name: str, felt: Array, pushed: Array | None = None
 ) -> Array:
-    """(N,) of a contact, see `contact_force`, or of a rope, from the sensors' rows."""
+    """(N,) of a contact, see `contact_force`, of a rope or a stop, from the sensors' rows."""
     part = name.rpartition(".")[0]
     if part in scene.contacts:
         return contact_force(scene, model, name, felt, pushed)
-    return tension(model, part, felt)
+    if any(rope.name == part for rope in scene.ropes()):
+        return tension(model, part, felt)
+    return pushing(scene, model, name, felt)
 
 
 def contact_force(

@@ -8,6 +8,7 @@ from pymunk.constraints import Constraint
 from pymunk.shapes import Shape
 
 from ....cases.scene import Vector
+from ..stops import pressed
 from ..world import World
 
 Planes = dict[str, tuple[float, float]]
@@ -20,6 +21,7 @@ def impulses(world: World, reactions: tuple[str, ...]) -> Callable[[], list[floa
         world.joints[name][0] if name in world.joints else world.ropes.get(name)
         for name, _, _ in parts
     ]
+    stops = [world.stops.get(name) for name, _, _ in parts]
     pins = [world.pins.get(quantity) for quantity in reactions]
     ways = [_way(world, name, what) for name, _, what in parts]
     contacts = world.scene.contacts
@@ -33,9 +35,13 @@ def impulses(world: World, reactions: tuple[str, ...]) -> Callable[[], list[floa
         for body, names in bodies.items():
             body.each_arbiter(_one if len(names) == 1 else _several, names, felt)
         row = []
-        for (x, y), joint, pin, names in zip(ways, joints, pins, points, strict=True):
+        for (x, y), joint, pin, names, stop, (_, _, side) in zip(
+            ways, joints, pins, points, stops, parts, strict=True
+        ):
             if pin:
                 row.append(pin.impulse())
+            elif stop:
+                row.append(pressed(stop, side))
             elif joint:
                 row.append(joint.impulse)
             else:

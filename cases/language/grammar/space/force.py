@@ -17,5 +17,6 @@ KINDS |= {word: element(word, FORCES[word], axes=3) for word in ALONG_THREE_AXES
 ELSEWHERE = {
     "couple": "in space a torque between two bodies is a `motor` about a hinge",
     "rope": "in space nothing comes taut or slackens",
+    "stops": "in space nothing is struck",
 }
 Force = Annotated[Element, OneOf("force", KINDS, ELSEWHERE)]
