@@ -31,7 +31,7 @@ class Stopped(Limit):
 def stopped(scene: Scene, where: Coordinates) -> Iterator[Stopped]:
     """All of the scene."""
     for stops in scene.stops():
-        for side, (sense, at) in stops.ends.items():
+        for side, (sense, at) in stops.sides.items():
             name = f"{stops.name}.{side}"
             yield Stopped(
                 name=name, quantity=name, normal=ended(scene, stops, side, sense, at, where),
