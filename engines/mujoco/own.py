@@ -3,7 +3,6 @@
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from ...cases.scene import Scene
 from ..engine import Choice
 from .options import FLAGS, GROUPS, PROTOCOL, SOFT, as_written
 
@@ -68,14 +67,17 @@ def as_options(choices: Sequence[Choice], *, settled: bool) -> dict[str, Any]:
     return found | ({"settled": True} if settled else {})
 
 
-def unfit(options: Mapping[str, Any], scene: Scene, recipes: Sequence[str]) -> str | None:
-    """Why the recipe that is named for contacts has nothing to do with the scene's."""
+def unfit(options: Mapping[str, Any], recipes: Sequence[str], worth: Sequence[str]) -> str | None:
+    """Why the recipe that is named for contacts has nothing to do with the scene's.
+
+    recipes: all that there are; worth: which may do something for the scene, none without contacts.
+    """
     word = options.get("contacts")
-    if word in (None, "scene") or not scene.contacts:
+    if word in (None, "scene") or not worth:
         return None
     if word not in recipes:
         known = ", ".join(recipes)
         return f"adapter: contacts: {word} is no recipe for this scene's; known: {known}, scene"
-    if word == "bounce" and not any(c.restitution for c in scene.contacts.values()):
+    if word == "bounce" and word not in worth:
         return "adapter: contacts: bounce, and no contact of this scene throws anything back"
     return None

@@ -31,7 +31,7 @@ def closed(scene: SpatialScene, start: Start) -> bool:
 
 def worth(scene: SpatialScene) -> list[str]:
     """Which of the recipes may do something for the scene."""
-    return list(RECIPES)
+    return list(RECIPES) if scene.contacts else []
 
 
 def _sphere(scene: SpatialScene) -> list[Choice]:
