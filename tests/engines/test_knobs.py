@@ -33,8 +33,10 @@ def test_together_they_are_what_tuned_does(name: str, engine: Engine) -> None:
     assert isinstance(engine, Tunable)
     found = knobs(name, engine)
     turned = merged(*(knob.tuned.options for knob in found if knob.tuned))
-    recipe, contacts = engine.recipe(*begun(name)), begun(name)[0].contacts.values()
-    inert = INERT if any(contact.friction for contact in contacts) else INERT | OF_FRICTION
+    scene, start = begun(name)
+    recipe, pairs = engine.recipe(scene, start), getattr(scene, "pairs", {})  # none in space
+    rubs = any(touch.friction for touch in (*scene.contacts.values(), *pairs.values()))
+    inert = INERT if rubs else INERT | OF_FRICTION
     assert turned == {key: value for key, value in recipe.items() if key not in inert}
     assert len({knob.name for knob in found}) == len(found)
     for knob in found:
