@@ -15,10 +15,8 @@ from .drive import write as write_drives
 from .edge import write_room
 from .feet import add_pins
 from .force import BY_ITSELF, begun_with, write
-from .pairs import add_geoms
-from .pairs import add_pairs as add_pairs_of_bodies
-from .pairs import add_sensors as add_sensors_of_bodies
-from .planes import add_geom, add_pairs, add_planes, add_sensors, touching
+from .pairs import add_geoms, add_pair_sensors, add_pairs
+from .planes import add_contacts, add_geom, add_planes, add_sensors, touching
 from .tree import (
     Branch,
     Tree,
@@ -129,10 +127,10 @@ def _bodies(world: ET.Element, scene: Scene, tree: Tree, numbers: dict[str, obje
 def _touching(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> None:
     """The contacts, each with a sensor: MuJoCo records its force at every step."""
     contacts, sensors = ET.SubElement(root, "contact"), ET.SubElement(root, "sensor")
+    add_contacts(contacts, scene, attributes)
     add_pairs(contacts, scene, attributes)
     add_sensors(sensors, scene)
-    add_pairs_of_bodies(contacts, scene, attributes)
-    add_sensors_of_bodies(sensors, scene)
+    add_pair_sensors(sensors, scene)
 
 
 def _leaves_plane(scene: Scene, numbers: dict[str, object]) -> bool:
