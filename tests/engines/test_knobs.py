@@ -34,8 +34,11 @@ def test_together_they_are_what_tuned_does(name: str, engine: Engine) -> None:
     found = knobs(name, engine)
     turned = merged(*(knob.tuned.options for knob in found if knob.tuned))
     scene, start = begun(name)
-    recipe, pairs = engine.recipe(scene, start), getattr(scene, "pairs", {})  # none in space
-    rubs = any(touch.friction for touch in (*scene.contacts.values(), *pairs.values()))
+    recipe, touching = (
+        engine.recipe(scene, start),
+        (*scene.contacts.values(), *scene.pairs.values()),
+    )
+    rubs = any(contact.friction for contact in touching)
     inert = INERT if rubs else INERT | OF_FRICTION
     assert turned == {key: value for key, value in recipe.items() if key not in inert}
     assert len({knob.name for knob in found}) == len(found)
