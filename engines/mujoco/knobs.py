@@ -23,10 +23,12 @@ def knobs(
     bundles: Mapping[str, Sequence[Choice]],
     *,
     lies: bool,
+    rubs: bool,
 ) -> list[Knob]:
     """Those that matter for the scene. best: the tuned recipe; soft: its groups.
 
-    bundles: the recipes for contacts that fit it. lies: whether something starts on the floor.
+    bundles: the recipes for contacts that fit it. lies: whether something starts on the floor;
+    rubs: whether what touches has friction.
     """
     tuned = as_options(best, settled=lies)
     found = [
@@ -37,7 +39,7 @@ def knobs(
         ),
         *(_softness(group, tuned) for group in soft),
     ]
-    if bundles:
+    if rubs:
         found += _contacts(tuned)
     if "noslip_iterations" in tuned or bundles:
         found.append(_knob("noslip_iterations", [5], tuned))
