@@ -57,7 +57,7 @@ PARAMETER: dict[str, dict[str, Law]] = {
 AT_THE_START: dict[str, dict[str, Law]] = {
     "charge_in_field": {"v0": laws.start},
     "rolling_wheel": {"R": laws.start, "v0": laws.start, "w0": laws.start},
-    "bar_pendulum": {"phi0": laws.closed_form},
+    "bar_pendulum": {"phi0": laws.closed_form}, "spring_mass_damper": {"y0": laws.start},
     "double_pendulum": {"a0": laws.start, "b0": laws.start},
     "four_bar": dict.fromkeys(("a", "b", "c", "d", "crank0"), laws.start),
     "rhombus": {"left0": laws.start, "right0": laws.start},
@@ -65,8 +65,12 @@ AT_THE_START: dict[str, dict[str, Law]] = {
     "elastic_pendulum": {"r0": laws.start, "phi0": laws.start},
     "knife_edge": {"u0": laws.start, "w0": laws.start},
     "sleigh": {"v0": laws.start, "w0": laws.start},
+<<<<<<< HEAD
     "spring_mass_damper": {"y0": laws.start}, "paired_rotors": {"w0": laws.start},
+=======
+>>>>>>> s10-walk
     "torsion_pendulum": {"phi": laws.start, "w0": laws.start},
+    "turning_sled": {"phi0": laws.start, "u0": laws.start, "w0": laws.start},
 }  # fmt: skip
 
 DROPS_OUT = {
