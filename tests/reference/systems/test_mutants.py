@@ -65,11 +65,7 @@ AT_THE_START: dict[str, dict[str, Law]] = {
     "elastic_pendulum": {"r0": laws.start, "phi0": laws.start},
     "knife_edge": {"u0": laws.start, "w0": laws.start},
     "sleigh": {"v0": laws.start, "w0": laws.start},
-<<<<<<< HEAD
-    "spring_mass_damper": {"y0": laws.start}, "paired_rotors": {"w0": laws.start},
-=======
->>>>>>> s10-walk
-    "torsion_pendulum": {"phi": laws.start, "w0": laws.start},
+    "paired_rotors": {"w0": laws.start}, "torsion_pendulum": {"phi": laws.start, "w0": laws.start},
     "turning_sled": {"phi0": laws.start, "u0": laws.start, "w0": laws.start},
 }  # fmt: skip
 
