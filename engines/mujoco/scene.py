@@ -14,6 +14,7 @@ from .drive import controls
 from .drive import write as write_drives
 from .edge import write_room
 from .force import BY_ITSELF, begun_with, write
+from .loops import add_loops, add_rods
 from .planes import add_geom, add_pairs, add_planes
 from .rope import finish_ropes
 from .stops import finish_stops
@@ -61,8 +62,10 @@ def mjcf(
     if scene.contacts:
         add_pairs(root, scene, attributes(numbers, "pair"))
     if tree.loops:
-        _loops(root, tree, attributes(numbers, "connect"))
+        pins, rods = attributes(numbers, "connect"), attributes(numbers, "rod")
+        add_loops(root, tree.loops, pins, rods)
     write(root, scene)
+    add_rods(root, tree.loops)
     write_drives(root, scene)
     write_room(root, scene)
     finish_ropes(root, scene, attributes(numbers, "rope"))
@@ -170,15 +173,6 @@ def local(scene: Scene, anchor: Anchor) -> tuple[float, float]:
         point = scene.points[anchor.point]
         return (0.0, 0.0) if point.driven else point.at
     return scene.bodies[anchor.body].points[anchor.point]
-
-
-def _loops(root: ET.Element, tree: Tree, attributes: dict[str, str]) -> None:
-    equality = ET.SubElement(root, "equality")
-    for joint in tree.loops:
-        ET.SubElement(
-            equality, "connect", attributes,
-            name=joint.name, site1=str(joint.a), site2=str(joint.b),
-        )  # fmt: skip
 
 
 def _start(

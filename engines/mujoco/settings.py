@@ -3,15 +3,16 @@
 A recipe is a function of the scene and of the step its tied numbers follow.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from ...cases.scene import Scene
 from ..engine import Choice, Start
 from .contact import HARDEST, recipe
+from .loops import recipe as rods
 from .options import SOFT, as_written
 from .rope import recipe as ropes
-from .stops import recipe as stopped
+from .stops import recipe as stops
 from .tree import driven, spanning_tree
 
 SHIPPED_STEP = 2e-3  # s, the default of <option timestep>
@@ -62,16 +63,23 @@ def tuned(scene: Scene, tied_to: float, start: Start | None = None) -> list[Choi
             ]
     if "slide" in _soft(scene):
         choices.append(Choice("option.noslip_iterations", 5, "what sticks does not creep"))
-    if "rope" in _soft(scene):
-        choices += ropes(tied_to)
-    if "stop" in _soft(scene):
-        bounce = max(stops.restitution for stops in scene.stops())
+    for more in _of_elements(scene, tied_to, start):
         known = {choice.name for choice in choices}
-        choices += [c for c in stopped(bounce, tied_to) if c.name not in known]
-    if scene.contacts:
-        known = {choice.name for choice in choices}
-        choices += [c for c in recipe(scene, tied_to, start) if c.name not in known]
+        choices += [choice for choice in more if choice.name not in known]
     return choices
+
+
+def _of_elements(scene: Scene, tied_to: float, start: Start | None) -> Iterator[list[Choice]]:
+    """The recipes of what gives way, each in a file of its own."""
+    soft = _soft(scene)
+    if "rod" in soft:
+        yield rods(tied_to)
+    if "rope" in soft:
+        yield ropes(tied_to)
+    if "stop" in soft:
+        yield stops(max(one.restitution for one in scene.stops()), tied_to)
+    if scene.contacts:
+        yield recipe(scene, tied_to, start)
 
 
 # The time constant of a soft constraint in steps.
@@ -108,7 +116,9 @@ def only_slides(scene: Scene) -> bool:
 
 def _soft(scene: Scene) -> list[str]:
     """The groups of soft constraints in the scene."""
-    loops = ["connect"] if spanning_tree(scene).loops else []
+    closing = spanning_tree(scene).loops
+    loops = ["connect"] if any(not joint.swings for joint in closing) else []
+    loops += ["rod"] if any(joint.swings for joint in closing) else []
     dry = ["slide"] if any(joint.dry_friction for joint in scene.joints.values()) else []
     ropes = ["rope"] if any(scene.ropes()) else []
     ropes += ["stop"] if any(scene.stops()) else []

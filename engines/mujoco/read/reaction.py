@@ -8,6 +8,7 @@ import numpy as np
 from ....cases.scene import Anchor, Joint, Scene
 from ....cases.trajectory import Array
 from ..force import outer
+from ..loops import pulled
 from ..rope import tension
 from ..stops import pushing
 from ..tree import Tree, called
@@ -20,6 +21,10 @@ def joint_force(
     scene: Scene, tree: Tree, model: mujoco.MjModel, seen: Seen, joint: Joint
 ) -> tuple[Array, Array, Array, Array]:
     """fx, fy and torque (about the second point) of the first part on the second; the size."""
+    if joint in tree.loops and joint.swings:
+        a, b = (_site(model, seen, end) for end in joint.refers())
+        fx, fy = pulled(tree.loops, joint, seen["efc_force"], a, b).T
+        return fx, fy, np.zeros_like(fx), np.hypot(fx, fy)
     if joint in tree.loops:
         first = 3 * mujoco.mj_name2id(model, _OBJECT.mjOBJ_EQUALITY, joint.name)  # x, y, z each
         fx, fy = -seen["efc_force"][:, first : first + 2].T  # MuJoCo counts the first part's

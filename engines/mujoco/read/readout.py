@@ -80,7 +80,8 @@ def _needed(scene: Scene, tree: Tree, reactions: tuple[str, ...]) -> set[str]:
             names |= {*_TOUCHING}
         elif field != "friction":
             names |= {*DRIVING} if scene.drives else set()
-            names |= {"efc_force"} if scene.joints[part] in tree.loops else {*_JOINTS}
+            closes = scene.joints[part] in tree.loops
+            names |= {"efc_force", "site_xpos"} if closes else {*_JOINTS}
     return names
 
 
