@@ -27,12 +27,14 @@ NOMINAL = 1e-3  # s: with which a scene is compiled; any step would do
 # Where the compiled model holds the numbers that may follow the step.
 _HELD = {
     "connect.solref": "eq_solref",
+    "rod.solref": "eq_solref",
     "pair.solref": "pair_solref",
     "pair.solreffriction": "pair_solreffriction",
     "slide.solreffriction": "dof_solref",
     "rope.solreflimit": "tendon_solref_lim",
     "stop.solreflimit": "jnt_solref",
 }
+_EQUALITIES = {"connect": mujoco.mjtEq.mjEQ_CONNECT, "rod": mujoco.mjtEq.mjEQ_TENDON}
 # What else a run writes: friction by our laws, and the start in the floor.
 _WRITTEN = (*_HELD.values(), "dof_frictionloss", "pair_friction", "site_pos", "tendon_limited")
 _WRITTEN += ("key_qpos", "key_qvel")
@@ -139,7 +141,11 @@ def _number(
 
 def _write(scene: Scene, model: mujoco.MjModel, choice: Choice) -> None:
     held = getattr(model, _HELD[choice.name])
-    if not choice.name.startswith("slide."):
+    group = choice.name.partition(".")[0]
+    if group in _EQUALITIES:
+        held[model.eq_type == _EQUALITIES[group]] = choice.value
+        return
+    if group != "slide":
         held[:] = choice.value
         return
     for joint in scene.joints.values():

@@ -77,7 +77,8 @@ def _of(name: str, value: Any) -> Value:
 
 
 _WHOSE = {
-    "connect": "loops", "pair": "contacts", "slide": "dry joints", "rope": "ropes", "stop": "stops"
+    "connect": "loops", "pair": "contacts", "slide": "dry joints", "rope": "ropes", "stop": "stops",
+    "rod": "rods in loops",
 }  # fmt: skip
 
 

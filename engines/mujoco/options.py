@@ -26,14 +26,15 @@ FLAGS = ("diagexact",)
 PROTOCOL = ("step", "contacts", "settled")  # what stands nowhere in the file
 GROUPS: Mapping[str, Mapping[str, tuple[int, ...]]] = {
     "connect": SOFT,
+    "rod": SOFT,
     "pair": {**SOFT, "solreffriction": (2,)},
     "joint": {
         "solreffriction": (2,), "solimpfriction": (3, 5), "solreflimit": (2,), "solimplimit": (3, 5)
     },
     "tendon": {"solreflimit": (2,), "solimplimit": (3, 5)},
 }  # fmt: skip
-"""Elements with how many numbers each of their attributes takes: loops, contacts, dry joints and
-their stops, ropes."""
+"""Elements with how many numbers each of their attributes takes: loops by pins and by rods, contacts,
+dry joints and their stops, ropes."""
 _NAMES = ("step", *_WORDS, *_WHOLE, *_REAL, *SOFT, *GROUPS, *FLAGS, "settled")
 _MOST = 2**31 - 1  # MuJoCo's int
 

@@ -60,7 +60,8 @@ def _written(options: Mapping[str, Any], soft: Sequence[str]) -> Iterator[Choice
 
 
 ELEMENTS = {
-    "connect": "connect", "pair": "pair", "slide": "joint", "rope": "tendon", "stop": "joint"
+    "connect": "connect", "pair": "pair", "slide": "joint", "rope": "tendon", "stop": "joint",
+    "rod": "rod",
 }  # fmt: skip
 """The elements that MJCF has for our groups of soft constraints."""
 

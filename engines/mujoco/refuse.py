@@ -23,9 +23,6 @@ def not_native(scene: Scene) -> list[str]:
 
 def unbuildable(scene: Scene) -> str | None:
     """The first joint or contact that has no counterpart."""
-    for joint in scene.joints.values():
-        if joint.swings:
-            return f"adapter: {joint.name} is a massless rod that closes a loop, and is not built"
     tree = spanning_tree(scene)
     soft = [*tree.loops, *scene.contacts.values(), *scene.pairs.values()]
     soft += [*scene.ropes(), *scene.stops()]

@@ -15,6 +15,7 @@ from .drive import write as write_drives
 from .edge import write_room
 from .feet import add_pins
 from .force import BY_ITSELF, begun_with, write
+from .loops import add_loops, add_rods
 from .pairs import add_geoms, add_pair_sensors, add_pairs
 from .planes import add_contacts, add_geom, add_planes, add_sensors, touching
 from .rope import finish_ropes
@@ -63,9 +64,11 @@ def mjcf(
     if touching(scene) or scene.pairs:
         _touching(root, scene, attributes(numbers, "pair"))
     if tree.loops:
-        _loops(root, tree, attributes(numbers, "connect"))
+        pins, rods = attributes(numbers, "connect"), attributes(numbers, "rod")
+        add_loops(root, tree.loops, pins, rods)
     add_pins(root, scene, start, attributes(numbers, "connect"))
     write(root, scene)
+    add_rods(root, tree.loops)
     write_drives(root, scene)
     write_room(root, scene)
     finish_ropes(root, scene, attributes(numbers, "rope"))
@@ -183,15 +186,6 @@ def local(scene: Scene, anchor: Anchor) -> tuple[float, float]:
         point = scene.points[anchor.point]
         return (0.0, 0.0) if point.driven else point.at
     return scene.bodies[anchor.body].points[anchor.point]
-
-
-def _loops(root: ET.Element, tree: Tree, attributes: dict[str, str]) -> None:
-    equality = ET.SubElement(root, "equality")
-    for joint in tree.loops:
-        ET.SubElement(
-            equality, "connect", attributes,
-            name=joint.name, site1=str(joint.a), site2=str(joint.b),
-        )  # fmt: skip
 
 
 def _start(

@@ -3,7 +3,7 @@
 A recipe is a function of the scene and of the step its tied numbers follow.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -12,10 +12,11 @@ from ..engine import Choice, Start
 from ..stride import strides
 from ..tied import at
 from .contact import HARDEST, RECIPES, chosen, recipe
+from .loops import recipe as rods
 from .own import key, overlaid
 from .planes import met
 from .rope import recipe as ropes
-from .stops import recipe as stopped
+from .stops import recipe as stops
 from .tree import driven, spanning_tree
 
 SHIPPED_STEP = 2e-3  # s, the default of <option timestep>
@@ -71,16 +72,23 @@ def best(scene: Scene, start: Start | None = None) -> list[Choice]:
             ]
     if "slide" in soft(scene):
         choices.append(Choice("option.noslip_iterations", 5, "what sticks does not creep"))
-    if "rope" in soft(scene):
-        choices += ropes()
-    if "stop" in soft(scene):
-        bounce = max(stops.restitution for stops in scene.stops())
+    for more in _of_elements(scene, start):
         known = {choice.name for choice in choices}
-        choices += [c for c in stopped(bounce) if c.name not in known]
-    if met(scene):
-        known = {choice.name for choice in choices}
-        choices += [c for c in recipe(scene, start) if c.name not in known]
+        choices += [choice for choice in more if choice.name not in known]
     return choices
+
+
+def _of_elements(scene: Scene, start: Start | None) -> Iterator[list[Choice]]:
+    """The recipes of what gives way, each in a file of its own."""
+    gives = soft(scene)
+    if "rod" in gives:
+        yield rods()
+    if "rope" in gives:
+        yield ropes()
+    if "stop" in gives:
+        yield stops(max(one.restitution for one in scene.stops()))
+    if met(scene):
+        yield recipe(scene, start)
 
 
 def at_step(choices: Sequence[Choice], h: float) -> list[Choice]:
@@ -109,7 +117,10 @@ def only_slides(scene: Scene) -> bool:
 
 def soft(scene: Scene) -> list[str]:
     """The groups of soft constraints in the scene."""
-    loops = ["connect"] if spanning_tree(scene).loops or strides(scene) else []
+    closing = spanning_tree(scene).loops
+    pins = strides(scene) or any(not joint.swings for joint in closing)
+    loops = ["connect"] if pins else []
+    loops += ["rod"] if any(joint.swings for joint in closing) else []
     dry = ["slide"] if any(joint.dry_friction for joint in scene.joints.values()) else []
     ropes = ["rope"] if any(scene.ropes()) else []
     ropes += ["stop"] if any(scene.stops()) else []

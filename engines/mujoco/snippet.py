@@ -9,7 +9,8 @@ from .script import commented
 from .written import attributes, written
 
 _ELEMENTS = {
-    "connect": "equality", "pair": "pair", "slide": "joint", "rope": "tendon", "stop": "joint"
+    "connect": "equality", "pair": "pair", "slide": "joint", "rope": "tendon", "stop": "joint",
+    "rod": "equality",
 }  # fmt: skip
 """What stands in <default> for a group of soft constraints."""
 
@@ -24,12 +25,19 @@ def snippet(
     if flags := attributes(changed, "flag"):
         ET.SubElement(option, "flag", flags)
     default = ET.Element("default")
+    beside: list[str] = []
     for group, element in _ELEMENTS.items():
         if given := attributes(changed, group):
             found = default.find(element)
             place = ET.SubElement(default, element) if found is None else found
-            place.attrib.update(given)
-    return "".join([commented(notes), _text(option), _text(default) if len(default) else ""])
+            if any(place.get(name, value) != value for name, value in given.items()):
+                numbers = ", ".join(f"{name}={value!r}" for name, value in given.items())
+                beside.append(f"each {element} of a {group} has {numbers} instead")
+            else:
+                place.attrib.update(given)
+    return "".join(
+        [commented([*notes, *beside]), _text(option), _text(default) if len(default) else ""]
+    )
 
 
 def said(options: Options, *, contacts: bool, plane: bool) -> list[str]:

@@ -1,7 +1,7 @@
 """A scene's joints as a spanning tree, the pins that close loops, and joint coordinates.
 
-Slides and welds go into the tree first, so that what closes a loop is a pin wherever it can be:
-MuJoCo has `connect` for a pin, and nothing for a slide.
+Slides and welds go into the tree first, so that what closes a loop is a massless rod or a pin
+wherever it can be: MuJoCo has a tendon for a rod, `connect` for a pin, and nothing for a slide.
 """
 
 import math
@@ -116,7 +116,8 @@ def spanning_tree(scene: Scene) -> Tree[Joint]:
         loose = joint.dry_friction is None and joint.name not in prescribed
         return loose and built_as(scene, joint) == Left(turns=True, shifts=False)
 
-    return spanned(scene, sorted(scene.joints.values(), key=closes))
+    by_kind = sorted(scene.joints.values(), key=lambda joint: (joint.swings, closes(joint)))
+    return spanned(scene, by_kind)
 
 
 def spanned(scene: Scene, joints: Iterable[J]) -> Tree[J]:

@@ -26,9 +26,18 @@ def test_in_the_plane_each_force_is_asked_for_by_itself() -> None:
             if q.kind in ("force", "acceleration") and q.part not in one.scene.forces
         ]
         rods = {f"{joint.name}.force" for joint in one.scene.joints.values() if joint.swings}
-        told = (*(name for name in forces if name not in rods), *one.scene.inner())
-        assert wanted_reactions(one.scene, forces) == told
-        assert wanted_reactions(one.scene, table(one.scene)) == told
+        told = tuple(name for name in forces if name not in rods)
+        inner, limits = one.scene.inner(), one.scene.limits()
+        assert wanted_reactions(one.scene, forces) == (*told, *inner)
+        assert wanted_reactions(one.scene, table(one.scene)) == (*told, *limits, *inner)
+
+
+def test_work_is_told_by_what_drives_and_stops_by_both() -> None:
+    knee = scenes.SHIPPED["driven_knee.spring"].scene
+    assert wanted_reactions(knee, ["knee.work", "coil.work"]) == ("knee.torque",)
+    stopped = scenes.SHIPPED["stopped_pendulum.rests"].scene
+    assert wanted_reactions(stopped, ["stop.torque", "stop.angle"]) == ("stop.low", "stop.high")
+    assert wanted_reactions(DRIVEN, ["q1.work"]) == ("q1.torque",)
 
 
 def test_in_space_sizes_are_told_by_components_and_each_is_asked_for_once() -> None:

@@ -8,6 +8,7 @@ import numpy as np
 from ....cases.scene import Anchor, Joint, Scene
 from ....cases.trajectory import Array
 from ..force import outer
+from ..loops import pulled
 from ..pairs import pair_force
 from ..planes import touching
 from ..rope import tension
@@ -22,6 +23,11 @@ def joint_force(
     scene: Scene, tree: Tree, model: mujoco.MjModel, seen: Seen, joint: Joint
 ) -> tuple[Array, Array, Array, Array]:
     """fx, fy and torque (about the second point) of the first part on the second; the size."""
+    if joint in tree.loops and joint.swings:
+        a, b = (_site(model, seen, end) for end in joint.refers())
+        number = mujoco.mj_name2id(model, _OBJECT.mjOBJ_EQUALITY, joint.name)
+        fx, fy = pulled(seen["efc_force"][:, number, :1], a, b).T
+        return fx, fy, np.zeros_like(fx), np.hypot(fx, fy)
     if joint in tree.loops:
         fx, fy = pinned(model, seen, joint.name)
         return fx, fy, np.zeros_like(fx), np.hypot(fx, fy)

@@ -83,7 +83,8 @@ def _needed(scene: Scene, tree: Tree, reactions: tuple[str, ...]) -> set[str]:
             names |= {"efc_force"} if part in strode(scene) else {*_TOUCHING}
         elif field != "friction":
             names |= {*DRIVING} if scene.drives else set()
-            names |= {"efc_force"} if scene.joints[part] in tree.loops else {*_JOINTS}
+            closes = scene.joints[part] in tree.loops
+            names |= {"efc_force", "site_xpos"} if closes else {*_JOINTS}
     return names
 
 
@@ -121,7 +122,12 @@ def _seen(
 
 
 def _equalities(model: mujoco.MjModel, probe: mujoco.MjData) -> Array:
-    """(neq, 3) what each `connect` exerts, 0 if it is not active; they come first of all rows."""
-    found = np.zeros((model.neq, 3))
-    found[probe.efc_id[: probe.ne : 3]] = probe.efc_force[: probe.ne].reshape(-1, 3)
+    """(neq, 3) what each equality exerts, 0 if it is not active; they come first of all rows.
+
+    A `connect` has three rows, a tendon one.
+    """
+    found, ids = np.zeros((model.neq, 3)), probe.efc_id[: probe.ne]
+    begins = np.flatnonzero(np.diff(ids, prepend=-1))
+    rows = np.arange(probe.ne) - np.repeat(begins, np.diff(begins, append=probe.ne))
+    found[ids, rows] = probe.efc_force[: probe.ne]
     return found
