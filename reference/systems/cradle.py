@@ -53,12 +53,8 @@ class _Free(Mode):
         return []
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
-        """Where two disks would push each other."""
-        pairs = zip(PAIRS, BODIES[:-1], BODIES[1:], q[:-1].tolist(), strict=True)
-        return [
-            Cut((f"{name}.normal",), a, b, (x + self.R, 0.0), ((1.0, 0.0),))
-            for name, a, b, x in pairs
-        ]
+        """None: each moves alone."""
+        return []
 
 
 @dataclass(frozen=True)
