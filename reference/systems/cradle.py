@@ -35,10 +35,6 @@ class _Free(Mode):
         """(2.23) ẍ = 0 [m/s²], (3,)."""
         return np.zeros(3)
 
-    def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
-        """(2.23) Nothing pushes [N]."""
-        return {"first.normal": 0.0, "second.normal": 0.0}
-
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ Σ m ẋ² [J]."""
         return sum(m * x**2 for m, x in zip(self.m, v, strict=True)) / 2

@@ -71,7 +71,6 @@ APPLIED: dict[At, tuple[str, ...]] = {
     ("sliding_disk", "slips forward"): ("touch.tangent",),
     ("smooth_dynamometer", "moving"): ("guide.fx",),
     ("smooth_growing_force", "moving"): ("guide.fx",),
-    ("cradle", "free"): ("first.normal", "second.normal"),
     ("disk_on_disk", "slips"): ("touch.tangent",),
     ("disk_on_disk", "flies"): ("touch.normal", "touch.tangent"),
 }
