@@ -1,12 +1,12 @@
 """Two bodies that touch, on a side that turns and on rims that move, against other derivations."""
 
-from math import cos, sin
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from given import scenes
+from given.pairs import PHI0, S0, TRAY, A, G, I, J, R, m
 from scipy.integrate import solve_ivp
 
 from textmech.cases.case import Case
@@ -19,30 +19,6 @@ from textmech.reference.generated.rims import Apart, Around
 from textmech.reference.generated.rows import Line
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
-
-G = 9.80665
-M, W, H = 3.0, 1.2, 0.1  # of the tray
-m, R, S0, PHI0 = 0.8, 0.12, 0.15, 0.2  # of the disk, and the start
-J, I, A = M * (W**2 + H**2) / 12, m * R**2 / 2, H / 2 + R
-TRAY = f"""\
-scene:
-  points: {{O: [0, 0]}}
-  bodies:
-    tray: {{block: {{mass: {M}, width: {W}, height: {H}}}}}
-    disk: {{disk: {{mass: {m}, radius: {R}}}}}
-  joints: {{axle: {{pin: [ground.O, tray.center]}}}}
-  contacts: {{touch: {{between: [disk, tray.top], friction: 1.5}}}}
-initial:
-  tray: {{angle: {PHI0}, omega: -1.0}}
-  disk:
-    x: {S0 * cos(PHI0) - A * sin(PHI0)!r}
-    y: {S0 * sin(PHI0) + A * cos(PHI0)!r}
-    angle: {PHI0}
-    vx: {(A * cos(PHI0) + S0 * sin(PHI0))!r}
-    vy: {(A * sin(PHI0) - S0 * cos(PHI0))!r}
-    omega: -1.0
-allow: {{disk.x: 1.0e-2, tray.angle: 1.0e-2, touch.normal: 1.0e-1, touch.tangent: 1.0e-1}}
-"""
 
 
 def by_hand(times: np.ndarray) -> dict[str, np.ndarray]:
