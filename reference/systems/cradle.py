@@ -100,19 +100,26 @@ class Cradle(System):
         return v
 
     def _pieces(self, until: float) -> list[tuple[float, int, Array, Array]]:
-        """Each impact's time, pair, places and velocities after it; the start is one of none."""
-        _, q, v = self.start()
+        """Each impact's time, pair, places and velocities after it; the start is one of none.
+
+        The impulse Λ = (1 + e)(v − v')/(1/m + 1/m') takes Λ/m from one, and the other gets Λ/m'.
+        """
+        m = np.array([self.m1, self.m2, self.m3])
+        q, v = np.array([0.0, self.x2, self.x3]), np.array([self.v0, 0.0, 0.0])
         found = [(0.0, -1, q, v)]
         while True:
             t, last, q, v = found[-1]
-            gaps, rates = np.diff(q) - 2 * self.R, np.diff(v)
+            gaps, closing = np.diff(q) - 2 * self.R, -np.diff(v)
             waits = [
-                -gaps[k] / rates[k] if rates[k] < 0 and k != last else math.inf for k in (0, 1)
+                gaps[k] / closing[k] if closing[k] > 0 and k != last else math.inf for k in (0, 1)
             ]
             k = int(np.argmin(waits))
             if not t + waits[k] <= until:
                 return found
-            found.append((t + waits[k], k, q + waits[k] * v, self._struck(k, v)))
+            impulse = (1 + self.e) * closing[k] / (1 / m[k] + 1 / m[k + 1])
+            blow = np.zeros(3)
+            blow[k], blow[k + 1] = -impulse, impulse
+            found.append((t + waits[k], k, q + waits[k] * v, v + blow / m))
 
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """x = x_k + v_k (t − t_k) since the last impact."""

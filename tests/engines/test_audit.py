@@ -51,7 +51,8 @@ def expected(scene: Scene, poses: Start) -> dict[str, float]:
 def elements(scene: Scene) -> dict[str, float]:
     """What is the same in the plane and in space."""
     found = {f"{b.name}.mass": b.mass for b in scene.bodies.values()}
-    found |= {f"{c.name}.friction": c.friction for c in scene.touching.values()}
+    touching = (*scene.touching.values(), *scene.pairs.values())
+    found |= {f"{c.name}.friction": c.friction for c in touching}
     for spring in scene.springs():
         found[f"{spring.name}.stiffness"] = spring.stiffness
         found[f"{spring.name}.rest_length"] = spring.rest_length
