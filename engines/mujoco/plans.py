@@ -53,9 +53,7 @@ def plan(scene: Scene, start: Start, realised: Realised, numbers: Numbers, *, tu
     integrator = {choice.name: choice.value for choice in numbers(NOMINAL)}["option.integrator"]
     dry = any(joint.dry_friction for joint in scene.joints.values())
     jumps = any(law.corners for law in scene.laws())
-    first = (
-        integrator != "RK4" or bool(scene.contacts or scene.pairs) or (dry and realised != "driver")
-    )
+    first = integrator != "RK4" or bool(scene.pressed) or (dry and realised != "driver")
     first |= any(scene.one_sided()) and realised != "driver"
     corners = any(force.corner for force in scene.forces.values())
     following = (1, 2) if first else (4, 5) if dry else (2, 3)
@@ -82,7 +80,7 @@ def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> 
     if scene.constraints:
         words.append(f"{', '.join(scene.constraints)} held by our law at every stage")
     elif plan.realised == "law" and (one_slide(scene) or one_touch(scene)):
-        when = "stage" if smooth_only(scene) and not scene.contacts else "step"
+        when = "stage" if smooth_only(scene) and not scene.pressed else "step"
         words.append(f"dry friction by our law before every {when}")
     if ours := [force.name for force, _ in lacking(scene)]:
         words.append(f"{', '.join(ours)} by our law at every stage, which the script has not")
@@ -91,7 +89,7 @@ def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> 
     elif plan.realised == "driver":
         acts, dry = "where a spring begins or ends to act", "at the events of dry friction"
         words.append(f"steps cut {acts if has_corners(scene) else dry}")
-    if tuned and (scene.contacts or scene.pairs):
+    if tuned and scene.pressed:
         if falls(scene, start):
             words.append("starts above the floor: contacts are tuned for impacts")
         *_, depths = placed(scene, start, step, plan, settles=True)

@@ -57,7 +57,7 @@ def mjcf(
     world = ET.SubElement(root, "worldbody")
     _world(world, scene)
     _bodies(world, scene, tree, numbers)
-    if scene.contacts or scene.pairs:
+    if scene.pressed:
         _touching(root, scene, attributes(numbers, "pair"))
     if tree.loops:
         _loops(root, tree, attributes(numbers, "connect"))
@@ -134,7 +134,7 @@ def _touching(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> Non
 def _leaves_plane(scene: Scene, numbers: dict[str, object]) -> bool:
     """Whether free bodies may move along z: nothing pushes them there, but without that freedom
     MuJoCo's noslip solver silently does nothing."""
-    return bool(scene.contacts or scene.pairs) and numbers.get("option.noslip_iterations", 0) != 0
+    return bool(scene.pressed) and numbers.get("option.noslip_iterations", 0) != 0
 
 
 def _hang(element: ET.Element, scene: Scene, branch: Branch, soft: dict[str, str]) -> None:

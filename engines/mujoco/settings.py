@@ -60,7 +60,7 @@ def tuned(scene: Scene, tied_to: float, start: Start | None = None) -> list[Choi
             ]
     if "slide" in _soft(scene):
         choices.append(Choice("option.noslip_iterations", 5, "what sticks does not creep"))
-    if scene.contacts or scene.pairs:
+    if scene.pressed:
         known = {choice.name for choice in choices}
         choices += [c for c in recipe(scene, tied_to, start) if c.name not in known]
     return choices
@@ -99,7 +99,7 @@ def _soft(scene: Scene) -> list[str]:
     """The groups of soft constraints in the scene."""
     loops = ["connect"] if spanning_tree(scene).loops else []
     dry = ["slide"] if any(joint.dry_friction for joint in scene.joints.values()) else []
-    return loops + dry + (["pair"] if scene.contacts or scene.pairs else [])
+    return loops + dry + (["pair"] if scene.pressed else [])
 
 
 def with_own(options: Mapping[str, Any], scene: Scene, tied_to: float) -> list[Choice]:

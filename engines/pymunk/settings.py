@@ -46,7 +46,7 @@ def _matters(name: str, scene: Scene) -> bool:
     if name.startswith("constraint."):
         return bool(scene.joints)
     if "collision" in name:
-        return bool(scene.contacts or scene.pairs)
+        return bool(scene.pressed)
     return True
 
 
