@@ -63,10 +63,10 @@ def by_hand(mu: float, spin: float) -> tuple[float, np.ndarray, np.ndarray, bool
     ("mu", "spin", "held"),
     [
         (0.0, 6.0, False),
-        (0.1, 6.0, False),
-        (0.1, -30.0, False),
-        (0.1, -9.0, True),
-        (0.9, 6.0, True),
+        (0.1, 6.0, True),
+        (0.1, -9.0, False),
+        (0.1, 40.0, False),
+        (0.9, -9.0, True),
     ],
 )
 def test_the_blow_is_coulombs(mu: float, spin: float, held: bool, tmp_path: Path) -> None:
