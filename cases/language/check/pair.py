@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from ...mistake import nearest
 from ...pair import FACES, Pair
-from ...scene import Body, Scene
+from ...scene import GROUND, Body, Scene
 from ..grammar.contact import Contact
 from ..parse import Finding, Parsed
 from .touch import cannot_touch
@@ -22,6 +22,12 @@ def pairs(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
                     "is for a plane of the ground: two bodies roll, slip and part as friction says"
                 )
                 yield (*path, key), what
+        if pair.body == GROUND:
+            yield (
+                (*path, "between"),
+                f"the ground stands second: [{', '.join(written.between[::-1])}]",
+            )
+            continue
         if pair.body not in scene.bodies:
             if not parsed.hides(pair.body):
                 hint = nearest(pair.body, parsed.names("bodies", scene.bodies))
