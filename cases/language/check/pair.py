@@ -9,7 +9,6 @@ from ..grammar.contact import Contact
 from ..parse import Finding, Parsed
 from .touch import cannot_touch
 
-
 GROUNDS = "is for a plane of the ground: two bodies roll, slip and part as friction says"
 
 
