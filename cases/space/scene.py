@@ -57,6 +57,11 @@ class SpatialScene(Scene):
                 found.setdefault(part, {})[effort_of(freedom)] = (unit, "force")
         return found  # type: ignore[return-value]
 
+    @property
+    def pressed(self) -> tuple[str, ...]:
+        """The contacts, by name."""
+        return tuple(self.contacts)
+
     def told_by(self, reaction: str) -> tuple[str, ...]:
         """The reactions of a producer from which one follows: `q1.force` from three components."""
         part, _, field = reaction.rpartition(".")

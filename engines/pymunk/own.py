@@ -67,7 +67,7 @@ def _matters(name: str, scene: Scene) -> bool:
     if name.startswith("limit."):
         return any(scene.limits())
     if "collision" in name or name == "start.seed":
-        return bool(scene.contacts or scene.pairs)
+        return bool(scene.pressed)
     if name == "contact.reflects":
         tips = any(is_tip(scene, contact) for contact in scene.contacts.values())
         return tips or bool(scene.pairs)

@@ -95,7 +95,7 @@ def recipe(scene: Scene, start: Start) -> Recipe:
     always = [_MIDPOINT]
     contacts = [contact for contact in scene.contacts.values() if contact.switches]
     tips = [*(c for c in contacts if is_tip(scene, c)), *scene.pairs.values()]
-    if scene.contacts or scene.pairs:
+    if scene.pressed:
         pivots = any(contact.ideal == "pivot" for contact in scene.contacts.values())
         tip = _PAIR_SEED if scene.pairs else _TIP_SEED
         always.append(_PIVOT_SEED if pivots else tip if tips else _SEED)

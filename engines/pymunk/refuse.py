@@ -46,7 +46,8 @@ def unbuildable(scene: Scene) -> str | None:
             return f"adapter: {joint.name} has dry friction on a point that moves by a law"
     if len({c.plane for c in scene.contacts.values()}) + len(scene.pairs) > MOST:
         return f"engine: pymunk tells apart what touches what by {MOST} bits, and here are more"
-    beside = [*scene.contacts.values(), *(j for j in scene.joints.values() if j.dry_friction)]
+    touching = [*scene.contacts.values(), *scene.pairs.values()]
+    beside = [*touching, *(j for j in scene.joints.values() if j.dry_friction)]
     for edge in scene.constraints.values():
         if beside:
             return f"adapter: {edge.name} beside the dry friction of {beside[0].name}"

@@ -32,17 +32,21 @@ def check_alone(
 
     near [m]: a gap that is none.
     """
-    first = modes.elements[i]
+    first, small = modes.elements[i], ROUNDING * float(np.max(np.abs(v)))
+    others = [
+        e
+        for e, state in zip(modes.elements, modes.states[mode], strict=True)
+        if _shares(first, e, state)
+        if state != "open" or _strikes_too(e, t, q, v, near, small)
+    ]
+    if not others:
+        return
     try:
         after, _ = impact(modes.M, held, [m for m in met if m.strikes], v)
     except NoImpact:
         return  # with all that touch it is tried again, and told
-    small = ROUNDING * float(np.max(np.abs(v)))
-    for e, state in zip(modes.elements, modes.states[mode], strict=True):
-        if e is first or e.normal is None or not _shares(first, e, state):
-            continue
-        if state == "open" and not _strikes_too(e, t, q, v, near, small):
-            continue
+    for e in others:
+        assert e.normal is not None
         before, now = rate(e.normal, t, q, v), rate(e.normal, t, q, after)
         if now < -small and abs(now - before) > small:
             what = (
@@ -57,7 +61,7 @@ def _shares(first: Element, e: Element, state: State) -> bool:
 
     What only rests on a plane without bouncing is held by it.
     """
-    if not (first.two or e.two):
+    if e is first or e.normal is None or not (first.two or e.two):
         return False
     return e.restitution > 0.0 or ((e.two or state == "open") and first.restitution > 0.0)
 

@@ -2,12 +2,14 @@
 
 from collections.abc import Iterator
 
-from ...mistake import nearest
+from ...mistake import Path, nearest
 from ...pair import FACES, Pair
-from ...scene import Body, Scene
+from ...scene import GROUND, Body, Scene
 from ..grammar.contact import Contact
 from ..parse import Finding, Parsed
 from .touch import cannot_touch
+
+GROUNDS = "is for a plane of the ground: two bodies roll, slip and part as friction says"
 
 
 def pairs(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
@@ -18,26 +20,32 @@ def pairs(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         path = ("scene", "contacts", name)
         for key in ("ideal", "ahead_of"):
             if getattr(written, key) is not None:
-                what = (
-                    "is for a plane of the ground: two bodies roll, slip and part as friction says"
-                )
-                yield (*path, key), what
-        if pair.body not in scene.bodies:
-            if not parsed.hides(pair.body):
-                hint = nearest(pair.body, parsed.names("bodies", scene.bodies))
-                yield (*path, "between", 0), f"unknown body {pair.body!r}{hint}"
-            continue
+                yield (*path, key), GROUNDS
+        unsound = [*_between(parsed, scene, (*path, "between"), pair, written.between)]
+        yield from unsound
         both = frozenset(written.between)
-        if pair.body == pair.touched:
-            yield (*path, "between"), f"{pair.body!r} touches itself"
-        elif what := _unable(scene.bodies[pair.body], written.between[0].partition(".")[2]):
-            yield (*path, "between", 0), what
-        elif what := _untouchable(scene.bodies[pair.touched], pair):
-            yield (*path, "between", 1), what
-        elif both in first:
+        if both in first and not unsound:
             what = f"{' and '.join(written.between)} already touch in {first[both]!r}"
             yield (*path, "between"), what
         first.setdefault(both, name)
+
+
+def _between(
+    parsed: Parsed, scene: Scene, path: Path, pair: Pair, words: tuple[str, str]
+) -> Iterator[Finding]:
+    """What is wrong with the two that touch."""
+    if pair.body == GROUND:
+        yield path, f"the ground stands second: [{words[1]}, {words[0]}]"
+    elif pair.body not in scene.bodies:
+        if not parsed.hides(pair.body):
+            hint = nearest(pair.body, parsed.names("bodies", scene.bodies))
+            yield (*path, 0), f"unknown body {pair.body!r}{hint}"
+    elif pair.body == pair.touched:
+        yield path, f"{pair.body!r} touches itself"
+    elif what := _unable(scene.bodies[pair.body], words[0].partition(".")[2]):
+        yield (*path, 0), what
+    elif what := _untouchable(scene.bodies[pair.touched], pair):
+        yield (*path, 1), what
 
 
 def _unable(body: Body, point: str) -> str | None:

@@ -21,7 +21,7 @@ _SHORTEST = 1e-12  # of a step: what is left is rounding
 def has_corners(scene: Scene) -> bool:
     """Whether springs of one side are all that switches in the scene."""
     dry = any(joint.dry_friction for joint in scene.joints.values())
-    return any(scene.one_sided()) and not (scene.contacts or scene.constraints or dry)
+    return any(scene.one_sided()) and not (scene.pressed or scene.constraints or dry)
 
 
 @dataclass

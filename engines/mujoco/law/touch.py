@@ -148,6 +148,7 @@ def one_touch(scene: Scene) -> bool:
     contacts = list(scene.contacts.values())
     return (
         len(contacts) == 1
+        and not scene.pairs
         and contacts[0].switches
         and contacts[0].plane.level  # else friction is no force along one of its coordinates
         and contacts[0].static != contacts[0].kinetic

@@ -18,7 +18,7 @@ def sayable(scene: Scene) -> bool:
     """Whether the law is one of those here, of slides; the smooth one is unstable as a force."""
     dry = [joint for joint in scene.joints.values() if joint.dry_friction]
     smooth = any(joint.dry_friction and joint.dry_friction.smooth for joint in dry)
-    elsewhere = scene.contacts or lacking(scene)
+    elsewhere = scene.pressed or lacking(scene)
     return not elsewhere and not smooth and all(joint.shifts for joint in dry)
 
 
