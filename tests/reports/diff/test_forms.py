@@ -2,6 +2,8 @@
 
 import json
 import re
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -137,3 +139,14 @@ def test_one_folder_is_compared_with_the_committed_reports(tmp_path: Path) -> No
     assert done.stdout.endswith("nothing changed\n")
     shown = textmech("diff", copy, "--markdown").stdout
     assert shown.startswith("### ✅ textmech: nothing changed")
+
+
+def test_it_loads_nothing_that_takes_long() -> None:
+    """So that it answers in a third of a second."""
+    rooms = ("as_json", "compare", "folder", "junit", "markdown", "rule", "text")
+    names = ", ".join(f"textmech.reports.diff.{room}" for room in rooms)
+    program = f"import sys, textmech.reports.cli, {names}; print(*sys.modules)"
+    words = [sys.executable, "-c", program]
+    loaded = subprocess.run(words, capture_output=True, text=True, check=True).stdout.split()
+    assert "textmech.reports.diff.compare" in loaded
+    assert not {"numpy", "pandas", "scipy", "pydantic"} & {*loaded}
