@@ -3,10 +3,11 @@ VENV := .venv
 PYTHON ?= python3
 READY := $(VENV)/.ready
 
-.PHONY: reports test quick lint bench clean
+.PHONY: reports test quick lint bench install clean
 
 reports: $(READY)
 	$(VENV)/bin/textmech run
+	$(VENV)/bin/textmech page
 
 test: $(READY)
 	$(VENV)/bin/pytest -n auto --dist worksteal
@@ -28,6 +29,8 @@ lint: $(READY)
 
 bench: $(READY)
 	$(VENV)/bin/textmech bench
+
+install: $(READY)
 
 clean:
 	rm -rf $(VENV)

@@ -34,9 +34,18 @@ def rungs(trial: Trial) -> dict[At, Rung]:
         name: RUNAWAY * max(1.0, float(np.max(np.abs(trial.wanted(name))))) for name in trial.motion
     }
     case, engine, start = trial.case, trial.engine, trial.start
+    climbs = list(ladders(case, engine, trial.plan))
     return {
-        (ladder.name, h): Rung(case, engine, start, ladder.plan(trial.plan), h, bounds)
-        for ladder in ladders(case, engine, trial.plan)
+        (ladder.name, h): Rung(
+            case,
+            engine,
+            start,
+            ladder.plan(trial.plan),
+            h,
+            bounds,
+            poses=ladder is climbs[0] and h == trial.step,  # the judged run is looked at
+        )
+        for ladder in climbs
         for h in reversed(ladder.steps)
     }
 
