@@ -87,7 +87,9 @@ def diff(
     whole: bool,
     **thresholds: float,
 ) -> None:
-    """What changed between two report folders; of one folder, since the committed reports.
+    """What changed between two report folders, and whether it got worse.
+
+    Of one folder: since the committed reports.
 
     A row has changed if its verdict did, or if its error moved by more than rounding can: by more
     than --moved of itself and --floor of what is allowed, so that the same code on another machine
