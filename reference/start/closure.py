@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ...cases.case import Case, Placement
-from ...cases.plane import LEVEL
 from ...cases.pair import Pair
+from ...cases.plane import LEVEL
 from ...cases.scene import Anchor, Vector
 from ..generated.constraint import Constraint, assembled
 from ..generated.coordinates import ORIGIN, Coordinates

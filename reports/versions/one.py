@@ -12,7 +12,7 @@ from .. import ending, pool, suite, write
 from ..cache.store import usable
 from ..selection import choose_cases, choose_engines
 from ..show.say import prepare, tell
-from ..show.terminal import progress
+from ..show.progress import progress
 
 BROKEN = "broken.txt"
 MISTAKEN = 2
