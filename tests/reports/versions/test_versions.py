@@ -1,5 +1,6 @@
 """Releases of an engine beside each other: what one moved is seen, and what it lacks is said."""
 
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,7 +11,8 @@ from given.releases import DYING, HEAVIER, LACKING, SAME, index, wheel
 from textmech.reports import write
 from textmech.reports.diff.rule import Rule
 from textmech.reports.diff.table import read
-from textmech.reports.versions.install import here
+from textmech.reports.versions.install import here, place
+from textmech.reports.versions.wanted import Release
 
 NOW = here("pymunk") or ""
 
@@ -83,6 +85,39 @@ def test_another_version_than_the_one_asked_for_is_never_taken_for_it(
     done = textmech("versions", "pymunk==92.1", case)
     assert done.returncode == 2
     assert "pymunk 92.1 is asked for, and Python finds 92.0" in capfd.readouterr().err
+
+
+def test_a_release_is_installed_once_and_again_where_it_was_damaged(
+    case: Path, tmp_path: Path
+) -> None:
+    wheel(tmp_path / "index", "93.1", SAME)
+    said: list[str] = []
+    release, among = Release("pymunk", "93.1"), tmp_path / "releases"
+    first, second = (place(release, among, said.append) for _ in range(2))
+    assert first == second
+    assert said == ["installing pymunk==93.1"]
+    assert first is not None
+    shutil.rmtree(next(first.glob("*.dist-info")))
+    assert place(release, among, said.append) == first
+    assert len(said) == 2
+    assert [file.name for file in among.iterdir()] == [first.name]
+
+
+def test_pieces_of_the_same_release_come_with_it(case: Path, tmp_path: Path) -> None:
+    """And nothing else that it needs: that is this environment's."""
+    for name, needs in (("pymunk", ["pymunk-core==94.1", "numpy", 'x==1; extra == "y"']),
+                        ("pymunk-core", ["numpy==0.1; extra == \"z\""])):  # fmt: skip
+        wheel(tmp_path / "index", "94.1", SAME, name=name, needs=needs)
+    found = place(Release("pymunk", "94.1"), tmp_path / "releases", print)
+    assert found is not None
+    assert {path.name for path in found.glob("*.dist-info")} == {
+        "pymunk-94.1.dist-info",
+        "pymunk_core-94.1.dist-info",
+    }
+
+
+def test_this_environments_own_release_is_not_installed(tmp_path: Path) -> None:
+    assert place(Release("pymunk", NOW), tmp_path, pytest.fail) is None
 
 
 @pytest.mark.parametrize(
