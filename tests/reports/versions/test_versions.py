@@ -45,11 +45,14 @@ def test_a_release_that_moved_a_number_is_seen_and_one_that_did_not_is_not(
     words = (f"pymunk=={NOW}", "pymunk==90.1", "pymunk==90.2", case, "--settings", "tuned")
     done = textmech("versions", *words, "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr  # FAILS is a finding
-    same, heavier = done.stdout.split("90.1: ")[1].split("90.2: ")
-    assert f"as in {NOW}" in same
-    assert "→" not in same
-    assert "not as in 90.1" in heavier
-    assert "rod.angle" in heavier
+    assert f"90.1: 3 numbers, 0 moved since {NOW}" in done.stdout
+    head, *lines = done.stdout.partition("* moved")[2].splitlines()
+    assert head.split() == [NOW, "90.1", "90.2"]
+    (angle,) = [line.split() for line in lines if line.startswith("    rod.angle")]
+    name, unit, now, same, heavier = angle
+    assert (name, unit, now) == ("rod.angle", "rad", same)
+    assert heavier.startswith("*")
+    assert float(heavier[1:]) > 10 * float(now)
     by_version: dict[str, list[dict[str, str]]] = {}
     for row in rows(tmp_path / "out"):
         by_version.setdefault(row["version"], []).append(row)
@@ -70,6 +73,7 @@ def test_what_a_release_lacks_is_a_row_that_says_so(case: Path, tmp_path: Path) 
     done = textmech("versions", *words)
     assert done.returncode == 0, done.stderr
     assert "Traceback" not in done.stderr
+    assert "91.1: refused: adapter: pymunk" in done.stdout
     lacking, dying = rows(tmp_path / "out")
     assert lacking["verdict"].startswith("refused: adapter: pymunk")
     assert "no module of this name any more" in lacking["verdict"]
