@@ -57,8 +57,7 @@ class Element:
     audit reads of one. by_length: its force [N] by that, if not as pymunk has it. tell: the force
     that is given before each step of `step` s, `drift` s ahead (0: at the present place); of what
     has a line too, only where we realise its law. load: what it exerts on a body, by the body's
-    name. script: the same as lines of Python. lacks: why pymunk has no element for it, so that it
-    is told by our law.
+    name. script: the same as lines of Python. lacks: why pymunk has none, so that our law tells it.
     """
 
     load: Callable[[World, Any, str], Exerted]

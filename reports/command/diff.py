@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from ..show.say import say
+from .answer import as_json
 from .run import FAILED
 
 COMMITTED = Path(__file__).parents[1]
@@ -34,8 +35,7 @@ class Number(click.ParamType):
 
 @click.command()
 @click.argument("folders", nargs=-1, type=click.Path(path_type=Path), metavar="[OLD] NEW")
-@click.option("--markdown", "form", flag_value="markdown", help="For a pull request.")
-@click.option("--json", "form", flag_value="json", help="For a program: one document.")
+@click.option("--markdown", "wants_markdown", is_flag=True, help="For a pull request.")
 @click.option(
     "--junit",
     type=click.Path(dir_okay=False, path_type=Path),
@@ -79,15 +79,19 @@ class Number(click.ParamType):
     show_default=True,
     help="The part of what is allowed above which a grown error is one.",
 )
+@as_json
 def diff(
     folders: tuple[Path, ...],
-    form: str | None,
+    wants_json: bool,
+    wants_markdown: bool,
     junit: Path | None,
     every: bool,
     whole: bool,
     **thresholds: float,
 ) -> None:
-    """What changed between two report folders; of one folder, since the committed reports.
+    """What changed between two report folders, and whether it got worse.
+
+    Of one folder: since the committed reports.
 
     A row has changed if its verdict did, or if its error moved by more than rounding can: by more
     than --moved of itself and --floor of what is allowed, so that the same code on another machine
@@ -105,7 +109,7 @@ def diff(
     \b
     Exit codes: 0 no regression, 1 a regression, 2 a folder that is no report, or a mixed one
     """
-    from ..diff.as_json import as_json
+    from ..diff.as_json import as_json as document
     from ..diff.compare import difference
     from ..diff.folder import opened
     from ..diff.junit import junit as as_junit
@@ -114,6 +118,8 @@ def diff(
     from ..diff.rule import Rule
     from ..diff.text import MOST, text
 
+    if wants_json and wants_markdown:
+        raise click.UsageError("--json or --markdown, please: both are one document")
     if not 1 <= len(folders) <= 2:
         raise click.UsageError(f"one folder or two, please: {len(folders)} are named")
     old, new = folders if len(folders) == 2 else (COMMITTED, *folders)
@@ -122,9 +128,9 @@ def diff(
     named = {str(old) if len(folders) == 2 else "the committed reports": old, str(new): new}
     before, after = opened(named)
     found = difference(before, after, Rule(**thresholds), whole=whole)
-    if form == "json":
-        say(as_json(found))
-    elif form == "markdown":
+    if wants_json:
+        say(document(found))
+    elif wants_markdown:
         say(markdown(found, most=None if every else LISTED))
     else:
         width = shutil.get_terminal_size().columns

@@ -27,7 +27,9 @@ CASES = (
     help="Only this setting; a FILE of your own engine options is a further one.",
 )
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default.")
-@click.option("--out", type=Folder(), help="Also write the folder's versions.csv.")
+@click.option(
+    "--out", type=Folder(), help="A folder for versions.csv: all numbers, and what moved."
+)
 @allow_long
 def versions(
     words: tuple[str, ...],
@@ -41,8 +43,8 @@ def versions(
     Each release is installed by pip, or by uv where there is no pip, into a folder of its own in
     the cache, and nothing of your environment changes. All run the same cases against the same
     references with today's adapters, in the order in which you name them; each is compared with
-    the one before, by the rule of `textmech diff`. What an old release lacks is refused in words. A
-    verdict FAILS is a finding here, not an exit code.
+    the one before, by the rule of `textmech diff`, and what moved is shown as a table. What an old
+    release lacks is refused in words. A verdict FAILS is a finding here, not an exit code.
 
     Without CASES some of the shipped ones are taken: pins, loops, friction, rolling, impacts.
 

@@ -11,7 +11,7 @@ from .folder import Folder
 
 
 def as_json(found: Difference) -> str:
-    """All of it; a number that is not finite is its word, `"inf"`, which JSON has no number for."""
+    """All of it; a number that is not finite, which JSON has not, is null."""
     document = {
         "old": _folder(found.old),
         "new": _folder(found.new),
@@ -24,6 +24,8 @@ def as_json(found: Difference) -> str:
         },
         "files of one folder": list(found.alone),
         "changes": [_change(change) for change in found.changes],
+        "mistakes": [],
+        "exit_code": int(found.regressed),
     }
     return json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
 
@@ -51,5 +53,5 @@ def _seen(seen: Seen | None) -> dict[str, Any] | None:
     return None if seen is None else {"words": seen.words, "number": _number(seen.number)}
 
 
-def _number(number: float | None) -> float | str | None:
-    return number if number is None or isfinite(number) else str(number)
+def _number(number: float | None) -> float | None:
+    return None if number is None or not isfinite(number) else number

@@ -108,10 +108,11 @@ def _number(seen: Seen) -> str:
 def _why(found: Difference, folder: Folder) -> str:
     cases = sorted(folder.scope.cases - found.scope.cases)
     columns = sorted(".".join(c) for c in folder.scope.columns - found.scope.columns)
-    told = [
-        f"{what} {_first(names)}" for what, names in (("case", cases), ("column", columns)) if names
-    ]
-    return f"only it has {' and '.join(told)}" if told else "they name neither case nor engine"
+    named = (("case", cases), ("column", columns))
+    told = [f"{what} {_first(names)}" for what, names in named if names]
+    if not told:
+        return "of cases that its tolerance.csv does not name"
+    return f"only it has {' and '.join(told)}"
 
 
 def _first(names: list[str]) -> str:

@@ -33,8 +33,9 @@ def place(release: Release, among: Path, tell: Callable[[str], None]) -> Path | 
         return None
     tag = f"{sys.implementation.cache_tag}-{platform.system()}-{platform.machine()}"
     folder = among / f"{release}-{tag}"
-    if not folder.is_dir():
+    if not _holds(folder, release):
         tell(f"installing {release}")
+        shutil.rmtree(folder, ignore_errors=True)  # what somebody took a part of
         among.mkdir(parents=True, exist_ok=True, mode=0o700)
         with tempfile.TemporaryDirectory(prefix=".making-", dir=among) as made:
             _install([str(release)], Path(made) / "first", release)
@@ -51,6 +52,11 @@ def here(engine: str) -> str | None:
         return metadata.version(engine)
     except metadata.PackageNotFoundError:
         return None
+
+
+def _holds(folder: Path, release: Release) -> bool:
+    found = metadata.distributions(path=[str(folder)])
+    return any((one.name, one.version) == (release.engine, release.version) for one in found)
 
 
 def _kept(made: Path, folder: Path) -> None:

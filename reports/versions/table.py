@@ -63,7 +63,7 @@ def table(steps: Sequence[Step], cases: Sequence[str]) -> pd.DataFrame:
             told = {name: row[name] for name in COLUMNS}
             told |= {name: row[column] for name, column in NUMBERS.items()}
             change = moved.get(place(row), "")
-            told |= {"verdict": _verdict(row), "moved": "yes" if change else "", "change": change}
+            told |= {"verdict": verdict(row), "moved": "yes" if change else "", "change": change}
             rows.append(told)
         if not step.now.folder:
             release = step.now.release
@@ -75,7 +75,7 @@ def table(steps: Sequence[Step], cases: Sequence[str]) -> pd.DataFrame:
     return frame.sort_values(["engine", "case"], kind="stable", ignore_index=True)
 
 
-def _verdict(row: Row) -> str:
+def verdict(row: Row) -> str:
     """With its reason, where no number says more."""
     if row["largest"] or not row["because"]:
         return row["verdict"]

@@ -1,48 +1,116 @@
-"""Which release moved which number, on a terminal."""
+"""Which release moved which number, on a terminal: a line for each release, and a table."""
 
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
 
-from ..diff.change import Change
+from ..diff.change import Change, Place
+from ..diff.errors import place
+from ..diff.file import number
+from ..diff.table import Row
 from ..diff.text import fitted
-from ..diff.words import by_place
-from .table import Step
+from .table import Step, verdict
+from .wanted import Release
 
-MOST = 40  # changes of one release; the CSV has them all
+MOST = 40  # rows of a table; the CSV has them all
+NONE = "–"
 
 
 def text(steps: Sequence[Step], width: int) -> str:
-    """By engine and release."""
+    """By engine."""
     lines: list[str] = []
-    for engine, some in groupby(steps, key=lambda step: step.now.release.engine):
-        lines += ["", engine]
-        for step in some:
-            lines += _told(step)
-    return "\n".join(part for line in lines[1:] for part in fitted(line, width))
+    for engine, some in groupby(sorted(steps, key=_engine), key=_engine):
+        its = [*some]
+        told = [line for i, step in enumerate(its) for line in _told(step, its[i - 1 : i])]
+        lines += ["", engine, *(part for line in told for part in fitted(line, width))]
+        lines += _table(its, width)
+    return "\n".join(lines[1:])
 
 
-def _told(step: Step) -> Iterator[str]:
-    version, changes = step.now.release.version, step.changes
+def _engine(step: Step) -> str:
+    return step.now.release.engine
+
+
+def _told(step: Step, before: Sequence[Step]) -> Iterator[str]:
+    """How many numbers a release gave, how many moved, and what the one before did not lack."""
+    version = step.now.release.version
     if not step.now.folder:
         yield f"  {version}: {step.now.because}"
-    elif step.before is None:
-        yield f"  {version}: {_counted(step)}"
-    elif not changes:
-        yield f"  {version}: {_counted(step)}, as in {step.before.version}"
-    else:
-        yield f"  {version}: {_counted(step)}, {len(changes)} not as in {step.before.version}"
-        for case, column, _, told in by_place(sorted(changes[:MOST], key=_place)):
-            yield f"    {case} {column}"
-            yield from (f"      {names}: {said}" for names, said in told)
-        if len(changes) > MOST:
-            yield f"    and {len(changes) - MOST} more"
-
-
-def _counted(step: Step) -> str:
+        return
     measured = sum(row["largest"] != "" for row in step.rows)
-    without = len(step.rows) - measured
-    return f"{measured} numbers" + (f" and {without} rows without one" if without else "")
+    moved = f", {len(_numbers(step))} moved since {step.before.version}" if step.before else ""
+    yield f"  {version}: {measured} number{'' if measured == 1 else 's'}{moved}"
+    known = {why for one in before for why in _lacking(one)}
+    for why, count in _lacking(step).items():
+        if why not in known:
+            yield f"    {count} without: {why}"
 
 
-def _place(change: Change) -> tuple[str, str]:
-    return change.place.case, change.place.column
+def _lacking(step: Step) -> Mapping[str, int]:
+    """Why it has no number, and of how many rows."""
+    return Counter(verdict(row) for row in step.rows if not row["largest"])
+
+
+def _numbers(step: Step) -> list[Change]:
+    """Those where both releases have one."""
+    return [
+        change
+        for change in step.changes
+        if change.was and change.now and None not in (change.was.number, change.now.number)
+    ]
+
+
+def _table(steps: Sequence[Step], width: int) -> Iterator[str]:
+    """Quantities by releases, as many as fit: a release that moved nothing is as its left one."""
+    moved = {s.now.release: {change.place for change in _numbers(s)} for s in steps}
+    places = sorted({place for found in moved.values() for place in found}, key=_sorted)
+    if not places:
+        return
+    shown = [step for step in steps if step.now.folder]
+    lines = _lines(shown, places[:MOST], moved)
+    if max(map(len, lines)) > width:
+        lines = _lines(
+            [s for s in shown if moved[s.now.release] or s is shown[0]], places[:MOST], moved
+        )
+    yield ""
+    yield from lines
+    if len(places) > MOST:
+        yield f"  and {len(places) - MOST} more"
+
+
+def _sorted(place: Place) -> tuple[str, str, str]:
+    return place.case, place.column, place.what
+
+
+def _lines(
+    steps: Sequence[Step], places: Sequence[Place], moved: Mapping[Release, set[Place]]
+) -> list[str]:
+    versions = [step.now.release.version for step in steps]
+    cells = {p: [_cell(step, p, p in moved[step.now.release]) for step in steps] for p in places}
+    widths = [max(map(len, column)) for column in zip(versions, *cells.values(), strict=True)]
+    names = {p: f"    {p.what} {_unit(steps, p)}" for p in places}
+    name = max(map(len, names.values()))
+    lines = [_line(f"{'* moved':{name}}", versions, widths)]
+    for (case, column), some in groupby(places, key=lambda p: (p.case, p.column)):
+        lines.append(f"  {case} {column}")
+        lines += [_line(f"{names[p]:{name}}", cells[p], widths) for p in some]
+    return lines
+
+
+def _line(name: str, cells: Sequence[str], widths: Sequence[int]) -> str:
+    told = (f"{cell:>{width}}" for cell, width in zip(cells, widths, strict=True))
+    return "  ".join([name, *told])
+
+
+def _cell(step: Step, where: Place, moved: bool) -> str:
+    row = _row(step, where)
+    error = None if row is None else number(row, "largest")
+    return NONE if error is None else f"{'*' if moved else ''}{error:.2g}"
+
+
+def _unit(steps: Sequence[Step], where: Place) -> str:
+    return next(row["unit"] for step in steps if (row := _row(step, where)) is not None)
+
+
+def _row(step: Step, where: Place) -> Row | None:
+    return next((row for row in step.rows if place(row) == where), None)

@@ -2,6 +2,7 @@
 
 import sys
 import zipfile
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -30,20 +31,29 @@ LACKING = "raise ImportError('no module of this name any more')"
 DYING = "os.kill(os.getpid(), 9)"
 
 
-def wheel(folder: Path, version: str, change: str, *, says: str | None = None) -> None:
-    """A release; says: the version that it tells, if that is another one."""
+def wheel(
+    folder: Path,
+    version: str,
+    change: str,
+    *,
+    says: str | None = None,
+    name: str = "pymunk",
+    needs: Sequence[str] = (),
+) -> None:
+    """A release; says: the version that it tells, if that is another one; needs: as pip knows."""
     folder.mkdir(exist_ok=True)
-    name = f"pymunk-{version}"
+    package = name.replace("-", "_")
+    info = f"{package}-{version}.dist-info"
     text = REAL.format(version=says or version, change=change)
-    head = f"Metadata-Version: 2.1\nName: pymunk\nVersion: {version}\n"
+    head = f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\n"
     kind = "Wheel-Version: 1.0\nGenerator: test\nRoot-Is-Purelib: true\nTag: py3-none-any\n"
     files = {
-        "pymunk/__init__.py": text,
-        f"{name}.dist-info/METADATA": head,
-        f"{name}.dist-info/WHEEL": kind,
+        f"{package}/__init__.py": text,
+        f"{info}/METADATA": head + "".join(f"Requires-Dist: {need}\n" for need in needs),
+        f"{info}/WHEEL": kind,
     }
-    record = f"{name}.dist-info/RECORD"
-    with zipfile.ZipFile(folder / f"{name}-py3-none-any.whl", "w") as archive:
+    record = f"{info}/RECORD"
+    with zipfile.ZipFile(folder / f"{package}-{version}-py3-none-any.whl", "w") as archive:
         for path, content in files.items():
             archive.writestr(path, content)
         archive.writestr(record, "".join(f"{path},,\n" for path in [*files, record]))

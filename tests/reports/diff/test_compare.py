@@ -227,3 +227,17 @@ def test_rows_of_an_unknown_file_that_nothing_names_are_lost_and_new(tmp_path: P
 def test_a_file_of_one_folder_is_named(tmp_path: Path) -> None:
     part = found(tmp_path, {}, {"further": {"causes.csv": CURES}})
     assert (part.alone, part.changes) == (("causes.csv",), ())
+
+
+ADVICE = pd.DataFrame(
+    [("swing", "mujoco", "", "2", "RK4", "1"), ("swing", "mujoco", "0.001", "2", "RK4", "2")],
+    columns=["case", "engine", "tolerance", "margin", "recipe", "cost"],
+)
+
+
+def test_another_advice_for_the_same_question_is_one_change(tmp_path: Path) -> None:
+    other = ADVICE.assign(recipe=["RK4", "none"])
+    files = ({"further": {"advice.csv": frame}} for frame in (ADVICE, other))
+    change = only(found(tmp_path, *files))
+    assert (change.kind, change.place) == (CHANGED, Place("swing", "mujoco", "0.001, 2"))
+    assert (change.was, change.now) == (Seen("recipe RK4"), Seen("recipe none"))

@@ -2,6 +2,8 @@
 
 import json
 import re
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -60,11 +62,26 @@ def test_json_says_it_all(two: tuple[Path, Path]) -> None:
     assert first["times"] == pytest.approx(4.5)
 
 
-def test_numbers_that_json_does_not_have_are_words(tmp_path: Path) -> None:
+def test_mistakes_are_a_document_too(two: tuple[Path, Path]) -> None:
+    (two[1] / "events.csv").write_text("")
+    done = textmech("diff", *two, "--json")
+    assert (done.returncode, done.stderr) == (2, "")
+    told = json.loads(done.stdout)
+    assert told["exit_code"] == 2
+    assert told["mistakes"][0]["file"] == str(two[1] / "events.csv")
+
+
+def test_one_document_at_a_time(two: tuple[Path, Path]) -> None:
+    done = textmech("diff", *two, "--json", "--markdown")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "--json or --markdown" in done.stderr
+
+
+def test_numbers_that_json_does_not_have_are_null(tmp_path: Path) -> None:
     old = report(tmp_path / "old", rows=[replace(ROW, largest=0.0)])
     new = report(tmp_path / "new", rows=[replace(ROW, largest=float("inf"), verdict="beyond")])
     told = json.loads(textmech("diff", old, new, "--json").stdout, parse_constant=pytest.fail)
-    assert told["changes"][0]["new"]["number"] == "inf"
+    assert told["changes"][0]["new"] == {"words": "beyond", "number": None}
 
 
 def test_junit_has_a_failure_for_what_regressed_and_says_what_was_skipped(
@@ -137,3 +154,14 @@ def test_one_folder_is_compared_with_the_committed_reports(tmp_path: Path) -> No
     assert done.stdout.endswith("nothing changed\n")
     shown = textmech("diff", copy, "--markdown").stdout
     assert shown.startswith("### ✅ textmech: nothing changed")
+
+
+def test_it_loads_nothing_that_takes_long() -> None:
+    """So that it answers in a third of a second."""
+    rooms = ("as_json", "compare", "folder", "junit", "markdown", "rule", "text")
+    names = ", ".join(f"textmech.reports.diff.{room}" for room in rooms)
+    program = f"import sys, textmech.reports.cli, {names}; print(*sys.modules)"
+    words = [sys.executable, "-c", program]
+    loaded = subprocess.run(words, capture_output=True, text=True, check=True).stdout.split()
+    assert "textmech.reports.diff.compare" in loaded
+    assert not {"numpy", "pandas", "scipy", "pydantic"} & {*loaded}

@@ -1,5 +1,6 @@
 """Releases of an engine beside each other: what one moved is seen, and what it lacks is said."""
 
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,7 +11,8 @@ from given.releases import DYING, HEAVIER, LACKING, SAME, index, wheel
 from textmech.reports import write
 from textmech.reports.diff.rule import Rule
 from textmech.reports.diff.table import read
-from textmech.reports.versions.install import here
+from textmech.reports.versions.install import here, place
+from textmech.reports.versions.wanted import Release
 
 NOW = here("pymunk") or ""
 
@@ -43,11 +45,14 @@ def test_a_release_that_moved_a_number_is_seen_and_one_that_did_not_is_not(
     words = (f"pymunk=={NOW}", "pymunk==90.1", "pymunk==90.2", case, "--settings", "tuned")
     done = textmech("versions", *words, "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr  # FAILS is a finding
-    same, heavier = done.stdout.split("90.1: ")[1].split("90.2: ")
-    assert f"as in {NOW}" in same
-    assert "→" not in same
-    assert "not as in 90.1" in heavier
-    assert "rod.angle" in heavier
+    assert f"90.1: 3 numbers, 0 moved since {NOW}" in done.stdout
+    head, *lines = done.stdout.partition("* moved")[2].splitlines()
+    assert head.split() == [NOW, "90.1", "90.2"]
+    (angle,) = [line.split() for line in lines if line.startswith("    rod.angle")]
+    name, unit, now, same, heavier = angle
+    assert (name, unit, now) == ("rod.angle", "rad", same)
+    assert heavier.startswith("*")
+    assert float(heavier[1:]) > 10 * float(now)
     by_version: dict[str, list[dict[str, str]]] = {}
     for row in rows(tmp_path / "out"):
         by_version.setdefault(row["version"], []).append(row)
@@ -68,6 +73,7 @@ def test_what_a_release_lacks_is_a_row_that_says_so(case: Path, tmp_path: Path) 
     done = textmech("versions", *words)
     assert done.returncode == 0, done.stderr
     assert "Traceback" not in done.stderr
+    assert "91.1: refused: adapter: pymunk" in done.stdout
     lacking, dying = rows(tmp_path / "out")
     assert lacking["verdict"].startswith("refused: adapter: pymunk")
     assert "no module of this name any more" in lacking["verdict"]
@@ -83,6 +89,39 @@ def test_another_version_than_the_one_asked_for_is_never_taken_for_it(
     done = textmech("versions", "pymunk==92.1", case)
     assert done.returncode == 2
     assert "pymunk 92.1 is asked for, and Python finds 92.0" in capfd.readouterr().err
+
+
+def test_a_release_is_installed_once_and_again_where_it_was_damaged(
+    case: Path, tmp_path: Path
+) -> None:
+    wheel(tmp_path / "index", "93.1", SAME)
+    said: list[str] = []
+    release, among = Release("pymunk", "93.1"), tmp_path / "releases"
+    first, second = (place(release, among, said.append) for _ in range(2))
+    assert first == second
+    assert said == ["installing pymunk==93.1"]
+    assert first is not None
+    shutil.rmtree(next(first.glob("*.dist-info")))
+    assert place(release, among, said.append) == first
+    assert len(said) == 2
+    assert [file.name for file in among.iterdir()] == [first.name]
+
+
+def test_pieces_of_the_same_release_come_with_it(case: Path, tmp_path: Path) -> None:
+    """And nothing else that it needs: that is this environment's."""
+    for name, needs in (("pymunk", ["pymunk-core==94.1", "numpy", 'x==1; extra == "y"']),
+                        ("pymunk-core", ["numpy==0.1; extra == \"z\""])):  # fmt: skip
+        wheel(tmp_path / "index", "94.1", SAME, name=name, needs=needs)
+    found = place(Release("pymunk", "94.1"), tmp_path / "releases", print)
+    assert found is not None
+    assert {path.name for path in found.glob("*.dist-info")} == {
+        "pymunk-94.1.dist-info",
+        "pymunk_core-94.1.dist-info",
+    }
+
+
+def test_this_environments_own_release_is_not_installed(tmp_path: Path) -> None:
+    assert place(Release("pymunk", NOW), tmp_path, pytest.fail) is None
 
 
 @pytest.mark.parametrize(
