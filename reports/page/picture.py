@@ -12,7 +12,7 @@ from ..row import Comparison, Rungs
 from .column import Column, column
 from .heat import short
 from .motions import Motion
-from .pack import unpacked
+from .pack import unpacked, unpacked_by_size
 from .paint import INK, style
 from .strobe import strobe
 
@@ -62,7 +62,11 @@ def _tube(
     axes.plot(times, reference, color=INK, lw=2, label="reference")
     for one, off in _off(curves, shown):
         own = unpacked(off["times"]) if "times" in off else times
-        values = unpacked(off["values"]) if "values" in off else reference + unpacked(off["curve"])
+        values = (
+            unpacked(off["values"])
+            if "values" in off
+            else reference + unpacked_by_size(off["curve"])
+        )
         _curve(axes, own, values, one)
     low, high = np.min(reference) - allowed, np.max(reference) + allowed
     bottom, top = axes.get_ylim()
@@ -80,7 +84,7 @@ def _error(
 ) -> None:
     for one, off in _off(curves, shown):
         own = unpacked(off["times"]) if "times" in off else times
-        _curve(axes, own, np.maximum(np.abs(unpacked(off["curve"])) / allowed, LEAST), one)
+        _curve(axes, own, np.maximum(np.abs(unpacked_by_size(off["curve"])) / allowed, LEAST), one)
     _bound(axes)
     told = [row for row in rows if row.when is not None and row.ratio]
     if told:

@@ -6,6 +6,7 @@ import pandas as pd
 import pytest
 from given.swing import SWING
 
+from textmech.cases.case import Case
 from textmech.reports import suite, write
 from textmech.reports.page.folder import folder
 from textmech.reports.page.motions import motions
@@ -52,6 +53,12 @@ VERSIONS = {
     "verdict": ["beyond", "beyond", "agrees"],
     "moved": ["", "", "yes"],
 }
+
+
+@pytest.fixture(scope="package")
+def shipped() -> list[Case]:
+    """All shipped cases."""
+    return choose_cases([])
 
 
 @pytest.fixture(scope="package")

@@ -11,6 +11,7 @@ from given.browser import Tab, browser, found
 
 from textmech.cases.space.rotation import turned
 from textmech.reports import write
+from textmech.reports.page.pack import packed_by_size
 from textmech.reports.page.write import NAME
 
 WIDTHS = (390, 900, 1500)
@@ -118,6 +119,13 @@ def test_the_drawn_bar_is_where_the_reference_is(
     for ((x0, y0), (x1, y1)), state in zip(told, states, strict=True):
         assert np.hypot(x0, y0) == pytest.approx(0.0, abs=1e-3)
         assert np.arctan2(y1, x1) == pytest.approx(state[2], abs=2e-3)
+
+
+def test_the_script_reads_the_errors_that_were_packed(tab: Tab, page: str) -> None:
+    tab.open(page)
+    errors = np.array([0.0, 1e-7, -3.3, 2.0, -1e-3, 1e-12])
+    found = tab.ask(f"Array.from(unpackBySize({json.dumps(packed_by_size(errors))}))")
+    assert found == pytest.approx([*errors[:5], 0.0], rel=0.006)
 
 
 def test_places_turn_with_their_part(tab: Tab, page: str) -> None:
