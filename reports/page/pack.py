@@ -52,8 +52,8 @@ def packed_by_size(numbers: Array) -> Packed:
         return 0.0, step, _letters(np.zeros(len(numbers)))
     told = sizes > largest * 10**-DECADES
     down = np.round(-np.log10(np.where(told, sizes, largest) / largest) / step)
-    levels = np.where(told, np.clip(down, 0, HALF - 2) + 1, 0) + HALF * (told & (numbers < 0))
-    return largest, step, _letters(levels)
+    levels: Array = np.where(told, np.clip(down, 0, HALF - 2) + 1, 0.0)
+    return largest, step, _letters(np.where(numbers < 0, levels + HALF, levels))
 
 
 def unpacked_by_size(found: Sequence[float | str]) -> Array:
