@@ -3,7 +3,7 @@ VENV := .venv
 PYTHON ?= python3
 READY := $(VENV)/.ready
 
-.PHONY: reports test quick lint bench clean
+.PHONY: reports test quick lint bench install clean
 
 reports: $(READY)
 	$(VENV)/bin/textmech run
@@ -29,6 +29,8 @@ lint: $(READY)
 
 bench: $(READY)
 	$(VENV)/bin/textmech bench
+
+install: $(READY)
 
 clean:
 	rm -rf $(VENV)

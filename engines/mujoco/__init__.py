@@ -11,13 +11,17 @@ from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ..engine import Plain, Plan, Realised, Refusal, Start
 from ..heading import heading
+from ..knobs import Knob, Options
 from . import options, settings
 from .claims import answered
 from .compilation import NOMINAL, timestep
+from .knobs import STEPS, cost, knobs
+from .own import as_options, unfit
 from .plane import PLANE
 from .refuse import not_native, uncompilable
 from .rods import of_scene
 from .script import commented, controls
+from .snippet import said, snippet
 from .space.world import SPACE
 from .world import World
 
@@ -34,6 +38,7 @@ class MuJoCo:
     name: str = "mujoco"
     version: str = mujoco.__version__
     offers: ClassVar[tuple[str, ...]] = ("shipped", "tuned")
+    steps: ClassVar[tuple[float, ...]] = STEPS
 
     def __post_init__(self) -> None:
         options.check(self.options)
@@ -47,12 +52,18 @@ class MuJoCo:
     def _tuned(self) -> bool:
         return self.setting == "tuned"
 
+    @property
+    def _settles(self) -> bool:
+        return self._tuned or bool(self.options.get("settled"))
+
     def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
         """Natively; edges, dry friction and corners of springs in other ways too, if tuned."""
         world = _world(scene)
         scene, start = world.built(scene, start)
-        refusal = world.unbuildable(scene) or uncompilable(
-            world.compiled, scene, start, self._plan(scene, start)
+        refusal = (
+            world.unbuildable(scene)
+            or unfit(self.options, list(world.recipes), world.worth(scene))
+            or uncompilable(world.compiled, scene, start, self._plan(scene, start))
         )
         if refusal:
             return [Refusal("native", refusal)]
@@ -67,8 +78,34 @@ class MuJoCo:
         if self._tuned:
             numbers = partial(world.tuned, scene, start=start)
         else:
-            numbers = partial(world.with_own, self.options, scene)
-        return world.plan(scene, start, realised, numbers, tuned=self._tuned)
+            numbers = partial(world.with_own, self.options, scene, start)
+        return world.plan(scene, start, realised, numbers, settles=self._settles, tuned=self._tuned)
+
+    def knobs(self, scene: Scene, start: Start) -> list[Knob]:
+        """See `Tunable`."""
+        world = _world(scene)
+        scene, start = world.built(scene, start)
+        bundles = {word: world.recipes[word](scene) for word in world.worth(scene)}
+        best, lies = world.best(scene, start), world.closed(scene, start)
+        return knobs(best, world.soft(scene), bundles, lies=lies)
+
+    def recipe(self, scene: Scene, start: Start) -> Options:
+        """See `Tunable`."""
+        world = _world(scene)
+        scene, start = world.built(scene, start)
+        return as_options(world.best(scene, start), settled=world.closed(scene, start))
+
+    def cost(self, options: Options, step: float, scene: Scene) -> float:
+        """Evaluations of the dynamics in a simulated second: steps × stages."""
+        return cost(options, step)
+
+    def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
+        """Elements of the MJCF file."""
+        world = _world(scene)
+        scene, start = world.built(scene, start)
+        with_own = partial(world.with_own, scene=scene, start=start, tied_to=step)
+        notes = said(options, contacts=bool(world.worth(scene)), plane=world is PLANE)
+        return snippet(with_own(options), with_own({}), step, notes)
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as the compiled model holds it."""
@@ -91,10 +128,13 @@ class MuJoCo:
     ) -> str:
         """The MJCF file with its start as a keyframe, headed by comments."""
         world, choices = _world(scene), [timestep(step), *plan.choices(step)]
+        options = self.recipe(scene, start) if self._tuned and plan.realised == "native" else {}
         scene, start = world.built(scene, start)
-        model, *_ = world.placed(scene, start, step, plan, settles=self._tuned)
+        model, *_ = world.placed(scene, start, step, plan, settles=self._settles)
         begun = model.key_qpos[0].tolist(), model.key_qvel[0].tolist()
-        head = commented(heading(self, title, step, plan)) + controls(model, world.signals(scene))
+        head = commented(heading(self, title, step, plan, options)) + controls(
+            model, world.signals(scene)
+        )
         return head + world.mjcf(scene, start, choices, begun)
 
     def run(
@@ -111,7 +151,7 @@ class MuJoCo:
         """The motion, stepped by `mj_step(model, data, n)` between samples or steps."""
         world, realised = _world(scene), plan.realised
         built, begun = world.built(scene, start)
-        with world.lent(built, begun, step, plan, settles=self._tuned) as lent:
+        with world.lent(built, begun, step, plan, settles=self._settles) as lent:
             found = world.simulate(
                 built, *lent, begun, times, reactions, realised=realised, every=record
             )

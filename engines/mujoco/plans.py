@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
-from ...cases.scene import CENTER, Contact, Scene
+from ...cases.scene import CENTER, Contact, Pair, Scene
 from ..engine import Choice, Plan, Realised, Start
 from ..law import one_number
 from ..stride import strides
@@ -14,8 +14,9 @@ from .force import lacking
 from .law.corner import has_corners
 from .law.friction import one_slide, smooth_only
 from .law.touch import one_touch
+from .planes import met
 from .scene import HEAVY
-from .settings import only_slides, ties
+from .settings import only_slides
 from .tree import driven
 
 Numbers = Callable[[float], Sequence[Choice]]
@@ -43,32 +44,46 @@ def ways(scene: Scene, start: Start, *, tuned: bool) -> tuple[Realised, ...]:
     return ("native", "law") if smooth_only(scene) else ("native", "law", "driver")
 
 
-def plan(scene: Scene, start: Start, realised: Realised, numbers: Numbers, *, tuned: bool) -> Plan:
+def plan(
+    scene: Scene,
+    start: Start,
+    realised: Realised,
+    numbers: Numbers,
+    *,
+    settles: bool,
+    tuned: bool,
+) -> Plan:
     """One way's plan. Nothing is withheld: a joint's force and moment can be read, a contact's too.
 
     Exponents: Euler, contacts, corners of dry friction and of springs 1, 2; RK4 4, 5, with corners
-    of other laws and the mean of a force that jumps 2, 3; soft constraints of the tuned recipe,
-    which follow the step, 2, 3.
+    of other laws and the mean of a force that jumps 2, 3; soft constraints that follow the step
+    2, 3.
     """
     integrator = {choice.name: choice.value for choice in numbers(NOMINAL)}["option.integrator"]
     dry = any(joint.dry_friction for joint in scene.joints.values())
     jumps = any(law.corners for law in scene.laws())
-    first = integrator != "RK4" or bool(scene.contacts) or (dry and realised != "driver")
+    first = integrator != "RK4" or bool(met(scene)) or (dry and realised != "driver")
     first |= any(scene.one_sided()) and realised != "driver"
     corners = any(force.corner for force in scene.forces.values())
     following = (1, 2) if first else (4, 5) if dry else (2, 3)
     bare = Plan(
         realised,
         held=(1, 2) if first else (2, 3) if corners or jumps else (4, 5),
-        following=following if tuned and ties(scene) else None,
+        following=following if follows(numbers) else None,
         alike=realised != "native" and only_slides(scene),  # what our law holds lies still
         numbers=numbers,
         simplified=one_number(scene) if realised == "native" else "",
     )
-    return replace(bare, protocol=partial(_words, scene, start, bare, tuned))
+    return replace(bare, protocol=partial(_words, scene, start, bare, settles, tuned))
 
 
-def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> str:
+def follows(numbers: Numbers) -> bool:
+    """Whether a number follows the step."""
+    here, there = ([c.value for c in numbers(step)] for step in (NOMINAL, 2 * NOMINAL))
+    return here != there
+
+
+def _words(scene: Scene, start: Start, plan: Plan, settles: bool, tuned: bool, step: float) -> str:
     """Driven points, laws and drivers, and how deep a disk is started in the floor."""
     words = []
     if any(driven(scene)):
@@ -80,24 +95,25 @@ def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> 
     if scene.constraints:
         words.append(f"{', '.join(scene.constraints)} held by our law at every stage")
     elif plan.realised == "law" and (one_slide(scene) or one_touch(scene)):
-        when = "stage" if smooth_only(scene) and not scene.contacts else "step"
+        when = "stage" if smooth_only(scene) and not met(scene) else "step"
         words.append(f"dry friction by our law before every {when}")
     if ours := [force.name for force, _ in lacking(scene)]:
         words.append(f"{', '.join(ours)} by our law at every stage, which the script has not")
     if strides(scene):
-        words.append("before each step the floor is told which foot it meets")
+        words.append("the foot that stands is pinned; steps are cut where one strikes: an impulse")
     elif plan.realised == "driver":
         acts, dry = "where a spring begins or ends to act", "at the events of dry friction"
         words.append(f"steps cut {acts if has_corners(scene) else dry}")
-    if tuned and scene.contacts:
-        if falls(scene, start):
-            words.append("starts above the floor: contacts are tuned for impacts")
+    if tuned and met(scene) and falls(scene, start):
+        words.append("starts above the floor: contacts are tuned for impacts")
+    if settles and met(scene):
         *_, depths = placed(scene, start, step, plan, settles=True)
-        deep = ((scene.touching[name], depth) for name, depth in depths.items() if depth)
-        words += [f"{_at(c)} started {depth:.1e} m in the {c.plane.name}" for c, depth in deep]
+        both = {**scene.touching, **scene.pairs}
+        deep = ((both[name], depth) for name, depth in depths.items() if depth)
+        words += [f"{_at(c)} started {depth:.1e} m in the {c.on}" for c, depth in deep]
     return "; ".join(words)
 
 
-def _at(contact: Contact) -> str:
+def _at(contact: Contact | Pair) -> str:
     """`wheel`, `rod.end`."""
     return contact.body if contact.at.point == CENTER else str(contact.at)

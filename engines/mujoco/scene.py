@@ -10,11 +10,13 @@ from xml.etree import ElementTree as ET
 
 from ...cases.scene import GROUND, Anchor, DryFriction, Scene
 from ..engine import Choice, Start
+from . import pairs, planes
 from .drive import controls
 from .drive import write as write_drives
 from .edge import write_room
+from .feet import add_pins
 from .force import BY_ITSELF, begun_with, write
-from .planes import add_geom, add_pairs, add_planes
+from .planes import touching
 from .tree import (
     Branch,
     Tree,
@@ -56,10 +58,11 @@ def mjcf(
     world = ET.SubElement(root, "worldbody")
     _world(world, scene)
     _bodies(world, scene, tree, numbers)
-    if scene.contacts:
-        add_pairs(root, scene, attributes(numbers, "pair"))
+    if touching(scene) or scene.pairs:
+        _touching(root, scene, attributes(numbers, "pair"))
     if tree.loops:
         _loops(root, tree, attributes(numbers, "connect"))
+    add_pins(root, scene, start, attributes(numbers, "connect"))
     write(root, scene)
     write_drives(root, scene)
     write_room(root, scene)
@@ -69,7 +72,7 @@ def mjcf(
 
 
 def _world(world: ET.Element, scene: Scene) -> None:
-    add_planes(world, scene)
+    planes.add_planes(world, scene)
     ET.SubElement(world, "site", name=GROUND, pos="0 0 0")
     for name, point in scene.points.items():
         if not point.driven:
@@ -115,15 +118,24 @@ def _bodies(world: ET.Element, scene: Scene, tree: Tree, numbers: dict[str, obje
         _inertial(element, body.mass, least if body.inertia is None else body.inertia)
         for name, at in body.points.items():
             ET.SubElement(element, "site", name=f"{body.name}.{name}", pos=written(*at, 0))
-        for contact in scene.touching.values():
+        for contact in touching(scene).values():
             if contact.body == body.name:
-                add_geom(element, scene, contact)
+                planes.add_geom(element, scene, contact)
+        pairs.add_geoms(element, scene, body.name)
+
+
+def _touching(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> None:
+    """The contacts, each with a sensor: MuJoCo records its force at every step."""
+    contacts, sensors = ET.SubElement(root, "contact"), ET.SubElement(root, "sensor")
+    for kind in (planes, pairs):
+        kind.add_pairs(contacts, scene, attributes)
+        kind.add_sensors(sensors, scene)
 
 
 def _leaves_plane(scene: Scene, numbers: dict[str, object]) -> bool:
     """Whether free bodies may move along z: nothing pushes them there, but without that freedom
     MuJoCo's noslip solver silently does nothing."""
-    return bool(scene.contacts) and numbers.get("option.noslip_iterations", 0) != 0
+    return bool(touching(scene) or scene.pairs) and numbers.get("option.noslip_iterations", 0) != 0
 
 
 def _hang(element: ET.Element, scene: Scene, branch: Branch, soft: dict[str, str]) -> None:

@@ -11,9 +11,12 @@ from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ..engine import Plain, Plan, Realised, Refusal, Start
 from ..heading import heading
-from . import plans, settings
+from ..knobs import Knob, Options
+from . import options, plans
 from .claims import answered
+from .knobs import STEPS, knobs
 from .law.inner import states
+from .own import as_options, own
 from .plain import plain
 from .plans import named
 from .read.health import Left
@@ -25,6 +28,8 @@ from .refuse import not_native, unbuildable
 from .run import placed, stepper
 from .scene import FAR, build
 from .script import text
+from .settings import SHIPPED_STEP
+from .snippet import snippet
 
 
 @dataclass(frozen=True)
@@ -36,14 +41,15 @@ class Pymunk:
     name: str = "pymunk"
     version: str = pymunk.version
     offers: ClassVar[tuple[str, ...]] = ("shipped", "tuned")
+    steps: ClassVar[tuple[float, ...]] = STEPS
 
     def __post_init__(self) -> None:
-        settings.own(self.options)
+        options.check(self.options)
 
     @property
     def own_step(self) -> float | None:
         """10 ms unless tuned or set by the user: pymunk has no step of its own."""
-        return None if self._tuned else self.options.get("step", settings.SHIPPED_STEP)
+        return None if self._tuned else self.options.get("step", SHIPPED_STEP)
 
     @property
     def _tuned(self) -> bool:
@@ -55,12 +61,32 @@ class Pymunk:
         if refusal:
             return [Refusal("native", refusal)]
         without = [Refusal("native", why) for why in not_native(scene)]
-        if not self._tuned:
-            if without:
-                return without
-            return [plans.shipped(scene, settings.with_own(self.options, scene))]
-        best = recipe(scene, start)
-        return [*without, *(plans.tuned(scene, start, way, best) for way in plans.ways(scene))]
+        if without and not self._tuned:
+            return without
+        ways = plans.ways(scene) if self._tuned else ("native",)
+        numbers = recipe(scene, start) if self._tuned else own(self.options, scene, start)
+        shipped = self.setting == "shipped"
+        return [
+            *without,
+            *(plans.plan(scene, start, way, numbers, shipped=shipped) for way in ways),
+        ]
+
+    def knobs(self, scene: Scene, start: Start) -> list[Knob]:
+        """See `Tunable`."""
+        return knobs(scene, start)
+
+    def recipe(self, scene: Scene, start: Start) -> Options:
+        """See `Tunable`."""
+        return as_options(scene, start)
+
+    def cost(self, options: Options, step: float, scene: Scene) -> float:
+        """Steps in a simulated second: sweeps cost next to nothing beside the rest of a step."""
+        return 1 / step
+
+    def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
+        """Lines of Python."""
+        world = build(scene, start, {}, "native")
+        return snippet(world, start, own(options, scene, start)(step), step)
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as pymunk's objects hold it, with which no number of a setting has to do."""
@@ -77,7 +103,9 @@ class Pymunk:
     ) -> str:
         """A Python script that needs only pymunk."""
         numbers = named(plan.choices(step))
-        return text(scene, start, step, numbers, heading(self, title, step, plan))
+        options = self.recipe(scene, start) if self._tuned and plan.realised == "native" else {}
+        head = heading(self, title, step, plan, options)
+        return text(scene, start, step, numbers, head)
 
     def run(
         self,
@@ -118,7 +146,8 @@ def _run(
 ) -> Trajectory:
     world = placed(scene, start, step, numbers, realised)
     felt = tuple(name for name in wanted if name not in scene.inner())
-    touching = tuple(name for name in felt if name.rpartition(".")[0] in scene.contacts)
+    felt_by = {*scene.contacts, *scene.pairs}
+    touching = tuple(name for name in felt if name.rpartition(".")[0] in felt_by)
     midpoint = bool(numbers.get("time.midpoint"))
     kept = Record(world, step, midpoint, touching) if record else None
     steps = stepper(world, step, numbers, realised, kept and kept.keep)

@@ -74,7 +74,8 @@ def lines(world: World, realised: Realised) -> None:
         bodies, places = (world.body(a), world.body(b)), (world.local(a), world.local(b))
         if force.about is None:
             line = DampedSpring(*bodies, *places, **_LINE | element.line(force))
-            line.force_func = element.by_length(force) or line.force_func
+            if by_length := element.by_length(force):
+                line.force_func = by_length
         else:
             line = DampedRotarySpring(*bodies, **_TURN | element.line(force))
         world.lines[force.name] = line

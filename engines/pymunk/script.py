@@ -24,6 +24,7 @@ from .drive import as_lines
 from .edge import joints_as_text, lays_as_text
 from .force import script
 from .law.one_side import as_text
+from .meeting import followed, pair_seeds, shapes
 from .run import COLD
 from .scene import build
 from .slot import LENGTH, carried
@@ -52,7 +53,7 @@ _CARRIED = [
     *getsource(carried).splitlines(),
     "",
 ]
-_SHIFT = """
+SHIFT = """
 # pymunk drifts, then kicks: start h/2 back, so that forces act in the middle of a step.
 for body in bodies.values():
     body.position -= h / 2 * body.velocity
@@ -105,6 +106,7 @@ def building(world: World, start: Start, numbers: Mapping[str, Any]) -> list[str
         *(["", *_CARRIED] if world.slots else []),
         *_bodies(world),
         *planes(world, of, reflects=bool(numbers.get("contact.reflects"))),
+        *shapes(world, of),
         *_constraints(world, numbers),
         *joints_as_text(world, of),
     ]
@@ -112,8 +114,8 @@ def building(world: World, start: Start, numbers: Mapping[str, Any]) -> list[str
     if world.stride:
         lines.append(f"meets = {world.stride.meets!r}  # the feet that the floor meets")
     if seed:
-        lines += _seeds(world, start, seed)
-    return lines + ([_SHIFT] if midpoint else [])
+        lines += seeds(world, start, seed)
+    return lines + ([SHIFT] if midpoint else [])
 
 
 def before_each(world: World, numbers: Mapping[str, Any]) -> list[str]:
@@ -122,8 +124,8 @@ def before_each(world: World, numbers: Mapping[str, Any]) -> list[str]:
     lines = script(world, lambda body: _of(world, body), midpoint=midpoint)
     turned = as_lines(world, midpoint=midpoint)
     of = partial(_of, world)
-    followed = [*followers(world, of, numbers), *feet(world, of)]
-    return [*lines, *turned, *followed, *lays_as_text(world)]
+    circles = [*followers(world, of, numbers), *followed(world, of, numbers)]
+    return [*lines, *turned, *circles, *feet(world, of), *lays_as_text(world)]
 
 
 def _sweeps(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
@@ -132,7 +134,7 @@ def _sweeps(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
         yield f"    space.iterations = {cold} if n < {COLD} else {usual}"
 
 
-def _seeds(world: World, start: Start, seed: float) -> list[str]:
+def seeds(world: World, start: Start, seed: float) -> list[str]:
     lines = ["", "# a circle that only touches would fall freely for one step"]
     for contact in closed(world.scene, start):
         body, wheel = _of(world, world.wheel(contact.name)), world.wheels[contact.name]
@@ -141,6 +143,7 @@ def _seeds(world: World, start: Start, seed: float) -> list[str]:
             lines.append(f"{body}.position -= ({seed * nx!r}, {seed * ny!r})")
         else:
             lines.append(f"wheels[{contact.name!r}].unsafe_set_radius({wheel.radius + seed!r})")
+    lines += pair_seeds(world, start, seed)
     return lines if len(lines) > 2 else []
 
 

@@ -71,6 +71,7 @@ class Element:
     static: float = 0.0  # of one that sticks
     restitution: float = 0.0
     plane: str = ""  # that a contact is with
+    two: bool = False  # whether it is of two bodies, and not with the ground
 
     @property
     def slips(self) -> bool:

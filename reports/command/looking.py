@@ -28,7 +28,7 @@ def looked_at(
     from .. import pool, suite
     from ..cache import store
     from ..selection import choose_book, choose_engines, sound, sound_cases
-    from ..show import terminal
+    from ..show.progress import progress
     from ..trial.work import too_long
     from .done import finished
 
@@ -42,12 +42,12 @@ def looked_at(
     if not chosen:
         raise CaseError(mistakes)
     used = store.usable() if cached else None
-    with terminal.progress() as progress, finished(used is not None):
+    with progress() as shown, finished(used is not None):
         report = suite.measure(
             chosen,
             engines,
             jobs=jobs or pool.workers(),
-            progress=progress,
+            progress=shown,
             book=choose_book(names, settings),
             store=used,
         )

@@ -39,6 +39,11 @@ class Rung:
     poses: bool = False
 
     @property
+    def name(self) -> str:
+        """For whoever waits for it."""
+        return f"{self.case.name} in {self.engine.name}.{self.engine.setting}"
+
+    @property
     def steps(self) -> float:
         """How many the engine takes."""
         return self.case.duration / self.step

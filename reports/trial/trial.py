@@ -14,7 +14,7 @@ from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ...engines.engine import Engine, Plan, Realised, Refusal, Start
 from ..events.states import reference_states
-from ..events.times import reference_events
+from ..events.times import reference_events, surely
 from .ladder import judged_step
 from .start import first
 
@@ -134,6 +134,15 @@ class Trial:
             name: reference_events(self.case.scene, record, event)
             for name, event in self.case.events.items()
         }
+
+    def surely(self, event: str, step: float) -> int:
+        """How many of the reference's events an engine with this step has to tell."""
+        record = self.reference.record
+        return (
+            surely(self.case.scene, record, self.case.events[event], step)
+            if record is not None
+            else 0
+        )
 
     @cached_property
     def _at_events(self) -> dict[str, Array]:

@@ -106,7 +106,9 @@ def unknown(engine: Engine, scene: Scene) -> set[str]:
     # MuJoCo's driven points are heavy bodies, which move, and its driven freedoms heavy armatures.
     if engine.name == "mujoco" and (driven or getattr(scene, "drives", {})):
         return {"energy.kinetic", *(f"momentum.{axis}" for axis in scene.frame.axes)}
-    return set()
+    # A foot is pinned there.
+    feet = [c.name for c in scene.contacts.values() if c.ahead_of and engine.name == "mujoco"]
+    return {f"{name}.friction" for name in feet}
 
 
 @pytest.mark.parametrize(("name", "engine"), PAIRS, ids=pair)

@@ -23,6 +23,11 @@ PARAMETERS: dict[str, dict[str, float]] = {
         "left0": 1.7842780686758, "right0": 1.3573145849140,
         "w0": 0.8616538877376, "u0": 0.6753027032217,
     },
+    "light_feet": {
+        "M": 10.0, "m": 0.1, "l": 1.0, "J_f": 2e-5, "gamma": 0.009, "mu": 1.0,
+        "left0": 1.7696248305769222, "right0": 1.371967823012871,
+        "w0": 0.6280764237234776, "u0": 0.5790887993278023,
+    },
     "double_pendulum": {
         "m1": 1.0, "l1": 0.6, "m2": 0.7, "l2": 0.9,
         "a0": math.radians(-61), "b0": math.radians(-33),
@@ -70,12 +75,21 @@ PARAMETERS: dict[str, dict[str, float]] = {
     "spring_mass_damper": {"m": 1.0, "c": 36.0, "d": 1.2, "l0": 0.5, "y0": -0.6},
     "stribeck_brake": {"m": 1.3, "F": 3.0, "Fs": 6.0, "v_s": 0.5, "P": 0.5, "v0": 2.0},
     "stribeck_drive": {"m": 2.0, "c": 2.0, "u": 1.0, "F": 3.0, "Fs": 6.0, "v_s": 0.5},
+    "running_gait": {
+        "m": 80.0, "c": 20000.0, "l0": 1.0, "alpha": math.radians(112), "vx0": 5.11575105401509,
+        "vy0": -0.5072041586666318, "x2": 1.2783908793771184, "x3": 2.556781758754237,
+        "x4": 3.835172638131355,
+    },
     "spring_mass_jump": {
         "m": 80.0, "c": 16000.0, "l0": 1.0, "alpha": math.radians(115), "vx0": 9.0, "vy0": -0.2,
     },
     "torsion_pendulum": {
         "m": 1.5, "R": 0.3, "c": 2.4, "phi0": math.radians(-15), "d": 0.1, "M": 0.6, "Omega": 7.0,
         "phi": math.radians(70), "w0": 1.0,
+    },
+    "turning_sled": {
+        "m": 1.5, "l": 0.8, "d": 0.6, "d_across": 7.0, "phi0": math.radians(50), "u0": 3.0,
+        "w0": -0.5,
     },
     "viscous_drift": {"m": 1.3, "A": 5.0, "w": 6.0, "d_minus": 4.0, "d_plus": 1.0},
     "viscous_growing_force": {"m": 1.3, "b": 1.0, "d_minus": 3.0, "d_plus": 2.0},

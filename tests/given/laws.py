@@ -183,12 +183,14 @@ LAWS: Sequence[Law] = (
 _STARTING = {(name, example(name).start()[0]) for name in PARAMETERS}
 _NO_CLOSED_FORM = {
     "anisotropic_drift", "compass_walker", "double_pendulum", "elastic_pendulum", "four_bar",
-    "rhombus", "smooth_dynamometer", "smooth_growing_force", "sliding_ladder", "spring_mass_jump",
-    "stribeck_drive", "tipping_block", "trunk_on_legs",
+    "light_feet", "rhombus", "running_gait", "smooth_dynamometer", "smooth_growing_force",
+    "sliding_ladder", "spring_mass_jump", "stribeck_drive", "tipping_block", "trunk_on_legs",
+    "turning_sled",
 }  # fmt: skip
 _FREE = {
-    "charge_in_field", "elastic_pendulum", "falling_drag", "rhombus", "spring_mass_damper",
-    "spring_mass_jump",
+    "charge_in_field", "elastic_pendulum", "falling_drag", "rhombus", "running_gait",
+    "spring_mass_damper",
+    "spring_mass_jump", "turning_sled",
 }  # fmt: skip
 # The laws that say nothing about a mode without constraints or reactions, and those of the whole
 # system, which are asked where it starts.

@@ -102,6 +102,7 @@ _SMOOTH: dict[str, Callable[[np.random.Generator], Drawn]] = {
     "rolling_wheel": _rolling_wheel,
     "bar_pendulum": _bar_pendulum,
     "elastic_pendulum": _on_spring,
+    "running_gait": _on_spring,
     "spring_mass_jump": _on_spring,
     "trunk_on_legs": _trunk,
     "double_pendulum": _double_pendulum,

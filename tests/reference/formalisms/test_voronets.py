@@ -35,7 +35,8 @@ SHIPPED: dict[At, set[str]] = dict.fromkeys(MODES, FREE) | {
 NOTHING_FREE = ("rest", "stuck", "sticks")
 HELD = ("driven_knee", "moving"), ("tipping_block", "stands")
 # Where one leg stands, or leans, no place appears: one rate gives the other.
-LEANS = [at for at in MODES if at[0] == "compass_walker" or at == ("sliding_ladder", "leans")]
+WALKERS = ("compass_walker", "light_feet")
+LEANS = [at for at in MODES if at[0] in WALKERS or at == ("sliding_ladder", "leans")]
 SHIPPED |= {at: set(FORMS) for at in LEANS}
 SHIPPED |= {at: set() for at in MODES if at[1] in NOTHING_FREE or at in HELD}
 
