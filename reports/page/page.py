@@ -11,6 +11,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from ...cases.case import Case
 from . import beside
+from .advice import advice
 from .column import Column, columns
 from .equations import equations
 from .folder import BESIDE, Folder
@@ -50,7 +51,7 @@ def page(folder: Folder, cases: Sequence[Case], motions: Mapping[str, Motion]) -
         head=overview(folder, found, shown),
         themes=[(name, THEMES[name]) for name in THEMES if any(name in t for t in about.values())],
         absent={name: beside.absent(name) for name in BESIDE},
-        advice=beside.advice(folder.beside.get("advice.csv"), about),
+        advice=advice(folder.beside.get("advice.csv"), about),
         causes=beside.causes(folder.beside.get("causes.csv")),
         versions=beside.versions(folder.beside.get("versions.csv")),
         names=named,

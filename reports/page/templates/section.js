@@ -66,12 +66,14 @@ function numbers(data) {
     ...[...refused].map(([why, names]) => html('p', {class: 'note'}, `${why} (${names.join(', ')})`)));
 }
 
+const causes = (data) => table(['engine and setting', 'quantity', 'error', 'cured by', 'options', 'step [s]', 'then', 'cost', 'law'],
+  data.causes.map((row) => row.map(word)).map(([engine, setting, ...rest]) => [`${engine} ${setting}`, ...rest]));
 const checks = (data) => table(['check', 'difference', 'bound', 'certified to', 'verdict'],
   data.checks.map(([check, difference, bound, certified, unit, verdict]) => [word(check), short(difference), short(bound), certified === null ? '' : `${short(certified)} ${word(unit)}`, word(verdict)]));
 
 function build(section) {
   const body = section.querySelector('.body'), name = section.id, motion = MOTIONS[name];
-  const data = ROWS.cases[name] || {rows: [], ladders: [], instants: [], checks: []};
+  const data = ROWS.cases[name] || {rows: [], ladders: [], instants: [], checks: [], causes: []};
   const names = worstFirst(data), above = html('div', {}), below = html('div', {});
   const figures = html('div', {class: 'figures'}, motion ? animation(name, motion) : null);
   const fixed = figures.children.length;
@@ -91,6 +93,7 @@ function build(section) {
   }
   body.append(figures, below);
   const happened = events(data);
+  if (data.causes.length) body.append(folded('Causes, found by experiment', () => causes(data)));
   if (happened) body.append(folded('Events', () => happened));
   body.append(folded('All numbers', () => numbers(data)), folded('How the reference is certified', () => checks(data)));
 }

@@ -185,7 +185,7 @@ def test_filters_choose_rows_and_stand_in_the_address(tab: Tab, page: str) -> No
 
 def test_advice_is_chosen_and_copied(tab: Tab, page: str) -> None:
     tab.open(f"{page}#need?engine=pymunk")
-    row = "#advice tbody tr:not([hidden])"
+    row = "#advice-themes tbody tr:not([hidden])"
     assert tab.ask(each(row, "dataset.engine")) == ["pymunk"]
     button = f"document.querySelector('{row} .copy')"
     tab.ask(f"{button}.click()")
