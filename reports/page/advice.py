@@ -47,7 +47,12 @@ def _by_theme(rows: Sequence[Mapping[str, Any]], themes: Themes) -> Any:
         for theme in themes.get(row["case"], ()):
             groups.setdefault((theme, row["engine"], row["tolerance"]), []).append(row)
     order = list(THEMES)
-    for theme, engine, tolerance in sorted(groups, key=lambda at: (order.index(at[0]), at)):
+
+    def place(at: tuple[str, str, str]) -> tuple[int, str, bool, str]:
+        theme, engine, tolerance = at
+        return order.index(theme), engine, tolerance != AS_ALLOWED, tolerance
+
+    for theme, engine, tolerance in sorted(groups, key=place):
         found = groups[theme, engine, tolerance]
         cured = [row for row in found if row["step"] and row["recipe"] != NONE]
         recipes = Counter(row["recipe"] for row in cured).most_common()

@@ -41,7 +41,9 @@ def versions(frame: pd.DataFrame | None) -> dict[str, Any] | None:
     if frame is None:
         return None
     found: dict[tuple[str, str, str], list[dict[str, str]]] = {}
-    for row in records(frame, ("engine", "version", "setting", "verdict", "moved")):
+    for row in records(frame, ("engine", "version", "setting", "quantity", "verdict", "moved")):
+        if row["quantity"] == "audit":
+            continue
         found.setdefault((row["engine"], row["version"], row["setting"]), []).append(row)
     shares = [
         {

@@ -20,7 +20,7 @@ c    mujoco -         2      bundle o3      0.0001 9
 d    mujoco -         2      none   -       -      -
 a    mujoco 1e-3      2      RK4    o4      0.008  500
 """)
-ABOUT = {name: ("pins",) for name in "abc"} | {"d": ("pins", "space")}
+ABOUT = dict.fromkeys("abc", ("pins",)) | {"d": ("pins", "space")}
 
 
 def test_a_theme_needs_what_most_of_its_cases_need_at_the_smallest_of_their_steps() -> None:
