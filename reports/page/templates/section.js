@@ -87,13 +87,16 @@ function build(section) {
   };
   choice.addEventListener('change', () => { show(choice.value); history.replaceState(null, '', `#${name}/${encodeURIComponent(choice.value)}`); });
   section.show = (quantity) => { if (names.includes(quantity)) show(quantity); };
-  if (names.length) {
+  const curves = motion || data.ladders.length;
+  if (names.length && curves) {
     body.append(html('div', {class: 'controls'}, html('label', {}, 'quantity ', choice), html('span', {class: 'note'}, 'the worst first')), above);
     show(names[0]);
   }
-  body.append(figures, below);
+  if (curves) body.append(figures, below);
+  else body.append(numbers(data)); // a claim about states: nothing moves, nothing steps
   const happened = events(data);
   if (data.causes.length) body.append(folded('Causes, found by experiment', () => causes(data)));
   if (happened) body.append(folded('Events', () => happened));
-  body.append(folded('All numbers', () => numbers(data)), folded('How the reference is certified', () => checks(data)));
+  if (curves) body.append(folded('All numbers', () => numbers(data)));
+  body.append(folded('How the reference is certified', () => checks(data)));
 }
