@@ -1,5 +1,6 @@
 """A small run with its page: two cases, one of them with a title that would be markup."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pandas as pd
@@ -71,9 +72,9 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
     cases = choose_cases([str(place / "swing.yaml"), str(place / "hostile.yaml")])
     report = suite.measure(cases, choose_engines([], []), progress=lambda *_: None)
     write.write(write.tables(report, cases), place)
-    for name, told in (("advice", ADVICE), ("causes", CAUSES), ("versions", VERSIONS)):
-        pd.DataFrame(told).to_csv(place / f"{name}.csv", index=False)
-    found, moved = folder(place), motions(report)
+    told = {"advice.csv": ADVICE, "causes.csv": CAUSES, "versions.csv": VERSIONS}
+    beside = {name: pd.DataFrame(columns) for name, columns in told.items()}
+    found, moved = replace(folder(place), beside=beside), motions(report)
     text = page(found, cases, moved)
     (place / "index.html").write_text(text, encoding="utf-8")
     return SimpleNamespace(

@@ -9,6 +9,7 @@ import pytest
 
 from textmech.reports.page.folder import BESIDE, Missing, folder
 from textmech.reports.page.page import embedded, motions_of, page
+from textmech.reports.write import NAMES
 
 VOID = {"meta", "link", "input", "br", "img", "hr"}
 
@@ -102,6 +103,20 @@ def test_what_is_not_there_is_said_in_a_sentence(made: SimpleNamespace) -> None:
 def test_a_folder_without_reports_says_so(tmp_path: Path) -> None:
     with pytest.raises(Missing, match=r"has no tolerance\.csv, .* `textmech run --out"):
         folder(tmp_path)
+
+
+def test_tables_beside_are_read_as_they_are_written(made: SimpleNamespace, tmp_path: Path) -> None:
+    """Without their last line, and with no digit changed; those of the run itself come first."""
+    here, there = tmp_path / "here", tmp_path / "there"
+    for place in (here, there):
+        place.mkdir()
+        (place / "advice.csv").write_text(f"case,step\n{place.name},1.0e-3\n# 1 rows of run x\n")
+    (there / "versions.csv").write_text("case\na\n")
+    for name in NAMES:
+        (here / name).write_bytes((made.place / name).read_bytes())
+    found = folder(here, beside=there).beside
+    assert found["advice.csv"].to_numpy().tolist() == [["here", "1.0e-3"]]
+    assert found["versions.csv"].to_numpy().tolist() == [["a"]]
 
 
 def test_a_cut_table_is_told(made: SimpleNamespace, tmp_path: Path) -> None:
