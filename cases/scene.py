@@ -122,6 +122,11 @@ class Scene:
         """One contact for every point that may touch the floor: of spokes, `feet.tip0` and on."""
         return {one.name: one for contact in self.contacts.values() for one in contact.each()}
 
+    @property
+    def pressed(self) -> tuple[str, ...]:
+        """Whatever has a normal force and friction, by name: each point on a plane, each pair."""
+        return (*self.touching, *self.pairs)
+
     def elements(self) -> Iterator[Body | Joint | Edge | Contact | Pair | Force]:
         """All that has a name, quantities and numbers."""
         held = (self.bodies, self.joints, self.constraints)

@@ -7,7 +7,7 @@ from given.tree import FILES, imported, module
 # joined by + is one room.
 NOUNS = (
     "body+constraint+contact+difference+drag+element+event+force+frame+friction+joint+kind"
-    "+magnetic+motion+muscle+plane+point+quantity+scene+shape+signal+space+states+trajectory"
+    "+magnetic+motion+muscle+pair+plane+point+quantity+scene+shape+signal+space+states+trajectory"
     "+turning"
 )
 ROOMS = {
@@ -28,7 +28,7 @@ ROOMS = {
         "states",
         "solve",
     ],
-    "engines": ["engine+knobs law signal stride tied told", "heading", "mujoco pymunk"],
+    "engines": ["engine+knobs law signal stride tied told", "begun heading", "mujoco pymunk"],
     "reports": [
         "own_settings",
         "row pins selection coverage events lock ending cluster pytest_short",

@@ -47,7 +47,7 @@ def add_pairs(contacts: ET.Element, scene: Scene, attributes: Mapping[str, str])
         )  # fmt: skip
 
 
-def add_sensors(sensors: ET.Element, scene: Scene) -> None:
+def add_pair_sensors(sensors: ET.Element, scene: Scene) -> None:
     """Of each pair its force; the normal and the tangent, in whose axes it is, turn."""
     for pair in scene.pairs.values():
         ET.SubElement(

@@ -40,7 +40,7 @@ def add_geom(element: ET.Element, scene: Scene, contact: Contact) -> None:
     )  # fmt: skip
 
 
-def add_pairs(contacts: ET.Element, scene: Scene, attributes: dict[str, str]) -> None:
+def add_contacts(contacts: ET.Element, scene: Scene, attributes: dict[str, str]) -> None:
     """The contacts with planes, as pairs."""
     for contact in touching(scene).values():
         # A pair takes one coefficient; two geoms would take the larger of theirs.

@@ -10,13 +10,13 @@ from xml.etree import ElementTree as ET
 
 from ...cases.scene import GROUND, Anchor, DryFriction, Scene
 from ..engine import Choice, Start
-from . import pairs, planes
 from .drive import controls
 from .drive import write as write_drives
 from .edge import write_room
 from .feet import add_pins
 from .force import BY_ITSELF, begun_with, write
-from .planes import touching
+from .pairs import add_geoms, add_pair_sensors, add_pairs
+from .planes import add_contacts, add_geom, add_planes, add_sensors, touching
 from .tree import (
     Branch,
     Tree,
@@ -72,7 +72,7 @@ def mjcf(
 
 
 def _world(world: ET.Element, scene: Scene) -> None:
-    planes.add_planes(world, scene)
+    add_planes(world, scene)
     ET.SubElement(world, "site", name=GROUND, pos="0 0 0")
     for name, point in scene.points.items():
         if not point.driven:
@@ -120,16 +120,17 @@ def _bodies(world: ET.Element, scene: Scene, tree: Tree, numbers: dict[str, obje
             ET.SubElement(element, "site", name=f"{body.name}.{name}", pos=written(*at, 0))
         for contact in touching(scene).values():
             if contact.body == body.name:
-                planes.add_geom(element, scene, contact)
-        pairs.add_geoms(element, scene, body.name)
+                add_geom(element, scene, contact)
+        add_geoms(element, scene, body.name)
 
 
 def _touching(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> None:
     """The contacts, each with a sensor: MuJoCo records its force at every step."""
     contacts, sensors = ET.SubElement(root, "contact"), ET.SubElement(root, "sensor")
-    for kind in (planes, pairs):
-        kind.add_pairs(contacts, scene, attributes)
-        kind.add_sensors(sensors, scene)
+    add_contacts(contacts, scene, attributes)
+    add_pairs(contacts, scene, attributes)
+    add_sensors(sensors, scene)
+    add_pair_sensors(sensors, scene)
 
 
 def _leaves_plane(scene: Scene, numbers: dict[str, object]) -> bool:

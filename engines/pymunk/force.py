@@ -138,7 +138,7 @@ def script(world: World, of: Callable[[Body], str], *, midpoint: bool) -> Iterat
         if (text := ELEMENTS[type(force)].script) and force.name not in world.lines:
             found += [f"    # {force.name}", *text(world, force, of, midpoint)]
     if found:
-        yield f"    t = {'(n + 0.5) * h' if midpoint else 'n * h'}"
+        yield f"    t = {'n * h + h / 2' if midpoint else 'n * h'}"
         yield from found
 
 

@@ -53,14 +53,25 @@ def followed(world: World, of: Of, numbers: Mapping[str, Any]) -> Iterator[str]:
         radius = pair.radius(world.scene.bodies)
         if numbers.get("contact.reflects"):
             yield f"    apart = {_gap(world, pair, body, other)}"
-            yield f"    stays = n > 0 and apart < {rim}.radius - {radius or ABOVE!r}"
+            yield f"    stays = apart < {rim}.radius - {radius or ABOVE!r}"
             yield f"    {rim}.elasticity = 1.0 if stays else {pair.restitution!r}"
-        if not radius and pair.face:
-            yield f"    turns = {other}.angular_velocity - {body}.angular_velocity"
-            yield f"    turned = {other}.angle - {body}.angle + h * turns"
-            normal = tuple(ABOVE * x for x in pair.side.normal)
-            yield f"    over = pymunk.Vec2d{written(normal)}.rotated(turned)"
-            yield f"    {rim}.unsafe_set_offset(over + {written(world.local(pair.at))})"
+        if not radius:
+            yield from _over(world, pair, body, other)
+
+
+def _over(world: World, pair: Pair, body: str, other: str) -> Iterator[str]:
+    """What `above` finds for the end of the step."""
+    point = f"pymunk.Vec2d{written(world.local(pair.at))}"
+    yield f"    turned = {body}.angle + h * {body}.angular_velocity"
+    if pair.face:
+        yield f"    normal = pymunk.Vec2d{written(pair.side.normal)}"
+        yield f"    normal = normal.rotated({other}.angle + h * {other}.angular_velocity)"
+    else:
+        yield f"    apart = {body}.position - {other}.position"
+        yield f"    apart += h * ({body}.velocity - {other}.velocity)"
+        yield f"    normal = (apart + {point}.rotated(turned)).normalized()"
+    offset = f"{point} + normal.rotated(-turned) * {ABOVE!r}"
+    yield f"    pairs[{pair.name!r}].unsafe_set_offset({offset})"
 
 
 def _gap(world: World, pair: Pair, body: str, other: str) -> str:

@@ -1,7 +1,7 @@
 """Two bodies that touch, as shapes of pymunk that meet each other and nothing else.
 
 A rim is a circle, a face a segment. A point is a circle above the point, as on a plane, but along
-the normal of the face that it touches.
+the normal of what it touches.
 """
 
 import math
@@ -10,6 +10,7 @@ from collections.abc import Callable
 from pymunk.body import Body
 from pymunk.shape_filter import ShapeFilter
 from pymunk.shapes import Circle, Segment
+from pymunk.vec2d import Vec2d
 
 from ...cases.pair import Pair
 from ...cases.scene import Scene, Vector
@@ -35,8 +36,7 @@ def add_pairs(world: World, first: int) -> None:
 def _touching(world: World, pair: Pair) -> Circle:
     """It carries all of the friction, and of the restitution."""
     body, radius = world.bodies[pair.body], pair.radius(world.scene.bodies)
-    angle = world.bodies[pair.touched].angle - body.angle
-    circle = Circle(body, radius) if radius else Circle(body, ABOVE, above(world, pair, angle))
+    circle = Circle(body, radius) if radius else Circle(body, ABOVE, above(world, pair, 0.0))
     circle.friction, circle.elasticity = pair.friction, pair.restitution
     return circle
 
@@ -53,11 +53,18 @@ def _touched(world: World, pair: Pair) -> Circle | Segment:
     return shape
 
 
-def above(world: World, pair: Pair, angle: float) -> Vector:
-    """The circle's centre over the point, in its body's axes; angle: of the other against it."""
-    (x, y), (px, py) = pair.side.normal, world.local(pair.at)
-    cos, sin = math.cos(angle), math.sin(angle)
-    return (px + (cos * x - sin * y) * ABOVE, py + (sin * x + cos * y) * ABOVE)
+def above(world: World, pair: Pair, ahead: float) -> Vector:
+    """The circle's centre over the point, in its body's axes, so long [s] after now."""
+    body, other = _bodies(world, pair)
+    turned = body.angle + ahead * body.angular_velocity
+    point = Vec2d(*world.local(pair.at))
+    if pair.face:
+        turns = other.angle + ahead * other.angular_velocity
+        normal = Vec2d(*pair.side.normal).rotated(turns)
+    else:
+        apart = body.position - other.position + ahead * (body.velocity - other.velocity)
+        normal = (apart + point.rotated(turned)).normalized()
+    return point + normal.rotated(-turned) * ABOVE
 
 
 def pair_followers(world: World, step: float, *, reflects: bool) -> list[Follow]:
@@ -66,7 +73,7 @@ def pair_followers(world: World, step: float, *, reflects: bool) -> list[Follow]
     """
     found: list[Follow] = []
     for pair in world.scene.pairs.values():
-        if not pair.radius(world.scene.bodies) and pair.face:
+        if not pair.radius(world.scene.bodies):
             found.append(_over(world, pair, step))
         if reflects:
             found.append(_reflecting(world, pair))
@@ -74,25 +81,22 @@ def pair_followers(world: World, step: float, *, reflects: bool) -> list[Follow]
 
 
 def _over(world: World, pair: Pair, step: float) -> Follow:
-    circle, body, other = world.pairs[pair.name][0], *_bodies(world, pair)
+    circle = world.pairs[pair.name][0]
 
     def follow(t: float) -> None:
-        turns = other.angular_velocity - body.angular_velocity
-        angle = other.angle - body.angle + step * turns
-        circle.unsafe_set_offset(above(world, pair, angle))
+        circle.unsafe_set_offset(above(world, pair, step))
 
     return follow
 
 
 def _reflecting(world: World, pair: Pair) -> Follow:
     circle, gap = world.pairs[pair.name][0], _gap(world, pair)
-    now, touched = pair.restitution, False
     size = pair.radius(world.scene.bodies) or ABOVE  # without what it has grown at the start
+    now = pair.restitution
 
     def follow(t: float) -> None:
-        nonlocal now, touched
-        wanted = 1.0 if touched and gap() < circle.radius - size else pair.restitution
-        touched = True
+        nonlocal now
+        wanted = 1.0 if gap() < circle.radius - size else pair.restitution
         if now != wanted:
             circle.elasticity = now = wanted
 

@@ -31,11 +31,11 @@ _TIP_SEED = Choice(
     "the curved path of a bar's end lifts it by some h³ in each step: less would be used up, 1e-9 "
     "m by a ladder in 2000 steps of 1e-4 s, and the contact would open",
 )
-_RIM_SEED = Choice(
+_PAIR_SEED = Choice(
     "start.seed",
     1e-6,
-    "one rim's curved path around another lifts it: 1e-8 m are used up within half a second in "
-    "steps of 1e-4 s, 1e-6 m in steps of 1e-3 s, and the contact would open",
+    "bodies that turn on each other from the start on part by some h² in the first half step, and "
+    "one rim's path around another lifts it: 1e-8 m were used up, and the contact would open",
 )
 _PIVOT_SEED = Choice(
     "start.seed",
@@ -95,8 +95,7 @@ def recipe(scene: Scene, start: Start) -> Recipe:
     tips = [*(c for c in contacts if is_tip(scene, c)), *scene.pairs.values()]
     if scene.contacts or scene.pairs:
         pivots = any(contact.ideal == "pivot" for contact in scene.contacts.values())
-        rims = any(pair.face is None for pair in scene.pairs.values())
-        tip = _RIM_SEED if rims else _TIP_SEED
+        tip = _PAIR_SEED if scene.pairs else _TIP_SEED
         always.append(_PIVOT_SEED if pivots else tip if tips else _SEED)
     if contacts or scene.pairs:
         always.append(_TIP_SLOP if tips else _SLOP)

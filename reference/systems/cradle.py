@@ -35,10 +35,6 @@ class _Free(Mode):
         """(2.23) ẍ = 0 [m/s²], (3,)."""
         return np.zeros(3)
 
-    def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
-        """(2.23) Nothing pushes [N]."""
-        return {"first.normal": 0.0, "second.normal": 0.0}
-
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ Σ m ẋ² [J]."""
         return sum(m * x**2 for m, x in zip(self.m, v, strict=True)) / 2
@@ -53,12 +49,8 @@ class _Free(Mode):
         return []
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
-        """Where two disks would push each other."""
-        pairs = zip(PAIRS, BODIES[:-1], BODIES[1:], q[:-1].tolist(), strict=True)
-        return [
-            Cut((f"{name}.normal",), a, b, (x + self.R, 0.0), ((1.0, 0.0),))
-            for name, a, b, x in pairs
-        ]
+        """None: each moves alone."""
+        return []
 
 
 @dataclass(frozen=True)
@@ -108,19 +100,26 @@ class Cradle(System):
         return v
 
     def _pieces(self, until: float) -> list[tuple[float, int, Array, Array]]:
-        """Each impact's time, pair, places and velocities after it; the start is one of none."""
-        _, q, v = self.start()
+        """Each impact's time, pair, places and velocities after it; the start is one of none.
+
+        The impulse Λ = (1 + e)(v − v')/(1/m + 1/m') takes Λ/m from one, and the other gets Λ/m'.
+        """
+        m = np.array([self.m1, self.m2, self.m3])
+        q, v = np.array([0.0, self.x2, self.x3]), np.array([self.v0, 0.0, 0.0])
         found = [(0.0, -1, q, v)]
         while True:
             t, last, q, v = found[-1]
-            gaps, rates = np.diff(q) - 2 * self.R, np.diff(v)
+            gaps, closing = np.diff(q) - 2 * self.R, -np.diff(v)
             waits = [
-                -gaps[k] / rates[k] if rates[k] < 0 and k != last else math.inf for k in (0, 1)
+                gaps[k] / closing[k] if closing[k] > 0 and k != last else math.inf for k in (0, 1)
             ]
             k = int(np.argmin(waits))
             if not t + waits[k] <= until:
                 return found
-            found.append((t + waits[k], k, q + waits[k] * v, self._struck(k, v)))
+            impulse = (1 + self.e) * closing[k] / (1 / m[k] + 1 / m[k + 1])
+            blow = np.zeros(3)
+            blow[k], blow[k + 1] = -impulse, impulse
+            found.append((t + waits[k], k, q + waits[k] * v, v + blow / m))
 
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """x = x_k + v_k (t − t_k) since the last impact."""

@@ -42,8 +42,8 @@ class _Blocks(Mode):
         sizes = {"lower": (self.m1, self.w1, self.h1), "upper": (self.m2, self.w2, self.h2)}
         masses = {name: Mass(m, m * (w**2 + h**2) / 12) for name, (m, w, h) in sizes.items()}
         object.__setattr__(self, "masses", masses)
-        shared = [("left", "right")[i] for i in (0, 1) if not self.s[1]]
-        shared += [("floor_left", "floor_right")[i] for i in (0, 1) if not self.s[0]]
+        corners = ("floor_left", "floor_right"), ("left", "right")
+        shared = [name for s, two in zip(self.s, corners, strict=True) if not s for name in two]
         object.__setattr__(self, "undetermined", tuple(f"{name}.tangent" for name in shared))
 
     def _sliding(self) -> tuple[float, float]:
@@ -121,19 +121,16 @@ class _Blocks(Mode):
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
         """The corners, and where blocks stick the sum of what holds them along."""
-        x1, x2 = map(float, q)
-        up, along = ((0.0, 1.0),), ((1.0, 0.0),)
-        found = [
+        (x1, x2), up, along = map(float, q), ((0.0, 1.0),), ((1.0, 0.0),)
+        corners = [
             Cut(("floor_left.normal",), None, "lower", (x1 - self.w1 / 2, 0.0), up),
             Cut(("floor_right.normal",), None, "lower", (x1 + self.w1 / 2, 0.0), up),
             Cut(("left.normal",), "lower", "upper", (x2 - self.w2 / 2, self.h1), up),
             Cut(("right.normal",), "lower", "upper", (x2 + self.w2 / 2, self.h1), up),
         ]
-        if self.s[0] == 0:
-            found.append(Cut(("floor.tangent",), None, "lower", (x1, 0.0), along))
-        if self.s[1] == 0:
-            found.append(Cut(("upper.tangent",), "lower", "upper", (x2, self.h1), along))
-        return found
+        floor = Cut(("floor.tangent",), None, "lower", (x1, 0.0), along)
+        upper = Cut(("upper.tangent",), "lower", "upper", (x2, self.h1), along)
+        return [*corners, *([] if self.s[0] else [floor]), *([] if self.s[1] else [upper])]
 
 
 Then = Callable[[float, Array, Array], tuple[str, Array, Array]]
@@ -168,10 +165,8 @@ class StackedBlocks(System):
 
     def start(self) -> tuple[str, Array, Array]:
         """At rest, or thrown: the lower one is dragged if μ₂ m₂ > μ₁ (m₁ + m₂)."""
-        mode = "rests"
-        if self.v0:
-            dragged = self.mu2 * self.m2 > self.mu1 * (self.m1 + self.m2)
-            mode = "drags" if dragged else "on top"
+        thrown = "drags" if self.mu2 * self.m2 > self.mu1 * (self.m1 + self.m2) else "on top"
+        mode = thrown if self.v0 else "rests"
         return mode, np.array([0.0, self.x0]), np.array([0.0, self.v0])
 
     def guards(self, mode: str) -> Sequence[Guard]:
@@ -179,10 +174,10 @@ class StackedBlocks(System):
         if mode == "rests":
             slides = lambda t, q, v: self.mu1 * (self.m1 + self.m2) * G - self.b * t  # noqa: E731
             return (Guard("slides", slides, _next("together")),) if self.b else ()
-        if mode == "together" and self.b:
-            return (Guard("slips", self._margin, _next("left behind")),)
         if mode == "together":
-            return (Guard("stops", lambda t, q, v: float(v[0]), _next("rests", 0.0)),)
+            slips = Guard("slips", self._margin, _next("left behind"))
+            stops = Guard("stops", lambda t, q, v: float(v[0]), _next("rests", 0.0))
+            return (slips if self.b else stops,)
         if mode in ("drags", "on top"):
             then = self._joined if mode == "drags" else _next("rests", 0.0)
             return (Guard("joins", lambda t, q, v: float(v[1] - v[0]), then),)
@@ -199,44 +194,39 @@ class StackedBlocks(System):
         u = (self.m1 * v[0] + self.m2 * v[1]) / (self.m1 + self.m2)
         return "together", q, np.array([u, u])
 
-    def _phases(self) -> list[tuple[float, str]]:
-        """(2.89) When each mode begins: b t = μ₁ M g and b t = (μ₁ + μ₂) M g, M = m₁ + m₂; or where
-        v₀ − μ₂ g t meets the velocity of the lower block, and that of both zero.
+    def _phases(self) -> list[tuple[float, str, tuple[float, ...]]]:
+        """(2.89) When each mode begins, by which event; ẍ₁, ẍ₂ and their slopes from then on.
+
+        b t = μ₁ M g and b t = (μ₁ + μ₂) M g, M = m₁ + m₂; or where v₀ − μ₂ g t meets the velocity
+        of the lower block, and that of both zero.
         """
-        M, first = self.m1 + self.m2, self.start()[0]
+        M, slow, fast, rests = self.m1 + self.m2, self.mu1 * G, self.mu2 * G, (0.0,) * 4
         if self.b:
-            slides, slips = self.mu1 * M * G / self.b, (self.mu1 + self.mu2) * M * G / self.b
-            return [(0.0, first), (slides, "together"), (slips, "left behind")]
-        if first == "on top":
-            return [(0.0, first), (self.v0 / (self.mu2 * G), "rests")]
-        lower = (self.mu2 * self.m2 - self.mu1 * M) * G / self.m1
-        joins = self.v0 / (self.mu2 * G + lower)
-        return [
-            (0.0, first),
-            (joins, "together"),
-            (joins + lower * joins / (self.mu1 * G), "rests"),
-        ]
+            j, apart = self.b / M, (fast, fast, self.b / self.m1, 0.0)
+            later = [(slow / j, "slides", (0.0, 0.0, j, j)), ((slow + fast) / j, "slips", apart)]
+            return [(0.0, "", rests), *later]
+        lower = max(0.0, (fast * self.m2 - slow * M) / self.m1)
+        joins, both = self.v0 / (fast + lower), (-slow, -slow, 0.0, 0.0)
+        first = (0.0, "", (lower, -fast, 0.0, 0.0))
+        if not lower:
+            return [first, (joins, "joins", rests)]
+        return [first, (joins, "joins", both), (joins * (1 + lower / slow), "stops", rests)]
 
     def closed_form(self, t: float) -> tuple[Array, Array]:
-        """x and v of each phase, ẍ = α + β t: a cubic from where the phase before ends."""
-        _, q, v = self.start()
+        """x and v of each phase, ẍ = a + j (t − t_k): a cubic from where the phase before ends."""
+        q, v = np.array([0.0, self.x0]), np.array([0.0, self.v0])
         phases = self._phases()
-        ends = [*(begins for begins, _ in phases[1:]), np.inf]
-        for (begins, name), end in zip(phases, ends, strict=True):
-            tau = min(t, end) - begins
-            a = self.modes[name].accelerations(begins, q, v)
-            slope = self.modes[name].accelerations(begins + 1.0, q, v) - a
-            q = q + v * tau + a * tau**2 / 2 + slope * tau**3 / 6
-            v = v + a * tau + slope * tau**2 / 2
-            if t <= end:
+        for k, (begins, _, (*a, j1, j2)) in enumerate(phases):
+            ends = phases[k + 1][0] if k + 1 < len(phases) else t
+            tau, a, j = min(t, ends) - begins, np.array(a), np.array([j1, j2])
+            if tau <= 0.0 and k:
                 break
+            q, v = q + v * tau + a * tau**2 / 2 + j * tau**3 / 6, v + a * tau + j * tau**2 / 2
         return q, v
 
     def closed_events(self, until: float) -> list[tuple[str, float]]:
         """The beginnings of its phases."""
-        names = {"left behind": "slips", "together": "slides" if self.b else "joins"}
-        names["rests"] = "stops" if self.start()[0] == "drags" else "joins"
-        return [(names[mode], t) for t, mode in self._phases()[1:] if t <= until]
+        return [(name, t) for t, name, _ in self._phases()[1:] if t <= until]
 
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.89) |F| ≤ μ N where it sticks, all corners pressed, one block on the other."""
@@ -244,14 +234,14 @@ class StackedBlocks(System):
         assert isinstance(blocks, _Blocks)
         if abs(float(q[1] - q[0])) > (self.w1 - self.w2) / 2:
             return "a corner of the upper block is past the end of the lower one"
-        for name, force in blocks.reactions(t, q, v).items():
-            if name.endswith("normal") and force < 0:
-                return f"{name} would have to pull: a block tips"
+        forces = blocks.reactions(t, q, v)
+        if pulls := [name for name in forces if name.endswith("normal") and forces[name] < 0]:
+            return f"{pulls[0]} would have to pull: a block tips"
         F1, F2 = blocks.friction(t, q, v)
         bounds = self.mu1 * (self.m1 + self.m2) * G, self.mu2 * self.m2 * G
-        for friction, bound in zip((F1, F2), bounds, strict=True):
-            if abs(friction) > (1 + 1e-12) * bound:
-                return f"sticking takes {abs(friction):.6g} N, there is {bound:.6g}"
+        for force, bound in zip((abs(F1), abs(F2)), bounds, strict=True):
+            if force > (1 + 1e-12) * bound:
+                return f"sticking takes {force:.6g} N, there is {bound:.6g}"
         return None
 
 

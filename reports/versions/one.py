@@ -11,8 +11,8 @@ from ...cases.mistake import CaseError
 from .. import ending, pool, suite, write
 from ..cache.store import usable
 from ..selection import choose_cases, choose_engines
-from ..show.say import prepare, tell
 from ..show.progress import progress
+from ..show.say import prepare, tell
 
 BROKEN = "broken.txt"
 MISTAKEN = 2

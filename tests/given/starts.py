@@ -100,6 +100,19 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
         ("jumper", 0, math.cos(115 * math.pi / 180), 1e-15), ("jumper", 3, 9.0, 1e-14),
         ("jumper", 1, math.sin(115 * math.pi / 180), 1e-15), ("jumper", 4, -0.2, 1e-14),
     ],
+    "cradle": [
+        ("left", 0, 0.0, 0.0), ("left", 3, 1.0, 0.0), ("middle", 0, 0.37, 0.0),
+        ("right", 0, 0.63, 0.0), ("right", 3, 0.0, 0.0),
+    ],
+    "disk_on_disk": [
+        ("wheel", 0, 0.6 * math.cos(78 * math.pi / 180), 1e-15),
+        ("wheel", 1, 0.6 * math.sin(78 * math.pi / 180), 1e-15), ("wheel", 5, 0.0, 0.0),
+        ("drum", 2, 0.0, 0.0), ("drum", 5, 0.0, 0.0),
+    ],
+    "stacked_blocks": [
+        ("lower", 0, 0.0, 0.0), ("lower", 1, 0.1, 0.0), ("upper", 0, 0.1, 0.0),
+        ("upper", 1, 0.25, 1e-16), ("upper", 3, 0.0, 0.0),
+    ],
     "tipping_block": [
         ("box", 0, 0.0, 0.0), ("box", 1, 0.3, 0.0), ("box", 2, 0.0, 0.0), ("box", 5, 0.0, 0.0),
     ],

@@ -18,7 +18,10 @@ def pairs(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         path = ("scene", "contacts", name)
         for key in ("ideal", "ahead_of"):
             if getattr(written, key) is not None:
-                yield (*path, key), "cannot stand beside two bodies; the other is then the ground"
+                what = (
+                    "is for a plane of the ground: two bodies roll, slip and part as friction says"
+                )
+                yield (*path, key), what
         if pair.body not in scene.bodies:
             if not parsed.hides(pair.body):
                 hint = nearest(pair.body, parsed.names("bodies", scene.bodies))

@@ -49,6 +49,11 @@ def _plane(parsed: Parsed, path: Path, word: str) -> Iterator[Finding]:
     known = (FLOOR, *parsed.names("planes", parsed.file.scene.planes))
     if ground == GROUND and (name in known or parsed.hides(name, ("planes",))):
         return
+    if ground not in (GROUND, *known) and "." in word:
+        hint = nearest(ground, parsed.names("bodies", parsed.file.scene.bodies))
+        if not parsed.hides(ground):
+            yield path, f"unknown body {ground!r}{hint}"
+        return
     if len(known) == 1:
         yield path, f"should be {GROUND}.{FLOOR}, is {word!r}"
         return
