@@ -15,6 +15,7 @@ from textmech.reports.page.pack import packed_by_size
 from textmech.reports.page.write import NAME
 
 WIDTHS = (390, 900, 1500)
+SHEET = 794  # px: the width of A4
 COMMITTED = write.HERE / NAME
 
 pytestmark = [
@@ -202,9 +203,10 @@ def test_a_case_is_opened_by_keyboard(tab: Tab, page: str) -> None:
 
 
 def test_on_paper_nothing_is_cut_off(tab: Tab, page: str) -> None:
-    tab.open(f"{page}#swing")
+    tab.open(f"{page}#swing", width=SHEET)
     tab.call("Emulation.setEmulatedMedia", media="print")
     try:
+        assert tab.ask("document.documentElement.scrollWidth") <= SHEET
         tall = "[...document.querySelectorAll('.tall')].map((t) => getComputedStyle(t).maxHeight)"
         assert set(tab.ask(tall)) == {"none"}
         assert tab.ask("getComputedStyle(document.querySelector('nav')).display") == "none"
