@@ -43,4 +43,5 @@ function short(number) {
   return size >= 100 ? number.toFixed(0) : String(Number(number.toPrecision(2)));
 }
 const word = (k) => ROWS.words[k];
+const addressOf = (id) => `#${encodeURIComponent(id)}`; // a file may have any name
 const plain = (number) => (number === null ? '' : String(number));

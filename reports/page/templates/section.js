@@ -85,7 +85,7 @@ function build(section) {
     above.replaceChildren(...[keys].filter(Boolean));
     below.replaceChildren(orders ? folded('Orders and limits', () => orders) : html('p', {class: 'note'}, 'It has no ladder of steps.'));
   };
-  choice.addEventListener('change', () => { show(choice.value); history.replaceState(null, '', `#${name}/${encodeURIComponent(choice.value)}`); });
+  choice.addEventListener('change', () => { show(choice.value); history.replaceState(null, '', `${addressOf(name)}/${encodeURIComponent(choice.value)}`); });
   section.show = (quantity) => { if (names.includes(quantity)) show(quantity); };
   const curves = motion || data.ladders.length;
   if (names.length && curves) {

@@ -14,9 +14,10 @@ from textmech.reports.page.motions import motions
 from textmech.reports.page.page import page
 from textmech.reports.selection import choose_cases, choose_engines
 
+ODD = "hostile? & <b>"  # a file may have any name
 HOSTILE = "<script>window.struck = 1</script></script><b onload=x>& A bar that swings"
 ADVICE = {
-    "case": ["swing", "swing", "hostile"],
+    "case": ["swing", "swing", ODD],
     "engine": ["mujoco", "pymunk", "mujoco"],
     "tolerance": ["as allowed", "1e-3", "as allowed"],
     "margin": ["2", "2", "2"],
@@ -30,7 +31,7 @@ ADVICE = {
     "remains": ["", "", "<i>nothing cures it</i>"],
 }
 CAUSES = {
-    "case": ["swing", "swing", "hostile"],
+    "case": ["swing", "swing", ODD],
     "engine": ["pymunk", "pymunk", "pymunk"],
     "setting": ["shipped"] * 3,
     "quantity": ["rod.angle"] * 3,
@@ -68,8 +69,8 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
     place = tmp_path_factory.mktemp("page")
     (place / "swing.yaml").write_text(SWING, encoding="utf-8")
     hostile = SWING.replace("A bar that swings", f'"{HOSTILE}"').replace("rod", "arm")
-    (place / "hostile.yaml").write_text(hostile, encoding="utf-8")
-    cases = choose_cases([str(place / "swing.yaml"), str(place / "hostile.yaml")])
+    (place / f"{ODD}.yaml").write_text(hostile, encoding="utf-8")
+    cases = choose_cases([str(place / "swing.yaml"), str(place / f"{ODD}.yaml")])
     report = suite.measure(cases, choose_engines([], []), progress=lambda *_: None)
     write.write(write.tables(report, cases), place)
     told = {"advice.csv": ADVICE, "causes.csv": CAUSES, "versions.csv": VERSIONS}
@@ -78,5 +79,5 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
     text = page(found, cases, moved)
     (place / "index.html").write_text(text, encoding="utf-8")
     return SimpleNamespace(
-        place=place, cases=cases, report=report, folder=found, motions=moved, text=text
+        odd=ODD, place=place, cases=cases, report=report, folder=found, motions=moved, text=text
     )

@@ -67,9 +67,12 @@ def test_nothing_is_wider_than_the_window(tab: Tab, page: str, width: int, schem
     assert dark == (scheme == "dark")
 
 
-def test_text_of_a_case_is_never_markup(tab: Tab, page: str) -> None:
-    tab.open(f"{page}#hostile")
-    tab.until("document.querySelector('#hostile svg.mechanism')")
+def test_text_of_a_case_is_never_markup(tab: Tab, page: str, made: SimpleNamespace) -> None:
+    """Its title, and the name of its file, by which it is also found."""
+    tab.open(page)
+    tab.ask("document.querySelector('#heat-map tbody a').click()")
+    tab.until("document.querySelector('details.case[open] svg.mechanism')")
+    assert tab.ask("document.querySelector('details.case[open]').id") == made.odd
     assert tab.ask("window.struck") is None
     titles = tab.ask("[...document.querySelectorAll('article h3')].map((h) => h.textContent)")
     assert any("<script>window.struck" in title for title in titles)
@@ -79,7 +82,8 @@ def test_every_link_leads_somewhere(tab: Tab, page: str) -> None:
     tab.open(page)
     lost = tab.ask(
         """[...document.querySelectorAll('a[href]')].map((a) => a.getAttribute('href')).filter(
-        (h) => !h.startsWith('#') || !document.getElementById(h.slice(1).split(/[?/]/)[0]))"""
+        (h) => !h.startsWith('#') || !document.getElementById(
+        decodeURIComponent(h.slice(1).split(/[?/]/)[0])))"""
     )
     assert lost == []
 
@@ -164,21 +168,23 @@ def test_every_committed_case_opens(tab: Tab) -> None:
     assert tab.errors == []
 
 
-def test_filters_choose_rows_and_stand_in_the_address(tab: Tab, page: str) -> None:
+def test_filters_choose_rows_and_stand_in_the_address(
+    tab: Tab, page: str, made: SimpleNamespace
+) -> None:
     tab.open(page)
     shown = each("#heat-map tbody tr:not([hidden]) th", "textContent")
-    assert tab.ask(shown) == ["hostile", "swing"]
+    assert tab.ask(shown) == [made.odd, "swing"]
     tab.ask(
         """(() => { const field = document.querySelector('#heat [name=words]');
         field.value = 'swing hos';
         field.dispatchEvent(new Event('input', {bubbles: true})); })()"""
     )
-    assert tab.ask(shown) == ["hostile"]  # its title is searched too
+    assert tab.ask(shown) == [made.odd]  # its title is searched too
     assert tab.ask("document.querySelector('#heat .count').textContent") == "1 of 2"
     address = tab.ask("location.href")
     assert "heat?words=swing" in address
     tab.open(address)
-    assert tab.ask(shown) == ["hostile"]
+    assert tab.ask(shown) == [made.odd]
     tab.open(f"{page}#heat?column=pymunk&kind=beyond")
     heads = each("#heat-map thead th[data-column]:not([hidden])", "dataset.column")
     assert set(tab.ask(heads)) == {"pymunk"}
