@@ -96,6 +96,11 @@ class Drag(Force):
         """With α < 1."""
         return self.exponent < 1
 
+    def power(self, motion: Motion) -> Array:
+        """−F |v|."""
+        velocity = motion.point(self.at)[:, 2:]
+        return -self.observe(motion, "force") * np.sqrt(np.sum(velocity**2, axis=1))
+
     def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
         """The largest d/m at 1 m/s."""
         most = max(d for way in self.ways for d in (way.forward, way.backward))
@@ -145,3 +150,7 @@ class Viscous(Force):
             return speed
         d = np.where(speed > 0, self.coefficient.forward, self.coefficient.backward)
         return -d * np.copysign(np.abs(speed) ** self.exponent, speed)
+
+    def power(self, motion: Motion) -> Array:
+        """F v."""
+        return self.observe(motion, "force") * self.observe(motion, "speed")

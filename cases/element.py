@@ -26,6 +26,9 @@ class Force:
     winds: ClassVar[bool] = False  # whether it needs a joint's angle, and not only its rate
     inner: ClassVar[str] = ""
     """The quantity that is its inner state, which its producer gives; it begins with `begins`."""
+    given: ClassVar[Mapping[str, tuple[str, ...]]] = {}
+    """Of its quantities, by what reactions of its own a producer tells each."""
+    works: ClassVar[bool] = True  # whether it has a power
     name: str
 
     def refers(self) -> tuple[Anchor, ...]:
@@ -68,6 +71,10 @@ class Force:
     def observe(self, motion: Motion, field: str) -> Array:
         """(N,) one of its quantities; else KeyError."""
         raise KeyError(f"{self.name}.{field}")
+
+    def power(self, motion: Motion) -> Array:
+        """(N,) what it does to all that it acts on [W], of what works."""
+        raise NotImplementedError
 
     def potential(self, motion: Motion) -> Array | float:
         """(N,) its potential energy [J], its share of U in (2.45)."""

@@ -12,6 +12,7 @@ from typing import Annotated, TypeVar
 import numpy as np
 
 from .body import Body
+from .couple import Couple
 from .drag import Drag, Viscous
 from .element import Force
 from .kind import Fields
@@ -22,7 +23,9 @@ from .magnetic import Magnetic
 from .motion import Motion
 from .muscle import LinearMuscle, Muscle
 from .point import CENTER, GROUND, Anchor
+from .rope import Rope
 from .signal import Signal
+from .stops import Stops
 from .trajectory import Array
 from .turning import Motor, Torsion, TorsionDamper
 
@@ -46,6 +49,11 @@ class Line(Force):
         """(N,) length [m] or force [N]."""
         length, rate = motion.line(self.a, self.b)
         return length if field == "length" else self.tension(length, rate)
+
+    def power(self, motion: Motion) -> Array:
+        """−F λ̇ on both ends."""
+        length, rate = motion.line(self.a, self.b)
+        return -self.tension(length, rate) * rate
 
     def tension(self, length: Array, rate: Array) -> Array:
         """(N,) with what force [N] it pulls its ends together."""
@@ -123,6 +131,11 @@ class Push(Force):
         """The ground takes no push."""
         return "pushes the ground; a push acts on a body" if self.at.body == GROUND else None
 
+    def power(self, motion: Motion) -> Array:
+        """F·v of its point."""
+        _, velocity = np.hsplit(motion.point(self.at), 2)
+        return np.sum(self.signal.at(motion.trajectory.times) * velocity, axis=1)
+
     def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
         """That of a sine."""
         return self.signal.angular_frequency, 0.0
@@ -145,6 +158,11 @@ class Torque(Force):
         turns = self.body not in bodies or bodies[self.body].turns
         return None if turns else f"{self.body!r} is a particle and cannot turn"
 
+    def power(self, motion: Motion) -> Array:
+        """M·ω."""
+        given = self.signal.at(motion.trajectory.times)
+        return np.sum(given * motion.spin(self.body), axis=1)
+
     def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
         """That of a sine."""
         return self.signal.angular_frequency, 0.0
@@ -155,6 +173,7 @@ NOUNS = (
     Damper,
     Push,
     Torque,
+    Couple,
     Torsion,
     TorsionDamper,
     Motor,
@@ -163,6 +182,8 @@ NOUNS = (
     Magnetic,
     Muscle,
     LinearMuscle,
+    Rope,
+    Stops,
 )
 FORCES: dict[str, type[Force]] = {kind.word: kind for kind in NOUNS}
 """By the word of the case file."""

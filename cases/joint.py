@@ -145,6 +145,13 @@ class Joint:
             return ux * d[:, 0] + uy * d[:, 1]
         return ux * d[:, 2] + uy * d[:, 3] + turning * gap  # d/dt (u · d): the line turns too
 
+    def power(self, motion: Motion) -> Array:
+        """(N,) what the drives of its rates do [W]."""
+        rates = [rate for rate in DRIVES if f"{self.name}.{rate}" in motion.drives]
+        efforts = [motion.reaction(f"{self.name}.{DRIVES[rate][0]}") for rate in rates]
+        speeds = [self.observe(motion, rate) for rate in rates]
+        return np.sum(np.multiply(efforts, speeds), axis=0)
+
     def _tension(self, motion: Motion, fx: Array, fy: Array) -> Array:
         """(N,) positive when the rod pulls its ends together [N]."""
         x, y = (motion.point(self.b) - motion.point(self.a))[:, :2].T

@@ -10,4 +10,7 @@ Kind = Literal[
 Fields = Mapping[str, tuple[str, Kind]]
 """field → unit, kind."""
 
+WORK: Fields = {"work": ("J", "energy")}
+"""Of what has a power: what it has done since the start, as `power` sums it up."""
+
 RESERVED = ("energy", "momentum", "ground")  # parts that no element can be called

@@ -14,6 +14,7 @@ class Magnetic(Force):
     """(2.49) V = ½ e B (y ẋ − x ẏ): F = e ṙ × B on the centre of a body, B along z everywhere."""
 
     word = "magnetic"
+    works = False  # it is across the velocity
     body: str
     charge: Annotated[float, In("C")]
     along_z: Annotated[float, In("T")]

@@ -6,7 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from .frame import PLANE, SPACE
 from .point import GROUND, Anchor, GroundPoint
+from .space.rotation import turned as rotated
 from .trajectory import ANGLE, OMEGA, Array, Trajectory
 
 
@@ -18,6 +20,7 @@ class Motion:
     points: Mapping[str, GroundPoint]
     trajectory: Trajectory
     joints: Mapping[str, Any] = field(default_factory=dict)
+    drives: Mapping[str, Any] = field(default_factory=dict)  # the rates that are prescribed
 
     def point(self, anchor: Anchor) -> Array:
         """(N, 4): x, y, vx, vy of a point (2.1), (2.6); in space (N, 6)."""
@@ -39,6 +42,13 @@ class Motion:
             return 0.0, 0.0
         states = self.trajectory.states[body]
         return states[:, ANGLE], states[:, OMEGA]
+
+    def spin(self, body: str) -> Array:
+        """(N, 1) how fast a body turns [rad/s]; in space (N, 3), in ground axes."""
+        states = self.trajectory.states[body]
+        if states.shape[1] == PLANE.width:
+            return states[:, PLANE.spin]
+        return rotated(states[:, SPACE.attitude], states[:, SPACE.spin])
 
     def turn(self, joint: str, freedom: str) -> tuple[Array, Array]:
         """(N,) the angle [rad] of a joint's second part against its first, and its rate [rad/s].

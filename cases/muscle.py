@@ -57,6 +57,11 @@ class Contracting(Force):
             else series * (length - u) + beside * (length - self.rest_length)
         )
 
+    def power(self, motion: Motion) -> Array:
+        """−F λ̇, of all three."""
+        _, rate = motion.line(self.a, self.b)
+        return -self.observe(motion, "force") * rate
+
     def potential(self, motion: Motion) -> Array:
         """(2.45) ½ c_s (λ − u)² + ½ c_p (λ − λ₀)²."""
         length, _ = motion.line(self.a, self.b)

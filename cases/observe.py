@@ -8,6 +8,7 @@ import numpy as np
 
 from .frame import SPACE
 from .motion import Motion
+from .power import done
 from .quantity import table
 from .scene import Scene
 from .space import momentum as spatial
@@ -27,6 +28,9 @@ def observe(scene: Scene, trajectory: Trajectory, name: str) -> Array:
     if quantity.part == "momentum":
         return _momentum(scene, trajectory, quantity.field)
     owner, _, point = quantity.part.partition(".")
+    owns = [s[owner] for s in (scene.joints, scene.forces) if owner in s]
+    if quantity.field == "work" and owns:
+        return done(trajectory.times, owns[0].power(motion_of(scene, trajectory)))
     for section in (scene.joints, scene.constraints, scene.contacts, scene.pairs, scene.forces):
         if owner in section:
             return section[owner].observe(motion_of(scene, trajectory), quantity.field)
@@ -35,7 +39,7 @@ def observe(scene: Scene, trajectory: Trajectory, name: str) -> Array:
 
 def motion_of(scene: Scene, trajectory: Trajectory) -> Motion:
     """The trajectory as elements look at it."""
-    return Motion(scene.bodies, scene.points, trajectory, scene.joints)
+    return Motion(scene.bodies, scene.points, trajectory, scene.joints, scene.drives)
 
 
 def _energy(scene: Scene, trajectory: Trajectory, field: str) -> Array:

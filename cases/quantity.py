@@ -32,6 +32,7 @@ _EVENT: Fields = {
 }
 EVENT_FIELDS = tuple(_EVENT)
 Side = Literal["", "before", "after"]
+NOT_AT_EVENTS = ("attitude", "work")  # turns have no curve, and sums are over samples
 SIDES: tuple[Side, ...] = ("", "before", "after")
 
 
@@ -51,9 +52,9 @@ def table(scene: Scene) -> dict[str, Quantity]:
     parts: dict[str, Fields] = {}
     for element in scene.elements():
         parts |= element.quantities()
-    for more in (scene.coordinates(), scene.driven()):
-        for joint, fields in more.items():
-            parts[joint] = {**parts[joint], **fields}
+    for more in (scene.coordinates(), scene.driven(), scene.working()):
+        for part, fields in more.items():
+            parts[part] = {**parts.get(part, {}), **fields}
     momentum = _MOMENTUM if scene.frame.dimension == 2 else _SPATIAL_MOMENTUM
     return _named(parts | {"energy": _ENERGY, "momentum": momentum})
 
@@ -88,12 +89,12 @@ def told_by(events: Mapping[str, Event], bounded: Iterable[str]) -> list[str]:
 
 
 def at_events(events: Iterable[str], known: Mapping[str, Quantity]) -> dict[str, Quantity]:
-    """Every quantity at every event, by name; an attitude is none, for turns have no curve."""
+    """Every quantity at every event, by name."""
     return {
         quantity.name: quantity
         for event in events
         for one in known.values()
-        if one.field != "attitude"
+        if one.field not in NOT_AT_EVENTS
         for quantity in _sides(event, one)
     }
 

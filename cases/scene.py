@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from .body import Body
 from .constraint import Edge
 from .contact import Contact
+from .couple import Couple
 from .force import (
     Damper,
     Drag,
@@ -29,10 +30,12 @@ from .force import (
 from .frame import PLANE, Frame
 from .friction import Bounds, DryFriction, Smooth, Stribeck
 from .joint import DRIVES, Joint
-from .kind import Fields, Kind
+from .kind import WORK, Fields, Kind
 from .pair import Pair
 from .point import CENTER, FLOOR, GROUND, Anchor, GroundPoint, Vector
+from .rope import Rope
 from .signal import Signal
+from .stops import Stops
 
 __all__ = [
     "CENTER",
@@ -103,6 +106,11 @@ class Scene:
                 found.setdefault(part, {})[effort] = (unit, "force")
         return found
 
+    def working(self) -> Mapping[str, Fields]:
+        """What has a power: forces, and joints whose rates are prescribed."""
+        names = [force.name for force in self.forces.values() if force.works]
+        return dict.fromkeys((*names, *self.driven()), WORK)
+
     def coordinates(self) -> Mapping[str, Fields]:
         """By joint, what its freedoms are observed as."""
         return {name: joint.coordinates(self.bodies) for name, joint in self.joints.items()}
@@ -110,9 +118,14 @@ class Scene:
     def told_by(self, reaction: str) -> tuple[str, ...]:
         """The reactions of a producer from which one follows; in the plane it gives each.
 
-        But for the tension of a rod, which has a sign.
+        But for the tension of a rod, which has a sign, and what drives have done.
         """
         part, _, field = reaction.rpartition(".")
+        if part in self.forces:
+            told = self.forces[part].given.get(field, (field,))
+            return tuple(f"{part}.{name}" for name in told)
+        if field in WORK and part in self.joints:
+            return tuple(f"{part}.{effort}" for effort in self.driven()[part])
         if field == "force" and part in self.joints and self.joints[part].swings:
             return f"{part}.fx", f"{part}.fy"
         return (reaction,)
@@ -140,11 +153,23 @@ class Scene:
         """The springs that only press or only pull."""
         return (spring for spring in self.springs() if spring.only)
 
+    def ropes(self) -> Iterator[Rope]:
+        return of(Rope, self.forces.values())
+
+    def stops(self) -> Iterator[Stops]:
+        return of(Stops, self.forces.values())
+
+    def limits(self) -> Iterator[str]:
+        """The reactions of ropes and stops, by quantity: they may be none."""
+        for force in self.forces.values():
+            yield from (f"{force.name}.{name}" for told in force.given.values() for name in told)
+
     def dampers(self) -> Iterator[Damper]:
         return of(Damper, self.forces.values())
 
-    def signals(self) -> Iterator[Push | Torque | Motor]:
-        return (f for kind in (Push, Torque, Motor) for f in of(kind, self.forces.values()))
+    def signals(self) -> Iterator[Push | Torque | Couple | Motor]:
+        kinds = (Push, Torque, Couple, Motor)
+        return (f for kind in kinds for f in of(kind, self.forces.values()))
 
     def inner(self) -> dict[str, Force]:
         """The forces with an inner state, by the quantity that it is."""

@@ -44,6 +44,11 @@ class Turning(Force):
         angle, rate = motion.turn(self.about, self.turn)
         return angle if field == "angle" else self.torque(angle, rate)
 
+    def power(self, motion: Motion) -> Array:
+        """M φ̇."""
+        angle, rate = motion.turn(self.about, self.turn)
+        return self.torque(angle, rate) * rate
+
     def torque(self, angle: Array, rate: Array) -> Array:
         """(N,) on the second part [N m]; the first takes its opposite."""
         raise NotImplementedError
@@ -98,6 +103,11 @@ class Motor(Turning):
     def quantities(self) -> dict[str, Fields]:
         """Nothing: its torque is given."""
         return {}
+
+    def power(self, motion: Motion) -> Array:
+        """M φ̇, M as given."""
+        _, rate = motion.turn(self.about, self.turn)
+        return self.signal.at(motion.trajectory.times)[:, 0] * rate
 
     def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
         """That of a sine."""

@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 
 from ..frame import SPACE
-from ..kind import Fields
+from ..kind import WORK, Fields
 from ..motion import Motion
 from ..point import GROUND, Anchor
 from ..trajectory import Array
@@ -26,7 +26,7 @@ _MOMENTS: Fields = {
     "mz": ("N m", "force"),
     "moment": ("N m", "force"),
 }
-HELD = (*_FORCES, *_MOMENTS)
+HELD = (*_FORCES, *_MOMENTS, *WORK)
 """What can be observed of any joint: no freedom has these names."""
 
 
@@ -142,6 +142,13 @@ class SpatialJoint:
         """
         angles, rates = (x[:, self.turning(freedom)] for x in self.coordinates(motion))
         return chain.counted(angles, rates, motion.trajectory.times), rates
+
+    def power(self, motion: Motion) -> Array:
+        """(N,) what the drives of its rates do [W]."""
+        driven = {r: f for r, f in self.rates.items() if f"{self.name}.{r}" in motion.drives}
+        efforts = [motion.reaction(f"{self.name}.{effort_of(f)}") for f in driven.values()]
+        speeds = [self.observe(motion, rate) for rate in driven]
+        return np.sum(np.multiply(efforts, speeds), axis=0)
 
     def _gap(self, motion: Motion) -> Array:
         """How far the second point is from where the freedoms let it be [m]."""

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from ..frame import SPACE, Frame
-from ..kind import Fields
+from ..kind import WORK, Fields
 from ..scene import Scene
 from ..signal import Signal
 from .body import SpatialBody
@@ -60,6 +60,8 @@ class SpatialScene(Scene):
     def told_by(self, reaction: str) -> tuple[str, ...]:
         """The reactions of a producer from which one follows: `q1.force` from three components."""
         part, _, field = reaction.rpartition(".")
+        if field in WORK and part in self.joints:
+            return tuple(f"{part}.{effort}" for effort in self.driven()[part])
         element = self.joints.get(part) or self.contacts.get(part)
         fields = element.components(field) if element else (field,)
         return tuple(f"{part}.{name}" for name in fields)

@@ -87,7 +87,8 @@ class MuJoCo:
         scene, start = world.built(scene, start)
         bundles = {word: world.recipes[word](scene) for word in world.worth(scene)}
         best, lies = world.best(scene, start), world.closed(scene, start)
-        return knobs(best, world.soft(scene), bundles, lies=lies)
+        rubs = any(contact.friction for contact in world.met(scene))
+        return knobs(best, world.soft(scene), bundles, lies=lies, rubs=rubs)
 
     def recipe(self, scene: Scene, start: Start) -> Options:
         """See `Tunable`."""

@@ -14,6 +14,7 @@ from ...cases.space.rotation import matrix
 from ...cases.space.scene import SpatialScene
 from ...cases.states import MASS_MATRIX
 from ...cases.trajectory import Array
+from .force import lacking
 from .law.signal import installed
 from .run import listening, started
 from .shaped import sensor, shaped
@@ -68,6 +69,8 @@ def answered(
 def _withheld(scene: Scene, name: str) -> str:
     """Why a quantity is not told, or nothing."""
     part, _, field = name.partition(".")
+    if part in scene.forces:
+        return next(why for force, why in lacking(scene) if force.name == part)
     if field in _ENTRIES and scene.bodies[part].shape == "rigid":
         return f"adapter: {part} has no shape from which MuJoCo could compute it"
     return ""

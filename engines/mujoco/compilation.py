@@ -17,6 +17,7 @@ from ..engine import Choice, Plan, Start
 from .law.inner import acting
 from .law.settle import settle
 from .law.signal import installed
+from .law.taut import draw
 from .law.touch import one_touch, touches
 from .run import listening, started
 from .scene import mjcf
@@ -29,9 +30,11 @@ _HELD = {
     "pair.solref": "pair_solref",
     "pair.solreffriction": "pair_solreffriction",
     "slide.solreffriction": "dof_solref",
+    "rope.solreflimit": "tendon_solref_lim",
+    "stop.solreflimit": "jnt_solref",
 }
 # What else a run writes: friction by our laws, and the start in the floor.
-_WRITTEN = (*_HELD.values(), "dof_frictionloss", "pair_friction", "site_pos")
+_WRITTEN = (*_HELD.values(), "dof_frictionloss", "pair_friction", "site_pos", "tendon_limited")
 _WRITTEN += ("key_qpos", "key_qvel")
 
 
@@ -51,7 +54,8 @@ def compiled(
 def placed(
     scene: Scene, start: Start, step: float, plan: Plan, *, settles: bool
 ) -> tuple[mujoco.MjModel, mujoco.MjData, dict[str, float]]:
-    """The same with its start, the keyframe; depths [m] if it settles into the floor."""
+    """The same with its start, the keyframe; how deep [m] it settles in the
+    floor, and how much too long its ropes are."""
     model, data = compiled(scene, start, step, plan)
     return model, data, _settle(scene, model, data, start, plan) if settles else {}
 
@@ -99,9 +103,13 @@ def _settle(
 ) -> dict[str, float]:
     if plan.realised != "native" and one_touch(scene):
         touches(scene, model, data)  # friction of MuJoCo's own would press it into the floor
-    depths = settle(scene, model, data, start)
+    moved = settle(scene, model, data, start)
+    roped = any(scene.ropes())
+    moved |= draw(scene, model, data) if roped else {}
     model.key_qpos[0], model.key_qvel[0] = data.qpos, data.qvel
-    return depths
+    if roped:
+        mujoco.mj_resetDataKeyframe(model, data, 0)  # nothing is left of what was looked at
+    return moved
 
 
 def timestep(step: float) -> Choice:

@@ -4,7 +4,6 @@ A tendon carries a spring or a damper. An actuator carries what follows a law in
 makes a constant, the integral of 1 a ramp; any other law's control is a callback.
 """
 
-import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -14,6 +13,7 @@ import mujoco
 import numpy as np
 
 from ...cases.force import (
+    Couple,
     Damper,
     Drag,
     Force,
@@ -23,7 +23,9 @@ from ...cases.force import (
     Motor,
     Muscle,
     Push,
+    Rope,
     Spring,
+    Stops,
     Torque,
     Torsion,
     TorsionDamper,
@@ -32,8 +34,12 @@ from ...cases.force import (
 from ...cases.scene import CENTER, GROUND, Anchor, Scene
 from ...cases.signal import Signal
 from ...cases.trajectory import Array
+from .couple import couple_outer, write_couple
 from .hinge import Hinge, hinge
 from .muscle import ANOTHER, NOTHING, write_muscle
+from .rope import rope_length, write_rope
+from .stops import stop_numbers, write_stops
+from .turning import motor, torsion, torsion_damper, torsion_damping, torsion_numbers
 from .viscous import not_polynomial, viscous_numbers, write_viscous
 from .written import written
 
@@ -206,45 +212,20 @@ def _torque_outer(force: Torque, size: Array, gear: Array) -> Iterator[Outer]:
         yield at, np.zeros((len(size), 2)), size * gear[5]
 
 
-def _torsion(sections: Sections, force: Torsion, about: Hinge) -> None:
-    about.give("stiffness", force.stiffness)
-    about.give("springref", math.degrees(about.way * force.rest_angle))
-
-
-def _torsion_numbers(model: mujoco.MjModel, force: Torsion, about: Hinge) -> dict[str, float]:
-    number = model.joint(about.name).id
-    rest = about.way * model.qpos_spring[model.jnt_qposadr[number]]
-    return {"stiffness": np.ravel(model.jnt_stiffness[number])[0], "rest_angle": rest}
-
-
-def _torsion_damper(sections: Sections, force: TorsionDamper, about: Hinge) -> None:
-    about.give("damping", force.damping)
-
-
-def _torsion_damping(model: mujoco.MjModel, force: TorsionDamper, about: Hinge) -> dict[str, float]:
-    dof = model.jnt_dofadr[model.joint(about.name).id]
-    return {"damping": np.ravel(model.dof_damping[dof])[0]}
-
-
-def _motor(sections: Sections, force: Motor, about: Hinge) -> None:
-    gear = written(about.way * force.signal.amplitude[0])
-    given = {"name": force.name, "joint": about.name, "gear": gear}
-    element = ET.SubElement(sections["actuator"], "general", given)
-    if force.signal.law == "ramp":
-        element.set("dyntype", "integrator")
-
-
 ELEMENTS: dict[type[Force], Element] = {
     Spring: Element(_spring, _spring_numbers),
     Damper: Element(_damper, _damper_numbers),
     Push: Element(_push, signal=lambda force: force.signal, outer=_push_outer),
     Torque: Element(_torque, signal=lambda force: force.signal, outer=_torque_outer),
-    Torsion: Element(_torsion, _torsion_numbers),
-    TorsionDamper: Element(_torsion_damper, _torsion_damping),
-    Motor: Element(_motor, signal=lambda force: force.signal),
+    Couple: Element(write_couple, signal=lambda force: force.signal, outer=couple_outer),
+    Torsion: Element(torsion, torsion_numbers),
+    TorsionDamper: Element(torsion_damper, torsion_damping),
+    Motor: Element(motor, signal=lambda force: force.signal),
     Drag: Element(lacks=lambda force: "engine: MuJoCo has no drag at a point of a body"),
     Viscous: Element(write_viscous, viscous_numbers, lacks=not_polynomial),
     Magnetic: Element(lacks=lambda force: "engine: MuJoCo has no force of a magnetic field"),
     Muscle: Element(write_muscle, signal=lambda force: NOTHING, lacks=lambda force: ANOTHER),
     LinearMuscle: Element(write_muscle, signal=lambda force: NOTHING, lacks=lambda force: ANOTHER),
+    Rope: Element(write_rope, rope_length),
+    Stops: Element(write_stops, stop_numbers),
 }

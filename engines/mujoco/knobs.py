@@ -9,7 +9,7 @@ from typing import Any
 from ..engine import Choice
 from ..knobs import Knob, Options, Value, said
 from .contact import HARDEST, SOFTEST
-from .own import as_options
+from .own import ELEMENTS, as_options, key, suffix
 
 STEPS = (8e-3, 4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4)  # s
 STAGES = {"RK4": 4}  # evaluations of the dynamics in a step; every other integrator takes one
@@ -23,10 +23,12 @@ def knobs(
     bundles: Mapping[str, Sequence[Choice]],
     *,
     lies: bool,
+    rubs: bool,
 ) -> list[Knob]:
     """Those that matter for the scene. best: the tuned recipe; soft: its groups.
 
-    bundles: the recipes for contacts that fit it. lies: whether something starts on the floor.
+    bundles: the recipes for contacts that fit it. lies: whether something starts on the floor;
+    rubs: whether what touches has friction.
     """
     tuned = as_options(best, settled=lies)
     found = [
@@ -35,9 +37,9 @@ def knobs(
             tuple(_of("integrator", word) for word in ("implicitfast", "implicit", "RK4")),
             _of("integrator", tuned["integrator"]),
         ),
-        *(_softness(_GROUPS[group], tuned) for group in soft),
+        *(_softness(group, tuned) for group in soft),
     ]
-    if bundles:
+    if rubs:
         found += _contacts(tuned)
     if "noslip_iterations" in tuned or bundles:
         found.append(_knob("noslip_iterations", [5], tuned))
@@ -74,16 +76,15 @@ def _of(name: str, value: Any) -> Value:
     return Value(f"{name} {said(value)}", {name: value})
 
 
-_GROUPS = {"connect": "connect", "pair": "pair", "slide": "joint"}
-_WHOSE = {"connect": "loops", "pair": "contacts", "joint": "dry joints"}
+_WHOSE = {
+    "connect": "loops", "pair": "contacts", "slide": "dry joints", "rope": "ropes", "stop": "stops"
+}  # fmt: skip
 
 
-def _softness(element: str, tuned: Options) -> Knob:
+def _softness(group: str, tuned: Options) -> Knob:
     """The time constant, how hard it is, both, and what the tuned recipe has."""
-    pushes, holds = ("solref", "solimp")
-    if element == "joint":
-        pushes, holds = "solreffriction", "solimpfriction"
-    whose = _WHOSE[element]
+    pushes, holds = (key(group, name).partition(".")[2] for name in ("solref", "solimp"))
+    whose, element = _WHOSE[group], ELEMENTS[group]
 
     def value(**numbers: Any) -> Value:
         words = (f"d = {n[0]:g}" if k == holds else f"{k} {said(n)}" for k, n in numbers.items())
@@ -91,7 +92,7 @@ def _softness(element: str, tuned: Options) -> Knob:
 
     springs: list[list[Any]] = [[text, 1.0] for text in _STIFF]
     hardness = [_HARD, _MIDDLE]
-    if element == "pair":
+    if group == "pair":
         springs += [["-0.25/h2", "-1/h"], ["-0.04/h2", 0.0]]
         hardness.append(_SOFT)
     values = [
@@ -99,7 +100,9 @@ def _softness(element: str, tuned: Options) -> Knob:
         *(value(**{holds: d}) for d in hardness),
         *(value(**{pushes: spring, holds: _HARD}) for spring in springs[:2]),
     ]
-    numbers = tuned.get(element)
+    numbers = {
+        name: x for name, x in tuned.get(element, {}).items() if name.endswith(suffix(group))
+    }
     best = value(**numbers) if numbers else None
     if best and best.options not in [one.options for one in values]:
         values.append(best)

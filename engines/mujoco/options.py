@@ -27,9 +27,13 @@ PROTOCOL = ("step", "contacts", "settled")  # what stands nowhere in the file
 GROUPS: Mapping[str, Mapping[str, tuple[int, ...]]] = {
     "connect": SOFT,
     "pair": {**SOFT, "solreffriction": (2,)},
-    "joint": {"solreffriction": (2,), "solimpfriction": (3, 5)},
-}
-"""Elements with how many numbers each of their attributes takes: loops, contacts, dry joints."""
+    "joint": {
+        "solreffriction": (2,), "solimpfriction": (3, 5), "solreflimit": (2,), "solimplimit": (3, 5)
+    },
+    "tendon": {"solreflimit": (2,), "solimplimit": (3, 5)},
+}  # fmt: skip
+"""Elements with how many numbers each of their attributes takes: loops, contacts, dry joints and
+their stops, ropes."""
 _NAMES = ("step", *_WORDS, *_WHOLE, *_REAL, *SOFT, *GROUPS, *FLAGS, "settled")
 _MOST = 2**31 - 1  # MuJoCo's int
 
@@ -136,8 +140,9 @@ def _trial(options: Mapping[str, Any]) -> str:
 
     def soft(group: str) -> str:
         common = {name: options[name] for name in SOFT if name in options}
-        own = {f"{name}friction": value for name, value in common.items()}
-        given = (own if group == "joint" else common) | options.get(group, {})
+        ends = {"joint": ("friction", "limit"), "tendon": ("limit",)}.get(group, ("",))
+        own = {name + end: value for name, value in common.items() for end in ends}
+        given = own | options.get(group, {})
         return " ".join(text(name, value) for name, value in given.items())
 
     plain = [n for n in options if n not in (*SOFT, *GROUPS, *FLAGS, "contacts", "settled")]
@@ -146,7 +151,9 @@ def _trial(options: Mapping[str, Any]) -> str:
     return f"""<mujoco><option {option}><flag {flag}/></option>
 <worldbody><geom name="floor" type="plane" size="0 0 1" pos="0 0 -0.0999"/><site name="O"/>
 <body name="b"><freejoint/><geom name="g" size="0.1"/><site name="s"/></body>
-<body name="c"><joint type="slide" frictionloss="1" {soft("joint")}/><geom size="0.1"
+<body name="c"><joint type="slide" frictionloss="1" range="-1 1" {soft("joint")}/><geom size="0.1"
 contype="0" conaffinity="0"/></body></worldbody>
 <contact><pair geom1="floor" geom2="g" {soft("pair")}/></contact>
-<equality><connect site1="O" site2="s" {soft("connect")}/></equality></mujoco>"""
+<equality><connect site1="O" site2="s" {soft("connect")}/></equality>
+<tendon><spatial range="0 1" {soft("tendon")}><site site="O"/><site site="s"/></spatial></tendon>
+</mujoco>"""

@@ -10,8 +10,16 @@ _BECAUSE = "your own option"
 
 
 def key(group: str, name: str) -> str:
-    """As MJCF spells it: a joint's own friction has names of its own."""
-    return f"slide.{name}friction" if group == "slide" else f"{group}.{name}"
+    """As MJCF spells it: a joint's friction, its stops and a tendon's have names of their own."""
+    return f"{group}.{name}{suffix(group)}"
+
+
+def suffix(group: str) -> str:
+    """What the names of a group's numbers end with."""
+    return _NAMED.get(group, "")
+
+
+_NAMED = {"slide": "friction", "rope": "limit", "stop": "limit"}
 
 
 def overlaid(
@@ -38,11 +46,12 @@ def _written(options: Mapping[str, Any], soft: Sequence[str]) -> Iterator[Choice
     """What stands in one place only."""
     for name, value in options.items():
         if name in GROUPS:
-            group = _ELEMENTS[name]
             yield from (
                 Choice(f"{group}.{attribute}", given, _BECAUSE)
                 for attribute, given in value.items()
-                if group in soft
+                for group, element in ELEMENTS.items()
+                if group in soft and element == name
+                if attribute.endswith(suffix(group))
             )
         elif name in FLAGS:
             yield Choice(f"flag.{name}", "enable" if value else "disable", _BECAUSE)
@@ -50,18 +59,19 @@ def _written(options: Mapping[str, Any], soft: Sequence[str]) -> Iterator[Choice
             yield Choice(f"option.{name}", as_written(name, value), _BECAUSE)
 
 
-_ELEMENTS = {"connect": "connect", "pair": "pair", "joint": "slide"}
-"""Our groups of soft constraints, by the elements that MJCF has for them."""
+ELEMENTS = {
+    "connect": "connect", "pair": "pair", "slide": "joint", "rope": "tendon", "stop": "joint"
+}  # fmt: skip
+"""The elements that MJCF has for our groups of soft constraints."""
 
 
 def as_options(choices: Sequence[Choice], *, settled: bool) -> dict[str, Any]:
     """Choices in terms of h as own options; settled: started as the floor carries what touches."""
-    elements = {group: element for element, group in _ELEMENTS.items()}
     found: dict[str, Any] = {}
     for choice in choices:
         where, _, name = choice.name.partition(".")
-        if where in elements:
-            found.setdefault(elements[where], {})[name] = choice.value
+        if where in ELEMENTS:
+            found.setdefault(ELEMENTS[where], {})[name] = choice.value
         else:
             found[name] = choice.value == "enable" if where == "flag" else choice.value
     return found | ({"settled": True} if settled else {})

@@ -11,6 +11,7 @@ from ..stride import strides
 from .compilation import NOMINAL, placed
 from .contact import falls
 from .force import lacking
+from .law.catch import catches
 from .law.corner import has_corners
 from .law.friction import one_slide, smooth_only
 from .law.touch import one_touch
@@ -37,7 +38,7 @@ def ways(scene: Scene, start: Start, *, tuned: bool) -> tuple[Realised, ...]:
         return ("law", "driver") if driver else ("law",)
     if tuned and one_touch(scene) and not falls(scene, start):
         return ("native", "law", "driver")
-    if tuned and has_corners(scene):
+    if tuned and (has_corners(scene) or catches(scene)):
         return ("native", "driver")
     if not tuned or not one_slide(scene):
         return ("native",)
@@ -63,6 +64,8 @@ def plan(
     dry = any(joint.dry_friction for joint in scene.joints.values())
     jumps = any(law.corners for law in scene.laws())
     first = integrator != "RK4" or bool(met(scene)) or (dry and realised != "driver")
+    first |= any(scene.stops())
+    first |= any(scene.ropes()) and realised != "driver"
     first |= any(scene.one_sided()) and realised != "driver"
     corners = any(force.corner for force in scene.forces.values())
     following = (1, 2) if first else (4, 5) if dry else (2, 3)
@@ -103,13 +106,17 @@ def _words(scene: Scene, start: Start, plan: Plan, settles: bool, tuned: bool, s
         words.append("the foot that stands is pinned; steps are cut where one strikes: an impulse")
     elif plan.realised == "driver":
         acts, dry = "where a spring begins or ends to act", "at the events of dry friction"
-        words.append(f"steps cut {acts if has_corners(scene) else dry}")
+        taut = "where a rope comes taut, and the impact taken there"
+        acts = taut if catches(scene) else acts
+        words.append(f"steps cut {dry if one_slide(scene) or one_touch(scene) else acts}")
     if tuned and met(scene) and falls(scene, start):
         words.append("starts above the floor: contacts are tuned for impacts")
-    if settles and met(scene):
+    if settles and (met(scene) or any(scene.ropes())):
         *_, depths = placed(scene, start, step, plan, settles=True)
         both = {**scene.touching, **scene.pairs}
-        deep = ((both[name], depth) for name, depth in depths.items() if depth)
+        longer = ((name, depth) for name, depth in depths.items() if name not in both)
+        words += [f"{name} started {more:.1e} m too long" for name, more in longer]
+        deep = ((both[name], depth) for name, depth in depths.items() if depth and name in both)
         words += [f"{_at(c)} started {depth:.1e} m in the {c.on}" for c, depth in deep]
     return "; ".join(words)
 

@@ -28,6 +28,7 @@ def unbuildable(scene: Scene) -> str | None:
             return f"adapter: {joint.name} is a massless rod that closes a loop, and is not built"
     tree = spanning_tree(scene)
     soft = [*tree.loops, *scene.contacts.values(), *scene.pairs.values()]
+    soft += [*scene.ropes(), *scene.stops()]
     soft += [joint for joint in scene.joints.values() if joint.dry_friction]
     if what := unbuilt(scene, [part.name for part in soft]):
         return what
@@ -65,6 +66,8 @@ def unbuildable(scene: Scene) -> str | None:
                 "engine: MuJoCo's floor is a spring and damper, and the damper that throws "
                 f"{contact.body} back with only {contact.restitution:g} of its speed is unstable"
             )
+    if len({stops.restitution for stops in scene.stops()}) > 1:
+        return "adapter: stops that throw back differently would each need a recipe"
     if len({contact.restitution for contact in touching}) > 1:
         return "adapter: contacts that throw back differently would each need a recipe"
     return None

@@ -17,7 +17,7 @@ from .law.smooth import smooth
 from .law.stepping import stepping
 from .law.told import told
 from .read.poses import poses
-from .read.reaction import contact_force
+from .read.reaction import felt_force
 from .read.readout import read
 from .read.record import Record, all_steps, counted, sampled, whole
 
@@ -66,7 +66,8 @@ def simulate(
     steps = stepping(scene, model, data, realised)
     laws = [*smooth(scene, model), *edges(scene, model)] if realised == "law" else steps.controls
     laws = [*laws, *told(scene, model)]
-    felt_by = {*scene.contacts, *scene.pairs}
+    given = (force.name for force in scene.forces.values() if force.given)
+    felt_by = {*scene.contacts, *scene.pairs, *given}
     touching = tuple(name for name in reactions if name.partition(".")[0] in felt_by)
     corners = Corners(controls(scene), float(model.opt.timestep))
     steps.take = corners.held(steps.take)
@@ -78,7 +79,7 @@ def simulate(
         check(warnings, grid, record)
         each: dict[str, Array] = {}
         if record.felt is not None:
-            each = {name: contact_force(scene, model, name, record.felt) for name in touching}
+            each = {name: felt_force(scene, model, name, record.felt) for name in touching}
         elif every:
             each = read(scene, model, data, grid, record, touching, steps.recall)
         rows = record

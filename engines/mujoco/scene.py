@@ -17,6 +17,8 @@ from .feet import add_pins
 from .force import BY_ITSELF, begun_with, write
 from .pairs import add_geoms, add_pair_sensors, add_pairs
 from .planes import add_contacts, add_geom, add_planes, add_sensors, touching
+from .rope import finish_ropes
+from .stops import finish_stops
 from .tree import (
     Branch,
     Tree,
@@ -66,6 +68,8 @@ def mjcf(
     write(root, scene)
     write_drives(root, scene)
     write_room(root, scene)
+    finish_ropes(root, scene, attributes(numbers, "rope"))
+    finish_stops(root, scene, attributes(numbers, "stop"))
     _start(root, scene, tree, start, begun, out=_leaves_plane(scene, numbers))
     ET.indent(root)
     return ET.tostring(root, encoding="unicode") + "\n"

@@ -14,6 +14,8 @@ from ..tied import at
 from .contact import HARDEST, RECIPES, chosen, recipe
 from .own import key, overlaid
 from .planes import met
+from .rope import recipe as ropes
+from .stops import recipe as stopped
 from .tree import driven, spanning_tree
 
 SHIPPED_STEP = 2e-3  # s, the default of <option timestep>
@@ -69,6 +71,12 @@ def best(scene: Scene, start: Start | None = None) -> list[Choice]:
             ]
     if "slide" in soft(scene):
         choices.append(Choice("option.noslip_iterations", 5, "what sticks does not creep"))
+    if "rope" in soft(scene):
+        choices += ropes()
+    if "stop" in soft(scene):
+        bounce = max(stops.restitution for stops in scene.stops())
+        known = {choice.name for choice in choices}
+        choices += [c for c in stopped(bounce) if c.name not in known]
     if met(scene):
         known = {choice.name for choice in choices}
         choices += [c for c in recipe(scene, start) if c.name not in known]
@@ -103,7 +111,9 @@ def soft(scene: Scene) -> list[str]:
     """The groups of soft constraints in the scene."""
     loops = ["connect"] if spanning_tree(scene).loops or strides(scene) else []
     dry = ["slide"] if any(joint.dry_friction for joint in scene.joints.values()) else []
-    return loops + dry + (["pair"] if met(scene) else [])
+    ropes = ["rope"] if any(scene.ropes()) else []
+    ropes += ["stop"] if any(scene.stops()) else []
+    return loops + dry + ropes + (["pair"] if met(scene) else [])
 
 
 def with_own(

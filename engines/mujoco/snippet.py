@@ -8,7 +8,9 @@ from ..knobs import Options
 from .script import commented
 from .written import attributes, written
 
-_ELEMENTS = {"connect": "equality", "pair": "pair", "slide": "joint"}
+_ELEMENTS = {
+    "connect": "equality", "pair": "pair", "slide": "joint", "rope": "tendon", "stop": "joint"
+}  # fmt: skip
 """What stands in <default> for a group of soft constraints."""
 
 
@@ -24,7 +26,9 @@ def snippet(
     default = ET.Element("default")
     for group, element in _ELEMENTS.items():
         if given := attributes(changed, group):
-            ET.SubElement(default, element, given)
+            found = default.find(element)
+            place = ET.SubElement(default, element) if found is None else found
+            place.attrib.update(given)
     return "".join([commented(notes), _text(option), _text(default) if len(default) else ""])
 
 

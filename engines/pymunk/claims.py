@@ -11,6 +11,7 @@ from ...cases.point import CENTER
 from ...cases.scene import Body as Part
 from ...cases.scene import Scene
 from ...cases.trajectory import Array
+from .lacking import lacking
 from .world import World
 
 _KINEMATIC = ("x", "y", "vx", "vy")
@@ -42,6 +43,8 @@ def answered(
 def _withheld(scene: Scene, name: str) -> str:
     """Why a quantity is not told, or nothing."""
     part, _, field = name.rpartition(".")
+    if part in scene.forces:
+        return next(why for force, why in lacking(scene) if force.name == part)
     if part == "momentum" and field == "angular":
         return "engine: pymunk has no angular momentum"
     if part == "energy" and field != "kinetic":

@@ -14,6 +14,7 @@ from pymunk.body import Body
 from pymunk.constraints import DampedRotarySpring, DampedSpring
 
 from ...cases.force import (
+    Couple,
     Damper,
     Drag,
     Force,
@@ -22,7 +23,9 @@ from ...cases.force import (
     Motor,
     Muscle,
     Push,
+    Rope,
     Spring,
+    Stops,
     Torque,
     Torsion,
     TorsionDamper,
@@ -31,10 +34,13 @@ from ...cases.force import (
 from ...cases.scene import Scene
 from ..engine import Realised
 from ..signal import acting, value
+from .couple import couple, couple_load, couple_script
 from .law import one_side
 from .law.line import Exerted, Load, drifting, pull, told
 from .law.told import BY_LAW
 from .law.turning import couple_as_text, motor, motor_load, twist, twisted
+from .stops import stop_numbers
+from .torque import torque, torque_load, torque_script
 from .wording import as_text
 from .world import World
 from .written import written
@@ -102,8 +108,12 @@ def tells(world: World, step: float, *, midpoint: bool) -> list[Apply]:
 
 
 def numbers(world: World) -> dict[str, float]:
-    """What pymunk's lines hold, as `Force.numbers` names it."""
-    return {
+    """What pymunk's lines, ropes and stops hold, as `Force.numbers` names it."""
+    ropes = {f"{name}.length": joint.max for name, joint in world.ropes.items()}
+    for stops in world.scene.stops():
+        held = stop_numbers(world.stops[stops.name], stops)
+        ropes |= {f"{stops.name}.{side}": at for side, at in held.items()}
+    return ropes | {
         f"{name}.{key}": number
         for name, line in world.lines.items()
         for key, number in ELEMENTS[type(world.scene.forces[name])].numbers(line).items()
@@ -184,26 +194,6 @@ def _push_script(
     yield f"    body.apply_force_at_world_point(({pair}), {place})"
 
 
-def _torque(world: World, force: Torque, step: float, drift: float) -> Apply:
-    body, turned = world.bodies[force.body], acting(force.signal, drift)
-
-    def apply(t: float) -> None:
-        body.torque += turned(t)[0]
-
-    return apply
-
-
-def _torque_load(world: World, force: Torque, name: str) -> Exerted:
-    return lambda t, drift: (0.0, 0.0, value(force.signal, t)[0])
-
-
-def _torque_script(
-    world: World, force: Torque, of: Callable[[Body], str], midpoint: bool
-) -> Iterator[str]:
-    (torque,) = as_text(force.signal, midpoint=midpoint)
-    yield f"    {of(world.bodies[force.body])}.torque += {torque}"
-
-
 def _motor_script(
     world: World, force: Motor, of: Callable[[Body], str], midpoint: bool
 ) -> Iterator[str]:
@@ -231,7 +221,8 @@ ELEMENTS: dict[type[Force], Element] = {
         tell=lambda world, damper, step, drift: told(world, damper, step),
     ),
     Push: Element(load=_push_load, tell=_push, script=_push_script),
-    Torque: Element(load=_torque_load, tell=_torque, script=_torque_script),
+    Torque: Element(load=torque_load, tell=torque, script=torque_script),
+    Couple: Element(load=couple_load, tell=couple, script=couple_script),
     Torsion: Element(
         load=twist,
         # pymunk counts the first body's angle against the second's
@@ -248,4 +239,6 @@ ELEMENTS: dict[type[Force], Element] = {
     Magnetic: Element(**BY_LAW, lacks="engine: pymunk has no force of a magnetic field"),
     Muscle: Element(**BY_LAW, lacks="engine: pymunk has no muscle"),
     LinearMuscle: Element(**BY_LAW, lacks="engine: pymunk has no muscle"),
+    Rope: Element(load=lambda world, rope, name: lambda t, drift: (0.0, 0.0, 0.0)),  # a joint
+    Stops: Element(load=lambda world, stops, name: lambda t, drift: (0.0, 0.0, 0.0)),
 }  # fmt: skip

@@ -19,13 +19,16 @@ def knobs(scene: Scene, start: Start) -> list[Knob]:
     """Those that matter for the scene."""
     tuned = as_options(scene, start)
     found = [Knob("midpoint", (_ON["midpoint"],), _ON["midpoint"], "protocol")]
-    if scene.joints:
+    if "error_bias" in tuned:
         closed = Value("error_bias 0", {"error_bias": 0.0})
         share = Value("error_bias by the scene", {"error_bias": BY_THE_SCENE})
         best = share if tuned["error_bias"] == BY_THE_SCENE else closed
         found.append(Knob("error_bias", (closed,), best))
     if "iterations" in tuned:
         found.append(_sweeps(tuned))
+    if "limit_bias" in tuned:
+        eases = _number("limit_bias", tuned["limit_bias"])
+        found.append(Knob("limit_bias", (eases,), eases))
     return [*found, *_contacts(tuned), *_slots(tuned)]
 
 

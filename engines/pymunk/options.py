@@ -14,6 +14,7 @@ PROTOCOL = {
     "start_iterations": "start.iterations",
     "across": "slot.across",
     "reflects": "contact.reflects",
+    "limit_bias": "limit.error_bias",
 }
 """What is done around the engine, with its name among a setting's numbers."""
 
@@ -41,6 +42,7 @@ _NUMBERS = {
     "collision_persistence": _Number(1, 1e6, whole=True),
     "seed": _Number(0, 1e-3),  # deeper, what touches would be thrown out
     "start_iterations": _Number(1, 1e6, whole=True, scene=True),
+    "limit_bias": _Number(0, 1),
 }
 _SWITCHES = ("midpoint", "across", "reflects")
 _NAMES = (*_NUMBERS, *_SWITCHES)

@@ -57,13 +57,15 @@ def _around(scene: Scene, options: Mapping[str, Any]) -> Iterator[Choice]:
     """What is done around the engine, which nobody does who does not ask for it."""
     for option, name in PROTOCOL.items():
         value = options.get(option)
-        if value and value != BY_THE_SCENE and _matters(name, scene):
+        if value not in (None, False, BY_THE_SCENE) and _matters(name, scene):
             yield Choice(name, value, _BECAUSE)
 
 
 def _matters(name: str, scene: Scene) -> bool:
     if name.startswith("constraint."):
-        return bool(scene.joints)
+        return bool(scene.joints) or any(scene.limits())
+    if name.startswith("limit."):
+        return any(scene.limits())
     if "collision" in name or name == "start.seed":
         return bool(scene.contacts or scene.pairs)
     if name == "contact.reflects":
@@ -78,10 +80,11 @@ def as_options(scene: Scene, start: Start) -> dict[str, Any]:
     """The tuned recipe as own options; what it finds in the scene is left to the scene."""
     best = recipe(scene, start)
     named = {name: option for option, name in PROTOCOL.items()}
-    found = {named.get(c.name, c.name.partition(".")[2]): c.value for c in best.always}
+    choices = (*best.always, *best.limits)
+    found = {named.get(c.name, c.name.partition(".")[2]): c.value for c in choices}
     if best.held is None:
         return found
     found |= dict.fromkeys(("iterations", "start_iterations"), BY_THE_SCENE)
-    if scene.joints:
+    if scene.joints or any(scene.limits()):
         found["error_bias"] = BY_THE_SCENE if best.held.biased else 0.0
     return found

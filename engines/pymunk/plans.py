@@ -78,8 +78,8 @@ def _spoilt(scene: Scene, realised: Realised) -> bool:
     native = realised == "native"
     brakes = native and any(joint.dry_friction for joint in scene.joints.values())
     met = bool(scene.pairs) or any(contact.switches for contact in scene.contacts.values())
-    sided = any(scene.one_sided())
-    return (native and (damped(scene) or met)) or brakes or strides(scene) or sided
+    sided, roped = any(scene.one_sided()), any(scene.limits())
+    return (native and (damped(scene) or met)) or brakes or strides(scene) or sided or roped
 
 
 def _withheld(scene: Scene) -> dict[str, str]:

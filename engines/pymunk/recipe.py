@@ -11,6 +11,7 @@ from ...cases.scene import GROUND, Contact, Scene, Vector
 from ..engine import Choice, Start
 from .contact import is_tip
 from .holding import Holding, holding
+from .rope import EASES
 from .scene import oblique
 
 _MIDPOINT = Choice(
@@ -77,10 +78,11 @@ class Recipe:
 
     always: tuple[Choice, ...]
     held: Holding | None
+    limits: tuple[Choice, ...] = ()  # behind what holds joints, which they are too
 
     def __call__(self, step: float) -> Sequence[Choice]:
         """The numbers for a step [s]."""
-        return [*self.always, *(self.held.choices(step) if self.held else [])]
+        return [*self.always, *(self.held.choices(step) if self.held else []), *self.limits]
 
     @property
     def follows(self) -> bool:
@@ -104,7 +106,8 @@ def recipe(scene: Scene, start: Start) -> Recipe:
         always += [_LANDING] if all(_rises(scene, contact) for contact in stays) else []
     if any(oblique(scene, joint) for joint in scene.joints.values()):
         always.append(_ACROSS)
-    return Recipe(tuple(always), holding(scene, start))
+    limits = (EASES,) if any(scene.limits()) else ()
+    return Recipe(tuple(always), holding(scene, start), limits)
 
 
 def _across(a: Vector, b: Vector) -> float:

@@ -10,6 +10,7 @@ from .edge import NO_EDGE
 from .force import ELEMENTS
 from .lacking import lacking
 from .pair import MOST
+from .stops import throws_back
 
 
 def not_native(scene: Scene) -> list[str]:
@@ -34,6 +35,8 @@ def unbuildable(scene: Scene) -> str | None:
     for force in scene.forces.values():
         if type(force) not in ELEMENTS:
             return f"adapter: {force.name} is a {force.word}, which it does not build"
+    if what := throws_back(scene):
+        return what
     for quantity in scene.drives:
         if quantity.endswith(".speed"):
             return f"{NO_LINE}, as {quantity} is driven"

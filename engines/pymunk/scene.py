@@ -20,7 +20,9 @@ from .contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle, closed, only, pla
 from .edge import add_edges
 from .force import lines
 from .pair import add_pairs
+from .rope import add_ropes
 from .slot import line, pinned
+from .stops import add_stops
 from .world import World
 
 # Half the length [m] of planes, and of a slide's groove, which pymunk wants finite. Every step
@@ -40,11 +42,15 @@ def build(scene: Scene, start: Start, numbers: Mapping[str, Any], realised: Real
     _contacts(world)
     _joints(world, start, across=bool(numbers.get("slot.across")))
     add_edges(world)
+    add_ropes(world)
+    add_stops(world)
     lines(world, realised)
     joints = [part for parts in world.joints.values() for part in parts]
+    limits = [*world.ropes.values(), *world.stops.values()]
+    joints += limits
     for name, value in numbers.items():
         owner, _, attribute = name.partition(".")
-        for part in {"space": [space], "constraint": joints}.get(owner, ()):
+        for part in {"space": [space], "constraint": joints, "limit": limits}.get(owner, ()):
             setattr(part, attribute, value)
     return world
 

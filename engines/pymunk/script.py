@@ -14,7 +14,9 @@ from pymunk.constraints import (
     GrooveJoint,
     PinJoint,
     PivotJoint,
+    RotaryLimitJoint,
     SimpleMotor,
+    SlideJoint,
 )
 
 from ...cases.scene import Scene
@@ -40,6 +42,8 @@ _ARGUMENTS: dict[type[Constraint], tuple[str, ...]] = {
     GearJoint: ("phase", "ratio"),
     SimpleMotor: ("rate",),
     DampedRotarySpring: ("rest_angle", "stiffness", "damping"),
+    RotaryLimitJoint: ("min", "max"),
+    SlideJoint: ("anchor_a", "anchor_b", "min", "max"),
     DampedSpring: ("anchor_a", "anchor_b", "rest_length", "stiffness", "damping"),
 }
 _CARRIED = [
@@ -170,10 +174,17 @@ def _bodies(world: World) -> Iterator[str]:
         yield "space.add(body)"
 
 
+def _owners(world: World, name: str) -> tuple[str, ...]:
+    """Whose numbers a joint has."""
+    if name in world.ropes or name in world.stops:
+        return "constraint", "limit"
+    return ("constraint",) if name in world.joints else ()
+
+
 def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
     brakes = {name: (brake,) for name, brake in world.brakes.items()}
     named = {name: (*parts, *brakes.get(name, ())) for name, parts in world.joints.items()}
-    named |= {name: (line,) for name, line in world.lines.items()}
+    named |= {name: (line,) for name, line in (world.lines | world.ropes | world.stops).items()}
     for name, parts in named.items():
         for part in parts:
             yield ""
@@ -189,8 +200,9 @@ def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
                 yield "space.add(joint)"
                 continue
             for key, value in numbers.items():
-                if name in world.joints and key.startswith("constraint."):
-                    yield f"joint.{key.removeprefix('constraint.')} = {written(value)}"
+                owner, _, attribute = key.partition(".")
+                if owner in _owners(world, name):
+                    yield f"joint.{attribute} = {written(value)}"
             if part is world.motors.get(name):
                 yield f"motors[{name!r}] = joint"
             if isinstance(part, PinJoint) and name in world.slots:

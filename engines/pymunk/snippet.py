@@ -21,6 +21,8 @@ def snippet(world: World, start: Start, choices: Sequence[Choice], step: float) 
     if joints:
         lines.append("for joint in joints:")
         lines += [f"    joint.{n.partition('.')[2]} = {written(x)}" for n, x in joints]
+    if (eases := changed.get("limit.error_bias")) is not None:
+        lines += ["for joint in limits:", f"    joint.error_bias = {written(eases)}"]
     if (seed := changed.get("start.seed")) and closed(world.scene, start):
         lines += seeds(world, start, seed)
     if changed.get("time.midpoint"):

@@ -11,7 +11,16 @@ from collections.abc import Iterator
 
 import numpy as np
 from pymunk.body import Body
-from pymunk.constraints import Constraint, GearJoint, GrooveJoint, PinJoint, PivotJoint, SimpleMotor
+from pymunk.constraints import (
+    Constraint,
+    GearJoint,
+    GrooveJoint,
+    PinJoint,
+    PivotJoint,
+    RotaryLimitJoint,
+    SimpleMotor,
+    SlideJoint,
+)
 from pymunk.space import Space
 from pymunk.vec2d import Vec2d
 
@@ -104,7 +113,7 @@ def _columns(world: World) -> tuple[Columns, Array]:
 def _joint(space: Space, joint: Constraint, columns: Columns, n: int) -> tuple[Array, Array] | None:
     """The relative velocities that it measures, and the normals along which it acts."""
     a, b = joint.a, joint.b
-    if isinstance(joint, GearJoint | SimpleMotor):
+    if isinstance(joint, GearJoint | SimpleMotor | RotaryLimitJoint):  # as if it were struck
         row = np.zeros((1, n))
         for body, sign in ((a, -1.0), (b, getattr(joint, "ratio", 1.0))):
             if body in columns:
@@ -118,11 +127,13 @@ def _joint(space: Space, joint: Constraint, columns: Columns, n: int) -> tuple[A
         here = there + b.position - a.position
         along = (joint.groove_b - joint.groove_a).rotated(a.angle).normalized()
         normal = np.array([[-along.y, along.x]])
-    elif isinstance(joint, PinJoint):
+    elif isinstance(joint, PinJoint | SlideJoint):  # a rope counts as taut, as a contact as closed
         if joint.pre_solve:
             joint.pre_solve(joint, space)  # across its slot at this pose
         there, here = joint.anchor_b.rotated(b.angle), joint.anchor_a.rotated(a.angle)
         across = there + b.position - a.position - here
+        if not across.length:
+            return None
         rows = _moves(columns, n, b, there) - _moves(columns, n, a, here)
         return np.array([across.normalized()]) @ rows, np.eye(1)
     else:

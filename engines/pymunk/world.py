@@ -8,7 +8,9 @@ from pymunk.constraints import (
     DampedRotarySpring,
     DampedSpring,
     GrooveJoint,
+    RotaryLimitJoint,
     SimpleMotor,
+    SlideJoint,
 )
 from pymunk.shapes import Circle, Segment
 from pymunk.space import Space
@@ -40,6 +42,8 @@ class World:
     lines: dict[str, DampedSpring | DampedRotarySpring] = field(default_factory=dict)
     motors: dict[str, SimpleMotor] = field(default_factory=dict)
     slots: dict[str, Line] = field(default_factory=dict)
+    ropes: dict[str, SlideJoint] = field(default_factory=dict)
+    stops: dict[str, RotaryLimitJoint] = field(default_factory=dict)
     pins: dict[str, Pin] = field(default_factory=dict)
     wheels: dict[str, Circle] = field(default_factory=dict)
     planes: dict[str, Segment] = field(default_factory=dict)

@@ -2,11 +2,13 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
 
 import numpy as np
 
 from ...cases.case import Case
 from ...cases.difference import apart
+from ...cases.kind import WORK
 from ...cases.mistake import Mistake
 from ...cases.observe import observe
 from ...cases.quantity import at_event, event_quantities
@@ -16,6 +18,7 @@ from .agreement import Check, worst
 SHARE = 0.01  # of the smallest tolerance: what the reference's own error may take
 EPS = float(np.finfo(np.float64).eps)
 ERROR = "error of "
+FALLS = 2**4  # at twice the distance, where a sum over samples has at least the fourth order
 
 
 def errors(
@@ -45,10 +48,31 @@ def errors(
             yield Check(f"{ERROR}{name}", error / least, SHARE, error, unit)
 
 
+def _summed(case: Case, motion: Trajectory, name: str) -> float:
+    """How far a sum over the samples may be from the integral: by what every second one gives.
+
+    Where they show that it falls with the fourth power of their distance or faster, a fifteenth.
+    """
+    every = [observe(case.scene, _thinned(motion, k), name) for k in (1, 2, 4)]
+    near, far = (worst(np.abs(a[::2] - b)) for a, b in pairwise(every))
+    return near / (FALLS - 1) if FALLS * near <= far else near
+
+
+def _thinned(motion: Trajectory, k: int) -> Trajectory:
+    """Every k-th sample."""
+    return Trajectory(
+        motion.times[::k],
+        {name: rows[::k] for name, rows in motion.states.items()},
+        {name: rows[::k] for name, rows in motion.reactions.items()},
+    )
+
+
 def _apart(case: Case, motion: Trajectory, others: Mapping[str, Trajectory], name: str) -> float:
     """How far a quantity's samples are from those of any other answer."""
     own = observe(case.scene, motion, name)
     found = [apart(own, observe(case.scene, other, name)) for other in others.values()]
+    if case.quantities[name].field in WORK:
+        found.append(np.array([_summed(case, motion, name)]))
     return worst([EPS * worst(np.abs(own).ravel()), *map(worst, found)])
 
 
@@ -74,8 +98,10 @@ def beyond(case: Case, checks: Sequence[Check]) -> list[Mistake]:
     for check in own:
         assert check.certified is not None
         name = check.name.removeprefix(ERROR)
+        summed = name in case.quantities and case.quantities[name].field in WORK
+        cure = "take more samples" if summed else "a shorter duration"
         found += [
-            case.mistake(path, _asks(bar, check.certified, check.unit))
+            case.mistake(path, _asks(bar, check.certified, check.unit, cure))
             for path, bar in _bars(case, name)
             if not check.certified <= SHARE * bar
         ]
@@ -92,7 +118,7 @@ def _bars(case: Case, name: str) -> Iterator[tuple[tuple[str, ...], float]]:
             yield ("reach", engine, name), bars[name]
 
 
-def _asks(bar: float, certified: float, unit: str) -> str:
+def _asks(bar: float, certified: float, unit: str, cure: str) -> str:
     if not math.isfinite(certified):
         return (
             f"{bar:.3g} asks more than can be certified: two answers to this motion differ in how "
@@ -103,5 +129,5 @@ def _asks(bar: float, certified: float, unit: str) -> str:
     return (
         f"{bar:.3g} asks more than can be certified: the reference knows this to "
         f"{certified:.1e} {unit}, and that may be {SHARE:.0%} of it; give at least {least:.0e}, "
-        "or a shorter duration"
+        f"or {cure}"
     )

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ...cases.force import (
+    Couple,
     Damper,
     Drag,
     Force,
@@ -21,7 +22,9 @@ from ...cases.force import (
     Motor,
     Muscle,
     Push,
+    Rope,
     Spring,
+    Stops,
     Torque,
     Torsion,
     TorsionDamper,
@@ -30,6 +33,7 @@ from ...cases.force import (
 from ..laws.force import damper, spring
 from ..system import Array
 from .coordinates import Coordinates, Point
+from .couple import coupled, turned_apart
 from .drag import drag_loss, dragged, slowed, viscous_loss
 from .magnetic import deflected, magnetic_potential
 from .muscle import contracted, pulled, stretched
@@ -198,6 +202,7 @@ ACTIONS: dict[type[Force], Action] = {
     Damper: Action(_damper, D=_damped, line=lambda damper: True),
     Push: Action(_push, Q4=_pushed),
     Torque: Action(_torque, Q4=_turned),
+    Couple: Action(coupled, Q4=turned_apart),
     Torsion: Action(torsional, U=twisted),
     TorsionDamper: Action(torsionally_damped, D=braked),
     Motor: Action(motor, Q4=driven),
@@ -206,4 +211,6 @@ ACTIONS: dict[type[Force], Action] = {
     Magnetic: Action(deflected, V=magnetic_potential),
     Muscle: Action(pulled, U=stretched, rate=contracted),
     LinearMuscle: Action(pulled, U=stretched, rate=contracted),
+    Rope: Action(lambda *_: iter(())),  # taut it is a constraint
+    Stops: Action(lambda *_: iter(())),  # as what rests on one
 }

@@ -100,7 +100,7 @@ def _agrees(
                 if len(choice) > 1 and modes.change(e.normal, mode, t, q, v) < -small:
                     return False
                 continue
-            if forces[f"{e.name}.normal"] < -small * float(np.max(modes.M)):
+            if forces[e.push] < -small * float(np.max(modes.M)):
                 return False
         if state == "sticks" and e.slips and min(e.margins(forces)) < 0.0:
             return False
@@ -115,7 +115,7 @@ def _grazes(
 ) -> bool:
     """Whether the floor neither pushes nor is left: both answers are the same motion."""
     forces = modes.forces(modes.name(states), t, q, v)
-    return abs(forces[f"{e.name}.normal"]) <= modes.small(t, q, v) * float(np.max(modes.M))
+    return abs(forces[e.push]) <= modes.small(t, q, v) * float(np.max(modes.M))
 
 
 def _projected(

@@ -73,6 +73,24 @@ class Element:
     plane: str = ""  # that a contact is with
     two: bool = False  # whether it is of two bodies, and not with the ground
 
+    endings: tuple[str, str] = ("opens", "lands")  # when its normal force falls to zero, or its gap
+
+    @property
+    def push(self) -> str:
+        """The reaction of its normal row, which only pushes."""
+        return f"{self.name}.normal"
+
+    @property
+    def pulls(self) -> str:
+        """What a normal force below zero would mean, in words."""
+        return f"the {self.plane} would have to pull at {self.name}"
+
+    def amiss(self, depth: float, speed: float) -> str:
+        """What a start so deep [m] in the plane, or else with this speed into it, is in words."""
+        if depth:
+            return f"{self.name} starts {depth * 1e3:.3g} mm in the {self.plane}"
+        return f"{self.name} starts into the {self.plane}, with {speed:.3g} m/s"
+
     @property
     def slips(self) -> bool:
         """Whether it may; a pivot is assumed not to."""

@@ -57,10 +57,15 @@ def impact(
             continue
         found = _tried(M, joints, meetings, v, states)
         if found is not None:
-            if M @ found**2 > (1 + GAIN) * (M @ v**2) and not any(row.g for row in joints):
+            if M @ found**2 > (1 + GAIN) * (M @ v**2) and not _driven(joints, meetings):
                 raise NoImpact("the impact would create energy")
             return found, states
     raise NoImpact("no impulse satisfies the friction law")
+
+
+def _driven(joints: Sequence[Condition], meetings: Sequence[Meeting]) -> bool:
+    """Whether something that moves by itself takes part, and may give energy."""
+    return any(row.g for row in (*joints, *(meeting.normal for meeting in meetings)))
 
 
 def _choices(meetings: Sequence[Meeting]) -> Sequence[tuple[State, ...]]:
@@ -113,7 +118,7 @@ def _tried(
     nothing = ROUNDING * float(np.max(np.abs(impulse), initial=0.0))
     for meeting, state, at in zip(meetings, states, normals, strict=True):
         if at is None:
-            if meeting.normal.f @ v_after < -small:
+            if meeting.normal.f @ v_after - meeting.normal.g < -small:
                 return None
         elif impulse[at] < -nothing or sign(state) * (meeting.tangent.f @ v_after) < -small:
             return None

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..system import Array
 from .choosing import After, Options, Undetermined, closed, settled, staying
+from .constraint import Constraint
 from .contact import row
 from .element import Element, State
 from .impact import Condition, Meeting, NoImpact, impact
@@ -52,7 +53,7 @@ def landed(
         if e.normal is not None and k not in touching:
             choices[k] = ("open",)
     for k, m, state in zip(touching, met, states, strict=True):
-        leaves = state == "open" or m.after > 0.0
+        leaves = state == "open" or m.after > m.normal.g
         choices[k] = ("open",) if leaves else _staying(m.element, state)
     return settled(modes, choices, t, q, v)
 
@@ -96,12 +97,17 @@ def _meetings(
     touching, met = [], []
     for k, (e, state) in enumerate(zip(modes.elements, modes.states[mode], strict=True)):
         if e.normal is not None and (k == i or state != "open"):
-            parts = (e.normal, e.tangent)
-            normal, tangent = (Condition(*row(part, t, q, v)[:2]) for part in parts)
-            after = -e.restitution * float(normal.f @ v) if k == i and not rests else 0.0
+            normal, tangent = _condition(e.normal, t, q, v), _condition(e.slip, t, q, v)
+            back = e.restitution * (float(normal.f @ v) - normal.g) if k == i and not rests else 0.0
+            after = normal.g - back
             touching.append(k)
             met.append(Meeting(e, normal, tangent, after, k == i))
     return touching, met
+
+
+def _condition(part: Constraint | None, t: float, q: Array, v: Array) -> Condition:
+    """Of what has no such row, as a rope slips along nothing, a row of zeros."""
+    return Condition(np.zeros(len(v)), 0.0) if part is None else Condition(*row(part, t, q, v)[:2])
 
 
 def _slip(e: Element, t: float, q: Array, v: Array) -> float:

@@ -66,14 +66,14 @@ class Mechanism(System):
             if passes and (gap < -CLOSED * self.size or rate(element.normal, 0.0, q, v) < -still):
                 return ("open",)
             if gap < -CLOSED * self.size:
-                raise BadStart(f"{element.name} starts {-gap * 1e3:.3g} mm in the {element.plane}")
+                raise BadStart(element.amiss(-gap, 0.0))
             rising = rate(element.normal, 0.0, q, v)
             if rising < -still:
-                raise BadStart(
-                    f"{element.name} starts into the {element.plane}, with {-rising:.3g} m/s"
-                )
+                raise BadStart(element.amiss(0.0, -rising))
             if rising > still:
                 return ("open",)
+            if element.slip is None:
+                return closed(element, 0.0)
         slip = rate(element.tangent, 0.0, q, v)
         if abs(slip) > still and not element.slips:
             raise BadStart(f"{element.name} starts with a slip of {slip:.3g} m/s, and only pivots")
@@ -84,6 +84,7 @@ class Mechanism(System):
         states = self.built.states[mode]
         found = [g for i, s in enumerate(states) for g in self._guards(mode, i, s)]
         order = {"opens": 0, "lands": 1, "stops": 2, "slips": 3, "slackens": 4, "tightens": 4}
+        order |= {"leaves": 0, "strikes": 1}
         return sorted(found, key=lambda guard: order[str(guard.event).split()[-1]])
 
     def _guards(self, mode: str, i: int, state: State) -> Iterator[Guard]:
@@ -98,10 +99,10 @@ class Mechanism(System):
             if state == "open":
                 gap = self._clear(e, normal)
                 rest = self._lands(mode, i, rests=True)
-                yield Guard(f"{e.name} lands", gap, self._lands(mode, i), rest)
+                yield Guard(f"{e.name} {e.endings[1]}", gap, self._lands(mode, i), rest)
                 return
-            push = lambda t, q, v: self.built.forces(mode, t, q, v)[f"{e.name}.normal"]  # noqa: E731
-            yield Guard(f"{e.name} opens", push, self._opens(mode, i))
+            push = lambda t, q, v: self.built.forces(mode, t, q, v)[e.push]  # noqa: E731
+            yield Guard(f"{e.name} {e.endings[0]}", push, self._opens(mode, i))
         if e.frictionless or not e.slips:
             return
         if s := sign(state):
@@ -177,8 +178,8 @@ class Mechanism(System):
                     if not e.behind(t, q.tolist(), self.size) and height < -CLOSED * self.size:
                         return f"{e.name} is in the {e.plane}"
                     continue
-                if forces[f"{e.name}.normal"] < -force:
-                    return f"the {e.plane} would have to pull at {e.name}"
+                if forces[e.push] < -force:
+                    return e.pulls
             if state == "sticks" and min(e.margins(forces)) < -force:
                 return f"{e.name} would have to slip"
             if (s := sign(state)) and not e.frictionless and s * rate(e.tangent, t, q, v) < -slow:

@@ -79,8 +79,7 @@ class Multibody(Mode):
         """q̇ = v of the bodies; inner states have their own."""
         if not self.where.inner:
             return v
-        numbers = q.tolist()
-        own = [inner_rate(force, self.where, t, numbers) for force in self.scene.inner().values()]
+        own = [inner_rate(f, self.where, t, q.tolist()) for f in self.scene.inner().values()]
         return np.concatenate([v, own])
 
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
@@ -99,8 +98,9 @@ class Multibody(Mode):
             _add(found, brake.along.reactions(t, numbers, [brake.force(t, q, v)]))
         for at, law in self._coulomb:
             _add(found, law.tangent.reactions(t, numbers, [law.factor * multipliers[at]]))
-        held = (joint.name for joint in self.scene.joints.values() if not joint.turns)
-        found = {f"{name}.torque": 0.0 for name in held} | found  # a particle takes no moment
+        idle = [f"{joint.name}.torque" for joint in self.scene.joints.values() if not joint.turns]
+        idle += self.scene.limits()
+        found = dict.fromkeys(idle, 0.0) | found  # a particle takes no moment, a rope may be slack
         for shared in self._shared:
             found |= shared.divided(found)
         for contact in self.scene.contacts.values():

@@ -12,8 +12,10 @@ from .element import Element, Smoothed, State, elements
 from .mode import Multibody
 from .one_side import one_sided
 from .pair import paired
+from .rope import roped
 from .sharing import shares
 from .smooth import SmoothMultibody
+from .stop import stopped
 
 ROUNDING = 1e-10  # of the accelerations that the forces give alone
 
@@ -25,8 +27,13 @@ class Modes(Mapping[str, Multibody]):
         self.scene, self.start = scene, start
         self.base = Multibody(scene, start)  # what holds in all of them
         where = self.base.where
-        every = (*elements(scene, where), *paired(scene, where), *one_sided(scene, where))
-        self.elements: tuple[Element, ...] = every
+        self.elements: tuple[Element, ...] = (
+            *elements(scene, where),
+            *paired(scene, where),
+            *roped(scene, where),
+            *stopped(scene, where),
+            *one_sided(scene, where),
+        )
         self.M = np.array(self.base.where.masses)
         self.states: dict[str, tuple[State, ...]] = {}  # what each element does in a mode
         self._built: dict[str, Multibody] = {}

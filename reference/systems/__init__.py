@@ -8,6 +8,7 @@ from collections.abc import Mapping
 
 from ..system import Mode, Only, System
 from .anisotropic_drift import AnisotropicDrift
+from .ball_on_rope import BallOnRope
 from .bar_pendulum import BarPendulum
 from .bearing import Bearing
 from .bouncing_disk import BouncingDisk
@@ -34,6 +35,7 @@ from .knife_edge import KnifeEdge
 from .light_feet import LightFeet
 from .muscle_isometric import MuscleIsometric
 from .muscle_load import LinearMuscleLoad, MuscleLoad
+from .paired_rotors import PairedRotors
 from .particle_pendulum import ParticlePendulum
 from .rhombus import Rhombus
 from .rimless_wheel import RimlessWheel
@@ -49,6 +51,7 @@ from .spring_mass_damper import SpringMassDamper
 from .spring_mass_jump import SpringMassJump
 from .sprung_gimbal import SprungGimbal
 from .stacked_blocks import StackedBlocks
+from .stopped_pendulum import StoppedPendulum
 from .stribeck_brake import StribeckBrake
 from .stribeck_drive import StribeckDrive
 from .tilting_disk import TiltingDisk
@@ -64,6 +67,7 @@ from .wheel_from_above import WheelFromAbove
 
 SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "anisotropic_drift": AnisotropicDrift,
+    "ball_on_rope": BallOnRope,
     "bar_pendulum": BarPendulum,
     "bearing": Bearing,
     "bouncing_disk": BouncingDisk,
@@ -91,6 +95,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "muscle_isometric": MuscleIsometric,
     "muscle_load": MuscleLoad,
     "linear_muscle_load": LinearMuscleLoad,
+    "paired_rotors": PairedRotors,
     "particle_pendulum": ParticlePendulum,
     "rhombus": Rhombus,
     "rimless_wheel": RimlessWheel,
@@ -105,6 +110,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "smooth_growing_force": SmoothGrowingForce,
     "spring_mass_damper": SpringMassDamper,
     "stacked_blocks": StackedBlocks,
+    "stopped_pendulum": StoppedPendulum,
     "stribeck_brake": StribeckBrake,
     "stribeck_drive": StribeckDrive,
     "sprung_gimbal": SprungGimbal,

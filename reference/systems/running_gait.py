@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from ..system import Array, Guard, Load, Pose, System, Vector
+from ..system import Array, Guard, Load, Pose, Vector
 from .elastic_pendulum import ElasticPendulum
+from .spring_mass_jump import SpringMassJump
 
 STEPS = 4
 
@@ -38,25 +39,15 @@ class _Runner(ElasticPendulum):
 
 
 @dataclass(frozen=True)
-class RunningGait(System):
-    """m [kg] on a leg c [N/m], l0 [m] that touches down at alpha [rad] with vx0, vy0 [m/s].
+class RunningGait(SpringMassJump):
+    """A jump after which the mass lands on its leg again: the feet are at 0 and x2, x3, x4 [m]."""
 
-    The feet are at x = 0 and x2, x3, x4 [m].
-    """
-
-    m: float
-    c: float
-    l0: float
-    alpha: float
-    vx0: float
-    vy0: float
     x2: float
     x3: float
     x4: float
 
     def __post_init__(self) -> None:
-        if not self._leaning() < 0.0:
-            raise ValueError("the leg must be shortened at touch-down: vx0, vy0 point away from it")
+        super().__post_init__()
         leg = self.l0, self.l0, self.alpha
         modes = {
             f"{mode} {k}": _Runner(self.m, c, *leg, foot)
@@ -70,15 +61,10 @@ class RunningGait(System):
         """x_k [m]."""
         return 0.0, self.x2, self.x3, self.x4
 
-    def _leaning(self) -> float:
-        """λ̇ at touch-down [m/s]."""
-        return self.vx0 * math.cos(self.alpha) + self.vy0 * math.sin(self.alpha)
-
     def start(self) -> tuple[str, Array, Array]:
-        """The first leg at its rest length, in the direction alpha from its foot."""
-        across = self.vy0 * math.cos(self.alpha) - self.vx0 * math.sin(self.alpha)
-        q, v = [self.l0, self.alpha], [self._leaning(), across / self.l0]
-        return "stance 1", np.array(q), np.array(v)
+        """That of the jump, on the first foot."""
+        _, q, v = super().start()
+        return "stance 1", q, v
 
     def guards(self, mode: str) -> Sequence[Guard]:
         """Where λ passes λ₀: `takes off` to the next foot, and `touches down` on it."""

@@ -12,13 +12,14 @@ from typing import Any
 import numpy as np
 
 from ..laws.friction import Dry, coulomb, power_law, stiction, viscous
+from ..laws.momentum import momentum
 from ..stated import Stated
 from ..system import Array, Pose, Vector
 
 
 @dataclass(frozen=True)
 class SlidingPoints(Stated):
-    """Of the ball F = mu F_N [N], and d [N at 1 m/s] and alpha of its air.
+    """Of each the mass m [kg]. Of the ball F = mu F_N [N], and d [N at 1 m/s] and alpha of its air.
 
     Of the sled P and Q at p and s [m]; at P dry F_plus, F_minus, F_across [N]; at Q viscous d_plus,
     d_minus, d_across [N at 1 m/s] to the power beta.
@@ -45,7 +46,7 @@ class SlidingPoints(Stated):
         return {"ball": (*q[:2], 0.0, *v[:2], 0.0), "sled": (*q[2:], *v[2:])}
 
     def told(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
-        """Of each friction its components in ground axes, and its size."""
+        """Of each friction its components in ground axes, and its size; and p of both."""
         ball, sled = complex(v[0], v[1]), complex(v[2], v[3])
         axis = cmath.exp(1j * q[4])
         at_P, at_Q = (sled + 1j * v[4] * r * axis for r in (self.p, self.s))
@@ -64,8 +65,10 @@ class SlidingPoints(Stated):
         forces = {
             "pad": rubbed, "air": complex(*blown), "scales": gliding * axis, "skate": slowed * axis,
         }  # fmt: skip
-        return {
+        p = momentum(self.m, np.array([ball.real + sled.real, ball.imag + sled.imag, 0.0]))
+        told = {
             f"{name}.{field}": x
             for name, F in forces.items()
             for field, x in (("fx", F.real), ("fy", F.imag), ("force", abs(F)))
         }
+        return {**told, "momentum.x": p[0], "momentum.y": p[1]}

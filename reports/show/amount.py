@@ -14,4 +14,4 @@ def factor(ratio: float) -> str:
 
 def milliseconds(step: float) -> str:
     """A step [s]: 8 ms, 0.25 ms."""
-    return f"{float(f'{1e3 * step:.2g}'):g} ms"
+    return f"{float(f'{1e3 * step:.3g}'):g} ms"

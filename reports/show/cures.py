@@ -8,10 +8,14 @@ import pandas as pd
 from ...cases.case import Case
 from ...cases.find import shipped
 from ..write import HERE
+from .amount import milliseconds
 from .summary import Cures
 
 NAME = "causes.csv"
 KEY = ("case", "engine", "setting", "quantity")
+MOST = 2  # cures that a table has room for
+UNTOLD = ("not searched",)
+OURS = ("our force law", "our driver")  # which go on in the report
 
 
 def committed(cases: Sequence[Case]) -> Cures:
@@ -22,14 +26,25 @@ def committed(cases: Sequence[Case]) -> Cures:
 
 
 def cures(folder: Path) -> Cures:
-    """By case, engine, setting and quantity, in words; several cures are joined by "or"."""
+    """By case, engine, setting and quantity, in words: the two cheapest, with their steps.
+
+    The report has a row for each cure, the cheapest first; what was not searched is not told.
+    """
     file = folder / NAME
     if not file.is_file():
         return {}
     rows = pd.read_csv(file, dtype=str, keep_default_na=False, comment="#")
-    found: dict[tuple[str, str, str, str], str] = {}
-    for *key, cure in rows[[*KEY, "cure"]].itertuples(index=False):
-        name = (key[0], key[1], key[2], key[3])
-        before = found.get(name)
-        found[name] = f"{before} or {cure}" if before and cure not in before else cure
-    return found
+    found: dict[tuple[str, str, str, str], list[str]] = {}
+    for case, engine, setting, quantity, cure, step in rows[[*KEY, "cure", "step"]].itertuples(
+        index=False
+    ):
+        if cure not in UNTOLD:
+            found.setdefault((case, engine, setting, quantity), []).append(_told(cure, step))
+    return {key: " or ".join(words[:MOST]) for key, words in found.items()}
+
+
+def _told(cure: str, step: str) -> str:
+    """With the step, where that is what is changed; a law or driver of ours by its short name."""
+    if cure.startswith(OURS):
+        return next(word for word in OURS if cure.startswith(word))
+    return f"{cure} {milliseconds(float(step))}" if cure.split(" + ")[-1] == "step" else cure

@@ -12,7 +12,6 @@ from ...cases.find import QUESTIONS
 LISTED = Path(__file__).parents[1] / "questions.yaml"
 WORDS = {
     "shipped": "as shipped",
-    "tuned": "tuned: see `textmech show`",
     "law": "none: only our law beside it",
 }
 """What may stand in place of own options, and what is said of it."""
@@ -50,6 +49,10 @@ def _setting(setting: Mapping[str, Any] | str) -> str:
 
 
 def _number(value: Any) -> str:
+    if isinstance(value, dict):
+        return f"{{{', '.join(f'{key}: {_number(inner)}' for key, inner in value.items())}}}"
+    if isinstance(value, bool):
+        return str(value).lower()
     if isinstance(value, list):
         return f"[{', '.join(map(_number, value))}]"
     return f"{value:g}" if isinstance(value, float) else str(value)

@@ -89,13 +89,14 @@ def _upward(h: float, interval: float) -> Iterator[float]:
 def wanted_reactions(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
     """The reactions, that only the producer can give, from which the quantities follow."""
     parts = {*scene.joints, *scene.constraints, *scene.contacts, *scene.pairs, *scene.bodies}
+    parts |= {force.name for force in scene.forces.values() if force.given}
     known = table(scene)
     forces = (
         name
         for name in names
         if name.split(".")[0] in parts
         and name in known
-        and known[name].kind in ("force", "acceleration")
+        and known[name].kind in ("force", "acceleration", "energy")  # of a joint: its drives' work
     )
     told = (given for name in forces for given in scene.told_by(name))
     return tuple(dict.fromkeys([*told, *scene.inner()]))

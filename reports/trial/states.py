@@ -1,5 +1,7 @@
 """A claim about states before an engine: asked once, without a step and so without a ladder."""
 
+from dataclasses import replace
+
 from ...cases.case import Case
 from ...cases.mistake import CaseError
 from ...cases.trajectory import Array
@@ -32,7 +34,8 @@ def ways(engine: Engine, case: Case, start: Start) -> tuple[Plan | Refusal, ...]
     """The engine's own answer, or why there is none; it is asked of one state what it withholds."""
     if not isinstance(engine, Claims):
         return (Refusal("native", SILENT),)
-    way = next(way for way in planned(engine, case.scene, start) if way.realised == "native")
+    alone = replace(case.scene, forces={})  # nothing moves: what acts is asked for by itself
+    way = next(way for way in planned(engine, alone, start) if way.realised == "native")
     if isinstance(way, Refusal):
         return (way,)
     told = engine.answer(case.scene, start, _drawn(case, 1), tuple(case.allow))

@@ -100,9 +100,9 @@ class Trial:
         }
 
     def _told_by(self, name: str) -> tuple[str, ...]:
-        """The quantity itself, and that of the event."""
+        """The quantity itself with what it follows from, and that of the event."""
         if not self._dated(name):
-            return (name,)
+            return (name, *self.case.scene.told_by(name))
         event = self.case.events[self.quantity(name).part].quantity
         found = at_event(name, self.case.events)
         return (event, found.quantity) if found else (event,)

@@ -15,6 +15,7 @@ from textmech.cases.language.grammar.number import amount
 from textmech.cases.language.grammar.part import written
 from textmech.cases.load import load
 from textmech.cases.quantity import event_quantities, table
+from textmech.cases.rope import Rope
 from textmech.cases.scene import (
     Anchor,
     Bounds,
@@ -31,6 +32,7 @@ from textmech.cases.scene import (
 from textmech.cases.scene import DryFriction as Dry
 from textmech.cases.scene import Joint as Connection
 from textmech.cases.scene import Scene as Resolved
+from textmech.cases.stops import Stops
 
 WHOLE = Path(shape.__file__).with_name("README.md").read_text(encoding="utf-8")
 PLANE, _, _rest = WHOLE.partition("## Space\n")
@@ -72,6 +74,8 @@ def test_quantities() -> None:
             "line": Spring("line", a, b, 1.0, 1.0),
             "torsion": Torsion("torsion", "joint", 1.0, 0.0),
             "muscle": LinearMuscle("muscle", a, b, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
+            "rope": Rope("rope", a, b, 1.0),
+            "stops": Stops("stops", "joint", 0.0, 1.0),
             "drag": Drag("drag", b, 1.0, 2.0),
             "viscous": Viscous("viscous", "joint", Bounds(1.0, 1.0), 2.0),
         },

@@ -16,6 +16,7 @@ from given.scenes import SHIPPED, solved
 from textmech.cases.scene import Anchor, Contact
 from textmech.cases.trajectory import ANGLE, OMEGA, X
 from textmech.engines.engine import Engine, Refusal
+from textmech.engines.mujoco.compilation import compiled
 from textmech.engines.mujoco.law import stride as feet
 from textmech.engines.mujoco.read.poses import poses
 from textmech.engines.mujoco.refuse import unbuildable
@@ -103,6 +104,24 @@ def test_its_impulse_is_that_of_the_reference(monkeypatch: pytest.MonkeyPatch) -
     for k, (angles, before, after) in enumerate(seen):
         _, _, v = walker.struck(k % 2, np.array([0.0, *angles]), np.array([0.0, *before]))
         assert after == pytest.approx(v[1:], abs=1e-6)  # the foot that stood gives way by 1e-7
+
+
+def test_what_holds_otherwise_takes_part_in_a_strike() -> None:
+    """A loop that comes apart at any rates: it does not afterwards, by forces of its pin alone."""
+    scene, start = begun("four_bar")
+    plan = planned(TUNED["mujoco"], scene, start)
+    model, data = compiled(scene, start, 1e-3, plan)
+    data.qvel[:] = before = np.array([1.3, -0.7, 2.1])
+    feet.stop(model, data)
+    mujoco.mj_forward(model, data)
+    rows = data.efc_J.reshape(-1, model.nv)[: data.ne]
+    assert np.abs(rows @ before).max() > 0.1
+    assert np.abs(rows @ data.qvel).max() < 1e-14
+    M = np.zeros((model.nv, model.nv))
+    mujoco.mj_fullM(model, data, M)
+    impulse = M @ (data.qvel - before)
+    others = np.linalg.svd(rows)[2][2:]  # the ways in which it stays closed
+    assert np.abs(others @ impulse).max() < 1e-14
 
 
 @pytest.mark.parametrize("name", TUNED)

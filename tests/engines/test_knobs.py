@@ -33,8 +33,13 @@ def test_together_they_are_what_tuned_does(name: str, engine: Engine) -> None:
     assert isinstance(engine, Tunable)
     found = knobs(name, engine)
     turned = merged(*(knob.tuned.options for knob in found if knob.tuned))
-    recipe, contacts = engine.recipe(*begun(name)), begun(name)[0].contacts.values()
-    inert = INERT if any(contact.friction for contact in contacts) else INERT | OF_FRICTION
+    scene, start = begun(name)
+    recipe, touching = (
+        engine.recipe(scene, start),
+        (*scene.contacts.values(), *scene.pairs.values()),
+    )
+    rubs = any(contact.friction for contact in touching)
+    inert = INERT if rubs else INERT | OF_FRICTION
     assert turned == {key: value for key, value in recipe.items() if key not in inert}
     assert len({knob.name for knob in found}) == len(found)
     for knob in found:

@@ -13,6 +13,7 @@ PARAMETERS: dict[str, dict[str, float]] = {
         "m": 1.0, "A": 5.0, "w": 2 * math.pi,
         "F_minus": 3.0, "F_plus": 1.0, "Fs_minus": 4.0, "Fs_plus": 1.5,
     },
+    "ball_on_rope": {"m": 0.6, "L": 1.0, "x0": 0.6, "y0": 0.25, "vx0": 0.0, "vy0": 0.0},
     "bar_pendulum": {"m": 1.2, "l": 0.8, "phi0": math.radians(24.6)},
     "bearing": {
         "m": 1.5, "R": 0.3, "M_s": 0.5, "M_k": 0.3, "d": 0.05, "M": 0.1, "k": 0.0, "w0": 9.0,
@@ -51,6 +52,9 @@ PARAMETERS: dict[str, dict[str, float]] = {
     "friction_of_rest": {"m": 1.0, "c": 10.0, "u": 0.5, "mu_s": 0.6, "mu_k": 0.3},
     "growing_force": {"m": 1.0, "b": 1.0, **BOOK},
     "knife_edge": {"m": 1.4, "J": 0.06, "beta": math.radians(15), "u0": 0.3, "w0": 1.3},
+    "paired_rotors": {
+        "m1": 1.5, "R1": 0.3, "m2": 0.8, "R2": 0.2, "M": 0.3, "Omega": 6.0, "w0": 2.0,
+    },
     "particle_pendulum": {"m": 0.6, "x0": 0.45, "y0": 0.6},
     "rhombus": {
         "m": 0.5, "l": 0.4, "c": 60.0, "l0": 0.5,
@@ -84,6 +88,9 @@ PARAMETERS: dict[str, dict[str, float]] = {
     "smooth_dynamometer": {"m": 1.0, "c": 2.0, "u": 2.0, **BOOK, **BAND},
     "smooth_growing_force": {"m": 1.0, "b": 1.0, **BOOK, **BAND},
     "spring_mass_damper": {"m": 1.0, "c": 36.0, "d": 1.2, "l0": 0.5, "y0": -0.6},
+    "stopped_pendulum": {
+        "m": 1.2, "l": 0.8, "phi0": math.radians(10), "low": math.radians(-60), "e": 0.0,
+    },
     "stribeck_brake": {"m": 1.3, "F": 3.0, "Fs": 6.0, "v_s": 0.5, "P": 0.5, "v0": 2.0},
     "stribeck_drive": {"m": 2.0, "c": 2.0, "u": 1.0, "F": 3.0, "Fs": 6.0, "v_s": 0.5},
     "running_gait": {
@@ -178,6 +185,7 @@ DURATION = {
     "stribeck_brake": 2.0,
     "sliding_block": 1.0,
     "sliding_disk": 2.0,
+    "ball_on_rope": 1.5,
     "bouncing_disk": 3.0,
     "friction_cone": 5.0,
     "friction_of_rest": 6.0,

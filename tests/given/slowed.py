@@ -34,6 +34,9 @@ SEEN_BY: dict[str, dict[str, Law]] = {
         "m": laws.equations, "e": laws.equations, "B": laws.free_cut, "F": laws.power,
     },
     "falling_drag": {"m": laws.equations, "d": laws.power},
+    "turning_sled": {
+        "m": laws.equations, "l": laws.equations, "d": laws.power, "d_across": laws.free_cut,
+    },
     "viscous_drift": {
         "m": laws.equations, "A": laws.power, "w": laws.equations, "d_minus": laws.free_cut,
         "d_plus": laws.closed_form,

@@ -7,6 +7,9 @@ _BLOCK = [("block", 0, 0.0, 0.0), ("block", 3, 0.0, 0.0)]
 # the rocker they only say near which of the two ways to close the loop it is.
 STARTS: dict[str, list[tuple[str, int, float, float]]] = {
     "anisotropic_drift": _BLOCK,
+    "ball_on_rope": [
+        ("ball", 0, 0.6, 0.0), ("ball", 1, 0.25, 0.0), ("ball", 3, 0.0, 0.0), ("ball", 4, 0.0, 0.0),
+    ],
     "bar_pendulum": [("bar", 2, 24.6 * math.pi / 180, 1e-15), ("bar", 5, 0.0, 0.0)],
     "bearing": [("disk", 2, 0.0, 0.0), ("disk", 5, 9.0, 0.0)],
     "bouncing_disk": [("wheel", 1, 0.7, 0.0), ("wheel", 4, 0.0, 0.0), ("wheel", 5, 0.0, 0.0)],
@@ -55,6 +58,9 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
         ("blade", 0, 0.0, 0.0), ("blade", 1, 0.0, 0.0), ("blade", 2, 0.0, 0.0),
         ("blade", 3, 0.3, 0.0), ("blade", 4, 0.0, 0.0), ("blade", 5, 1.3, 0.0),
     ],
+    "paired_rotors": [
+        ("one", 2, 0.0, 0.0), ("one", 5, 2.0, 0.0), ("two", 2, 0.0, 0.0), ("two", 5, 2.0, 0.0),
+    ],
     "particle_pendulum": [
         ("bob", 0, 0.45, 1e-15), ("bob", 1, 0.6, 1e-15), ("bob", 3, 0.0, 0.0), ("bob", 4, 0.0, 0.0),
     ],
@@ -87,6 +93,7 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
     "smooth_dynamometer": _BLOCK,
     "smooth_growing_force": _BLOCK,
     "spring_mass_damper": [("mass", 1, -0.6, 0.0), ("mass", 4, 0.0, 0.0)],
+    "stopped_pendulum": [("bar", 2, 10 * math.pi / 180, 1e-15), ("bar", 5, 0.0, 0.0)],
     "stribeck_brake": [("block", 0, 0.0, 0.0), ("block", 3, 2.0, 0.0)],
     "stribeck_drive": _BLOCK,
     "viscous_drift": _BLOCK,

@@ -27,6 +27,10 @@ def _switching(random: np.random.Generator, name: str, mode: str, t: float) -> D
     q, v = random.uniform(-2.0, 2.0, n), random.uniform(-5.0, 5.0, n)
     if name == "sliding_disk":
         q[1] = 0.25
+    if name == "ball_on_rope" and mode == "swings":
+        q = q / np.linalg.norm(q)
+    if name == "stopped_pendulum" and mode == "rests":
+        q = np.array([math.radians(-60)])
     if name == "sliding_ladder" and mode == "leans":
         q[0] = 0.75 * math.cos(q[1])
     if name == "tipping_block" and mode == "stands":

@@ -9,6 +9,7 @@ At = tuple[str, str]
 MULTIPLIERS: dict[At, tuple[str, ...]] = {
     **{at: (name,) for at, name in stiction.HELD.items()},
     ("anisotropic_drift", "stuck"): ("guide.fx",),
+    ("ball_on_rope", "swings"): ("rope.force",),
     ("bouncing_disk", "rest"): ("touch.normal",),
     ("drag_stops", "rest"): ("guide.fx",),
     ("compass_walker", "left stands"): ("left_foot.tangent",),
@@ -28,6 +29,7 @@ MULTIPLIERS: dict[At, tuple[str, ...]] = {
     ("sliding_disk", "slips backward"): ("touch.normal",),
     ("sliding_disk", "slips forward"): ("touch.normal",),
     ("sliding_ladder", "leans"): ("top.normal",),
+    ("stopped_pendulum", "rests"): ("stop.low",),
     ("tipping_block", "stands"): ("left.normal",),
     ("stacked_blocks", "rests"): ("floor.tangent", "upper.tangent"),
     ("stacked_blocks", "together"): ("upper.tangent",),

@@ -12,9 +12,12 @@ from textmech.reports.show import cures
 HEAD = "case,engine,setting,quantity,error_before,allow,cure,options,step,error_after,cost,law\n"
 ROWS = """\
 bar_pendulum,mujoco,shipped,energy.total,2.4,0.01,RK4,{integrator: RK4},0.002,1e-7,4,
-bar_pendulum,mujoco,shipped,energy.total,2.4,0.01,a step of 0.5 ms,{step: 0.0005},0.0005,0.6,4,h^1
-bar_pendulum,pymunk,shipped,bar.angle,340,0.01,"error_bias 0, and the step",{error_bias: 0},,,20,
-# 3 rows of run 0123456789ab
+bar_pendulum,mujoco,shipped,energy.total,2.4,0.01,step,{},0.0005,0.6,4,h^1
+bar_pendulum,mujoco,shipped,energy.total,2.4,0.01,implicit + midpoint,{},0.002,0.6,9,
+bar_pendulum,pymunk,shipped,bar.angle,340,0.01,error_bias 0 + step,{error_bias: 0},0.00125,,20,
+bar_pendulum,pymunk,shipped,b.x,340,0.01,our force law in place of its own,,,,,
+bar_pendulum,pymunk,shipped,hinge.gap,340,0.01,not searched,,,,,
+# 6 rows of run 0123456789ab
 """
 
 
@@ -22,11 +25,12 @@ def test_without_the_report_nothing_is_known(tmp_path: Path) -> None:
     assert cures.cures(tmp_path) == {}
 
 
-def test_cures_of_one_row_are_joined(tmp_path: Path) -> None:
+def test_the_two_cheapest_cures_of_a_row_are_joined_and_steps_told(tmp_path: Path) -> None:
     (tmp_path / cures.NAME).write_text(HEAD + ROWS, encoding="utf-8")
     assert cures.cures(tmp_path) == {
-        ("bar_pendulum", "mujoco", "shipped", "energy.total"): "RK4 or a step of 0.5 ms",
-        ("bar_pendulum", "pymunk", "shipped", "bar.angle"): "error_bias 0, and the step",
+        ("bar_pendulum", "mujoco", "shipped", "energy.total"): "RK4 or step 0.5 ms",
+        ("bar_pendulum", "pymunk", "shipped", "bar.angle"): "error_bias 0 + step 1.25 ms",
+        ("bar_pendulum", "pymunk", "shipped", "b.x"): "our force law",
     }
 
 
@@ -35,7 +39,7 @@ def test_a_case_of_ones_own_has_none_of_a_shipped_ones(
 ) -> None:
     (tmp_path / cures.NAME).write_text(HEAD + ROWS, encoding="utf-8")
     monkeypatch.setattr(cures, "HERE", tmp_path)
-    assert len(cures.committed(choose_cases(["bar_pendulum"]))) == 2
+    assert len(cures.committed(choose_cases(["bar_pendulum"]))) == 3
     own = tmp_path / "bar_pendulum.yaml"
     own.write_text(SWING, encoding="utf-8")
     assert cures.committed(load(own)) == {}

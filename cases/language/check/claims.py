@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 
 from ...joint import SHIFT, TURN
+from ...kind import WORK
 from ...mistake import Path, nearest
 from ...quantity import EVENT_FIELDS, Quantity, at_event, at_events, event_quantities, table
 from ...scene import Scene
@@ -117,7 +118,7 @@ def _unknown(
         yield path, f"'{at.event}.{at.quantity}' has no before and no after"
     elif field in ("friction", "slip") and f"{part}.fx" in known:  # a joint without it
         yield path, f"{part!r} has no `dry_friction`, so no {name!r}"
-    elif _undriven(known, part, field):
+    elif _undriven(known, part, field) or (field in WORK and part in parsed.file.scene.joints):
         yield path, f"no `drive` prescribes the rate, so no {name!r}"
     elif field in (*TURN, *SHIFT) and f"{part}.gap" in known and part in parsed.file.scene.joints:
         yield path, _no_freedom(known, part, field)

@@ -14,8 +14,9 @@ from ...point import anchor
 from .part import Name, Pair, Part, Point
 from .signal import Following, law
 
-REFERS = ("a", "b", "at", "body", "joint")
-"""What nouns call that to which they refer: two points, a point, a body or a joint."""
+REFERS = ("a", "b", "at", "body", "first", "second", "joint")
+"""What nouns call that to which they refer: two points, a point, a body, two bodies or a joint."""
+BY_NAME = ("body", "first", "second", "joint")
 
 
 class Element(Part):
@@ -36,7 +37,7 @@ class Element(Part):
         given = getattr(self, self.word)
         words = given if isinstance(given, tuple) else (given,)
         return {
-            field: word if field in ("body", "joint") else anchor(word)
+            field: word if field in BY_NAME else anchor(word)
             for field, word in zip(fields, words, strict=True)
         }
 
@@ -64,6 +65,7 @@ def element(
     asked |= {key: (kind, asked[key][1]) for key, kind in (typed or {}).items()}
     asked |= {key: (asked[key][0], ...) for key in needs}
     refers = Pair if "b" in asked else Point if "at" in asked else Name
+    refers = tuple[Name, Name] if "second" in asked else refers
     refers = asked["joint"][0] if "joint" in asked else refers
     left = {key: asked[key] for key in asked if key not in (*REFERS, "name", *without)}
     if "signal" in left:

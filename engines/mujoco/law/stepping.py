@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ....cases.scene import Scene
 from ...engine import Realised
+from .catch import Catching, catches
 from .corner import Corners
 from .driver import driven_step, room
 from .falling import falling
@@ -26,7 +27,7 @@ class Steps:
 
     model: mujoco.MjModel
     data: mujoco.MjData
-    slides: list[Slide | Touch | Feet]
+    slides: list[Slide | Touch | Feet | Catching]
     take: Callable[[int], None]
     controls: list[Control] = field(default_factory=list)  # what every stage needs of us
     alone: bool = True  # whether MuJoCo's own loop takes them
@@ -46,6 +47,16 @@ class Steps:
         """Friction as it was at a sample, for reading forces."""
         for slide, noted in zip(self.slides, self.noted[sample] if self.noted else (), strict=True):
             slide.recall(noted)
+
+
+def caught(catching: Catching, step: float) -> Callable[[int], None]:
+    """Steps [s] that are cut where a rope comes taut."""
+
+    def take(n: int) -> None:
+        for _ in range(n):
+            catching.step(step)
+
+    return take
 
 
 def stepping(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, realised: Realised) -> Steps:
@@ -68,6 +79,9 @@ def stepping(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, realised:
                 walks.step(step)
 
         return Steps(model, data, [walks], by_feet, alone=False)
+    if realised == "driver" and catches(scene):
+        catching = Catching(scene, model, data)
+        return Steps(model, data, [catching], caught(catching, step), alone=False)
 
     def native(n: int) -> None:
         mujoco.mj_step(model, data, n)

@@ -10,6 +10,8 @@ from ....cases.trajectory import Array
 from ..force import outer
 from ..pairs import pair_force
 from ..planes import touching
+from ..rope import tension
+from ..stops import pushing
 from ..tree import Tree, called
 
 Seen = Mapping[str, Array]
@@ -60,6 +62,18 @@ def _site(model: mujoco.MjModel, seen: Seen, anchor: Anchor) -> Array:
 
 def _cross(a: Array, b: Array) -> Array:
     return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+
+
+def felt_force(
+    scene: Scene, model: mujoco.MjModel, name: str, felt: Array, pushed: Array | None = None
+) -> Array:
+    """(N,) of a contact, see `contact_force`, of a rope or a stop, from the sensors' rows."""
+    part = name.rpartition(".")[0]
+    if part in scene.contacts or part in scene.pairs:
+        return contact_force(scene, model, name, felt, pushed)
+    if any(rope.name == part for rope in scene.ropes()):
+        return tension(model, part, felt)
+    return pushing(scene, model, name, felt)
 
 
 def contact_force(

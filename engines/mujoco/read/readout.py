@@ -19,7 +19,7 @@ from ..edge import fields
 from ..tree import Tree, spanning_tree
 from .acceleration import NEEDED, acceleration
 from .friction import SlideFriction
-from .reaction import contact_force, joint_force, pinned
+from .reaction import felt_force, joint_force, pinned
 from .record import Record
 
 _TOUCHING = ("sensordata", "qfrc_applied")
@@ -66,9 +66,7 @@ def read(
         elif part in strode(scene):
             found[name] = pinned(model, seen, part)[("tangent", "normal").index(field)]
         else:
-            found[name] = contact_force(
-                scene, model, name, seen["sensordata"], seen["qfrc_applied"]
-            )
+            found[name] = felt_force(scene, model, name, seen["sensordata"], seen["qfrc_applied"])
     return found
 
 

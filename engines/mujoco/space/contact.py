@@ -8,6 +8,7 @@ an impratio of 1e8, has the second order (tested beside this, in test_wandering.
 
 from collections.abc import Callable, Mapping
 
+from ....cases.space.contact import SpatialContact
 from ....cases.space.scene import SpatialScene
 from ...engine import Choice, Start
 from ..contact import HARDEST, SOFTEST
@@ -22,6 +23,11 @@ def chosen(scene: SpatialScene, start: Start | None = None) -> str:
     """Which of the recipes the scene needs, from any start."""
     rims = any(contact.rim or contact.ideal == "pivot" for contact in scene.contacts.values())
     return "rim" if rims else "roll"
+
+
+def met(scene: SpatialScene) -> list[SpatialContact]:
+    """What MuJoCo's own contacts hold."""
+    return list(scene.contacts.values())
 
 
 def closed(scene: SpatialScene, start: Start) -> bool:

@@ -8,17 +8,20 @@ from pymunk.constraints import Constraint
 from pymunk.shapes import Shape
 
 from ....cases.scene import Scene, Vector
+from ..stops import pressed
 from ..world import World
 
 Planes = dict[str, tuple[float, float]]
 
 
 def impulses(world: World, reactions: tuple[str, ...]) -> Callable[[], list[float]]:
-    """A function that reads them [N s]: a joint's size, an edge's, a plane's two."""
+    """A function that reads them [N s]: a joint's or a rope's size, an edge's, a plane's two."""
     parts = [quantity.rpartition(".") for quantity in reactions]
     joints: list[Constraint | None] = [
-        world.joints[name][0] if name in world.joints else None for name, _, _ in parts
+        world.joints[name][0] if name in world.joints else world.ropes.get(name)
+        for name, _, _ in parts
     ]
+    stops = [world.stops.get(name) for name, _, _ in parts]
     pins = [world.pins.get(quantity) for quantity in reactions]
     ways = [_way(world, name, what) for name, _, what in parts]
     points = [_points(world.scene, name) for name, _, _ in parts]
@@ -32,9 +35,13 @@ def impulses(world: World, reactions: tuple[str, ...]) -> Callable[[], list[floa
         for body, names in pairs.items():
             body.each_arbiter(_paired, names, felt)
         row = []
-        for (x, y), joint, pin, names in zip(ways, joints, pins, points, strict=True):
+        for (x, y), joint, pin, names, stop, (_, _, side) in zip(
+            ways, joints, pins, points, stops, parts, strict=True
+        ):
             if pin:
                 row.append(pin.impulse())
+            elif stop:
+                row.append(pressed(stop, side))
             elif joint:
                 row.append(joint.impulse)
             else:

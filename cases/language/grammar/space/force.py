@@ -14,4 +14,9 @@ SPRING.elsewhere = {"only": "a spring in space acts on both sides"}
 KINDS: dict[str, type[Element]] = {word: plane.KINDS[word] for word in AS_IN_THE_PLANE}
 KINDS |= {"spring": SPRING}
 KINDS |= {word: element(word, FORCES[word], axes=3) for word in ALONG_THREE_AXES}
-Force = Annotated[Element, OneOf("force", KINDS)]
+ELSEWHERE = {
+    "couple": "in space a torque between two bodies is a `motor` about a hinge",
+    "rope": "in space nothing comes taut or slackens",
+    "stops": "in space nothing is struck",
+}
+Force = Annotated[Element, OneOf("force", KINDS, ELSEWHERE)]

@@ -1,0 +1,184 @@
+"""Work: the quadrature against known integrals, and the powers of all forces against the energy."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from given import scenes
+
+from textmech.cases.couple import Couple
+from textmech.cases.drag import Drag, Viscous
+from textmech.cases.force import Damper, Force, Push, Spring, Torque
+from textmech.cases.joint import Joint
+from textmech.cases.load import load
+from textmech.cases.mistake import CaseError
+from textmech.cases.motion import Motion
+from textmech.cases.muscle import LinearMuscle, Muscle
+from textmech.cases.observe import observe
+from textmech.cases.power import done
+from textmech.cases.scene import Scene
+from textmech.cases.space.joint import SpatialJoint
+from textmech.cases.trajectory import Trajectory
+from textmech.cases.turning import Motor, Torsion, TorsionDamper
+from textmech.reference.solve import solve
+
+# Nothing slips, strikes or is carried by the ground: forces and drives do all the work. Beside each
+# what a sum over its samples leaves, measured within a factor of 3: the least are smooth.
+MOVING = {
+    "driven_knee.damped": 4e-9, "driven_robot": 1e-7, "drag_stops.quadratic": 1e-4,
+    "driven_wheel.circle": 1e-10, "elastic_pendulum.swings": 2e-4, "falling_drag": 5e-8,
+    "linear_muscle_load": 2e-3, "muscle_load": 2e-3, "paired_rotors": 4e-5,
+    "pushed_cart.polynomial": 4e-7, "rolling_wheel.pushed": 1e-14,
+    "spring_mass_damper.underdamped": 2e-5, "sprung_gimbal.driven": 4e-3,
+    "torsion_pendulum.driven": 5e-5, "viscous_drift": 4e-3,
+}  # fmt: skip
+WRONG = 0.1  # of what is done, at least: where a sign is turned
+
+
+def test_polynomials_of_the_fifth_degree_are_summed_exactly() -> None:
+    times = np.linspace(0.3, 2.3, 21)
+    for degree in range(6):
+        known = (times ** (degree + 1) - 0.3 ** (degree + 1)) / (degree + 1)
+        assert np.max(np.abs(done(times, times**degree) - known)) < 1e-12 * known[-1]
+
+
+@pytest.mark.parametrize("samples", [1, 2, 3, 4, 5])
+def test_few_samples_have_a_polynomial_of_their_own(samples: int) -> None:
+    times = np.linspace(0.0, 1.0, samples)
+    assert done(times, times ** (samples - 1))[-1] == pytest.approx(
+        1.0 / samples if samples > 1 else 0.0, abs=1e-14
+    )
+
+
+def test_it_falls_with_the_sixth_order() -> None:
+    errors = []
+    for samples in (41, 81):
+        times = np.linspace(0.0, 2.0, samples)
+        known = (1 - np.cos(5.0 * times)) / 5.0
+        errors.append(np.max(np.abs(done(times, np.sin(5.0 * times)) - known)))
+    assert 2**5.5 < errors[0] / errors[1] < 2**7.5
+
+
+def balance(scene: Scene, motion: Trajectory) -> float:
+    """How far the energy of the bodies in gravity is from the work of all else, of its size."""
+    works = [f"{name}.work" for name in scene.working()]
+    done_by = np.array([observe(scene, motion, name) for name in works])
+    given = np.sum(done_by, axis=0) if works else np.zeros_like(motion.times)
+    held = observe(scene, motion, "energy.kinetic") - sum(
+        body.mass * motion.states[name][:, : len(scene.gravity)] @ np.array(scene.gravity)
+        for name, body in scene.bodies.items()
+    )
+    sizes = [np.ptp(x) for x in (held, *done_by)]
+    return float(np.max(np.abs(held - held[0] - given)) / max(sizes))
+
+
+@pytest.mark.whole
+@pytest.mark.parametrize(("name", "left"), MOVING.items())
+def test_the_energy_is_the_work_that_was_done(name: str, left: float) -> None:
+    assert balance(scenes.SHIPPED[name].scene, scenes.solved(name).trajectory) < left
+
+
+LOST: dict[type[Any], str] = {
+    Spring: "elastic_pendulum.swings", Damper: "spring_mass_damper.underdamped",
+    Push: "pushed_cart.polynomial", Couple: "paired_rotors",
+    Torsion: "sprung_gimbal.driven", TorsionDamper: "driven_knee.damped",
+    Motor: "sprung_gimbal.driven", Drag: "falling_drag", Viscous: "viscous_drift",
+    Muscle: "muscle_load", LinearMuscle: "linear_muscle_load", Joint: "driven_knee.damped",
+    SpatialJoint: "driven_robot",
+}  # fmt: skip
+
+
+def turned(power: Callable[[Any, Motion], Any]) -> Callable[[Any, Motion], Any]:
+    return lambda of, motion: -power(of, motion)
+
+
+@pytest.mark.whole
+@pytest.mark.parametrize(("kind", "name"), LOST.items(), ids=lambda x: getattr(x, "__name__", x))
+def test_a_power_of_the_wrong_sign_is_seen(
+    kind: type[Force], name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(kind, "power", turned(kind.power))
+    assert balance(scenes.SHIPPED[name].scene, scenes.solved(name).trajectory) > WRONG
+
+
+SPUN = """\
+scene:
+  bodies: {sled: {rigid: {mass: 1.0, inertia: 0.2}}}
+  forces: {spin: {torque: sled, constant: 0.3}}
+initial: {sled: {x: 0, y: 0, angle: 0, vx: 1, vy: 0, omega: 1.0}}
+allow: {spin.work: 1.0e-2}
+"""
+SPUN_IN_SPACE = """\
+scene:
+  space: 3
+  gravity: none
+  bodies: {top: {rigid: {mass: 1.0, inertia: [0.2, 0.3, 0.4, 0.01, 0.02, 0.03]}}}
+  forces: {spin: {torque: top, constant: [0.3, -0.2, 0.1]}}
+initial:
+  top:
+    {x: 0, y: 0, z: 0, vx: 1, vy: 0, vz: 0, attitude: {axis: [1, 2, 3], angle: 1},
+     omega: [3, 1, -2]}
+allow: {spin.work: 1.0e-2}
+"""
+
+
+@pytest.mark.parametrize("scene", [SPUN, SPUN_IN_SPACE], ids=["plane", "space"])
+def test_a_torque_does_what_the_energy_of_the_turn_gains(
+    scene: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    case = scenes.typed(tmp_path, scene)
+    motion = solve(case).trajectory
+    assert balance(case.scene, motion) < 1e-6
+    monkeypatch.setattr(Torque, "power", turned(Torque.power))
+    assert balance(case.scene, motion) > WRONG
+
+
+def test_work_over_knee_bends_by_known_functions() -> None:
+    """φ = (A/Ω)(1 − cos Ωt): what the spring takes and returns, and what the damper keeps."""
+    m, length, c, d, A, Omega = 3.5, 0.45, 40.0, 1.5, 2.5, 5.0
+    case, motion = scenes.SHIPPED["driven_knee.damped"], scenes.solved("driven_knee.damped")
+    t = case.times
+    phi, phi_dot = A / Omega * (1 - np.cos(Omega * t)), A * np.sin(Omega * t)
+    lost = d * A**2 * (t / 2 - np.sin(2 * Omega * t) / (4 * Omega))
+    stored, kinetic = c * phi**2 / 2, m * length**2 / 6 * phi_dot**2
+    known = {"coil": -stored, "oil": -lost, "knee": stored + kinetic + lost}
+    for name, work in known.items():
+        found = observe(case.scene, motion.trajectory, f"{name}.work")
+        certified = {check.name: check.certified for check in motion.checks}
+        off = np.max(np.abs(found - work))
+        assert off < (certified[f"error of {name}.work"] or 0.0) < 1e-5  # J, of 20
+
+
+FLAT = """\
+scene:
+  bodies: {cart: {particle: {mass: 1.0}}}
+  forces: {hand: {push: cart.center, pulse: {amplitude: [5.0, 0], from: 0.11, until: 0.53}}}
+initial: {cart: {x: 0, y: 0, vx: 1, vy: 0}}
+allow: {hand.work: ALLOWED}
+"""
+
+
+def test_a_jump_between_samples_is_a_mistake_with_its_number(tmp_path: Path) -> None:
+    case = scenes.typed(tmp_path, FLAT.replace("ALLOWED", "1.0e-2"))
+    with pytest.raises(CaseError) as told:
+        solve(case)
+    (mistake,) = told.value.mistakes
+    assert mistake.where == "allow.hand.work"
+    assert mistake.what.endswith("or take more samples")
+    generous = scenes.typed(tmp_path, FLAT.replace("ALLOWED", "100.0"))
+    (found,) = (check for check in solve(generous).checks if check.name == "error of hand.work")
+    # F = m v̇: 5 N for 0.42 s from 1 m/s on
+    known = ((1 + 5 * 0.42) ** 2 - 1) / 2
+    work = observe(generous.scene, solve(generous).trajectory, "hand.work")[-1]
+    assert abs(work - known) < (found.certified or 0.0)
+
+
+def test_it_is_none_at_an_event(tmp_path: Path) -> None:
+    text = FLAT.replace("hand.work: ALLOWED", "top.hand.work: 1.0")
+    path = tmp_path / "typed.yaml"
+    events = "events: {top: {cart.x: {rises to: 0.5}}}\n"
+    path.write_text(f"{scenes.HEAD}{text}{events}{scenes.TAIL}")
+    with pytest.raises(CaseError, match=r"unknown quantity 'top\.hand\.work'"):
+        load(path)
