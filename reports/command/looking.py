@@ -1,10 +1,8 @@
 """What a command measures in order to show it: the cases and engines that were named."""
 
-import warnings
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from ...cases.mistake import CaseError
 from ..show.say import tell
 
 if TYPE_CHECKING:
@@ -26,30 +24,25 @@ def looked_at(
     nothing is left.
     """
     from .. import pool, suite
+    from ..asking import asked
     from ..cache import store
-    from ..selection import choose_book, choose_engines, sound, sound_cases
+    from ..selection import sound_cases
     from ..show.progress import progress
-    from ..trial.work import too_long
     from .done import finished
 
     found, mistakes = sound_cases(words, long=long)
-    with warnings.catch_warnings(record=True) as broken:
-        engines = choose_engines(names, settings, long=long)
-    for warning in broken:
-        tell(f"warning: {warning.message}")
-    mistakes += too_long(found, engines)
-    chosen = sound(found, mistakes)
-    if not chosen:
-        raise CaseError(mistakes)
+    wanted = asked(found, names, settings, mistakes=mistakes, named=bool(words), long=long)
+    for warning in wanted.warnings:
+        tell(warning)
     used = store.usable() if cached else None
     with progress() as shown, finished(used is not None):
         report = suite.measure(
-            chosen,
-            engines,
+            wanted.cases,
+            wanted.engines,
             jobs=jobs or pool.workers(),
             progress=shown,
-            book=choose_book(names, settings),
+            book=wanted.book,
             store=used,
         )
-    report.mistakes[:0] = mistakes
+    report.mistakes[:0] = wanted.mistakes
     return report

@@ -1,6 +1,5 @@
-"""What other commands add to a folder of reports: advice, causes, versions. Text as it is there."""
+"""What other commands add to a folder of reports: causes, versions. Text as it is there."""
 
-from collections.abc import Mapping
 from typing import Any
 
 import pandas as pd
@@ -9,9 +8,6 @@ from .folder import BESIDE
 
 YES = ("yes", "true", "1", "moved")
 WITHIN = "agrees"
-AS_ALLOWED = "as the case allows"  # where no tolerance is written
-
-Themes = Mapping[str, tuple[str, ...]]
 
 
 def absent(name: str) -> str:
@@ -19,36 +15,12 @@ def absent(name: str) -> str:
     return f"There is no {name} beside these reports; {BESIDE[name]} writes it."
 
 
-def advice(frame: pd.DataFrame | None, themes: Themes) -> dict[str, Any] | None:
-    """The rows of the search for a setting, and what they can be chosen by."""
-    if frame is None:
-        return None
-    columns = (
-        "case", "engine", "tolerance", "margin", "recipe", "options", "step", "cost",
-        "shipped_cost", "worst", "quantity", "remains",
-    )  # fmt: skip
-    rows = [
-        {
-            **row,
-            "tolerance": row["tolerance"] or AS_ALLOWED,
-            "themes": " ".join(themes.get(row["case"], ())),
-            "linked": row["case"] in themes,
-        }
-        for row in _rows(frame, columns)
-    ]
-    return {
-        "rows": rows,
-        "engines": sorted({row["engine"] for row in rows}),
-        "tolerances": list(dict.fromkeys(row["tolerance"] for row in rows)),
-    }
-
-
 def causes(frame: pd.DataFrame | None) -> dict[str, Any] | None:
     """The cures, by how many rows each one cures, and all rows."""
     if frame is None:
         return None
     found: dict[tuple[str, str], list[str]] = {}
-    for row in _rows(frame, ("case", "engine", "cure")):
+    for row in records(frame, ("case", "engine", "cure")):
         found.setdefault((row["engine"], row["cure"]), []).append(row["case"])
     most = max(map(len, found.values()), default=1)
     by_knob = [
@@ -61,7 +33,7 @@ def causes(frame: pd.DataFrame | None) -> dict[str, Any] | None:
         }
         for (engine, cure), cases in sorted(found.items(), key=lambda one: (-len(one[1]), one[0]))
     ]
-    return {"by_knob": by_knob, "names": list(frame.columns), "rows": frame.to_numpy().tolist()}
+    return {"by_knob": by_knob, "count": len(frame)}
 
 
 def versions(frame: pd.DataFrame | None) -> dict[str, Any] | None:
@@ -69,7 +41,9 @@ def versions(frame: pd.DataFrame | None) -> dict[str, Any] | None:
     if frame is None:
         return None
     found: dict[tuple[str, str, str], list[dict[str, str]]] = {}
-    for row in _rows(frame, ("engine", "version", "setting", "verdict", "moved")):
+    for row in records(frame, ("engine", "version", "setting", "quantity", "verdict", "moved")):
+        if row["quantity"] == "audit":
+            continue
         found.setdefault((row["engine"], row["version"], row["setting"]), []).append(row)
     shares = [
         {
@@ -104,8 +78,8 @@ def _by_release(one: tuple[tuple[str, str, str], Any]) -> tuple[str, str, list[t
     return engine, setting, parts
 
 
-def _rows(frame: pd.DataFrame, columns: tuple[str, ...]) -> list[dict[str, str]]:
-    """With these columns, empty where the file has none of them."""
+def records(frame: pd.DataFrame, columns: tuple[str, ...]) -> list[dict[str, str]]:
+    """Its rows with these columns, empty where the file has none of them."""
     return [
         {name: row.get(name, "") for name in columns}
         for row in frame.astype(str).to_dict("records")  # pyright: ignore[reportReturnType]

@@ -35,7 +35,7 @@ class Folder:
 
 
 def folder(path: Path, beside: Path | None = None) -> Folder:
-    """All that is there; what other commands add may lie elsewhere, `beside`.
+    """All that is there; what other commands add may lie in another folder too, `beside`.
 
     Raises Missing where there are no reports, ValueError where a file is cut or of another run.
     """
@@ -44,6 +44,7 @@ def folder(path: Path, beside: Path | None = None) -> Folder:
         raise Missing(
             f"{path} has no {', '.join(lacking)}: `textmech run --out {path}` writes them"
         )
+    places = [place for place in (beside, path) if place]  # of two, the run's own is shown
     return Folder(
         comparisons=read(path / "tolerance.csv", Comparison),
         rungs=read(path / "convergence.csv", Rungs),
@@ -51,7 +52,10 @@ def folder(path: Path, beside: Path | None = None) -> Folder:
         certificates=read(path / "reference.csv", Certificate),
         coverage=_text(path / "coverage.csv"),
         beside={
-            name: _text(file) for name in BESIDE if (file := (beside or path) / name).is_file()
+            name: _text(place / name)
+            for place in places
+            for name in BESIDE
+            if (place / name).is_file()
         },
         run=(path / NAMES[0]).read_text(encoding="utf-8").rstrip().rpartition(" of run ")[2],
     )

@@ -14,7 +14,7 @@ from ...cases.trajectory import Array, Trajectory
 from ..suite import Report
 from ..trial.rung import seen
 from ..trials import Tried
-from .pack import Packed, packed, packed_around_zero
+from .pack import Packed, packed, packed_by_size
 from .sketch import extent, sketch
 
 FRAMES = 61  # of an animation at most
@@ -131,7 +131,7 @@ def _off(one: Tried, name: str, reference: Array) -> Any:
     else:
         off = samples - (reference if wanted is None else wanted)
     kept = thinned(len(off), POINTS)
-    curve = {"curve": packed_around_zero(off[kept])}
+    curve = {"curve": packed_by_size(off[kept])}
     if wanted is not None:  # its own samples
         values = off if samples.ndim > 1 else samples
         curve |= {"times": packed(one.pair.sampled.times[kept]), "values": packed(values[kept])}

@@ -13,42 +13,70 @@ from ...cases.trajectory import Array
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_"
 BASE = len(LETTERS)
 LEVELS = BASE**2
+HALF = LEVELS // 2
 DIGITS = 6  # of the ends of a range: more would be other digits on another machine
+DECADES = 9.0  # of an error below its largest: what is smaller is drawn as nothing
 
 Packed = tuple[float, float, str]
-"""The number of level 0, what a level is, and two letters a number."""
+"""Where the levels begin, what one is, and two letters a number."""
 
 
 def packed(numbers: Array) -> Packed:
-    """Over the range of the numbers (N,). Raises ValueError where one is not finite."""
-    return _between(numbers, float(np.min(numbers)), float(np.max(numbers)))
+    """In even levels over the range of the numbers (N,). Raises ValueError of what is not finite.
 
-
-def packed_around_zero(numbers: Array) -> Packed:
-    """Over a range around zero, which has a level of its own: an error of 0 stays 0."""
-    largest = float(np.max(np.abs(numbers), initial=0.0))
-    step = _few(2 * largest / (LEVELS - 2))
-    return _levels(numbers, -step * (LEVELS // 2), step)  # a power of two: nothing is rounded
+    Level k is low + k step.
+    """
+    _finite(numbers)
+    low, high = float(np.min(numbers)), float(np.max(numbers))
+    low, step = _few(low), _few((high - low) / (LEVELS - 1))
+    levels = np.zeros(len(numbers)) if step == 0.0 else np.round((numbers - low) / step)
+    return low, step, _letters(levels)
 
 
 def unpacked(found: Sequence[float | str]) -> Array:
     """(N,) to within half a level."""
     low, step, letters = found
-    places = np.array([LETTERS.index(letter) for letter in str(letters)], dtype=np.int64)
-    levels = (places[0::2] * BASE + places[1::2]).astype(np.float64)
-    return float(low) + float(step) * levels
+    return float(low) + float(step) * _levels(str(letters))
 
 
-def _between(numbers: Array, low: float, high: float) -> Packed:
-    return _levels(numbers, _few(low), _few((high - low) / (LEVELS - 1)))
+def packed_by_size(numbers: Array) -> Packed:
+    """Errors (N,), each to half a percent, however small it is beside the largest.
+
+    Level 0 is 0, level k < 2048 is largest 10^(−(k − 1) step), and from 2048 on the same below 0.
+    Raises ValueError of what is not finite.
+    """
+    _finite(numbers)
+    sizes = np.abs(numbers)
+    largest, step = _few(float(np.max(sizes, initial=0.0))), _few(DECADES / (HALF - 2))
+    if largest == 0.0:
+        return 0.0, step, _letters(np.zeros(len(numbers)))
+    told = sizes > largest * 10**-DECADES
+    down = np.round(-np.log10(np.where(told, sizes, largest) / largest) / step)
+    levels: Array = np.where(told, np.clip(down, 0, HALF - 2) + 1, 0.0)
+    return largest, step, _letters(np.where(numbers < 0, levels + HALF, levels))
 
 
-def _levels(numbers: Array, low: float, step: float) -> Packed:
+def unpacked_by_size(found: Sequence[float | str]) -> Array:
+    """(N,) to within half a percent."""
+    largest, step, letters = found
+    levels = _levels(str(letters))
+    size = float(largest) * 10 ** (-(levels % HALF - 1) * float(step))
+    return np.where(levels % HALF == 0, 0.0, np.where(levels < HALF, size, -size))
+
+
+def _finite(numbers: Array) -> None:
     if not np.all(np.isfinite(numbers)):
         raise ValueError("a number that is not finite has no level")
-    levels = np.zeros(len(numbers)) if step == 0.0 else np.round((numbers - low) / step)
-    levels = np.clip(levels, 0, LEVELS - 1).astype(np.int64)
-    return low, step, "".join(LETTERS[k // BASE] + LETTERS[k % BASE] for k in levels.tolist())
+
+
+def _letters(levels: Array) -> str:
+    whole = np.clip(levels, 0, LEVELS - 1).astype(np.int64).tolist()
+    return "".join(LETTERS[k // BASE] + LETTERS[k % BASE] for k in whole)
+
+
+def _levels(letters: str) -> Array:
+    places = np.array([LETTERS.index(letter) for letter in letters], dtype=np.float64)
+    return places[0::2] * BASE + places[1::2]
 
 
 def _few(number: float) -> float:

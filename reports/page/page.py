@@ -11,13 +11,15 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from ...cases.case import Case
 from . import beside
+from .advice import advice
 from .column import Column, columns
-from .equations import equations
 from .folder import BESIDE, Folder
 from .heat import SHADES, Cell, cells
+from .listed import listed
 from .motions import Motion
 from .overview import overview
 from .rows import rows
+from .stick_slip import stick_slip
 from .theme import THEMES, themes
 from .trust import trust
 from .work import work
@@ -25,15 +27,6 @@ from .work import work
 SCRIPTS = ("read", "plot", "mechanism", "case", "section", "filter", "start")
 STYLES = ("style", "heat", "print")
 MOTIONS = re.compile(r'<script type="application/json" id="motions">(.*?)</script>', re.DOTALL)
-APPROXIMATED = (
-    ("growing_force", "block.vx", "tube", "Figures 2.29, 2.30: the speed under a growing force."),
-    ("growing_force", "block.vx", "error", "By how much each law and engine is off that."),
-    ("dynamometer", "block.vx", "tube", "Figures 2.31, 2.32: the speed behind a moving spring."),
-    ("dynamometer", "block.vx", "error", "By how much each law and engine is off that."),
-    ("dynamometer", "block.x", "tube", "Its place: a staircase."),
-    ("dynamometer", "scale.force", "tube", "Figures 2.23, 2.24: what the dynamometer shows."),
-)
-"""The book's Examples 2.3 and 2.4: system, quantity, plot, and what it shows."""
 
 
 def page(folder: Folder, cases: Sequence[Case], motions: Mapping[str, Motion]) -> str:
@@ -50,7 +43,7 @@ def page(folder: Folder, cases: Sequence[Case], motions: Mapping[str, Motion]) -
         head=overview(folder, found, shown),
         themes=[(name, THEMES[name]) for name in THEMES if any(name in t for t in about.values())],
         absent={name: beside.absent(name) for name in BESIDE},
-        advice=beside.advice(folder.beside.get("advice.csv"), about),
+        advice=advice(folder.beside.get("advice.csv"), about),
         causes=beside.causes(folder.beside.get("causes.csv")),
         versions=beside.versions(folder.beside.get("versions.csv")),
         names=named,
@@ -61,8 +54,8 @@ def page(folder: Folder, cases: Sequence[Case], motions: Mapping[str, Motion]) -
         kinds=sorted({cell.kind for cell in found.values()}),
         shades=_shades(),
         heat=[_line(case, shown, found, about[case.name]) for case in told],
-        stick_slip=_stick_slip(told, motions),
-        files=_files(told, shown, found, about),
+        stick_slip=stick_slip(told, motions),
+        files=listed(told, shown, found, about),
         trust=trust(folder),
         style=_text(f"{name}.css" for name in STYLES),
         script=_text(f"{name}.js" for name in SCRIPTS),
@@ -114,48 +107,3 @@ def _line(
         "themes": " ".join(about),
         "cells": [(one, found.get((case.name, one))) for one in shown],
     }
-
-
-def _files(
-    cases: Sequence[Case],
-    shown: Sequence[Column],
-    found: Mapping[Any, Cell],
-    about: Mapping[str, tuple[str, ...]],
-) -> list[dict[str, Any]]:
-    """The cases of each file together: they share title and equations."""
-    out = []
-    for name, group in groupby(cases, key=lambda case: case.name.partition(".")[0]):
-        variants = list(group)
-        first = variants[0]
-        out.append(
-            {
-                "name": name,
-                "title": first.title,
-                "source": str(first.origin),
-                "system": first.system,
-                "themes": [t for t in THEMES if any(t in about[case.name] for case in variants)],
-                "equations": equations(first),
-                "cases": [
-                    {
-                        "name": case.name,
-                        "variant": case.name.partition(".")[2] or case.name,
-                        "cells": [
-                            (one, cell)
-                            for one in shown
-                            if (cell := found.get((case.name, one))) and cell.kind != "refused"
-                        ],
-                    }
-                    for case in variants
-                ],
-            }
-        )
-    return out
-
-
-def _stick_slip(cases: Sequence[Case], motions: Mapping[str, Motion]) -> list[dict[str, str]]:
-    by_system = {case.system: case.name for case in cases if case.system and case.name in motions}
-    return [
-        {"case": by_system[system], "quantity": quantity, "plot": plot, "caption": caption}
-        for system, quantity, plot, caption in APPROXIMATED
-        if system in by_system and quantity in motions[by_system[system]]["curves"]["quantities"]
-    ]

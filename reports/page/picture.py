@@ -12,7 +12,7 @@ from ..row import Comparison, Rungs
 from .column import Column, column
 from .heat import short
 from .motions import Motion
-from .pack import unpacked
+from .pack import unpacked, unpacked_by_size
 from .paint import INK, style
 from .strobe import strobe
 
@@ -61,9 +61,10 @@ def _tube(
     axes.fill_between(times, reference - allowed, reference + allowed, color=INK, alpha=0.12, lw=0)
     axes.plot(times, reference, color=INK, lw=2, label="reference")
     for one, off in _off(curves, shown):
-        own = unpacked(off["times"]) if "times" in off else times
-        values = unpacked(off["values"]) if "values" in off else reference + unpacked(off["curve"])
-        _curve(axes, own, values, one)
+        if "values" in off:  # at its own samples
+            _curve(axes, unpacked(off["times"]), unpacked(off["values"]), one)
+        else:
+            _curve(axes, times, reference + unpacked_by_size(off["curve"]), one)
     low, high = np.min(reference) - allowed, np.max(reference) + allowed
     bottom, top = axes.get_ylim()
     axes.set_ylim(max(bottom, low - ROOM * (high - low)), min(top, high + ROOM * (high - low)))
@@ -80,7 +81,7 @@ def _error(
 ) -> None:
     for one, off in _off(curves, shown):
         own = unpacked(off["times"]) if "times" in off else times
-        _curve(axes, own, np.maximum(np.abs(unpacked(off["curve"])) / allowed, LEAST), one)
+        _curve(axes, own, np.maximum(np.abs(unpacked_by_size(off["curve"])) / allowed, LEAST), one)
     _bound(axes)
     told = [row for row in rows if row.when is not None and row.ratio]
     if told:

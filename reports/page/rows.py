@@ -3,9 +3,17 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import pandas as pd
+
+from .beside import records
 from .column import Column, column
 from .folder import Folder
 
+CURES = (
+    "case", "engine", "setting", "quantity", "error_before", "cure", "options", "step",
+    "error_after", "cost", "law",
+)  # fmt: skip
+EMPTY = pd.DataFrame(columns=["case"])
 DIGITS = ".3g"  # as the reports are written
 TIME = ".6g"
 
@@ -25,7 +33,7 @@ def rows(folder: Folder, columns: Sequence[Column]) -> dict[str, Any]:
     """By case: comparisons, ladders, instants and certificates; words and columns by number."""
     place: Mapping[Column, int] = {one: k for k, one in enumerate(columns)}
     words, cases = Words(), dict[str, dict[str, list[Any]]]()
-    kinds = ("rows", "ladders", "instants", "checks")
+    kinds = ("rows", "ladders", "instants", "checks", "causes")
 
     def of(case: str) -> dict[str, list[Any]]:
         return cases.setdefault(case, {kind: [] for kind in kinds})
@@ -53,6 +61,8 @@ def rows(folder: Folder, columns: Sequence[Column]) -> dict[str, Any]:
             words.number(check.check), _few(check.difference), _few(check.bound),
             _few(check.certified), words.number(check.unit), words.number(check.verdict),
         ])  # fmt: skip
+    for cause in records(folder.beside.get("causes.csv", EMPTY), CURES):
+        of(cause["case"])["causes"].append([words.number(cause[name]) for name in CURES[1:]])
     return {"columns": [one.key for one in columns], "words": list(words.told), "cases": cases}
 
 

@@ -42,12 +42,18 @@ def extent(scene: Scene, poses: Mapping[str, Array]) -> float:
 
 def _forces(scene: Scene) -> list[dict[str, Any]]:
     """Those along a line through two points or more."""
-    found = [(force.word, force.refers()) for force in scene.forces.values()]
+    found = [(force, force.refers()) for force in scene.forces.values()]
     return [
-        {"kind": _kind(word), "ends": [_end(scene, end) for end in ends]}
-        for word, ends in found
+        {"kind": _kind(force.word), "ends": [_end(scene, end) for end in ends], **_one_sided(force)}
+        for force, ends in found
         if len(ends) > 1
     ]
+
+
+def _one_sided(force: Any) -> dict[str, Any]:
+    """On which side of which length [m] a spring acts, where it does so on one alone."""
+    only = getattr(force, "only", None)
+    return {} if only is None else {"only": only, "rest": force.rest_length}
 
 
 def _kind(word: str) -> str:

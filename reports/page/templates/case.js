@@ -74,7 +74,7 @@ function curvesOf(motion, quantity, wanted = () => true) {
   const times = unpack(motion.curves.times), {reference, off} = motion.curves.quantities[quantity];
   const right = unpack(reference);
   const engines = Object.entries(off).filter(([key]) => wanted(COLUMN.get(key))).map(([key, found]) => {
-    const error = unpack(found.curve), own = found.times ? unpack(found.times) : times;
+    const error = unpackBySize(found.curve), own = found.times ? unpack(found.times) : times;
     const values = found.values ? unpack(found.values) : error.map((e, k) => right[k] + e);
     return {...COLUMN.get(key), x: own, error, y: values};
   });

@@ -29,7 +29,8 @@ function apply(form) {
 function filters() {
   for (const form of document.querySelectorAll('form.filters')) {
     form.addEventListener('submit', (event) => event.preventDefault());
-    form.addEventListener('input', () => history.replaceState(null, '', apply(form)));
+    const told = Boolean(form.querySelector('.permalink')); // one form of a section stands in the address
+    form.addEventListener('input', () => { const hash = apply(form); if (told) history.replaceState(null, '', hash); });
     apply(form);
   }
   for (const button of document.querySelectorAll('.copy')) {

@@ -127,9 +127,13 @@ function fittings(motion) {
     line('rail', (now, window) => [-1, 1].map((s) => window(placed(now.get(part), place.map((v, i) => v + s * size * along[i])))));
   }
   for (const link of links) {
-    line('link', (now, window) => {
-      const ends = link.ends.map((one) => window(end(now, one)));
-      return ends.length === 2 && LINK[link.kind] ? LINK[link.kind](...ends) : ends;
+    const shape = add('polyline', 'link');
+    drawn.push((now, window) => {
+      const places = link.ends.map((one) => end(now, one)), ends = places.map(window);
+      const length = Math.hypot(...places[0].map((v, i) => v - places[places.length - 1][i]));
+      const idle = link.only && (link.only === 'tension' ? length < link.rest : length > link.rest);
+      shape.classList.toggle('idle', Boolean(idle));
+      shape.setAttribute('points', path(ends.length === 2 && LINK[link.kind] ? LINK[link.kind](...ends) : ends));
     });
   }
   for (const {body, line: blade} of blades) line('body', (now, window) => blade.map((p) => window(placed(now.get(body), p))));

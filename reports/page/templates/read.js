@@ -12,13 +12,15 @@ const COLUMNS = ROWS.columns.map((key) => {
 });
 const COLUMN = new Map(COLUMNS.map((one) => [one.key, one]));
 
-function unpack([low, step, letters]) {
+function levels(letters) {
   const found = new Float64Array(letters.length / 2);
-  for (let k = 0; k < found.length; k++) {
-    found[k] = low + step * (64 * LEVEL.get(letters[2 * k]) + LEVEL.get(letters[2 * k + 1]));
-  }
+  for (let k = 0; k < found.length; k++) found[k] = 64 * LEVEL.get(letters[2 * k]) + LEVEL.get(letters[2 * k + 1]);
   return found;
 }
+const unpack = ([low, step, letters]) => levels(letters).map((k) => low + step * k);
+// Errors: each to half a percent of itself, the upper half of the levels below zero.
+const unpackBySize = ([largest, step, letters]) => levels(letters).map((k) =>
+  (k % 2048 === 0 ? 0 : (k < 2048 ? 1 : -1) * largest * 10 ** (-(k % 2048 - 1) * step)));
 
 function made(element, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) {
@@ -41,4 +43,5 @@ function short(number) {
   return size >= 100 ? number.toFixed(0) : String(Number(number.toPrecision(2)));
 }
 const word = (k) => ROWS.words[k];
+const addressOf = (id) => `#${encodeURIComponent(id)}`; // a file may have any name
 const plain = (number) => (number === null ? '' : String(number));

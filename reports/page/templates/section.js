@@ -66,12 +66,14 @@ function numbers(data) {
     ...[...refused].map(([why, names]) => html('p', {class: 'note'}, `${why} (${names.join(', ')})`)));
 }
 
+const causes = (data) => table(['engine and setting', 'quantity', 'error', 'cured by', 'options', 'step [s]', 'then', 'cost', 'law'],
+  data.causes.map((row) => row.map(word)).map(([engine, setting, ...rest]) => [`${engine} ${setting}`, ...rest]));
 const checks = (data) => table(['check', 'difference', 'bound', 'certified to', 'verdict'],
   data.checks.map(([check, difference, bound, certified, unit, verdict]) => [word(check), short(difference), short(bound), certified === null ? '' : `${short(certified)} ${word(unit)}`, word(verdict)]));
 
 function build(section) {
   const body = section.querySelector('.body'), name = section.id, motion = MOTIONS[name];
-  const data = ROWS.cases[name] || {rows: [], ladders: [], instants: [], checks: []};
+  const data = ROWS.cases[name] || {rows: [], ladders: [], instants: [], checks: [], causes: []};
   const names = worstFirst(data), above = html('div', {}), below = html('div', {});
   const figures = html('div', {class: 'figures'}, motion ? animation(name, motion) : null);
   const fixed = figures.children.length;
@@ -83,14 +85,18 @@ function build(section) {
     above.replaceChildren(...[keys].filter(Boolean));
     below.replaceChildren(orders ? folded('Orders and limits', () => orders) : html('p', {class: 'note'}, 'It has no ladder of steps.'));
   };
-  choice.addEventListener('change', () => { show(choice.value); history.replaceState(null, '', `#${name}/${encodeURIComponent(choice.value)}`); });
+  choice.addEventListener('change', () => { show(choice.value); history.replaceState(null, '', `${addressOf(name)}/${encodeURIComponent(choice.value)}`); });
   section.show = (quantity) => { if (names.includes(quantity)) show(quantity); };
-  if (names.length) {
+  const curves = motion || data.ladders.length;
+  if (names.length && curves) {
     body.append(html('div', {class: 'controls'}, html('label', {}, 'quantity ', choice), html('span', {class: 'note'}, 'the worst first')), above);
     show(names[0]);
   }
-  body.append(figures, below);
+  if (curves) body.append(figures, below);
+  else body.append(numbers(data)); // a claim about states: nothing moves, nothing steps
   const happened = events(data);
+  if (data.causes.length) body.append(folded('Causes, found by experiment', () => causes(data)));
   if (happened) body.append(folded('Events', () => happened));
-  body.append(folded('All numbers', () => numbers(data)), folded('How the reference is certified', () => checks(data)));
+  if (curves) body.append(folded('All numbers', () => numbers(data)));
+  body.append(folded('How the reference is certified', () => checks(data)));
 }

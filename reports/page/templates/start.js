@@ -42,7 +42,7 @@ filters();
 for (const section of document.querySelectorAll('details.case')) section.addEventListener('toggle', () => {
   if (!section.open) return;
   fill(section);
-  if (!location.hash.startsWith(`#${section.id}`)) history.replaceState(null, '', `#${section.id}`);
+  if (!location.hash.startsWith(addressOf(section.id))) history.replaceState(null, '', addressOf(section.id));
 });
 stickSlip();
 addEventListener('hashchange', follow);

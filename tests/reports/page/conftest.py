@@ -1,20 +1,23 @@
 """A small run with its page: two cases, one of them with a title that would be markup."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pandas as pd
 import pytest
 from given.swing import SWING
 
+from textmech.cases.case import Case
 from textmech.reports import suite, write
 from textmech.reports.page.folder import folder
 from textmech.reports.page.motions import motions
 from textmech.reports.page.page import page
 from textmech.reports.selection import choose_cases, choose_engines
 
+ODD = "hostile? & <b>"  # a file may have any name
 HOSTILE = "<script>window.struck = 1</script></script><b onload=x>& A bar that swings"
 ADVICE = {
-    "case": ["swing", "swing", "hostile"],
+    "case": ["swing", "swing", ODD],
     "engine": ["mujoco", "pymunk", "mujoco"],
     "tolerance": ["as allowed", "1e-3", "as allowed"],
     "margin": ["2", "2", "2"],
@@ -28,7 +31,7 @@ ADVICE = {
     "remains": ["", "", "<i>nothing cures it</i>"],
 }
 CAUSES = {
-    "case": ["swing", "swing", "hostile"],
+    "case": ["swing", "swing", ODD],
     "engine": ["pymunk", "pymunk", "pymunk"],
     "setting": ["shipped"] * 3,
     "quantity": ["rod.angle"] * 3,
@@ -55,20 +58,26 @@ VERSIONS = {
 
 
 @pytest.fixture(scope="package")
+def shipped() -> list[Case]:
+    """All shipped cases."""
+    return choose_cases([])
+
+
+@pytest.fixture(scope="package")
 def made(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
     """The report, its folder with advice, causes and versions beside it, its motions, the page."""
     place = tmp_path_factory.mktemp("page")
     (place / "swing.yaml").write_text(SWING, encoding="utf-8")
     hostile = SWING.replace("A bar that swings", f'"{HOSTILE}"').replace("rod", "arm")
-    (place / "hostile.yaml").write_text(hostile, encoding="utf-8")
-    cases = choose_cases([str(place / "swing.yaml"), str(place / "hostile.yaml")])
+    (place / f"{ODD}.yaml").write_text(hostile, encoding="utf-8")
+    cases = choose_cases([str(place / "swing.yaml"), str(place / f"{ODD}.yaml")])
     report = suite.measure(cases, choose_engines([], []), progress=lambda *_: None)
     write.write(write.tables(report, cases), place)
-    for name, told in (("advice", ADVICE), ("causes", CAUSES), ("versions", VERSIONS)):
-        pd.DataFrame(told).to_csv(place / f"{name}.csv", index=False)
-    found, moved = folder(place), motions(report)
+    told = {"advice.csv": ADVICE, "causes.csv": CAUSES, "versions.csv": VERSIONS}
+    beside = {name: pd.DataFrame(columns) for name, columns in told.items()}
+    found, moved = replace(folder(place), beside=beside), motions(report)
     text = page(found, cases, moved)
     (place / "index.html").write_text(text, encoding="utf-8")
     return SimpleNamespace(
-        place=place, cases=cases, report=report, folder=found, motions=moved, text=text
+        odd=ODD, place=place, cases=cases, report=report, folder=found, motions=moved, text=text
     )

@@ -11,9 +11,11 @@ from given.browser import Tab, browser, found
 
 from textmech.cases.space.rotation import turned
 from textmech.reports import write
+from textmech.reports.page.pack import packed_by_size
 from textmech.reports.page.write import NAME
 
 WIDTHS = (390, 900, 1500)
+SHEET = 794  # px: the width of A4
 COMMITTED = write.HERE / NAME
 
 pytestmark = [
@@ -65,9 +67,12 @@ def test_nothing_is_wider_than_the_window(tab: Tab, page: str, width: int, schem
     assert dark == (scheme == "dark")
 
 
-def test_text_of_a_case_is_never_markup(tab: Tab, page: str) -> None:
-    tab.open(f"{page}#hostile")
-    tab.until("document.querySelector('#hostile svg.mechanism')")
+def test_text_of_a_case_is_never_markup(tab: Tab, page: str, made: SimpleNamespace) -> None:
+    """Its title, and the name of its file, by which it is also found."""
+    tab.open(page)
+    tab.ask("document.querySelector('#heat-map tbody a').click()")
+    tab.until("document.querySelector('details.case[open] svg.mechanism')")
+    assert tab.ask("document.querySelector('details.case[open]').id") == made.odd
     assert tab.ask("window.struck") is None
     titles = tab.ask("[...document.querySelectorAll('article h3')].map((h) => h.textContent)")
     assert any("<script>window.struck" in title for title in titles)
@@ -77,7 +82,8 @@ def test_every_link_leads_somewhere(tab: Tab, page: str) -> None:
     tab.open(page)
     lost = tab.ask(
         """[...document.querySelectorAll('a[href]')].map((a) => a.getAttribute('href')).filter(
-        (h) => !h.startsWith('#') || !document.getElementById(h.slice(1).split(/[?/]/)[0]))"""
+        (h) => !h.startsWith('#') || !document.getElementById(
+        decodeURIComponent(h.slice(1).split(/[?/]/)[0])))"""
     )
     assert lost == []
 
@@ -120,6 +126,13 @@ def test_the_drawn_bar_is_where_the_reference_is(
         assert np.arctan2(y1, x1) == pytest.approx(state[2], abs=2e-3)
 
 
+def test_the_script_reads_the_errors_that_were_packed(tab: Tab, page: str) -> None:
+    tab.open(page)
+    errors = np.array([0.0, 1e-7, -3.3, 2.0, -1e-3, 1e-12])
+    found = tab.ask(f"Array.from(unpackBySize({json.dumps(packed_by_size(errors))}))")
+    assert found == pytest.approx([*errors[:5], 0.0], rel=0.006)
+
+
 def test_places_turn_with_their_part(tab: Tab, page: str) -> None:
     """The script's rotations, in the plane and in space, against those of the cases."""
     random = np.random.default_rng(3)
@@ -155,21 +168,23 @@ def test_every_committed_case_opens(tab: Tab) -> None:
     assert tab.errors == []
 
 
-def test_filters_choose_rows_and_stand_in_the_address(tab: Tab, page: str) -> None:
+def test_filters_choose_rows_and_stand_in_the_address(
+    tab: Tab, page: str, made: SimpleNamespace
+) -> None:
     tab.open(page)
     shown = each("#heat-map tbody tr:not([hidden]) th", "textContent")
-    assert tab.ask(shown) == ["hostile", "swing"]
+    assert tab.ask(shown) == [made.odd, "swing"]
     tab.ask(
         """(() => { const field = document.querySelector('#heat [name=words]');
         field.value = 'swing hos';
         field.dispatchEvent(new Event('input', {bubbles: true})); })()"""
     )
-    assert tab.ask(shown) == ["hostile"]  # its title is searched too
+    assert tab.ask(shown) == [made.odd]  # its title is searched too
     assert tab.ask("document.querySelector('#heat .count').textContent") == "1 of 2"
     address = tab.ask("location.href")
     assert "heat?words=swing" in address
     tab.open(address)
-    assert tab.ask(shown) == ["hostile"]
+    assert tab.ask(shown) == [made.odd]
     tab.open(f"{page}#heat?column=pymunk&kind=beyond")
     heads = each("#heat-map thead th[data-column]:not([hidden])", "dataset.column")
     assert set(tab.ask(heads)) == {"pymunk"}
@@ -177,7 +192,7 @@ def test_filters_choose_rows_and_stand_in_the_address(tab: Tab, page: str) -> No
 
 def test_advice_is_chosen_and_copied(tab: Tab, page: str) -> None:
     tab.open(f"{page}#need?engine=pymunk")
-    row = "#advice tbody tr:not([hidden])"
+    row = "#advice-themes tbody tr:not([hidden])"
     assert tab.ask(each(row, "dataset.engine")) == ["pymunk"]
     button = f"document.querySelector('{row} .copy')"
     tab.ask(f"{button}.click()")
@@ -194,9 +209,10 @@ def test_a_case_is_opened_by_keyboard(tab: Tab, page: str) -> None:
 
 
 def test_on_paper_nothing_is_cut_off(tab: Tab, page: str) -> None:
-    tab.open(f"{page}#swing")
+    tab.open(f"{page}#swing", width=SHEET)
     tab.call("Emulation.setEmulatedMedia", media="print")
     try:
+        assert tab.ask("document.documentElement.scrollWidth") <= SHEET
         tall = "[...document.querySelectorAll('.tall')].map((t) => getComputedStyle(t).maxHeight)"
         assert set(tab.ask(tall)) == {"none"}
         assert tab.ask("getComputedStyle(document.querySelector('nav')).display") == "none"

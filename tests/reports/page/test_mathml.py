@@ -3,8 +3,7 @@
 import unicodedata
 from xml.etree.ElementTree import fromstring
 
-import pytest
-
+from textmech.cases.case import Case
 from textmech.reports.page.equations import equations
 from textmech.reports.page.mathml import mathml
 from textmech.reports.selection import choose_cases
@@ -34,9 +33,8 @@ def test_what_would_be_markup_is_a_sign() -> None:
     assert "<b>" not in mathml('a <b> & "c')
 
 
-@pytest.mark.whole
-def test_every_hand_written_motion_shows_its_equations() -> None:
-    cases = [case for case in choose_cases([]) if case.system and case.states is None]
+def test_every_hand_written_motion_shows_its_equations(shipped: list[Case]) -> None:
+    cases = [case for case in shipped if case.system and case.states is None]
     for case in cases:
         found = equations(case)
         assert found, case.name

@@ -1,24 +1,41 @@
-"""Numbers as letters: what is read back is what was meant, to within half a level."""
+"""Numbers as letters: what is read back is what was meant."""
+
+from collections.abc import Callable
 
 import numpy as np
 import pytest
 
-from textmech.reports.page.pack import LEVELS, packed, packed_around_zero, unpacked
+from textmech.reports.page.pack import (
+    LEVELS,
+    Packed,
+    packed,
+    packed_by_size,
+    unpacked,
+    unpacked_by_size,
+)
 
 
 @pytest.mark.parametrize("scale", [1e-12, 1.0, 1e9])
 def test_a_curve_comes_back_to_half_a_level(scale: float) -> None:
     curve = scale * np.random.default_rng(1).normal(size=77)
-    for pack in (packed, packed_around_zero):
-        found = pack(curve)
-        step = found[1]
-        assert np.max(np.abs(unpacked(found) - curve)) <= 0.5001 * step + 1e-5 * scale
-        assert step <= 2.001 * np.max(np.abs(curve)) / (LEVELS - 2)
+    found = packed(curve)
+    assert np.max(np.abs(unpacked(found) - curve)) <= 0.501 * found[1] + 1e-5 * scale
+    assert found[1] == pytest.approx(np.ptp(curve) / (LEVELS - 1), rel=1e-5)
 
 
-def test_an_error_of_zero_stays_zero() -> None:
-    assert unpacked(packed_around_zero(np.array([0.0, 1e-3, -7.0])))[0] == 0.0
-    assert unpacked(packed_around_zero(np.zeros(3))).tolist() == [0.0, 0.0, 0.0]
+@pytest.mark.parametrize("scale", [1e-12, 1.0, 1e9])
+def test_an_error_comes_back_to_half_a_percent_of_itself(scale: float) -> None:
+    sizes = 10 ** np.random.default_rng(2).uniform(-8.9, 0, size=200)
+    errors = scale * sizes * np.where(np.arange(200) % 3, 1, -1)
+    found = unpacked_by_size(packed_by_size(errors))
+    assert np.max(np.abs(found / errors - 1)) < 0.0052
+
+
+def test_an_error_of_zero_stays_zero_and_what_is_next_to_nothing_becomes_it() -> None:
+    assert unpacked_by_size(packed_by_size(np.zeros(3))).tolist() == [0.0, 0.0, 0.0]
+    found = unpacked_by_size(packed_by_size(np.array([0.0, 1e-10, -1e-10, -1.0, 1e-8])))
+    assert found[:3].tolist() == [0.0, 0.0, 0.0]
+    assert found[3:] == pytest.approx([-1.0, 1e-8], rel=0.006)
 
 
 def test_what_stays_stays() -> None:
@@ -26,12 +43,14 @@ def test_what_stays_stays() -> None:
 
 
 def test_two_letters_a_number_that_no_markup_knows() -> None:
-    letters = packed(np.linspace(0, 1, 50))[2]
-    assert len(letters) == 100
-    assert not set(letters) & set("<>&\"'\\")
+    for pack in (packed, packed_by_size):
+        letters = pack(np.linspace(-1, 1, 50))[2]
+        assert len(letters) == 100
+        assert not set(letters) & set("<>&\"'\\")
 
 
+@pytest.mark.parametrize("pack", [packed, packed_by_size])
 @pytest.mark.parametrize("wrong", [np.nan, np.inf])
-def test_what_is_not_finite_is_refused(wrong: float) -> None:
+def test_what_is_not_finite_is_refused(wrong: float, pack: Callable[..., Packed]) -> None:
     with pytest.raises(ValueError, match="not finite"):
-        packed(np.array([0.0, wrong]))
+        pack(np.array([0.0, wrong]))

@@ -2,8 +2,8 @@
 
 import pytest
 
+from textmech.cases.case import Case
 from textmech.reports.page.theme import THEMES, themes
-from textmech.reports.selection import choose_cases
 
 
 @pytest.mark.parametrize(
@@ -26,12 +26,11 @@ from textmech.reports.selection import choose_cases
         ("muscle_load", {"springs"}),
     ],
 )
-def test_a_case_is_about(name: str, about: set[str]) -> None:
-    (case,) = choose_cases([name])
+def test_a_case_is_about(name: str, about: set[str], shipped: list[Case]) -> None:
+    (case,) = [case for case in shipped if case.name == name]
     assert set(themes(case)) == about
 
 
-@pytest.mark.whole
-def test_every_case_is_about_something_that_has_a_meaning() -> None:
-    for case in choose_cases([]):
+def test_every_case_is_about_something_that_has_a_meaning(shipped: list[Case]) -> None:
+    for case in shipped:
         assert set(themes(case)) & (set(THEMES) - {"driven", "space"}), case.name

@@ -1,0 +1,75 @@
+"""What do I need? The advice of each case, and by theme what most of its cases need."""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import pandas as pd
+
+from .beside import records
+from .theme import THEMES
+
+COLUMNS = (
+    "case", "engine", "tolerance", "margin", "recipe", "options", "step", "cost", "shipped_cost",
+    "worst", "quantity", "remains",
+)  # fmt: skip
+AS_ALLOWED = "as the case allows"  # where no tolerance is written
+NONE = "none"  # the recipe, where nothing keeps the bar
+
+Themes = Mapping[str, tuple[str, ...]]
+
+
+def advice(frame: pd.DataFrame | None, themes: Themes) -> dict[str, Any] | None:
+    """All rows, what they can be chosen by, and the rows by theme; None where there is no file."""
+    if frame is None:
+        return None
+    rows = [
+        {
+            **row,
+            "tolerance": row["tolerance"] or AS_ALLOWED,
+            "themes": " ".join(themes.get(row["case"], ())),
+            "linked": row["case"] in themes,
+        }
+        for row in records(frame, COLUMNS)
+    ]
+    return {
+        "rows": rows,
+        "engines": sorted({row["engine"] for row in rows}),
+        "tolerances": list(dict.fromkeys(row["tolerance"] for row in rows)),
+        "themes": list(_by_theme(rows, themes)),
+    }
+
+
+def _by_theme(rows: Sequence[Mapping[str, Any]], themes: Themes) -> Any:
+    """For each theme, engine and tolerance: the recipe of most cases, and the smallest step."""
+    groups: dict[tuple[str, str, str], list[Mapping[str, Any]]] = {}
+    for row in rows:
+        for theme in themes.get(row["case"], ()):
+            groups.setdefault((theme, row["engine"], row["tolerance"]), []).append(row)
+    order = list(THEMES)
+
+    def place(at: tuple[str, str, str]) -> tuple[int, str, bool, str]:
+        theme, engine, tolerance = at
+        return order.index(theme), engine, tolerance != AS_ALLOWED, tolerance
+
+    for theme, engine, tolerance in sorted(groups, key=place):
+        found = groups[theme, engine, tolerance]
+        cured = [row for row in found if row["step"] and row["recipe"] != NONE]
+        recipes = Counter(row["recipe"] for row in cured).most_common()
+        first = recipes[0][0] if recipes else ""
+        usual = [row for row in cured if row["recipe"] == first]
+        hardest = min(usual, key=lambda row: float(row["step"]), default=None)
+        yield {
+            "theme": theme,
+            "engine": engine,
+            "tolerance": tolerance,
+            "cases": len(found),
+            "cured": len(cured),
+            "recipe": first,
+            "usual": len(usual),
+            "others": recipes[1:],
+            "step": "" if hardest is None else hardest["step"],
+            "cost": "" if hardest is None else hardest["cost"],
+            "hardest": "" if hardest is None else hardest["case"],
+            "options": "" if hardest is None else hardest["options"],
+        }

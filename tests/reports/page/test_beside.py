@@ -1,0 +1,75 @@
+"""Tables that other commands write, as the page sums them up: counted by hand."""
+
+import pandas as pd
+import pytest
+
+from textmech.reports.page.advice import advice
+from textmech.reports.page.beside import causes, versions
+
+
+def rows(text: str) -> pd.DataFrame:
+    head, *lines = [line.split() for line in text.strip().splitlines()]
+    return pd.DataFrame([[cell.strip("-") for cell in line] for line in lines], columns=head)
+
+
+ADVICE = rows("""
+case engine tolerance margin recipe options step cost
+a    mujoco -         2      RK4    o1      0.008  500
+b    mujoco -         2      RK4    o2      0.001  4000
+c    mujoco -         2      bundle o3      0.0001 9
+d    mujoco -         2      none   -       -      -
+a    mujoco 1e-3      2      RK4    o4      0.008  500
+""")
+ABOUT = dict.fromkeys("abc", ("pins",)) | {"d": ("pins", "space")}
+
+
+def test_a_theme_needs_what_most_of_its_cases_need_at_the_smallest_of_their_steps() -> None:
+    found = advice(ADVICE, ABOUT)
+    assert found is not None
+    pins, fine, space = found["themes"]
+    assert (pins["theme"], pins["tolerance"]) == ("pins", "as the case allows")
+    assert (pins["recipe"], pins["usual"], pins["cured"], pins["cases"]) == ("RK4", 2, 3, 4)
+    assert (pins["step"], pins["hardest"], pins["options"]) == ("0.001", "b", "o2")
+    assert pins["others"] == [("bundle", 1)]
+    assert (fine["tolerance"], fine["cases"]) == ("1e-3", 1)
+    assert (space["recipe"], space["cured"], space["cases"]) == ("", 0, 1)
+
+
+def test_a_case_that_is_not_shown_has_no_link() -> None:
+    found = advice(ADVICE, {"a": ("pins",)})
+    assert found is not None
+    assert {row["case"] for row in found["rows"] if row["linked"]} == {"a"}
+
+
+def test_cures_are_counted_the_most_useful_first() -> None:
+    found = causes(rows("""
+case engine cure
+a    pymunk step
+b    pymunk step
+b    pymunk step
+a    pymunk midpoint
+"""))  # fmt: skip
+    assert found is not None
+    told = [(one["cure"], one["count"], one["cases"]) for one in found["by_knob"]]
+    assert told == [("step", 3, ["a", "b"]), ("midpoint", 1, ["a"])]
+    assert found["count"] == 4
+
+
+def test_releases_stand_in_their_order_with_what_moved() -> None:
+    found = versions(rows("""
+engine version setting verdict moved
+mujoco 3.10.0  shipped beyond  -
+mujoco 3.9.0   shipped beyond  -
+mujoco 4.0.0   shipped agrees  yes
+mujoco 4.0.0   shipped beyond  -
+"""))  # fmt: skip
+    assert found is not None
+    told = [(one["version"], one["within"], one["judged"], one["moved"]) for one in found["shares"]]
+    assert told == [("3.9.0", 0, 1, 0), ("3.10.0", 0, 1, 0), ("4.0.0", 1, 2, 1)]
+    assert [row[1] for row in found["moved"]] == ["4.0.0"]
+
+
+@pytest.mark.parametrize("read", [causes, versions])
+def test_without_the_file_there_is_nothing(read: object) -> None:
+    assert read(None) is None  # type: ignore[operator]
+    assert advice(None, {}) is None
