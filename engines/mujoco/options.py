@@ -33,8 +33,8 @@ GROUPS: Mapping[str, Mapping[str, tuple[int, ...]]] = {
     },
     "tendon": {"solreflimit": (2,), "solimplimit": (3, 5)},
 }  # fmt: skip
-"""Elements with how many numbers each of their attributes takes: loops by pins and by rods, contacts,
-dry joints and their stops, ropes."""
+"""Elements with how many numbers each of their attributes takes: loops by pins and by rods,
+contacts, dry joints and their stops, ropes."""
 _NAMES = ("step", *_WORDS, *_WHOLE, *_REAL, *SOFT, *GROUPS, *FLAGS, "settled")
 _MOST = 2**31 - 1  # MuJoCo's int
 

@@ -30,11 +30,7 @@ from .coordinates import Coordinates
 
 AHEAD = 1e-3  # of the scene's size: feet that are nearer are passing each other
 State = Literal["open", "slides +", "slides -", "sticks", "slides", "acts", "slack"]
-REST: tuple[State, ...] = (
-    "sticks",
-    "slides +",
-    "slides -",
-)  # at slip 0, stiction first as in (2.89)
+REST: tuple[State, ...] = ("sticks", "slides +", "slides -")  # at slip 0: first, as in (2.89)
 
 
 def sign(state: State) -> int:

@@ -1,8 +1,6 @@
 """Event times of synthetic records whose events are known in advance."""
 
 from collections.abc import Callable
-from functools import partial
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -15,7 +13,7 @@ from textmech.cases.trajectory import VX, Array, Trajectory
 from textmech.reports.events import rests as reading
 from textmech.reports.events.passages import passages
 from textmech.reports.events.rests import rests
-from textmech.reports.events.times import engine_events, falls, reference_events, surely
+from textmech.reports.events.times import engine_events, falls, reference_events
 
 SCENE = Scene(
     (0.0, 0.0), {}, {"box": Body("box", "particle", 1.0, None, {"center": (0.0, 0.0)})}, {}, {}, {}
@@ -230,20 +228,6 @@ def test_the_reference_passes_zero_within_a_phase_too() -> None:
     (top,) = reference_events(SCENE, record, Event("box.vx", "falls to zero"))
     assert top == pytest.approx(1 + np.pi / 2, abs=1e-8)  # by seven steps, a sixth of a second each
     assert len(reference_events(SCENE, record, Event("box.vx", "stays zero"))) == 0
-
-
-def hump(a: float, b: float, t: Array) -> Array:
-    return (t - a) * (b - t) / (b - a) ** 2
-
-
-def test_events_that_are_too_near_for_a_step_may_be_missed() -> None:
-    edges = [0.0, 1.0, 1.4, 1.41]  # humps of 1 s, 0.4 s and 10 ms, of heights alike
-    humps = [(a, b, partial(hump, a, b)) for a, b in pairwise(edges)]
-    record = phased(*humps, (edges[-1], 2.0, np.zeros_like))
-    event = Event("box.vx", "falls to zero")
-    assert len(reference_events(SCENE, record, event)) == 3
-    told = {h: surely(SCENE, record, event, h) for h in (1e-4, 1e-3, 5e-2, 0.2)}
-    assert told == {1e-4: 3, 1e-3: 2, 5e-2: 1, 0.2: 0}
 
 
 def test_what_comes_to_zero_from_below_does_not_fall_to_it() -> None:

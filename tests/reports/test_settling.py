@@ -1,13 +1,20 @@
 """A ball that comes to rest bounces ever lower: what of that an engine has to tell."""
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
 from given.command import textmech
 
-from textmech.cases.trajectory import Array
-from textmech.reports.events.times import falls
+from textmech.cases.case import Event
+from textmech.cases.scene import Body, Scene
+from textmech.cases.trajectory import VX, Array, Trajectory
+from textmech.reports.events.times import falls, reference_events, surely
+
+SCENE = Scene(
+    (0.0, 0.0), {}, {"box": Body("box", "particle", 1.0, None, {"center": (0.0, 0.0)})}, {}, {}, {}
+)
 
 SETTLES = """\
 title: A ball that comes to rest
@@ -54,3 +61,21 @@ def test_an_engine_bounces_as_often_as_its_steps_can_tell(tmp_path: Path) -> Non
     [line] = [line for line in done.stdout.splitlines() if "bounces.count" in line]
     assert "0.00e+00 1" in line
     assert line.endswith("agrees")
+
+
+def hump(t: Array) -> Array:
+    return (t - t[0]) * (t[-1] - t) / (t[-1] - t[0]) ** 2
+
+
+def test_events_that_are_too_near_for_a_step_may_be_missed() -> None:
+    edges = [0.0, 1.0, 1.4, 1.41]  # humps of 1 s, 0.4 s and 10 ms, of heights alike
+    times = [np.linspace(a, b, 7) for a, b in pairwise([*edges, 2.0])]
+    states = np.zeros((7 * len(times), 6))
+    for k, t in enumerate(times[:-1]):  # in the last it rests
+        states[7 * k : 7 * k + 7, VX] = hump(t)
+    phase = np.repeat(np.arange(len(times)), 7)
+    record = Trajectory(np.concatenate(times), {"box": states}, {}, phase=phase)
+    event = Event("box.vx", "falls to zero")
+    assert len(reference_events(SCENE, record, event)) == 3
+    told = {h: surely(SCENE, record, event, h) for h in (1e-4, 1e-3, 5e-2, 0.2)}
+    assert told == {1e-4: 3, 1e-3: 2, 5e-2: 1, 0.2: 0}
