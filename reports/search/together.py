@@ -1,0 +1,60 @@
+"""Many searches at once: each asks for runs in rounds, and a round of all is spread over all cores."""
+
+from collections.abc import Generator, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Generic, TypeVar
+
+from ..pool import Died
+from ..results import Results
+from ..unit import Pair
+from .candidate import Candidate
+from .errors import Errors, Run, errors
+
+T = TypeVar("T")
+Known = dict[Candidate, Errors]
+Asking = Generator[Iterable[Candidate], None, T]
+"""It yields what it wants to know, which it then knows, and returns what it found."""
+
+
+@dataclass(frozen=True)
+class Search(Generic[T]):
+    """A search among the runs of a pair, and what is known of them."""
+
+    pair: Pair
+    known: Known
+    asking: Asking[T]
+
+
+@dataclass
+class _Round:
+    """What is asked for, by the results' keys."""
+
+    runs: dict[str, Run] = field(default_factory=dict)
+    wanted: list[tuple[Known, Candidate, str]] = field(default_factory=list)
+
+
+def together(what: str, searches: Mapping[str, Search[T]], results: Results) -> dict[str, T]:
+    """What each found, by its key; a run whose process dies has no errors and costs nobody else."""
+    found: dict[str, T] = {}
+    while len(found) < len(searches):
+        asked = _Round()
+        for key in searches.keys() - found.keys():
+            try:
+                _ask(searches[key], next(searches[key].asking), asked, results)
+            except StopIteration as done:
+                found[key] = done.value
+        answers = results.of(what, errors, asked.runs) if asked.runs else {}
+        for known, candidate, key in asked.wanted:
+            known[candidate] = {} if isinstance(answers[key], Died) else answers[key]
+    return {key: found[key] for key in searches}
+
+
+def _ask(
+    search: Search, wanted: Iterable[Candidate], asked: _Round, results: Results
+) -> None:
+    pair = search.pair
+    for candidate in wanted:
+        if candidate not in search.known:
+            key = results.keys.tried(pair.case, pair.engine, candidate.told, candidate.step)
+            asked.runs[key] = Run(pair, candidate)
+            asked.wanted.append((search.known, candidate, key))
