@@ -5,10 +5,11 @@ engines/README.md says how to add one.
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, Protocol, runtime_checkable
+from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 
 from ..cases.scene import Scene
 from ..cases.trajectory import Array, Trajectory
+from .knobs import Knob, Options
 
 Realised = Literal["native", "law", "driver"]
 """The engine's own force elements; our force law in a callback; our driver around the step."""
@@ -192,6 +193,33 @@ class Claims(Protocol):
         the first of them. Masses and inertias are those that the engine finds by itself from the
         shapes of bodies, as far as they have any.
         """
+        ...
+
+
+@runtime_checkable
+class Tunable(Protocol):
+    """What an engine may offer beside the protocol: what of it can be turned, and at what cost.
+
+    Whatever the setting; options are the user's own, under which the engine is then made.
+    """
+
+    steps: ClassVar[tuple[float, ...]]
+    """Steps [s] worth trying, the largest first; a user's who changes nothing is one of them."""
+
+    def knobs(self, scene: Scene, start: Start) -> Sequence[Knob]:
+        """The closed list of what matters for the scene, if the engine runs it natively."""
+        ...
+
+    def recipe(self, scene: Scene, start: Start) -> Options:
+        """The tuned setting's native way, as own options: with them the same numbers are run."""
+        ...
+
+    def cost(self, options: Options, step: float, scene: Scene) -> float:
+        """What a simulated second costs at the step [s], to compare options with: no seconds."""
+        ...
+
+    def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
+        """The options at the step [s] in the engine's own language, ready to paste."""
         ...
 
 

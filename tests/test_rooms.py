@@ -28,7 +28,7 @@ ROOMS = {
         "states",
         "solve",
     ],
-    "engines": ["engine law signal stride told", "heading", "mujoco pymunk"],
+    "engines": ["engine+knobs law signal stride tied told", "heading", "mujoco pymunk"],
     "reports": [
         "own_settings",
         "row pins selection coverage events lock ending cluster pytest_short",

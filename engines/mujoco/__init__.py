@@ -11,9 +11,12 @@ from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ..engine import Plain, Plan, Realised, Refusal, Start
 from ..heading import heading
+from ..knobs import Knob, Options
 from . import options, settings
 from .claims import answered
 from .compilation import NOMINAL, timestep
+from .knobs import STEPS, cost, knobs
+from .own import as_options, unfit
 from .plane import PLANE
 from .refuse import not_native, uncompilable
 from .rods import of_scene
@@ -34,6 +37,7 @@ class MuJoCo:
     name: str = "mujoco"
     version: str = mujoco.__version__
     offers: ClassVar[tuple[str, ...]] = ("shipped", "tuned")
+    steps: ClassVar[tuple[float, ...]] = STEPS
 
     def __post_init__(self) -> None:
         options.check(self.options)
@@ -47,12 +51,18 @@ class MuJoCo:
     def _tuned(self) -> bool:
         return self.setting == "tuned"
 
+    @property
+    def _settles(self) -> bool:
+        return self._tuned or bool(self.options.get("settled"))
+
     def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
         """Natively; edges, dry friction and corners of springs in other ways too, if tuned."""
         world = _world(scene)
         scene, start = world.built(scene, start)
-        refusal = world.unbuildable(scene) or uncompilable(
-            world.compiled, scene, start, self._plan(scene, start)
+        refusal = (
+            world.unbuildable(scene)
+            or unfit(self.options, scene, list(world.recipes))
+            or uncompilable(world.compiled, scene, start, self._plan(scene, start))
         )
         if refusal:
             return [Refusal("native", refusal)]
@@ -67,8 +77,26 @@ class MuJoCo:
         if self._tuned:
             numbers = partial(world.tuned, scene, start=start)
         else:
-            numbers = partial(world.with_own, self.options, scene)
-        return world.plan(scene, start, realised, numbers, tuned=self._tuned)
+            numbers = partial(world.with_own, self.options, scene, start)
+        return world.plan(scene, start, realised, numbers, settles=self._settles, tuned=self._tuned)
+
+    def knobs(self, scene: Scene, start: Start) -> list[Knob]:
+        """See `Tunable`."""
+        world = _world(scene)
+        scene, start = world.built(scene, start)
+        worth = world.worth(scene) if scene.contacts else []
+        bundles = {word: world.recipes[word](scene) for word in worth}
+        return knobs(scene, world.best(scene, start), world.soft(scene), bundles)
+
+    def recipe(self, scene: Scene, start: Start) -> Options:
+        """See `Tunable`."""
+        world = _world(scene)
+        scene, start = world.built(scene, start)
+        return as_options(scene, world.best(scene, start))
+
+    def cost(self, options: Options, step: float, scene: Scene) -> float:
+        """Evaluations of the dynamics in a simulated second: steps × stages."""
+        return cost(options, step)
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as the compiled model holds it."""
@@ -92,7 +120,7 @@ class MuJoCo:
         """The MJCF file with its start as a keyframe, headed by comments."""
         world, choices = _world(scene), [timestep(step), *plan.choices(step)]
         scene, start = world.built(scene, start)
-        model, *_ = world.placed(scene, start, step, plan, settles=self._tuned)
+        model, *_ = world.placed(scene, start, step, plan, settles=self._settles)
         begun = model.key_qpos[0].tolist(), model.key_qvel[0].tolist()
         head = commented(heading(self, title, step, plan)) + controls(model, world.signals(scene))
         return head + world.mjcf(scene, start, choices, begun)
@@ -111,7 +139,7 @@ class MuJoCo:
         """The motion, stepped by `mj_step(model, data, n)` between samples or steps."""
         world, realised = _world(scene), plan.realised
         built, begun = world.built(scene, start)
-        with world.lent(built, begun, step, plan, settles=self._tuned) as lent:
+        with world.lent(built, begun, step, plan, settles=self._settles) as lent:
             found = world.simulate(
                 built, *lent, begun, times, reactions, realised=realised, every=record
             )

@@ -7,6 +7,7 @@ measured in tests/engines/test_floor.py, test_tips.py and test_impacts.py.
 """
 
 import math
+from collections.abc import Callable, Mapping
 
 from scipy.optimize import brentq
 
@@ -18,21 +19,31 @@ SOFTEST = 1.01e-4  # of d: MuJoCo clamps it at 1e-4
 CLOSED = 1e-9  # m: what is nearer to the floor than that lies on it
 
 
-def recipe(scene: Scene, tied_to: float, start: Start | None) -> list[Choice]:
+def recipe(scene: Scene, start: Start | None) -> list[Choice]:
     """The contacts' numbers; without a start everything is taken to lie on the floor."""
+    return RECIPES[chosen(scene, start)](scene)
+
+
+def chosen(scene: Scene, start: Start | None) -> str:
+    """Which of the recipes the scene needs from its start on."""
     contacts = scene.touching.values()
     if not any(contact.switches for contact in contacts):
-        return _rolling(tied_to)
+        return "roll"
     if any(contact.ideal == "pivot" for contact in contacts):
-        return _pivoting(tied_to)
-    if bounce := max(contact.restitution for contact in contacts):
-        return _bouncing(bounce, tied_to)
+        return "pivot"
+    if any(contact.restitution for contact in contacts):
+        return "bounce"
     if start is not None and falls(scene, start):
-        bodies = [contact.body for contact in contacts]
-        return _landing(tied_to, shared=max(map(bodies.count, bodies)))
-    if all(alone(scene, contact) for contact in contacts):
-        return _sliding(tied_to)
-    return _tip(tied_to)
+        return "land"
+    return "slide" if all(alone(scene, contact) for contact in contacts) else "tip"
+
+
+def worth(scene: Scene) -> list[str]:
+    """Which of the recipes may do something for the scene, from whatever start."""
+    contacts = scene.touching.values()
+    thrown = ["bounce"] if any(contact.restitution for contact in contacts) else []
+    tips = [] if all(alone(scene, contact) for contact in contacts) else ["tip", "pivot"]
+    return ["roll", "slide", *tips, *thrown, "land"]
 
 
 def alone(scene: Scene, contact: Contact) -> bool:
@@ -70,53 +81,55 @@ def height(scene: Scene, contact: Contact, start: Start) -> float:
     return float(contact.plane.height(*place)) - (body.radius or 0.0)
 
 
-def _rolling(h: float) -> list[Choice]:
+def _rolling(scene: Scene) -> list[Choice]:
     return [
-        Choice("pair.solref", [2 * h, 1.0], "the stiffest that stays stable: 2 h"),
+        Choice("pair.solref", ["2h", 1.0], "the stiffest that stays stable: 2 h"),
         Choice("pair.solimp", [HARDEST, HARDEST, 0.001], "the hardest MuJoCo takes: d = 0.9999"),
         _ELLIPTIC,
         Choice("option.impratio", 100.0, "less creep; from 1e4 on Newton stops early"),
     ]
 
 
-def _sliding(h: float) -> list[Choice]:
+def _sliding(scene: Scene) -> list[Choice]:
     because = "k = 0.25/h², b = 1/h: critically damped"
     return [
-        *_soft(h, k=0.25 / h**2, b=1.0, along=1.0, because=because),
+        *_soft("0.25/h2", b=1.0, along=1.0, because=because),
         Choice("option.noslip_iterations", 5, "a block at rest creeps 1e-19 m/s instead of 1e-6"),
     ]
 
 
-def _tip(h: float) -> list[Choice]:
+def _tip(scene: Scene) -> list[Choice]:
     because = "k = 0.1/h², b = 0.4/h: contacts of one body act together, their stiffness adds up"
-    return [*_soft(h, k=0.1 / h**2, b=0.4, along=0.8, because=because), _EXACT]
+    return [*_soft("0.1/h2", b=0.4, along=0.8, because=because), _EXACT]
 
 
-def _pivoting(h: float) -> list[Choice]:
+def _pivoting(scene: Scene) -> list[Choice]:
     because = "k = 0.1/h², b = 1.4/h: a strike throws nothing back; RK4 bears 2.8/h, of two tips"
-    return [*_soft(h, k=0.1 / h**2, b=1.4, along=1.4, because=because), _EXACT]
+    return [*_soft("0.1/h2", b=1.4, along=1.4, because=because), _EXACT]
 
 
-def _bouncing(bounce: float, h: float) -> list[Choice]:
+def _bouncing(scene: Scene) -> list[Choice]:
+    bounce = max(contact.restitution for contact in scene.contacts.values())
     because = f"k = ({_BEAT}/h)²: a bounce lasts 16 h and keeps its energy to 0.2 %; b gives e"
     b = 2 * damping_ratio(bounce) * _BEAT
-    return [*_soft(h, k=(_BEAT / h) ** 2, b=b, along=1.0, because=because), _EXACT]
+    return [*_soft(f"{_BEAT**2:.2g}/h2", b=b, along=1.0, because=because), _EXACT]
 
 
-def _landing(h: float, *, shared: int) -> list[Choice]:
-    """shared: by how many points a body may land; their dampers add up, and RK4 bears 2.8/h."""
-    b = 1 / shared
+def _landing(scene: Scene) -> list[Choice]:
+    """By how many points a body may land: their dampers add up, and RK4 bears 2.8/h."""
+    bodies = [contact.body for contact in scene.touching.values()]
+    b = 1 / max(map(bodies.count, bodies))
     because = f"k = {_RISE:g}/h, b = {b:.3g}/h: it is hardly thrown back, and rises slowly"
-    return [*_soft(h, k=_RISE / h, b=b, along=b, because=because), _EXACT]
+    return [*_soft(f"{_RISE}/h", b=b, along=b, because=because), _EXACT]
 
 
-def _soft(h: float, *, k: float, b: float, along: float, because: str) -> list[Choice]:
+def _soft(k: str, *, b: float, along: float, because: str) -> list[Choice]:
     """The softest d, so that friction and normal force do not feel each other.
 
     k [1/s²]; b and along [1/h]: the damping of the normal velocity and of the slip.
     """
     return [
-        Choice("pair.solref", [-k, -b / h], because),
+        Choice("pair.solref", [f"-{k}", f"{-b}/h"], because),
         Choice(
             "pair.solimp",
             [SOFTEST, SOFTEST, 0.001],
@@ -124,7 +137,7 @@ def _soft(h: float, *, k: float, b: float, along: float, because: str) -> list[C
         ),
         Choice(
             "pair.solreffriction",
-            [-1.0, -along * SOFTEST / h],
+            [-1.0, f"{-along * SOFTEST}/h"],
             f"b = {along}/h along the floor (times d, by which MuJoCo divides): slip ends in a "
             "step or two; RK4 is stable up to 2.8/h",
         ),
@@ -132,6 +145,16 @@ def _soft(h: float, *, k: float, b: float, along: float, because: str) -> list[C
         Choice("option.impratio", 1e6, "makes up for the soft d: slip 2e-6 · a; Newton bears it"),
     ]
 
+
+RECIPES: Mapping[str, Callable[[Scene], list[Choice]]] = {
+    "roll": _rolling,
+    "slide": _sliding,
+    "tip": _tip,
+    "pivot": _pivoting,
+    "bounce": _bouncing,
+    "land": _landing,
+}
+"""By the word that an own option calls them."""
 
 _EXACT = Choice(
     "flag.diagexact",

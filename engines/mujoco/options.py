@@ -1,31 +1,43 @@
 """A user's own options: which there are, and which values MuJoCo takes."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from typing import Any
 
 import mujoco
 
+from ..tied import FORMS, at, tied
+from .contact import RECIPES
 from .law.signal import installed
 from .run import listening
+from .space.contact import RECIPES as RECIPES_IN_SPACE
 
 _WORDS = {
     "integrator": ("Euler", "RK4", "implicit", "implicitfast", "discrete"),
     "cone": ("pyramidal", "elliptic"),
     "jacobian": ("dense", "sparse", "auto"),
     "solver": ("PGS", "CG", "Newton"),
+    "contacts": (*dict.fromkeys((*RECIPES, *RECIPES_IN_SPACE)), "scene"),
 }
 _WHOLE = ("iterations", "ls_iterations", "noslip_iterations")
 _REAL = ("tolerance", "ls_tolerance", "noslip_tolerance", "impratio")
-SOFT = {"solref": (2,), "solimp": (3, 5)}
-_NAMES = ("step", *_WORDS, *_WHOLE, *_REAL, *SOFT)
+SOFT = {"solref": (2,), "solimp": (3, 5)}  # of every group of soft constraints
+FLAGS = ("diagexact",)
+PROTOCOL = ("step", "contacts", "settled")  # what stands nowhere in the file
+GROUPS: Mapping[str, Mapping[str, tuple[int, ...]]] = {
+    "connect": SOFT,
+    "pair": {**SOFT, "solreffriction": (2,)},
+    "joint": {"solreffriction": (2,), "solimpfriction": (3, 5)},
+}
+"""Elements with how many numbers each of their attributes takes: loops, contacts, dry joints."""
+_NAMES = ("step", *_WORDS, *_WHOLE, *_REAL, *SOFT, *GROUPS, *FLAGS, "settled")
 _MOST = 2**31 - 1  # MuJoCo's int
 
 
 def check(options: Mapping[str, Any]) -> None:
     """Raises ValueError with all mistakes: unknown names with the nearest right one, and values."""
-    found = [mistake for name, value in options.items() if (mistake := _mistake(name, value))]
-    mistakes = found or _refused(options)
+    found = [mistake for name, value in options.items() for mistake in _mistakes(name, value)]
+    mistakes = found or (_refused(options) if options else [])
     if mistakes:
         raise ValueError("\n".join(mistakes))
 
@@ -35,28 +47,57 @@ def as_written(name: str, value: Any) -> Any:
     return int(value) if name in _WHOLE else value
 
 
-def _mistake(name: str, value: Any) -> str | None:
+def _mistakes(name: str, value: Any) -> Iterator[str]:
     if name not in _NAMES:
-        close = get_close_matches(str(name), _NAMES, n=1)
-        hint = f"did you mean {close[0]!r}?" if close else f"known: {', '.join(_NAMES)}"
-        return f"mujoco.{name}: unknown option; {hint}"
-    if name in _WORDS:
-        close = get_close_matches(str(value), _WORDS[name], n=1)
-        hint = f"; did you mean {close[0]!r}?" if close else ""
-        words = ", ".join(_WORDS[name])
-        right = value in _WORDS[name]
-        return None if right else f"mujoco.{name}: should be one of {words}, is {value!r}{hint}"
-    right, what = _number(name, value)
-    return None if right else f"mujoco.{name}: should be {what}, is {value!r}"
+        yield f"mujoco.{name}: unknown option; {_nearest(name, _NAMES)}"
+    elif name in GROUPS:
+        yield from _in_group(name, value)
+    elif name in (*FLAGS, "settled"):
+        if not isinstance(value, bool):
+            yield f"mujoco.{name}: should be true or false, is {value!r}"
+    elif name in _WORDS:
+        if value not in _WORDS[name]:
+            close = get_close_matches(str(value), _WORDS[name], n=1)
+            hint = f"; did you mean {close[0]!r}?" if close else ""
+            words = ", ".join(_WORDS[name])
+            yield f"mujoco.{name}: should be one of {words}, is {value!r}{hint}"
+    else:
+        right, what = _listed(name, value, SOFT[name]) if name in SOFT else _number(name, value)
+        if not right:
+            yield f"mujoco.{name}: should be {what}, is {value!r}"
+
+
+def _in_group(group: str, value: Any) -> Iterator[str]:
+    sizes = GROUPS[group]
+    if not isinstance(value, Mapping):
+        yield f"mujoco.{group}: should be a map of {', '.join(sizes)}, is {value!r}"
+        return
+    for name, numbers in value.items():
+        where = f"mujoco.{group}.{name}"
+        if name not in sizes:
+            yield f"{where}: unknown option; {_nearest(name, (*sizes,))}"
+            continue
+        right, what = _listed(name, numbers, sizes[name])
+        if not right:
+            yield f"{where}: should be {what}, is {numbers!r}"
+
+
+def _nearest(name: Any, names: Sequence[str]) -> str:
+    close = get_close_matches(str(name), names, n=1)
+    return f"did you mean {close[0]!r}?" if close else f"known: {', '.join(names)}"
+
+
+def _listed(name: str, value: Any, sizes: tuple[int, ...]) -> tuple[bool, str]:
+    """Whether a list of numbers is right, and what it should be. What pushes may follow h."""
+    follows = name.startswith("solref")
+    count = " or ".join(map(str, sizes))
+    what = f"a list of {count} finite numbers" + (f", or texts {FORMS}" if follows else "")
+    right = isinstance(value, list | tuple) and len(value) in sizes
+    return right and all(_finite(x) or (follows and tied(x)) for x in value), what
 
 
 def _number(name: str, value: Any) -> tuple[bool, str]:
     """Whether the value is right, and what it should be."""
-    if name in SOFT:
-        sizes = " or ".join(str(size) for size in SOFT[name])
-        right = isinstance(value, list | tuple) and len(value) in SOFT[name]
-        right = right and all(map(_finite, value))
-        return right, f"a list of {sizes} finite numbers"
     if name in _WHOLE:
         right = _finite(value) and value == int(value) and 0 <= value <= _MOST
         return right, f"a whole number from 0 to {_MOST}"
@@ -71,7 +112,7 @@ def _finite(value: Any) -> bool:
 
 
 def _refused(options: Mapping[str, Any]) -> list[str]:
-    """What MuJoCo itself says of the values, when a pin and a contact are stepped with them."""
+    """What MuJoCo itself says of the values, when a pin, a contact and a slide step with them."""
     with listening() as warnings, installed(None):
         try:
             model = mujoco.MjModel.from_xml_string(_trial(options))
@@ -82,17 +123,27 @@ def _refused(options: Mapping[str, Any]) -> list[str]:
 
 
 def _trial(options: Mapping[str, Any]) -> str:
-    """A ball on a floor, pinned at its centre."""
+    """A ball on a floor, pinned at its centre, and one that slides with friction."""
+    step = options.get("step", 2e-3)
 
-    def text(name: str) -> str:
-        value = as_written(name, options[name])
+    def text(name: str, value: Any) -> str:
+        value = at(as_written(name, value), step)
         words = value if isinstance(value, list | tuple) else [value]
         return f'{"timestep" if name == "step" else name}="{" ".join(map(str, words))}"'
 
-    option = " ".join(text(name) for name in options if name not in SOFT)
-    soft = " ".join(text(name) for name in options if name in SOFT)
-    return f"""<mujoco><option {option}/>
+    def soft(group: str) -> str:
+        common = {name: options[name] for name in SOFT if name in options}
+        own = {f"{name}friction": value for name, value in common.items()}
+        given = (own if group == "joint" else common) | options.get(group, {})
+        return " ".join(text(name, value) for name, value in given.items())
+
+    plain = [n for n in options if n not in (*SOFT, *GROUPS, *FLAGS, "contacts", "settled")]
+    option = " ".join(text(name, options[name]) for name in plain)
+    flag = 'diagexact="enable"' if options.get("diagexact") else ""
+    return f"""<mujoco><option {option}><flag {flag}/></option>
 <worldbody><geom name="floor" type="plane" size="0 0 1"/><site name="O"/>
-<body name="b"><freejoint/><geom name="g" size="0.1"/><site name="s"/></body></worldbody>
-<contact><pair geom1="floor" geom2="g" {soft}/></contact>
-<equality><connect site1="O" site2="s" {soft}/></equality></mujoco>"""
+<body name="b"><freejoint/><geom name="g" size="0.1"/><site name="s"/></body>
+<body name="c"><joint type="slide" frictionloss="1" {soft("joint")}/><geom size="0.1"
+contype="0" conaffinity="0"/></body></worldbody>
+<contact><pair geom1="floor" geom2="g" {soft("pair")}/></contact>
+<equality><connect site1="O" site2="s" {soft("connect")}/></equality></mujoco>"""

@@ -1,6 +1,7 @@
 """What MuJoCo does with planar scenes."""
 
 from .compilation import compiled, lent, placed
+from .contact import RECIPES, worth
 from .drive import controls
 from .plain import plain
 from .plans import plan, ways
@@ -9,10 +10,11 @@ from .refuse import unbuildable
 from .rods import with_rods
 from .run import simulate
 from .scene import mjcf
-from .settings import tuned, with_own
+from .settings import best, soft, tuned, with_own
 from .world import World
 
 PLANE = World(
-    unbuildable, ways, plan, tuned, with_own, compiled, placed, lent, measured, mjcf, controls,
+    unbuildable, ways, plan, tuned, best, RECIPES, worth, soft, with_own, compiled, placed, lent,
+    measured, mjcf, controls,
     simulate, plain, with_rods,
 )  # fmt: skip

@@ -15,7 +15,7 @@ from .law.corner import has_corners
 from .law.friction import one_slide, smooth_only
 from .law.touch import one_touch
 from .scene import HEAVY
-from .settings import only_slides, ties
+from .settings import only_slides
 from .tree import driven
 
 Numbers = Callable[[float], Sequence[Choice]]
@@ -43,12 +43,20 @@ def ways(scene: Scene, start: Start, *, tuned: bool) -> tuple[Realised, ...]:
     return ("native", "law") if smooth_only(scene) else ("native", "law", "driver")
 
 
-def plan(scene: Scene, start: Start, realised: Realised, numbers: Numbers, *, tuned: bool) -> Plan:
+def plan(
+    scene: Scene,
+    start: Start,
+    realised: Realised,
+    numbers: Numbers,
+    *,
+    settles: bool,
+    tuned: bool,
+) -> Plan:
     """One way's plan. Nothing is withheld: a joint's force and moment can be read, a contact's too.
 
     Exponents: Euler, contacts, corners of dry friction and of springs 1, 2; RK4 4, 5, with corners
-    of other laws and the mean of a force that jumps 2, 3; soft constraints of the tuned recipe,
-    which follow the step, 2, 3.
+    of other laws and the mean of a force that jumps 2, 3; soft constraints that follow the step
+    2, 3.
     """
     integrator = {choice.name: choice.value for choice in numbers(NOMINAL)}["option.integrator"]
     dry = any(joint.dry_friction for joint in scene.joints.values())
@@ -60,15 +68,21 @@ def plan(scene: Scene, start: Start, realised: Realised, numbers: Numbers, *, tu
     bare = Plan(
         realised,
         held=(1, 2) if first else (2, 3) if corners or jumps else (4, 5),
-        following=following if tuned and ties(scene) else None,
+        following=following if follows(numbers) else None,
         alike=realised != "native" and only_slides(scene),  # what our law holds lies still
         numbers=numbers,
         simplified=one_number(scene) if realised == "native" else "",
     )
-    return replace(bare, protocol=partial(_words, scene, start, bare, tuned))
+    return replace(bare, protocol=partial(_words, scene, start, bare, settles, tuned))
 
 
-def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> str:
+def follows(numbers: Numbers) -> bool:
+    """Whether a number follows the step."""
+    here, there = ([c.value for c in numbers(step)] for step in (NOMINAL, 2 * NOMINAL))
+    return here != there
+
+
+def _words(scene: Scene, start: Start, plan: Plan, settles: bool, tuned: bool, step: float) -> str:
     """Driven points, laws and drivers, and how deep a disk is started in the floor."""
     words = []
     if any(driven(scene)):
@@ -89,9 +103,9 @@ def _words(scene: Scene, start: Start, plan: Plan, tuned: bool, step: float) -> 
     elif plan.realised == "driver":
         acts, dry = "where a spring begins or ends to act", "at the events of dry friction"
         words.append(f"steps cut {acts if has_corners(scene) else dry}")
-    if tuned and scene.contacts:
-        if falls(scene, start):
-            words.append("starts above the floor: contacts are tuned for impacts")
+    if tuned and scene.contacts and falls(scene, start):
+        words.append("starts above the floor: contacts are tuned for impacts")
+    if settles and scene.contacts:
         *_, depths = placed(scene, start, step, plan, settles=True)
         deep = ((scene.touching[name], depth) for name, depth in depths.items() if depth)
         words += [f"{_at(c)} started {depth:.1e} m in the {c.plane.name}" for c, depth in deep]

@@ -4,12 +4,14 @@ A recipe is a function of the scene and of the step its tied numbers follow.
 """
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from ...cases.scene import Scene
 from ..engine import Choice, Start
-from .contact import HARDEST, recipe
-from .options import SOFT, as_written
+from ..tied import at
+from .contact import HARDEST, RECIPES, chosen, recipe
+from .own import key, overlaid
 from .tree import driven, spanning_tree
 
 SHIPPED_STEP = 2e-3  # s, the default of <option timestep>
@@ -21,49 +23,59 @@ TO_THE_END = Choice(
 
 def shipped(scene: Scene, tied_to: float) -> list[Choice]:
     """What a user gets who changes nothing."""
-    return defaults(_soft(scene), _solver(scene))
+    return defaults(soft(scene), _solver(scene))
 
 
-def defaults(soft: Sequence[str], solver: Sequence[Choice]) -> list[Choice]:
+def defaults(groups: Sequence[str], solver: Sequence[Choice]) -> list[Choice]:
     """MuJoCo's numbers, for groups of soft constraints; solver: what no setting leaves out."""
     choices = [
         Choice("option.integrator", "Euler", _DEFAULT),
         Choice("option.cone", "pyramidal", _DEFAULT),
         *solver,
     ]
-    for group in soft:
+    for group in groups:
         choices += [
-            Choice(_key(group, "solref"), [0.02, 1.0], _DEFAULT),
-            Choice(_key(group, "solimp"), [0.9, 0.95, 0.001, 0.5, 2.0], _DEFAULT),
+            Choice(key(group, "solref"), [0.02, 1.0], _DEFAULT),
+            Choice(key(group, "solimp"), [0.9, 0.95, 0.001, 0.5, 2.0], _DEFAULT),
         ]
     return choices
 
 
 def tuned(scene: Scene, tied_to: float, start: Start | None = None) -> list[Choice]:
     """The best recipe for the scene and its start; soft constraints follow the step `tied_to`."""
+    return at_step(best(scene, start), tied_to)
+
+
+def best(scene: Scene, start: Start | None = None) -> list[Choice]:
+    """The same in terms of h, as a user writes it."""
     choices = [
         Choice("option.integrator", "RK4", "fourth order; every other integrator is of the first"),
         Choice("option.jacobian", "dense", "small scenes; keeps 4.0.0's sparse solver out"),
     ]
-    if _soft(scene):
+    if soft(scene):
         choices.append(Choice("option.tolerance", 1e-14, "near rounding; 0 is five times slower"))
     choices += _solver(scene)
     for group in ("connect", "slide"):
-        if group in _soft(scene):
+        if group in soft(scene):
             choices += [
-                Choice(_key(group, "solref"), [_STIFF[group] * tied_to, 1.0], _BECAUSE[group]),
+                Choice(key(group, "solref"), [f"{_STIFF[group]}h", 1.0], _BECAUSE[group]),
                 Choice(
-                    _key(group, "solimp"),
+                    key(group, "solimp"),
                     [HARDEST, HARDEST, 0.001],
                     "the hardest MuJoCo takes: d = 0.9999",
                 ),
             ]
-    if "slide" in _soft(scene):
+    if "slide" in soft(scene):
         choices.append(Choice("option.noslip_iterations", 5, "what sticks does not creep"))
     if scene.contacts:
         known = {choice.name for choice in choices}
-        choices += [c for c in recipe(scene, tied_to, start) if c.name not in known]
+        choices += [c for c in recipe(scene, start) if c.name not in known]
     return choices
+
+
+def at_step(choices: Sequence[Choice], h: float) -> list[Choice]:
+    """The choices at the step h [s]."""
+    return [replace(choice, value=at(choice.value, h)) for choice in choices]
 
 
 # The time constant of a soft constraint in steps.
@@ -74,49 +86,29 @@ _BECAUSE = {
 }
 
 
-def _key(group: str, name: str) -> str:
-    """As MJCF spells it: a joint's own friction has names of its own."""
-    return f"slide.{name}friction" if group == "slide" else f"{group}.{name}"
-
-
 def _solver(scene: Scene) -> list[Choice]:
     """Solve to the end where a driven point's mass would tell the solver that it has arrived."""
     heavy = any(driven(scene)) or bool(scene.drives)
-    return [TO_THE_END] if _soft(scene) and heavy else []
-
-
-def ties(scene: Scene) -> bool:
-    """Whether the tuned recipe has numbers that follow the step."""
-    return bool(_soft(scene))
+    return [TO_THE_END] if soft(scene) and heavy else []
 
 
 def only_slides(scene: Scene) -> bool:
     """Whether they are those of dry slides alone."""
-    return _soft(scene) == ["slide"]
+    return soft(scene) == ["slide"]
 
 
-def _soft(scene: Scene) -> list[str]:
+def soft(scene: Scene) -> list[str]:
     """The groups of soft constraints in the scene."""
     loops = ["connect"] if spanning_tree(scene).loops else []
     dry = ["slide"] if any(joint.dry_friction for joint in scene.joints.values()) else []
     return loops + dry + (["pair"] if scene.contacts else [])
 
 
-def with_own(options: Mapping[str, Any], scene: Scene, tied_to: float) -> list[Choice]:
-    """The shipped setting with the user's own options on top."""
-    return overlaid(shipped(scene, tied_to), options, _soft(scene))
-
-
-def overlaid(
-    under: Sequence[Choice], options: Mapping[str, Any], soft: Sequence[str]
+def with_own(
+    options: Mapping[str, Any], scene: Scene, start: Start, tied_to: float
 ) -> list[Choice]:
-    """Choices with the user's own options on top."""
-    because = "your own option"
-    choices = {choice.name: choice for choice in under}
-    for name, value in options.items():
-        if name in SOFT:
-            named = [_key(group, name) for group in soft]
-        else:
-            named = [] if name == "step" else [f"option.{name}"]
-        choices |= {key: Choice(key, as_written(name, value), because) for key in named}
-    return list(choices.values())
+    """The shipped setting with the user's own options on top."""
+    word = options.get("contacts")
+    chosen_one = chosen(scene, start) if word == "scene" else word
+    contacts = RECIPES[chosen_one](scene) if scene.contacts and chosen_one else []
+    return at_step(overlaid(shipped(scene, tied_to), options, soft(scene), contacts), tied_to)

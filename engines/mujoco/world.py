@@ -1,6 +1,6 @@
 """What MuJoCo's plane and its space do otherwise, as functions; `MuJoCo` has the verbs."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import Any
@@ -18,15 +18,20 @@ Built = tuple[mujoco.MjModel, mujoco.MjData]
 class World:
     """Called with a scene and its start; functions of a run also with its step [s] and plan.
 
-    settles: whether bodies start as deep in the floor as it carries them, as the tuned setting
-    does. lent: what is compiled, for one run. built: the scene with what stands for joints that
-    MuJoCo has not, and its start.
+    settles: whether bodies start as deep in the floor as it carries them. best: the tuned recipe,
+    as a user writes it. recipes: those of contacts, by their words; worth: which to try. soft: the
+    groups of soft constraints. lent: what is compiled, for one run. built: the scene with what
+    stands for joints that MuJoCo has not, and its start.
     """
 
     unbuildable: Callable[[Any], str | None]
     ways: Callable[..., tuple[Realised, ...]]
     plan: Callable[..., Plan]
     tuned: Callable[..., list[Choice]]
+    best: Callable[..., list[Choice]]
+    recipes: Mapping[str, Callable[[Any], list[Choice]]]
+    worth: Callable[[Any], list[str]]
+    soft: Callable[[Any], list[str]]
     with_own: Callable[..., list[Choice]]
     compiled: Callable[..., Built]
     placed: Callable[..., tuple[mujoco.MjModel, mujoco.MjData, Any]]

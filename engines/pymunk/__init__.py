@@ -11,9 +11,12 @@ from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ..engine import Plain, Plan, Realised, Refusal, Start
 from ..heading import heading
-from . import plans, settings
+from ..knobs import Knob, Options
+from . import options, plans
 from .claims import answered
+from .knobs import STEPS, knobs
 from .law.inner import states
+from .own import as_options, own
 from .plain import plain
 from .plans import named
 from .read.health import Left
@@ -25,6 +28,7 @@ from .refuse import not_native, unbuildable
 from .run import placed, stepper
 from .scene import FAR, build
 from .script import text
+from .settings import SHIPPED_STEP
 
 
 @dataclass(frozen=True)
@@ -36,14 +40,15 @@ class Pymunk:
     name: str = "pymunk"
     version: str = pymunk.version
     offers: ClassVar[tuple[str, ...]] = ("shipped", "tuned")
+    steps: ClassVar[tuple[float, ...]] = STEPS
 
     def __post_init__(self) -> None:
-        settings.own(self.options)
+        options.check(self.options)
 
     @property
     def own_step(self) -> float | None:
         """10 ms unless tuned or set by the user: pymunk has no step of its own."""
-        return None if self._tuned else self.options.get("step", settings.SHIPPED_STEP)
+        return None if self._tuned else self.options.get("step", SHIPPED_STEP)
 
     @property
     def _tuned(self) -> bool:
@@ -55,12 +60,27 @@ class Pymunk:
         if refusal:
             return [Refusal("native", refusal)]
         without = [Refusal("native", why) for why in not_native(scene)]
-        if not self._tuned:
-            if without:
-                return without
-            return [plans.shipped(scene, settings.with_own(self.options, scene))]
-        best = recipe(scene, start)
-        return [*without, *(plans.tuned(scene, start, way, best) for way in plans.ways(scene))]
+        if without and not self._tuned:
+            return without
+        ways = plans.ways(scene) if self._tuned else ("native",)
+        numbers = recipe(scene, start) if self._tuned else own(self.options, scene, start)
+        shipped = self.setting == "shipped"
+        return [
+            *without,
+            *(plans.plan(scene, start, way, numbers, shipped=shipped) for way in ways),
+        ]
+
+    def knobs(self, scene: Scene, start: Start) -> list[Knob]:
+        """See `Tunable`."""
+        return knobs(scene, start)
+
+    def recipe(self, scene: Scene, start: Start) -> Options:
+        """See `Tunable`."""
+        return as_options(scene, start)
+
+    def cost(self, options: Options, step: float, scene: Scene) -> float:
+        """Steps in a simulated second: sweeps cost next to nothing beside the rest of a step."""
+        return 1 / step
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as pymunk's objects hold it, with which no number of a setting has to do."""

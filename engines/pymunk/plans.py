@@ -14,9 +14,12 @@ from .edge import alone
 from .force import damped
 from .lacking import lacking
 from .law.friction import ruled
+from .own import Own
 from .recipe import Recipe
 from .scene import oblique
 
+Numbers = Recipe | Own
+NOMINAL = 1e-3  # s; whether a bias is 0 depends on no step
 SIGNED = ("fx", "fy", "torque", "drive", "friction")
 
 
@@ -35,27 +38,19 @@ def ways(scene: Scene) -> tuple[Realised, ...]:
     return ("native", "law") if law else ("native",)
 
 
-def shipped(scene: Scene, choices: Sequence[Choice]) -> Plan:
-    """The plan of the shipped setting, or a user's own: of first order, no number follows h."""
-    return Plan(
-        "native",
-        held=(1, 2),
-        numbers=partial(_at_every_step, choices),
-        withheld=_withheld(scene),
-    )
-
-
-def tuned(scene: Scene, start: Start, realised: Realised, recipe: Recipe) -> Plan:
+def plan(
+    scene: Scene, start: Start, realised: Realised, numbers: Numbers, *, shipped: bool = False
+) -> Plan:
     """One way's plan. A bias that stays while h falls is of first order, as pymunk's own is."""
-    order = (1, 2) if _spoilt(scene, realised) else (2, 3)
+    order = (2, 3) if _second(scene, realised, numbers) else (1, 2)
     return Plan(
         realised,
-        held=(1, 2) if recipe.follows else order,
-        following=order if recipe.follows else None,
-        numbers=recipe,
-        protocol=partial(_words, scene, start, recipe),
+        held=(1, 2) if numbers.follows else order,
+        following=order if numbers.follows else None,
+        numbers=numbers,
+        protocol=partial(_words, scene, start, numbers),
         withheld=_withheld(scene),
-        simplified=one_number(scene) if realised == "native" else "",
+        simplified=one_number(scene) if realised == "native" and not shipped else "",
     )
 
 
@@ -64,8 +59,13 @@ def named(choices: Sequence[Choice]) -> dict[str, Any]:
     return {choice.name: choice.value for choice in choices}
 
 
-def _at_every_step(choices: Sequence[Choice], step: float) -> Sequence[Choice]:
-    return choices
+def _second(scene: Scene, realised: Realised, numbers: Numbers) -> bool:
+    """Whether errors are of second order: by the midpoint protocol, with whole gaps closed."""
+    known = named(numbers(NOMINAL))
+    closes = not scene.joints or numbers.follows or known.get("constraint.error_bias") == 0.0
+    touches = not scene.contacts or bool(known.get("start.seed"))
+    midpoint = bool(known.get("time.midpoint"))
+    return midpoint and closes and touches and not _spoilt(scene, realised)
 
 
 def _spoilt(scene: Scene, realised: Realised) -> bool:
@@ -103,15 +103,18 @@ def _withheld(scene: Scene) -> dict[str, str]:
     return edges | moved | joints
 
 
-def _words(scene: Scene, start: Start, recipe: Recipe, step: float) -> str:
+def _words(scene: Scene, start: Start, numbers: Numbers, step: float) -> str:
     """The half step along the velocities, contacts' depth at the start, and what holds a slot."""
-    numbers = named(recipe(step))
-    words = [f"started {step / 2:g} s back, positions read {step / 2:g} s ahead"]
-    if touching := closed(scene, start):
+    known, words = named(numbers(step)), []
+    if known.get("time.midpoint"):
+        words.append(f"started {step / 2:g} s back, positions read {step / 2:g} s ahead")
+    seed, touching = known.get("start.seed"), closed(scene, start)
+    if seed and touching:
         bodies = ", ".join(dict.fromkeys(contact.body for contact in touching))
         planes = " and the ".join(dict.fromkeys(contact.plane.name for contact in touching))
-        words.append(f"{bodies} started {numbers['start.seed']:g} m in the {planes}")
-    if slots := [joint.name for joint in scene.joints.values() if oblique(scene, joint)]:
+        words.append(f"{bodies} started {seed:g} m in the {planes}")
+    slots = [joint.name for joint in scene.joints.values() if oblique(scene, joint)]
+    if slots and known.get("slot.across"):
         words.append(f"{', '.join(slots)} held across by a pin joint that is carried along")
     if ours := [force.name for force, _ in lacking(scene)]:
         words.append(f"{', '.join(ours)} by our law before each step, which the script has not")

@@ -31,12 +31,23 @@ MISTAKES: list[tuple[str, dict[Any, Any], str]] = [
     ("mujoco", {"solref": [True, 1.0]}, "list of 2"),
     ("mujoco", {"solimp": [0.9, math.nan, 0.1]}, "list of 3 or 5"),
     ("mujoco", {"solimp": [0.9, 0.9]}, "list of 3 or 5"),
+    ("mujoco", {"solref": ["2hh", 1.0]}, "such as 2h, -1/h or -0.25/h2"),
+    ("mujoco", {"solref": ["1/h3", 1.0]}, "such as 2h"),
+    ("mujoco", {"solref": ["__import__('os')", 1.0]}, "such as 2h"),
+    ("mujoco", {"solimp": ["2h", 0.9, 0.001]}, "list of 3 or 5 finite numbers, is"),
+    ("mujoco", {"impratio": "2h"}, "at least 0"),
+    ("mujoco", {"diagexact": 1}, "true or false"),
+    ("mujoco", {"settled": "yes"}, "true or false"),
+    ("mujoco", {"contacts": "slidee"}, "did you mean 'slide'"),
+    ("mujoco", {"pair": [2, 1]}, "should be a map of solref, solimp, solreffriction"),
+    ("mujoco", {"conect": {}}, "did you mean 'connect'"),
+    ("mujoco", {"pair.solrf": [0.02, 1.0]}, "unknown option"),
     ("pymunk", {"iteration": 30}, "pymunk.iteration: unknown option; did you mean 'iterations'?"),
     ("pymunk", {"qqq": 1}, "pymunk.qqq: unknown option; known: step, iterations"),
     ("pymunk", {"iterations": 0}, "pymunk.iterations: should be a whole number from 1"),
     ("pymunk", {"iterations": 2.5}, "pymunk.iterations: should be a whole number"),
     ("pymunk", {"iterations": True}, "is True"),
-    ("pymunk", {"error_bias": -0.1}, "pymunk.error_bias: should be a number from 0 to 1, is -0.1"),
+    ("pymunk", {"error_bias": -0.1}, "should be a number from 0 to 1, or scene, is -0.1"),
     ("pymunk", {"max_bias": -1.0}, "pymunk.max_bias: should be a number from 0 on"),
     ("pymunk", {"max_bias": math.nan}, "is nan"),
     ("pymunk", {"damping": math.inf}, "pymunk.damping: should be a number from 0 on, is inf"),
@@ -44,7 +55,46 @@ MISTAKES: list[tuple[str, dict[Any, Any], str]] = [
     ("pymunk", {"collision_persistence": 0}, "should be a whole number from 1"),
     ("pymunk", {"step": 0.0}, "pymunk.step: should be a number above 0 seconds, is 0.0"),
     ("pymunk", {"step": math.nan}, "pymunk.step"),
+    ("pymunk", {"iterations": "scen"}, "a whole number from 1 to 1e+06, or scene, is 'scen'"),
+    ("pymunk", {"damping": "scene"}, "should be a number from 0 on, is 'scene'"),
+    ("pymunk", {"midpoint": 1}, "pymunk.midpoint: should be true or false, is 1"),
+    ("pymunk", {"seed": -1e-9}, "pymunk.seed: should be a number from 0 to 0.001"),
+    ("pymunk", {"seed": 1.0}, "pymunk.seed: should be a number from 0 to 0.001"),
+    ("pymunk", {"start_iterations": 0}, "whole number from 1 to 1e+06, or scene"),
 ]
+
+# In a group of MuJoCo's, with the whole line that names it.
+IN_GROUPS: list[tuple[dict[str, Any], str]] = [
+    (
+        {"pair": {"solrf": [0.02, 1.0]}},
+        "mujoco.pair.solrf: unknown option; did you mean 'solref'?",
+    ),
+    (
+        {"connect": {"solreffriction": [0.02, 1.0]}},
+        "mujoco.connect.solreffriction: unknown option; did you mean 'solref'?",
+    ),
+    (
+        {"joint": {"solimpfriction": [0.9, "2h", 0.001]}},
+        "mujoco.joint.solimpfriction: should be a list of 3 or 5 finite numbers, "
+        "is [0.9, '2h', 0.001]",
+    ),
+    (
+        {"pair": {"solref": ["h", 1.0]}},
+        "mujoco.pair.solref: should be a list of 2 finite numbers, or texts such as 2h, -1/h or "
+        "-0.25/h2, where h is the step, is ['h', 1.0]",
+    ),
+    (
+        {"pair": {1: 2}},
+        "mujoco.pair.1: unknown option; known: solref, solimp, solreffriction",
+    ),
+]
+
+
+@pytest.mark.parametrize(("options", "line"), IN_GROUPS, ids=str)
+def test_a_wrong_option_of_a_group_is_named(options: dict[str, Any], line: str) -> None:
+    with pytest.raises(ValueError, match="mujoco") as caught:
+        engines.make("mujoco", "own", options)
+    assert str(caught.value) == line
 
 
 @pytest.mark.parametrize(("name", "options", "words"), MISTAKES, ids=str)

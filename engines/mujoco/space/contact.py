@@ -6,41 +6,44 @@ of first order, whatever the integrator. Who takes J̇ v from `efc_aref` in the 
 an impratio of 1e8, has the second order (tested beside this, in test_wandering.py).
 """
 
+from collections.abc import Callable, Mapping
+
 from ....cases.space.scene import SpatialScene
-from ...engine import Choice
+from ...engine import Choice, Start
 from ..contact import HARDEST, SOFTEST
 
 
-def recipe(scene: SpatialScene, tied_to: float) -> list[Choice]:
+def recipe(scene: SpatialScene) -> list[Choice]:
     """The contacts' numbers."""
-    if not scene.contacts:
-        return []
+    return RECIPES[chosen(scene)](scene)
+
+
+def chosen(scene: SpatialScene, start: Start | None = None) -> str:
+    """Which of the recipes the scene needs, from any start."""
     rims = any(contact.rim or contact.ideal == "pivot" for contact in scene.contacts.values())
-    return [
-        *(_rim(tied_to) if rims else _sphere(tied_to)),
-        Choice("option.cone", "elliptic", "the pyramid's friction depends on the direction"),
-        Choice(
-            "flag.diagexact",
-            "enable",
-            "or d, k and b are those of a mean inertia over x, y and z, at another attitude",
-        ),
-    ]
+    return "rim" if rims else "roll"
 
 
-def _sphere(h: float) -> list[Choice]:
+def worth(scene: SpatialScene) -> list[str]:
+    """Which of the recipes may do something for the scene."""
+    return list(RECIPES)
+
+
+def _sphere(scene: SpatialScene) -> list[Choice]:
     return [
-        Choice("pair.solref", [2 * h, 1.0], "the stiffest that stays stable: 2 h"),
+        Choice("pair.solref", ["2h", 1.0], "the stiffest that stays stable: 2 h"),
         Choice("pair.solimp", [HARDEST, HARDEST, 0.001], "the hardest MuJoCo takes: d = 0.9999"),
         Choice("option.impratio", 100.0, "less creep; from 1e4 on Newton stops early"),
+        *_EITHER,
     ]
 
 
-def _rim(h: float) -> list[Choice]:
+def _rim(scene: SpatialScene) -> list[Choice]:
     """Measured on steady circles of a coin that leans by 8, 30 and 70 degrees, and on its fall."""
     return [
         Choice(
             "pair.solref",
-            [-0.1 / h**2, -0.4 / h],
+            ["-0.1/h2", "-0.4/h"],
             "k = 0.1/h², b = 0.4/h: stiffer, the normal force of what tilts is 10 times worse",
         ),
         Choice(
@@ -50,8 +53,21 @@ def _rim(h: float) -> list[Choice]:
         ),
         Choice(
             "pair.solreffriction",
-            [-1.0, -2 * SOFTEST / h],
+            [-1.0, f"{-2 * SOFTEST}/h"],
             "b = 2/h (times d, by which MuJoCo divides): slip h J̇ v/2; RK4 is stable up to 2.8/h",
         ),
         Choice("option.impratio", 1e6, "makes up for the soft d; Newton bears it"),
+        *_EITHER,
     ]
+
+
+_EITHER = (
+    Choice("option.cone", "elliptic", "the pyramid's friction depends on the direction"),
+    Choice(
+        "flag.diagexact",
+        "enable",
+        "or d, k and b are those of a mean inertia over x, y and z, at another attitude",
+    ),
+)
+RECIPES: Mapping[str, Callable[[SpatialScene], list[Choice]]] = {"roll": _sphere, "rim": _rim}
+"""By the word that an own option calls them."""

@@ -7,10 +7,10 @@ from functools import partial
 from ....cases.space.scene import SpatialScene
 from ...engine import Choice, Plan, Realised, Start
 from ..compilation import NOMINAL
+from ..plans import follows
 from ..scene import HEAVY, LEAST
 from ..tree import driven
 from .compilation import placed
-from .settings import soft_groups
 
 Numbers = Callable[[float], Sequence[Choice]]
 
@@ -21,12 +21,18 @@ def ways(scene: SpatialScene, start: Start, *, tuned: bool) -> tuple[Realised, .
 
 
 def plan(
-    scene: SpatialScene, start: Start, realised: Realised, numbers: Numbers, *, tuned: bool
+    scene: SpatialScene,
+    start: Start,
+    realised: Realised,
+    numbers: Numbers,
+    *,
+    settles: bool,
+    tuned: bool,
 ) -> Plan:
     """One way's plan. Nothing is withheld: all reactions can be read.
 
-    Exponents: Euler and contacts 1, 2; RK4 4, 5; soft constraints of the tuned recipe, which
-    follow the step, and steps with the mean of a force that jumps, 2, 3.
+    Exponents: Euler and contacts 1, 2; RK4 4, 5; soft constraints that follow the step, and
+    steps with the mean of a force that jumps, 2, 3.
     """
     integrator = {choice.name: choice.value for choice in numbers(NOMINAL)}["option.integrator"]
     jumps = any(law.corners for law in scene.laws())
@@ -35,13 +41,13 @@ def plan(
     bare = Plan(
         realised,
         held=(1, 2) if first else (2, 3) if jumps else (4, 5),
-        following=following if tuned and soft_groups(scene) else None,
+        following=following if follows(numbers) else None,
         numbers=numbers,
     )
-    return replace(bare, protocol=partial(_words, scene, start, bare, tuned))
+    return replace(bare, protocol=partial(_words, scene, start, bare, settles))
 
 
-def _words(scene: SpatialScene, start: Start, plan: Plan, tuned: bool, step: float) -> str:
+def _words(scene: SpatialScene, start: Start, plan: Plan, settles: bool, step: float) -> str:
     """What is heavy, what is light, and how what rolls is started."""
     words = []
     if any(driven(scene)):
@@ -56,7 +62,7 @@ def _words(scene: SpatialScene, start: Start, plan: Plan, tuned: bool, step: flo
         if body.inertia is not None and min(body.inertia[:3]) == 0.0
     ]
     words += [f"{name} has {LEAST:g} kg m² about its own axis" for name in slender]
-    if tuned and scene.contacts:
+    if settles and scene.contacts:
         *_, begun = placed(scene, start, step, plan, settles=True)
         words += [
             f"{name} started {depth:.1e} m in the floor, creeping {creep:.1e} m/s"

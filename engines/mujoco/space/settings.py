@@ -6,40 +6,51 @@ from typing import Any
 from ....cases.space.scene import SpatialScene
 from ...engine import Choice, Start
 from ..contact import HARDEST
-from ..settings import TO_THE_END, defaults, overlaid
+from ..own import overlaid
+from ..settings import TO_THE_END, at_step, defaults
 from ..tree import driven
-from .contact import recipe
+from .contact import RECIPES, chosen, recipe
 from .tree import spanning_tree
 
 
 def tuned(scene: SpatialScene, tied_to: float, start: Start | None = None) -> list[Choice]:
     """The best recipe for the scene from any start; soft constraints follow the step `tied_to`."""
+    return at_step(best(scene), tied_to)
+
+
+def best(scene: SpatialScene, start: Start | None = None) -> list[Choice]:
+    """The same in terms of h, as a user writes it."""
     choices = [
         Choice("option.integrator", "RK4", "fourth order; every other integrator is of the first"),
         Choice("option.jacobian", "dense", "small scenes; keeps 4.0.0's sparse solver out"),
     ]
-    soft = soft_groups(scene)
-    if soft and not _solver(scene):
+    groups = soft(scene)
+    if groups and not _solver(scene):
         choices.append(Choice("option.tolerance", 1e-14, "near rounding; 0 is five times slower"))
     choices += _solver(scene)
-    if "connect" in soft:
+    if "connect" in groups:
         because = "8 h: forces 100 times nearer than with 2 h: stages jerk at the pin; places ∝ h²"
         choices += [
-            Choice("connect.solref", [8 * tied_to, 1.0], because),
+            Choice("connect.solref", ["8h", 1.0], because),
             Choice(
                 "connect.solimp", [HARDEST, HARDEST, 0.001], "the hardest MuJoCo takes: d = 0.9999"
             ),
         ]
-    return choices + recipe(scene, tied_to)
+    return choices + (recipe(scene) if scene.contacts else [])
 
 
-def with_own(options: Mapping[str, Any], scene: SpatialScene, tied_to: float) -> list[Choice]:
+def with_own(
+    options: Mapping[str, Any], scene: SpatialScene, start: Start, tied_to: float
+) -> list[Choice]:
     """The shipped setting, which follows no step, with the user's own options on top."""
-    soft = soft_groups(scene)
-    return overlaid(defaults(soft, _solver(scene)), options, soft)
+    groups, word = soft(scene), options.get("contacts")
+    chosen_one = chosen(scene) if word == "scene" else word
+    contacts = RECIPES[chosen_one](scene) if scene.contacts and chosen_one else []
+    under = defaults(groups, _solver(scene))
+    return at_step(overlaid(under, options, groups, contacts), tied_to)
 
 
-def soft_groups(scene: SpatialScene) -> list[str]:
+def soft(scene: SpatialScene) -> list[str]:
     """The groups of soft constraints in the scene."""
     loops = ["connect"] if spanning_tree(scene).loops else []
     return loops + (["pair"] if scene.contacts else [])
@@ -48,4 +59,4 @@ def soft_groups(scene: SpatialScene) -> list[str]:
 def _solver(scene: SpatialScene) -> list[Choice]:
     """Solve to the end where a heavy mass would tell the solver that it has arrived."""
     heavy = any(driven(scene)) or bool(scene.drives)
-    return [TO_THE_END] if soft_groups(scene) and heavy else []
+    return [TO_THE_END] if soft(scene) and heavy else []

@@ -2,12 +2,13 @@
 
 from ..world import World
 from .compilation import compiled, lent, placed
+from .contact import RECIPES, worth
 from .plans import plan, ways
 from .read.measure import measured
 from .refuse import unbuildable
 from .run import simulate
 from .scene import mjcf, signals
-from .settings import tuned, with_own
+from .settings import best, soft, tuned, with_own
 
 
 def unwritten(*given: object) -> None:
@@ -15,6 +16,7 @@ def unwritten(*given: object) -> None:
 
 
 SPACE = World(
-    unbuildable, ways, plan, tuned, with_own, compiled, placed, lent, measured, mjcf, signals,
+    unbuildable, ways, plan, tuned, best, RECIPES, worth, soft, with_own, compiled, placed, lent,
+    measured, mjcf, signals,
     simulate, unwritten,
 )  # fmt: skip

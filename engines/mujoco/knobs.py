@@ -1,0 +1,111 @@
+"""What of MuJoCo can be turned for a scene: a closed list, each value measured in some case.
+
+A group's solref, solimp and solreffriction are one knob: they spoil each other alone.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from ...cases.scene import Scene
+from ..engine import Choice
+from ..knobs import Knob, Options, Value, said
+from .contact import HARDEST, SOFTEST
+from .own import as_options
+
+STEPS = (8e-3, 4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4)  # s
+STAGES = {"RK4": 4}  # evaluations of the dynamics in a step; every other integrator takes one
+_HARD, _MIDDLE, _SOFT = ([d, d, 0.001] for d in (HARDEST, 0.99, SOFTEST))
+_STIFF = ("2h", "4h", "10h")  # time constants
+
+
+def knobs(
+    scene: Scene,
+    best: Sequence[Choice],
+    soft: Sequence[str],
+    bundles: Mapping[str, Sequence[Choice]],
+) -> list[Knob]:
+    """Those that matter for the scene. best: the tuned recipe; soft: its groups.
+
+    bundles: the recipes for contacts that fit it.
+    """
+    tuned = as_options(scene, best)
+    found = [
+        Knob(
+            "integrator",
+            tuple(_of("integrator", word) for word in ("implicitfast", "implicit", "RK4")),
+            _of("integrator", tuned["integrator"]),
+        ),
+        *(_softness(_GROUPS[group], tuned) for group in soft),
+    ]
+    if scene.contacts:
+        found += _contacts(scene, tuned)
+    if "noslip_iterations" in tuned or scene.contacts:
+        found.append(_knob("noslip_iterations", [5], tuned))
+    if "diagexact" in tuned:
+        found.append(_knob("diagexact", [True], tuned))
+    if scene.contacts:
+        start = Value("a settled start", {"settled": True})
+        found.append(Knob("start", (start,), start, "protocol"))
+        recipes = tuple(
+            Value(f"contacts: {word}", as_options(scene, choices))
+            for word, choices in bundles.items()
+        )
+        found.append(Knob("contacts", recipes, kind="bundle"))
+    return found
+
+
+def _contacts(scene: Scene, tuned: Options) -> Iterator[Knob]:
+    """The pyramid's friction and its creep."""
+    if any(contact.friction for contact in scene.contacts.values()):
+        yield _knob("cone", ["elliptic"], tuned)
+        yield _knob("impratio", [10.0, 100.0, 1e4, 1e6], tuned)
+
+
+def _knob(name: str, values: Sequence[Any], tuned: Options) -> Knob:
+    best = _of(name, tuned[name]) if name in tuned else None
+    return Knob(name, tuple(_of(name, value) for value in values), best)
+
+
+def _of(name: str, value: Any) -> Value:
+    if value is True or name == "noslip_iterations":
+        return Value(name.partition("_")[0], {name: value})
+    if isinstance(value, str):
+        return Value(value if name == "integrator" else f"{value} {name}", {name: value})
+    return Value(f"{name} {said(value)}", {name: value})
+
+
+_GROUPS = {"connect": "connect", "pair": "pair", "slide": "joint"}
+_WHOSE = {"connect": "loops", "pair": "contacts", "joint": "dry joints"}
+
+
+def _softness(element: str, tuned: Options) -> Knob:
+    """The time constant, how hard it is, both, and what the tuned recipe has."""
+    pushes, holds = ("solref", "solimp")
+    if element == "joint":
+        pushes, holds = "solreffriction", "solimpfriction"
+    whose = _WHOSE[element]
+
+    def value(**numbers: Any) -> Value:
+        words = (f"d = {n[0]:g}" if k == holds else f"{k} {said(n)}" for k, n in numbers.items())
+        return Value(f"{whose}: {', '.join(words)}", {element: numbers})
+
+    springs: list[list[Any]] = [[text, 1.0] for text in _STIFF]
+    hardness = [_HARD, _MIDDLE]
+    if element == "pair":
+        springs += [["-0.25/h2", "-1/h"], ["-0.04/h2", 0.0]]
+        hardness.append(_SOFT)
+    values = [
+        *(value(**{pushes: spring}) for spring in springs),
+        *(value(**{holds: d}) for d in hardness),
+        *(value(**{pushes: spring, holds: _HARD}) for spring in springs[:2]),
+    ]
+    numbers = tuned.get(element)
+    best = value(**numbers) if numbers else None
+    if best and best.options not in [one.options for one in values]:
+        values.append(best)
+    return Knob(f"softness of {whose}", tuple(values), best)
+
+
+def cost(options: Options, step: float) -> float:
+    """Evaluations of the dynamics in a simulated second."""
+    return STAGES.get(options.get("integrator", ""), 1) / step
