@@ -84,3 +84,24 @@ class Certificate:
     certified: float | None
     unit: str
     verdict: str
+
+
+@dataclass(frozen=True)
+class Cause:
+    """A row of causes.csv: what brings a quantity within its tolerance; of several a row each.
+
+    cure: in words; or that none was found, or looked for.
+    """
+
+    case: str
+    engine: str
+    setting: str
+    quantity: str
+    error_before: float | None
+    allow: float | None
+    cure: str
+    options: str  # YAML, as in a file of settings
+    step: float | None
+    error_after: float | None
+    cost: float | None  # over the row's own, of a simulated second
+    law: str  # how the error follows the cure's one number

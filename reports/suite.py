@@ -10,7 +10,7 @@ from ..cases.case import Case
 from ..cases.mistake import CaseError, Mistake
 from ..cases.trajectory import Trajectory
 from ..engines.engine import Engine, Refusal
-from ..reference.solve import Solution, solve
+from ..reference.solve import Solution
 from .cache.key import Keys
 from .cache.store import Store, passing
 from .events.states import mistaken
@@ -20,12 +20,14 @@ from .judge.metric import told
 from .judge.uncertified import failing, uncertified
 from .pool import Died, local
 from .results import Progress, Results
-from .row import FAILS, Certificate, Comparison, Instant, Rungs
+from .row import FAILS, Cause, Certificate, Comparison, Instant, Rungs
+from .search.because import with_causes
+from .search.causes import causes as found_causes
 from .selection import sound
 from .trial.book import producers
 from .trial.trial import Trial
 from .trials import Tried, tried
-from .unit import Pair
+from .unit import Pair, solved
 
 OF_BOUND = 0.1  # of what a check must keep: below it a difference is its rounding
 
@@ -43,6 +45,7 @@ class Report:
     equations: dict[str, set[str]] = field(default_factory=dict)  # case → executed equations
     cases: list[Case] = field(default_factory=list)
     solutions: dict[str, Solution] = field(default_factory=dict)
+    causes: list[Cause] = field(default_factory=list)
     lost: dict[str, str] = field(default_factory=dict)  # case → why it has no reference
     mistakes: list[Mistake] = field(default_factory=list)  # of files that are left out
     tried: list[Tried] = field(default_factory=list)
@@ -60,13 +63,15 @@ def measure(
     jobs: int = 1,
     progress: Progress,
     book: bool = True,
+    causes: bool = False,
     store: Store | None = None,
     executor: Executor | None = None,
 ) -> Report:
     """Solves every case once and runs every trial once, on `jobs` processes of this machine.
 
-    book: whether the book's own approximations stand beside the engines. store: where results are
-    kept as they come, and taken from if nothing that they depend on has changed; None: nowhere.
+    book: whether the book's own approximations stand beside the engines. causes: whether what
+    cures each row above its tolerance is searched for, which takes more runs. store: where results
+    are kept as they come, and taken from if nothing that they depend on has changed; None: nowhere.
     executor: any of `concurrent.futures`, a cluster's for instance, in place of the processes.
 
     A mistake that only solving finds costs its own file: `mistakes` of the report tells them.
@@ -90,12 +95,13 @@ def measure(
         for pair in pairs:
             if pair.case in report.cases and pair.case.name in report.lost:
                 _without_reference(pair, report)
+        _explain(known, results, report, search=causes)
         return report
 
 
 def _solve(cases: Sequence[Case], results: Results, report: Report) -> None:
     keys = {case.name: results.keys.solution(case) for case in cases}
-    found = results.of("references", _solved, {keys[case.name]: case for case in cases})
+    found = results.of("references", solved, {keys[case.name]: case for case in cases})
     answers = {case.name: found[keys[case.name]] for case in cases}
     report.mistakes += [m for case in cases for m in _wrong(case, answers[case.name])]
     report.cases = sound(cases, report.mistakes)
@@ -132,19 +138,23 @@ def _take(one: Tried, report: Report) -> None:
     report.tried.append(replace(one, outcome=outcome))
 
 
+def _explain(pairs: Sequence[Pair], results: Results, report: Report, *, search: bool) -> None:
+    moments = {
+        (one.pair.case.name, one.pair.engine.name, one.pair.engine.setting, name): words
+        for one in report.tried
+        if one.realised == "native"
+        for name, words in one.outcome.moments.items()
+    }
+    report.causes = found_causes(report.comparisons, pairs, results, search=search)
+    report.comparisons = with_causes(report.comparisons, report.causes, moments)
+
+
 def _without_reference(pair: Pair, report: Report) -> None:
     """Its rows say so: nothing can be compared."""
     because = f"there is no reference: {report.lost[pair.case.name]}"
     nothing = Trajectory(pair.case.times, {}, {})
     trial = Trial(pair.case, nothing, pair.engine, Refusal("native", because))
     report.comparisons += failing(crashed(trial, because), because).rows
-
-
-def _solved(case: Case) -> Solution | CaseError:
-    try:
-        return solve(case)
-    except CaseError as error:
-        return error
 
 
 def _certificates(case: Case, solution: Solution) -> list[Certificate]:

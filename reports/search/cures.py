@@ -4,112 +4,134 @@ What one change does alone tells no cause: put in and taken out name different o
 not add up. So all sets of a size are tried, and those of the smallest size that cures are named.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import combinations, pairwise
+from itertools import combinations
 
 from .candidate import Candidate
 from .errors import of
-from .lever import Field, Lever, Turned
+from .law import law
+from .lever import STEP, Field, Lever, Turned
 from .together import Asking, Known
 
-LARGEST = 3  # levers in a set
-LARGEST_OF_ALL = 4  # where no smaller set cures
-MANY = 4  # levers from which on it pays to ask first which of them matter
+LARGEST = 4  # levers in a set
+MANY = 6  # levers, from which on it pays to ask first which of them matter
 SAME = 0.1  # of an error: a change of less than that is none
 
 
 @dataclass(frozen=True)
 class Cure:
-    """A smallest set, and the largest step [s] of the ladder from which on it keeps the bound."""
+    """A smallest set, at the largest step of the ladder from which on it keeps the bound."""
 
     turned: Turned
     candidate: Candidate
     error: float  # over what is allowed
+    law: str
 
 
 @dataclass(frozen=True)
 class Cured:
-    """Of one row: its error before, and all cures of the smallest size; none where none is found.
+    """Of one row: its cures of the smallest size, or none.
 
     elsewhere: they cure what is not beside an instant; with the instant nothing does.
     """
 
-    before: float
-    cures: Sequence[Cure]
+    cures: Sequence[Cure] = ()
     elsewhere: bool = False
 
 
+@dataclass(frozen=True)
+class _Search:
+    """What cures are looked for in; elsewhere: whether beside instants anything may be."""
+
+    field: Field
+    known: Known
+    elsewhere: bool
+
+    def error(self, candidate: Candidate, row: str) -> float:
+        return of(self.known[candidate], row, elsewhere=self.elsewhere)
+
+
 def cures(field: Field, known: Known, rows: Sequence[str]) -> Asking[dict[str, Cured]]:
-    """For each row: a quantity's name."""
+    """For each row, a quantity's name: of the whole error, or else of the one away from instants."""
     yield [field.base]
-    names = {row: field.levers for row in rows}
-    found: dict[str, Cured] = {}
-    for size in range(1, LARGEST_OF_ALL + 1):
+    whole, away = (_Search(field, known, elsewhere) for elsewhere in (False, True))
+    found = yield from _smallest(whole, rows)
+    left = [
+        row
+        for row in rows
+        if row not in found and 1.0 < away.error(field.base, row) < whole.error(field.base, row)
+    ]
+    others = yield from _smallest(away, left)
+    cured = {row: Cured(sets) for row, sets in found.items()}
+    cured |= {row: Cured(sets, elsewhere=True) for row, sets in others.items()}
+    return {row: cured.get(row, Cured()) for row in rows}
+
+
+def _smallest(search: _Search, rows: Sequence[str]) -> Asking[dict[str, Sequence[Cure]]]:
+    """The cures of each row that has any."""
+    field, found = search.field, dict[str, Sequence[Cure]]()
+    matter: Mapping[str, Sequence[Lever]] = dict.fromkeys(rows, field.levers)
+    for size in range(1, LARGEST + 1):
         left = [row for row in rows if row not in found]
         if size == 2 and len(field.levers) >= MANY and left:
-            names |= yield from _that_matter(field, known, left)
-        sets = {row: list(combinations(names[row], size)) for row in left}
+            matter = yield from _that_matter(search, left)
+        sets = {row: list(combinations(matter[row], size)) for row in left}
         yield {field.candidate(turned) for row in left for turned in sets[row]}
-        cured = {row: list(_within(field, known, row, sets[row])) for row in left}
-        yield {finer for row in left for turned in cured[row] for finer in _rungs(field, turned)}
+        within = {
+            row: [t for t in sets[row] if search.error(field.candidate(t), row) <= 1.0]
+            for row in left
+        }
+        yield {c for row in left for turned in within[row] for c in _asked(field, turned)}
         for row in left:
-            if lasting := list(_lasting(field, known, row, cured[row])):
-                found[row] = Cured(of(known[field.base], row), lasting)
-    return {row: found.get(row) or Cured(of(known[field.base], row), ()) for row in rows}
-
-
-def _within(
-    field: Field, known: Known, row: str, sets: Iterable[Turned]
-) -> Iterator[Turned]:
-    for turned in sets:
-        if of(known[field.candidate(turned)], row) <= 1.0:
-            yield turned
+            if lasting := list(_lasting(search, row, within[row])):
+                found[row] = lasting
+    return found
 
 
 def _rungs(field: Field, turned: Turned) -> list[Candidate]:
     """The steps by which it is seen whether a set cures for good, coarse to fine.
 
     Of one with the step all between; of any other its own and the next finer one: at one step
-    alone errors beside an event may be small by luck.
+    alone an error beside an event may be small by luck.
     """
     candidate = field.candidate(turned)
-    if any(lever.finer for lever in turned):
+    if STEP in turned:
         return [candidate.at(step) for step in field.steps[1:]]
     return [candidate, candidate.at(candidate.step / 2)]
 
 
-def _lasting(
-    field: Field, known: Known, row: str, sets: Iterable[Turned]
-) -> Iterator[Cure]:
+def _asked(field: Field, turned: Turned) -> list[Candidate]:
+    return [*_rungs(field, turned), *field.along(turned)[1].values()]
+
+
+def _lasting(search: _Search, row: str, sets: Iterable[Turned]) -> Iterator[Cure]:
     """Those that keep the bound from a step on, at the largest such step."""
     for turned in sets:
-        rungs = _rungs(field, turned)
-        usable = None
+        rungs, usable = _rungs(search.field, turned), None
         for candidate in reversed(rungs):
-            if not of(known[candidate], row) <= 1.0:
+            if not search.error(candidate, row) <= 1.0:
                 break
             usable = candidate
-        finer = any(lever.finer for lever in turned)
-        if usable is not None and (finer or usable == rungs[0]):
-            yield Cure(turned, usable, of(known[usable], row))
+        if usable is not None and (STEP in turned or usable == rungs[0]):
+            number, along = search.field.along(turned)
+            told = law(number, {x: search.error(c, row) for x, c in along.items()})
+            yield Cure(turned, usable, search.error(usable, row), told)
 
 
-def _that_matter(
-    field: Field, known: Known, rows: Sequence[str]
-) -> Asking[dict[str, list[Lever]]]:
-    """Of each row the levers that change its error put in alone, or taken out of all others."""
-    knobs = [lever for lever in field.levers if not lever.finer]
-    every = field.candidate(knobs)
-    without = {lever: field.candidate(k for k in knobs if k != lever) for lever in knobs}
+def _that_matter(search: _Search, rows: Sequence[str]) -> Asking[dict[str, list[Lever]]]:
+    """Of each row the levers that change its error, put in alone or taken out of all.
+
+    Both are asked: from afar a motion may be as far off with a lever as without it.
+    """
+    field = search.field
+    every = field.candidate(field.levers)
+    without = {one: field.candidate(k for k in field.levers if k is not one) for one in field.levers}
     yield [every, *without.values()]
 
     def matters(lever: Lever, row: str) -> bool:
-        if lever.finer:
-            return True
-        alone = field.candidate([lever])
-        ends = (field.base, alone), (every, without[lever])
-        return any(_differ(*(of(known[c], row) for c in end)) for end in ends)
+        ends = (field.base, field.candidate([lever])), (every, without[lever])
+        return any(_differ(*(search.error(c, row) for c in end)) for end in ends)
 
     return {row: [lever for lever in field.levers if matters(lever, row)] for row in rows}
 
