@@ -21,6 +21,7 @@ from .plane import PLANE
 from .refuse import not_native, uncompilable
 from .rods import of_scene
 from .script import commented, controls
+from .snippet import said, snippet
 from .space.world import SPACE
 from .world import World
 
@@ -98,6 +99,14 @@ class MuJoCo:
         """Evaluations of the dynamics in a simulated second: steps × stages."""
         return cost(options, step)
 
+    def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
+        """Elements of the MJCF file."""
+        world = _world(scene)
+        scene, start = world.built(scene, start)
+        with_own = partial(world.with_own, scene=scene, start=start, tied_to=step)
+        notes = said(options, contacts=bool(scene.contacts), plane=world is PLANE)
+        return snippet(with_own(options), with_own({}), step, notes)
+
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as the compiled model holds it."""
         world = _world(scene)
@@ -119,10 +128,13 @@ class MuJoCo:
     ) -> str:
         """The MJCF file with its start as a keyframe, headed by comments."""
         world, choices = _world(scene), [timestep(step), *plan.choices(step)]
+        options = self.recipe(scene, start) if self._tuned and plan.realised == "native" else {}
         scene, start = world.built(scene, start)
         model, *_ = world.placed(scene, start, step, plan, settles=self._settles)
         begun = model.key_qpos[0].tolist(), model.key_qvel[0].tolist()
-        head = commented(heading(self, title, step, plan)) + controls(model, world.signals(scene))
+        head = commented(heading(self, title, step, plan, options)) + controls(
+            model, world.signals(scene)
+        )
         return head + world.mjcf(scene, start, choices, begun)
 
     def run(

@@ -29,6 +29,7 @@ from .run import placed, stepper
 from .scene import FAR, build
 from .script import text
 from .settings import SHIPPED_STEP
+from .snippet import snippet
 
 
 @dataclass(frozen=True)
@@ -82,6 +83,11 @@ class Pymunk:
         """Steps in a simulated second: sweeps cost next to nothing beside the rest of a step."""
         return 1 / step
 
+    def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
+        """Lines of Python."""
+        world = build(scene, start, {}, "native")
+        return snippet(world, start, own(options, scene, start)(step), step)
+
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as pymunk's objects hold it, with which no number of a setting has to do."""
         return measured(build(scene, start, {}, "native"))
@@ -97,7 +103,9 @@ class Pymunk:
     ) -> str:
         """A Python script that needs only pymunk."""
         numbers = named(plan.choices(step))
-        return text(scene, start, step, numbers, heading(self, title, step, plan))
+        options = self.recipe(scene, start) if self._tuned and plan.realised == "native" else {}
+        head = heading(self, title, step, plan, options)
+        return text(scene, start, step, numbers, head)
 
     def run(
         self,

@@ -52,7 +52,7 @@ _CARRIED = [
     *getsource(carried).splitlines(),
     "",
 ]
-_SHIFT = """
+SHIFT = """
 # pymunk drifts, then kicks: start h/2 back, so that forces act in the middle of a step.
 for body in bodies.values():
     body.position -= h / 2 * body.velocity
@@ -112,8 +112,8 @@ def building(world: World, start: Start, numbers: Mapping[str, Any]) -> list[str
     if world.stride:
         lines.append(f"meets = {world.stride.meets!r}  # the feet that the floor meets")
     if seed:
-        lines += _seeds(world, start, seed)
-    return lines + ([_SHIFT] if midpoint else [])
+        lines += seeds(world, start, seed)
+    return lines + ([SHIFT] if midpoint else [])
 
 
 def before_each(world: World, numbers: Mapping[str, Any]) -> list[str]:
@@ -132,7 +132,7 @@ def _sweeps(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
         yield f"    space.iterations = {cold} if n < {COLD} else {usual}"
 
 
-def _seeds(world: World, start: Start, seed: float) -> list[str]:
+def seeds(world: World, start: Start, seed: float) -> list[str]:
     lines = ["", "# a circle that only touches would fall freely for one step"]
     for contact in closed(world.scene, start):
         body, wheel = _of(world, world.wheel(contact.name)), world.wheels[contact.name]

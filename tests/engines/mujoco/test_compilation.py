@@ -3,7 +3,6 @@
 # MuJoCo's bindings are compiled and have no stubs.
 # pyright: reportAttributeAccessIssue=false
 
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -12,6 +11,7 @@ import numpy as np
 import pytest
 from given import engine_scenes as given
 from given import scenes
+from given.models import differing
 from given.planning import CASES, NATIVE, begun, planned
 
 from textmech.cases.frame import PLANE
@@ -25,24 +25,6 @@ from textmech.reports.trial.start import assembled, first
 from textmech.reports.trial.trial import Trial
 
 TUNED = MuJoCo("tuned")
-
-
-def fields(thing: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:
-    """Every number and array of a compiled model, its options and statistics too."""
-    for name in dir(thing):
-        if name.startswith("_"):
-            continue
-        value = getattr(thing, name)
-        if isinstance(value, np.ndarray | int | float | bytes):
-            yield prefix + name, value
-        elif type(value).__name__.startswith("Mj") and prefix == "":
-            yield from fields(value, f"{name}.")
-
-
-def differing(a: mujoco.MjModel, b: mujoco.MjModel) -> list[str]:
-    both = list(zip(fields(a), fields(b), strict=True))
-    assert len(both) > 300
-    return [name for (name, x), (_, y) in both if not np.array_equal(x, y)]
 
 
 @pytest.mark.whole

@@ -1,0 +1,111 @@
+"""What is to be pasted is pasted here: the engine then holds the options' very numbers."""
+
+# MuJoCo's bindings are compiled and have no stubs.
+# pyright: reportAttributeAccessIssue=false
+
+from typing import Any
+
+import mujoco
+import pymunk
+import pytest
+from given.models import differing
+from given.planning import begun, planned
+from pymunk.constraints import DampedRotarySpring, DampedSpring
+
+from textmech.engines.engine import Choice
+from textmech.engines.knobs import Options
+from textmech.engines.mujoco import MuJoCo
+from textmech.engines.mujoco.compilation import timestep
+from textmech.engines.mujoco.plane import PLANE
+from textmech.engines.mujoco.space.world import SPACE
+from textmech.engines.pymunk import Pymunk
+from textmech.engines.pymunk.plans import named
+from textmech.engines.pymunk.run import placed
+from textmech.engines.pymunk.scene import build
+from textmech.engines.pymunk.script import building
+
+STEP = 5e-4
+RECIPE: Options = {}  # stands for the tuned one
+
+MUJOCO: list[tuple[str, Options]] = [
+    ("bar_pendulum", {"integrator": "implicit"}),
+    ("four_bar", {"connect": {"solref": ["10h", 1.0]}, "iterations": 50}),
+    ("four_bar", RECIPE),
+    ("dynamometer", RECIPE),
+    ("sliding_block.braking", {"contacts": "slide"}),
+    ("tipping_block", RECIPE),
+    ("rolling_wheel.downhill", {"solimp": [0.99, 0.99, 0.001], "impratio": 10.0}),
+    ("spatial_four_bar", RECIPE),
+    ("driven_wheel.circle", RECIPE),
+]
+
+
+@pytest.mark.parametrize(("name", "options"), MUJOCO, ids=str)
+def test_elements_for_mujoco(name: str, options: Options) -> None:
+    """Pasted into the scene's file without any setting."""
+    scene, start = begun(name)
+    options = options or MuJoCo("shipped").recipe(scene, start)
+    engine = MuJoCo("own", {**options, "step": STEP})
+    world = SPACE if scene.frame.dimension == 3 else PLANE
+    plan = planned(engine, scene, start)
+    given = [c for c in planned(MuJoCo("shipped"), scene, start).choices(STEP) if _heavy(c)]
+    # noslip needs a freedom more, which no option is
+    given += [Choice(c.name, 1, "") for c in plan.choices(STEP) if "noslip" in c.name]
+    bare = world.mjcf(scene, start, [timestep(1.0), *given])
+    snippet = engine.snippet(scene, start, options, STEP)
+    head, tag, rest = bare.partition("<worldbody>")
+    both = mujoco.MjModel.from_xml_string(head + snippet + tag + rest)
+    wanted, _ = world.compiled(scene, start, STEP, plan)
+    for field in ("dof_solref", "dof_solimp"):  # a default is also for joints that do not rub
+        idle = wanted.dof_frictionloss == 0
+        getattr(both, field)[idle] = getattr(wanted, field)[idle]
+    assert not differing(both, wanted)
+    assert differing(mujoco.MjModel.from_xml_string(bare), wanted)
+
+
+def _heavy(choice: Choice) -> bool:
+    """What stands in every file of a scene with driven points, whatever the setting."""
+    return choice.name == "option.tolerance"
+
+
+PYMUNK: list[tuple[str, Options]] = [
+    ("bar_pendulum", {"iterations": 30, "error_bias": 0.0, "max_bias": 10.0}),
+    ("four_bar", RECIPE),
+    ("rolling_wheel.downhill", RECIPE),
+    ("bouncing_disk.plastic", RECIPE),
+    ("sliding_ladder", RECIPE),
+    ("sliding_block.below", {"seed": 1e-8, "collision_persistence": 1}),
+    ("spring_mass_damper.critical", RECIPE),
+]
+
+
+@pytest.mark.parametrize(("name", "options"), PYMUNK, ids=str)
+def test_lines_for_pymunk(name: str, options: Options) -> None:
+    """Pasted after the lines that build the scene as it is shipped."""
+    scene, start = begun(name)
+    options = options or Pymunk("shipped").recipe(scene, start)
+    engine = Pymunk("own", {**options, "step": STEP})
+    lines = building(build(scene, start, {}, "native"), start, {})
+    names: dict[str, Any] = {}
+    exec("\n".join(["import math", "import pymunk", *lines]), names)
+    space = names["space"]
+    names["joints"] = [j for j in space.constraints if not isinstance(j, _SPRINGS)]
+    before = held(space)
+    exec(engine.snippet(scene, start, options, STEP), names)
+    numbers = named(planned(engine, scene, start).choices(STEP))
+    wanted = placed(scene, start, STEP, numbers, "native").space
+    assert names["h"] == STEP
+    assert held(space) == held(wanted)
+    assert held(space) != before
+
+
+_SPRINGS = (DampedSpring, DampedRotarySpring)
+
+
+def held(space: pymunk.Space) -> list[Any]:
+    """All that an option can change."""
+    bodies = [(*body.position, body.angle, *body.velocity) for body in space.bodies]
+    circles = [s.radius for s in space.shapes if isinstance(s, pymunk.Circle)]
+    joints = [(joint.error_bias, joint.max_bias) for joint in space.constraints]
+    names = ("iterations", "damping", "collision_slop", "collision_bias", "collision_persistence")
+    return [[getattr(space, name) for name in names], bodies, circles, joints]
