@@ -6,7 +6,7 @@ READY := $(VENV)/.ready
 .PHONY: reports test quick lint bench clean
 
 reports: $(READY)
-	$(VENV)/bin/textmech run
+	$(VENV)/bin/textmech run --causes
 
 test: $(READY)
 	$(VENV)/bin/pytest -n auto --dist worksteal

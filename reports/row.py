@@ -105,3 +105,24 @@ class Cause:
     error_after: float | None
     cost: float | None  # over the row's own, of a simulated second
     law: str  # how the error follows the cure's one number
+
+
+@dataclass(frozen=True)
+class Advice:
+    """A row of advice.csv: the minimal recipe for a case in an engine, natively; or what remains.
+
+    The recipe in words, `none` where nothing keeps the bar; `worst` is an error over its tolerance.
+    """
+
+    case: str
+    engine: str
+    tolerance: float | None  # of each quantity's size; None: as the case allows
+    margin: float
+    recipe: str
+    options: str  # YAML, as in a file of settings
+    step: float | None
+    cost: float | None  # of a simulated second, as the engine counts it
+    shipped_cost: float | None
+    worst: float | None
+    quantity: str
+    remains: str

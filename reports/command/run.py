@@ -45,6 +45,12 @@ def named_engines(beside: str = "") -> Callable[[Any], Any]:
     help="Only this setting; a FILE of your own engine options is a further column, with its name. "
     "May be repeated.",
 )
+@click.option(
+    "--causes",
+    is_flag=True,
+    help="Search for what cures each row above its tolerance: the smallest sets of options between "
+    "shipped and tuned. It takes half as long again; `make reports` does so.",
+)
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default.")
 @click.option(
     "--out",
@@ -74,6 +80,7 @@ def run(
     cases: tuple[str, ...],
     names: tuple[str, ...],
     settings: tuple[str, ...],
+    causes: bool,
     jobs: int | None,
     out: Path | None,
     keep: Path | None,
@@ -119,6 +126,7 @@ def run(
             jobs=jobs or pool.workers(),
             progress=progress,
             book=book,
+            causes=causes,
             store=used,
             executor=working,
         )

@@ -14,7 +14,7 @@ from .law import law
 from .lever import STEP, Field, Lever, Turned
 from .together import Asking, Known
 
-LARGEST = 4  # levers in a set
+LARGEST = 4  # levers in a set whose smaller ones have all been tried
 MANY = 6  # levers, from which on it pays to ask first which of them matter
 SAME = 0.1  # of an error: a change of less than that is none
 
@@ -72,11 +72,11 @@ def _smallest(search: _Search, rows: Sequence[str]) -> Asking[dict[str, Sequence
     """The cures of each row that has any."""
     field, found = search.field, dict[str, Sequence[Cure]]()
     matter: Mapping[str, Sequence[Lever]] = dict.fromkeys(rows, field.levers)
-    for size in range(1, LARGEST + 1):
+    for size in range(1, LARGEST + 2):
         left = [row for row in rows if row not in found]
         if size == 2 and len(field.levers) >= MANY and left:
             matter = yield from _that_matter(search, left)
-        sets = {row: list(combinations(matter[row], size)) for row in left}
+        sets = {row: _sets(matter[row], size) for row in left}
         yield {field.candidate(turned) for row in left for turned in sets[row]}
         within = {
             row: [t for t in sets[row] if search.error(field.candidate(t), row) <= 1.0]
@@ -87,6 +87,13 @@ def _smallest(search: _Search, rows: Sequence[str]) -> Asking[dict[str, Sequence
             if lasting := list(_lasting(search, row, within[row])):
                 found[row] = lasting
     return found
+
+
+def _sets(matter: Sequence[Lever], size: int) -> list[Turned]:
+    """All of that size; beyond the largest, all levers that matter, together."""
+    if size > LARGEST:
+        return [tuple(matter)] if len(matter) > LARGEST else []
+    return list(combinations(matter, size))
 
 
 def _rungs(field: Field, turned: Turned) -> list[Candidate]:

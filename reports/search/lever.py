@@ -77,12 +77,14 @@ def levers(knobs: Iterable[Knob], base: Options) -> Iterator[Lever]:
             continue
         numbers = [dict(_numbers(value.options)) for value in knob.values]
         varied = {name for found in numbers for name in found}
+        grouped = any(isinstance(value, Mapping) for value in knob.tuned.options.values())
+        words = knob.name if grouped else knob.tuned.words  # of a group: many numbers
         if len(varied) == 1 and all(len(found) == 1 for found in numbers):
             (name,) = varied
             along = {n[name]: v.options for n, v in zip(numbers, knob.values, strict=True)}
-            yield Lever(knob.tuned.words, knob.tuned.options, number=name, along=along)
+            yield Lever(words, knob.tuned.options, number=name, along=along)
         else:
-            yield Lever(knob.tuned.words, knob.tuned.options)
+            yield Lever(words, knob.tuned.options)
 
 
 def _numbers(options: Options) -> Iterator[tuple[str, float]]:

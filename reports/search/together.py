@@ -38,7 +38,7 @@ def together(what: str, searches: Mapping[str, Search[T]], results: Results) -> 
     found: dict[str, T] = {}
     while len(found) < len(searches):
         asked = _Round()
-        for key in searches.keys() - found.keys():
+        for key in [key for key in searches if key not in found]:
             try:
                 _ask(searches[key], next(searches[key].asking), asked, results)
             except StopIteration as done:
