@@ -1,7 +1,7 @@
 """One simulation: a case in an engine with given options at a given step, and how far off it is."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf, isnan
 
 import numpy as np
@@ -12,6 +12,7 @@ from ..judge import metric
 from ..judge.moment import away_from_instants
 from ..trial.rung import Samples, climbed
 from ..trial.simulate import rung
+from ..trial.start import first
 from ..trial.trial import Trial, judged_names, planned
 from ..unit import Pair
 from .candidate import Candidate
@@ -34,21 +35,22 @@ def of(errors: Errors, name: str, *, elsewhere: bool = False) -> float:
     return errors[name][elsewhere] if name in errors else inf
 
 
+def trial_of(pair: Pair, candidate: Candidate) -> Trial | None:
+    """The candidate's native way before the pair's reference; None where it is refused."""
+    engine, reference = candidate.engine(pair.engine.name), pair.reference()
+    ways = planned(engine, pair.case.scene, first(reference))
+    way = next(way for way in ways if way.realised == "native")
+    return Trial(pair.case, reference, engine, way) if isinstance(way, Plan) else None
+
+
 def errors(run: Run) -> Errors:
     """Of everything that is judged; the pair's reference comes from the store."""
-    case, reference = run.pair.case, run.pair.reference()
-    engine = run.candidate.engine(run.pair.engine.name)
-    asked = Trial(case, reference, run.pair.engine, Plan("native", held=()))
-    ways = planned(engine, case.scene, asked.start)
-    way = next(way for way in ways if way.realised == "native")
-    if not isinstance(way, Plan):
-        return {}
-    trial = Trial(case, reference, engine, way)
-    samples = climbed(rung(trial, run.candidate.step))
-    if isinstance(samples, str):
+    case, trial = run.pair.case, trial_of(run.pair, run.candidate)
+    samples = climbed(rung(trial, run.candidate.step)) if trial else ""
+    if trial is None or isinstance(samples, str):
         return {}
     found = {name: _off(trial, name, samples) for name in judged_names(case)}
-    elsewhere = away_from_instants(asked)
+    elsewhere = away_from_instants(replace(trial, engine=run.pair.engine))
     return {
         name: (_ratio(trial, name, off), _ratio(trial, name, off[elsewhere]))
         if len(off) == case.samples and name in trial.motion
