@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given.planning import NATIVE, begun, pair, planned
+from given.planning import NATIVE, begun, pair, planned, refused
 from given.scenes import SHIPPED
 
 from textmech import engines
@@ -107,3 +107,63 @@ def test_it_is_not_the_same_run_without(engine: str, name: str, option: str) -> 
         for e in (tuned, less)
     )
     assert not same(one, other)
+
+
+@pytest.mark.parametrize("engine", ["mujoco", "pymunk"])
+def test_show_prints_them(engine: str, tmp_path: Path) -> None:
+    tuned = engines.make(engine, "tuned")
+    scene, start = begun("four_bar")
+    text = tuned.script(scene, start, 1e-4, planned(tuned, scene, start))
+    (line,) = [line for line in text.splitlines() if "as your own settings: " in line]
+    file = tmp_path / "mine.yaml"
+    file.write_text(line.partition("settings: ")[2].removesuffix(" -->"), encoding="utf-8")
+    own = read_settings(file, ())[engine]
+    assert own.own_step == 1e-4
+    for h in (1e-4, 1e-3):
+        chosen, mine = (planned(e, scene, start).choices(h) for e in (tuned, own))
+        wanted = {choice.name: choice.value for choice in chosen}
+        found = {choice.name: choice.value for choice in mine}
+        assert all(found[name] == value for name, value in wanted.items())
+    shipped = engines.make(engine, "shipped")
+    assert "own settings" not in shipped.script(scene, start, 1e-4, planned(shipped, scene, start))
+
+
+# A recipe for contacts by its word, and what it has to say to other scenes.
+UNFIT = [
+    ("sliding_block.below", "bounce", "adapter: contacts: bounce, and no contact of this scene"),
+    ("sliding_block.below", "rim", "no recipe for this scene's; known: roll, slide, tip"),
+    ("driven_wheel.circle", "slide", "no recipe for this scene's; known: roll, rim, scene"),
+]
+
+
+@pytest.mark.parametrize(("name", "word", "why"), UNFIT, ids=" ".join)
+def test_a_recipe_that_does_not_fit_is_refused(name: str, word: str, why: str) -> None:
+    told = refused(engines.make("mujoco", "mine", {"contacts": word}), *begun(name))
+    assert told is not None
+    assert why in told
+
+
+@pytest.mark.parametrize(
+    ("name", "word"),
+    [
+        ("rolling_wheel.downhill", "roll"),
+        ("sliding_block.braking", "slide"),
+        ("tipping_block", "tip"),
+        ("bouncing_disk.plastic", "land"),
+        ("bouncing_disk.elastic", "bounce"),
+        ("driven_wheel.circle", "rim"),
+        ("rolling_sphere", "roll"),
+    ],
+)
+def test_a_recipe_by_its_word_is_what_tuned_chooses(name: str, word: str) -> None:
+    """And numbers that are written out stand above it."""
+    for chosen in (word, "scene"):
+        own = engines.make("mujoco", "mine", {"contacts": chosen, "solref": [0.05, 1.0]})
+        numbers = {c.name: c.value for c in planned(own, *begun(name)).choices(1e-3)}
+        best = planned(engines.make("mujoco", "tuned"), *begun(name)).choices(1e-3)
+        wanted = {c.name: c.value for c in best if c.name.startswith(("pair.", "flag."))}
+        assert wanted.items() <= numbers.items()
+        assert numbers["option.integrator"] == "Euler"
+    own = engines.make("mujoco", "mine", {"contacts": word, "pair": {"solref": [0.05, 1.0]}})
+    numbers = {c.name: c.value for c in planned(own, *begun(name)).choices(1e-3)}
+    assert numbers["pair.solref"] == [0.05, 1.0]

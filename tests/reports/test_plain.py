@@ -1,0 +1,157 @@
+"""Plain numbers: of motions known in closed form, and of some that are known from engines."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from given.planning import SHIPPED, planned
+from given.scenes import SHIPPED as CASES
+from given.scenes import solved
+
+from textmech.cases.case import Case
+from textmech.cases.load import load
+from textmech.cases.scene import Scene
+from textmech.cases.trajectory import ANGLE, VX, VY, Array, Trajectory, X, Y
+from textmech.reference.solve import solve
+from textmech.reports.judge.number import Plain
+from textmech.reports.judge.plain import numbers, plain
+from textmech.reports.trial.start import first
+from textmech.reports.trial.trial import Trial
+
+G = 9.80665
+BOUNCES = """\
+title: A particle dropped from 1 m that is thrown back
+scene:
+  bodies: {ball: {particle: {mass: 2.0}}}
+  contacts: {touch: {between: [ball, ground.floor], friction: 0.5, restitution: 0.7}}
+initial: {ball: {x: 0, y: 1.0, vx: 0, vy: 0}}
+duration: 0.8
+samples: 17
+events: {bounces: {touch.gap: falls to zero}}
+allow: {ball.y: 1.0e-2}
+"""
+
+
+def told(scene: Scene, reference: Trajectory, motion: Trajectory) -> dict[str, Plain]:
+    return {one.what: one for one in numbers(scene, reference, motion)}
+
+
+def changed(motion: Trajectory, body: str, **columns: Array | float) -> Trajectory:
+    """The same with other columns of a body's states."""
+    states = motion.states[body].copy()
+    for name, values in columns.items():
+        states[:, {"x": X, "y": Y, "angle": ANGLE, "vx": VX, "vy": VY}[name]] = values
+    return replace(motion, states={**motion.states, body: states})
+
+
+def thrown(times: Array, back: float, late: float = 0.0) -> Trajectory:
+    """Dropped from 1 m, and thrown back with a share of the speed, `late` seconds after it fell."""
+    strikes = np.sqrt(2 / G)
+    speed, after = G * strikes, times - strikes - late
+    falls = times <= strikes
+    states = np.zeros((len(times), 6))
+    up = np.where(after < 0, 0.0, back * speed - G * after)
+    states[:, VY] = np.where(falls, -G * times, up)
+    states[:, Y] = np.where(falls, 1 - G * times**2 / 2, after * (back * speed - G * after / 2))
+    return Trajectory(times, {"ball": states}, {})
+
+
+@pytest.mark.parametrize(("back", "late"), [(0.5, 0.0), (0.7, 2e-3), (0.0, 0.0)])
+def test_restitution(tmp_path: Path, back: float, late: float) -> None:
+    file = tmp_path / "ball.yaml"
+    file.write_text(BOUNCES, encoding="utf-8")
+    (case,) = load(file)
+    reference = solve(case).trajectory
+    steps = np.linspace(0.0, 0.8, 8001)
+    motion = replace(thrown(case.times, back, late), record=thrown(steps, back, late))
+    found = told(case.scene, reference, motion)["restitution of touch"]
+    # both speeds are read within a step of the strike: g h / v
+    assert found.value == pytest.approx(back, abs=3e-4)
+    assert found.wanted == 0.7
+
+
+def test_energy_lost(moving: Case) -> None:
+    """Of what the reference has, by a free particle whose v² falls by 3 % in a second."""
+    t = moving.times
+    scene, reference = moving.scene, solve(moving).trajectory
+    for share in (0.03, -0.03):
+        motion = changed(reference, "ball", vx=np.sqrt(1 - share * t))
+        name = "energy lost" if share > 0 else "energy gained"
+        assert told(scene, reference, motion)[name].value == pytest.approx(3.0, rel=1e-12)
+
+
+def test_what_the_textbook_loses_is_not_lost() -> None:
+    """A damped spring's own loss."""
+    name = "spring_mass_damper.critical"
+    scene, reference = CASES[name].scene, solved(name).trajectory
+    assert told(scene, reference, reference)["energy lost"].value == 0.0
+
+
+def test_gap() -> None:
+    """A bar that is shifted as a whole by 3 mm along x and 4 mm along y."""
+    reference = solved("bar_pendulum").trajectory
+    states = reference.states["bar"]
+    motion = changed(reference, "bar", x=states[:, X] + 3e-3, y=states[:, Y] + 4e-3)
+    found = told(CASES["bar_pendulum"].scene, reference, motion)["gap of hinge"]
+    assert (found.value, found.unit) == (pytest.approx(5e-3, abs=1e-12), "m")
+
+
+def test_creep_and_depth() -> None:
+    """A block that should rest, 2 mm deep and going down the slope at 5 mm/s."""
+    reference, scene = solved("sliding_block.below").trajectory, CASES["sliding_block.below"].scene
+    t = reference.times
+    motion = changed(reference, "block", x=5e-3 * t, vx=5e-3, y=-2e-3)
+    found = told(scene, reference, replace(motion, record=motion))
+    assert found["creep of touch"].value == pytest.approx(5e-3, rel=1e-12)
+    assert found["depth of touch"].value == pytest.approx(2e-3, rel=1e-12)
+    assert "energy lost" not in found  # it has none
+    assert {one.value for one in numbers(scene, reference, reference)} == {0.0}
+
+
+def test_friction_while_it_slides() -> None:
+    """Braking with 0.3 instead of 0.4; at rest it may be anything."""
+    reference, scene = (
+        solved("sliding_block.braking").trajectory,
+        CASES["sliding_block.braking"].scene,
+    )
+    slip, normal = reference.states["block"][:, VX], np.full(len(reference.times), 1.3 * G)
+    along = np.where(slip > 0, -0.3 * normal, 0.9 * normal)
+    motion = replace(reference, reactions={"touch.normal": normal, "touch.tangent": along})
+    found = told(scene, reference, motion)["friction of touch"]
+    assert found.value == pytest.approx(0.3, rel=1e-12)
+    assert found.wanted == 0.4
+
+
+# Case, engine, its number and the value known by other measurements (a person's rounding).
+KNOWN = [
+    ("bouncing_disk.elastic", "mujoco", "restitution of touch", 0.13, 0.01),
+    ("bouncing_disk.elastic", "pymunk", "restitution of touch", 1.0, 0.03),
+    ("four_bar", "mujoco", "gap of D", 1.9e-3, 1e-4),
+    ("sliding_block.braking", "pymunk", "friction of touch", 0.4, 1e-6),
+]
+
+
+@pytest.mark.parametrize(("name", "engine", "what", "value", "within"), KNOWN, ids=str)
+def test_shipped_engines(name: str, engine: str, what: str, value: float, within: float) -> None:
+    case, reference, shipped = CASES[name], solved(name).trajectory, SHIPPED[engine]
+    trial = Trial(case, reference, shipped, planned(shipped, case.scene, first(reference)))
+    (found,) = [one for one in plain(trial) if one.what == what]
+    assert found.value == pytest.approx(value, abs=within)
+
+
+@pytest.mark.parametrize(
+    ("number", "text"),
+    [
+        (Plain("gap of D", 1.873e-3, "m"), "gap of D: 1.87 mm"),
+        (Plain("gap of D", 0.5, "m"), "gap of D: 0.5 m"),
+        (Plain("creep of touch", 3e-20, "m/s"), "creep of touch: 0 mm/s"),
+        (Plain("creep of axle", 0.02, "rad/s"), "creep of axle: 0.02 rad/s"),
+        (Plain("energy lost", 5.812, "% a second"), "energy lost: 5.81 % a second"),
+        (Plain("restitution of touch", 0.128, "", 1.0), "restitution of touch: 0.128 (textbook 1)"),
+        (Plain("restitution of touch", 0.1, ""), "restitution of touch: 0.1 (textbook 0)"),
+    ],
+    ids=str,
+)
+def test_words(number: Plain, text: str) -> None:
+    assert str(number) == text
