@@ -1,4 +1,4 @@
-"""The command `textmech`: run, check, list, show, bench."""
+"""The command `textmech`: run, check, list, show, advise, bench."""
 
 import sys
 import warnings
@@ -7,6 +7,7 @@ import click
 
 from ..cases.mistake import CaseError, Mistake
 from . import ending
+from .command.advise import advise
 from .command.bench import bench
 from .command.done import done
 from .command.run import BAD_INPUT, FAILED, allow_long, run
@@ -48,6 +49,7 @@ def command() -> None:
       textmech run                            all cases: regenerates reports/*.csv
       textmech run bar_pendulum               one case: prints its rows, writes nothing
       textmech run --settings mine.yaml       your own engine options as a further column, mine
+      textmech advise bar_pendulum            which setting it needs, and what to paste
       textmech check my_case.yaml             all mistakes of a file, without running it
       textmech show bar_pendulum --engine mujoco.tuned > pendulum.xml
 
@@ -62,6 +64,7 @@ def command() -> None:
 
 command.add_command(run)
 command.add_command(bench)
+command.add_command(advise)
 
 
 @command.command()

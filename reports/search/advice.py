@@ -1,11 +1,12 @@
 """Which setting does a case need? The minimal recipe of each engine, and what it costs."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from ...cases.mistake import CaseError
 from ...engines.engine import Plan, Refusal, Tunable
 from ...engines.knobs import as_text
-from ...reference.solve import Solution
+from ..pool import Died
 from ..results import Results
 from ..row import Advice
 from ..trial.start import first
@@ -46,9 +47,12 @@ class Advised:
         return NOTHING.at(self.kitchen.menu.own)
 
 
-def advise(pairs: Iterable[Pair], asked: Asked, results: Results) -> list[Advised]:
-    """For each case in each engine as shipped; of all searches at once."""
-    ready = [_prepared(pair, asked) for pair in _sampled(list(pairs), results)]
+def advise(pairs: Sequence[Pair], asked: Asked, results: Results) -> list[Advised]:
+    """For each case in each engine as shipped; of all searches at once.
+
+    Raises CaseError with what only solving finds.
+    """
+    ready = [_prepared(pair, asked, lost) for pair, lost in _sampled(pairs, results)]
     searches = {
         f"{one.pair.case.name} {one.pair.engine.name}": Search(
             one.pair, one.kitchen.bar.known, _search(one.kitchen, front=asked.front)
@@ -63,22 +67,27 @@ def advise(pairs: Iterable[Pair], asked: Asked, results: Results) -> list[Advise
     ]
 
 
-def _sampled(pairs: Sequence[Pair], results: Results) -> list[Pair]:
-    """With the samples that the engine's own step meets, and references in the store."""
+def _sampled(pairs: Sequence[Pair], results: Results) -> list[tuple[Pair, str]]:
+    """With the samples that the engine's own step meets; of those without a reference, why."""
     cases = [pair.sampled for pair in pairs]
     keys = [results.keys.solution(case) for case in cases]
     found = results.of("references", solved, dict(zip(keys, cases, strict=True)))
+    wrong = [error for error in found.values() if isinstance(error, CaseError)]
+    if wrong:
+        raise CaseError([mistake for error in wrong for mistake in error.mistakes])
+    lost = {key: answer.because for key, answer in found.items() if isinstance(answer, Died)}
     return [
-        replace(pair, case=case, key=key)
+        (replace(pair, case=case, key=key), lost.get(key, ""))
         for pair, case, key in zip(pairs, cases, keys, strict=True)
-        if isinstance(found[key], Solution)
     ]
 
 
-def _prepared(pair: Pair, asked: Asked) -> Advised:
-    case, engine, reference = pair.case, pair.engine, pair.reference()
-    if case.states is not None:
-        return Advised(pair, asked, Refusal("native", NO_STEPS), None, None)
+def _prepared(pair: Pair, asked: Asked, lost: str) -> Advised:
+    case, engine = pair.case, pair.engine
+    if lost or case.states is not None:
+        why = f"there is no reference: {lost}" if lost else NO_STEPS
+        return Advised(pair, asked, Refusal("native", why), None, None)
+    reference = pair.reference()
     ways = planned(engine, case.scene, first(reference))
     way = next(way for way in ways if way.realised == "native")
     if isinstance(way, Plan) and not isinstance(engine, Tunable):
@@ -164,8 +173,8 @@ def _remains(one: Advised) -> dict[str, str | float]:
     if found is None:
         return {"remains": "; ".join(filter(None, ("every run diverges", left_out)))}
     candidate, worst, quantity = found
-    at_best = f"with {as_text(candidate.options)} at {candidate.step:.3g} s" if candidate.options else f"at {candidate.step:.3g} s"
-    what = f"{quantity} stays ×{worst:.2g}, the least of all that was tried, {at_best}"
+    best_of = f"{as_text(candidate.options)} at {candidate.step:.3g} s"
+    what = f"{quantity} stays ×{worst:.2g} with {best_of}, the best of all that was tried"
     return {
         "worst": worst,
         "quantity": quantity,

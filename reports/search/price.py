@@ -2,30 +2,36 @@
 
 import time
 
-from ..trial.rung import climbed
-from ..trial.simulate import rung
+import numpy as np
+
 from ..trial.trial import Trial
 from ..unit import Pair
 from .candidate import Candidate
 from .errors import trial_of
 
 ROUNDS = 5  # in turn; the least of each counts
-LONG = 0.05  # s of CPU time: what is shorter is run as often as makes it so long
 
 
 def ratio(pair: Pair, candidate: Candidate, over: Candidate) -> float | None:
-    """Of the candidate's run over the other's, both with all that is read; None: one is refused."""
+    """Of all steps of the candidate's run over the other's; None: one of them is refused."""
     one, other = (trial_of(pair, each) for each in (candidate, over))
     if one is None or other is None:
         return None
-    measured = [(_seconds(one), _seconds(other)) for _ in range(ROUNDS)]
-    return min(mine for mine, _ in measured) / min(others for _, others in measured)
+    measured = [(_whole(one), _begun(one), _whole(other), _begun(other)) for _ in range(ROUNDS)]
+    mine, built, others, too = (min(column) for column in zip(*measured, strict=True))
+    return (mine - built) / (others - too)
 
 
-def _seconds(one: Trial) -> float:
-    asked, times = rung(one, one.step), list[float]()
-    while sum(times) < LONG:
-        begun = time.process_time()
-        climbed(asked)
-        times.append(time.process_time() - begun)
-    return min(times)
+def _whole(trial: Trial) -> float:
+    return _seconds(trial, trial.case.duration)
+
+
+def _begun(trial: Trial) -> float:
+    """Of building alone, and one step: to be taken off."""
+    return _seconds(trial, trial.step)
+
+
+def _seconds(trial: Trial, end: float) -> float:
+    times, begun = np.array([0.0, end]), time.process_time()
+    trial.engine.run(trial.case.scene, trial.start, times, trial.step, trial.plan, reactions=())
+    return time.process_time() - begun

@@ -89,13 +89,17 @@ def _lean(kitchen: Kitchen, whole: Recipe) -> Asking[Recipe]:
     kept = whole
     for part in parts(whole.choice.options):
         options = _without(kept.choice.options, part)
-        words = (*kept.choice.words, f"without {part[-1]}")
-        less = Recipe(Choice(words, options, kept.choice.protocol), kept.step)
+        less = Recipe(Choice(_left(options), options, kept.choice.protocol), kept.step)
         rungs = [less.candidate, less.choice.at(less.step / 2)]
         yield rungs
         if all(kitchen.bar.holds(candidate) for candidate in rungs):
             kept = less
     return kept
+
+
+def _left(options: Mapping[str, Any]) -> tuple[str, ...]:
+    """What is left of a recipe, as the options are called."""
+    return tuple(".".join(part) for part in parts(options))
 
 
 def _without(options: Mapping[str, Any], part: tuple[str, ...]) -> dict[str, Any]:

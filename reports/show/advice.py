@@ -10,6 +10,7 @@ from ..search.candidate import Candidate
 from ..search.errors import trial_of
 from ..search.price import ratio
 from ..search.recipe import front
+from ..trial.start import first
 
 
 def told(one: Advised) -> Iterator[str]:
@@ -42,18 +43,12 @@ def _recipe(one: Advised, candidate: Candidate, changed: str) -> Iterator[str]:
     yield f"  recipe        {changed}, h = {candidate.step:g} s: {_worst(one, candidate)}"
     yield f"  its cost      ×{cost:.2g} of shipped's{beside}"
     yield "  to paste"
-    start = trial_start(one)
+    start = first(one.pair.reference())
     lines = engine.snippet(scene, start, candidate.options, candidate.step).rstrip().splitlines()
     yield from (f"    {line}" for line in lines)
     yield "  as a file of --settings"
     own = as_text({**candidate.options, "step": candidate.step})
     yield f"    {engine.name}: {own}"
-
-
-def trial_start(one: Advised):  # noqa: ANN201
-    from ..trial.start import first
-
-    return first(one.pair.reference())
 
 
 def _worst(one: Advised, candidate: Candidate) -> str:
