@@ -145,7 +145,7 @@ def _explain(pairs: Sequence[Pair], results: Results, report: Report, *, search:
         if one.realised == "native"
         for name, words in one.outcome.moments.items()
     }
-    report.causes = found_causes(report.comparisons, pairs, results, search=search)
+    report.causes = found_causes(report.comparisons, report.rungs, pairs, results, search=search)
     report.comparisons = with_causes(report.comparisons, report.causes, moments)
 
 

@@ -36,7 +36,7 @@ ROOMS = {
         "pool judge",
         "cache",
         "unit results",
-        "trials",
+        "trials search",
         "suite",
         "write keep session",
         "show committed bench",

@@ -8,17 +8,19 @@ from ...engines.engine import Tunable
 from ...engines.knobs import as_text, merged
 from ...reference.solve import Solution
 from ..results import Results
-from ..row import Cause, Comparison
+from ..row import Cause, Comparison, Rungs
 from ..trial.ladder import judged_step
 from ..trial.start import first
 from ..unit import Pair, solved
 from .candidate import Candidate
 from .cures import Cure, Cured, cures
+from .ladder import climbed
 from .lever import STEP, Field, halved, levers
-from .together import Known, Search, together
+from .together import Search, together
 from .why import OURS, Rows, key_of
 
-FINER = 16  # times: as fine as an engine's own ladder goes, or to the tuned setting's step
+ALONE = 16  # times finer: as far as an engine's own ladder goes, or to the tuned setting's step
+BESIDE = 4  # times, beside other changes, or to the tuned setting's step
 FINEST = 8  # times, of the tuned setting, which has nothing else to be changed
 NONE, UNSEARCHED = "none found", "not searched"
 
@@ -39,7 +41,12 @@ class _Asked:
 
 
 def causes(
-    comparisons: Sequence[Comparison], pairs: Iterable[Pair], results: Results, *, search: bool
+    comparisons: Sequence[Comparison],
+    rungs: Sequence[Rungs],
+    pairs: Iterable[Pair],
+    results: Results,
+    *,
+    search: bool,
 ) -> list[Cause]:
     """Of every row above its tolerance: what brings it within; search: whether runs are made."""
     rows = Rows(comparisons)
@@ -49,19 +56,19 @@ def causes(
             found[key_of(row)] = [_ours(row, agreeing) for agreeing in ours]
     left = [row for row in off if key_of(row) not in found]
     if search:
-        for asked, cured in _searched(left, pairs, results):
+        for asked, cured in _searched(left, rungs, pairs, results):
             found |= {key_of(row): _told(asked, row, cured[row.quantity]) for row in asked.rows}
     last = NONE if search else UNSEARCHED
     return [cause for row in off for cause in found.get(key_of(row), [_without(row, last)])]
 
 
 def _searched(
-    rows: Sequence[Comparison], pairs: Iterable[Pair], results: Results
+    rows: Sequence[Comparison], rungs: Sequence[Rungs], pairs: Iterable[Pair], results: Results
 ) -> Iterator[tuple[_Asked, Mapping[str, Cured]]]:
     of: dict[tuple[str, str, str], list[Comparison]] = {}
     for row in rows:
         of.setdefault((row.case, row.engine, row.setting), []).append(row)
-    mine = {
+    tunable = {
         key: pair
         for pair in pairs
         for key in [(pair.case.name, pair.engine.name, pair.engine.setting)]
@@ -69,9 +76,10 @@ def _searched(
     }
     asked: dict[str, _Asked] = {}
     searches: dict[str, Search[dict[str, Cured]]] = {}
-    for key, pair in _referenced(mine, results).items():
-        name, known = " ".join(key), Known()
-        field = _field(pair)
+    for key, pair in _referenced(tunable, results).items():
+        name, field = " ".join(key), _field(pair)
+        mine = [rung for rung in rungs if (rung.case, rung.engine, rung.setting) == key]
+        known = climbed(field.base, of[key], mine)
         asked[name] = _Asked(pair, field, of[key])
         looking = cures(field, known, [row.quantity for row in of[key]])
         searches[name] = Search(pair, known, looking)
@@ -83,12 +91,14 @@ def _searched(
 def _referenced(
     pairs: Mapping[tuple[str, str, str], Pair], results: Results
 ) -> dict[tuple[str, str, str], Pair]:
-    """With the samples that the engine's own step meets, and the reference of those in the store."""
+    """With the samples that the engine's own step meets; their references are in the store."""
     sampled = {key: pair.sampled for key, pair in pairs.items()}
     keys = {key: results.keys.solution(case) for key, case in sampled.items()}
-    others = {keys[key]: sampled[key] for key, pair in pairs.items() if sampled[key] is not pair.case}
-    solved = results.of("references", solved, others) if others else {}
-    lost = {key for key, answer in solved.items() if not isinstance(answer, Solution)}
+    others = {
+        keys[key]: sampled[key] for key, pair in pairs.items() if sampled[key] is not pair.case
+    }
+    answers = results.of("references", solved, others) if others else {}
+    lost = {key for key, answer in answers.items() if not isinstance(answer, Solution)}
     return {
         key: replace(pair, case=sampled[key], key=keys[key])
         for key, pair in pairs.items()
@@ -103,12 +113,14 @@ def _field(pair: Pair) -> Field:
     step, start = judged_step(case, engine), first(pair.reference())
     if engine.setting == "tuned":
         base = Candidate.of(engine.recipe(case.scene, start), step)
-        return Field(base, [STEP], halved(step, step / FINEST))
+        steps = halved(step, step / FINEST)
+        return Field(base, [STEP], steps, steps)
     own = {k: v for k, v in getattr(engine, "options", {}).items() if k != "step"}
     best = [engines.make(engine.name, "tuned")] if "tuned" in engines.settings(engine.name) else []
-    least = min(step / FINER, *(judged_step(case, tuned) for tuned in best))
+    least = min((judged_step(case, tuned) for tuned in best), default=step)
     found = levers(engine.knobs(case.scene, start), own)
-    return Field(Candidate.of(own, step), [*found, STEP], halved(step, least))
+    beside, alone = (halved(step, min(step / finer, least)) for finer in (BESIDE, ALONE))
+    return Field(Candidate.of(own, step), [*found, STEP], beside, alone)
 
 
 def _told(asked: _Asked, row: Comparison, cured: Cured) -> list[Cause]:

@@ -9,14 +9,14 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from .candidate import Candidate
-from .errors import of
 from .law import law
 from .lever import STEP, Field, Lever, Turned
+from .matter import Setting, that_matter
 from .together import Asking, Known
 
 LARGEST = 4  # levers in a set whose smaller ones have all been tried
+LARGEST_FINER = 3  # with a smaller step: each such run takes as long as ten others
 MANY = 6  # levers, from which on it pays to ask first which of them matter
-SAME = 0.1  # of an error: a change of less than that is none
 
 
 @dataclass(frozen=True)
@@ -40,22 +40,10 @@ class Cured:
     elsewhere: bool = False
 
 
-@dataclass(frozen=True)
-class _Search:
-    """What cures are looked for in; elsewhere: whether beside instants anything may be."""
-
-    field: Field
-    known: Known
-    elsewhere: bool
-
-    def error(self, candidate: Candidate, row: str) -> float:
-        return of(self.known[candidate], row, elsewhere=self.elsewhere)
-
-
 def cures(field: Field, known: Known, rows: Sequence[str]) -> Asking[dict[str, Cured]]:
-    """For each row, a quantity's name: of the whole error, or else of the one away from instants."""
+    """By quantity: of the whole error, or else of the one away from instants."""
     yield [field.base]
-    whole, away = (_Search(field, known, elsewhere) for elsewhere in (False, True))
+    whole, away = (Setting(field, known, elsewhere) for elsewhere in (False, True))
     found = yield from _smallest(whole, rows)
     left = [
         row
@@ -68,32 +56,51 @@ def cures(field: Field, known: Known, rows: Sequence[str]) -> Asking[dict[str, C
     return {row: cured.get(row, Cured()) for row in rows}
 
 
-def _smallest(search: _Search, rows: Sequence[str]) -> Asking[dict[str, Sequence[Cure]]]:
-    """The cures of each row that has any."""
+def _smallest(search: Setting, rows: Sequence[str]) -> Asking[dict[str, Sequence[Cure]]]:
+    """The cures of each row that has any.
+
+    Beside others a smaller step is tried where nothing else is enough: it costs most, to try as
+    to use. Alone it is known from an engine's ladder.
+    """
     field, found = search.field, dict[str, Sequence[Cure]]()
     matter: Mapping[str, Sequence[Lever]] = dict.fromkeys(rows, field.levers)
     for size in range(1, LARGEST + 2):
         left = [row for row in rows if row not in found]
         if size == 2 and len(field.levers) >= MANY and left:
-            matter = yield from _that_matter(search, left)
+            matter = yield from that_matter(search, left)
         sets = {row: _sets(matter[row], size) for row in left}
-        yield {field.candidate(turned) for row in left for turned in sets[row]}
-        within = {
-            row: [t for t in sets[row] if search.error(field.candidate(t), row) <= 1.0]
-            for row in left
-        }
-        yield {c for row in left for turned in within[row] for c in _asked(field, turned)}
-        for row in left:
-            if lasting := list(_lasting(search, row, within[row])):
-                found[row] = lasting
+        found |= yield from _cured(search, sets, finer=False)
+        others = {row: of for row, of in sets.items() if size == 1 or row not in found}
+        with_step = yield from _cured(search, others, finer=True)
+        found |= {row: [*found.get(row, ()), *cures] for row, cures in with_step.items()}
     return found
 
 
+def _cured(
+    search: Setting, sets: Mapping[str, Sequence[Turned]], *, finer: bool
+) -> Asking[dict[str, Sequence[Cure]]]:
+    """Of the rows' sets with or without the step those that cure for good."""
+    field = search.field
+    among = {
+        row: [turned for turned in of if (STEP in turned) == finer] for row, of in sets.items()
+    }
+    yield {field.candidate(turned) for of in among.values() for turned in of}
+    within = {
+        row: [turned for turned in of if search.error(field.candidate(turned), row) <= 1.0]
+        for row, of in among.items()
+    }
+    yield {c for of in within.values() for turned in of for c in _asked(field, turned)}
+    lasting = {row: list(_lasting(search, row, of)) for row, of in within.items()}
+    return {row: cures for row, cures in lasting.items() if cures}
+
+
 def _sets(matter: Sequence[Lever], size: int) -> list[Turned]:
-    """All of that size; beyond the largest, all levers that matter, together."""
-    if size > LARGEST:
-        return [tuple(matter)] if len(matter) > LARGEST else []
-    return list(combinations(matter, size))
+    """All of that size; beyond the largest, all levers that matter, without and with the step."""
+    if size <= LARGEST:
+        sets = combinations(matter, size)
+        return [turned for turned in sets if size <= LARGEST_FINER or STEP not in turned]
+    knobs = tuple(lever for lever in matter if lever is not STEP)
+    return [every for every in dict.fromkeys((knobs, tuple(matter))) if len(every) > LARGEST]
 
 
 def _rungs(field: Field, turned: Turned) -> list[Candidate]:
@@ -104,7 +111,7 @@ def _rungs(field: Field, turned: Turned) -> list[Candidate]:
     """
     candidate = field.candidate(turned)
     if STEP in turned:
-        return [candidate.at(step) for step in field.steps[1:]]
+        return [candidate.at(step) for step in field.ladder(turned)[1:]]
     return [candidate, candidate.at(candidate.step / 2)]
 
 
@@ -112,7 +119,7 @@ def _asked(field: Field, turned: Turned) -> list[Candidate]:
     return [*_rungs(field, turned), *field.along(turned)[1].values()]
 
 
-def _lasting(search: _Search, row: str, sets: Iterable[Turned]) -> Iterator[Cure]:
+def _lasting(search: Setting, row: str, sets: Iterable[Turned]) -> Iterator[Cure]:
     """Those that keep the bound from a step on, at the largest such step."""
     for turned in sets:
         rungs, usable = _rungs(search.field, turned), None
@@ -124,25 +131,3 @@ def _lasting(search: _Search, row: str, sets: Iterable[Turned]) -> Iterator[Cure
             number, along = search.field.along(turned)
             told = law(number, {x: search.error(c, row) for x, c in along.items()})
             yield Cure(turned, usable, search.error(usable, row), told)
-
-
-def _that_matter(search: _Search, rows: Sequence[str]) -> Asking[dict[str, list[Lever]]]:
-    """Of each row the levers that change its error, put in alone or taken out of all.
-
-    Both are asked: from afar a motion may be as far off with a lever as without it.
-    """
-    field = search.field
-    every = field.candidate(field.levers)
-    without = {one: field.candidate(k for k in field.levers if k is not one) for one in field.levers}
-    yield [every, *without.values()]
-
-    def matters(lever: Lever, row: str) -> bool:
-        ends = (field.base, field.candidate([lever])), (every, without[lever])
-        return any(_differ(*(search.error(c, row) for c in end)) for end in ends)
-
-    return {row: [lever for lever in field.levers if matters(lever, row)] for row in rows}
-
-
-def _differ(one: float, other: float) -> bool:
-    """Two that are inf tell nothing of a lever: it is kept."""
-    return not abs(one - other) <= SAME * max(one, other)

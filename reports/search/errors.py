@@ -53,8 +53,8 @@ def errors(run: Run) -> Errors:
     elsewhere = away_from_instants(replace(trial, engine=run.pair.engine))
     return {
         name: (_ratio(trial, name, off), _ratio(trial, name, off[elsewhere]))
-        if len(off) == case.samples and name in trial.motion
-        else (_ratio(trial, name, off),) * 2
+        if name in trial.motion
+        else (_ratio(trial, name, off), _ratio(trial, name, off))
         for name, off in found.items()
         if off is not None
     }

@@ -35,25 +35,30 @@ class Field:
     """All levers between two recipes, and where they begin.
 
     base: options and step before any is changed. steps: from the base's down to the finest, each
-    half of the one before.
+    half of the one before; alone: the same where nothing but the step is changed.
     """
 
     base: Candidate
     levers: Sequence[Lever]
     steps: Sequence[float]
+    alone: Sequence[float]
 
     def candidate(self, turned: Iterable[Lever]) -> Candidate:
         """With these changed: the finest step if it is one of them."""
-        turned = list(turned)
-        step = self.steps[-1] if STEP in turned else self.base.step
+        turned = tuple(turned)
+        step = self.ladder(turned)[-1] if STEP in turned else self.base.step
         options = merged(self.base.options, *(lever.options for lever in turned))
         return Candidate.of(options, step)
+
+    def ladder(self, turned: Turned) -> Sequence[float]:
+        """The steps for a set with the step."""
+        return self.alone if turned == (STEP,) else self.steps
 
     def along(self, turned: Turned) -> tuple[str, dict[float, Candidate]]:
         """The one number of these, and candidates by its values, in the order of a cure."""
         if STEP in turned:
             candidate = self.candidate(turned)
-            return "h", {step: candidate.at(step) for step in self.steps}
+            return "h", {step: candidate.at(step) for step in self.ladder(turned)}
         numbers = [lever for lever in turned if lever.along]
         if len(numbers) != 1:
             return "", {}

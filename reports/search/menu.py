@@ -1,4 +1,4 @@
-"""What a recipe may be made of: the closed list of an engine's options, and steps that fit a case."""
+"""What a recipe may be made of: the closed list of an engine's options, and steps for a case."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -62,13 +62,12 @@ class Menu:
     def bundles(self, more: int) -> list[Choice]:
         """Whole recipes, the tuned one too, alone or with so many options more."""
         named = [_choice(knob, v) for knob in self._knobs(bundle=True) for v in knob.values]
-        found = [
+        return [
             whole.also(one)
             for whole in (*named, Choice(("the tuned recipe",), self.tuned))
             for one in self.choices(more)
             if not more or merged(whole.options, one.options) != dict(whole.options)
         ]
-        return found
 
     @property
     def coarse(self) -> list[float]:

@@ -1,4 +1,4 @@
-"""Many searches at once: each asks for runs in rounds, and a round of all is spread over all cores."""
+"""Many searches at once: each asks for runs in rounds, which are spread over all cores."""
 
 from collections.abc import Generator, Iterable, Mapping
 from dataclasses import dataclass, field
@@ -49,9 +49,7 @@ def together(what: str, searches: Mapping[str, Search[T]], results: Results) -> 
     return {key: found[key] for key in searches}
 
 
-def _ask(
-    search: Search, wanted: Iterable[Candidate], asked: _Round, results: Results
-) -> None:
+def _ask(search: Search, wanted: Iterable[Candidate], asked: _Round, results: Results) -> None:
     pair = search.pair
     for candidate in wanted:
         if candidate not in search.known:

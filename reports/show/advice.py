@@ -16,9 +16,10 @@ from ..trial.start import first
 def told(one: Advised) -> Iterator[str]:
     """Of one case in one engine, line by line."""
     case, engine, advice = one.pair.case, one.pair.engine, row(one)
-    within = "its tolerances" if one.asked.tolerance is None else f"{one.asked.tolerance:g} of its size"
+    tolerance, margin = one.asked.tolerance, one.asked.margin
+    within = "its tolerances" if tolerance is None else f"{tolerance:g} of its size"
     yield ""
-    yield f"{case.name} in {engine.name} {engine.version}: all within {within} / {one.asked.margin:g}"
+    yield f"{case.name} in {engine.name} {engine.version}: all within {within} / {margin:g}"
     if one.kitchen is None:
         yield f"  refused: {advice.remains}"
         return

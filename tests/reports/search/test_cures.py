@@ -1,6 +1,6 @@
-"""Causes are the smallest sets that cure: of errors whose law is planted, all of them and no other."""
+"""Causes are the smallest sets that cure: of planted errors all of them, and no other."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from math import inf
 from typing import Any
 
@@ -20,7 +20,8 @@ SHIPPED = 2e-3  # s
 def cured(error: Error, *levers: Lever, finer: int = 16) -> tuple[Cured, Known]:
     """What is found of one row, and all that was run for it."""
     known = Known()
-    field = Field(Candidate.of({}, SHIPPED), [*levers, STEP], halved(SHIPPED, SHIPPED / finer))
+    steps = halved(SHIPPED, SHIPPED / finer)
+    field = Field(Candidate.of({}, SHIPPED), [*levers, STEP], steps, steps)
     asking = cures(field, known, ["x"])
     while True:
         try:
@@ -75,7 +76,9 @@ def test_no_law_is_told_where_none_fits() -> None:
 
 
 def test_the_law_of_a_knob_with_a_number() -> None:
-    knob = Lever("impratio 100", {"r": 100.0}, False, "r", {x: {"r": x} for x in (10.0, 30.0, 100.0)})
+    knob = Lever(
+        "impratio 100", {"r": 100.0}, False, "r", {x: {"r": x} for x in (10.0, 30.0, 100.0)}
+    )
     found, _ = cured(lambda o, h: 20 / o.get("r", 1.0), knob)
     assert [cure.law for cure in found.cures] == ["r^-1"]
 
@@ -121,8 +124,8 @@ def test_what_diverges_cures_nothing_and_a_diverged_row_is_cured() -> None:
     assert names(none) == set()
 
 
-def test_the_cheapest_step_of_a_set_with_it(error: Sequence[float] = (9.0, 3.0, 0.9, 0.8, 2.0)) -> None:
-    """From the finest on it must stay: what is within between two that are not is luck."""
-    at = dict(zip(halved(SHIPPED, SHIPPED / 16), error, strict=True))
+def test_what_is_within_between_two_steps_that_are_not_is_luck() -> None:
+    errors = (9.0, 3.0, 0.9, 0.8, 2.0)
+    at = dict(zip(halved(SHIPPED, SHIPPED / 16), errors, strict=True))
     found, _ = cured(lambda o, h: at[h], ONE)
     assert names(found) == set()
