@@ -1,4 +1,4 @@
-"""The command `textmech`: run, check, list, show, advise, bench."""
+"""The command `textmech`: run, causes, advise, check, list, show, bench."""
 
 import sys
 import warnings
@@ -9,6 +9,7 @@ from ..cases.mistake import CaseError, Mistake
 from . import ending
 from .command.advise import advise
 from .command.bench import bench
+from .command.causes import causes
 from .command.done import done
 from .command.run import BAD_INPUT, FAILED, allow_long, run
 from .show.say import prepare, say, tell
@@ -49,6 +50,7 @@ def command() -> None:
       textmech run                            all cases: regenerates reports/*.csv
       textmech run bar_pendulum               one case: prints its rows, writes nothing
       textmech run --settings mine.yaml       your own engine options as a further column, mine
+      textmech causes bar_pendulum            why it is off, by experiment
       textmech advise bar_pendulum            which setting it needs, and what to paste
       textmech check my_case.yaml             all mistakes of a file, without running it
       textmech show bar_pendulum --engine mujoco.tuned > pendulum.xml
@@ -65,6 +67,7 @@ def command() -> None:
 command.add_command(run)
 command.add_command(bench)
 command.add_command(advise)
+command.add_command(causes)
 
 
 @command.command()
