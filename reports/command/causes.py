@@ -73,11 +73,10 @@ def _print(causes: "Sequence[Cause]") -> None:
         for quantity, cures in groupby(found, key=lambda cause: cause.quantity):
             first, *others = cures
             before = "diverged" if first.error_before is None else f"{first.error_before:.2g}"
-            say(f"  {quantity:20} {before:>8} (allowed {first.allow or 0:.1g})  {_line(first)}")
+            allowed = f"(allowed {first.allow or 0:.1g})"
+            say(f"  {quantity:20} {before:>8} {allowed}  {_line(first)}")
             for other in others:
-                say(
-                    f"  {'':20} {'':8} {'or':>{len(f'(allowed {first.allow or 0:.1g})')}}  {_line(other)}"
-                )
+                say(f"  {'':20} {'':8} {'or':>{len(allowed)}}  {_line(other)}")
 
 
 def _line(cause: "Cause") -> str:
