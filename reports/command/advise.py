@@ -37,6 +37,11 @@ if TYPE_CHECKING:
     help="How often the worst error has to fit into what is allowed.",
 )
 @click.option(
+    "--robust",
+    is_flag=True,
+    help="Try the recipe with six draws of the case's parameters, each up to 10 % off.",
+)
+@click.option(
     "--all", "every", is_flag=True, help="All shipped cases, and no fronts: what advice.csv holds."
 )
 @click.option("--out", type=Folder(), help="Write advice.csv there.")
@@ -49,6 +54,7 @@ def advise(
     names: tuple[str, ...],
     tolerance: float | None,
     margin: float,
+    robust: bool,
     every: bool,
     out: Path | None,
     as_json: bool,
@@ -70,7 +76,7 @@ def advise(
     """
     from .. import write
     from ..cache import store
-    from ..search.advice import Asked, row
+    from ..search.advised import Asked, row
     from ..search.session import advised
     from ..selection import choose_cases, choose_engines
     from ..show import terminal
@@ -86,7 +92,7 @@ def advise(
     if long := too_long(chosen, engines):
         raise CaseError(long)
     used = None if no_cache else store.usable()
-    asked = Asked(tolerance, margin, front=not (every or as_json))
+    asked = Asked(tolerance, margin, front=not (every or as_json), robust=robust)
     with (
         terminal.progress() as progress,
         finished(used is not None),
@@ -94,7 +100,9 @@ def advise(
     ):
         rows = [row(one) for one in found]
         if as_json:
-            say(json.dumps([_plain(one) for one in rows], indent=1))
+            draws = [{} if one.draws is None else asdict(one.draws) for one in found]
+            as_told = [_plain(one) | more for one, more in zip(rows, draws, strict=True)]
+            say(json.dumps(as_told, indent=1))
         elif not every:
             for one in found:
                 for line in told(one):

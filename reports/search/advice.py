@@ -1,50 +1,25 @@
-"""Which setting does a case need? The minimal recipe of each engine, and what it costs."""
+"""Which setting does a case need? The search for the minimal recipe of each engine."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from ...cases.mistake import CaseError
 from ...engines.engine import Plan, Refusal, Tunable
-from ...engines.knobs import as_text
 from ..pool import Died
 from ..results import Results
-from ..row import Advice
 from ..trial.start import first
 from ..trial.trial import Trial, judged_names, planned
 from ..unit import Pair, solved
+from .advised import Advised, Asked
 from .bar import Bar
 from .candidate import Candidate
+from .draws import held
 from .menu import NOTHING, Choice, Menu, fitting
-from .recipe import Kitchen, Recipe, best, recipe, rungs_of
+from .recipe import Kitchen, Recipe, recipe, rungs_of
 from .together import Asking, Known, Search, together
 
 NO_KNOBS = "adapter: it says of nothing how it can be turned"
 NO_STEPS = "a claim about states: no step and no option plays a part"
-
-
-@dataclass(frozen=True)
-class Asked:
-    """tolerance: of each quantity's own size; None: what the case allows."""
-
-    tolerance: float | None
-    margin: float
-    front: bool = False  # whether cost against error is drawn
-
-
-@dataclass(frozen=True)
-class Advised:
-    """way: the native one as shipped, or why there is none. kitchen: with all that was run."""
-
-    pair: Pair
-    asked: Asked
-    way: Plan | Refusal
-    kitchen: Kitchen | None
-    recipe: Recipe | None
-
-    @property
-    def shipped(self) -> Candidate:
-        assert self.kitchen is not None
-        return NOTHING.at(self.kitchen.menu.own)
 
 
 def advise(pairs: Sequence[Pair], asked: Asked, results: Results) -> list[Advised]:
@@ -61,10 +36,18 @@ def advise(pairs: Sequence[Pair], asked: Asked, results: Results) -> list[Advise
         if one.kitchen is not None
     }
     found = together("advice", searches, results)
-    return [
+    advised = [
         replace(one, recipe=found.get(f"{one.pair.case.name} {one.pair.engine.name}"))
         for one in ready
     ]
+    return [_drawn(one, results) for one in advised] if asked.robust else advised
+
+
+def _drawn(one: Advised, results: Results) -> Advised:
+    if one.kitchen is None or one.recipe is None:
+        return one
+    tried = held(one.pair, one.recipe.candidate, one.kitchen.bar.scale, results)
+    return replace(one, draws=tried)
 
 
 def _sampled(pairs: Sequence[Pair], results: Results) -> list[tuple[Pair, str]]:
@@ -131,52 +114,3 @@ def _search(kitchen: Kitchen, *, front: bool) -> Asking[Recipe | None]:
         tuned = Choice(("tuned",), kitchen.menu.tuned)
         yield rungs_of(kitchen, tuned, *([found.choice] if found else []))
     return found
-
-
-def row(one: Advised) -> Advice:
-    """A row of advice.csv."""
-    empty = Advice(
-        one.pair.case.name,
-        one.pair.engine.name,
-        one.asked.tolerance,
-        one.asked.margin,
-        *("none", "", None, None, None, None, "", ""),
-    )
-    if one.kitchen is None:
-        assert isinstance(one.way, Refusal)
-        return replace(empty, remains=one.way.because)
-    empty = replace(empty, shipped_cost=one.kitchen.cost(one.shipped))
-    if one.recipe is None:
-        return replace(empty, **_remains(one))
-    worst, quantity = one.kitchen.bar.worst(one.recipe.candidate)
-    return replace(
-        empty,
-        recipe=words(one.recipe.choice),
-        options=as_text(one.recipe.choice.options),
-        step=one.recipe.step,
-        cost=one.kitchen.cost(one.recipe.candidate),
-        worst=worst,
-        quantity=quantity,
-    )
-
-
-def words(choice: Choice) -> str:
-    """`RK4 + impratio 100`."""
-    return " + ".join(choice.words) or "as shipped"
-
-
-def _remains(one: Advised) -> dict[str, str | float]:
-    """What no recipe brings within the bar, and what the engine leaves out of the scene."""
-    assert one.kitchen is not None
-    assert isinstance(one.way, Plan)
-    found, left_out = best(one.kitchen), one.way.simplified
-    if found is None:
-        return {"remains": "; ".join(filter(None, ("every run diverges", left_out)))}
-    candidate, worst, quantity = found
-    best_of = f"{as_text(candidate.options)} at {candidate.step:.3g} s"
-    what = f"{quantity} stays ×{worst:.2g} with {best_of}, the best of all that was tried"
-    return {
-        "worst": worst,
-        "quantity": quantity,
-        "remains": "; ".join(filter(None, (what, left_out))),
-    }

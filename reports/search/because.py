@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from ..row import DEVIATES, DIVERGED, Cause, Comparison
-from .causes import NONE, UNSEARCHED
+from .told import NONE, NOTHING, UNSEARCHED
 from .why import Key, key_of
 
 Moments = Mapping[Key, str]
@@ -35,7 +35,8 @@ def _with(row: Comparison, causes: Sequence[Cause], moment: str) -> Comparison:
     declared = row.because if row.verdict in (DEVIATES, DIVERGED) else moment
     if first == NONE:
         told = [declared or row.because, "none of its options tried cures it"]
-        told = told if declared else reversed(told)
+    elif first == NOTHING:
+        told = [declared or row.because, NOTHING]
     else:
         told = [declared, f"cured by {_cures(causes)}"]
     return replace(row, because="; ".join(part for part in told if part))

@@ -68,7 +68,7 @@ def _smallest(search: Setting, rows: Sequence[str]) -> Asking[dict[str, Sequence
         left = [row for row in rows if row not in found]
         if size == 2 and len(field.levers) >= MANY and left:
             matter = yield from that_matter(search, left)
-        sets = {row: _sets(matter[row], size) for row in left}
+        sets = {row: _sets(field, matter[row], size) for row in left}
         found |= yield from _cured(search, sets, finer=False)
         others = {row: of for row, of in sets.items() if size == 1 or row not in found}
         with_step = yield from _cured(search, others, finer=True)
@@ -94,13 +94,15 @@ def _cured(
     return {row: cures for row, cures in lasting.items() if cures}
 
 
-def _sets(matter: Sequence[Lever], size: int) -> list[Turned]:
-    """All of that size; beyond the largest, all levers that matter, without and with the step."""
+def _sets(field: Field, matter: Sequence[Lever], size: int) -> list[Turned]:
+    """All of that size; beyond the largest, all levers that matter, and all there are."""
     if size <= LARGEST:
         sets = combinations(matter, size)
         return [turned for turned in sets if size <= LARGEST_FINER or STEP not in turned]
-    knobs = tuple(lever for lever in matter if lever is not STEP)
-    return [every for every in dict.fromkeys((knobs, tuple(matter))) if len(every) > LARGEST]
+    knobs = [lever for lever in matter if lever is not STEP]
+    rest = [] if field.rest is None else [field.rest]
+    every = [tuple(knobs), (*knobs, STEP), (*field.levers, *rest)]
+    return [turned for turned in every if len(turned) > LARGEST_FINER]
 
 
 def _rungs(field: Field, turned: Turned) -> list[Candidate]:

@@ -7,6 +7,17 @@ from .candidate import Candidate
 from .together import Known
 
 
+def usable(row: Comparison, rungs: Sequence[Rungs]) -> tuple[float, float] | None:
+    """The largest step [s] from which on the held ladder keeps what is allowed, and its error."""
+    mine = (row.case, row.engine, row.setting, row.realised, row.quantity)
+    for rung in rungs:
+        its = (rung.case, rung.engine, rung.setting, rung.realised, rung.quantity)
+        if its == mine and rung.ladder == "held" and rung.usable_step is not None:
+            steps = [abs(float(step) - rung.usable_step) for step in rung.steps.split()]
+            return rung.usable_step, float(rung.errors.split()[steps.index(min(steps))])
+    return None
+
+
 def climbed(base: Candidate, rows: Sequence[Comparison], rungs: Sequence[Rungs]) -> Known:
     """The errors of the rows at the ladder's steps, if it tells all of them, to three digits.
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from math import ceil, log2
 from typing import Any
 
-from ...engines.knobs import Knob, Options, merged
+from ...engines.knobs import Knob, Options, merged, said
 from .candidate import Candidate
 
 NEAR = 1e-9  # of a halving: a ratio of two steps that is a power of two up to rounding
@@ -35,13 +35,15 @@ class Field:
     """All levers between two recipes, and where they begin.
 
     base: options and step before any is changed. steps: from the base's down to the finest, each
-    half of the one before; alone: the same where nothing but the step is changed.
+    half of the one before; alone: the same where nothing but the step is changed. rest: what else
+    the other recipe has, of no use but beside all the others.
     """
 
     base: Candidate
     levers: Sequence[Lever]
     steps: Sequence[float]
     alone: Sequence[float]
+    rest: Lever | None = None
 
     def candidate(self, turned: Iterable[Lever]) -> Candidate:
         """With these changed: the finest step if it is one of them."""
@@ -90,6 +92,14 @@ def levers(knobs: Iterable[Knob], base: Options) -> Iterator[Lever]:
             yield Lever(words, knob.tuned.options, number=name, along=along)
         else:
             yield Lever(words, knob.tuned.options)
+
+
+def remainder(knobs: Iterable[Knob], recipe: Options) -> Lever | None:
+    """What of a recipe is no knob: how exactly to solve, say."""
+    turned = merged(*(knob.tuned.options for knob in knobs if knob.tuned))
+    rest = {name: value for name, value in recipe.items() if name not in turned}
+    words = " + ".join(f"{name} {said(value)}" for name, value in rest.items())
+    return Lever(words, rest) if rest else None
 
 
 def _numbers(options: Options) -> Iterator[tuple[str, float]]:

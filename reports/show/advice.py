@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from ...engines.engine import Diverged, Tunable
 from ...engines.knobs import as_text
 from ..judge.plain import plain
-from ..search.advice import Advised, row, words
+from ..search.advised import Advised, row, words
 from ..search.candidate import Candidate
 from ..search.errors import trial_of
 from ..search.price import ratio
@@ -43,6 +43,8 @@ def _recipe(one: Advised, candidate: Candidate, changed: str) -> Iterator[str]:
     beside = "" if measured is None else f", measured here ×{measured:.2g}"
     yield f"  recipe        {changed}, h = {candidate.step:g} s: {_worst(one, candidate)}"
     yield f"  its cost      ×{cost:.2g} of shipped's{beside}"
+    if one.draws is not None:
+        yield f"  robust        {one.draws}"
     yield "  to paste"
     start = first(one.pair.reference())
     lines = engine.snippet(scene, start, candidate.options, candidate.step).rstrip().splitlines()

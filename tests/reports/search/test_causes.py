@@ -5,7 +5,7 @@ from given import scenes
 
 from textmech.reports import suite
 from textmech.reports.row import BEYOND, Cause
-from textmech.reports.search.causes import NONE, UNSEARCHED
+from textmech.reports.search.told import NOTHING, UNSEARCHED
 from textmech.reports.search.why import OURS
 from textmech.reports.selection import choose_engines
 from textmech.reports.suite import Report
@@ -45,7 +45,7 @@ def of(
         ("sliding_block.below", "mujoco", "block.x", ["impratio 1e6"]),
         ("growing_force", "pymunk", "block.x", [OURS["law"]]),
         ("growing_force", "mujoco", "block.x", [OURS["law"], OURS["driver"]]),
-        ("planar_bodies", "pymunk", "energy.kinetic", [NONE]),
+        ("planar_bodies", "pymunk", "energy.kinetic", [NOTHING]),
     ],
 )
 def test_causes_that_are_known(

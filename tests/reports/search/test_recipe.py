@@ -110,7 +110,7 @@ def test_a_front_has_no_point_that_costs_more_and_is_hardly_better() -> None:
 
 
 def test_what_one_setting_tells_the_others_must_tell_too() -> None:
-    known = {
+    known: Known = {
         Candidate.of({}, 1.0): {"x": (0.1, 0.1), "force": (0.1, 0.1)},
         Candidate.of({"one": 1}, 1.0): {"x": (0.1, 0.1)},
     }
