@@ -3,10 +3,14 @@ VENV := .venv
 PYTHON ?= python3
 READY := $(VENV)/.ready
 
-.PHONY: reports test quick lint bench clean
+.PHONY: reports advice test quick lint bench clean
 
 reports: $(READY)
 	$(VENV)/bin/textmech run --causes
+
+# Which settings every case needs: minutes of search, which `reports` does not take.
+advice: $(READY)
+	$(VENV)/bin/textmech advise --all
 
 test: $(READY)
 	$(VENV)/bin/pytest -n auto --dist worksteal

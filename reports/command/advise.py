@@ -44,7 +44,12 @@ if TYPE_CHECKING:
 @click.option(
     "--all", "every", is_flag=True, help="All shipped cases, and no fronts: what advice.csv holds."
 )
-@click.option("--out", type=Folder(), help="Write advice.csv there.")
+@click.option(
+    "--out",
+    type=Folder(),
+    help="Write advice.csv there; with --all by default to the committed reports of a checkout, and "
+    "outside of one to ./textmech-reports.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print rows as JSON, for scripts.")
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default.")
 @click.option("--no-cache", is_flag=True, help="Compute everything anew.")
@@ -72,7 +77,7 @@ def advise(
     \b
       textmech advise my_case.yaml                      your own mechanism, every engine
       textmech advise four_bar --engine mujoco --tolerance 1e-3
-      textmech advise --all --out reports               the committed reports/advice.csv
+      textmech advise --all                             the committed reports/advice.csv
     """
     from .. import write
     from ..cache import store
@@ -85,6 +90,8 @@ def advise(
 
     if bool(cases) == every:
         raise click.UsageError("name a CASE, or say --all")
+    if every and out is None and not as_json:
+        out = Folder().convert(str(write.by_default()), None, None)
     chosen = choose_cases(cases, long=allow_long)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # an engine that is broken and that nobody named
