@@ -47,8 +47,8 @@ if TYPE_CHECKING:
 @click.option(
     "--out",
     type=Folder(),
-    help="Write advice.csv there; with --all by default to the committed reports of a checkout, and "
-    "outside of one to ./textmech-reports.",
+    help="Write advice.csv there; with --all by default to the committed reports of a checkout, "
+    "and outside of one to ./textmech-reports.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print rows as JSON, for scripts.")
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default.")
