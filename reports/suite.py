@@ -10,7 +10,7 @@ from ..cases.case import Case
 from ..cases.mistake import CaseError, Mistake
 from ..cases.trajectory import Trajectory
 from ..engines.engine import Engine, Refusal
-from ..reference.solve import Solution
+from ..reference.solve import Solution, solve
 from .cache.key import Keys
 from .cache.store import Store, passing
 from .events.states import mistaken
@@ -27,7 +27,7 @@ from .selection import sound
 from .trial.book import producers
 from .trial.trial import Trial
 from .trials import Tried, tried
-from .unit import Pair, solved
+from .unit import Pair
 
 OF_BOUND = 0.1  # of what a check must keep: below it a difference is its rounding
 
@@ -101,7 +101,7 @@ def measure(
 
 def _solve(cases: Sequence[Case], results: Results, report: Report) -> None:
     keys = {case.name: results.keys.solution(case) for case in cases}
-    found = results.of("references", solved, {keys[case.name]: case for case in cases})
+    found = results.of("references", _solved, {keys[case.name]: case for case in cases})
     answers = {case.name: found[keys[case.name]] for case in cases}
     report.mistakes += [m for case in cases for m in _wrong(case, answers[case.name])]
     report.cases = sound(cases, report.mistakes)
@@ -155,6 +155,13 @@ def _without_reference(pair: Pair, report: Report) -> None:
     nothing = Trajectory(pair.case.times, {}, {})
     trial = Trial(pair.case, nothing, pair.engine, Refusal("native", because))
     report.comparisons += failing(crashed(trial, because), because).rows
+
+
+def _solved(case: Case) -> Solution | CaseError:
+    try:
+        return solve(case)
+    except CaseError as error:
+        return error
 
 
 def _certificates(case: Case, solution: Solution) -> list[Certificate]:

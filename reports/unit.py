@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from ..cases.case import Case
-from ..cases.mistake import CaseError
 from ..cases.trajectory import Trajectory
 from ..engines.engine import Engine, Plan, Realised, Refusal
 from ..reference.solve import Solution, solve
@@ -69,14 +68,6 @@ class Climb:
 
     unit: Unit
     found: Mapping[At, Climbed]
-
-
-def solved(case: Case) -> Solution | CaseError:
-    """The case's reference, or the mistakes that only solving finds."""
-    try:
-        return solve(case)
-    except CaseError as error:
-        return error
 
 
 def planned(pair: Pair) -> tuple[Way, ...]:

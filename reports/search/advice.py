@@ -9,13 +9,14 @@ from ..pool import Died
 from ..results import Results
 from ..trial.start import first
 from ..trial.trial import Trial, judged_names, planned
-from ..unit import Pair, solved
+from ..unit import Pair
 from .advised import Advised, Asked
 from .bar import Bar
 from .candidate import Candidate
 from .draws import held
 from .menu import NOTHING, Choice, Menu, fitting
 from .recipe import Kitchen, Recipe, recipe, rungs_of
+from .solving import solved
 from .together import Asking, Known, Search, together
 
 NO_KNOBS = "adapter: it says of nothing how it can be turned"

@@ -16,10 +16,11 @@ from ...cases.mistake import CaseError
 from ...cases.trajectory import Trajectory
 from ...reference.solve import Solution
 from ..results import Results
-from ..unit import Pair, solved
+from ..unit import Pair
 from .bar import Bar
 from .candidate import Candidate
 from .errors import Run, errors
+from .solving import solved
 
 DRAWS = 6
 APART = 0.1  # of each parameter: how far a draw may be from it
