@@ -91,7 +91,13 @@ def _cured(
     }
     yield {c for of in within.values() for turned in of for c in _asked(field, turned)}
     lasting = {row: list(_lasting(search, row, of)) for row, of in within.items()}
-    return {row: cures for row, cures in lasting.items() if cures}
+    return {row: _fewest(cures) for row, cures in lasting.items() if cures}
+
+
+def _fewest(cures: Sequence[Cure]) -> list[Cure]:
+    """Of sets beyond the largest, which are not all of one size."""
+    least = min(len(cure.turned) for cure in cures)
+    return [cure for cure in cures if len(cure.turned) == least]
 
 
 def _sets(field: Field, matter: Sequence[Lever], size: int) -> list[Turned]:

@@ -1,21 +1,27 @@
 """What the ladder of a row's own setting tells already: its errors at smaller steps."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from ..row import Comparison, Rungs
 from .candidate import Candidate
 from .together import Known
 
 
-def usable(row: Comparison, rungs: Sequence[Rungs]) -> tuple[float, float] | None:
-    """The largest step [s] from which on the held ladder keeps what is allowed, and its error."""
-    mine = (row.case, row.engine, row.setting, row.realised, row.quantity)
-    for rung in rungs:
-        its = (rung.case, rung.engine, rung.setting, rung.realised, rung.quantity)
-        if its == mine and rung.ladder == "held" and rung.usable_step is not None:
-            steps = [abs(float(step) - rung.usable_step) for step in rung.steps.split()]
-            return rung.usable_step, float(rung.errors.split()[steps.index(min(steps))])
-    return None
+def usable(
+    rows: Sequence[Comparison], rungs: Sequence[Rungs]
+) -> Iterator[tuple[Comparison, float, float]]:
+    """Rows with the largest step [s] from which on their held ladder keeps what is allowed, and
+    the error there; those that have one."""
+    held = {
+        (rung.case, rung.engine, rung.setting, rung.realised, rung.quantity): rung
+        for rung in rungs
+        if rung.ladder == "held" and rung.usable_step is not None
+    }
+    for row in rows:
+        rung = held.get((row.case, row.engine, row.setting, row.realised, row.quantity))
+        if rung is not None and rung.usable_step is not None:
+            away = [abs(float(step) - rung.usable_step) for step in rung.steps.split()]
+            yield row, rung.usable_step, float(rung.errors.split()[away.index(min(away))])
 
 
 def climbed(base: Candidate, rows: Sequence[Comparison], rungs: Sequence[Rungs]) -> Known:

@@ -1,7 +1,7 @@
 """Many searches at once: each asks for runs in rounds, which are spread over all cores."""
 
 from collections.abc import Generator, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Generic, TypeVar
 
 from ..pool import Died
@@ -36,17 +36,31 @@ class _Round:
 def together(what: str, searches: Mapping[str, Search[T]], results: Results) -> dict[str, T]:
     """What each found, by its key; a run whose process dies has no errors and costs nobody else."""
     found: dict[str, T] = {}
+    done = 0
     while len(found) < len(searches):
         asked = _Round()
         for key in [key for key in searches if key not in found]:
             try:
                 _ask(searches[key], next(searches[key].asking), asked, results)
-            except StopIteration as done:
-                found[key] = done.value
-        answers = results.of(what, errors, asked.runs) if asked.runs else {}
+            except StopIteration as end:
+                found[key] = end.value
+        counted = _counted(results, done, left=len(searches) - len(found))
+        answers = counted.of(what, errors, asked.runs) if asked.runs else {}
+        done += len(asked.runs)
         for known, candidate, key in asked.wanted:
             known[candidate] = {} if isinstance(answers[key], Died) else answers[key]
+    if done:
+        results.progress(what, done, done)
     return {key: found[key] for key in searches}
+
+
+def _counted(results: Results, done: int, *, left: int) -> Results:
+    """Progress over all rounds: a search that is not at its end asks for one more run at least."""
+
+    def progress(what: str, now: int, of: int) -> None:
+        results.progress(what, done + now, done + of + left)
+
+    return replace(results, progress=progress)
 
 
 def _ask(search: Search, wanted: Iterable[Candidate], asked: _Round, results: Results) -> None:

@@ -63,10 +63,8 @@ def by_ours(row: Comparison, agreeing: Sequence[Comparison]) -> list[Cause]:
 
 def by_ladder(rows: Sequence[Comparison], rungs: Sequence[Rungs]) -> Iterator[Cause]:
     """The step, where a row's own ladder knows one that is small enough."""
-    for row in rows:
-        if (found := usable(row, rungs)) is not None:
-            step, error = found
-            yield replace(without(row, STEP.words), options="{}", step=step, error_after=error)
+    for row, step, error in usable(rows, rungs):
+        yield replace(without(row, STEP.words), options="{}", step=step, error_after=error)
 
 
 def without(row: Comparison, words: str) -> Cause:

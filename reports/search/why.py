@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from ..row import AGREES, BEYOND, DEVIATES, DIVERGED, Cause, Comparison
 
@@ -36,7 +37,7 @@ class Rows:
         agree = self._tuned.get((row.case, row.engine, row.quantity), {})
         return [] if "native" in agree else [agree[way] for way in OURS if way in agree]
 
-    @property
+    @cached_property
     def _tuned(self) -> Mapping[tuple[str, str, str], dict[str, Comparison]]:
         found: dict[tuple[str, str, str], dict[str, Comparison]] = {}
         for row in self.comparisons:

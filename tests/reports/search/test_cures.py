@@ -107,6 +107,18 @@ def test_large_sets_are_found(size: int) -> None:
     assert names(found) == {tuple(f"{i}" for i in range(size))}
 
 
+def test_of_large_sets_the_smallest_of_those_that_were_tried_is_named() -> None:
+    """Three knobs and the step: with a fourth knob, which is inert, it cures as well."""
+    levers = [Lever(f"{i}", {f"{i}": True}) for i in range(3)]
+
+    def error(o: Mapping[str, Any], h: float) -> float:
+        three = all(o.get(f"{i}") for i in range(3))
+        return 9.0 - len(o) - (7.0 if three and h < SHIPPED else 0.0)
+
+    found, _ = cured(lambda o, h: error(o, h) if "inert" not in o else error(o, h) + 1, *levers)
+    assert names(found) == {("0", "1", "2", "step")}
+
+
 def test_beside_an_instant_the_rest_may_still_be_cured() -> None:
     """The whole error first; where nothing cures that, what is not beside the instant."""
     rest, _ = cured(lambda o, h: (1200.0, 0.3 if o.get("one") else 3.0), ONE, TWO)
