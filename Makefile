@@ -3,10 +3,11 @@ VENV := .venv
 PYTHON ?= python3
 READY := $(VENV)/.ready
 
-.PHONY: reports advice test quick lint bench clean
+.PHONY: reports advice test quick lint bench install clean
 
 reports: $(READY)
 	$(VENV)/bin/textmech run --causes
+	$(VENV)/bin/textmech page
 
 # Which settings every case needs: minutes of search, which `reports` does not take.
 advice: $(READY)
@@ -32,6 +33,8 @@ lint: $(READY)
 
 bench: $(READY)
 	$(VENV)/bin/textmech bench
+
+install: $(READY)
 
 clean:
 	rm -rf $(VENV)

@@ -1,4 +1,4 @@
-"""Viscous friction by a power of the speed (2.86): of a point in the air, and along a slide."""
+"""Friction by a power of the speed (2.86): of a point of a body, and along a slide."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -12,43 +12,94 @@ from .friction import Bounds
 from .kind import Fields
 from .language.grammar.field import In
 from .language.grammar.friction import FrictionForce
+from .language.grammar.part import Direction
 from .motion import Motion
 from .point import GROUND, Anchor
-from .trajectory import Array
+from .trajectory import ANGLE, Array
 
 
 @dataclass(frozen=True)
 class Drag(Force):
     """(2.84), (2.86) F = −d |v|^α v/|v| on a point of a body; d is the force at 1 m/s.
 
-    α ≥ 1: with less it would stop in a finite time, wherever it is and wherever it goes.
+    With an edge `along` the body (2.85) F_i = −d_i |v_i|^α sign(v_i) along it and across it: d₊
+    forward, d₋ `backward`, as forward if not given, and d⊥ `across`. In a motion α ≥ 1: with less
+    it would stop in a finite time, wherever it is and wherever it goes.
     """
 
     word = "drag"
+    stated = True
     at: Anchor
     coefficient: Annotated[float, In("N", least=0)]
-    exponent: Annotated[float, In("1", least=1)]
+    exponent: Annotated[float, In("1", least=0)]
+    along: Direction | None = None
+    backward: Annotated[float, In("N", least=0)] | None = None
+    across: Annotated[float, In("N", least=0)] | None = None
 
     def refers(self) -> tuple[Anchor, ...]:
         """Its point; the ground does not move."""
         return () if self.at.body == GROUND else (self.at,)
 
     def unfit(self, bodies: Mapping[str, Body]) -> str | None:
-        """The ground takes no drag."""
-        return "slows the ground; it acts on a body" if self.at.body == GROUND else None
+        """The ground takes no drag; a particle has no edge; an edge has both its keys."""
+        if self.at.body == GROUND:
+            return "slows the ground; it acts on a body"
+        if self.along is None:
+            given = self.across is not None or self.backward is not None
+            return "needs the edge that is meant: write `along`" if given else None
+        if self.across is None:
+            return "has an edge `along`, and needs `across` too"
+        body = bodies.get(self.at.body)
+        turns = body is None or body.turns
+        return None if turns else f"{self.at.body!r} is a particle, which has no edge"
+
+    @property
+    def ways(self) -> tuple[Bounds, Bounds]:
+        """d along its edge and d across it."""
+        back = self.coefficient if self.backward is None else self.backward
+        across = self.across or 0.0
+        return Bounds(self.coefficient, back), Bounds(across, across)
 
     def quantities(self) -> dict[str, Fields]:
-        """force [N], its size."""
-        return {self.name: {"force": ("N", "force")}}
+        """fx, fy [N] on the point, in ground axes, and force, their size."""
+        return {self.name: dict.fromkeys(("fx", "fy", "force"), ("N", "force"))}
 
     def observe(self, motion: Motion, field: str) -> Array:
-        """(N,) d |v|^α."""
+        """(N,) of the force, or its size."""
+        fx, fy = self._exerted(motion).T
+        return {"fx": fx, "fy": fy, "force": np.hypot(fx, fy)}[field]
+
+    def _exerted(self, motion: Motion) -> Array:
+        """(N, 2) [N]."""
         velocity = motion.point(self.at)[:, 2:]
-        return self.coefficient * np.sqrt(np.sum(velocity**2, axis=1)) ** self.exponent
+        if self.along is None:
+            speed = np.hypot(*velocity.T)[:, None]
+            size = -self.coefficient * speed**self.exponent
+            return size * velocity / np.where(speed, speed, 1.0)
+        angle, (a, b) = motion.trajectory.states[self.at.body][:, ANGLE], self.along
+        x, y = np.cos(angle) * a - np.sin(angle) * b, np.sin(angle) * a + np.cos(angle) * b
+        force = np.zeros_like(velocity)
+        for edge, d in zip(([x, y], [-y, x]), self.ways, strict=True):
+            speed = np.sum(np.transpose(edge) * velocity, axis=1)
+            size = -np.where(speed > 0, d.forward, d.backward) * np.abs(speed) ** self.exponent
+            force += np.transpose(edge * (size * np.sign(speed)))
+        return force
+
+    @property
+    def corner(self) -> bool:
+        """Where its slope differs to both sides of the edge."""
+        forth, _ = self.ways
+        return self.along is not None and forth.forward != forth.backward
+
+    @property
+    def ends(self) -> bool:
+        """With α < 1."""
+        return self.exponent < 1
 
     def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
-        """d/m at 1 m/s."""
-        return 0.0, self.coefficient * sum(mobility(at) for at in self.refers())
+        """The largest d/m at 1 m/s."""
+        most = max(d for way in self.ways for d in (way.forward, way.backward))
+        return 0.0, most * sum(mobility(at) for at in self.refers())
 
 
 @dataclass(frozen=True)

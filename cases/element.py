@@ -22,6 +22,7 @@ class Force:
     word: ClassVar[str]
     freedom: ClassVar[Literal["turn", "shift"]] = "turn"
     """Which freedom of the joint that it is about lets it act: a turn, or a shift."""
+    stated: ClassVar[bool] = False  # whether it follows from places and rates: states claim it
     winds: ClassVar[bool] = False  # whether it needs a joint's angle, and not only its rate
     inner: ClassVar[str] = ""
     """The quantity that is its inner state, which its producer gives; it begins with `begins`."""
@@ -39,6 +40,11 @@ class Force:
     @property
     def corner(self) -> bool:
         """Whether its law has a corner where something comes to rest, which costs steps orders."""
+        return False
+
+    @property
+    def ends(self) -> bool:
+        """Whether it would stop a free body in a finite time, so that only states may claim it."""
         return False
 
     @property

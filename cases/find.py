@@ -8,9 +8,26 @@ from .mistake import CaseError, Mistake, nearest, plain, unseen
 LONGEST = 100  # letters of a name: with a variant's and an ending it has to make a file's name
 
 
+QUESTIONS = "questions"  # the folder of cases that answer public questions
+
+
 def shipped() -> dict[str, Path]:
-    """The case files that come with the suite, by name."""
-    return {path.stem: path for path in sorted(Path(__file__).parent.glob("*.yaml"))}
+    """The case files that come with the suite, by name: the textbook's, then the questions."""
+    return of_the_book() | questions()
+
+
+def of_the_book() -> dict[str, Path]:
+    """Those of the textbook's chapter."""
+    return _in(Path(__file__).parent)
+
+
+def questions() -> dict[str, Path]:
+    """Those that answer what people ask in public."""
+    return _in(Path(__file__).parent / QUESTIONS)
+
+
+def _in(folder: Path) -> dict[str, Path]:
+    return {path.stem: path for path in sorted(folder.glob("*.yaml"))}
 
 
 def find(words: Sequence[str]) -> list[Path]:

@@ -27,13 +27,14 @@ def observe(scene: Scene, trajectory: Trajectory, name: str) -> Array:
     if quantity.part == "momentum":
         return _momentum(scene, trajectory, quantity.field)
     owner, _, point = quantity.part.partition(".")
-    for section in (scene.joints, scene.constraints, scene.contacts, scene.forces):
+    for section in (scene.joints, scene.constraints, scene.contacts, scene.pairs, scene.forces):
         if owner in section:
-            return section[owner].observe(_motion(scene, trajectory), quantity.field)
+            return section[owner].observe(motion_of(scene, trajectory), quantity.field)
     return scene.bodies[owner].observe(trajectory.states[owner], point, quantity.field)
 
 
-def _motion(scene: Scene, trajectory: Trajectory) -> Motion:
+def motion_of(scene: Scene, trajectory: Trajectory) -> Motion:
+    """The trajectory as elements look at it."""
     return Motion(scene.bodies, scene.points, trajectory, scene.joints)
 
 
@@ -52,7 +53,7 @@ def _energy(scene: Scene, trajectory: Trajectory, field: str) -> Array:
         potential -= body.mass * (scene.gravity[0] * s[:, X] + scene.gravity[1] * s[:, Y])
     if field == "kinetic":
         return kinetic  # which asks for no inner state
-    motion = _motion(scene, trajectory)
+    motion = motion_of(scene, trajectory)
     for force in scene.forces.values():
         potential += force.potential(motion)
     return {"potential": potential, "total": kinetic + potential}[field]

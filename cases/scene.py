@@ -30,6 +30,7 @@ from .frame import PLANE, Frame
 from .friction import Bounds, DryFriction, Smooth, Stribeck
 from .joint import DRIVES, Joint
 from .kind import Fields, Kind
+from .pair import Pair
 from .point import CENTER, FLOOR, GROUND, Anchor, GroundPoint, Vector
 from .signal import Signal
 
@@ -54,6 +55,7 @@ __all__ = [
     "Magnetic",
     "Motor",
     "Muscle",
+    "Pair",
     "Push",
     "Scene",
     "Signal",
@@ -83,6 +85,8 @@ class Scene:
     constraints: Mapping[str, Edge] = field(default_factory=dict)
     drives: Mapping[str, Signal] = field(default_factory=dict)
     """Prescribed rates [rad/s, m/s] of joints' freedoms, by the quantity: `hinge.omega`."""
+    pairs: Mapping[str, Pair] = field(default_factory=dict)
+    """The contacts of two bodies; `contacts` are those with planes of the ground."""
 
     @property
     def frame(self) -> Frame:
@@ -118,10 +122,15 @@ class Scene:
         """One contact for every point that may touch the floor: of spokes, `feet.tip0` and on."""
         return {one.name: one for contact in self.contacts.values() for one in contact.each()}
 
-    def elements(self) -> Iterator[Body | Joint | Edge | Contact | Force]:
+    @property
+    def pressed(self) -> tuple[str, ...]:
+        """Whatever has a normal force and friction, by name: each point on a plane, each pair."""
+        return (*self.touching, *self.pairs)
+
+    def elements(self) -> Iterator[Body | Joint | Edge | Contact | Pair | Force]:
         """All that has a name, quantities and numbers."""
-        sections = (self.bodies, self.joints, self.constraints, self.contacts, self.forces)
-        for section in sections:
+        held = (self.bodies, self.joints, self.constraints)
+        for section in (*held, self.contacts, self.pairs, self.forces):
             yield from section.values()
 
     def springs(self) -> Iterator[Spring]:

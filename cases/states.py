@@ -71,7 +71,7 @@ def claimable(scene: Scene) -> dict[str, Quantity]:
     known = {
         name: quantity
         for name, quantity in table(scene).items()
-        if quantity.kind in _OF_STATES and not _drawn(scene, quantity)
+        if _told(scene, quantity) and not _drawn(scene, quantity)
     }
     for part, fields in _more(scene):
         for field, (unit, kind) in fields.items():
@@ -81,6 +81,10 @@ def claimable(scene: Scene) -> dict[str, Quantity]:
         unit = "kg m²" if units == {"rad"} else "kg"
         known[MASS_MATRIX] = Quantity(MASS_MATRIX, MASS_MATRIX, "", unit, "inertia")
     return known
+
+
+def _told(scene: Scene, quantity: Quantity) -> bool:
+    return quantity.kind in _OF_STATES or quantity.part in scene.forces
 
 
 def _drawn(scene: Scene, quantity: Quantity) -> bool:

@@ -52,7 +52,7 @@ def one_number(scene: Scene) -> str:
     """What an engine that knows one number of friction leaves out, in words; or nothing."""
     told = [
         f"{contact.name} by its kinetic {contact.kinetic:g} (static {contact.static:g})"
-        for contact in scene.contacts.values()
+        for contact in (*scene.contacts.values(), *scene.pairs.values())
         if contact.switches and contact.static != contact.kinetic
     ]
     told += [

@@ -48,13 +48,18 @@ class Stride:
 
 def stride(scene: Scene, standing: Collection[str]) -> Stride | None:
     """At the start; standing: the contacts that lie on the floor there. None without such feet."""
-    feet = {name: foot for name, foot in scene.contacts.items() if foot.ahead_of is not None}
+    feet = strode(scene)
     if not feet:
         return None
     lengths = (abs(x) for body in scene.bodies.values() for at in body.points.values() for x in at)
     return Stride(feet, AHEAD * max(lengths), {name: name in standing for name in feet})
 
 
+def strode(scene: Scene) -> dict[str, Contact]:
+    """The contacts that are such feet."""
+    return {name: foot for name, foot in scene.contacts.items() if foot.ahead_of is not None}
+
+
 def strides(scene: Scene) -> bool:
     """Whether a driver has to tell which foot meets the floor."""
-    return any(contact.ahead_of is not None for contact in scene.contacts.values())
+    return bool(strode(scene))

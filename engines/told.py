@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 from ..cases.drag import Drag, Viscous
 from ..cases.element import Force
+from ..cases.friction import Bounds
 from ..cases.magnetic import Magnetic
 from ..cases.muscle import Contracting, LinearMuscle, Muscle
 from ..cases.scene import Scene
@@ -33,6 +34,8 @@ Law = Callable[[float, Sequence[Place]], Exerted]
 
 def _drag(scene: Scene, force: Drag) -> Law:
     """(2.86) −d |v|^α v/|v|."""
+    if force.along is not None:
+        return _scrape(force, force.along)
     d, power = force.coefficient, (force.exponent - 1) / 2
 
     def law(t: float, points: Sequence[Place]) -> Exerted:
@@ -41,6 +44,24 @@ def _drag(scene: Scene, force: Drag) -> Law:
         return ((size * vx, size * vy),)
 
     return law
+
+
+def _scrape(force: Drag, edge: tuple[float, float]) -> Law:
+    """(2.85) −d_i |v_i|^α sign(v_i) along an edge that turns with the body, and across it."""
+    (a, b), (d, e), power = edge, force.ways, force.exponent
+
+    def law(t: float, points: Sequence[Place]) -> Exerted:
+        _, _, vx, vy, angle = points[0]
+        cos, sin = math.cos(angle), math.sin(angle)
+        ux, uy = cos * a - sin * b, sin * a + cos * b
+        one, two = _braked(d, ux * vx + uy * vy, power), _braked(e, ux * vy - uy * vx, power)
+        return ((one * ux - two * uy, one * uy + two * ux),)
+
+    return law
+
+
+def _braked(d: Bounds, speed: float, power: float) -> float:
+    return -d.forward * speed**power if speed > 0 else d.backward * (-speed) ** power
 
 
 def _viscous(scene: Scene, force: Viscous) -> Law:
@@ -53,7 +74,7 @@ def _viscous(scene: Scene, force: Viscous) -> Law:
         cos, sin = math.cos(a.angle), math.sin(a.angle)
         ux, uy = cos * x - sin * y, sin * x + cos * y
         speed = ux * (b.vx - a.vx) + uy * (b.vy - a.vy)
-        size = -d.forward * speed**power if speed > 0 else d.backward * (-speed) ** power
+        size = _braked(d, speed, power)
         return (-size * ux, -size * uy), (size * ux, size * uy)
 
     return law

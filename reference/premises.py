@@ -11,7 +11,7 @@ from ..cases.case import Case
 from ..cases.difference import apart
 from ..cases.frame import PLANE, SPACE
 from ..cases.mistake import CaseError, Mistake
-from ..cases.observe import observe
+from ..cases.observe import motion_of, observe
 from ..cases.quantity import table
 from ..cases.space.joint import rate_of
 from ..cases.trajectory import Array, Trajectory
@@ -94,6 +94,7 @@ def check_premises(case: Case, motion: Trajectory, happened: Collection[str | No
     for mistakes in (
         _unsaid(case, motion, happened),
         _slipping(case, motion),
+        _beside(case, motion),
         _wound(case, motion),
         _still(case, motion),
     ):
@@ -108,15 +109,32 @@ def _unsaid(case: Case, motion: Trajectory, happened: Collection[str | None]) ->
     """
     said = {event.quantity for event in case.events.values() if event.value == 0.0}
     size = size_of(case)
-    for name, contact in case.scene.contacts.items():
+    touched = {c.name: c.plane.name for c in case.scene.contacts.values() if c.ideal is None}
+    touched |= {pair.name: pair.on for pair in case.scene.pairs.values()}
+    for name, on in touched.items():
         gap = float(observe(case.scene, motion, f"{name}.gap")[0])
-        lands = contact.ideal is None and f"{name} lands" in happened
+        lands = f"{name} lands" in happened
         if lands and gap > OPEN * size and f"{name}.gap" not in said:
             what = (
-                f"starts {gap:.3g} m above the {contact.plane.name}; if it is meant to fall on it, "
+                f"starts {gap:.3g} m above the {on}; if it is meant to fall on it, "
                 f"name the event: events: {{lands: {{{name}.gap: falls to zero}}}}"
             )
             yield case.mistake(("scene", "contacts", name), what)
+
+
+def _beside(case: Case, motion: Trajectory) -> Iterator[Mistake]:
+    """What is pushed by a face is between its ends, at every sample."""
+    for pair in case.scene.pairs.values():
+        if pair.face is None:
+            continue
+        off = pair.beyond(motion_of(case.scene, motion))
+        off &= motion.reactions[f"{pair.name}.normal"] > 0
+        if np.any(off):
+            what = (
+                f"{pair.at} has left the {pair.on} at t = {motion.times[np.argmax(off)]:.3g} s, "
+                "where it is past its end: shorten the duration, or name what it then touches"
+            )
+            yield case.mistake(("scene", "contacts", pair.name), what)
 
 
 def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:

@@ -19,6 +19,7 @@ from ..cases.space.scene import SpatialScene
 from .generated.choosing import Undetermined
 from .generated.either import Generated
 from .generated.mechanism import BadStart
+from .generated.together import OneInstant
 from .integrators.budget import Endless, budget
 from .motion.stuck import Stuck
 from .motion.zeno import ZenoError
@@ -64,7 +65,9 @@ def _mistake(case: Case, generated: Generated, failure: Exception) -> Mistake:
     match failure:
         case BadStart():
             return case.mistake(("initial",), str(failure))
-        case Undetermined(part=part) if (name := part.partition(".")[0]) in case.scene.contacts:
+        case OneInstant(part=part):
+            return case.mistake(("scene", "contacts", part), str(failure))
+        case Undetermined(part=part) if (name := part.partition(".")[0]) in _touching(case):
             return case.mistake(("scene", "contacts", name, "friction"), str(failure))
         case Undetermined(part=part):
             return case.mistake(("scene", "joints", part, "dry_friction"), str(failure))
@@ -78,6 +81,10 @@ def _mistake(case: Case, generated: Generated, failure: Exception) -> Mistake:
             raise failure
     what = f"the motion cannot be followed beyond t = {time:.4g} s: {why}"
     return case.mistake(("duration",), what)
+
+
+def _touching(case: Case) -> set[str]:
+    return {*case.scene.contacts, *case.scene.pairs}
 
 
 def _line(case: Case, generated: Generated, t: float, q: Array) -> str | None:

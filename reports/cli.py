@@ -1,17 +1,23 @@
-"""The command `textmech`: run, causes, advise, check, list, show, bench."""
+"""The command `textmech`: run, causes, advise, check, list, show, and what compares and shows."""
 
 import sys
-import warnings
 
 import click
 
-from ..cases.mistake import CaseError, Mistake
+from ..cases.mistake import CaseError
 from . import ending
 from .command.advise import advise
+from .command.answer import BAD_INPUT
 from .command.bench import bench
 from .command.causes import causes
+from .command.check import check
+from .command.diff import diff
 from .command.done import done
-from .command.run import BAD_INPUT, FAILED, allow_long, run
+from .command.list import list_
+from .command.page import page
+from .command.plot import plot
+from .command.run import allow_long, run
+from .command.versions import versions
 from .show.say import prepare, say, tell
 
 
@@ -21,6 +27,9 @@ def main() -> None:
     prepare()
     try:
         sys.exit(command(standalone_mode=False))  # an exit code, or None
+    except click.exceptions.NoArgsIsHelpError as error:
+        tell(error.format_message())
+        sys.exit(BAD_INPUT)
     except click.ClickException as error:
         tell(f"Error: {error.format_message()}")
         sys.exit(BAD_INPUT)
@@ -49,82 +58,36 @@ def command() -> None:
     \b
       textmech run                            all cases: regenerates reports/*.csv
       textmech run bar_pendulum               one case: prints its rows, writes nothing
-      textmech run --settings mine.yaml       your own engine options as a further column, mine
+      textmech run --settings mine.yaml       your own engine options beside them, as mine
       textmech causes bar_pendulum            why it is off, by experiment
       textmech advise bar_pendulum            which setting it needs, and what to paste
       textmech check my_case.yaml             all mistakes of a file, without running it
       textmech show bar_pendulum --engine mujoco.tuned > pendulum.xml
+      textmech diff before after              what changed between two report folders
+      textmech versions pymunk==7.0.1 pymunk==7.3.1     and between releases of an engine
 
     \b
     Exit codes:
       0    all is as expected; findings (`beyond`) are no failures
-      1    a verdict FAILS
+      1    a verdict FAILS; of diff: something got worse
       2    a mistake in the command or in a file, which is left out; the other files run
       130  interrupted
     """
 
 
 command.add_command(run)
+command.add_command(check)
+command.add_command(list_)
 command.add_command(bench)
 command.add_command(advise)
 command.add_command(causes)
+command.add_command(diff)
+command.add_command(versions)
+command.add_command(page)
+command.add_command(plot)
 
 
-@command.command()
-@click.argument("files", nargs=-1, required=True, metavar="FILE...")
-@allow_long
-def check(files: tuple[str, ...], allow_long: bool) -> None:
-    """All mistakes of case files, without running an engine."""
-    from ..reference.solve import solve
-    from .events.states import mistaken
-    from .selection import choose_cases, choose_engines
-    from .trial.work import too_long
-
-    mistakes: list[Mistake] = []
-    failed = False
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # an engine that is broken is no mistake of a case
-        engines = choose_engines([], [])
-    for file in files:
-        try:
-            chosen = choose_cases([file], long=allow_long)
-            if long := too_long(chosen, engines):
-                raise CaseError(long)
-            solutions = [solve(case) for case in chosen]
-        except CaseError as error:
-            mistakes += error.mistakes
-            continue
-        found = [
-            mistake
-            for case, solution in zip(chosen, solutions, strict=True)
-            for mistake in mistaken(case, solution.trajectory)
-        ]
-        mistakes += found
-        broken = [check for solution in solutions for check in solution.checks if not check.holds]
-        if not found and not broken:
-            say(f"{file}: {len(chosen)} case{'s' if len(chosen) > 1 else ''}, no mistakes")
-        for check in broken:
-            numbers = f"{check.difference:.2e} is above {check.bound:.1e}"
-            say(f"{file}: FAILS: the reference's {check.name}: {numbers}")
-        failed = failed or bool(broken)
-    if mistakes:
-        raise CaseError(mistakes)
-    if failed:
-        raise click.exceptions.Exit(FAILED)
-
-
-@command.command("list")
-def list_() -> None:
-    """The shipped cases, with their sources and titles."""
-    from .selection import choose_cases
-
-    cases = choose_cases([], known=None)
-    width = max(len(case.name) for case in cases)
-    for case in cases:
-        say(f"{case.name:{width}}  {case.title}\n{'':{width}}    {case.origin}")
-
-
-@command.command()
+@command.command(short_help="A scene as the engine's own file or script, with reasons.")
 @click.argument("case")
 @click.option(
     "--engine",

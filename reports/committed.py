@@ -11,7 +11,7 @@ from pathlib import Path
 
 from ..cases.case import Case
 from ..cases.find import shipped
-from .row import AGREES, BEYOND, CHANGED, CRASHED, DEVIATES, DIVERGED, FAILS, Comparison
+from .row import Comparison, rank
 from .write import read
 
 FILE = Path(__file__).parent / "tolerance.csv"
@@ -19,8 +19,6 @@ WORSE = 10  # × what was committed; another processor changes a third beside an
 USELESS = 1e-6  # of `allow`: where a shipped setting's figure is nothing to anyone
 ROUNDING = 1e-8  # of `allow`: where a tuned setting's figure may be rounding's on another processor
 SAME_STEP = 1e-2  # steps are written with three digits
-LADDER = (AGREES, DEVIATES, BEYOND, CHANGED, "refused", DIVERGED, CRASHED, FAILS)
-"""Verdicts from good to bad, by their first words."""
 
 Key = tuple[str, str, str, str, str]
 
@@ -56,7 +54,7 @@ def worse(case: Case, row: Comparison) -> str:
     found = before(case, key_of(row), row.version, row.step)
     if found is None:
         return ""
-    if _rank(row.verdict) > _rank(found.verdict):
+    if rank(row.verdict) > rank(found.verdict):
         return f"the committed report says: {found.verdict}"
     if found.largest is None or row.largest is None:
         return ""
@@ -65,7 +63,3 @@ def worse(case: Case, row: Comparison) -> str:
     if not row.largest <= bar:
         return f"{row.largest:.3g} is above {WORSE} × the committed {found.largest:.3g}"
     return ""
-
-
-def _rank(verdict: str) -> int:
-    return next((i for i, word in enumerate(LADDER) if verdict.startswith(word)), len(LADDER))

@@ -1,4 +1,4 @@
-"""The motions behind the rows, for looking and plotting: two files a case, in full precision."""
+"""The motions behind the rows, for looking and plotting: three files a case, in full precision."""
 
 from dataclasses import asdict
 from pathlib import Path
@@ -8,34 +8,33 @@ import pandas as pd
 
 from ..cases.case import Case
 from ..cases.difference import apart
-from ..cases.frame import PLANE, SPACE
 from ..cases.observe import observe
 from ..cases.states import MASS_MATRIX
 from ..cases.trajectory import Array
+from .poses import COLUMNS, filed, poses
 from .replace import replace
 from .suite import Report
 
-POSES = {
-    PLANE: [("x", "m", 0), ("y", "m", 1), ("angle", "rad", 2)],
-    SPACE: [*zip("xyz", "mmm", range(3), strict=True)]
-    + [(f"quaternion_{part}", "1", 3 + i) for i, part in enumerate("wxyz")],
-}
-"""What is told of every body, with its unit and its column."""
 INSTANTS = 12  # decimals of a second: samples of two grids that are the same
 
 
 def keep(report: Report, folder: Path) -> None:
     """`<case>.csv`: times, each observed quantity of the reference and of every engine side by
     side, and the reference's poses. `<case>.events.csv`: the times of all events.
+    `<case>.poses.csv`, or `.parquet` where pyarrow is installed: where every body is, in the
+    reference and in every run, one number a row.
 
     Raises OSError: then the folder holds what it held.
     """
-    texts: dict[str, str] = {}
+    files: dict[str, str | bytes] = {}
     for case in report.cases:
         if case.name in report.solutions:
-            texts[f"{case.name}.csv"] = _motions(report, case).to_csv(index=False)
-            texts[f"{case.name}.events.csv"] = _events(report, case).to_csv(index=False)
-    replace(folder, texts)
+            files[f"{case.name}.csv"] = _motions(report, case).to_csv(index=False)
+            files[f"{case.name}.events.csv"] = _events(report, case).to_csv(index=False)
+            if case.states is None:
+                ending, held = filed(poses(report, case))
+                files[f"{case.name}.poses.{ending}"] = held
+    replace(folder, files)
 
 
 def _motions(report: Report, case: Case) -> pd.DataFrame:
@@ -58,7 +57,7 @@ def _motions(report: Report, case: Case) -> pd.DataFrame:
                     label, samples = f"{label} off", np.linalg.norm(samples, axis=1)
                 columns[f"{name} [{unit}] {label}"] = pd.Series(samples, times)
     for body, states in reference.states.items():
-        for field, unit, column in POSES[case.scene.frame]:
+        for field, unit, column in COLUMNS[case.scene.frame]:
             values = pd.Series(states[:, column], here)
             columns.setdefault(f"{body}.{field} [{unit}] reference", values)
     head = "t [s]" if case.states is None else "state"

@@ -7,19 +7,25 @@ from typing import Any
 from .. import engines
 from ..cases.language.check.work import GO_ON
 from ..cases.language.grammar.number import SMALLEST
-from ..cases.language.read.document import read
+from ..cases.language.read.document import Document, read
 from ..cases.mistake import CaseError, Mistake, Source, nearest
 from ..engines.engine import Engine
 
 SWEEPS = 10_000  # what a chain of 200 pins needs in pymunk; as shipped engines take 10 and 100
+SUFFIXES = (".yaml", ".yml")
 
 
 def read_settings(file: Path, offered: Sequence[str], *, long: bool = False) -> dict[str, Engine]:
     """A file of engine → options as engines with a setting of its name. Raises CaseError."""
-    if not file.exists() and file.suffix not in (".yaml", ".yml"):
-        hint = nearest(str(file), offered) or f"; {', '.join(offered)}, or a YAML file"
+    if not file.exists() and file.suffix not in SUFFIXES:
+        files = [str(f) for f in map(file.with_suffix, SUFFIXES) if f.is_file()]
+        hint = nearest(str(file), [*offered, *files])
         raise CaseError([Mistake("--settings", 0, 0, str(file), f"no such setting{hint}")])
-    document = read(file)
+    return made(read(file), file.stem, long=long)
+
+
+def made(document: Document, setting: str, *, long: bool = False) -> dict[str, Engine]:
+    """Engines with the options of a document, by name. Raises CaseError."""
     mistakes, found = list(document.mistakes), {}
     for name, options in document.data.items():
         if name not in engines.names():
@@ -31,7 +37,7 @@ def read_settings(file: Path, offered: Sequence[str], *, long: bool = False) -> 
         elif endless := [*_endless(document.source, name, options, long=long)]:
             mistakes += endless
         else:
-            mistakes += _options(document.source, (name, file.stem), options, found)
+            mistakes += _options(document.source, (name, setting), options, found)
     if mistakes:
         raise CaseError(mistakes)
     return found

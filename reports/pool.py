@@ -2,7 +2,7 @@
 
 import os
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future, as_completed
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -10,6 +10,7 @@ from typing import Any
 
 from .processes import ProcessDied, Processes
 
+BEAT = 5.0  # s
 _ONE = threading.Lock()  # engines have one set of callbacks a process
 
 
@@ -36,22 +37,37 @@ def local(jobs: int) -> Iterator[Executor]:
 
 
 def spread(
-    function: Callable[[Any], Any], tasks: Sequence[Any], executor: Executor
+    function: Callable[[Any], Any],
+    tasks: Sequence[Any],
+    executor: Executor,
+    beat: Callable[[], object] = lambda: None,
 ) -> Iterator[tuple[int, Any]]:
     """(index, result) of every task as it is done; a result may be `Died`.
 
     executor: any of `concurrent.futures`, whose tasks and results cross into another process; a
-    cluster's own does a task again if it loses one of its machines.
+    cluster's own does a task again if it loses one of its machines. beat: is called every few
+    seconds while nothing is done.
     """
     futures: dict[Future, int] = {}
     try:
         for index, task in enumerate(tasks):
             futures[executor.submit(_alone, function, task)] = index
-        for future in as_completed(futures):
+        for future in _as_completed(futures, beat):
             yield futures[future], _result(future)
     finally:
         for future in futures:
             future.cancel()
+
+
+def _as_completed(futures: Iterable[Future], beat: Callable[[], object]) -> Iterator[Future]:
+    left = set(futures)
+    while left:
+        try:
+            for future in as_completed(left, BEAT):
+                left.remove(future)
+                yield future
+        except TimeoutError:
+            beat()
 
 
 def _alone(function: Callable[[Any], Any], task: Any) -> Any:

@@ -17,8 +17,8 @@ MAKING, DECIDED = ".writing-", ".written-"
 NEW, OLD, NAMES = "new", "old", "names"
 
 
-def replace(folder: Path, texts: Mapping[str, str]) -> None:
-    """Writes the texts under their names; waits while another process writes there.
+def replace(folder: Path, texts: Mapping[str, str | bytes]) -> None:
+    """Writes the texts, or bytes, under their names; waits while another process writes there.
 
     Raises OSError if the folder cannot take them: then it holds what it held.
     """
@@ -38,7 +38,7 @@ def settle(folder: Path) -> None:
             _settled(folder)
 
 
-def _decide(folder: Path, texts: Mapping[str, str]) -> None:
+def _decide(folder: Path, texts: Mapping[str, str | bytes]) -> None:
     made = Path(tempfile.mkdtemp(prefix=MAKING, dir=folder))
     (made / NEW).mkdir()
     (made / OLD).mkdir()
@@ -46,8 +46,8 @@ def _decide(folder: Path, texts: Mapping[str, str]) -> None:
     for name, text in texts.items():
         if (folder / name).exists():
             shutil.copy2(folder / name, made / OLD / name)
-        with (made / NEW / name).open("w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
+        with (made / NEW / name).open("wb") as file:
+            file.write(text.encode() if isinstance(text, str) else text)
             file.flush()
             os.fsync(file.fileno())  # the decision must not reach the disk before the text
     made.rename(made.with_name(made.name.replace(MAKING, DECIDED)))

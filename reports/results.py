@@ -3,15 +3,24 @@
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 from ..cases.mistake import CaseError
 from .cache.key import Keys
 from .cache.store import Store
 from .pool import Died, spread
 
-Progress = Callable[[str, int, int], None]
-"""What is being done, how much is done, out of how much."""
+
+class Progress(Protocol):
+    """Is told what is being done, how many tasks of it are done, out of how many.
+
+    last: the task that was done last, by its name. part: how much of the work is done, 0 to 1, of
+    what was left to do; unlike the tasks' number it counts a long one for more.
+    """
+
+    def __call__(
+        self, what: str, done: int, total: int, last: str = "", part: float = 0.0, /
+    ) -> None: ...
 
 
 @dataclass(frozen=True)
@@ -51,10 +60,22 @@ class Results:
         """All computed, whatever is stored; of: so many there are with those that are stored."""
         total = len(tasks) if of is None else of
         done, found, keys = total - len(tasks), dict[str, Any](), list(tasks)
-        self.progress(what, done, total)
-        for index, result in spread(function, list(tasks.values()), self.executor):
-            found[keys[index]] = result
+        work = {key: _work(task) for key, task in tasks.items()}
+
+        def tell(last: str = "") -> None:
+            part = sum(work[key] for key in found) / (sum(work.values()) or 1.0)
+            self.progress(what, done + len(found), total, last, part)
+
+        tell()
+        for index, result in spread(function, list(tasks.values()), self.executor, tell):
+            key = keys[index]
+            found[key] = result
             if not isinstance(result, Died | CaseError):
-                keep(keys[index], result)
-            self.progress(what, done + len(found), total)
+                keep(key, result)
+            tell(getattr(tasks[key], "name", ""))
         return found
+
+
+def _work(task: Any) -> float:
+    """How much a task is, among its like: its steps, if it has any."""
+    return float(getattr(task, "steps", 1.0))

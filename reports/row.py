@@ -4,6 +4,13 @@ from dataclasses import dataclass
 
 AGREES, BEYOND, DEVIATES, FAILS = "agrees", "beyond", "deviates as declared", "FAILS"
 DIVERGED, CRASHED, CHANGED = "diverged", "crashed", "changed since"
+LADDER = (AGREES, DEVIATES, BEYOND, CHANGED, "refused", DIVERGED, CRASHED, FAILS)
+"""Verdicts from good to bad, by their first words."""
+
+
+def rank(verdict: str) -> int:
+    """How bad it is, from 0; what is no verdict is worse than all of them."""
+    return next((i for i, word in enumerate(LADDER) if verdict.startswith(word)), len(LADDER))
 
 
 @dataclass(frozen=True)

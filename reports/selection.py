@@ -11,6 +11,7 @@ from .. import engines
 from ..cases.case import Case
 from ..cases.find import find, shipped
 from ..cases.language.check.engines import Engines
+from ..cases.language.read.document import read
 from ..cases.load import load
 from ..cases.mistake import CaseError, Mistake, nearest
 from ..engines.engine import Engine
@@ -58,7 +59,7 @@ def sound_cases(
                     what = f"{other} already has the name {case.name!r}: rename one of the files"
                     mistakes.append(Mistake(case.source.file, 0, 0, "", what))
         except CaseError as error:
-            mistakes += error.mistakes
+            mistakes += _settings(word) or error.mistakes
     return sound(list(cases.values()), mistakes), mistakes
 
 
@@ -66,6 +67,20 @@ def sound(cases: Sequence[Case], mistakes: Sequence[Mistake]) -> list[Case]:
     """The cases of the files without mistakes."""
     mistaken = {mistake.file for mistake in mistakes}
     return [case for case in cases if case.source.file not in mistaken]
+
+
+def _settings(word: str) -> list[Mistake]:
+    """One mistake in place of many, where what should be a case is a file of own settings."""
+    file = Path(word)
+    if not file.is_file():
+        return []
+    try:
+        keys = set(read(file).data)
+    except CaseError:
+        return []
+    what = f"holds an engine's options, and is no case: say --settings {word}"
+    ours = bool(keys) and keys <= set(engines.names())
+    return [Mistake(word, 0, 0, "", what)] if ours else []
 
 
 def _nameable(word: str) -> None:

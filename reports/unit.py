@@ -32,6 +32,11 @@ class Pair:
     store: Store
     key: str
 
+    @property
+    def name(self) -> str:
+        """For whoever waits for it."""
+        return f"{self.case.name} in {self.engine.name}.{self.engine.setting}"
+
     def reference(self) -> Trajectory:
         """From the store; where that has none, as on a machine that does not share it, anew."""
         return _at_hand(self.store, self.key) or solve(self.case).trajectory
@@ -68,6 +73,11 @@ class Climb:
 
     unit: Unit
     found: Mapping[At, Climbed]
+
+    @property
+    def name(self) -> str:
+        """For whoever waits for it."""
+        return self.unit.pair.name
 
 
 def planned(pair: Pair) -> tuple[Way, ...]:

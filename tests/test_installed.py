@@ -83,7 +83,8 @@ def run(*words: object, cwd: Path | None = None) -> subprocess.CompletedProcess[
 def test_the_wheel_holds_one_package_and_its_data(wheel: Path) -> None:
     names = zipfile.ZipFile(wheel).namelist()
     assert {name.split("/")[0].split("-")[0] for name in names} == {"textmech"}
-    for folder, pattern in (("cases", "*.yaml"), ("cases", "*.json"), ("reports", "*.csv")):
+    data = ("cases", "*.yaml"), ("cases", "*.json"), ("cases/questions", "*.yaml")
+    for folder, pattern in (*data, ("reports", "*.csv"), ("reports", "*.svg")):
         files = [file.name for file in (ROOT / folder).glob(pattern)]
         assert files
         assert {f"textmech/{folder}/{file}" for file in files} <= set(names)
@@ -105,6 +106,11 @@ def test_the_command_runs_beside_them(python: Path, project: Path) -> None:
     assert "swing in mujoco" in done.stdout
     assert "swing in pymunk" in done.stdout
     assert "bar_pendulum" in run(python.parent / "textmech", "list", cwd=project).stdout
+
+
+def test_it_is_asked_from_python(python: Path, project: Path) -> None:
+    asked = "from textmech.reports import run; print(run('swing.yaml').summary.worst.to_list())"
+    assert "×" in run(python, "-c", asked, cwd=project).stdout
 
 
 def test_a_full_run_would_write_where_the_user_stands(python: Path, project: Path) -> None:

@@ -7,7 +7,7 @@ from given.tree import FILES, imported, module
 # joined by + is one room.
 NOUNS = (
     "body+constraint+contact+difference+drag+element+event+force+frame+friction+joint+kind"
-    "+magnetic+motion+muscle+plane+point+quantity+scene+shape+signal+space+states+trajectory"
+    "+magnetic+motion+muscle+pair+plane+point+quantity+scene+shape+signal+space+states+trajectory"
     "+turning"
 )
 ROOMS = {
@@ -28,19 +28,22 @@ ROOMS = {
         "states",
         "solve",
     ],
-    "engines": ["engine+knobs law signal stride tied told", "heading", "mujoco pymunk"],
+    "engines": ["engine+knobs law signal stride tied told", "begun heading", "mujoco pymunk"],
     "reports": [
         "own_settings",
         "row pins selection coverage events lock ending cluster pytest_short",
         "processes trial replace",
-        "pool judge",
+        "diff",
+        "pool judge asking",
         "cache",
         "unit results",
         "trials search",
         "suite",
+        "poses",
         "write keep session",
-        "show committed bench",
-        "command",
+        "show committed bench page",
+        "versions",
+        "command interface",
         "cli pytest_plugin",
     ],
 }

@@ -18,6 +18,7 @@ from textmech.cases.mistake import CaseError
 from textmech.cases.observe import observe
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.reference.generated.choosing import Undetermined
+from textmech.reference.generated.mechanism import BadStart
 from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import either, follow
 from textmech.reference.motion.stuck import Stuck
@@ -71,7 +72,7 @@ def ratios(file: Path, name: str, folder: Path, part: float) -> Iterator[float]:
     for case, before in as_written(file):
         try:
             after = samples(changed(file, case, name, folder), part)
-        except (CaseError, ZenoError, Stuck, Undetermined):  # bound to another parameter
+        except (CaseError, BadStart, ZenoError, Stuck, Undetermined):  # bound to another parameter
             yield inf
             continue
         for quantity, values in after.items():

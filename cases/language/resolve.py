@@ -25,10 +25,15 @@ def resolve_scene(file: File) -> Scene:
         points=s.points,
         bodies=bodies,
         joints=_named(s.joints),
-        contacts={n: contact.named(n, bodies, planes) for n, contact in s.contacts.items()},
+        contacts={
+            n: contact.named(n, bodies, planes)
+            for n, contact in s.contacts.items()
+            if not contact.pairs(bodies)
+        },
         forces=_named(s.forces),
         constraints=_named(s.constraints),
         drives={rate: drive.signal for rate, drive in s.drive.items()},
+        pairs={n: c.paired(n) for n, c in s.contacts.items() if c.pairs(bodies)},
     )
 
 
@@ -56,7 +61,9 @@ def resolve_case(name: str, file: File, scene: Scene, source: Source, *, long: b
     return Case(
         name=name,
         title=file.title,
-        origin=Origin(book.equations, book.example, book.exercise, book.figures, book.section),
+        origin=Origin(
+            book.equations, book.example, book.exercise, book.figures, book.section, book.thread
+        ),
         system=file.system,
         parameters={name: amount.value for name, amount in file.parameters.items()},
         drops_out=file.drops_out,

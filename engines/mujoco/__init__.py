@@ -62,7 +62,7 @@ class MuJoCo:
         scene, start = world.built(scene, start)
         refusal = (
             world.unbuildable(scene)
-            or unfit(self.options, scene, list(world.recipes))
+            or unfit(self.options, list(world.recipes), world.worth(scene))
             or uncompilable(world.compiled, scene, start, self._plan(scene, start))
         )
         if refusal:
@@ -85,15 +85,16 @@ class MuJoCo:
         """See `Tunable`."""
         world = _world(scene)
         scene, start = world.built(scene, start)
-        worth = world.worth(scene) if scene.contacts else []
-        bundles = {word: world.recipes[word](scene) for word in worth}
-        return knobs(scene, world.best(scene, start), world.soft(scene), bundles)
+        bundles = {word: world.recipes[word](scene) for word in world.worth(scene)}
+        best, lies = world.best(scene, start), world.closed(scene, start)
+        rubs = any(contact.friction for contact in world.met(scene))
+        return knobs(best, world.soft(scene), bundles, lies=lies, rubs=rubs)
 
     def recipe(self, scene: Scene, start: Start) -> Options:
         """See `Tunable`."""
         world = _world(scene)
         scene, start = world.built(scene, start)
-        return as_options(scene, world.best(scene, start))
+        return as_options(world.best(scene, start), settled=world.closed(scene, start))
 
     def cost(self, options: Options, step: float, scene: Scene) -> float:
         """Evaluations of the dynamics in a simulated second: steps × stages."""
@@ -104,7 +105,7 @@ class MuJoCo:
         world = _world(scene)
         scene, start = world.built(scene, start)
         with_own = partial(world.with_own, scene=scene, start=start, tied_to=step)
-        notes = said(options, contacts=bool(scene.contacts), plane=world is PLANE)
+        notes = said(options, contacts=bool(world.worth(scene)), plane=world is PLANE)
         return snippet(with_own(options), with_own({}), step, notes)
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:

@@ -31,7 +31,7 @@ _HELD = {
     "slide.solreffriction": "dof_solref",
 }
 # What else a run writes: friction by our laws, and the start in the floor.
-_WRITTEN = (*_HELD.values(), "dof_frictionloss", "pair_friction", "pair_margin")
+_WRITTEN = (*_HELD.values(), "dof_frictionloss", "pair_friction", "site_pos")
 _WRITTEN += ("key_qpos", "key_qvel")
 
 

@@ -1,4 +1,4 @@
-"""MuJoCo's recipes for contacts with planes of the ground, chosen by the scene and its start.
+"""MuJoCo's recipes for contacts, chosen by the scene and its start.
 
 MuJoCo asks of a contact the acceleration d (−b v − k r) + (1 − d) a, where a is the one without
 the contact. What holds a wheel (d near 1) makes a sliding body hop and takes the friction out of
@@ -11,8 +11,10 @@ from collections.abc import Callable, Mapping
 
 from scipy.optimize import brentq
 
-from ...cases.scene import CENTER, Contact, Scene
+from ...cases.scene import CENTER, Anchor, Contact, Pair, Scene
+from ..begun import begun
 from ..engine import Choice, Start
+from .planes import met, touching
 
 HARDEST = 0.9999  # of d: MuJoCo clamps it
 SOFTEST = 1.01e-4  # of d: MuJoCo clamps it at 1e-4
@@ -26,35 +28,44 @@ def recipe(scene: Scene, start: Start | None) -> list[Choice]:
 
 def chosen(scene: Scene, start: Start | None) -> str:
     """Which of the recipes the scene needs from its start on."""
-    contacts = scene.touching.values()
+    contacts = met(scene)
     if not any(contact.switches for contact in contacts):
         return "roll"
-    if any(contact.ideal == "pivot" for contact in contacts):
+    if any(contact.ideal == "pivot" for contact in scene.contacts.values()):
         return "pivot"
     if any(contact.restitution for contact in contacts):
         return "bounce"
     if start is not None and falls(scene, start):
         return "land"
-    return "slide" if all(alone(scene, contact) for contact in contacts) else "tip"
+    return "slide" if _all_alone(scene) else "tip"
 
 
 def worth(scene: Scene) -> list[str]:
     """Which of the recipes may do something for the scene, from whatever start."""
-    contacts = scene.touching.values()
-    thrown = ["bounce"] if any(contact.restitution for contact in contacts) else []
-    tips = [] if all(alone(scene, contact) for contact in contacts) else ["tip", "pivot"]
+    if not met(scene):
+        return []
+    thrown = ["bounce"] if any(contact.restitution for contact in met(scene)) else []
+    tips = [] if _all_alone(scene) else ["tip", "pivot"]
     return ["roll", "slide", *tips, *thrown, "land"]
+
+
+def _all_alone(scene: Scene) -> bool:
+    return not scene.pairs and all(alone(scene, contact) for contact in scene.touching.values())
 
 
 def alone(scene: Scene, contact: Contact) -> bool:
     """Whether a disk or a particle touches, and nothing else holds it."""
     joined = (end.body for joint in scene.joints.values() for end in (joint.a, joint.b))
-    touching = [other.body for other in scene.touching.values()].count(contact.body)
-    return contact.at.point == CENTER and touching == 1 and contact.body not in joined
+    touching = [other.body for other in scene.touching.values()]
+    touching += [body for pair in scene.pairs.values() for body in (pair.body, pair.touched)]
+    once = touching.count(contact.body) == 1
+    return contact.at.point == CENTER and once and contact.body not in joined
 
 
 def falls(scene: Scene, start: Start) -> bool:
-    """Whether something starts above its plane: of spokes, all tips."""
+    """Whether something starts above its plane, of spokes all tips, or apart from the other."""
+    if any(pair.normal(begun(scene, start))[1][0] > CLOSED for pair in scene.pairs.values()):
+        return True
     return any(
         min(height(scene, point, start) for point in contact.each()) > CLOSED
         for contact in scene.contacts.values()
@@ -71,14 +82,32 @@ def lies(scene: Scene, contact: Contact, start: Start) -> bool:
     return height(scene, contact, start) <= CLOSED and rises <= still
 
 
+def meet(scene: Scene, pair: Pair, start: Start) -> bool:
+    """Whether two bodies start in contact, and are not about to part."""
+    motion = begun(scene, start)
+    still = CLOSED * (max(math.hypot(*start[name][3:5]) for name in scene.bodies) or 1.0)
+    gap, parting = pair.normal(motion)[1][0], pair.moves(motion)[1][0]
+    return bool(gap <= CLOSED and parting <= still)
+
+
+def closed(scene: Scene, start: Start) -> bool:
+    """Whether anything lies on its plane at the start, or on another body."""
+    on_planes = any(lies(scene, contact, start) for contact in touching(scene).values())
+    return on_planes or any(meet(scene, pair, start) for pair in scene.pairs.values())
+
+
 def height(scene: Scene, contact: Contact, start: Start) -> float:
     """How high [m] what touches is above its plane."""
     body = scene.bodies[contact.body]
-    dx, dy = body.points[contact.at.point]
-    x, y, angle, *_ = start[contact.body]
+    return float(contact.plane.height(*place(scene, contact.at, start))) - (body.radius or 0.0)
+
+
+def place(scene: Scene, at: Anchor, start: Start) -> tuple[float, float]:
+    """x and y [m] of a point of a body."""
+    dx, dy = scene.bodies[at.body].points[at.point]
+    x, y, angle, *_ = start[at.body]
     cos, sin = math.cos(angle), math.sin(angle)
-    place = x + cos * dx - sin * dy, y + sin * dx + cos * dy
-    return float(contact.plane.height(*place)) - (body.radius or 0.0)
+    return x + cos * dx - sin * dy, y + sin * dx + cos * dy
 
 
 def _rolling(scene: Scene) -> list[Choice]:
@@ -109,7 +138,7 @@ def _pivoting(scene: Scene) -> list[Choice]:
 
 
 def _bouncing(scene: Scene) -> list[Choice]:
-    bounce = max(contact.restitution for contact in scene.contacts.values())
+    bounce = max(contact.restitution for contact in met(scene))
     because = f"k = ({_BEAT}/h)²: a bounce lasts 16 h and keeps its energy to 0.2 %; b gives e"
     b = 2 * damping_ratio(bounce) * _BEAT
     return [*_soft(f"{_BEAT**2:.2g}/h2", b=b, along=1.0, because=because), _EXACT]
@@ -117,7 +146,7 @@ def _bouncing(scene: Scene) -> list[Choice]:
 
 def _landing(scene: Scene) -> list[Choice]:
     """By how many points a body may land: their dampers add up, and RK4 bears 2.8/h."""
-    bodies = [contact.body for contact in scene.touching.values()]
+    bodies = [contact.body for contact in met(scene)]
     b = 1 / max(map(bodies.count, bodies))
     because = f"k = {_RISE:g}/h, b = {b:.3g}/h: it is hardly thrown back, and rises slowly"
     return [*_soft(f"{_RISE}/h", b=b, along=b, because=because), _EXACT]

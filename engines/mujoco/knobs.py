@@ -6,7 +6,6 @@ A group's solref, solimp and solreffriction are one knob: they spoil each other 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from ...cases.scene import Scene
 from ..engine import Choice
 from ..knobs import Knob, Options, Value, said
 from .contact import HARDEST, SOFTEST
@@ -19,16 +18,19 @@ _STIFF = ("2h", "4h", "10h")  # time constants
 
 
 def knobs(
-    scene: Scene,
     best: Sequence[Choice],
     soft: Sequence[str],
     bundles: Mapping[str, Sequence[Choice]],
+    *,
+    lies: bool,
+    rubs: bool,
 ) -> list[Knob]:
     """Those that matter for the scene. best: the tuned recipe; soft: its groups.
 
-    bundles: the recipes for contacts that fit it.
+    bundles: the recipes for contacts that fit it. lies: whether something starts on the floor;
+    rubs: whether what touches has friction.
     """
-    tuned = as_options(scene, best)
+    tuned = as_options(best, settled=lies)
     found = [
         Knob(
             "integrator",
@@ -37,28 +39,28 @@ def knobs(
         ),
         *(_softness(_GROUPS[group], tuned) for group in soft),
     ]
-    if scene.contacts:
-        found += _contacts(scene, tuned)
-    if "noslip_iterations" in tuned or scene.contacts:
+    if rubs:
+        found += _contacts(tuned)
+    if "noslip_iterations" in tuned or bundles:
         found.append(_knob("noslip_iterations", [5], tuned))
     if "diagexact" in tuned:
         found.append(_knob("diagexact", [True], tuned))
-    if scene.contacts:
+    if lies:
         start = Value("a settled start", {"settled": True})
         found.append(Knob("start", (start,), start, "protocol"))
+    if bundles:
         recipes = tuple(
-            Value(f"contacts: {word}", as_options(scene, choices))
+            Value(f"contacts: {word}", as_options(choices, settled=lies))
             for word, choices in bundles.items()
         )
         found.append(Knob("contacts", recipes, kind="bundle"))
     return found
 
 
-def _contacts(scene: Scene, tuned: Options) -> Iterator[Knob]:
+def _contacts(tuned: Options) -> Iterator[Knob]:
     """The pyramid's friction and its creep."""
-    if any(contact.friction for contact in scene.contacts.values()):
-        yield _knob("cone", ["elliptic"], tuned)
-        yield _knob("impratio", [10.0, 100.0, 1e4, 1e6], tuned)
+    yield _knob("cone", ["elliptic"], tuned)
+    yield _knob("impratio", [10.0, 100.0, 1e4, 1e6], tuned)
 
 
 def _knob(name: str, values: Sequence[Any], tuned: Options) -> Knob:

@@ -3,7 +3,6 @@
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from ...cases.scene import Scene
 from ..engine import Choice
 from .options import FLAGS, GROUPS, PROTOCOL, SOFT, as_written
 
@@ -55,8 +54,8 @@ _ELEMENTS = {"connect": "connect", "pair": "pair", "joint": "slide"}
 """Our groups of soft constraints, by the elements that MJCF has for them."""
 
 
-def as_options(scene: Scene, choices: Sequence[Choice]) -> dict[str, Any]:
-    """Choices in terms of h as own options, started as the floor carries what touches."""
+def as_options(choices: Sequence[Choice], *, settled: bool) -> dict[str, Any]:
+    """Choices in terms of h as own options; settled: started as the floor carries what touches."""
     elements = {group: element for element, group in _ELEMENTS.items()}
     found: dict[str, Any] = {}
     for choice in choices:
@@ -65,17 +64,20 @@ def as_options(scene: Scene, choices: Sequence[Choice]) -> dict[str, Any]:
             found.setdefault(elements[where], {})[name] = choice.value
         else:
             found[name] = choice.value == "enable" if where == "flag" else choice.value
-    return found | ({"settled": True} if scene.contacts else {})
+    return found | ({"settled": True} if settled else {})
 
 
-def unfit(options: Mapping[str, Any], scene: Scene, recipes: Sequence[str]) -> str | None:
-    """Why the recipe that is named for contacts has nothing to do with the scene's."""
+def unfit(options: Mapping[str, Any], recipes: Sequence[str], worth: Sequence[str]) -> str | None:
+    """Why the recipe that is named for contacts has nothing to do with the scene's.
+
+    recipes: all that there are; worth: which may do something for the scene, none without contacts.
+    """
     word = options.get("contacts")
-    if word in (None, "scene") or not scene.contacts:
+    if word in (None, "scene") or not worth:
         return None
     if word not in recipes:
         known = ", ".join(recipes)
         return f"adapter: contacts: {word} is no recipe for this scene's; known: {known}, scene"
-    if word == "bounce" and not any(c.restitution for c in scene.contacts.values()):
+    if word == "bounce" and word not in worth:
         return "adapter: contacts: bounce, and no contact of this scene throws anything back"
     return None

@@ -2,6 +2,7 @@
 
 from xml.etree import ElementTree as ET
 
+from ...cases.pair import Pair
 from ...cases.plane import Plane
 from ...cases.scene import GROUND, Contact, Scene
 from .written import written
@@ -9,9 +10,19 @@ from .written import written
 POINT = 1e-12  # m, radius of a point that touches: too small to be an arm or a gap
 
 
+def touching(scene: Scene) -> dict[str, Contact]:
+    """What MuJoCo's planes meet: every point that may touch, but for feet, which are pinned."""
+    return {name: one for name, one in scene.touching.items() if one.ahead_of is None}
+
+
+def met(scene: Scene) -> list[Contact | Pair]:
+    """What MuJoCo's own contacts hold: on planes, and of two bodies."""
+    return [*touching(scene).values(), *scene.pairs.values()]
+
+
 def add_planes(world: ET.Element, scene: Scene) -> None:
     """The planes that are touched."""
-    for plane in dict.fromkeys(contact.plane for contact in scene.contacts.values()):
+    for plane in dict.fromkeys(contact.plane for contact in touching(scene).values()):
         at = {"pos": written(*plane.at, 0)} if any(plane.at) else {}
         ET.SubElement(
             world, "geom", at, name=grounded(plane), type="plane", size="0 0 1",
@@ -29,33 +40,30 @@ def add_geom(element: ET.Element, scene: Scene, contact: Contact) -> None:
     )  # fmt: skip
 
 
-def add_pairs(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> None:
-    """The contacts' pairs, each with a sensor: MuJoCo records its force at every step."""
-    contacts = ET.SubElement(root, "contact")
-    for contact in scene.touching.values():
+def add_contacts(contacts: ET.Element, scene: Scene, attributes: dict[str, str]) -> None:
+    """The contacts with planes, as pairs."""
+    for contact in touching(scene).values():
         # A pair takes one coefficient; two geoms would take the larger of theirs.
         ET.SubElement(
             contacts, "pair", attributes,
             name=contact.name, geom1=grounded(contact.plane), geom2=contact.name,
-            condim=_dimensions(contact),
+            condim=dimensions(contact.friction),
             friction=written(contact.friction, contact.friction, 0, 0, 0),
         )  # fmt: skip
-    _sensors(root, scene)
 
 
-def _sensors(root: ET.Element, scene: Scene) -> None:
+def add_sensors(sensors: ET.Element, scene: Scene) -> None:
     """The plane's force on each, along the ground's axes."""
-    sensors = ET.SubElement(root, "sensor")
-    for name, contact in scene.touching.items():
+    for name, contact in touching(scene).items():
         ET.SubElement(
             sensors, "contact", geom1=grounded(contact.plane), geom2=name, data="force", num="1",
             reduce="netforce",
         )  # fmt: skip
 
 
-def _dimensions(contact: Contact) -> str:
+def dimensions(friction: float) -> str:
     """What is smooth gets no friction at all: MuJoCo knows no coefficient below 1e-5."""
-    return "3" if contact.friction else "1"
+    return "3" if friction else "1"
 
 
 def grounded(plane: Plane) -> str:

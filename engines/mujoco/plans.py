@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
-from ...cases.scene import CENTER, Contact, Scene
+from ...cases.scene import CENTER, Contact, Pair, Scene
 from ..engine import Choice, Plan, Realised, Start
 from ..law import one_number
 from ..stride import strides
@@ -14,6 +14,7 @@ from .force import lacking
 from .law.corner import has_corners
 from .law.friction import one_slide, smooth_only
 from .law.touch import one_touch
+from .planes import met
 from .scene import HEAVY
 from .settings import only_slides
 from .tree import driven
@@ -61,7 +62,7 @@ def plan(
     integrator = {choice.name: choice.value for choice in numbers(NOMINAL)}["option.integrator"]
     dry = any(joint.dry_friction for joint in scene.joints.values())
     jumps = any(law.corners for law in scene.laws())
-    first = integrator != "RK4" or bool(scene.contacts) or (dry and realised != "driver")
+    first = integrator != "RK4" or bool(met(scene)) or (dry and realised != "driver")
     first |= any(scene.one_sided()) and realised != "driver"
     corners = any(force.corner for force in scene.forces.values())
     following = (1, 2) if first else (4, 5) if dry else (2, 3)
@@ -94,24 +95,25 @@ def _words(scene: Scene, start: Start, plan: Plan, settles: bool, tuned: bool, s
     if scene.constraints:
         words.append(f"{', '.join(scene.constraints)} held by our law at every stage")
     elif plan.realised == "law" and (one_slide(scene) or one_touch(scene)):
-        when = "stage" if smooth_only(scene) and not scene.contacts else "step"
+        when = "stage" if smooth_only(scene) and not met(scene) else "step"
         words.append(f"dry friction by our law before every {when}")
     if ours := [force.name for force, _ in lacking(scene)]:
         words.append(f"{', '.join(ours)} by our law at every stage, which the script has not")
     if strides(scene):
-        words.append("before each step the floor is told which foot it meets")
+        words.append("the foot that stands is pinned; steps are cut where one strikes: an impulse")
     elif plan.realised == "driver":
         acts, dry = "where a spring begins or ends to act", "at the events of dry friction"
         words.append(f"steps cut {acts if has_corners(scene) else dry}")
-    if tuned and scene.contacts and falls(scene, start):
+    if tuned and met(scene) and falls(scene, start):
         words.append("starts above the floor: contacts are tuned for impacts")
-    if settles and scene.contacts:
+    if settles and met(scene):
         *_, depths = placed(scene, start, step, plan, settles=True)
-        deep = ((scene.touching[name], depth) for name, depth in depths.items() if depth)
-        words += [f"{_at(c)} started {depth:.1e} m in the {c.plane.name}" for c, depth in deep]
+        both = {**scene.touching, **scene.pairs}
+        deep = ((both[name], depth) for name, depth in depths.items() if depth)
+        words += [f"{_at(c)} started {depth:.1e} m in the {c.on}" for c, depth in deep]
     return "; ".join(words)
 
 
-def _at(contact: Contact) -> str:
+def _at(contact: Contact | Pair) -> str:
     """`wheel`, `rod.end`."""
     return contact.body if contact.at.point == CENTER else str(contact.at)

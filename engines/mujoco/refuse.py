@@ -27,7 +27,7 @@ def unbuildable(scene: Scene) -> str | None:
         if joint.swings:
             return f"adapter: {joint.name} is a massless rod that closes a loop, and is not built"
     tree = spanning_tree(scene)
-    soft = [*tree.loops, *scene.contacts.values()]
+    soft = [*tree.loops, *scene.contacts.values(), *scene.pairs.values()]
     soft += [joint for joint in scene.joints.values() if joint.dry_friction]
     if what := unbuilt(scene, [part.name for part in soft]):
         return what
@@ -58,13 +58,14 @@ def unbuildable(scene: Scene) -> str | None:
                 return reason
     if what := touching_twice(scene):
         return what
-    for contact in scene.contacts.values():
+    touching = [*scene.contacts.values(), *scene.pairs.values()]
+    for contact in touching:
         if 0 < contact.restitution < LEAST_BOUNCE:
             return (
-                f"engine: MuJoCo's floor is a spring and damper, and the damper that throws "
+                "engine: MuJoCo's floor is a spring and damper, and the damper that throws "
                 f"{contact.body} back with only {contact.restitution:g} of its speed is unstable"
             )
-    if len({contact.restitution for contact in scene.contacts.values()}) > 1:
+    if len({contact.restitution for contact in touching}) > 1:
         return "adapter: contacts that throw back differently would each need a recipe"
     return None
 

@@ -66,7 +66,8 @@ def simulate(
     steps = stepping(scene, model, data, realised)
     laws = [*smooth(scene, model), *edges(scene, model)] if realised == "law" else steps.controls
     laws = [*laws, *told(scene, model)]
-    touching = tuple(name for name in reactions if name.partition(".")[0] in scene.contacts)
+    felt_by = {*scene.contacts, *scene.pairs}
+    touching = tuple(name for name in reactions if name.partition(".")[0] in felt_by)
     corners = Corners(controls(scene), float(model.opt.timestep))
     steps.take = corners.held(steps.take)
     with listening() as warnings, rated(scene, model), signals(scene, laws, corners):

@@ -13,8 +13,10 @@ from ..engine import Choice, Start
 from .drive import controls
 from .drive import write as write_drives
 from .edge import write_room
+from .feet import add_pins
 from .force import BY_ITSELF, begun_with, write
-from .planes import add_geom, add_pairs, add_planes
+from .pairs import add_geoms, add_pair_sensors, add_pairs
+from .planes import add_contacts, add_geom, add_planes, add_sensors, touching
 from .tree import (
     Branch,
     Tree,
@@ -56,10 +58,11 @@ def mjcf(
     world = ET.SubElement(root, "worldbody")
     _world(world, scene)
     _bodies(world, scene, tree, numbers)
-    if scene.contacts:
-        add_pairs(root, scene, attributes(numbers, "pair"))
+    if touching(scene) or scene.pairs:
+        _touching(root, scene, attributes(numbers, "pair"))
     if tree.loops:
         _loops(root, tree, attributes(numbers, "connect"))
+    add_pins(root, scene, start, attributes(numbers, "connect"))
     write(root, scene)
     write_drives(root, scene)
     write_room(root, scene)
@@ -115,15 +118,25 @@ def _bodies(world: ET.Element, scene: Scene, tree: Tree, numbers: dict[str, obje
         _inertial(element, body.mass, least if body.inertia is None else body.inertia)
         for name, at in body.points.items():
             ET.SubElement(element, "site", name=f"{body.name}.{name}", pos=written(*at, 0))
-        for contact in scene.touching.values():
+        for contact in touching(scene).values():
             if contact.body == body.name:
                 add_geom(element, scene, contact)
+        add_geoms(element, scene, body.name)
+
+
+def _touching(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> None:
+    """The contacts, each with a sensor: MuJoCo records its force at every step."""
+    contacts, sensors = ET.SubElement(root, "contact"), ET.SubElement(root, "sensor")
+    add_contacts(contacts, scene, attributes)
+    add_pairs(contacts, scene, attributes)
+    add_sensors(sensors, scene)
+    add_pair_sensors(sensors, scene)
 
 
 def _leaves_plane(scene: Scene, numbers: dict[str, object]) -> bool:
     """Whether free bodies may move along z: nothing pushes them there, but without that freedom
     MuJoCo's noslip solver silently does nothing."""
-    return bool(scene.contacts) and numbers.get("option.noslip_iterations", 0) != 0
+    return bool(touching(scene) or scene.pairs) and numbers.get("option.noslip_iterations", 0) != 0
 
 
 def _hang(element: ET.Element, scene: Scene, branch: Branch, soft: dict[str, str]) -> None:

@@ -9,9 +9,11 @@ from typing import Any
 
 from ...cases.scene import Scene
 from ..engine import Choice, Start
+from ..stride import strides
 from ..tied import at
 from .contact import HARDEST, RECIPES, chosen, recipe
 from .own import key, overlaid
+from .planes import met
 from .tree import driven, spanning_tree
 
 SHIPPED_STEP = 2e-3  # s, the default of <option timestep>
@@ -67,7 +69,7 @@ def best(scene: Scene, start: Start | None = None) -> list[Choice]:
             ]
     if "slide" in soft(scene):
         choices.append(Choice("option.noslip_iterations", 5, "what sticks does not creep"))
-    if scene.contacts:
+    if met(scene):
         known = {choice.name for choice in choices}
         choices += [c for c in recipe(scene, start) if c.name not in known]
     return choices
@@ -99,9 +101,9 @@ def only_slides(scene: Scene) -> bool:
 
 def soft(scene: Scene) -> list[str]:
     """The groups of soft constraints in the scene."""
-    loops = ["connect"] if spanning_tree(scene).loops else []
+    loops = ["connect"] if spanning_tree(scene).loops or strides(scene) else []
     dry = ["slide"] if any(joint.dry_friction for joint in scene.joints.values()) else []
-    return loops + dry + (["pair"] if scene.contacts else [])
+    return loops + dry + (["pair"] if met(scene) else [])
 
 
 def with_own(
@@ -110,5 +112,5 @@ def with_own(
     """The shipped setting with the user's own options on top."""
     word = options.get("contacts")
     chosen_one = chosen(scene, start) if word == "scene" else word
-    contacts = RECIPES[chosen_one](scene) if scene.contacts and chosen_one else []
+    contacts = RECIPES[chosen_one](scene) if met(scene) and chosen_one else []
     return at_step(overlaid(shipped(scene, tied_to), options, soft(scene), contacts), tied_to)

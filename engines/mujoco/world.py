@@ -1,6 +1,6 @@
 """What MuJoCo's plane and its space do otherwise, as functions; `MuJoCo` has the verbs."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import Any
@@ -19,9 +19,10 @@ class World:
     """Called with a scene and its start; functions of a run also with its step [s] and plan.
 
     settles: whether bodies start as deep in the floor as it carries them. best: the tuned recipe,
-    as a user writes it. recipes: those of contacts, by their words; worth: which to try. soft: the
-    groups of soft constraints. lent: what is compiled, for one run. built: the scene with what
-    stands for joints that MuJoCo has not, and its start.
+    as a user writes it. recipes: those of contacts, by their words; worth: which to try. met: what
+    touches. closed: whether anything lies on the floor. soft: the groups of soft constraints. lent:
+    what is compiled, for one run. built: the scene with what stands for joints that MuJoCo has not,
+    and its start.
     """
 
     unbuildable: Callable[[Any], str | None]
@@ -31,6 +32,8 @@ class World:
     best: Callable[..., list[Choice]]
     recipes: Mapping[str, Callable[[Any], list[Choice]]]
     worth: Callable[[Any], list[str]]
+    met: Callable[[Any], Sequence[Any]]
+    closed: Callable[[Any, Start], bool]
     soft: Callable[[Any], list[str]]
     with_own: Callable[..., list[Choice]]
     compiled: Callable[..., Built]

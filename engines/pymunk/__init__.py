@@ -146,7 +146,8 @@ def _run(
 ) -> Trajectory:
     world = placed(scene, start, step, numbers, realised)
     felt = tuple(name for name in wanted if name not in scene.inner())
-    touching = tuple(name for name in felt if name.rpartition(".")[0] in scene.contacts)
+    felt_by = {*scene.contacts, *scene.pairs}
+    touching = tuple(name for name in felt if name.rpartition(".")[0] in felt_by)
     midpoint = bool(numbers.get("time.midpoint"))
     kept = Record(world, step, midpoint, touching) if record else None
     steps = stepper(world, step, numbers, realised, kept and kept.keep)

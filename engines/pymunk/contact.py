@@ -50,7 +50,7 @@ def circle(contact: Contact, part: Part, body: Body) -> Circle:
 def planes(scene: Scene) -> dict[Plane, ShapeFilter]:
     """The planes that are touched, each with what its segment is told."""
     found = list(dict.fromkeys(contact.plane for contact in scene.contacts.values()))
-    if len(found) < 2:
+    if len(found) < 2 and not scene.pairs:
         return dict.fromkeys(found, ShapeFilter())
     return {plane: ShapeFilter(categories=1 << i) for i, plane in enumerate(found)}
 

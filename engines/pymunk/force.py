@@ -74,7 +74,8 @@ def lines(world: World, realised: Realised) -> None:
         bodies, places = (world.body(a), world.body(b)), (world.local(a), world.local(b))
         if force.about is None:
             line = DampedSpring(*bodies, *places, **_LINE | element.line(force))
-            line.force_func = element.by_length(force) or line.force_func
+            if by_length := element.by_length(force):
+                line.force_func = by_length
         else:
             line = DampedRotarySpring(*bodies, **_TURN | element.line(force))
         world.lines[force.name] = line
@@ -137,7 +138,7 @@ def script(world: World, of: Callable[[Body], str], *, midpoint: bool) -> Iterat
         if (text := ELEMENTS[type(force)].script) and force.name not in world.lines:
             found += [f"    # {force.name}", *text(world, force, of, midpoint)]
     if found:
-        yield f"    t = {'(n + 0.5) * h' if midpoint else 'n * h'}"
+        yield f"    t = {'n * h + h / 2' if midpoint else 'n * h'}"
         yield from found
 
 

@@ -73,8 +73,8 @@ class Holding:
 
 def holding(scene: Scene, start: Start) -> Holding | None:
     """By a rehearsal; None where no two rows are solved one after the other."""
-    contacts = scene.touching.values()
-    tips = any(is_tip(scene, contact) for contact in contacts)
+    contacts = [*scene.touching.values(), *scene.pairs.values()]
+    tips = bool(scene.pairs) or any(is_tip(scene, c) for c in scene.touching.values())
     if not scene.joints and not tips and len(contacts) < 2 and count(scene) < 2:
         return None
     impacts = any(contact.switches for contact in contacts)

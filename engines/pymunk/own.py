@@ -65,9 +65,10 @@ def _matters(name: str, scene: Scene) -> bool:
     if name.startswith("constraint."):
         return bool(scene.joints)
     if "collision" in name or name == "start.seed":
-        return bool(scene.contacts)
+        return bool(scene.contacts or scene.pairs)
     if name == "contact.reflects":
-        return any(is_tip(scene, contact) for contact in scene.contacts.values())
+        tips = any(is_tip(scene, contact) for contact in scene.contacts.values())
+        return tips or bool(scene.pairs)
     if name == "slot.across":
         return any(oblique(scene, joint) for joint in scene.joints.values())
     return True

@@ -15,6 +15,7 @@ from .force import damped
 from .lacking import lacking
 from .law.friction import ruled
 from .own import Own
+from .pair import closed_pairs
 from .recipe import Recipe
 from .scene import oblique
 
@@ -63,7 +64,7 @@ def _second(scene: Scene, realised: Realised, numbers: Numbers) -> bool:
     """Whether errors are of second order: by the midpoint protocol, with whole gaps closed."""
     known = named(numbers(NOMINAL))
     closes = not scene.joints or numbers.follows or known.get("constraint.error_bias") == 0.0
-    touches = not scene.contacts or bool(known.get("start.seed"))
+    touches = not (scene.contacts or scene.pairs) or bool(known.get("start.seed"))
     midpoint = bool(known.get("time.midpoint"))
     return midpoint and closes and touches and not _spoilt(scene, realised)
 
@@ -76,7 +77,7 @@ def _spoilt(scene: Scene, realised: Realised) -> bool:
     """
     native = realised == "native"
     brakes = native and any(joint.dry_friction for joint in scene.joints.values())
-    met = any(contact.switches for contact in scene.contacts.values())
+    met = bool(scene.pairs) or any(contact.switches for contact in scene.contacts.values())
     sided = any(scene.one_sided())
     return (native and (damped(scene) or met)) or brakes or strides(scene) or sided
 
@@ -108,10 +109,10 @@ def _words(scene: Scene, start: Start, numbers: Numbers, step: float) -> str:
     known, words = named(numbers(step)), []
     if known.get("time.midpoint"):
         words.append(f"started {step / 2:g} s back, positions read {step / 2:g} s ahead")
-    seed, touching = known.get("start.seed"), closed(scene, start)
+    seed, touching = known.get("start.seed"), [*closed(scene, start), *closed_pairs(scene, start)]
     if seed and touching:
         bodies = ", ".join(dict.fromkeys(contact.body for contact in touching))
-        planes = " and the ".join(dict.fromkeys(contact.plane.name for contact in touching))
+        planes = " and the ".join(dict.fromkeys(contact.on for contact in touching))
         words.append(f"{bodies} started {seed:g} m in the {planes}")
     slots = [joint.name for joint in scene.joints.values() if oblique(scene, joint)]
     if slots and known.get("slot.across"):

@@ -31,6 +31,12 @@ _TIP_SEED = Choice(
     "the curved path of a bar's end lifts it by some h³ in each step: less would be used up, 1e-9 "
     "m by a ladder in 2000 steps of 1e-4 s, and the contact would open",
 )
+_PAIR_SEED = Choice(
+    "start.seed",
+    1e-6,
+    "bodies that turn on each other from the start on part by some h² in the first half step, and "
+    "one rim's path around another lifts it: 1e-8 m were used up, and the contact would open",
+)
 _PIVOT_SEED = Choice(
     "start.seed",
     1e-6,
@@ -86,14 +92,16 @@ def recipe(scene: Scene, start: Start) -> Recipe:
     """The best recipe; what nothing would feel is left as it is shipped."""
     always = [_MIDPOINT]
     contacts = [contact for contact in scene.contacts.values() if contact.switches]
-    tips = [contact for contact in contacts if is_tip(scene, contact)]
-    if scene.contacts:
+    tips = [*(c for c in contacts if is_tip(scene, c)), *scene.pairs.values()]
+    if scene.contacts or scene.pairs:
         pivots = any(contact.ideal == "pivot" for contact in scene.contacts.values())
-        always.append(_PIVOT_SEED if pivots else _TIP_SEED if tips else _SEED)
-    if contacts:
+        tip = _PAIR_SEED if scene.pairs else _TIP_SEED
+        always.append(_PIVOT_SEED if pivots else tip if tips else _SEED)
+    if contacts or scene.pairs:
         always.append(_TIP_SLOP if tips else _SLOP)
         always += [_REFLECTS] if tips else []
-        always += [_LANDING] if all(_rises(scene, contact) for contact in contacts) else []
+        stays = [*contacts, *scene.pairs.values()]
+        always += [_LANDING] if all(_rises(scene, contact) for contact in stays) else []
     if any(oblique(scene, joint) for joint in scene.joints.values()):
         always.append(_ACROSS)
     return Recipe(tuple(always), holding(scene, start))

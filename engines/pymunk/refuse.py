@@ -9,6 +9,7 @@ from .drive import NO_LINE
 from .edge import NO_EDGE
 from .force import ELEMENTS
 from .lacking import lacking
+from .pair import MOST
 
 
 def not_native(scene: Scene) -> list[str]:
@@ -40,6 +41,8 @@ def unbuildable(scene: Scene) -> str | None:
         point = scene.points.get(joint.a.point) if joint.a.body == GROUND else None
         if joint.dry_friction and point and point.moves:
             return f"adapter: {joint.name} has dry friction on a point that moves by a law"
+    if len({c.plane for c in scene.contacts.values()}) + len(scene.pairs) > MOST:
+        return f"engine: pymunk tells apart what touches what by {MOST} bits, and here are more"
     beside = [*scene.contacts.values(), *(j for j in scene.joints.values() if j.dry_friction)]
     for edge in scene.constraints.values():
         if beside:

@@ -14,6 +14,7 @@ from ...cases.scene import Scene
 from ..engine import Realised, Start
 from .contact import closed, sink
 from .law.force import forces
+from .pair import closed_pairs, press
 from .scene import build
 from .world import World
 
@@ -29,6 +30,8 @@ def placed(
     for contact in closed(scene, start):
         seed = numbers.get("start.seed", 0.0)
         sink(contact, scene.bodies[contact.body], world.wheels[contact.name], seed)
+    for pair in closed_pairs(scene, start):
+        press(world, pair, numbers.get("start.seed", 0.0))
     if numbers.get("time.midpoint"):
         for body in (*world.bodies.values(), *world.driven.values()):
             body.position -= step / 2 * body.velocity

@@ -19,6 +19,7 @@ from ..stride import stride
 from .contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle, closed, only, planes
 from .edge import add_edges
 from .force import lines
+from .pair import add_pairs
 from .slot import line, pinned
 from .world import World
 
@@ -79,6 +80,7 @@ def _contacts(world: World) -> None:
         world.wheels[contact.name] = wheel = circle(contact, part, body)
         only(wheel, known[contact.plane])
         world.space.add(wheel)
+    add_pairs(world, len(known))
 
 
 def _joints(world: World, start: Start, *, across: bool) -> None:

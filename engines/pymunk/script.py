@@ -24,6 +24,7 @@ from .drive import as_lines
 from .edge import joints_as_text, lays_as_text
 from .force import script
 from .law.one_side import as_text
+from .meeting import followed, pair_seeds, shapes
 from .run import COLD
 from .scene import build
 from .slot import LENGTH, carried
@@ -105,6 +106,7 @@ def building(world: World, start: Start, numbers: Mapping[str, Any]) -> list[str
         *(["", *_CARRIED] if world.slots else []),
         *_bodies(world),
         *planes(world, of, reflects=bool(numbers.get("contact.reflects"))),
+        *shapes(world, of),
         *_constraints(world, numbers),
         *joints_as_text(world, of),
     ]
@@ -122,8 +124,8 @@ def before_each(world: World, numbers: Mapping[str, Any]) -> list[str]:
     lines = script(world, lambda body: _of(world, body), midpoint=midpoint)
     turned = as_lines(world, midpoint=midpoint)
     of = partial(_of, world)
-    followed = [*followers(world, of, numbers), *feet(world, of)]
-    return [*lines, *turned, *followed, *lays_as_text(world)]
+    circles = [*followers(world, of, numbers), *followed(world, of, numbers)]
+    return [*lines, *turned, *circles, *feet(world, of), *lays_as_text(world)]
 
 
 def _sweeps(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
@@ -141,6 +143,7 @@ def seeds(world: World, start: Start, seed: float) -> list[str]:
             lines.append(f"{body}.position -= ({seed * nx!r}, {seed * ny!r})")
         else:
             lines.append(f"wheels[{contact.name!r}].unsafe_set_radius({wheel.radius + seed!r})")
+    lines += pair_seeds(world, start, seed)
     return lines if len(lines) > 2 else []
 
 

@@ -15,8 +15,9 @@ from pymunk.constraints import Constraint, GearJoint, GrooveJoint, PinJoint, Piv
 from pymunk.space import Space
 from pymunk.vec2d import Vec2d
 
-from ...cases.scene import Contact
-from ...cases.trajectory import Array
+from ...cases.motion import Motion
+from ...cases.scene import Contact, Pair
+from ...cases.trajectory import Array, Trajectory
 from .world import World
 
 NEVER = 1e9  # sweeps that nobody takes: ρ is 1 up to rounding
@@ -55,11 +56,28 @@ def _steps(world: World) -> Iterator[tuple[Array, Array, Array]]:
         place = local if part.radius is None else Vec2d(0.0, -part.radius)
         rows = _moves(columns, len(weights), body, place) * weights
         yield rows, np.diag(1 / np.sum(rows**2, axis=1)), rows
+    for pair in world.scene.pairs.values():
+        rows = _parting(world, pair, columns, len(weights)) * weights
+        yield rows, np.diag(1 / np.sum(rows**2, axis=1)), rows
     for joint in world.space.constraints:
         found = _joint(world.space, joint, columns, len(weights))
         if found is not None:
             rows, normal = found[0] * weights, found[1]
             yield rows, normal @ np.linalg.inv(rows @ rows.T), normal @ rows
+
+
+def _parting(world: World, pair: Pair, columns: Columns, n: int) -> Array:
+    """(2, n): how both slip and part where they touch, or are nearest."""
+    body, other = world.bodies[pair.body], world.bodies[pair.touched]
+    states = {
+        name: np.array([[*world.bodies[name].position, world.bodies[name].angle, 0.0, 0.0, 0.0]])
+        for name in (pair.body, pair.touched)
+    }
+    motion = Motion(world.scene.bodies, {}, Trajectory(np.zeros(1), states, {}))
+    (x, y), (nx, ny) = pair.place(motion)[0].tolist(), pair.normal(motion)[0][0].tolist()
+    moves = _moves(columns, n, body, Vec2d(x, y) - body.position)
+    moves -= _moves(columns, n, other, Vec2d(x, y) - other.position)
+    return np.array([ny * moves[0] - nx * moves[1], nx * moves[0] + ny * moves[1]])
 
 
 def _together(world: World) -> Iterator[Contact]:

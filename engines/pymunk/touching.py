@@ -16,7 +16,7 @@ Of = Callable[[Body], str]
 
 def planes(world: World, of: Of, *, reflects: bool) -> Iterator[str]:
     """The planes, and the circles that touch them."""
-    several = len(world.planes) > 1
+    several = len(world.planes) > 1 or bool(world.pairs)
     for name, shape in world.planes.items():
         yield ""
         ends = f"{written(shape.a)}, {written(shape.b)}"

@@ -26,8 +26,8 @@ class World:
     A joint's first constraint carries its force. reach: half the length [m] of planes and of
     grooves of the ground. driven: the driven points' bodies. brakes: what rubs in slides and pins.
     motors: those of driven joints. slots: the lines that pin joints hold. pins: those of edges, by
-    the reaction: `blade.force`. inner: what forces with an inner state have had, at the start and
-    in the middle of each step.
+    the reaction: `blade.force`. pairs: what touches another body, and what of that it touches.
+    inner: what forces with an inner state have had, at the start and in the middle of each step.
     """
 
     scene: Scene
@@ -43,6 +43,7 @@ class World:
     pins: dict[str, Pin] = field(default_factory=dict)
     wheels: dict[str, Circle] = field(default_factory=dict)
     planes: dict[str, Segment] = field(default_factory=dict)
+    pairs: dict[str, tuple[Circle, Circle | Segment]] = field(default_factory=dict)
     inner: dict[str, list[float]] = field(default_factory=dict)
     stride: Stride | None = None
 

@@ -14,7 +14,7 @@ from ...cases.scene import Signal, Vector
 from ..system import Array
 from .blades import Blades, Laws, Moves
 from .coordinates import Attached, moved
-from .rows import FIRST, GAMMA, SECOND, Distance, G, Line, Term, opposite
+from .rows import FIRST, GAMMA, SECOND, G, Line, Term, Way, opposite
 from .signal import bend
 
 NOWHERE = -1  # the target of what a particle or a point of the ground has no column for
@@ -23,7 +23,7 @@ Row = tuple[Sequence[Attached], Sequence[Term]]
 """The points that the terms name by their place here, and the terms."""
 Lever = tuple[int, Attached, Vector]
 """The number of its row, the point, and the direction u."""
-Turn = tuple[int, Attached, Attached, Line | Distance]
+Turn = tuple[int, Attached, Attached, Way]
 """The number of its row, the points a and b, and what tells its direction."""
 
 
@@ -106,8 +106,8 @@ class Rows:
         else:
             self._turns.append((i, a, b, Line(FIRST, SECOND, u)))
 
-    def between(self, i: int, a: Attached, b: Attached, way: Distance) -> None:
-        """(2.15) The rate of a distance: its direction follows both points."""
+    def between(self, i: int, a: Attached, b: Attached, way: Way) -> None:
+        """(2.15) What has a direction that follows both points."""
         self._turns.append((i, a, b, way))
 
     def carried(self, i: int, p: Attached, u: Vector) -> None:
@@ -165,7 +165,7 @@ class Levers:
 
 
 class Lines:
-    """`Line` for all a on bodies that turn, b being anywhere, and `Distance`."""
+    """`Line` for all a on bodies that turn, b being anywhere, and what is `between` two."""
 
     def __init__(self, turns: Sequence[Turn], width: int) -> None:
         self._turns = [turn[1:] for turn in turns]

@@ -10,6 +10,7 @@ from ...cases.force import of
 from ...cases.scene import Scene
 from ..laws.friction import power_law, viscous
 from .coordinates import Coordinates, Point
+from .scrape import one_way, power_loss, scrape_loss, scraped
 
 NOISE = 1e-12  # of the speed at the start: what is left of one that falls to zero, or less
 
@@ -21,6 +22,9 @@ def dragged(
     force: Drag, where: Coordinates, t: float, q: Numbers, v: Numbers
 ) -> Iterator[tuple[Any, Point]]:
     point = where.point(force.at, t, q, v)
+    if force.along is not None:
+        yield scraped(force, force.along, point), point
+        return
 
     def F(v: Any) -> float:
         speed: float = np.sqrt(v @ v)
@@ -31,8 +35,11 @@ def dragged(
 
 def drag_loss(force: Drag, where: Coordinates, t: Any, q: Numbers, v: Numbers) -> Any:
     """(2.46) D = d |v|^{α+1}/(α + 1) [W]."""
-    x_dot, y_dot = where.point(force.at, t, q, v).r_dot
-    return _loss(force.coefficient, force.exponent, x_dot * x_dot + y_dot * y_dot)
+    point = where.point(force.at, t, q, v)
+    if force.along is not None:
+        return scrape_loss(force, force.along, point)
+    x_dot, y_dot = point.r_dot
+    return power_loss(force.coefficient, force.exponent, x_dot * x_dot + y_dot * y_dot)
 
 
 def slowed(
@@ -40,7 +47,7 @@ def slowed(
 ) -> Iterator[tuple[Any, Point]]:
     a, b, u = _along(force, where, t, q, v)
     speed = _speed(a, b, u)
-    size = power_law(_coefficient(force, speed), force.exponent, speed)
+    size = power_law(one_way(force.coefficient, speed), force.exponent, speed)
     yield (size * u[0], size * u[1]), b
     yield (-size * u[0], -size * u[1]), a
 
@@ -48,7 +55,7 @@ def slowed(
 def viscous_loss(force: Viscous, where: Coordinates, t: Any, q: Numbers, v: Numbers) -> Any:
     """(2.46) D = d |v|^{α+1}/(α + 1) [W], d that of the way it goes."""
     speed = _speed(*_along(force, where, t, q, v))
-    return _loss(_coefficient(force, speed), force.exponent, speed * speed)
+    return power_loss(one_way(force.coefficient, speed), force.exponent, speed * speed)
 
 
 def _along(
@@ -64,16 +71,6 @@ def _along(
 def _speed(a: Point, b: Point, u: Pair) -> Any:
     """d/dt u·(r_B − r_A) = u·(ṙ_B − ṙ_A) [m/s]: r_B − r_A lies along u, and u̇ across it."""
     return u[0] * (b.r_dot[0] - a.r_dot[0]) + u[1] * (b.r_dot[1] - a.r_dot[1])
-
-
-def _coefficient(force: Viscous, speed: Any) -> float:
-    d = force.coefficient
-    return d.forward if np.real(speed) > 0.0 else d.backward
-
-
-def _loss(d: float, alpha: float, square: Any) -> Any:
-    """Of v²: a root of it needs no |v|, whose derivative would be lost."""
-    return d * square ** ((alpha + 1.0) / 2.0) / (alpha + 1.0)
 
 
 def blurred(scene: Scene, speed: float) -> float:

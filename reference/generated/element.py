@@ -1,9 +1,9 @@
 """What contacts and joints with dry friction can do: open, slide either way, stick.
 
 | element       | state    | what holds                      | what ends it, falling to zero      |
-| contact       | open     | nothing                         | gap: lands                         |
-| contact       | slides ± | y = R, λ_t = ∓μ λ_n             | λ_n: opens; slip: stops            |
-| contact       | sticks   | y = R, no slip                  | λ_n: opens; μ_s λ_n ± λ_t: slips   |
+| contact, pair | open     | nothing                         | gap: lands                         |
+| contact, pair | slides ± | y = R, λ_t = ∓μ λ_n             | λ_n: opens; slip: stops            |
+| contact, pair | sticks   | y = R, no slip                  | λ_n: opens; μ_s λ_n ± λ_t: slips   |
 | slide, pin    | slides ± | a force ∓F along it, or moment  | slip: stops                        |
 | slide, pin    | sticks   | no slip                         | F_s ± F_a: slips                   |
 | pivot         | open     | nothing                         | gap: lands                         |
@@ -71,6 +71,7 @@ class Element:
     static: float = 0.0  # of one that sticks
     restitution: float = 0.0
     plane: str = ""  # that a contact is with
+    two: bool = False  # whether it is of two bodies, and not with the ground
 
     @property
     def slips(self) -> bool:

@@ -10,15 +10,26 @@ from .contact import row
 from .element import Element, State
 from .impact import Condition, Meeting, NoImpact, impact
 from .modes import Modes, rate
+from .together import check_alone
 
 ANY = 1e9  # friction that lets nothing slip; an infinite one times no impulse would be no number
 STILL = 1e-12  # of the largest rate: what a projection or an assembly leaves of a zero
 
 
 def landed(
-    modes: Modes, mode: str, i: int, t: float, q: Array, v: Array, *, rests: bool = False
+    modes: Modes,
+    mode: str,
+    i: int,
+    t: float,
+    q: Array,
+    v: Array,
+    *,
+    near: float = 0.0,
+    rests: bool = False,
 ) -> After:
     """The mode after contact i has struck the floor, and its state; `rests`: it stays there.
+
+    near [m]: what strikes in a contact with no larger gap strikes at the same instant.
 
     Raises Undetermined where the impact law has no answer.
     """
@@ -27,6 +38,7 @@ def landed(
         return _at_rest(modes, mode, i, t, q, v)
     touching, met = _meetings(modes, mode, i, t, q, v, rests=rests)
     held = [Condition(f, g) for f, g in zip(base.f_a(t, q), base.g(t, q), strict=True)]
+    check_alone(modes, mode, i, met, held, t, q, v, near)
     try:
         v, states = impact(modes.M, held, met, v)
     except NoImpact as error:

@@ -159,7 +159,8 @@ class Mechanism(System):
         self, mode: str, i: int, *, rests: bool = False
     ) -> Callable[[float, Array, Array], After]:
         """The impact law, and what each contact and slide may do after it; without a rebound."""
-        return lambda t, q, v: landed(self.built, mode, i, t, q, v, rests=rests)
+        near = CLOSED * self.size
+        return lambda t, q, v: landed(self.built, mode, i, t, q, v, near=near, rests=rests)
 
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.87), (2.89) F_N ≥ 0, |F_fr| ≤ μ_s F_N where it sticks, v as it slides, gap ≥ 0."""

@@ -91,7 +91,7 @@ class Multibody(Mode):
         """(2.60) R_a = λ_b f_aᵇ: the force of the first part on the second, by quantity."""
         at, numbers, multipliers = 0, q.tolist(), self.solve(t, q, v)[1].tolist()
         of_floor = ("normal", "tangent")
-        found = {f"{name}.{way}": 0.0 for name in self.scene.touching for way in of_floor}
+        found = {f"{name}.{way}": 0.0 for name in self.scene.pressed for way in of_floor}
         for c in self._constraints:
             _add(found, c.reactions(t, numbers, multipliers[at : at + c.size]))
             at += c.size

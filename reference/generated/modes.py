@@ -11,6 +11,7 @@ from .contact import row
 from .element import Element, Smoothed, State, elements
 from .mode import Multibody
 from .one_side import one_sided
+from .pair import paired
 from .sharing import shares
 from .smooth import SmoothMultibody
 
@@ -24,7 +25,8 @@ class Modes(Mapping[str, Multibody]):
         self.scene, self.start = scene, start
         self.base = Multibody(scene, start)  # what holds in all of them
         where = self.base.where
-        self.elements: tuple[Element, ...] = (*elements(scene, where), *one_sided(scene, where))
+        every = (*elements(scene, where), *paired(scene, where), *one_sided(scene, where))
+        self.elements: tuple[Element, ...] = every
         self.M = np.array(self.base.where.masses)
         self.states: dict[str, tuple[State, ...]] = {}  # what each element does in a mode
         self._built: dict[str, Multibody] = {}

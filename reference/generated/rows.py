@@ -1,6 +1,6 @@
 """The terms that rows of constraints are sums of.
 
-`Along`, `Turning`, `Line`, `Distance`, `Carried`, `Given`.
+`Along`, `Turning`, `Line`, `Distance`, `Carried`, `Given`, and in `rims` `Apart` and `Around`.
 
 Each is a rate, written in the coordinates as f_a q̇ᵃ − g (2.15); `assembled` adds them up.  The
 first four are the rate of a `place`; what a blade holds, and what is prescribed, has none.  Terms
@@ -28,9 +28,38 @@ class Assembly(Protocol):
     def along(self, i: int, p: Attached, u: Vector) -> None: ...
     def turning(self, i: int, p: Attached, axis: float) -> None: ...
     def line(self, i: int, a: Attached, b: Attached, u: Vector) -> None: ...
-    def between(self, i: int, a: Attached, b: Attached, way: "Distance") -> None: ...
+    def between(self, i: int, a: Attached, b: Attached, way: "Way") -> None: ...
     def carried(self, i: int, p: Attached, u: Vector) -> None: ...
     def given(self, i: int, law: Signal) -> None: ...
+
+
+class Way(Protocol):
+    """What tells a direction that turns with two points."""
+
+    def numbers(self, a: Point, b: Point) -> tuple[Any, ...]:
+        """(2.15) f of a and of b (x, y and φ of each), g, and γ."""
+        ...
+
+
+class Term(Protocol):
+    """A rate of points of a constraint, named by their place there."""
+
+    @property
+    def angular(self) -> bool:
+        """Whether it is a turn [rad/s], and no velocity [m/s]."""
+        ...
+
+    def place(self, ends: Ends) -> Any:
+        """What it is the rate of; TypeError where there is nothing."""
+        ...
+
+    def direction(self, ends: Ends) -> Direction:
+        """Of the force that its multiplier is, in ground axes."""
+        ...
+
+    def enter(self, i: int, ends: Sequence[Attached], rows: Assembly) -> None:
+        """Adds it to the i-th row."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -201,9 +230,6 @@ class Given:
     def enter(self, i: int, ends: Sequence[Attached], rows: Assembly) -> None:
         """Adds it to the i-th row."""
         rows.given(i, self.law)
-
-
-Term = Along | Turning | Line | Distance | Carried | Given
 
 
 def opposite(u: Direction) -> Direction:

@@ -147,11 +147,12 @@ def _near(
 ) -> tuple[float, float] | None:
     """A dip below zero (sign 1) or a hump above it (−1) between the points: a bracket of its fall.
 
-    It is looked for where the values come as near to zero as they differ from each other.
+    It is looked for where the values come as near to zero as they differ from each other; not in
+    what is zero throughout, as the force between bodies that fly on together.
     """
     sizes = [sign * value for value in values]
     low = int(np.argmin(sizes))
-    if len(points) < 2 or sizes[low] > max(sizes) - sizes[low]:
+    if len(points) < 2 or not any(values) or sizes[low] > max(sizes) - sizes[low]:
         return None
     left, right = points[max(low - 1, 0)], points[min(low + 1, len(points) - 1)]
     turn = minimize_scalar(

@@ -10,10 +10,12 @@ from typing import NamedTuple
 import numpy as np
 
 from ...cases.case import Case, Placement
+from ...cases.pair import Pair
 from ...cases.plane import LEVEL
 from ...cases.scene import Anchor, Vector
 from ..generated.constraint import Constraint, assembled
 from ..generated.coordinates import ORIGIN, Coordinates
+from ..generated.pair import along, apart
 from ..generated.permanent import constraints, gliding
 from ..generated.rows import FIRST, Along, X, Y
 from ..system import Array
@@ -52,7 +54,7 @@ class Closure:
             if name in case.initial and (speed := case.initial[name].given.get("speed")) is not None
         ]
         self.gliding += moving(case, self.where)
-        self.still = [_at(anchor, ORIGIN, self.where) for anchor in standing]
+        self.still = [part for anchor in standing for part in _still(anchor, self.where)]
         self.locks = [lock for c in (*self.parts, *self.posed) for lock in self._locks(c)]
         self.given = held(self.locks, self.numbers(case.initial, POSITIONS))
         self.free = np.array([i for i in range(self.n) if i not in self.given], int)
@@ -136,11 +138,24 @@ def _at(anchor: Anchor, place: Vector, where: Coordinates) -> Constraint:
 
 
 def _on_plane(anchor: Anchor, where: Coordinates) -> Constraint:
-    """n·r_P = n·r₀ of the plane that it touches, or of the floor; for the search only."""
+    """n·r_P = n·r₀ of the plane or face that it touches, or of the floor; for the search only."""
+    for pair in _pairs(anchor, where):
+        return apart(pair, where)
     touching = (c.plane for c in where.scene.touching.values() if c.at == anchor)
     plane = next(touching, LEVEL)
     row, at = (Along(FIRST, plane.normal),), -plane.height(0.0, 0.0)
     return Constraint(str(anchor), (anchor,), (row,), ((),), (at,), where)
+
+
+def _still(anchor: Anchor, where: Coordinates) -> list[Constraint]:
+    """Neither slips nor rises where it stands: on the ground, or on another body that may move."""
+    for pair in _pairs(anchor, where):
+        return [apart(pair, where), along(pair, where)]
+    return [_at(anchor, ORIGIN, where)]
+
+
+def _pairs(anchor: Anchor, where: Coordinates) -> list[Pair]:
+    return [pair for pair in where.scene.pairs.values() if pair.at == anchor]
 
 
 def held(locks: Sequence[Lock], known: Mapping[int, float]) -> dict[int, float]:

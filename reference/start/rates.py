@@ -59,10 +59,13 @@ def _open(rows: Array, g: Array, v: Array) -> tuple[Array, bool]:
 
 
 def mechanisms(scene: Scene) -> Iterator[set[str]]:
-    """The bodies that joints hold together; what only shares the ground moves by itself."""
+    """The bodies that joints hold together, and what may stand on each other.
+
+    What only shares the ground moves by itself.
+    """
     groups = [{name} for name in scene.bodies]
-    for joint in scene.joints.values():
-        ends = {joint.a.body, joint.b.body} - {GROUND}
+    held = [{joint.a.body, joint.b.body} - {GROUND} for joint in scene.joints.values()]
+    for ends in (*held, *({pair.body, pair.touched} for pair in scene.pairs.values())):
         touched = [group for group in groups if group & ends]
         groups = [group for group in groups if not group & ends] + [set().union(*touched)]
     yield from groups

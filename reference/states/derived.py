@@ -1,6 +1,8 @@
 """What follows of a mode's poses and energies for given q, q̇ and q̈, by the chapter's formalisms."""
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Set
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -12,6 +14,8 @@ from ...cases.space.scene import SpatialScene
 from ...cases.states import MASS_MATRIX
 from ..formalisms import lagrange
 from ..formalisms.derivative import along
+from ..generated.action import dissipation
+from ..generated.coordinates import Coordinates
 from ..laws.rotation import axes
 from ..stated import Stated
 from ..system import Array, Pose
@@ -39,7 +43,23 @@ def derived(
         numbers = body.numbers().items()
         found |= {f"{name}.{key}": x for key, x in numbers if key.startswith("inertia")}
     if isinstance(scene, SpatialScene):
-        found |= resisting(mode, scene, q, v, a)
+        return found | resisting(mode, scene, q, v, a)
+    return found | slowed(scene, q, v)
+
+
+def slowed(scene: Scene, q: Array, v: Array) -> dict[str, float]:
+    """(2.46) F = −∂D/∂ṙ [N] of what slows a point, where q is x, y and angle of each body.
+
+    By the complex step: a point moves with its body, so that ∂ṙ_P/∂ṙ_c = 1.
+    """
+    where, found = Coordinates(scene), {}
+    for name, force in scene.forces.items():
+        (at,) = force.refers()
+        xy, _ = where.columns[at.body]
+        ways = np.eye(len(v))[xy : xy + 2]
+        D = partial(dissipation, force, where, 0.0, q.tolist())
+        fx, fy = (-along(D, (v,), (way,)).item() for way in ways)
+        found |= {f"{name}.fx": fx, f"{name}.fy": fy, f"{name}.force": math.hypot(fx, fy)}
     return found
 
 

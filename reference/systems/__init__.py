@@ -13,6 +13,8 @@ from .bearing import Bearing
 from .bouncing_disk import BouncingDisk
 from .charge_in_field import ChargeInField
 from .compass_walker import CompassWalker
+from .cradle import Cradle
+from .disk_on_disk import DiskOnDisk
 from .double_pendulum import DoublePendulum
 from .drag_stops import DragStops
 from .driven_edge import DrivenEdge
@@ -29,6 +31,7 @@ from .friction_of_rest import FrictionOfRest
 from .growing_force import GrowingForce
 from .heavy_top import HeavyTop
 from .knife_edge import KnifeEdge
+from .light_feet import LightFeet
 from .muscle_isometric import MuscleIsometric
 from .muscle_load import LinearMuscleLoad, MuscleLoad
 from .particle_pendulum import ParticlePendulum
@@ -36,6 +39,7 @@ from .rhombus import Rhombus
 from .rimless_wheel import RimlessWheel
 from .robot_knife import RobotKnife
 from .rolling_wheel import RollingWheel
+from .running_gait import RunningGait
 from .sleigh import Sleigh
 from .sliding_block import SlidingBlock
 from .sliding_disk import SlidingDisk
@@ -44,6 +48,7 @@ from .smooth_friction import SmoothDynamometer, SmoothGrowingForce
 from .spring_mass_damper import SpringMassDamper
 from .spring_mass_jump import SpringMassJump
 from .sprung_gimbal import SprungGimbal
+from .stacked_blocks import StackedBlocks
 from .stribeck_brake import StribeckBrake
 from .stribeck_drive import StribeckDrive
 from .tilting_disk import TiltingDisk
@@ -52,6 +57,7 @@ from .tipping_block import TippingBlock
 from .torque_free import TorqueFree
 from .torsion_pendulum import TorsionPendulum
 from .trunk_on_legs import TrunkOnLegs
+from .turning_sled import TurningSled
 from .upright_wheel import UprightWheel
 from .viscous_guide import ViscousDrift, ViscousGrowingForce
 from .wheel_from_above import WheelFromAbove
@@ -63,6 +69,8 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "bouncing_disk": BouncingDisk,
     "charge_in_field": ChargeInField,
     "compass_walker": CompassWalker,
+    "cradle": Cradle,
+    "disk_on_disk": DiskOnDisk,
     "double_pendulum": DoublePendulum,
     "drag_stops": DragStops,
     "driven_robot": DrivenRobot,
@@ -79,6 +87,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "growing_force": GrowingForce,
     "heavy_top": HeavyTop,
     "knife_edge": KnifeEdge,
+    "light_feet": LightFeet,
     "muscle_isometric": MuscleIsometric,
     "muscle_load": MuscleLoad,
     "linear_muscle_load": LinearMuscleLoad,
@@ -87,6 +96,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "rimless_wheel": RimlessWheel,
     "robot_knife": RobotKnife,
     "rolling_wheel": RollingWheel,
+    "running_gait": RunningGait,
     "sleigh": Sleigh,
     "sliding_block": SlidingBlock,
     "sliding_disk": SlidingDisk,
@@ -94,6 +104,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "smooth_dynamometer": SmoothDynamometer,
     "smooth_growing_force": SmoothGrowingForce,
     "spring_mass_damper": SpringMassDamper,
+    "stacked_blocks": StackedBlocks,
     "stribeck_brake": StribeckBrake,
     "stribeck_drive": StribeckDrive,
     "sprung_gimbal": SprungGimbal,
@@ -104,6 +115,7 @@ SYSTEMS: dict[str, type[Mode] | type[System]] = {
     "torque_free": TorqueFree,
     "torsion_pendulum": TorsionPendulum,
     "trunk_on_legs": TrunkOnLegs,
+    "turning_sled": TurningSled,
     "upright_wheel": UprightWheel,
     "viscous_drift": ViscousDrift,
     "viscous_growing_force": ViscousGrowingForce,

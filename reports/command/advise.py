@@ -84,7 +84,7 @@ def advise(
     from ..search.advised import Asked, row
     from ..search.session import advised
     from ..selection import choose_cases, choose_engines
-    from ..show import terminal
+    from ..show import progress
     from ..show.advice import told
     from ..trial.work import too_long
 
@@ -101,9 +101,9 @@ def advise(
     used = None if no_cache else store.usable()
     asked = Asked(tolerance, margin, front=not (every or as_json), robust=robust)
     with (
-        terminal.progress() as progress,
+        progress.progress() as shown,
         finished(used is not None),
-        advised(chosen, engines, asked, jobs=jobs, progress=progress, store=used) as found,
+        advised(chosen, engines, asked, jobs=jobs, progress=shown, store=used) as found,
     ):
         rows = [row(one) for one in found]
         if as_json:

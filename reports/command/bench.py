@@ -8,7 +8,7 @@ from ..show.say import say
 from .run import FAILED, allow_long, named_cases, named_engines
 
 
-@click.command()
+@click.command(short_help="What our adapters cost over the bare engines.")
 @named_cases
 @named_engines()
 @click.option(

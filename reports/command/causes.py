@@ -38,7 +38,7 @@ def causes(
     from .. import pool, suite
     from ..cache import store
     from ..selection import choose_cases, choose_engines
-    from ..show import terminal
+    from ..show import progress
     from ..trial.work import too_long
 
     chosen = choose_cases(cases, long=allow_long)
@@ -48,12 +48,12 @@ def causes(
     if long := too_long(chosen, engines):
         raise CaseError(long)
     used = None if no_cache else store.usable()
-    with terminal.progress() as progress, finished(used is not None):
+    with progress.progress() as told, finished(used is not None):
         report = suite.measure(
             chosen,
             engines,
             jobs=jobs or pool.workers(),
-            progress=progress,
+            progress=told,
             book=False,
             causes=True,
             store=used,

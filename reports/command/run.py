@@ -1,22 +1,18 @@
 """`textmech run`."""
 
-import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from ...cases.mistake import CaseError, Mistake
 from ..show.say import tell
+from .answer import BAD_INPUT, as_json
 from .done import DONE, finished, written
 from .folder import Folder
 
-if TYPE_CHECKING:
-    from ...cases.case import Case
-    from ...engines.engine import Engine
-
-FAILED, BAD_INPUT = 1, 2
+FAILED = 1
 named_cases = click.argument("cases", nargs=-1, metavar="[CASES]...")
 allow_long = click.option(
     "--allow-long", is_flag=True, help="Do any amount of work, and not only what takes minutes."
@@ -31,7 +27,7 @@ def named_engines(beside: str = "") -> Callable[[Any], Any]:
         multiple=True,
         metavar="E",
         help=f"An installed engine, as mujoco, pymunk; {beside}or with its setting, as "
-        "mujoco.tuned.",
+        "mujoco.tuned. May be repeated.",
     )
 
 
@@ -42,7 +38,7 @@ def named_engines(beside: str = "") -> Callable[[Any], Any]:
     "--settings",
     multiple=True,
     metavar="shipped|tuned|FILE",
-    help="Only this setting; a FILE of your own engine options is a further column, with its name. "
+    help="Only this setting; a FILE of your own engine options stands beside them, by its name. "
     "May be repeated.",
 )
 @click.option(
@@ -61,8 +57,8 @@ def named_engines(beside: str = "") -> Callable[[Any], Any]:
 @click.option(
     "--keep",
     type=Folder(),
-    help="Write the trajectories too, one CSV a case, reference and engines side by side, and one "
-    "with the times of its events.",
+    help="Write the trajectories too, one CSV a case, reference and engines side by side, one "
+    "with the times of its events, and one long table of all poses (Parquet where pyarrow is).",
 )
 @click.option(
     "--no-cache",
@@ -75,6 +71,7 @@ def named_engines(beside: str = "") -> Callable[[Any], Any]:
     metavar="ADDRESS",
     help="A Dask scheduler, as tcp://host:8786, whose workers do the work.",
 )
+@as_json
 @allow_long
 def run(
     cases: tuple[str, ...],
@@ -86,6 +83,7 @@ def run(
     keep: Path | None,
     no_cache: bool,
     cluster: str | None,
+    wants_json: bool,
     allow_long: bool,
 ) -> None:
     """Compare engines with the reference and report the differences.
@@ -94,11 +92,11 @@ def run(
     """
     from .. import keep as kept
     from .. import pool, suite, write
+    from ..asking import asked
     from ..cache import store
     from ..cluster import executor
-    from ..selection import choose_book, choose_engines, sound, sound_cases
-    from ..show import terminal
-    from ..trial.work import too_long
+    from ..selection import sound_cases
+    from ..show import cures, document, progress, terminal
 
     full = not (cases or names or settings)
     if out is None and full:
@@ -106,31 +104,24 @@ def run(
     if out is not None and keep is not None and out.resolve() == keep.resolve():
         raise click.UsageError("--out and --keep are one folder: a case may be called as a report")
     found, mistakes = sound_cases(cases, long=allow_long)
-    with warnings.catch_warnings(record=True) as broken:
-        engines = choose_engines(names, settings, long=allow_long)
-    mistakes += too_long(found, engines)
-    chosen = sound(found, mistakes)
-    if not chosen:
-        raise CaseError(mistakes)
-    if mistakes:
-        tell(_left_out(mistakes))
-    for warning in broken:
-        tell(f"warning: {warning.message}")
-    book = choose_book(names, settings)
-    _answered(chosen, engines, book=book, named=bool(cases))
+    wanted = asked(found, names, settings, mistakes=mistakes, named=bool(cases), long=allow_long)
+    if wanted.mistakes:
+        tell(_left_out(wanted.mistakes))
+    for warning in wanted.warnings:
+        tell(warning)
     used = None if no_cache else store.usable()
-    with terminal.progress() as progress, executor(cluster) as working, finished(used is not None):
+    with progress.progress() as told, executor(cluster) as working, finished(used is not None):
         report = suite.measure(
-            chosen,
-            engines,
+            wanted.cases,
+            wanted.engines,
             jobs=jobs or pool.workers(),
-            progress=progress,
-            book=book,
+            progress=told,
+            book=wanted.book,
             causes=causes,
             store=used,
             executor=working,
         )
-    mistakes += report.mistakes
+    mistakes = [*wanted.mistakes, *report.mistakes]
     if used is not None:
         used.trim()
     if full and mistakes:
@@ -140,27 +131,18 @@ def run(
     if keep is not None:
         kept.keep(report, keep)
         DONE.append(f"the trajectories are in {keep}")
-    terminal.show(report, detailed=bool(cases), written=out)
+    known = cures.committed(report.cases)
+    code = BAD_INPUT if mistakes else FAILED if report.fails else 0
+    if wants_json:
+        document.write(document.of_run(report, mistakes, cures=known, written=out, exit_code=code))
+    else:
+        terminal.show(report, detailed=bool(cases), written=out, cures=known)
     if mistakes:
         tell(_left_out(mistakes))  # again: by now it has scrolled away
-        raise click.exceptions.Exit(BAD_INPUT)
-    if report.fails:
-        raise click.exceptions.Exit(FAILED)
+    raise click.exceptions.Exit(code)
 
 
-def _left_out(mistakes: list[Mistake]) -> str:
+def _left_out(mistakes: Sequence[Mistake]) -> str:
     files = len({mistake.file for mistake in mistakes})
     what = "1 file has mistakes and is" if files == 1 else f"{files} files have mistakes and are"
     return f"{CaseError(mistakes)}\n{what} left out"
-
-
-def _answered(cases: "list[Case]", engines: "list[Engine]", *, book: bool, named: bool) -> None:
-    """Says which of the named cases nobody would answer; where that is all, it is a mistake."""
-    from ..trial.book import producers
-
-    silent = [case.name for case in cases if not producers(case, engines, book=book)]
-    what = "the book approximates dry friction alone, in Examples 2.3 and 2.4"
-    if len(silent) == len(cases):
-        raise click.UsageError(f"no row for {', '.join(silent)}: {what}")
-    if named and silent:
-        tell(f"no row for {', '.join(silent)}: {what}")

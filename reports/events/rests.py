@@ -4,6 +4,7 @@ Steps above 2 % of the motion's largest value move; 4 % are asked where rest end
 does not count twice. The time itself is where the motion, continued, would be zero: a curve
 through the steps next to the rest, of which the nearest is still above 2 %. A straight line
 would be 7e-4 s off in Example 2.4 at any step, since 2 % of its speed last 30 ms; a cubic 1e-6 s.
+Where the steps between it and the rest are smooth themselves, `continued` asks those: 1e-12 s.
 """
 
 from collections.abc import Iterator
@@ -11,6 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...cases.trajectory import Array
+from .continued import continued
 
 LOW, HIGH = 0.02, 0.04  # of the largest value
 WINDOW = 0.06  # of the largest value in the phase: the curve is laid through 2 % to 6 % of it
@@ -85,7 +87,7 @@ def _zero(times: Array, u: Array, inner: int, edge: int) -> float:
     for degree in (DEGREE, 1):
         zero = _first_zero(steps, values, degree)
         if half is None or half <= zero <= PLAUSIBLE * half:
-            return float(times[edge]) + h * zero
+            return continued(times, u, float(times[edge]) + h * zero, away)
     return float(times[edge]) + h * 2 * half  # a corner, or steps too uneven for any curve
 
 

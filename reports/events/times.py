@@ -16,12 +16,14 @@ from ...cases.quantity import at_event, table
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from .passages import passages
-from .rests import LOW, rests
+from .rests import LOW, STEPS, rests
 
 STILL = 1e-9  # of the largest value of its kind: what the reference's own rounding leaves of a zero
 
 
 CURVE = 4  # steps in the curve that what falls is continued by: as good as an engine of order 4
+SMALL = 1e-4  # of the largest value: a hump as low as this may be rounding or a soft floor
+SURE = 2  # times STEPS and SMALL: no engine near the reference can miss such a hump
 TREMBLE = 1e-6  # steps: two zeros of a curve that touch are not rounding's to lose
 
 
@@ -97,21 +99,45 @@ def falls(times: Array, u: Array) -> Array:
     """When u (N,) falls to zero, as `_through` says.
 
     An impact may turn u back before any step sees it at zero: then it is the zero of the line
-    through the last two falling steps, if that lies within the next and u then rises. Between two
-    falls u has to exceed 2 % of its largest value: what rests on zero trembles around it.
+    through the last two falling steps, if that lies within the next and u then rises. What rests on
+    zero trembles around it, so u has to come off between two falls, as `_off` says.
     """
     before, now, after, then = u[:-3], u[1:-2], u[2:-1], u[3:]
     turned = (2 * now <= before) & (now > 0) & (after > 0) & (then > after)
     through = (u[:-1] > 0) & (u[1:] <= 0)
     seen = {int(i): _through(times, u, int(i)) for i in np.flatnonzero(through)}
     seen |= {int(i) + 1: _zero(times, u, int(i)) for i in np.flatnonzero(turned)}
-    high = np.cumsum(u > LOW * np.max(np.abs(u)))  # how many steps so far are far from zero
-    found, before_it = [], 0
+    largest, last = float(np.max(np.abs(u))), 0
+    found: list[float] = []
     for i, t in sorted(seen.items()):
-        if high[i] > before_it:
+        if _off(u[last : i + 1], largest):
             found.append(t)
-            before_it = high[i]
+        last = i + 1
     return np.array(found, float)
+
+
+def _off(u: Array, largest: float) -> bool:
+    """Whether u exceeds 2 % of the largest value, or for six steps 1e-4 of it: a small bounce."""
+    return bool(np.any(u > LOW * largest)) or int(np.sum(u > SMALL * largest)) >= STEPS
+
+
+def surely(scene: Scene, record: Trajectory, event: Event, step: float) -> int:
+    """How many of the reference's events steps of this size tell for sure.
+
+    A ball that comes to rest bounces ever lower: what lasts a few steps, or rises by 1e-4 of the
+    first height, may be seen in an engine's motion or not.
+    """
+    happened = reference_events(scene, record, event)
+    if not event.crosses or not len(happened):
+        return len(happened)
+    u = event.falling(observe(scene, record, event.quantity))
+    largest = float(np.max(np.abs(u)))
+    humps = [
+        (end - start, np.max(u[(record.times >= start) & (record.times <= end)]))
+        for start, end in pairwise([float(record.times[0]), *happened.tolist()])
+    ]
+    long, high = SURE * STEPS * step, SURE * SMALL * largest
+    return sum(bool(lasts >= long and height >= high) for lasts, height in humps)
 
 
 def _through(times: Array, u: Array, i: int) -> float:
@@ -158,5 +184,6 @@ def never(case: Case, reference: Trajectory) -> list[Mistake]:
 
 def _falls_later(scene: Scene, reference: Trajectory, event: Event) -> bool:
     part, _, field = event.quantity.rpartition(".")
-    above = part in scene.contacts and field == "gap" and event.rule == "falls to zero"
+    touches = part in (*scene.contacts, *scene.pairs)
+    above = touches and field == "gap" and event.rule == "falls to zero"
     return above and bool(np.all(observe(scene, reference, event.quantity) > 0.0))

@@ -29,13 +29,17 @@ AWAY = 4  # of a ladder's largest steps: how far from an event a sample tells an
 
 @dataclass(frozen=True)
 class Outcome:
-    """What one trial gave: its rows, and the engine's samples at the judged step."""
+    """What one trial gave: its rows, and the engine's samples at the judged step.
+
+    wanted: the reference's, where the engine's own step misses the case's samples.
+    """
 
     rows: list[Comparison]
     rungs: list[Rungs] = field(default_factory=list)
     samples: Samples = field(default_factory=dict)
     instants: list[Instant] = field(default_factory=list)
     moments: dict[str, str] = field(default_factory=dict)  # of what is off at an instant, in words
+    wanted: Samples = field(default_factory=dict)
 
 
 def compare(trial: Trial, runs: Runs | None = None) -> Outcome:
@@ -61,7 +65,8 @@ def compare(trial: Trial, runs: Runs | None = None) -> Outcome:
     climbed = [rungs(trial, ladder, name, found) for ladder, name, found in studies]
     told, ladders = instants.judge(trial, events, runs, runs.judged)
     listed = instants.listed(trial, runs.judged)
-    return Outcome(rows + told, climbed + ladders, runs.judged, listed, moments)
+    wanted = {name: trial.wanted(name) for name in motion} if trial.sampled else {}
+    return Outcome(rows + told, climbed + ladders, runs.judged, listed, moments, wanted)
 
 
 def answered(trial: Trial, found: Climbed) -> Outcome:

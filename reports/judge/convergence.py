@@ -164,10 +164,13 @@ def _told(orders: Sequence[float]) -> Orders:
 
 
 def _orders(rungs: Sequence[Array], floor: float) -> list[float]:
-    """log₂ of the ratios of neighbouring differences, the last three, finest first."""
+    """log₂ of the ratios of neighbouring differences, the last three, finest first.
+
+    Coarse rungs that are the same to the last bit have none, as before an impact.
+    """
     d = [metric.largest(b - a) for a, b in itertools.pairwise(rungs)]
     pairs = itertools.pairwise(d)
-    return [math.log2(coarse / fine) for fine, coarse in pairs if fine > floor][:LAST]
+    return [math.log2(coarse / fine) for fine, coarse in pairs if fine > floor and coarse][:LAST]
 
 
 def _noise(rungs: Sequence[Array]) -> float:

@@ -40,10 +40,12 @@ def judge(
 
 
 def _count(trial: Trial, event: str, found: Array) -> Comparison:
-    """Whether the event happens as often as in the reference."""
-    name, wanted = f"{event}.count", len(trial.events[event])
-    off = float(abs(wanted - len(found)))
-    why = f"reference {wanted}, engine {len(found)}"
+    """Whether the event happens as often as in the reference, as far as steps can tell."""
+    name, most = f"{event}.count", len(trial.events[event])
+    least = trial.surely(event, trial.step)
+    off = float(max(least - len(found), len(found) - most, 0))
+    short = f" (of which {least} last long enough for this step)" if least < most else ""
+    why = f"reference {most}{short}, engine {len(found)}"
     reached = verdict(trial, name, off, instants({trial.step: off}, 0.0), why)
     return judged(trial, name, reached, metric.Error(off, off, off, 0), None)
 
@@ -63,12 +65,17 @@ def _each(trial: Trial, name: str, found: Array, runs: Runs) -> Comparison:
 
 
 def _climbed(trial: Trial, name: str, runs: Runs) -> Iterator[tuple[Ladder, str, Convergence]]:
-    """What each ladder's errors by step say, inf where the count is another one."""
-    wanted = trial.wanted(name)
+    """What each ladder's errors by step say, inf where the count is another one.
+
+    They compare the events that the largest step of all can tell, or else the first.
+    """
+    wanted, event = trial.wanted(name), trial.quantity(name).part
     for ladder, climbed in runs.ladders.items():
+        told = {h: trial.surely(event, h) for h in climbed}
+        first = max(1, min(told.values(), default=1))
         errors = {
-            h: metric.error(samples[name], wanted).largest
-            if len(samples[name]) == len(wanted)
+            h: metric.error(samples[name][:first], wanted[:first]).largest
+            if told[h] <= len(samples[name]) <= len(wanted)
             else np.inf
             for h, samples in sorted(climbed.items())
         }

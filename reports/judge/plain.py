@@ -24,7 +24,8 @@ def plain(trial: Trial) -> list[Plain]:
     Raises Diverged.
     """
     scene, plan = trial.case.scene, trial.plan
-    asked = [f"{name}.{field}" for name in scene.contacts for field in ("normal", "tangent")]
+    touching = (*scene.contacts, *scene.pairs)
+    asked = [f"{name}.{field}" for name in touching for field in ("normal", "tangent")]
     wanted = tuple(name for name in asked if name in table(scene) and name not in plan.withheld)
     motion = trial.engine.run(
         scene, trial.start, trial.case.times, trial.step, plan, reactions=wanted, record=True
@@ -36,11 +37,11 @@ def numbers(scene: Scene, reference: Trajectory, motion: Trajectory) -> Iterator
     """Of a motion at the reference's samples; of impacts and of depths in its record."""
     yield from _energy(scene, reference, motion)
     yield from _gap(scene, motion)
-    for contact in scene.contacts.values():
+    for contact in (*scene.contacts.values(), *scene.pairs.values()):
         yield from depth(scene, contact, motion)
         yield from restitution(scene, contact, reference, motion)
         yield from friction(scene, contact, reference, motion)
-    for name in (*scene.contacts, *scene.joints):
+    for name in (*scene.contacts, *scene.pairs, *scene.joints):
         if f"{name}.slip" in table(scene):
             yield from creep(scene, name, reference, motion)
 

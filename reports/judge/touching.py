@@ -18,11 +18,19 @@ SLIPS = 1e-2  # of the fastest slip: near a stop friction is neither moving nor 
 
 def depth(scene: Scene, contact: Any, motion: Trajectory) -> Iterator[Plain]:
     """How deep it is at most; feet that pass the floor are meant to."""
-    if contact.ahead_of is not None:
-        return
     whole = _motion(scene, motion.record or motion)
-    heights = [one.observe(whole, "gap") for one in contact.each()]
-    yield Plain(f"depth of {contact.name}", max(0.0, -float(np.min(heights))), "m")
+    if contact.name in scene.pairs:
+        heights = [contact.observe(whole, "gap")[_faced(contact, whole)]]
+    elif contact.ahead_of is None:
+        heights = [one.observe(whole, "gap") for one in contact.each()]
+    else:
+        return
+    yield Plain(f"depth of {contact.name}", -float(np.min(heights, initial=0.0)), "m")
+
+
+def _faced(pair: Any, motion: Motion) -> Any:
+    """(N,) where it touches a rim, or a face within its ends."""
+    return slice(None) if pair.face is None else ~pair.beyond(motion)
 
 
 def _motion(scene: Scene, trajectory: Trajectory) -> Motion:
@@ -33,7 +41,7 @@ def creep(scene: Scene, name: str, reference: Trajectory, motion: Trajectory) ->
     """The mean slip of what sticks in the reference, without the start."""
     slip = observe(scene, reference, f"{name}.slip")
     sticks = np.abs(slip) <= STILL
-    if name in scene.contacts:
+    if name in (*scene.contacts, *scene.pairs):
         sticks &= np.abs(observe(scene, reference, f"{name}.gap")) <= STILL
     sticks[0] = False
     if np.any(sticks):
@@ -65,7 +73,8 @@ def restitution(
 
     An engine may take a while for it: from the start to half the way to the next event.
     """
-    if not contact.switches or contact.tips:  # in space nothing switches
+    plane = contact.name in scene.contacts
+    if not contact.switches or (plane and contact.tips):  # in space nothing switches
         return
     record, every = reference.record, motion.record
     struck = _first_impact(scene, contact, record) if record else None
@@ -94,7 +103,11 @@ def _first_impact(scene: Scene, contact: Any, record: Trajectory) -> float | Non
 
 
 def _rising(scene: Scene, contact: Any, trajectory: Trajectory) -> Array:
-    """(N,) the velocity [m/s] of what touches, off its plane; of a rim that of the centre."""
-    _, _, vx, vy = _motion(scene, trajectory).point(contact.at).T
+    """(N,) the velocity [m/s] of what touches, off its plane or off the other body."""
+    motion = _motion(scene, trajectory)
+    if contact.name in scene.pairs:
+        apart: Array = contact.moves(motion)[1]
+        return apart
+    _, _, vx, vy = motion.point(contact.at).T  # of a rim that of the centre
     nx, ny = contact.plane.normal
     return nx * vx + ny * vy

@@ -29,6 +29,11 @@ class Run:
     pair: Pair
     candidate: Candidate
 
+    @property
+    def name(self) -> str:
+        """For progress."""
+        return f"{self.pair.case.name} in {self.pair.engine.name}"
+
 
 def of(errors: Errors, name: str, *, elsewhere: bool = False) -> float:
     """One of them; inf where the run diverged, was refused, or has no such number."""

@@ -57,8 +57,10 @@ def together(what: str, searches: Mapping[str, Search[T]], results: Results) -> 
 def _counted(results: Results, done: int, *, left: int) -> Results:
     """Progress over all rounds: a search that is not at its end asks for one more run at least."""
 
-    def progress(what: str, now: int, of: int) -> None:
-        results.progress(what, done + now, done + of + left)
+    def progress(
+        what: str, now: int, of: int, last: str = "", part: float = 0.0, /
+    ) -> None:  # of one round nobody can say how long all of them take
+        results.progress(what, done + now, done + of + left, last)
 
     return replace(results, progress=progress)
 

@@ -1,107 +1,119 @@
-"""The short table: one row a case, one column an engine's setting."""
+"""The short table: how far off each case is in each engine, what agrees, and what cures it."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import inf
 from typing import TypeVar
 
-from ..row import CHANGED, FAILS, Comparison, Rungs
+from ..row import CHANGED, Comparison, Rungs
+from ..selection import BOOK
+from .agreement import NATIVE, Way, agreement, judged, place
+from .amount import factor
 
 Row = TypeVar("Row", Comparison, Rungs)
+Cures = Mapping[tuple[str, str, str, str], str]
+"""By case, engine, setting and quantity: what brings it within its tolerance, in words."""
 
 
-def summary(comparisons: Sequence[Comparison], rungs: Sequence[Rungs]) -> list[list[str]]:
-    """Lines of cells, the head first: does it agree, how far off at worst, the usable step.
+@dataclass(frozen=True)
+class Line:
+    """Of a case in an engine's setting: its worst quantity over what is allowed, or a verdict.
 
-    The usable step is the largest from which on *all* quantities stay within their tolerance.
+    agrees: with which of the engine's settings, and up to which step, everything is within its
+    tolerance. cured: what brings the worst quantity within, as far as that is known.
     """
-    columns = sorted({_column(row) for row in comparisons}, key=_by_engine)
-    lines = [["case", *columns]]
-    rows = _by_cell([row for row in comparisons if row.quantity != "audit"])
-    ladders = _by_cell(rungs)
-    for case in sorted({row.case for row in comparisons}):
-        cells = [(case, column) for column in columns]
-        told = ("; ".join(_cell(rows.get(c, []), ladders.get(c, []))) for c in cells)
-        lines.append([case, *told])
-    return lines
+
+    case: str
+    setting: str
+    worst: str
+    agrees: str
+    cured: str
 
 
-def _by_cell(rows: Sequence[Row]) -> dict[tuple[str, str], list[Row]]:
-    """By case and column."""
-    found: dict[tuple[str, str], list[Row]] = {}
+def summary(
+    comparisons: Sequence[Comparison], rungs: Sequence[Rungs], cures: Cures | None = None
+) -> list[Line]:
+    """Of every engine a line as shipped, and one for each of the user's own settings.
+
+    The tuned setting has one of its own only where nothing else was run.
+    """
+    return [
+        Line(
+            case,
+            f"{engine}.{way[0]}",
+            _worst(rows[way]),
+            agreement(rows, ladders),
+            _cured(rows[way], cures or {}),
+        )
+        for case, engine, rows, ladders in _engines(comparisons, rungs)
+        if engine != BOOK
+        for way in _shown(rows)
+    ]
+
+
+def approximations(comparisons: Sequence[Comparison], rungs: Sequence[Rungs]) -> list[Line]:
+    """Of each of the book's own approximations of dry friction a line."""
+    return [
+        Line(
+            case,
+            f"{BOOK}.{way[0]}",
+            _worst(rows[way]),
+            agreement({way: rows[way]}, ladders).removeprefix(f"{way[0]} "),
+            "",
+        )
+        for case, engine, rows, ladders in _engines(comparisons, rungs)
+        if engine == BOOK
+        for way in sorted(rows)
+    ]
+
+
+def _engines(
+    comparisons: Sequence[Comparison], rungs: Sequence[Rungs]
+) -> Iterator[tuple[str, str, dict[Way, list[Comparison]], dict[Way, list[Rungs]]]]:
+    rows = _grouped(row for row in comparisons if row.quantity != "audit")
+    ladders = _grouped(rungs)
+    for (case, engine), ways in sorted(rows.items()):
+        yield case, engine, ways, ladders.get((case, engine), {})
+
+
+def _grouped(rows: Iterable[Row]) -> dict[tuple[str, str], dict[Way, list[Row]]]:
+    found: dict[tuple[str, str], dict[Way, list[Row]]] = {}
     for row in rows:
-        found.setdefault((row.case, _column(row)), []).append(row)
+        ways = found.setdefault((row.case, row.engine), {})
+        ways.setdefault((row.setting, row.realised), []).append(row)
     return found
 
 
-def _column(row: Comparison | Rungs) -> str:
-    return f"{row.engine}.{row.setting}" + (
-        "" if row.realised == "native" else f" ({row.realised})"
-    )
+def _shown(rows: Iterable[Way]) -> list[Way]:
+    ways = sorted(rows, key=place)
+    native = [way for way in ways if way[1] == NATIVE] or ways[:1]
+    return [way for way in native if way[0] != "tuned"] or native
 
 
-def _by_engine(column: str) -> tuple[str, int, str]:
-    """Engines by name; of each the shipped setting, the user's own, then the tuned one."""
-    engine, _, setting = column.partition(".")
-    place = {"shipped": 0, "tuned": 2}.get(setting.partition(" ")[0], 1)
-    return engine, place, setting
+def _worst(rows: Sequence[Comparison]) -> str:
+    answered = judged(rows)
+    if not answered:
+        return "refused"
+    told = [row for row in answered if row.ratio is not None]
+    if not told:
+        return answered[0].verdict
+    words = []
+    if any(row.verdict.startswith(CHANGED) for row in answered):
+        words.append("changed")
+    worst = max(told, key=_size)
+    words.append("agrees" if _size(worst) <= 1 else f"{worst.quantity} {factor(_size(worst))}")
+    if len(answered) < len(rows):
+        words.append(f"{len(rows) - len(answered)} not read")
+    return ", ".join(words)
 
 
-def _cell(rows: Sequence[Comparison], ladder: Sequence[Rungs]) -> Iterator[str]:
-    judged = [row for row in rows if not row.verdict.startswith("refused")]
-    if not rows:
-        return
-    if not judged:
-        yield "refused"
-        return
-    fails = sum(row.verdict == FAILS for row in judged)
-    beyond = [row for row in judged if row.ratio is not None and not row.ratio <= 1.0]
-    changed = sum(row.verdict.startswith(CHANGED) for row in judged)
-    if fails:
-        yield f"{fails} of {len(judged)} FAIL"
-    if changed:
-        yield f"{changed} of {len(judged)} changed"
-    if beyond:
-        worst = max(beyond, key=lambda row: row.ratio or 0.0)
-        yield f"{len(beyond)} of {len(judged)} beyond"
-        yield f"{worst.quantity} ×{worst.ratio:.2g}"
-    elif all(row.ratio is None for row in judged) and not fails:
-        yield judged[0].verdict
-    elif not (fails or changed):
-        yield "agrees"
-    steps = [row.usable_step for row in ladder]
-    known = [step for step in steps if step is not None]
-    if known and len(known) == len(steps):
-        yield f"h ≤ {min(known):.1g}"
-    if len(judged) < len(rows):
-        yield f"{len(rows) - len(judged)} not read"
+def _size(row: Comparison) -> float:
+    return inf if row.ratio is None or not row.ratio <= inf else row.ratio  # NaN is the worst
 
 
-def markdown(lines: Sequence[Sequence[str]]) -> str:
-    """The table as the README shows it."""
-    head, *body = lines
-    rule = ["---"] * len(head)
-    return "".join(f"| {' | '.join(line)} |\n" for line in (head, rule, *body))
-
-
-def fitting(lines: Sequence[Sequence[str]], width: int) -> str:
-    """The table as the terminal shows it; too wide for that, a case's engines one below another."""
-    table = _aligned(lines)
-    return table if all(len(line) <= width for line in table.splitlines()) else _stacked(lines)
-
-
-def _aligned(lines: Sequence[Sequence[str]]) -> str:
-    widths = [max(len(line[i]) for line in lines) for i in range(len(lines[0]))]
-    return "\n".join(
-        "  ".join(f"{cell:{width}}" for cell, width in zip(line, widths, strict=True)).rstrip()
-        for line in lines
-    )
-
-
-def _stacked(lines: Sequence[Sequence[str]]) -> str:
-    (_, *columns), *body = lines
-    width = max(map(len, columns))
-    out: list[str] = []
-    for case, *cells in body:
-        out.append(case)
-        told = zip(columns, cells, strict=True)
-        out += [f"  {column:{width}}  {cell}" for column, cell in told if cell]
-    return "\n".join(out)
+def _cured(rows: Sequence[Comparison], cures: Cures) -> str:
+    told = [row for row in judged(rows) if row.ratio is not None]
+    worst = max(told, key=_size, default=None)
+    if worst is None or _size(worst) <= 1:
+        return ""
+    return cures.get((worst.case, worst.engine, worst.setting, worst.quantity), "")

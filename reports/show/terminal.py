@@ -1,56 +1,27 @@
-"""What a run shows on the terminal: progress while it works, a table at the end."""
+"""What a run shows on the terminal at its end: rows, a table, and what fails."""
 
-import shutil
-import sys
-import time
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from itertools import groupby
 from pathlib import Path
 
-from ..row import AGREES, FAILS, Certificate, Comparison
-from ..suite import Progress, Report
+from ..row import AGREES, FAILS, Comparison
+from ..suite import Report
 from .notes import without_effect
-from .say import say, tell
-from .summary import fitting, summary
-
-INTERVAL = 10.0  # s between two lines where no bar can be drawn
-
-
-@contextmanager
-def progress() -> Iterator[Progress]:
-    """A bar for each phase on the error stream; a line now and then where that is no terminal."""
-    terminal = sys.stderr is not None and sys.stderr.isatty()
-    last = [time.monotonic()]
-
-    def show(what: str, done: int, total: int) -> None:
-        now = time.monotonic()
-        if terminal:
-            filled = 30 * done // max(total, 1)
-            bar = "#" * filled + "." * (30 - filled)
-            tell(f"\r{what:12}[{bar}] {done}/{total}", nl=done == total)
-        elif done == total or now > last[0] + INTERVAL:
-            tell(f"{what}: {done} of {total} done")
-            last[0] = now
-
-    try:
-        yield show
-    except BaseException:
-        if terminal:
-            tell()  # the message that follows starts on a line of its own
-        raise
+from .rows import known, rows
+from .say import say
+from .summary import Cures, approximations, summary
+from .table import narrow
 
 
-def show(report: Report, *, detailed: bool, written: Path | None) -> None:
+def show(
+    report: Report, *, detailed: bool, written: Path | None, cures: Cures | None = None
+) -> None:
     """The rows of named cases, the summary, what fails, and where it was written."""
     if detailed:
-        _rows(report.comparisons)
-        _known(report.certificates)
-    say()
-    width = shutil.get_terminal_size().columns
-    say(fitting(summary(report.comparisons, report.rungs), width))
-    say()
+        for told in (*rows(report.comparisons), *known(report.certificates)):
+            say(told)
+    _summary(report, cures or {})
     for check in report.certificates:
         if check.verdict == FAILS:
             numbers = f"{check.difference:.2e} is above {check.bound:.1e}"
@@ -64,16 +35,12 @@ def show(report: Report, *, detailed: bool, written: Path | None) -> None:
         say(f"written to {written}")
 
 
-def _known(certificates: Sequence[Certificate]) -> None:
-    """What each reference is known to, of all that its case bounds."""
-    for case, rows in groupby(certificates, key=lambda row: row.case):
-        known = [
-            f"{row.check.removeprefix('error of ')} to {row.certified:.0e} {row.unit}"
-            for row in rows
-            if row.certified is not None
-        ]
-        if known:
-            say(f"\n{case}: the reference is certified: {', '.join(known)}")
+def _summary(report: Report, cures: Cures) -> None:
+    found, rungs = report.comparisons, report.rungs
+    for lines in (summary(found, rungs, cures), approximations(found, rungs)):
+        if lines:
+            say(f"\n{narrow(lines)}")
+    say()
 
 
 def _fails(rows: Sequence[Comparison]) -> None:
@@ -83,17 +50,6 @@ def _fails(rows: Sequence[Comparison]) -> None:
         more = f" and {len(others)} more" if others else ""
         what = f"{first.engine}.{first.setting} {first.quantity}"
         say(f"FAILS: {case}: {what}{more}: {because}")
-
-
-def _rows(comparisons: Sequence[Comparison]) -> None:
-    for _, rows in groupby(comparisons, key=lambda r: (r.case, r.engine, r.setting, r.realised)):
-        first, *others = rows
-        how = "" if first.realised == "native" else f" ({first.realised})"
-        say(f"\n{first.case} in {first.engine} {first.version} {first.setting}{how}")
-        if first.protocol:
-            say(f"  {first.protocol}")
-        for row in (first, *others):
-            say("  " + line(row))
 
 
 def line(row: Comparison) -> str:

@@ -88,7 +88,7 @@ def _upward(h: float, interval: float) -> Iterator[float]:
 
 def wanted_reactions(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
     """The reactions, that only the producer can give, from which the quantities follow."""
-    parts = {*scene.joints, *scene.constraints, *scene.contacts, *scene.bodies}
+    parts = {*scene.joints, *scene.constraints, *scene.contacts, *scene.pairs, *scene.bodies}
     known = table(scene)
     forces = (
         name

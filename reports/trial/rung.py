@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...cases.case import Case
+from ...cases.frame import frame_of
 from ...cases.observe import observe
 from ...cases.quantity import at_event, told_by
 from ...cases.trajectory import Array, Trajectory
@@ -16,6 +17,7 @@ from ..events.times import engine_events
 from .ladder import wanted_reactions
 
 Samples = Mapping[str, Array]
+"""By quantity, (N,); of a run that is looked at also by body, the places and attitudes (N, …)."""
 Climbed = Samples | str
 """Of one rung, or why it has none."""
 
@@ -24,7 +26,8 @@ Climbed = Samples | str
 class Rung:
     """One run: the engine with a plan at a step [s]. It is pickled, and needs no reference.
 
-    bounds: what is read, and how large it may become and still be a motion.
+    bounds: what is read, and how large it may become and still be a motion. poses: whether the
+    bodies' places and attitudes are kept beside it.
     """
 
     case: Case
@@ -33,6 +36,12 @@ class Rung:
     plan: Plan
     step: float
     bounds: Mapping[str, float]
+    poses: bool = False
+
+    @property
+    def name(self) -> str:
+        """For whoever waits for it."""
+        return f"{self.case.name} in {self.engine.name}.{self.engine.setting}"
 
     @property
     def steps(self) -> float:
@@ -64,7 +73,16 @@ def _run(rung: Rung) -> Samples:
     for name, most in rung.bounds.items():
         if not np.all(np.abs(samples[name]) < most):
             raise Diverged(f"{name} reaches {np.max(np.abs(samples[name])):.1g}")
-    return {**samples, **_events(case, trajectory)}
+    poses = seen(trajectory) if rung.poses else {}
+    return {**samples, **poses, **_events(case, trajectory)}
+
+
+def seen(trajectory: Trajectory) -> Samples:
+    """By body, the columns (N, 3), in space (N, 7), that tell where it is and how it is turned."""
+    return {
+        body: states[:, : frame_of(states.shape[1]).attitude.stop]
+        for body, states in trajectory.states.items()
+    }
 
 
 def _answers(rung: Rung) -> Samples:

@@ -31,9 +31,18 @@ class Runs:
 def rungs(trial: Trial) -> dict[At, Rung]:
     """All that has to be run, from the reference's first row."""
     case, engine, start, bounds = trial.case, trial.engine, trial.start, _bounds(trial)
+    climbs = list(ladders(case, engine, trial.plan))
     return {
-        (ladder.name, h): Rung(case, engine, start, ladder.plan(trial.plan), h, bounds)
-        for ladder in ladders(case, engine, trial.plan)
+        (ladder.name, h): Rung(
+            case,
+            engine,
+            start,
+            ladder.plan(trial.plan),
+            h,
+            bounds,
+            poses=ladder is climbs[0] and h == trial.step,  # the judged run is looked at
+        )
+        for ladder in climbs
         for h in reversed(ladder.steps)
     }
 

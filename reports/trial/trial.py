@@ -14,7 +14,7 @@ from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ...engines.engine import Engine, Plan, Realised, Refusal, Start
 from ..events.states import reference_states
-from ..events.times import reference_events
+from ..events.times import reference_events, surely
 from .ladder import judged_step
 from .start import first
 
@@ -84,8 +84,8 @@ class Trial:
 
     def read(self, quantity: str, samples: Array) -> Array:
         """A run's samples beside `wanted`: of an attitude the turn from the reference's."""
-        if samples.ndim == 1:  # numbers, and times of events
-            return samples
+        if samples.ndim == 1 or quantity in self.case.scene.bodies:
+            return samples  # numbers, times of events, and a body's poses
         return from_reference(samples, observe(self.case.scene, self.reference, quantity))
 
     @cached_property
@@ -134,6 +134,15 @@ class Trial:
             name: reference_events(self.case.scene, record, event)
             for name, event in self.case.events.items()
         }
+
+    def surely(self, event: str, step: float) -> int:
+        """How many of the reference's events an engine with this step has to tell."""
+        record = self.reference.record
+        return (
+            surely(self.case.scene, record, self.case.events[event], step)
+            if record is not None
+            else 0
+        )
 
     @cached_property
     def _at_events(self) -> dict[str, Array]:

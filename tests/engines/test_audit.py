@@ -51,7 +51,8 @@ def expected(scene: Scene, poses: Start) -> dict[str, float]:
 def elements(scene: Scene) -> dict[str, float]:
     """What is the same in the plane and in space."""
     found = {f"{b.name}.mass": b.mass for b in scene.bodies.values()}
-    found |= {f"{c.name}.friction": c.friction for c in scene.touching.values()}
+    touching = (*scene.touching.values(), *scene.pairs.values())
+    found |= {f"{c.name}.friction": c.friction for c in touching}
     for spring in scene.springs():
         found[f"{spring.name}.stiffness"] = spring.stiffness
         found[f"{spring.name}.rest_length"] = spring.rest_length
@@ -106,7 +107,9 @@ def unknown(engine: Engine, scene: Scene) -> set[str]:
     # MuJoCo's driven points are heavy bodies, which move, and its driven freedoms heavy armatures.
     if engine.name == "mujoco" and (driven or getattr(scene, "drives", {})):
         return {"energy.kinetic", *(f"momentum.{axis}" for axis in scene.frame.axes)}
-    return set()
+    # A foot is pinned there.
+    feet = [c.name for c in scene.contacts.values() if c.ahead_of and engine.name == "mujoco"]
+    return {f"{name}.friction" for name in feet}
 
 
 @pytest.mark.parametrize(("name", "engine"), PAIRS, ids=pair)
@@ -141,6 +144,11 @@ def _friction(scene: Scene) -> Scene:
     return replace(scene, contacts=more)
 
 
+def _pair_friction(scene: Scene) -> Scene:
+    more = {n: replace(p, kinetic=1.05 * p.kinetic) for n, p in scene.pairs.items()}
+    return replace(scene, pairs=more)
+
+
 WRONG: Mapping[str, tuple[str, Callable[[Scene], Scene]]] = {
     "mass": ("double_pendulum", lambda s: with_bodies(s, lambda b: replace(b, mass=1.05 * b.mass))),
     "inertia": (
@@ -168,6 +176,7 @@ WRONG: Mapping[str, tuple[str, Callable[[Scene], Scene]]] = {
         lambda s: with_forces(s, Damper, lambda f: replace(f, damping=1.05 * f.damping)),
     ),
     "friction": ("rolling_wheel.pushed", _friction),
+    "touch.friction": ("disk_on_disk.rolls", _pair_friction),
     "gravity": ("bar_pendulum", lambda s: replace(s, gravity=(s.gravity[0], -s.gravity[1]))),
 }
 

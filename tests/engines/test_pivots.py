@@ -14,6 +14,7 @@ from textmech.cases.shape import spokes
 from textmech.cases.trajectory import ANGLE, Array, Trajectory
 from textmech.engines.engine import Choice, Plan
 from textmech.engines.mujoco import contact
+from textmech.engines.mujoco.settings import at_step
 from textmech.reference.systems.spoke_steps import SpokeSteps
 from textmech.reports.events.times import falls
 
@@ -94,7 +95,8 @@ def test_a_wheel_walks_on_its_spokes(k: int, name: str, inertia: float) -> None:
 def test_the_carrying_recipe_throws_a_tip_back() -> None:
     """MuJoCo's for a tip that only stands: 20 times later in three strikes."""
     struck, _ = known(HEAVY_RIM)
-    tip = contact._tip(1e-4)  # pyright: ignore[reportPrivateUsage]
+    scene, _ = begun("rimless_wheel")
+    tip = at_step(contact.RECIPES["tip"](scene), 1e-4)
     assert late(moved("mujoco", HEAVY_RIM, 1e-4, *tip), struck) > 1e-3
 
 

@@ -68,6 +68,40 @@ def _heavy(choice: Choice) -> bool:
     return choice.name == "option.tolerance"
 
 
+def test_no_more_than_what_differs() -> None:
+    scene, start = begun("four_bar")
+    told = {"integrator": "RK4", "cone": "pyramidal", "connect": {"solref": ["4h", 1.0]}}
+    assert MuJoCo("shipped").snippet(scene, start, told, STEP).splitlines() == [
+        '<option timestep="0.0005" integrator="RK4" />',
+        "<default>",
+        '  <equality solref="0.002 1.0" />',
+        "</default>",
+    ]
+    lines = Pymunk("shipped").snippet(scene, start, {"iterations": 30}, STEP).splitlines()
+    assert lines == ["h = 0.0005  # s, for space.step(h)", "space.iterations = 30"]
+
+
+@pytest.mark.parametrize(
+    ("engine", "name", "told", "note"),
+    [
+        (MuJoCo("shipped"), "sliding_block.below", {"settled": True}, "deep in the floor"),
+        (MuJoCo("shipped"), "sliding_block.below", {"noslip_iterations": 5}, "third axis"),
+        (Pymunk("shipped"), "four_bar", {"start_iterations": 90}, "first 5 steps"),
+        (Pymunk("shipped"), "tipping_block", {"reflects": True}, "elasticity 1"),
+    ],
+    ids=str,
+)
+def test_what_no_line_says_is_a_comment(
+    engine: MuJoCo | Pymunk, name: str, told: Options, note: str
+) -> None:
+    scene, start = begun(name)
+    text = engine.snippet(scene, start, told, STEP)
+    said = [line for line in text.splitlines() if line.startswith(("<!--", "# "))]
+    assert len(said) == 1
+    assert note in said[0]
+    assert note not in engine.snippet(scene, start, {}, STEP)
+
+
 PYMUNK: list[tuple[str, Options]] = [
     ("bar_pendulum", {"iterations": 30, "error_bias": 0.0, "max_bias": 10.0}),
     ("four_bar", RECIPE),

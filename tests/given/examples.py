@@ -7,6 +7,7 @@ from textmech.reference.systems import written
 
 BOOK = {"F_minus": 3.0, "F_plus": 3.0, "Fs_minus": 6.0, "Fs_plus": 6.0}
 BAND = {"Delta": 5e-4, "A": 1e5}
+THROWN = {"b": 0.0, "v0": 1.55, "x0": -0.15}
 PARAMETERS: dict[str, dict[str, float]] = {
     "anisotropic_drift": {
         "m": 1.0, "A": 5.0, "w": 2 * math.pi,
@@ -22,6 +23,11 @@ PARAMETERS: dict[str, dict[str, float]] = {
         "M": 10.0, "m": 5.0, "l": 1.0, "gamma": 0.02, "mu": 1.0,
         "left0": 1.7842780686758, "right0": 1.3573145849140,
         "w0": 0.8616538877376, "u0": 0.6753027032217,
+    },
+    "light_feet": {
+        "M": 10.0, "m": 0.1, "l": 1.0, "J_f": 2e-5, "gamma": 0.009, "mu": 1.0,
+        "left0": 1.7696248305769222, "right0": 1.371967823012871,
+        "w0": 0.6280764237234776, "u0": 0.5790887993278023,
     },
     "double_pendulum": {
         "m1": 1.0, "l1": 0.6, "m2": 0.7, "l2": 0.9,
@@ -64,18 +70,37 @@ PARAMETERS: dict[str, dict[str, float]] = {
         "m": 1.3, "R": 0.25, "mu": 0.4, "beta": math.radians(10), "v0": 3.0, "w0": 20.0,
     },
     "sliding_ladder": {"m": 2.0, "l": 1.5, "phi0": math.radians(70)},
+    "cradle": {
+        "m1": 1.0, "m2": 0.6, "m3": 1.7, "R": 0.05, "e": 0.8, "v0": 1.0, "x2": 0.37, "x3": 0.63,
+    },
+    "disk_on_disk": {
+        "m": 1.0, "M": 3.0, "R": 0.5, "r": 0.1, "mu": 0.4, "theta0": math.radians(78), "L": 0.6,
+    },
+    "stacked_blocks": {
+        "m1": 2.0, "m2": 1.0, "w1": 0.8, "h1": 0.2, "w2": 0.2, "h2": 0.1, "mu1": 0.1, "mu2": 0.4,
+        "b": 30.0, "v0": 0.0, "x0": 0.1,
+    },
     "tipping_block": {"m": 3.0, "w": 0.3, "H": 0.6, "b": 12.0, "mu": 0.8},
     "smooth_dynamometer": {"m": 1.0, "c": 2.0, "u": 2.0, **BOOK, **BAND},
     "smooth_growing_force": {"m": 1.0, "b": 1.0, **BOOK, **BAND},
     "spring_mass_damper": {"m": 1.0, "c": 36.0, "d": 1.2, "l0": 0.5, "y0": -0.6},
     "stribeck_brake": {"m": 1.3, "F": 3.0, "Fs": 6.0, "v_s": 0.5, "P": 0.5, "v0": 2.0},
     "stribeck_drive": {"m": 2.0, "c": 2.0, "u": 1.0, "F": 3.0, "Fs": 6.0, "v_s": 0.5},
+    "running_gait": {
+        "m": 80.0, "c": 20000.0, "l0": 1.0, "alpha": math.radians(112), "vx0": 5.11575105401509,
+        "vy0": -0.5072041586666318, "x2": 1.2783908793771184, "x3": 2.556781758754237,
+        "x4": 3.835172638131355,
+    },
     "spring_mass_jump": {
         "m": 80.0, "c": 16000.0, "l0": 1.0, "alpha": math.radians(115), "vx0": 9.0, "vy0": -0.2,
     },
     "torsion_pendulum": {
         "m": 1.5, "R": 0.3, "c": 2.4, "phi0": math.radians(-15), "d": 0.1, "M": 0.6, "Omega": 7.0,
         "phi": math.radians(70), "w0": 1.0,
+    },
+    "turning_sled": {
+        "m": 1.5, "l": 0.8, "d": 0.6, "d_across": 7.0, "phi0": math.radians(50), "u0": 3.0,
+        "w0": -0.5,
     },
     "viscous_drift": {"m": 1.3, "A": 5.0, "w": 6.0, "d_minus": 4.0, "d_plus": 1.0},
     "viscous_growing_force": {"m": 1.3, "b": 1.0, "d_minus": 3.0, "d_plus": 2.0},
@@ -136,6 +161,13 @@ VARIANTS: dict[str, tuple[str, dict[str, float], list[str]]] = {
     "stick-slip": ("dynamometer", {}, ["slips", "stops"] * 2),
     "elastic": ("bouncing_disk", {}, ["bounces"] * 5),
     "plastic": ("bouncing_disk", {"e": 0.0}, ["lands"]),
+    "handed on": ("cradle", {"m2": 1.0, "m3": 1.0, "e": 1.0}, ["first strikes", "second strikes"]),
+    "handed back": (
+        "cradle", {}, ["first strikes", "second strikes", "first strikes"],
+    ),
+    "pulled away": ("stacked_blocks", {}, ["slides", "slips"]),
+    "thrown, and drags": ("stacked_blocks", THROWN, ["joins", "stops"]),
+    "thrown on what rests": ("stacked_blocks", {**THROWN, "mu1": 0.5}, ["joins"]),
     "walks": ("rimless_wheel", {}, [f"spoke {k} strikes" for k in range(2, 8)]),
     "walks over with few spokes": (
         "rimless_wheel", {"n": 6.0, "gamma": 0.15, "w0": 4.0},
@@ -152,6 +184,9 @@ DURATION = {
     "rimless_wheel": 2.0,
     "sliding_ladder": 0.7,
     "tipping_block": 1.0,
+    "cradle": 1.0,
+    "disk_on_disk": 0.8,
+    "stacked_blocks": 0.8,
 }  # 10 s else
 
 

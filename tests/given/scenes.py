@@ -4,19 +4,15 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from textmech import cases
 from textmech.cases.case import Case
+from textmech.cases.find import shipped
 from textmech.cases.load import load
 from textmech.reference.solve import Solution, solve
 from textmech.reference.start.mechanism import mechanism as generated
 from textmech.reports.cache.key import Keys
 from textmech.reports.cache.store import usable
 
-EVERY = {
-    case.name: case
-    for path in sorted(Path(cases.__file__).parent.glob("*.yaml"))
-    for case in load(path)
-}
+EVERY = {case.name: case for path in shipped().values() for case in load(path)}
 SHIPPED = {name: case for name, case in EVERY.items() if case.states is None}
 """Those that move."""
 CLAIMS = {name: case for name, case in EVERY.items() if case.states is not None}

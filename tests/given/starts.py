@@ -18,6 +18,10 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
         ("left", 2, 1.7842780686758, 0.0), ("right", 2, 1.3573145849140, 1e-15),
         ("left", 5, -0.8616538877376, 0.0), ("right", 5, -0.6753027032217, 0.0),
     ],
+    "light_feet": [
+        ("left", 2, 1.7696248305769222, 1e-15), ("right", 2, 1.371967823012871, 1e-15),
+        ("left", 5, -0.6280764237234776, 0.0), ("right", 5, -0.5790887993278023, 0.0),
+    ],
     "double_pendulum": [
         ("upper", 2, -61 * math.pi / 180, 1e-15), ("lower", 2, -33 * math.pi / 180, 1e-15),
     ],
@@ -32,6 +36,10 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
         ("shank", 5, 0.0, 0.0),
     ],
     "dynamometer": _BLOCK,
+    "turning_sled": [
+        ("sled", 0, 0.0, 0.0), ("sled", 1, 0.0, 0.0), ("sled", 2, 50 * math.pi / 180, 1e-15),
+        ("sled", 3, 3.0, 0.0), ("sled", 4, -0.5, 0.0), ("sled", 5, 0.0, 0.0),
+    ],
     "falling_drag": [("ball", 1, 0.0, 0.0), ("ball", 4, 0.0, 0.0)],
     "elastic_pendulum": [
         ("bob", 0, math.cos(40 * math.pi / 180), 1e-15), ("bob", 3, 0.0, 0.0),
@@ -83,9 +91,27 @@ STARTS: dict[str, list[tuple[str, int, float, float]]] = {
     "stribeck_drive": _BLOCK,
     "viscous_drift": _BLOCK,
     "viscous_growing_force": _BLOCK,
+    "running_gait": [
+        ("jumper", 0, math.cos(112 * math.pi / 180), 1e-15), ("jumper", 3, 5.11575105401509, 1e-14),
+        ("jumper", 1, math.sin(112 * math.pi / 180), 1e-15),
+        ("jumper", 4, -0.5072041586666318, 1e-14),
+    ],
     "spring_mass_jump": [
         ("jumper", 0, math.cos(115 * math.pi / 180), 1e-15), ("jumper", 3, 9.0, 1e-14),
         ("jumper", 1, math.sin(115 * math.pi / 180), 1e-15), ("jumper", 4, -0.2, 1e-14),
+    ],
+    "cradle": [
+        ("left", 0, 0.0, 0.0), ("left", 3, 1.0, 0.0), ("middle", 0, 0.37, 0.0),
+        ("right", 0, 0.63, 0.0), ("right", 3, 0.0, 0.0),
+    ],
+    "disk_on_disk": [
+        ("wheel", 0, 0.6 * math.cos(78 * math.pi / 180), 1e-15),
+        ("wheel", 1, 0.6 * math.sin(78 * math.pi / 180), 1e-15), ("wheel", 5, 0.0, 0.0),
+        ("drum", 2, 0.0, 0.0), ("drum", 5, 0.0, 0.0),
+    ],
+    "stacked_blocks": [
+        ("lower", 0, 0.0, 0.0), ("lower", 1, 0.1, 0.0), ("upper", 0, 0.1, 0.0),
+        ("upper", 1, 0.25, 1e-16), ("upper", 3, 0.0, 0.0),
     ],
     "tipping_block": [
         ("box", 0, 0.0, 0.0), ("box", 1, 0.3, 0.0), ("box", 2, 0.0, 0.0), ("box", 5, 0.0, 0.0),

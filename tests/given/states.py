@@ -31,6 +31,10 @@ def _switching(random: np.random.Generator, name: str, mode: str, t: float) -> D
         q[0] = 0.75 * math.cos(q[1])
     if name == "tipping_block" and mode == "stands":
         q = np.array([math.atan2(0.6, 0.3)])
+    if name == "stacked_blocks" and mode == "rests":
+        v = np.zeros(2)
+    if name == "disk_on_disk":
+        q[0] = 0.7 + abs(q[0]) if mode == "flies" else 0.6
     if name == "bouncing_disk":
         q = np.zeros(1) if mode == "rest" else q + 2.0
     rows = system.f_a(t, q)
@@ -102,6 +106,7 @@ _SMOOTH: dict[str, Callable[[np.random.Generator], Drawn]] = {
     "rolling_wheel": _rolling_wheel,
     "bar_pendulum": _bar_pendulum,
     "elastic_pendulum": _on_spring,
+    "running_gait": _on_spring,
     "spring_mass_jump": _on_spring,
     "trunk_on_legs": _trunk,
     "double_pendulum": _double_pendulum,

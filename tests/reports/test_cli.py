@@ -1,6 +1,7 @@
 """The command as a user meets it: what it prints, where, and its exit codes."""
 
 import os
+import re
 from pathlib import Path
 
 import pytest
@@ -33,8 +34,8 @@ def test_a_case_of_ones_own_runs_in_both_engines_and_writes_nothing(new: Path) -
     assert done.returncode == 0, done.stderr
     for engine in ("mujoco", "pymunk"):
         for setting in ("shipped", "tuned"):
-            assert f"cart in {engine}" in done.stdout
-            assert f"{engine}.{setting}" in done.stdout
+            assert re.search(rf"^cart in {engine} [\d.]+ {setting}, h", done.stdout, re.MULTILINE)
+        assert f"  {engine}.shipped  " in done.stdout
     assert reports() == before
     assert [file.name for file in new.parent.iterdir()] == ["cart.yaml"]
 
@@ -147,7 +148,7 @@ def test_two_files_of_one_name_are_refused(new: Path) -> None:
 
 
 @pytest.mark.whole
-def test_own_settings_are_a_further_column(new: Path) -> None:
+def test_own_settings_are_a_line_below_shipped(new: Path) -> None:
     file = new.with_name("mine.yaml")
     file.write_text("mujoco: {step: 4.0e-3, integrator: implicitfast}\n", encoding="utf-8")
     done = textmech("run", new, "--engine", "mujoco", "--settings", file)
@@ -155,8 +156,8 @@ def test_own_settings_are_a_further_column(new: Path) -> None:
     assert [w for w in done.stdout.split() if w.startswith("mujoco.")] == [
         "mujoco.shipped",
         "mujoco.mine",
-        "mujoco.tuned",
     ]
+    assert "cart in mujoco 4.0.0 tuned" in done.stdout
 
 
 @pytest.mark.whole
@@ -215,8 +216,12 @@ def test_bad_settings_are_exit_code_2(new: Path, text: str, message: str) -> Non
 def test_list_names_every_case_with_its_source() -> None:
     done = process("list")
     assert done.returncode == 0
-    assert "four_bar" in done.stdout
-    assert "figure 2.3" in done.stdout
+    book, _, asked = done.stdout.partition("What people ask")
+    assert "four_bar\n" in book
+    assert "figure 2.3" in book
+    assert "creeping_block\n" in asked
+    assert "google-deepmind/mujoco#3328" in asked
+    assert max(map(len, done.stdout.splitlines())) <= 80
 
 
 @pytest.mark.whole

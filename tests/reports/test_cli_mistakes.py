@@ -89,3 +89,35 @@ def test_a_name_that_is_not_utf8(files: Path) -> None:
     done = textmech("check", name, folder=files)
     assert done.returncode == 2
     assert "caf\\udce9" in done.stderr
+
+
+def test_own_settings_that_are_given_as_a_case_are_one_mistake(tmp_path: Path) -> None:
+    file = tmp_path / "mine.yaml"
+    file.write_text("mujoco: {integrator: RK4, step: 0.004}\n", encoding="utf-8")
+    for word in ("run", "check"):
+        done = textmech(word, file)
+        assert done.returncode == 2
+        assert done.stderr.startswith(f"{file}: holds an engine's options, and is no case: say")
+        assert "1 mistake" in done.stderr
+
+
+def test_a_file_of_settings_without_its_ending_is_found_near(tmp_path: Path) -> None:
+    (tmp_path / "mine.yaml").write_text("mujoco: {integrator: RK4}\n", encoding="utf-8")
+    done = textmech("run", "four_bar", "--settings", "mine", folder=tmp_path)
+    assert done.returncode == 2
+    assert "mine: no such setting; did you mean 'mine.yaml'?" in done.stderr
+
+
+def test_without_words_it_helps_and_blames_nobody() -> None:
+    done = textmech()
+    assert done.returncode == 2
+    assert done.stderr.startswith("Usage: ")
+
+
+def test_list_finds_words_or_says_that_it_does_not() -> None:
+    done = textmech("list", "wheel", "slope")
+    assert "rimless_wheel\n" in done.stdout
+    assert "four_bar" not in done.stdout
+    done = textmech("list", "unicorn")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "no shipped case has unicorn in it" in done.stderr

@@ -143,3 +143,10 @@ def test_a_finest_rung_that_is_no_number_leaves_no_usable_step() -> None:
     found = judge(broken, p=1)
     assert found.usable_step is None
     assert found.verdict == UNSETTLED
+
+
+def test_coarse_rungs_that_are_the_same_to_the_last_bit_are_no_crash() -> None:
+    """As those of what moves evenly until a step is fine enough for what comes then."""
+    rungs = ladder(p=1)
+    rungs[STEPS[-1]] = rungs[STEPS[-2]] = rungs[STEPS[-3]]
+    assert judge(rungs, p=1).usable_step is not None

@@ -56,6 +56,11 @@ def on_floor(p: Parameters) -> OneNumber:
     return replace(pulled(p, 0.3 * p["m"] * G), of=FLOOR)
 
 
+def dragged(p: Parameters) -> OneNumber:
+    """1 kg on a floor, by 4 N/s."""
+    return OneNumber(lambda t, x: 4.0 * t, 1.0, lambda t: 0.4 * G, of=FLOOR)
+
+
 # The one number of each case: the kinetic one; of two that differ, 2.5 N is their mean.
 ONE: dict[str, Callable[[Parameters], OneNumber]] = {
     "growing_force": partial(pulled, bound=3.0),
@@ -68,6 +73,7 @@ ONE: dict[str, Callable[[Parameters], OneNumber]] = {
     "bearing.breaks_loose": turned,
     **{f"friction_cone.{n}": on_slope for n in ("forward", "backward", "downhill", "uphill")},
     "friction_of_rest": on_floor,
+    "break_away": dragged,
 }
 
 

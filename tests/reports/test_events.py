@@ -1,6 +1,8 @@
 """Event times of synthetic records whose events are known in advance."""
 
 from collections.abc import Callable
+from functools import partial
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -13,7 +15,7 @@ from textmech.cases.trajectory import VX, Array, Trajectory
 from textmech.reports.events import rests as reading
 from textmech.reports.events.passages import passages
 from textmech.reports.events.rests import rests
-from textmech.reports.events.times import engine_events, falls, reference_events
+from textmech.reports.events.times import engine_events, falls, reference_events, surely
 
 SCENE = Scene(
     (0.0, 0.0), {}, {"box": Body("box", "particle", 1.0, None, {"center": (0.0, 0.0)})}, {}, {}, {}
@@ -66,13 +68,42 @@ def test_noise_makes_no_events_and_costs_its_own_size(noise: float) -> None:
     assert stop == pytest.approx(0.61803, abs=30 * noise + 1e-12)
 
 
-@pytest.mark.parametrize("h", [1e-4, 1e-3, 5e-3])
-def test_two_stick_slip_cycles(h: float) -> None:
+SLIPS = [1.5, 1.5 + LASTS, 6.290543662039866, 6.290543662039866 + LASTS]
+
+
+def slips(h: float, bent: Callable[[Array], Array] = lambda u: u) -> list[float | None]:
+    """The four events as they are read."""
     t = grid(10.0, h)
-    (none, first), (stuck, second), (end, never) = rests(t, slipping(t))
+    (none, first), (stuck, second), (end, never) = rests(t, bent(slipping(t)))
     assert (none, never) == (None, None)
-    found = [first, stuck, second, end]
-    assert found == pytest.approx([1.5, 1.5 + LASTS, 6.290544, 6.290544 + LASTS], abs=2e-5)
+    return [first, stuck, second, end]
+
+
+@pytest.mark.parametrize(("h", "near"), [(1e-4, 1e-11), (1e-3, 1e-11), (5e-3, 1e-9)])
+def test_two_stick_slip_cycles(h: float, near: float) -> None:
+    assert slips(h) == pytest.approx(SLIPS, abs=near)
+
+
+def test_without_the_steps_beside_a_rest_it_is_known_to_a_microsecond(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(reading, "continued", lambda times, u, zero, away: zero)
+    found = np.array(slips(1e-3)) - SLIPS
+    assert 1e-7 < np.abs(found).max() < 2e-5
+
+
+@pytest.mark.parametrize("rows", [1, 2])
+def test_steps_that_are_bent_beside_a_rest_are_left_out(rows: int) -> None:
+    """As an engine's law that brakes with what would stop it in the step."""
+
+    def bent(u: Array) -> Array:
+        u, moves = u.copy(), np.flatnonzero(u)
+        ends = [*moves[np.flatnonzero(np.diff(moves) > 1)], moves[-1]]
+        for end in ends:
+            u[end - rows + 1 : end + 1] *= 0.7
+        return u
+
+    assert slips(1e-3, bent) == pytest.approx(SLIPS, abs=1e-10)
 
 
 def test_a_line_in_place_of_the_curve_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -199,6 +230,20 @@ def test_the_reference_passes_zero_within_a_phase_too() -> None:
     (top,) = reference_events(SCENE, record, Event("box.vx", "falls to zero"))
     assert top == pytest.approx(1 + np.pi / 2, abs=1e-8)  # by seven steps, a sixth of a second each
     assert len(reference_events(SCENE, record, Event("box.vx", "stays zero"))) == 0
+
+
+def hump(a: float, b: float, t: Array) -> Array:
+    return (t - a) * (b - t) / (b - a) ** 2
+
+
+def test_events_that_are_too_near_for_a_step_may_be_missed() -> None:
+    edges = [0.0, 1.0, 1.4, 1.41]  # humps of 1 s, 0.4 s and 10 ms, of heights alike
+    humps = [(a, b, partial(hump, a, b)) for a, b in pairwise(edges)]
+    record = phased(*humps, (edges[-1], 2.0, np.zeros_like))
+    event = Event("box.vx", "falls to zero")
+    assert len(reference_events(SCENE, record, event)) == 3
+    told = {h: surely(SCENE, record, event, h) for h in (1e-4, 1e-3, 5e-2, 0.2)}
+    assert told == {1e-4: 3, 1e-3: 2, 5e-2: 1, 0.2: 0}
 
 
 def test_what_comes_to_zero_from_below_does_not_fall_to_it() -> None:

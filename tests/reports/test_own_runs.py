@@ -5,6 +5,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 from click.testing import CliRunner, Result
+from given.command import textmech
 from given.swing import SWING
 
 from textmech.reports import write
@@ -55,6 +56,9 @@ def test_options_without_effect_are_told_below_the_table(folder: Path) -> None:
 
 
 def test_an_approximation_that_the_book_does_not_make_is_told(folder: Path) -> None:
-    done = run(folder, "--engine", "book")
-    assert done.exit_code == 2
-    assert "no row for swing: the book approximates dry friction alone" in done.output
+    done = textmech("run", folder / "swing.yaml", "--engine", "book")
+    assert done.returncode == 2
+    assert "no row for swing: the book approximates dry friction alone" in done.stderr
+    beside = textmech("run", folder / "swing.yaml", "growing_force", "--engine", "book")
+    assert beside.returncode == 0
+    assert "no row for swing: the book" in beside.stderr

@@ -13,10 +13,9 @@ from textmech.cases.mistake import CaseError
 from textmech.reference.solve import Solution, solve
 from textmech.reports import suite, unit
 from textmech.reports.cache.store import Store
-from textmech.reports.row import AGREES, BEYOND, FAILS, Comparison
+from textmech.reports.row import BEYOND, FAILS, Comparison
 from textmech.reports.selection import choose_engines
 from textmech.reports.show.notes import without_effect
-from textmech.reports.show.summary import summary
 from textmech.reports.trial.ladder import judged_step, sampled
 from textmech.reports.trial.rung import climbed
 from textmech.reports.trial.trial import Trial
@@ -126,18 +125,3 @@ def test_options_without_effect_are_told(moving: Case, trial: Make) -> None:
     assert list(without_effect(rows)) == [
         "moving: mujoco.mine changes nothing: every number is shipped's"
     ]
-
-
-def cells(*rows: Comparison) -> str:
-    return summary(rows, [])[1][1]
-
-
-def test_the_summary_counts_what_fails_and_what_is_beyond(trial: Make, moving: Case) -> None:
-    (row,) = measured(moving, trial().engine)
-    assert cells(row) == "agrees"
-    broken = replace(row, verdict=FAILS, ratio=6.5e-9)
-    assert cells(broken, replace(broken, quantity="ball.y")) == "2 of 2 FAIL"
-    above = replace(row, quantity="ball.y", verdict=BEYOND, ratio=12.0)
-    assert cells(row, above) == "1 of 2 beyond; ball.y ×12"
-    assert cells(broken, above) == "1 of 2 FAIL; 1 of 2 beyond; ball.y ×12"
-    assert row.verdict == AGREES

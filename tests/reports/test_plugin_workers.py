@@ -12,12 +12,12 @@ COUNTED = """\
 from textmech.reports import results
 spread = results.spread
 
-def counted(function, tasks, executor):
+def counted(function, tasks, executor, beat):
     with open({log!r}, "a") as file:
         for task in tasks:
             step = task.step if function.__name__ == "climbed" else ""
             file.write(f"{{function.__name__}} {{step}}\\n")
-    return spread(function, tasks, executor)
+    return spread(function, tasks, executor, beat)
 
 results.spread = counted
 """

@@ -115,7 +115,7 @@ def test_an_interrupted_run_goes_on_where_it_was(
     shipped: list[Engine] = [trial(setting=n, own_step=1e-3).engine for n in ("shipped", "own")]
     engines = [*shipped, trial().engine]
 
-    def strike(what: str, so_far: int, total: int) -> None:
+    def strike(what: str, so_far: int, *_: object) -> None:
         if what == phase and so_far == finished:
             raise KeyboardInterrupt
 

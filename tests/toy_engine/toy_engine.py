@@ -34,7 +34,7 @@ class Toy:
 
     def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
         """One way, of first order, for what is free and does not turn."""
-        if scene.joints or scene.contacts:
+        if scene.joints or scene.contacts or scene.pairs:
             return [Refusal("native", "engine: toy has no joints and no contacts")]
         if any(body.turns for body in scene.bodies.values()):
             return [Refusal("native", "engine: toy knows particles only")]

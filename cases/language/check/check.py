@@ -10,6 +10,7 @@ from .claims import claims
 from .engines import Engines, engines
 from .links import links, twice
 from .sampling import sampling
+from .slowing import slowing
 from .states import states
 
 _NO_USE = ("title", "source", "parameters", "drops_out")  # where a name is not a use of it
@@ -25,11 +26,12 @@ def check(
 ) -> Iterator[Finding]:
     """Every mistake between the sound parts; `data` is the whole file as it was written."""
     yield from links(parsed, scene)
+    yield from slowing(parsed, scene)
     if known is not None:
         yield from engines(parsed.file, known)
     unfit = [] if parsed.file.states is None else [*states(parsed, scene)]
     yield from unfit
-    if not any(twice(parsed, scene)) and not unfit and not parsed.lacks("states"):
+    if not any(twice(parsed)) and not unfit and not parsed.lacks("states"):
         yield from claims(parsed, scene)
     if not parsed.lacks("duration") and not parsed.lacks("samples") and not parsed.lacks("step"):
         yield from sampling(parsed.file)

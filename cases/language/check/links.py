@@ -10,6 +10,7 @@ from ..parse import NAMED, Finding, Parsed
 from .about import about, rubbing
 from .drive import drives
 from .edge import edges
+from .pair import pairs
 from .polar import polar
 from .posed import posed
 from .space.spatial import spatial
@@ -29,7 +30,7 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         yield ("scene", "incline"), f"cannot stand beside {own}"
     if not spec.bodies and not parsed.lacks("scene"):
         yield ("scene", "bodies"), "should not be empty"
-    for path, before in twice(parsed, scene):
+    for path, before in twice(parsed):
         yield path, f"{path[-1]!r} already names one of the {before}"
     yield from _points(parsed)
     for name, joint in scene.joints.items():
@@ -50,6 +51,7 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     yield from _views(spec, scene)
     yield from planes(parsed)
     yield from touches(parsed, scene)
+    yield from pairs(parsed, scene)
     for key in ("initial", "near"):
         yield from _placed(parsed, scene, key, getattr(parsed.file, key))
     yield from edges(parsed, scene)
@@ -68,9 +70,10 @@ def _views(spec: Spec, scene: Scene) -> Iterator[Finding]:
         yield ("scene", "seen"), "has no floor for contacts: the floor is a line seen from the side"
 
 
-def twice(parsed: Parsed, scene: Scene) -> Iterator[tuple[Path, str]]:
+def twice(parsed: Parsed) -> Iterator[tuple[Path, str]]:
     """Names given twice: where the name stands again, and the section before."""
-    places: list[Path] = [("scene", s, name) for s in NAMED for name in getattr(scene, s)]
+    spec = parsed.file.scene
+    places: list[Path] = [("scene", s, name) for s in NAMED for name in getattr(spec, s)]
     places += [("events", name) for name in parsed.file.events]  # `rolls.time` is a quantity
     first: dict[str | int, str] = {}
     for place in places:

@@ -1,4 +1,7 @@
-"""What a claim about states is about: free bodies of the plane, or an open chain in space."""
+"""What a claim about states is about: free bodies of the plane, or an open chain in space.
+
+What slows a body of the plane by its velocity may act on it: it is claimed, and moves nothing.
+"""
 
 from collections.abc import Iterator
 
@@ -17,8 +20,12 @@ _NOTHING = "a claim about states is about bodies and joints alone"
 def states(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     """Every mistake of a claim about states in its scene and its bounds."""
     spec = parsed.file.scene
-    for section in ("constraints", "contacts", "forces"):
+    for section in ("constraints", "contacts"):
         yield from ((("scene", section, name), _NOTHING) for name in getattr(spec, section))
+    for name, force in scene.forces.items():
+        if not force.stated:
+            also = "" if isinstance(scene, SpatialScene) else ", and about `drag`"
+            yield ("scene", "forces", name), _NOTHING + also
     for name, point in spec.points.items():
         if point.driven:
             yield ("scene", "points", name), f"is driven: {_NOTHING}"

@@ -12,6 +12,8 @@ def touches(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     first: dict[tuple[Anchor, str], str] = {}
     for name, contact in parsed.file.scene.contacts.items():
         path = ("scene", "contacts", name)
+        if name in scene.pairs:
+            continue  # see pair.py
         touching, plane = contact.between
         part, _, point = touching.partition(".")
         body = scene.bodies.get(part)
@@ -20,7 +22,7 @@ def touches(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
             if not parsed.hides(part):
                 hint = nearest(part, parsed.names("bodies", scene.bodies))
                 yield (*path, "between", 0), f"unknown body {part!r}{hint}"
-        elif what := _cannot_touch(body, point):
+        elif what := cannot_touch(body, point):
             yield (*path, "between", 0), what
         elif (at, on) in first:
             yield (*path, "between", 0), f"{touching!r} already touches in {first[at, on]!r}"
@@ -46,6 +48,11 @@ def _plane(parsed: Parsed, path: Path, word: str) -> Iterator[Finding]:
     ground, _, name = word.partition(".")
     known = (FLOOR, *parsed.names("planes", parsed.file.scene.planes))
     if ground == GROUND and (name in known or parsed.hides(name, ("planes",))):
+        return
+    if ground not in (GROUND, *known) and "." in word:
+        hint = nearest(ground, parsed.names("bodies", parsed.file.scene.bodies))
+        if not parsed.hides(ground):
+            yield path, f"unknown body {ground!r}{hint}"
         return
     if len(known) == 1:
         yield path, f"should be {GROUND}.{FLOOR}, is {word!r}"
@@ -92,7 +99,7 @@ def _is(body: Body) -> str:
     return f"{body.name!r} has spokes" if body.tips else f"{body.name!r} is a {body.shape}"
 
 
-def _cannot_touch(body: Body, point: str) -> str | None:
+def cannot_touch(body: Body, point: str) -> str | None:
     """Why this point of the body ("": none is named) cannot touch the floor, or None."""
     if body.radius is not None or body.shape == "particle":
         if point:

@@ -33,8 +33,7 @@ def too_many_variants(data: Mapping[str, Any]) -> str | None:
 
 def work(file: File, scene: Scene) -> Iterator[Finding]:
     """What is above its limit: parts, samples, and how much swings in the time."""
-    sections = (scene.bodies, scene.joints, scene.constraints, scene.contacts, scene.forces)
-    parts = sum(map(len, sections))
+    parts = len([*scene.elements()])
     if what := _above(parts, PARTS, f"{parts} bodies, joints, constraints, contacts and forces"):
         yield ("scene",), what
     rows = file.samples * len(scene.bodies)

@@ -7,6 +7,7 @@ from pydantic import Field
 
 from ...body import Body
 from ...contact import Contact as Noun
+from ...pair import Pair
 from ...plane import LEVEL, Plane
 from ...point import CENTER, anchor
 from .field import In
@@ -18,7 +19,8 @@ from .words import wrong
 
 class Contact(Part):
     between: tuple[Annotated[str, Text()], Annotated[str, Text()]] = Field(
-        description="a disk, a particle, a point of a bar or spokes, then a plane of the ground"
+        description="a disk, a particle, a point of a bar or spokes, then a plane of the ground, a "
+        "disk or a side of a block"
     )
     friction: Friction
     restitution: Annotated[float, In("1", least=0, most=1)] = Field(
@@ -40,6 +42,16 @@ class Contact(Part):
             raise wrong("`friction` is one number beside `ideal: pivot`: nothing slides")
         if self.ahead_of is not None and self.ideal != "pivot":
             raise wrong("`ahead_of` is a foot's, which pivots: write `ideal: pivot`")
+
+    def pairs(self, bodies: Mapping[str, Body]) -> bool:
+        """Whether it is with another body."""
+        return self.between[1].partition(".")[0] in bodies
+
+    def paired(self, name: str) -> Pair:
+        """The contact of two bodies, as it stands (check/pair.py)."""
+        at, (touched, _, face) = anchor(self.between[0]), self.between[1].partition(".")
+        static, kinetic = self.friction.static, self.friction.kinetic
+        return Pair(name, at, touched, face or None, static, kinetic, self.restitution)
 
     def named(self, name: str, bodies: Mapping[str, Body], planes: Mapping[str, Plane]) -> Noun:
         """The contact; with the floor where there is no such plane (check/touch.py says so)."""

@@ -26,18 +26,14 @@ from .part import (
     written,
 )
 from .plane import Plane
+from .source import Source
 from .states import Drawn
-from .text import Place, Text, Word, equation, label, no_formula
+from .text import Text, Word, label, no_formula
 from .words import wrong
 
 POLAR = ("from_", "length", "direction")  # how a start gives a place by a distance
 WAYS = ("", ".law", ".driver", ".limit")  # after an engine's name: which of its rows
 
-BookPlace = Annotated[str, Place()]
-Places = Annotated[
-    Annotated[str, Place(), Tag("<plain>")] | Annotated[tuple[BookPlace, ...], Tag("<list>")],
-    plain_or_list(),
-]
 Tolerance = Annotated[Amount, Bound()]
 Seconds = Annotated[float, In("s", above=0)]
 Engine = Annotated[str, Text(description="an engine's name")]  # which there are is checked later
@@ -52,21 +48,6 @@ Step = Annotated[
 
 GRAVITY = "`none` (a scene seen from above), how strong it is [m/s²], or a vector of its own"
 INCLINE = "turns gravity, never the ground: x points down the slope"
-
-
-class Source(Part):
-    """Where in the book the case comes from, as text: "2.10" is not 2.1."""
-
-    equations: tuple[Annotated[str, Place(equation, r"^2\.[1-9][0-9]?$")], ...] = ()
-    example: BookPlace | None = None
-    exercise: BookPlace | None = None
-    figure: Places | None = None  # one, or a list of several
-    section: BookPlace | None = None
-
-    @property
-    def figures(self) -> tuple[str, ...]:
-        """All that are given."""
-        return (self.figure,) if isinstance(self.figure, str) else self.figure or ()
 
 
 class Scene(Part):

@@ -108,6 +108,16 @@ def turn(word: str) -> str | None:
     return f"should be a joint's name, or joint.turn (`arm.theta`), is {word!r}"
 
 
+THREAD = r"^[A-Za-z0-9-]+/[A-Za-z0-9._-]+#[1-9][0-9]*$"
+
+
+def asked(word: str) -> str | None:
+    """What is wrong with the name of a public thread."""
+    if re.fullmatch(THREAD, word):
+        return None
+    return f"should be owner/repository#number, is {word!r}"
+
+
 def no_formula(words: str) -> str | None:
     """What is wrong with words that fill a cell of a report."""
     if words[0] in "=+-@":

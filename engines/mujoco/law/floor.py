@@ -1,22 +1,23 @@
-"""What points that touch MuJoCo's planes do when they are so deep in them, and creep so fast."""
+"""What touches in MuJoCo does when it is so deep in a plane or a body, and creeps so fast."""
 
 from collections.abc import Sequence
 
 import mujoco
 import numpy as np
 
+from ....cases.pair import Pair
 from ....cases.scene import Contact, Scene
 from ....cases.trajectory import Array
 from ..tree import spanning_tree
+from .touching import OnBody, OnPlane
 
 UPRIGHT = 1e3  # times as ready to sink as to turn: a start leans by less than a thousandth of that
-_GEOM = int(mujoco.mjtObj.mjOBJ_GEOM)
 
 
 class Floor:
-    """The start of a scene's points on their planes, and what they do beside it.
+    """The start of a scene's points on planes and bodies, and what they do beside it.
 
-    `depths` [m] and `creeps` [m/s] are (contacts,) each.
+    `depths` [m] and `creeps` [m/s] are (contacts,) each, those with planes first.
     """
 
     def __init__(
@@ -25,36 +26,22 @@ class Floor:
         model: mujoco.MjModel,
         data: mujoco.MjData,
         contacts: Sequence[Contact],
+        pairs: Sequence[Pair] = (),
     ) -> None:
         self.model, self.data = model, data
-        self._gravity = model.opt.gravity
-        self._geoms = [mujoco.mj_name2id(model, _GEOM, contact.name) for contact in contacts]
-        self._radii = [scene.bodies[contact.body].radius or 0.0 for contact in contacts]
-        self._along = np.array([(*contact.plane.along, 0.0) for contact in contacts])
-        self._normal = np.array([(*contact.plane.normal, 0.0) for contact in contacts])
+        self._touching = [
+            *(OnPlane(scene, model, data, contact) for contact in contacts),
+            *(OnBody(scene, model, data, pair) for pair in pairs),
+        ]
         mujoco.mj_forward(model, data)
         self._qpos, self._qvel = data.qpos.copy(), data.qvel.copy()
-        self.depths, self.creeps = np.zeros(len(contacts)), np.zeros(len(contacts))
-        planes = [contact.plane for contact in contacts]
-        places = data.geom_xpos[self._geoms, :2]
-        self.heights = [p.height(x, y) for p, (x, y) in zip(planes, places, strict=True)]
-        along, up = self._rows()
+        count = len(self._touching)
+        self.depths, self.creeps = np.zeros(count), np.zeros(count)
+        self.heights = [touching.height for touching in self._touching]
+        along, up = np.stack([touching.rows() for touching in self._touching], axis=1)
         self.slips = along @ self._qvel
         self._sinks = -self._ways(up, _falling(scene, model))
         self._creeps = self._ways(along, [])
-
-    def _rows(self) -> tuple[Array, Array]:
-        """(contacts, nv) each: how the lowest points move along their planes and away from them."""
-        rows = np.zeros((len(self._geoms), 3, self.model.nv))
-        for row, geom, arm in zip(rows, self._geoms, self._arms(), strict=True):
-            lowest = self.data.geom_xpos[geom] - arm
-            body = int(self.model.geom_bodyid[geom])
-            mujoco.mj_jac(self.model, self.data, row, None, lowest, body)
-        return tuple(np.einsum("ci,cin->cn", way, rows) for way in (self._along, self._normal))
-
-    def _arms(self) -> Array:
-        """(contacts, 3): from the lowest points to the centres [m]."""
-        return np.array(self._radii)[:, None] * self._normal
 
     def _ways(self, rows: Array, upright: list[int]) -> Array:
         """(nv, contacts): the least motion that moves one point by 1 and keeps all loops closed.
@@ -78,15 +65,19 @@ class Floor:
         self.data.qvel[:] = self._qvel + self._creeps @ self.creeps
 
     def acceleration(self, i: int) -> tuple[float, float]:
-        """Of the lowest point [m/s²]: how its slip grows, and how its height does."""
+        """Of what touches there [m/s²]: how its slip grows, and how its height does."""
+        self._look()
+        return self._touching[i].acceleration()
+
+    def accelerations(self) -> Array:
+        """(2, contacts): of all that touches."""
+        self._look()
+        return np.transpose([touching.acceleration() for touching in self._touching])
+
+    def _look(self) -> None:
         self.place()
-        found = np.zeros(6)
         mujoco.mj_forward(self.model, self.data)
         mujoco.mj_rnePostConstraint(self.model, self.data)
-        mujoco.mj_objectAcceleration(self.model, self.data, _GEOM, self._geoms[i], found, 0)
-        real = found[3:] + self._gravity  # MuJoCo counts what holds as −g
-        along = float(self._along[i] @ real)
-        return along + self._radii[i] * float(found[2]), float(self._normal[i] @ real)
 
 
 def _falling(scene: Scene, model: mujoco.MjModel) -> list[int]:

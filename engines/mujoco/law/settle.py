@@ -12,15 +12,18 @@ import mujoco
 import numpy as np
 from scipy.optimize import brentq
 
-from ....cases.scene import Scene
+from ....cases.scene import Contact, Pair, Scene
 from ...engine import Start
-from ..contact import lies
+from ..contact import lies, meet
+from ..planes import touching
 from .floor import Floor
+from .newton import together
 from .signal import signals
 from .told import told
 
 _DEEPEST = 1.0  # m, of a point; a disk could be as deep as its radius
 _SETTLED = 1e-12  # of a depth: points that share a load have found it
+_ALL_AT_ONCE = (1, 4)  # sweeps before which Newton may try: he knows not what carries
 _SWEEPS = 100  # at most: each takes a third or more of the error, as two ends of one bar do
 _STICKS = 10  # steps of the slip's growth: friction is damped by about 1/h, and holds or does not
 _MOST = 1000  # steps to a zero: where friction gives way the slip jumps, and each only halves
@@ -31,14 +34,18 @@ def settle(
     scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, start: Start
 ) -> dict[str, float]:
     """Depth [m] of each contact that is closed, by name; afterwards the data starts there."""
-    contacts = [c for c in scene.touching.values() if lies(scene, c, start)]
-    if not contacts:
+    contacts = [c for c in touching(scene).values() if lies(scene, c, start)]
+    pairs = [pair for pair in scene.pairs.values() if meet(scene, pair, start)]
+    both: list[Contact | Pair] = [*contacts, *pairs]
+    if not both:
         return {}
     with signals(scene, told(scene, model)):
-        floor = Floor(scene, model, data, contacts)
-        for _ in range(_SWEEPS):  # Gauss and Seidel
+        floor = Floor(scene, model, data, contacts, pairs)
+        for sweep in range(_SWEEPS):  # Gauss and Seidel
+            if len(both) > 2 and sweep in _ALL_AT_ONCE and together(floor):
+                break
             before = floor.depths.copy()
-            for i, contact in enumerate(contacts):
+            for i, contact in enumerate(both):
                 _sink(floor, i, scene.bodies[contact.body].radius or _DEEPEST)
                 if contact.friction and not model.opt.noslip_iterations:
                     _creep(floor, i)
@@ -46,7 +53,7 @@ def settle(
                 break
     mujoco.mj_resetDataKeyframe(model, data, 0)  # the run must not inherit a warm start
     floor.place()
-    return dict(zip([c.name for c in contacts], floor.depths.tolist(), strict=True))
+    return dict(zip([c.name for c in both], floor.depths.tolist(), strict=True))
 
 
 def _sink(floor: Floor, i: int, deepest: float) -> None:

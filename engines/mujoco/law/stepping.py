@@ -48,17 +48,6 @@ class Steps:
             slide.recall(noted)
 
 
-def walking(model: mujoco.MjModel, data: mujoco.MjData, walks: Feet) -> Callable[[int], None]:
-    """Steps before each of which the floor is told which feet it meets."""
-
-    def take(n: int) -> None:
-        for _ in range(n):
-            walks.look()
-            mujoco.mj_step(model, data)
-
-    return take
-
-
 def stepping(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, realised: Realised) -> Steps:
     """Steps of the model's size; smooth friction is a callback and needs nothing here."""
     ours = realised != "native" and not (smooth_only(scene) and not one_touch(scene))
@@ -71,9 +60,14 @@ def stepping(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, realised:
         applied, _ = slide.applied()
         slide.sense = slide.sense or slide.starts(applied)
     walks = feet(scene, model, data) if realised == "driver" else None
-    if walks is not None:
-        return Steps(model, data, [walks], walking(model, data, walks), alone=False)
     step = float(model.opt.timestep)
+    if walks is not None:
+
+        def by_feet(n: int) -> None:
+            for _ in range(n):
+                walks.step(step)
+
+        return Steps(model, data, [walks], by_feet, alone=False)
 
     def native(n: int) -> None:
         mujoco.mj_step(model, data, n)

@@ -4,6 +4,7 @@ import mujoco
 
 from ....cases.scene import Scene
 from ..force import numbers
+from ..planes import touching
 from ..tree import called, driven
 
 
@@ -15,7 +16,7 @@ def measured(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[s
         found[f"{body.name}.mass"] = model.body_mass[number]
         if body.turns:
             found[f"{body.name}.inertia"] = model.body_inertia[number, 2]
-    for contact in scene.touching:
+    for contact in (*touching(scene), *scene.pairs):
         found[f"{contact}.friction"] = model.pair(contact).friction[0]
     for joint in scene.joints.values():
         dry = joint.dry_friction

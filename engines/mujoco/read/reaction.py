@@ -8,6 +8,8 @@ import numpy as np
 from ....cases.scene import Anchor, Joint, Scene
 from ....cases.trajectory import Array
 from ..force import outer
+from ..pairs import pair_force
+from ..planes import touching
 from ..tree import Tree, called
 
 Seen = Mapping[str, Array]
@@ -19,8 +21,7 @@ def joint_force(
 ) -> tuple[Array, Array, Array, Array]:
     """fx, fy and torque (about the second point) of the first part on the second; the size."""
     if joint in tree.loops:
-        first = 3 * mujoco.mj_name2id(model, _OBJECT.mjOBJ_EQUALITY, joint.name)  # x, y, z each
-        fx, fy = -seen["efc_force"][:, first : first + 2].T  # MuJoCo counts the first part's
+        fx, fy = pinned(model, seen, joint.name)
         return fx, fy, np.zeros_like(fx), np.hypot(fx, fy)
     branch = next(b for b in tree.branches if b.joint is joint)
     body = mujoco.mj_name2id(model, _OBJECT.mjOBJ_BODY, called(branch.body))
@@ -37,6 +38,11 @@ def joint_force(
         moment -= _cross(place - at, given) + torque
     sign = 1.0 if branch.forward else -1.0
     return sign * force[:, 0], sign * force[:, 1], sign * moment, np.hypot(*force.T)
+
+
+def pinned(model: mujoco.MjModel, seen: Seen, name: str) -> Array:
+    """fx and fy (2, N) of an equality's first part on the second: MuJoCo counts the other way."""
+    return -seen["efc_force"][:, mujoco.mj_name2id(model, _OBJECT.mjOBJ_EQUALITY, name), :2].T
 
 
 def _others(
@@ -66,7 +72,9 @@ def contact_force(
     pushed: the rows of what our law pushes with in MuJoCo's place.
     """
     part, _, field = name.rpartition(".")
-    contact, names = scene.contacts[part], list(scene.touching)
+    if part in scene.pairs:
+        return pair_force(scene, name, felt)
+    contact, names = scene.contacts[part], list(touching(scene))
     firsts = [3 * names.index(point.name) for point in contact.each()]
     force = np.sum([felt[:, first : first + 2] for first in firsts], axis=0)
     if field == "normal":

@@ -12,13 +12,14 @@ import numpy as np
 
 from ....cases.scene import Scene
 from ....cases.trajectory import Array
+from ...stride import strode
 from ..drive import NEEDED as DRIVING
 from ..drive import drives, effort
 from ..edge import fields
 from ..tree import Tree, spanning_tree
 from .acceleration import NEEDED, acceleration
 from .friction import SlideFriction
-from .reaction import contact_force, joint_force
+from .reaction import contact_force, joint_force, pinned
 from .record import Record
 
 _TOUCHING = ("sensordata", "qfrc_applied")
@@ -62,6 +63,8 @@ def read(
             found[name] = effort(scene, model, seen, driving[name], of_joint(part))
         elif part in scene.joints:
             found[name] = of_joint(part)[("fx", "fy", "torque", "force").index(field)]
+        elif part in strode(scene):
+            found[name] = pinned(model, seen, part)[("tangent", "normal").index(field)]
         else:
             found[name] = contact_force(
                 scene, model, name, seen["sensordata"], seen["qfrc_applied"]
@@ -79,7 +82,7 @@ def _needed(scene: Scene, tree: Tree, reactions: tuple[str, ...]) -> set[str]:
         elif part in scene.bodies:
             names |= {*NEEDED}
         elif part not in scene.joints:
-            names |= {*_TOUCHING}
+            names |= {"efc_force"} if part in strode(scene) else {*_TOUCHING}
         elif field != "friction":
             names |= {*DRIVING} if scene.drives else set()
             names |= {"efc_force"} if scene.joints[part] in tree.loops else {*_JOINTS}
@@ -98,7 +101,7 @@ def _seen(
     """MuJoCo's own arrays at every row, (N, …) each."""
     mujoco.mj_resetDataKeyframe(model, probe, 0)  # the run's last solution must not start the first
     states = np.column_stack([times, record.qpos, record.qvel, record.act])
-    loops, after = "efc_force" in names, not names.isdisjoint({"cfrc_int", "cacc"})
+    holds, after = "efc_force" in names, not names.isdisjoint({"cfrc_int", "cacc"})
     views = {name: getattr(probe, name) for name in names if name != "efc_force"}
     seen = {name: np.empty((len(times), *part.shape)) for name, part in views.items()}
     pairs = [(seen[name], part) for name, part in views.items()]
@@ -111,10 +114,16 @@ def _seen(
             mujoco.mj_rnePostConstraint(model, probe)
         for kept, part in pairs:
             kept[i] = part
-        if loops:
-            # Equalities come first among the constraints, always the same ones.
-            held.append(probe.efc_force[: probe.ne].copy())
+        if holds:
+            held.append(_equalities(model, probe))
         dry.keep(i, probe)
-    if loops:
+    if holds:
         seen["efc_force"] = np.array(held)
     return seen
+
+
+def _equalities(model: mujoco.MjModel, probe: mujoco.MjData) -> Array:
+    """(neq, 3) what each `connect` exerts, 0 if it is not active; they come first of all rows."""
+    found = np.zeros((model.neq, 3))
+    found[probe.efc_id[: probe.ne : 3]] = probe.efc_force[: probe.ne].reshape(-1, 3)
+    return found

@@ -8,6 +8,7 @@ an impratio of 1e8, has the second order (tested beside this, in test_wandering.
 
 from collections.abc import Callable, Mapping
 
+from ....cases.space.contact import SpatialContact
 from ....cases.space.scene import SpatialScene
 from ...engine import Choice, Start
 from ..contact import HARDEST, SOFTEST
@@ -24,9 +25,19 @@ def chosen(scene: SpatialScene, start: Start | None = None) -> str:
     return "rim" if rims else "roll"
 
 
+def met(scene: SpatialScene) -> list[SpatialContact]:
+    """What MuJoCo's own contacts hold."""
+    return list(scene.contacts.values())
+
+
+def closed(scene: SpatialScene, start: Start) -> bool:
+    """Whether anything lies on the floor: all that touches does, from the start on."""
+    return bool(scene.contacts)
+
+
 def worth(scene: SpatialScene) -> list[str]:
     """Which of the recipes may do something for the scene."""
-    return list(RECIPES)
+    return list(RECIPES) if scene.contacts else []
 
 
 def _sphere(scene: SpatialScene) -> list[Choice]:

@@ -2,7 +2,7 @@
 
 from ..world import World
 from .compilation import compiled, lent, placed
-from .contact import RECIPES, worth
+from .contact import RECIPES, closed, met, worth
 from .plans import plan, ways
 from .read.measure import measured
 from .refuse import unbuildable
@@ -16,7 +16,6 @@ def unwritten(*given: object) -> None:
 
 
 SPACE = World(
-    unbuildable, ways, plan, tuned, best, RECIPES, worth, soft, with_own, compiled, placed, lent,
-    measured, mjcf, signals,
-    simulate, unwritten,
+    unbuildable, ways, plan, tuned, best, RECIPES, worth, met, closed, soft, with_own, compiled,
+    placed, lent, measured, mjcf, signals, simulate, unwritten,
 )  # fmt: skip

@@ -6,6 +6,7 @@ from ..contact import follower, steers
 from ..drive import tells as turned
 from ..edge import driver
 from ..force import tells
+from ..pair import pair_followers
 from ..world import World
 from .friction import laws
 
@@ -30,4 +31,5 @@ def _followers(world: World, step: float, reflects: bool) -> list[Apply]:
         follower(c, scene.bodies[c.body], world.wheels[c.name], step, reflects=reflects)
         for c in scene.touching.values()
     ]
-    return [follow for follow in found if follow]
+    pairs = pair_followers(world, step, reflects=reflects)
+    return [*(follow for follow in found if follow), *pairs]

@@ -48,7 +48,9 @@ def _two_bounds(contact: Contact) -> bool:
 def _only(scene: Scene, body: str) -> bool:
     """Whether one joint or contact is all that holds the body."""
     joints = [j for j in scene.joints.values() if body in (j.a.body, j.b.body)]
-    return len(joints) + sum(c.body == body for c in scene.contacts.values()) == 1
+    pairs = [p for p in scene.pairs.values() if body in (p.body, p.touched)]
+    contacts = [c for c in scene.contacts.values() if c.body == body]
+    return len(joints) + len(pairs) + len(contacts) == 1
 
 
 def _simple(scene: Scene, contact: Contact) -> bool:

@@ -20,13 +20,15 @@ def pushed(spring: Spring) -> Callable[[DampedSpring, float], float] | None:
 
 def numbers(line: DampedSpring) -> dict[str, float]:
     """What it holds, and on which sides it acts: both, by pymunk's own, which cannot be called."""
-    rest, force = line.rest_length, line.force_func
+    rest, force = line.rest_length, getattr(line, "force_func", None)
+    held = {"stiffness": line.stiffness, "rest_length": rest}
+    if force is None:  # before 7.2 it takes a function, and does not tell it
+        return held
     own = force is DampedSpring.spring_force
     sides = {
         "pulls": own or force(line, rest + 1.0) < 0,
         "pushes": own or force(line, rest / 2) > 0,
     }
-    held = {"stiffness": line.stiffness, "rest_length": rest}
     return held | {side: float(acts) for side, acts in sides.items()}
 
 

@@ -7,7 +7,7 @@ from pymunk.body import Body
 from pymunk.constraints import Constraint
 from pymunk.shapes import Shape
 
-from ....cases.scene import Vector
+from ....cases.scene import Scene, Vector
 from ..world import World
 
 Planes = dict[str, tuple[float, float]]
@@ -21,16 +21,16 @@ def impulses(world: World, reactions: tuple[str, ...]) -> Callable[[], list[floa
     ]
     pins = [world.pins.get(quantity) for quantity in reactions]
     ways = [_way(world, name, what) for name, _, what in parts]
-    contacts = world.scene.contacts
-    points = [
-        [c.name for c in contacts[name].each()] if name in contacts else [] for name, _, _ in parts
-    ]
-    bodies = _contacts(world, {name for names in points for name in names})
+    points = [_points(world.scene, name) for name, _, _ in parts]
+    wanted = {name for names in points for name in names}
+    bodies, pairs = _contacts(world, wanted), _pairs(world, wanted)
 
     def read() -> list[float]:
         felt: Planes = {}
         for body, names in bodies.items():
-            body.each_arbiter(_one if len(names) == 1 else _several, names, felt)
+            body.each_arbiter(_one if len(names) == 1 and not pairs else _several, names, felt)
+        for body, names in pairs.items():
+            body.each_arbiter(_paired, names, felt)
         row = []
         for (x, y), joint, pin, names in zip(ways, joints, pins, points, strict=True):
             if pin:
@@ -45,8 +45,17 @@ def impulses(world: World, reactions: tuple[str, ...]) -> Callable[[], list[floa
     return read
 
 
+def _points(scene: Scene, name: str) -> list[str]:
+    """What touches: of a contact each of its points, of a joint nothing."""
+    if name in scene.pairs:
+        return [name]
+    return [c.name for c in scene.contacts[name].each()] if name in scene.contacts else []
+
+
 def _way(world: World, name: str, what: str) -> Vector:
-    """Of a contact's force, the direction in which it counts."""
+    """Of a contact's force, the direction in which it counts; a pair's is told in its own axes."""
+    if name in world.scene.pairs:
+        return (1.0, 0.0) if what == "tangent" else (0.0, 1.0)
     if name not in world.scene.contacts:
         return (0.0, 0.0)
     plane = world.scene.contacts[name].plane
@@ -61,6 +70,15 @@ def _contacts(world: World, wanted: set[str]) -> Mapping[Body, Mapping[Shape, st
     return {body: names for body, names in found.items() if wanted & set(names.values())}
 
 
+def _pairs(world: World, wanted: set[str]) -> Mapping[Body, Mapping[Shape, str]]:
+    """The bodies that touch others in wanted pairs, each with what touches."""
+    found: dict[Body, dict[Shape, str]] = {}
+    for name, (touching, _) in world.pairs.items():
+        if name in wanted:
+            found.setdefault(world.bodies[world.scene.pairs[name].body], {})[touching] = name
+    return found
+
+
 def _one(arbiter: Arbiter, names: Mapping[Shape, str], felt: Planes) -> None:
     """Its only contact: asking for the shapes would cost more than the impulse."""
     for name in names.values():
@@ -71,3 +89,12 @@ def _several(arbiter: Arbiter, names: Mapping[Shape, str], felt: Planes) -> None
     for shape in arbiter.shapes:
         if shape in names:
             felt[names[shape]] = arbiter.total_impulse
+
+
+def _paired(arbiter: Arbiter, names: Mapping[Shape, str], felt: Planes) -> None:
+    """In the axes of the pair, whose normal points to what touches; pymunk's leads away from it."""
+    for shape in arbiter.shapes:
+        if shape in names:
+            x, y = arbiter.total_impulse
+            nx, ny = -arbiter.normal
+            felt[names[shape]] = (x * ny - y * nx, x * nx + y * ny)

@@ -17,6 +17,8 @@ def measured(world: World) -> dict[str, float]:
     for name, wheel in world.wheels.items():
         plane = world.planes[world.scene.touching[name].plane.name]
         found[f"{name}.friction"] = wheel.friction * plane.friction
+    for name, (touching, touched) in world.pairs.items():
+        found[f"{name}.friction"] = touching.friction * touched.friction
     for name, brake in world.brakes.items():
         friction = world.scene.joints[name].dry_friction
         assert friction is not None

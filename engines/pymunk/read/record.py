@@ -94,7 +94,7 @@ class Record:
         middle[:, :, 3:] = rows[:-1, :, 3:]
         rows[:, :, :3] += self.step / 2 * rows[:, :, 3:]
         lost = np.zeros(len(middle), bool)
-        for contact in self.world.scene.contacts:
+        for contact in (*self.world.scene.contacts, *self.world.scene.pairs):
             gap = observe(self.world.scene, self._named(rows, times), f"{contact}.gap")
             dip = observe(self.world.scene, self._named(middle, times[1:]), f"{contact}.gap")
             lost |= (dip <= 0) & (gap[:-1] > ROUNDING) & (gap[1:] > ROUNDING)

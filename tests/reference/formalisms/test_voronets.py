@@ -31,11 +31,16 @@ SHIPPED: dict[At, set[str]] = dict.fromkeys(MODES, FREE) | {
     ("sliding_disk", "rolling"): set(FORMS),
     ("sliding_disk", "slips backward"): set(FORMS),
     ("sliding_disk", "slips forward"): set(FORMS),
+    ("stacked_blocks", "together"): set(FORMS),
+    ("stacked_blocks", "on top"): set(FORMS),
+    ("disk_on_disk", "rolls"): BOUND,
+    ("disk_on_disk", "slips"): BOUND,
 }
-NOTHING_FREE = ("rest", "stuck", "sticks")
+NOTHING_FREE = ("rest", "rests", "stuck", "sticks")
 HELD = ("driven_knee", "moving"), ("tipping_block", "stands")
 # Where one leg stands, or leans, no place appears: one rate gives the other.
-LEANS = [at for at in MODES if at[0] == "compass_walker" or at == ("sliding_ladder", "leans")]
+WALKERS = ("compass_walker", "light_feet")
+LEANS = [at for at in MODES if at[0] in WALKERS or at == ("sliding_ladder", "leans")]
 SHIPPED |= {at: set(FORMS) for at in LEANS}
 SHIPPED |= {at: set() for at in MODES if at[1] in NOTHING_FREE or at in HELD}
 

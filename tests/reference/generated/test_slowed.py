@@ -73,12 +73,12 @@ PLANTED: dict[str, tuple[Any, str, Any]] = {
         drag, "power_law", lambda law: lambda d, alpha, v: law(d, alpha + 0.01, v),
     ),
     "a dissipation of another power": (
-        drag, "_loss", lambda law: lambda d, alpha, square: law(d, alpha, square) * 1.01,
+        drag, "power_loss", lambda law: lambda d, alpha, square: law(d, alpha, square) * 1.01,
     ),
 }  # fmt: skip
 SHARED: dict[str, tuple[str, Any]] = {
     "the coefficient of the other way": (
-        "_coefficient", lambda law: lambda force, speed: law(force, -speed),
+        "one_way", lambda law: lambda d, speed: law(d, -speed),
     ),
     "a rail that does not turn": (
         "_speed", lambda law: lambda a, b, u: law(a, b, (1.0, 0.3)),

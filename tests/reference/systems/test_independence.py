@@ -24,6 +24,7 @@ ALLOWED = {
     ".tilting_ring",  # of which a disk is one
     ".dynamometer",  # by which a block on a floor is drawn
     ".elastic_pendulum",  # which a mass on a leg is
+    ".compass_walker",  # which the simplest walker is, before its limit
     ".muscle_load",  # of which one is held
     ".spoke_steps",
     *(".blade_on_plane", ".wheel_on_plane", ".triples", ".arm", ".serial_arm", ".quadrature"),

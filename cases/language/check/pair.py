@@ -1,0 +1,61 @@
+"""Contacts of two bodies: what touches what, and where."""
+
+from collections.abc import Iterator
+
+from ...mistake import nearest
+from ...pair import FACES, Pair
+from ...scene import Body, Scene
+from ..grammar.contact import Contact
+from ..parse import Finding, Parsed
+from .touch import cannot_touch
+
+
+def pairs(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
+    """Every mistake in the sound contacts of two bodies."""
+    first: dict[frozenset[str], str] = {}
+    for name, pair in scene.pairs.items():
+        written: Contact = parsed.file.scene.contacts[name]
+        path = ("scene", "contacts", name)
+        for key in ("ideal", "ahead_of"):
+            if getattr(written, key) is not None:
+                what = (
+                    "is for a plane of the ground: two bodies roll, slip and part as friction says"
+                )
+                yield (*path, key), what
+        if pair.body not in scene.bodies:
+            if not parsed.hides(pair.body):
+                hint = nearest(pair.body, parsed.names("bodies", scene.bodies))
+                yield (*path, "between", 0), f"unknown body {pair.body!r}{hint}"
+            continue
+        both = frozenset(written.between)
+        if pair.body == pair.touched:
+            yield (*path, "between"), f"{pair.body!r} touches itself"
+        elif what := _unable(scene.bodies[pair.body], written.between[0].partition(".")[2]):
+            yield (*path, "between", 0), what
+        elif what := _untouchable(scene.bodies[pair.touched], pair):
+            yield (*path, "between", 1), what
+        elif both in first:
+            what = f"{' and '.join(written.between)} already touch in {first[both]!r}"
+            yield (*path, "between"), what
+        first.setdefault(both, name)
+
+
+def _unable(body: Body, point: str) -> str | None:
+    """Why this point of the body ("": none is named) cannot touch another body, or None."""
+    if body.tips:
+        return f"{body.name!r} has spokes, which touch planes of the ground only"
+    return cannot_touch(body, point)
+
+
+def _untouchable(body: Body, pair: Pair) -> str | None:
+    """Why nothing can touch the body there, or None."""
+    if body.radius is not None:
+        where = f"{body.name}.{pair.face}"
+        return pair.face and f"should be {body.name!r}, touched on its rim, is {where!r}"
+    if body.size is None:
+        what = f"{body.name!r} is a {body.shape} and has no rim and no side"
+        return f"{what}: touched are disks, blocks, and planes of the ground"
+    if pair.face not in FACES:
+        sides = ", ".join(f"{body.name}.{face}" for face in FACES)
+        return f"{body.name!r} is a block and is touched on a side: {sides}"
+    return None

@@ -1,0 +1,97 @@
+"""`textmech check`."""
+
+import warnings
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import click
+
+from ...cases.mistake import CaseError, Mistake
+from ..show.say import say
+from .answer import BAD_INPUT, as_json
+from .run import FAILED, allow_long
+
+if TYPE_CHECKING:
+    from ...engines.engine import Engine
+    from ...reference.certificate.agreement import Check
+
+
+@dataclass(frozen=True)
+class Checked:
+    """A file's cases by name, its mistakes, and of which case's reference a check does not hold."""
+
+    file: str
+    cases: Sequence[str]
+    mistakes: Sequence[Mistake]
+    broken: Sequence[tuple[str, "Check"]]
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, metavar="FILE...")
+@as_json
+@allow_long
+def check(files: tuple[str, ...], wants_json: bool, allow_long: bool) -> None:
+    """All mistakes of case files, without running an engine."""
+    from ..selection import choose_engines
+    from ..show.document import write
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # an engine that is broken is no mistake of a case
+        engines = choose_engines([], [])
+    found = [_checked(file, engines, long=allow_long) for file in files]
+    mistakes = [mistake for one in found for mistake in one.mistakes]
+    code = BAD_INPUT if mistakes else FAILED if any(one.broken for one in found) else 0
+    if wants_json:
+        write({"files": [_document(one) for one in found], "exit_code": code})
+        raise click.exceptions.Exit(code)
+    for one in found:
+        for line in _lines(one):
+            say(line)
+    if mistakes:
+        raise CaseError(mistakes)
+    raise click.exceptions.Exit(code)
+
+
+def _checked(file: str, engines: "Sequence[Engine]", *, long: bool) -> Checked:
+    from ...reference.solve import solve
+    from ..events.states import mistaken
+    from ..selection import choose_cases
+    from ..trial.work import too_long
+
+    try:
+        cases = choose_cases([file], long=long)
+        if wrong := too_long(cases, engines):
+            raise CaseError(wrong)
+        solved = [(case, solve(case)) for case in cases]
+    except CaseError as error:
+        return Checked(file, [], error.mistakes, [])
+    return Checked(
+        file,
+        [case.name for case in cases],
+        [mistake for case, solution in solved for mistake in mistaken(case, solution.trajectory)],
+        [(case.name, c) for case, solution in solved for c in solution.checks if not c.holds],
+    )
+
+
+def _lines(one: Checked) -> Iterator[str]:
+    for _, broken in one.broken:
+        numbers = f"{broken.difference:.2e} is above {broken.bound:.1e}"
+        yield f"{one.file}: FAILS: the reference's {broken.name}: {numbers}"
+    if not (one.mistakes or one.broken):
+        many = "s" if len(one.cases) > 1 else ""
+        yield f"{one.file}: {len(one.cases)} case{many}, no mistakes"
+
+
+def _document(one: Checked) -> dict[str, object]:
+    from ..show.document import mistakes
+
+    return {
+        "file": one.file,
+        "cases": list(one.cases),
+        "mistakes": mistakes(one.mistakes),
+        "fails": [
+            {"case": case, "check": c.name, "difference": c.difference, "bound": c.bound}
+            for case, c in one.broken
+        ],
+    }

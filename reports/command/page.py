@@ -1,0 +1,81 @@
+"""`textmech page`."""
+
+from pathlib import Path
+
+import click
+
+from ...cases.mistake import CaseError
+from ..show.say import say, tell
+from .folder import Folder
+from .looking import looked_at
+from .run import BAD_INPUT, allow_long, named_cases, named_engines
+
+OWN = Path("textmech-page")  # of what was named: the committed reports are of everything
+
+
+@click.command()
+@named_cases
+@named_engines("book; ")
+@click.option(
+    "--settings",
+    multiple=True,
+    metavar="shipped|tuned|FILE",
+    help="Only this setting; a FILE of your own engine options is a further column, with its name. "
+    "May be repeated.",
+)
+@click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default.")
+@click.option(
+    "--out",
+    type=Folder(),
+    help="Where to write index.html. By default beside the reports of all cases; of cases, engines "
+    "or settings that are named, ./textmech-page, with their reports.",
+)
+@click.option("--no-cache", is_flag=True, help="Run everything anew.")
+@allow_long
+def page(
+    cases: tuple[str, ...],
+    names: tuple[str, ...],
+    settings: tuple[str, ...],
+    jobs: int | None,
+    out: Path | None,
+    no_cache: bool,
+    allow_long: bool,
+) -> None:
+    """One HTML file to look at: heat map, animations, curves, ladders, causes. It needs no network.
+
+    Without CASES it shows the reports that `textmech run` wrote. Motions come from the store of
+    results; what is not there is run again, which a first time takes minutes.
+
+    \b
+      textmech page                                of all cases, beside their reports
+      textmech page my_case.yaml --out look        of your own case: reports and page in look/
+      textmech page --settings mine.yaml           all cases, with your settings as a column
+    """
+    from .. import write
+    from ..page.folder import Missing
+    from ..page.write import NAME, write_committed, write_measured
+
+    named = bool(cases or names or settings)
+    rows = write.by_default()
+    folder = out or Folder().convert(str(OWN if named else rows), None, None)
+    try:
+        if not named:
+            _there(rows)
+        report = looked_at(cases, names, settings, jobs=jobs, cached=not no_cache, long=allow_long)
+        if named:
+            write_measured(report, folder)
+        else:
+            write_committed(report, report.cases, rows, folder)
+    except (Missing, ValueError) as error:
+        raise click.ClickException(str(error)) from None
+    say(f"written to {folder / NAME}")
+    if report.mistakes:
+        tell(f"{CaseError(report.mistakes)}\nthese files are left out")
+        raise click.exceptions.Exit(BAD_INPUT)
+
+
+def _there(rows: Path) -> None:
+    """Before minutes of work. Raises Missing or ValueError where the reports cannot be read."""
+    from ..page.folder import folder
+
+    folder(rows)

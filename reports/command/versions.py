@@ -1,0 +1,76 @@
+"""`textmech versions`."""
+
+import shutil
+import warnings
+from pathlib import Path
+
+import click
+
+from ..show.say import say, tell
+from .done import DONE
+from .folder import Folder
+from .run import allow_long
+
+CASES = (
+    *("bar_pendulum", "double_pendulum", "four_bar", "slider_crank"),
+    *("sliding_block", "rolling_wheel", "bouncing_disk"),
+)
+"""Pins, loops, sliding, rolling and impacts, in a few seconds a release."""
+
+
+@click.command()
+@click.argument("words", nargs=-1, metavar="ENGINE==VERSION... [CASES]...")
+@click.option(
+    "--settings",
+    multiple=True,
+    metavar="shipped|tuned|FILE",
+    help="Only this setting; a FILE of your own engine options is a further one.",
+)
+@click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default.")
+@click.option("--out", type=Folder(), help="Also write the folder's versions.csv.")
+@allow_long
+def versions(
+    words: tuple[str, ...],
+    settings: tuple[str, ...],
+    jobs: int | None,
+    out: Path | None,
+    allow_long: bool,
+) -> None:
+    """Which release of an engine moved which textbook number.
+
+    Each release is installed by pip, or by uv where there is no pip, into a folder of its own in
+    the cache, and nothing of your environment changes. All run the same cases against the same
+    references with today's adapters, in the order in which you name them; each is compared with
+    the one before, by the rule of `textmech diff`. What an old release lacks is refused in words. A
+    verdict FAILS is a finding here, not an exit code.
+
+    Without CASES some of the shipped ones are taken: pins, loops, friction, rolling, impacts.
+
+    \b
+      textmech versions mujoco==3.3.7 mujoco==3.7.0 mujoco==4.0.0
+      textmech versions pymunk==6.8.1 pymunk==7.3.1 my_case.yaml --settings mine.yaml
+
+    \b
+    Exit codes: 0 done, 2 a mistake: no engine, no such release, no network
+    """
+    from .. import write
+    from ..selection import choose_cases, choose_engines
+    from ..versions.measure import measure
+    from ..versions.table import NAME, steps, table
+    from ..versions.text import text
+    from ..versions.wanted import parted
+
+    releases, named = parted(words)
+    chosen = named or [*CASES]
+    cases = [case.name for case in choose_cases(chosen, known=None, long=allow_long)]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # an engine that is broken here may not be asked for
+        choose_engines([], settings, long=allow_long)  # a mistake in own options is found now
+    measured = [*measure(releases, chosen, settings, jobs, allow_long, tell)]
+    found = steps(measured)
+    if out is not None:
+        write.write({NAME: table(found, cases)}, out)
+        DONE.append(f"{NAME} is in {out}")
+    say(text(found, shutil.get_terminal_size().columns))
+    if out is not None:
+        say(f"written to {out / NAME}")

@@ -1,0 +1,1 @@
+"""What changed between two report folders: read, compared row by row, and told in four forms."""

@@ -1,0 +1,123 @@
+"""A report folder: all its tables, whole, of one run, and with the columns that are compared."""
+
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...cases.mistake import CaseError, Mistake
+from ..replace import settle
+from .errors import ERRORS
+from .file import File
+from .files import FILES
+from .scope import Scope
+from .table import Table, read
+
+
+@dataclass(frozen=True)
+class Folder:
+    """Tables by their files' names. name: what a person calls it."""
+
+    name: str
+    tables: Mapping[str, Table]
+
+    @property
+    def errors(self) -> Table:
+        """The one that every report has."""
+        return self.tables[ERRORS.name]
+
+    @property
+    def run(self) -> str:
+        """The run's name."""
+        return self.errors.run
+
+    @property
+    def scope(self) -> Scope:
+        """What it looks at."""
+        return Scope.of(self.errors.rows)
+
+    @property
+    def versions(self) -> dict[str, str]:
+        """Of every engine; where a folder has two, both."""
+        found = {(row["engine"], row["version"]) for row in self.errors.rows if row["version"]}
+        names = sorted({engine for engine, _ in found})
+        return {name: " and ".join(sorted(v for e, v in found if e == name)) for name in names}
+
+
+def opened(named: Mapping[str, Path]) -> list[Folder]:
+    """By their names. Raises CaseError with the mistakes of all folders."""
+    folders: list[Folder] = []
+    mistakes: list[Mistake] = []
+    for name, path in named.items():
+        try:
+            folders.append(_opened(name, path))
+        except CaseError as error:
+            mistakes += error.mistakes
+    if mistakes:
+        raise CaseError(mistakes)
+    return folders
+
+
+def _opened(name: str, path: Path) -> Folder:
+    if not path.is_dir():
+        what = "is no folder" if path.exists() else "no such folder"
+        raise CaseError([Mistake(str(path), 0, 0, "", f"{what}; a report is one, with its *.csv")])
+    with suppress(OSError):  # what an interrupted run decided and could not finish
+        settle(path)
+    files = sorted(path.glob("*.csv"))
+    if not (path / ERRORS.name).exists():
+        what = f"is no report: it has no {ERRORS.name}; `textmech run --out FOLDER` writes one"
+        raise CaseError([Mistake(str(path), 0, 0, "", what)])
+    tables: dict[str, Table] = {}
+    mistakes: list[Mistake] = []
+    for file in files:
+        try:
+            tables[file.name] = read(file)
+        except CaseError as error:
+            mistakes += error.mistakes
+    known = {name: table for name, table in tables.items() if name in FILES}
+    for file, table in ((FILES[name], table) for name, table in known.items()):
+        mistakes += [*_mistaken(file, table)]
+    mistakes += _mixed(known)
+    if mistakes:
+        raise CaseError(mistakes)
+    return Folder(name, tables)
+
+
+def _mixed(known: Mapping[str, Table]) -> Iterator[Mistake]:
+    """The known files are written together; others may be another command's."""
+    runs = {table.run for table in known.values()}
+    if len(runs) > 1 and ERRORS.name in known:
+        ours = known[ERRORS.name].run
+        for table in known.values():
+            if table.run != ours:
+                what = f"of run {table.run}, and {ERRORS.name} beside it of run {ours}"
+                yield table.mistake(f"{what}: run both again")
+
+
+def _mistaken(file: File, table: Table) -> Iterator[Mistake]:
+    """Columns that are not there, two rows for one thing, and cells that cannot be read."""
+    missing = [name for name in file.needed if name not in table.columns]
+    if missing:
+        what = f"has no column {missing[0]!r}: of another version of textmech?"
+        yield table.mistake(f"{what} Its columns are {', '.join(table.columns)}")
+        return
+    seen: dict[tuple[str, ...], int] = {}
+    for row, line in zip(table.rows, table.lines, strict=True):
+        key = tuple(row[name] for name in file.keys)
+        if (first := seen.setdefault(key, line)) != line:
+            what = f"the same {', '.join(file.keys)} as line {first}: {', '.join(key)}"
+            yield table.mistake(what, line)
+        for name in file.numbers:
+            if not _is_number(row[name]):
+                what = f"should be a number or nothing, is {row[name]!r}"
+                yield table.mistake(what, line, name)
+        if "verdict" in file.words and not file.verdicts(row["verdict"]):
+            yield table.mistake(f"{row['verdict']!r} is no verdict", line, "verdict")
+
+
+def _is_number(text: str) -> bool:
+    try:
+        return not text or float(text) == float(text)  # of a number that is none nothing is said
+    except ValueError:
+        return False

@@ -1,0 +1,163 @@
+"""The interface for Python: cases, references and comparisons, as pandas frames.
+
+    from textmech.reports import load, run, solve
+
+What the command would refuse raises `textmech.cases.mistake.CaseError`, with the same words and all
+mistakes at once in `mistakes`.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from ..cases.case import Case
+from ..cases.difference import apart
+from ..cases.language.read.document import Document
+from ..cases.mistake import CaseError, Mistake, Source
+from ..cases.observe import observe
+from ..cases.states import MASS_MATRIX
+from ..cases.trajectory import Trajectory
+from ..reference.solve import solve as solved
+from . import pool, suite, write
+from .asking import asked
+from .cache.store import usable
+from .events.states import mistaken
+from .judge.instants import of_reference
+from .own_settings import made
+from .results import Progress
+from .selection import choose_cases
+from .show.summary import summary
+
+OWN = "own"  # how the column of a user's own options is called
+POSES = ("x", "y", "z", "angle")
+Word = str | Path | Case
+
+
+@dataclass(frozen=True)
+class Reference:
+    """What the textbook says of a case.
+
+    motion: by time [s] each quantity that the case bounds, and where its bodies are; of an attitude
+    the angle [rad] from where it began. units: of its columns. events: the name, the number from 1
+    and the time [s] of each. checks: what the reference was held against, the difference, the bound
+    that it keeps, and of a bounded quantity what it is certified to.
+    """
+
+    motion: pd.DataFrame
+    units: Mapping[str, str]
+    events: pd.DataFrame
+    checks: pd.DataFrame
+
+
+@dataclass(frozen=True)
+class Comparisons:
+    """What engines make of cases: the frames of the reports of the same names.
+
+    summary: of each case and engine the worst quantity over what is allowed, and what agrees.
+    fails: whether a verdict is FAILS.
+    """
+
+    summary: pd.DataFrame
+    tolerance: pd.DataFrame
+    convergence: pd.DataFrame
+    events: pd.DataFrame
+    reference: pd.DataFrame
+    fails: bool
+
+
+def load(word: Word | Sequence[Word] = ()) -> list[Case]:
+    """The cases of a name, a variant (`rolling_wheel.pushed`) or a YAML file; all shipped for none.
+
+    Raises CaseError with all mistakes of all files.
+    """
+    words = _words(word)
+    given = [case for case in words if isinstance(case, Case)]
+    named = [str(name) for name in words if not isinstance(name, Case)]
+    return [*given, *(choose_cases(named) if named or not words else [])]
+
+
+def solve(word: Word) -> Reference:
+    """The reference of one case, without any engine.
+
+    Raises CaseError, also for a file of several variants.
+    """
+    cases = load(word)
+    if len(cases) > 1:
+        names = ", ".join(case.name for case in cases)
+        raise CaseError([Mistake(str(word), 0, 0, "", f"has variants; solve one of: {names}")])
+    (case,) = cases
+    solution = solved(case)
+    if mistakes := mistaken(case, solution.trajectory):
+        raise CaseError(mistakes)
+    motion, units = _motion(case, solution.trajectory)
+    instants = of_reference(case, solution.trajectory)
+    times = [(instant.event, instant.k, instant.time) for instant in instants]
+    return Reference(
+        motion=motion,
+        units=units,
+        events=pd.DataFrame(times, columns=["event", "k", "time"]),
+        checks=pd.DataFrame([vars(check) | {"holds": check.holds} for check in solution.checks]),
+    )
+
+
+def run(
+    word: Word | Sequence[Word] = (),
+    *,
+    engines: Sequence[str] = (),
+    settings: Sequence[str] = (),
+    options: Mapping[str, Mapping[str, Any]] | None = None,
+    jobs: int | None = None,
+    cache: bool = True,
+    progress: Progress = lambda *_: None,
+) -> Comparisons:
+    """Compares engines with the reference of one case, of several, or of all for none.
+
+    engines: as `mujoco`, `mujoco.tuned`, `book`; all for none. settings: `shipped`, `tuned`, or
+    files of own options. options: own ones as a mapping, `{"mujoco": {"integrator": "RK4"}}`, which
+    are the setting `own`. cache: whether results are kept and found again as the command's are.
+
+    Raises CaseError with all mistakes, of the cases and of the rest.
+    """
+    found = load(word)
+    own = made(Document(Source("options", (), {}), dict(options or {}), []), OWN)
+    wanted = asked(found, engines, settings, own=list(own.values()))
+    store = usable() if cache else None
+    report = suite.measure(
+        wanted.cases,
+        wanted.engines,
+        jobs=jobs or pool.workers(),
+        progress=progress,
+        book=wanted.book,
+        store=store,
+    )
+    if mistakes := [*wanted.mistakes, *report.mistakes]:
+        raise CaseError(mistakes)
+    frames = {Path(n).stem: f for n, f in write.tables(report, report.cases).items()}
+    return Comparisons(
+        summary=pd.DataFrame(map(vars, summary(report.comparisons, report.rungs))),
+        tolerance=frames["tolerance"],
+        convergence=frames["convergence"],
+        events=frames["events"],
+        reference=frames["reference"],
+        fails=report.fails,
+    )
+
+
+def _words(word: Word | Sequence[Word]) -> Sequence[Word]:
+    return [word] if isinstance(word, str | Path | Case) else word
+
+
+def _motion(case: Case, trajectory: Trajectory) -> tuple[pd.DataFrame, dict[str, str]]:
+    known = case.quantities
+    bounded = [name for name in case.allow if name in known and name != MASS_MATRIX]
+    poses = [f"{body}.{pose}" for body in case.scene.bodies for pose in POSES]
+    names = dict.fromkeys([*bounded, *(name for name in poses if name in known)])
+    columns: dict[str, Any] = {}
+    for name in names:
+        samples = observe(case.scene, trajectory, name)
+        columns[name] = samples if samples.ndim == 1 else apart(samples, samples[:1])
+    index = pd.Index(case.times, name="t" if case.states is None else "state")
+    return pd.DataFrame(columns, index=index), {name: known[name].unit for name in names}

@@ -1,0 +1,44 @@
+"""The columns of the page: an engine with a setting, in one of the ways it was run."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from ..row import Comparison, Instant, Rungs
+
+SETTINGS = {"shipped": 0, "tuned": 2}  # the user's own stand between them
+WAYS = {"native": 0, "driver": 1, "law": 2}
+
+
+@dataclass(frozen=True, order=True)
+class Column:
+    """`mujoco.tuned.law` as its rows and its motion name it."""
+
+    engine: str
+    setting: str
+    realised: str
+
+    @property
+    def key(self) -> str:
+        """Its name in the data."""
+        return f"{self.engine}.{self.setting}.{self.realised}"
+
+    @property
+    def title(self) -> str:
+        """Its name for a person."""
+        way = "" if self.realised == "native" else f" + {self.realised}"
+        return f"{self.engine} {self.setting}{way}"
+
+
+def column(row: Comparison | Rungs | Instant) -> Column:
+    """Where a row belongs."""
+    return Column(row.engine, row.setting, row.realised)
+
+
+def columns(rows: Iterable[Comparison]) -> list[Column]:
+    """All, the book's approximations last."""
+    return sorted({column(row) for row in rows}, key=_place)
+
+
+def _place(one: Column) -> tuple[bool, str, int, str, int]:
+    setting = SETTINGS.get(one.setting, 1)
+    return one.engine == "book", one.engine, setting, one.setting, WAYS.get(one.realised, 0)

@@ -1,0 +1,64 @@
+"""A folder of reports, read: the rows of a run, and what other commands add to them."""
+
+from dataclasses import dataclass
+from io import StringIO
+from pathlib import Path
+
+import pandas as pd
+
+from ..row import Certificate, Comparison, Instant, Rungs
+from ..write import NAMES, read
+
+BESIDE = {
+    "advice.csv": "textmech advise",
+    "causes.csv": "textmech causes",
+    "versions.csv": "textmech versions",
+}
+"""What may stand beside the reports, and which command writes it."""
+
+
+class Missing(Exception):
+    """A folder without the reports of a run, in words."""
+
+
+@dataclass(frozen=True)
+class Folder:
+    """The rows of a run, and the tables that may be there as text, by file name."""
+
+    comparisons: list[Comparison]
+    rungs: list[Rungs]
+    instants: list[Instant]
+    certificates: list[Certificate]
+    coverage: pd.DataFrame
+    beside: dict[str, pd.DataFrame]
+    run: str  # the run's name, as its files end
+
+
+def folder(path: Path, beside: Path | None = None) -> Folder:
+    """All that is there; what other commands add may lie elsewhere, `beside`.
+
+    Raises Missing where there are no reports, ValueError where a file is cut or of another run.
+    """
+    lacking = [name for name in NAMES if not (path / name).is_file()]
+    if lacking:
+        raise Missing(
+            f"{path} has no {', '.join(lacking)}: `textmech run --out {path}` writes them"
+        )
+    return Folder(
+        comparisons=read(path / "tolerance.csv", Comparison),
+        rungs=read(path / "convergence.csv", Rungs),
+        instants=read(path / "events.csv", Instant),
+        certificates=read(path / "reference.csv", Certificate),
+        coverage=_text(path / "coverage.csv"),
+        beside={
+            name: _text(file) for name in BESIDE if (file := (beside or path) / name).is_file()
+        },
+        run=(path / NAMES[0]).read_text(encoding="utf-8").rstrip().rpartition(" of run ")[2],
+    )
+
+
+def _text(path: Path) -> pd.DataFrame:
+    """A table as it is written: no number is read, so that none is written otherwise."""
+    lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
+    body = [line for line in lines if not line.startswith("# ")]
+    return pd.read_csv(StringIO("".join(body)), dtype=str, keep_default_na=False)

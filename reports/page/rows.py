@@ -1,0 +1,66 @@
+"""The rows of a case as its section shows them: short lists, with words that repeat told once."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from .column import Column, column
+from .folder import Folder
+
+DIGITS = ".3g"  # as the reports are written
+TIME = ".6g"
+
+
+class Words:
+    """Texts by their number, in the order in which they were met."""
+
+    def __init__(self) -> None:
+        self.told: dict[str, int] = {}
+
+    def number(self, text: str) -> int:
+        """Of a text, the same for equal ones."""
+        return self.told.setdefault(text, len(self.told))
+
+
+def rows(folder: Folder, columns: Sequence[Column]) -> dict[str, Any]:
+    """By case: comparisons, ladders, instants and certificates; words and columns by number."""
+    place: Mapping[Column, int] = {one: k for k, one in enumerate(columns)}
+    words, cases = Words(), dict[str, dict[str, list[Any]]]()
+    kinds = ("rows", "ladders", "instants", "checks")
+
+    def of(case: str) -> dict[str, list[Any]]:
+        return cases.setdefault(case, {kind: [] for kind in kinds})
+
+    for row in folder.comparisons:
+        of(row.case)["rows"].append([
+            place[column(row)], words.number(row.quantity), words.number(row.unit),
+            _few(row.step), _few(row.allowed), _few(row.largest), _few(row.when, TIME),
+            _few(row.ratio), words.number(row.verdict), words.number(row.because),
+        ])  # fmt: skip
+    for rung in folder.rungs:
+        of(rung.case)["ladders"].append([
+            place[column(rung)], words.number(rung.quantity), words.number(rung.ladder),
+            words.number(rung.steps), rung.errors, _few(rung.order), _few(rung.limit),
+            _few(rung.usable_step), words.number(rung.verdict),
+        ])  # fmt: skip
+    for instant in folder.instants:
+        at = -1 if instant.engine == "reference" else place.get(column(instant), -2)
+        of(instant.case)["instants"].append([
+            at, words.number(instant.event), instant.k,
+            _few(instant.time, ".9g"), _few(instant.difference),
+        ])  # fmt: skip
+    for check in folder.certificates:
+        of(check.case)["checks"].append([
+            words.number(check.check), _few(check.difference), _few(check.bound),
+            _few(check.certified), words.number(check.unit), words.number(check.verdict),
+        ])  # fmt: skip
+    return {"columns": [one.key for one in columns], "words": list(words.told), "cases": cases}
+
+
+def _few(number: float | None, digits: str = DIGITS) -> float | str | None:
+    """What JSON has a number for; an infinite one as a word."""
+    if number is None:
+        return None
+    few = float(format(number, digits))
+    if few != few or few in (float("inf"), float("-inf")):
+        return str(few)
+    return int(few) if few == int(few) and abs(few) < 1e6 else few

@@ -1,0 +1,146 @@
+// A mechanism that moves: the reference in ink, engines as ghosts. Nothing is simulated here.
+const CANVAS = {width: 460, height: 300, pad: 22};
+
+// Poses of one motion by part, at any time: straight lines between its samples.
+function poser(times, poses, axes) {
+  const t = unpack(times);
+  const parts = Object.entries(poses).map(([name, columns]) => [name, columns.map(unpack)]);
+  return (time) => {
+    let k = 1;
+    while (k < t.length - 1 && t[k] < time) k++;
+    const share = Math.min(Math.max((time - t[k - 1]) / (t[k] - t[k - 1]), 0), 1);
+    return new Map(parts.map(([name, columns]) => {
+      const [a, b] = [columns.map((c) => c[k - 1]), columns.map((c) => c[k])];
+      const same = axes === 2 || a[3] * b[3] + a[4] * b[4] + a[5] * b[5] + a[6] * b[6] >= 0;
+      return [name, a.map((v, i) => v + share * ((i > 2 && !same ? -b[i] : b[i]) - v))];
+    }));
+  };
+}
+
+// The place in ground axes of a place on a part.
+function placed(pose, place) {
+  if (!pose) return place;
+  if (place.length === 2) {
+    const [x, y, angle = 0] = pose, c = Math.cos(angle), s = Math.sin(angle);
+    return [x + c * place[0] - s * place[1], y + s * place[0] + c * place[1]];
+  }
+  const [x, y, z, w = 1, i = 0, j = 0, k = 0] = pose, n = w * w + i * i + j * j + k * k || 1;
+  const [a, b, c] = place;
+  const [p, q, r] = [2 * (j * c - k * b) / n, 2 * (k * a - i * c) / n, 2 * (i * b - j * a) / n];
+  return [x + a + w * p + j * r - k * q, y + b + w * q + k * p - i * r, z + c + w * r + i * q - j * p];
+}
+
+// What is seen: the plane as it is; space from the side and above, as an engineer draws it.
+function camera(motion, turn) {
+  if (motion.axes === 2) return ([x, y]) => [x, -y];
+  const [az, el] = [turn * Math.PI / 180, 20 * Math.PI / 180];
+  const [sa, ca, se, ce] = [Math.sin(az), Math.cos(az), Math.sin(el), Math.cos(el)];
+  return ([x, y, z]) => [-sa * x + ca * y, -(z * ce - (ca * x + sa * y) * se)];
+}
+
+// The window: all that the reference draws at any of its frames.
+function frame(motion, look, pose, times) {
+  const seen = [];
+  for (const time of times) {
+    const now = pose(time);
+    for (const [name, body] of Object.entries(motion.sketch.bodies)) {
+      seen.push(look(now.get(name)), ...body.lines.flat().map((p) => look(placed(now.get(name), p))));
+    }
+    for (const link of motion.sketch.links) seen.push(...link.ends.map(([part, p]) => look(placed(now.get(part), p))));
+  }
+  seen.push(...motion.sketch.ground.map(look));
+  const [xs, ys] = [seen.map((p) => p[0]), seen.map((p) => p[1])];
+  const [x0, x1, y0, y1] = [least([xs]), most([xs]), least([ys]), most([ys])];
+  const room = {width: CANVAS.width - 2 * CANVAS.pad, height: CANVAS.height - 2 * CANVAS.pad};
+  const scale = Math.min(room.width / (x1 - x0 || 1e-9), room.height / (y1 - y0 || 1e-9), 300 / motion.size);
+  const [cx, cy] = [(x0 + x1) / 2, (y0 + y1) / 2];
+  return (p) => {
+    const [x, y] = look(p);
+    return [CANVAS.width / 2 + scale * (x - cx), CANVAS.height / 2 + scale * (y - cy)];
+  };
+}
+
+const at = ([x, y]) => `${x.toFixed(1)},${y.toFixed(1)}`;
+const path = (points) => points.map(at).join(' ');
+
+function zigzag([x0, y0], [x1, y1]) {
+  const [dx, dy] = [x1 - x0, y1 - y0], length = Math.hypot(dx, dy) || 1, [nx, ny] = [-dy / length * 6, dx / length * 6];
+  const found = [[x0, y0], [x0 + .12 * dx, y0 + .12 * dy]];
+  for (let k = 0; k < 10; k++) {
+    const s = .12 + .76 * (k + .5) / 10, side = k % 2 ? 1 : -1;
+    found.push([x0 + s * dx + side * nx, y0 + s * dy + side * ny]);
+  }
+  return [...found, [x0 + .88 * dx, y0 + .88 * dy], [x1, y1]];
+}
+
+function piston([x0, y0], [x1, y1]) {
+  const [dx, dy] = [x1 - x0, y1 - y0], length = Math.hypot(dx, dy) || 1, [nx, ny] = [-dy / length * 6, dx / length * 6];
+  const p = (s, side) => [x0 + s * dx + side * nx, y0 + s * dy + side * ny];
+  return [p(0, 0), p(.4, 0), p(.4, 1), p(.65, 1), p(.4, 1), p(.4, -1), p(.65, -1), p(.4, -1), p(.4, 0), p(.5, 0), p(.5, .7), p(.5, -.7), p(.5, 0), p(1, 0)];
+}
+const LINK = {spring: zigzag, damper: piston};
+
+// The bodies of one motion: what is drawn of the reference and of each ghost.
+function bodies(motion, kind) {
+  const group = svg('g', {class: kind});
+  const parts = Object.entries(motion.sketch.bodies).map(([name, body]) => ({
+    name, body,
+    lines: body.lines.map(() => group.appendChild(svg('polyline', {class: 'body'}))),
+    dot: body.dot ? group.appendChild(svg('circle', {class: 'dot', r: kind === 'reference' ? 5 : 6})) : null,
+  }));
+  const show = (now, window) => {
+    for (const {name, body, lines, dot} of parts) {
+      const pose = now.get(name);
+      if (!pose) continue;
+      lines.forEach((line, k) => line.setAttribute('points', path(body.lines[k].map((p) => window(placed(pose, p))))));
+      if (dot) {
+        const [x, y] = window(placed(pose, motion.axes === 2 ? [0, 0] : [0, 0, 0]));
+        dot.setAttribute('cx', x.toFixed(1));
+        dot.setAttribute('cy', y.toFixed(1));
+      }
+    }
+  };
+  return {group, show};
+}
+
+// What hangs between bodies and stands on the ground, moving with the reference.
+function fittings(motion) {
+  const group = svg('g', {}), {links, joints, blades, planes, ground} = motion.sketch;
+  const add = (name, kind, extra = {}) => group.appendChild(svg(name, {class: kind, ...extra}));
+  const size = motion.size * 2, drawn = [];
+  const line = (kind, of) => { const shape = add('polyline', kind); drawn.push((now, window) => shape.setAttribute('points', path(of(now, window)))); };
+  const end = (now, [part, place]) => placed(now.get(part), place);
+  for (const plane of planes) {
+    if (plane.floor) {
+      for (const k of [-1, -.5, 0, .5, 1]) {
+        line('rail', (now, window) => [[k * size / 2, -size / 2, 0], [k * size / 2, size / 2, 0]].map(window));
+        line('rail', (now, window) => [[-size / 2, k * size / 2, 0], [size / 2, k * size / 2, 0]].map(window));
+      }
+    } else {
+      const [[x, y], [u, w]] = [plane.at, plane.along];
+      line('plane', (now, window) => [[x - 9 * size * u, y - 9 * size * w], [x + 9 * size * u, y + 9 * size * w]].map(window));
+    }
+  }
+  for (const {rail} of joints) {
+    if (!rail) continue;
+    const [part, place, along] = rail;
+    line('rail', (now, window) => [-1, 1].map((s) => window(placed(now.get(part), place.map((v, i) => v + s * size * along[i])))));
+  }
+  for (const link of links) {
+    line('link', (now, window) => {
+      const ends = link.ends.map((one) => window(end(now, one)));
+      return ends.length === 2 && LINK[link.kind] ? LINK[link.kind](...ends) : ends;
+    });
+  }
+  for (const {body, line: blade} of blades) line('body', (now, window) => blade.map((p) => window(placed(now.get(body), p))));
+  for (const {at: place, rail} of joints) {
+    if (rail) continue;
+    const dot = add('circle', 'joint', {r: 3.4});
+    drawn.push((now, window) => { const [x, y] = window(end(now, place)); dot.setAttribute('cx', x); dot.setAttribute('cy', y); });
+  }
+  for (const place of ground) {
+    const mark = add('path', 'ground');
+    drawn.push((now, window) => { const [x, y] = window(place); mark.setAttribute('d', `M${x} ${y}l-7 11h14z`); });
+  }
+  return {group, show: (now, window) => drawn.forEach((draw) => draw(now, window))};
+}

@@ -1,0 +1,96 @@
+// What a section holds below its motion: plots of one quantity, events, and all its numbers.
+function table(head, rows, first = true) {
+  const cell = (text, k) => html(k === 0 && first ? 'th' : 'td', k === 0 && first ? {scope: 'row'} : {}, text instanceof Node ? text : plain(text));
+  return html('div', {class: 'scroll'}, html('table', {class: 'rows'},
+    html('thead', {}, html('tr', {}, ...head.map((text) => html('th', {scope: 'col'}, text)))),
+    html('tbody', {}, ...rows.map((row) => html('tr', {}, ...row.map(cell))))));
+}
+
+const folded = (title, content) => {
+  const box = html('details', {}, html('summary', {}, title));
+  box.addEventListener('toggle', () => { if (box.open && box.children.length === 1) box.append(content()); });
+  return box;
+};
+
+function orders(ladders) {
+  const told = ladders.map(([column, , ladder, , , order, limit, usable, verdict]) =>
+    [COLUMNS[column].title, word(ladder), short(order), short(limit), usable === null ? '–' : `h ≤ ${short(usable)}`, word(verdict)]);
+  return told.length ? table(['setting', 'ladder', 'order', 'left for h → 0', 'usable step [s]', 'says'], told) : null;
+}
+
+function quantityFigures(motion, data, quantity) {
+  const rows = data.rows.filter((row) => word(row[1]) === quantity);
+  const ladders = data.ladders.filter((row) => word(row[1]) === quantity);
+  const unit = rows.length ? word(rows[0][2]) : '', allow = (rows.find((row) => row[4]) || [])[4] || 1;
+  const found = motion && motion.curves.quantities[quantity] ? curvesOf(motion, quantity) : null;
+  const parts = [];
+  if (found) {
+    const keys = keyOf([{look: 'reference', title: `reference, ± ${short(allow)} ${unit}`}, ...found.engines]);
+    parts.push(figure('In its tolerance tube.', tubePlot(quantity, unit, allow, found)),
+      figure('Off the reference; the largest is marked, the shade is within.', errorPlot(quantity, allow, found, rows)));
+    const climbed = ladderPlot(quantity, allow, ladders);
+    if (climbed) parts.push(figure('Largest error by step: what falls is the step’s, what stays is the model’s. Thin: tuned numbers held as of the largest step.', climbed));
+    return {parts, keys, below: orders(ladders)};
+  }
+  const climbed = ladderPlot(quantity, allow, ladders);
+  if (climbed) parts.push(figure('Largest error by step.', climbed));
+  return {parts, keys: ladders.length ? keyOf(ladders.map((row) => COLUMNS[row[0]])) : null, below: orders(ladders)};
+}
+
+function worstFirst(data) {
+  const worst = new Map();
+  for (const row of data.rows) {
+    const name = word(row[1]), size = typeof row[7] === 'number' ? row[7] : 0;
+    if (name !== 'audit') worst.set(name, Math.max(worst.get(name) || 0, size));
+  }
+  return [...worst].sort((a, b) => b[1] - a[1]).map(([name]) => name);
+}
+
+function events(data) {
+  const right = new Map(data.instants.filter((i) => i[0] === -1).map((i) => [`${i[1]} ${i[2]}`, i[3]]));
+  const told = data.instants.filter((i) => i[0] >= 0).map(([column, event, k, time, difference]) =>
+    [`${word(event)} ${k}`, COLUMNS[column].title, right.get(`${event} ${k}`) ?? 'not there', time, difference === null ? '–' : short(difference)]);
+  return told.length || right.size ? table(['event', 'setting', 'reference [s]', 'engine [s]', 'off by [s]'], told) : null;
+}
+
+function numbers(data) {
+  const refused = new Map(), told = [];
+  for (const [column, quantity, unit, step, allowed, largest, when, ratio, verdict, because] of data.rows) {
+    const says = word(verdict);
+    if (says.startsWith('refused')) {
+      const key = `${COLUMNS[column].title}: ${says}`;
+      refused.set(key, [...(refused.get(key) || []), word(quantity)]);
+    } else told.push([COLUMNS[column].title, word(quantity), plain(step), `${plain(allowed)} ${word(unit)}`, plain(largest), plain(when), ratio === null ? '' : short(ratio), says, word(because)]);
+  }
+  return html('div', {}, told.length ? table(['setting', 'quantity', 'step [s]', 'allowed', 'largest error', 'at [s]', '× allowed', 'verdict', 'because'], told) : null,
+    ...[...refused].map(([why, names]) => html('p', {class: 'note'}, `${why} (${names.join(', ')})`)));
+}
+
+const checks = (data) => table(['check', 'difference', 'bound', 'certified to', 'verdict'],
+  data.checks.map(([check, difference, bound, certified, unit, verdict]) => [word(check), short(difference), short(bound), certified === null ? '' : `${short(certified)} ${word(unit)}`, word(verdict)]));
+
+function build(section) {
+  const body = section.querySelector('.body'), name = section.id, motion = MOTIONS[name];
+  const data = ROWS.cases[name] || {rows: [], ladders: [], instants: [], checks: []};
+  const names = worstFirst(data), above = html('div', {}), below = html('div', {});
+  const figures = html('div', {class: 'figures'}, motion ? animation(name, motion) : null);
+  const fixed = figures.children.length;
+  const choice = html('select', {}, ...names.map((one) => html('option', {}, one)));
+  const show = (quantity) => {
+    const {parts, keys, below: orders} = quantityFigures(motion, data, quantity);
+    choice.value = quantity;
+    figures.replaceChildren(...[...figures.children].slice(0, fixed), ...parts);
+    above.replaceChildren(...[keys].filter(Boolean));
+    below.replaceChildren(orders ? folded('Orders and limits', () => orders) : html('p', {class: 'note'}, 'It has no ladder of steps.'));
+  };
+  choice.addEventListener('change', () => { show(choice.value); history.replaceState(null, '', `#${name}/${encodeURIComponent(choice.value)}`); });
+  section.show = (quantity) => { if (names.includes(quantity)) show(quantity); };
+  if (names.length) {
+    body.append(html('div', {class: 'controls'}, html('label', {}, 'quantity ', choice), html('span', {class: 'note'}, 'the worst first')), above);
+    show(names[0]);
+  }
+  body.append(figures, below);
+  const happened = events(data);
+  if (happened) body.append(folded('Events', () => happened));
+  body.append(folded('All numbers', () => numbers(data)), folded('How the reference is certified', () => checks(data)));
+}

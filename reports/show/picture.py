@@ -1,0 +1,92 @@
+"""The README's picture: how far off the cases are at worst, as shipped and tuned, from the reports.
+
+`python -m textmech.reports.show.readme` draws it.
+"""
+
+from collections.abc import Mapping, Sequence
+from io import StringIO
+from math import inf
+from typing import Any
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, FuncFormatter, PercentFormatter
+
+from ..row import Comparison
+from ..selection import BOOK
+
+NAME = "shares.svg"
+SIZE = (7.2, 3.4)  # inches
+LEAST, MOST = 1e-6, 1e4  # × allowed
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")  # told apart by the colour-blind, too
+LINES = {"shipped": (0, (3, 1.5)), "tuned": "solid"}
+TICKS = {1e-6: "1e-6", 1e-4: "1e-4", 1e-2: "0.01", 1.0: "1", 1e2: "100", 1e4: "1e4"}
+STYLE: dict[Any, Any] = {
+    "svg.hashsalt": "textmech",  # the same bytes from the same rows
+    "svg.fonttype": "none",
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans"],
+    "font.size": 9.0,
+}
+
+
+def picture(rows: Sequence[Comparison]) -> str:
+    """The picture as the text of an SVG file."""
+    with rc_context(STYLE):
+        figure = Figure(figsize=SIZE, layout="constrained")
+        axes = figure.add_subplot()
+        shares = _worst(rows)
+        engines = sorted({engine for engine, _ in shares})
+        for (engine, setting), ratios in shares.items():
+            _curve(axes, ratios, COLOURS[engines.index(engine) % len(COLOURS)], engine, setting)
+        _frame(axes)
+        out = StringIO()
+        figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
+    return "".join(f"{line.rstrip()}\n" for line in out.getvalue().splitlines())
+
+
+def _worst(rows: Sequence[Comparison]) -> Mapping[tuple[str, str], list[float]]:
+    """By engine and setting the worst ratio of each case that the engine itself answers."""
+    cases: dict[tuple[str, str], dict[str, float]] = {}
+    for row in rows:
+        native = row.realised == "native" and row.engine != BOOK and row.quantity != "audit"
+        if native and not row.verdict.startswith("refused"):
+            worst = cases.setdefault((row.engine, row.setting), {})
+            ratio = inf if row.ratio is None else row.ratio
+            worst[row.case] = max(worst.get(row.case, 0.0), ratio)
+    return {key: sorted(found.values()) for key, found in sorted(cases.items())}
+
+
+def _curve(axes: Axes, ratios: Sequence[float], colour: str, engine: str, setting: str) -> None:
+    """Which share of the cases is at worst so far off."""
+    x = np.clip([LEAST, *ratios, MOST], LEAST, MOST)
+    finite = sum(ratio <= MOST for ratio in ratios)
+    counts = [0, *np.minimum(np.arange(1, len(ratios) + 1), finite), finite]
+    within = sum(ratio <= 1 for ratio in ratios) / len(ratios)
+    label = f"{engine} {setting}: {within:.0%} of {len(ratios)}"
+    axes.step(
+        x,
+        np.array(counts) / len(ratios),
+        where="post",
+        color=colour,
+        linestyle=LINES.get(setting, "dotted"),
+        linewidth=1.8,
+        label=label,
+    )
+
+
+def _frame(axes: Axes) -> None:
+    axes.axvline(1.0, color="0.35", linewidth=0.8)
+    axes.set_xscale("log")
+    axes.set_xlim(LEAST, MOST)
+    axes.set_ylim(0, 1)
+    axes.xaxis.set_major_locator(FixedLocator([*TICKS]))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda ratio, _: TICKS[ratio]))
+    axes.xaxis.set_minor_locator(FixedLocator([]))
+    axes.yaxis.set_major_formatter(PercentFormatter(1.0))
+    axes.set_xlabel("the worst quantity's error, over what the textbook's tolerance allows")
+    axes.set_ylabel("share of the cases")
+    axes.legend(loc="upper left", title="within the tolerance", frameon=False)
+    axes.spines[["top", "right"]].set_visible(False)

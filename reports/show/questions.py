@@ -1,0 +1,55 @@
+"""What people ask in public: the case that answers, in a line, and the setting that it takes."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ruamel.yaml import YAML
+
+from ...cases.find import QUESTIONS
+
+LISTED = Path(__file__).parents[1] / "questions.yaml"
+WORDS = {
+    "shipped": "as shipped",
+    "tuned": "tuned: see `textmech show`",
+    "law": "none: only our law beside it",
+}
+"""What may stand in place of own options, and what is said of it."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """A question, its answer, and with what each engine agrees: own options, or one of WORDS."""
+
+    asks: str
+    answer: str
+    settings: Mapping[str, Mapping[str, Any] | str]
+
+
+def listed() -> Mapping[str, Question]:
+    """By the name of the case that answers, in the order in which they are to be read."""
+    found = YAML(typ="safe").load(LISTED.read_text(encoding="utf-8"))
+    return {name: Question(q["asks"], q["answer"], q["with"]) for name, q in found.items()}
+
+
+def questions() -> list[list[str]]:
+    """Lines of cells, the head first."""
+    lines = [["question", "case", "answer", "setting"]]
+    for name, question in listed().items():
+        settings = (f"{e}: {_setting(s)}" for e, s in question.settings.items())
+        case = f"[`{name}`](cases/{QUESTIONS}/{name}.yaml)"
+        lines.append([question.asks, case, question.answer, "<br>".join(settings)])
+    return lines
+
+
+def _setting(setting: Mapping[str, Any] | str) -> str:
+    if isinstance(setting, str):
+        return WORDS[setting]
+    return f"`{', '.join(f'{key}: {_number(value)}' for key, value in setting.items())}`"
+
+
+def _number(value: Any) -> str:
+    if isinstance(value, list):
+        return f"[{', '.join(map(_number, value))}]"
+    return f"{value:g}" if isinstance(value, float) else str(value)

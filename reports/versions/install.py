@@ -1,0 +1,109 @@
+"""An engine's release in a folder of its own, which Python then finds first.
+
+Whatever this environment has or asks for plays no part: nothing else is installed there but the
+pieces that the release itself pins to one version.
+"""
+
+import platform
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
+from difflib import get_close_matches
+from importlib import metadata, util
+from pathlib import Path
+
+from ...cases.mistake import CaseError, Mistake
+from .wanted import Release
+
+PIECE = re.compile(r"([\w.-]+) ?\(?== ?([\w.+!]+)\)?")
+LISTED = re.compile(r"\(from versions: ([^)]*)\)")
+UNREACHED = ("NewConnectionError", "ConnectTimeout", "name resolution", "dns error", "Max retries")
+NEAR = 6  # of the releases that there are
+
+
+def place(release: Release, among: Path, tell: Callable[[str], None]) -> Path | None:
+    """The folder of the release, installed there if it was not; None: this environment has it.
+
+    Raises CaseError where it cannot be had.
+    """
+    if here(release.engine) == release.version:
+        return None
+    tag = f"{sys.implementation.cache_tag}-{platform.system()}-{platform.machine()}"
+    folder = among / f"{release}-{tag}"
+    if not folder.is_dir():
+        tell(f"installing {release}")
+        among.mkdir(parents=True, exist_ok=True, mode=0o700)
+        with tempfile.TemporaryDirectory(prefix=".making-", dir=among) as made:
+            _install([str(release)], Path(made) / "first", release)
+            pieces = [*_pieces(Path(made) / "first")]
+            if pieces:
+                _install([str(release), *pieces], Path(made) / "whole", release)
+            _kept(Path(made) / ("whole" if pieces else "first"), folder)
+    return folder
+
+
+def here(engine: str) -> str | None:
+    """The release that this environment has."""
+    try:
+        return metadata.version(engine)
+    except metadata.PackageNotFoundError:
+        return None
+
+
+def _kept(made: Path, folder: Path) -> None:
+    try:
+        made.rename(folder)
+    except OSError:
+        if not folder.is_dir():  # else another process was first
+            raise
+
+
+def _install(names: Sequence[str], folder: Path, release: Release) -> None:
+    """Raises CaseError."""
+    said = subprocess.run(
+        [*_installer(release), "--no-deps", "--only-binary", ":all:", "--target", folder, *names],
+        capture_output=True,
+        text=True,
+        stdin=subprocess.DEVNULL,
+        check=False,
+    )
+    if said.returncode:
+        raise _wrong(release, _because(release, said.stderr))
+
+
+def _installer(release: Release) -> list[str]:
+    """pip of this environment, else uv."""
+    if util.find_spec("pip"):
+        quiet = ["--quiet", "--disable-pip-version-check", "--no-input", "--retries", "1"]
+        return [sys.executable, "-m", "pip", "install", *quiet, "--timeout", "15"]
+    if uv := shutil.which("uv"):
+        return [uv, "pip", "install", "--quiet", "--python", sys.executable]
+    raise _wrong(release, "cannot be installed: there is neither pip nor uv")
+
+
+def _pieces(folder: Path) -> Iterator[str]:
+    """What its packages need in one version only, and not just for an extra."""
+    for package in metadata.distributions(path=[str(folder)]):
+        for needed in package.requires or []:
+            if piece := PIECE.fullmatch(needed.strip()):
+                yield f"{piece[1]}=={piece[2]}"
+
+
+def _because(release: Release, said: str) -> str:
+    """What pip or uv said, in a sentence."""
+    if any(sign in said for sign in UNREACHED):
+        return "cannot be installed: the package index is not reached; is there a network?"
+    if listed := LISTED.search(said):
+        known = [version.strip() for version in listed[1].split(",")]
+        close = get_close_matches(release.version, known, n=NEAR, cutoff=0.5) or known[-NEAR:]
+        near = ", ".join(sorted(close, key=known.index))
+        return f"there is no such release for this Python and machine; near ones: {near}"
+    lines = [line for line in said.splitlines() if line.strip()]
+    return f"cannot be installed: {' '.join(lines[-2:]) or 'nothing was said'}"
+
+
+def _wrong(release: Release, what: str) -> CaseError:
+    return CaseError([Mistake("versions", 0, 0, str(release), what)])

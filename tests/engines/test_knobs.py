@@ -1,0 +1,137 @@
+"""Knobs: a closed list, in which each value is a user's option that does something."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from given.planning import NATIVE, begun, pair, planned
+from given.scenes import SHIPPED
+
+from textmech import engines
+from textmech.engines.engine import Engine, Tunable
+from textmech.engines.knobs import Knob, Options, as_text, merged, said
+from textmech.reports.own_settings import read_settings
+
+TUNED = [
+    (name, engine)
+    for name, engine in NATIVE
+    if engine.setting == "tuned" and SHIPPED[name].states is None
+]
+INERT = {"jacobian", "tolerance"}  # of MuJoCo: in no case do they matter, so nobody turns them
+OF_FRICTION = {"cone", "impratio"}
+STEP = 1e-3  # s; at the shipped 2 ms a time constant of 10 h is the shipped one
+
+
+def knobs(name: str, engine: Engine) -> list[Knob]:
+    assert isinstance(engine, Tunable)
+    return list(engine.knobs(*begun(name)))
+
+
+@pytest.mark.parametrize(("name", "engine"), TUNED, ids=pair)
+def test_together_they_are_what_tuned_does(name: str, engine: Engine) -> None:
+    """Between the shipped setting and the tuned one nothing else is turned."""
+    assert isinstance(engine, Tunable)
+    found = knobs(name, engine)
+    turned = merged(*(knob.tuned.options for knob in found if knob.tuned))
+    scene, start = begun(name)
+    recipe, touching = (
+        engine.recipe(scene, start),
+        (*scene.contacts.values(), *scene.pairs.values()),
+    )
+    rubs = any(contact.friction for contact in touching)
+    inert = INERT if rubs else INERT | OF_FRICTION
+    assert turned == {key: value for key, value in recipe.items() if key not in inert}
+    assert len({knob.name for knob in found}) == len(found)
+    for knob in found:
+        assert knob.values or knob.tuned
+        assert knob.tuned is None or knob.kind != "bundle"
+        words = [value.words for value in knob.values]
+        assert len(set(words)) == len(words)
+
+
+# Scenes with all kinds of knobs.
+SCENES = [
+    ("mujoco", "bar_pendulum"),
+    ("mujoco", "four_bar"),
+    ("mujoco", "dynamometer"),
+    ("mujoco", "sliding_block.below"),
+    ("mujoco", "tipping_block"),
+    ("mujoco", "bouncing_disk.elastic"),
+    ("mujoco", "driven_wheel.circle"),
+    ("pymunk", "four_bar"),
+    ("pymunk", "sliding_ladder"),
+    ("pymunk", "bouncing_disk.plastic"),
+]
+
+
+def decided(engine: Engine, name: str) -> tuple[Any, ...]:
+    """What an engine takes its steps with."""
+    plan = planned(engine, *begun(name))
+    return {c.name: c.value for c in plan.choices(STEP)}, plan.protocol(STEP)
+
+
+@pytest.mark.parametrize(("engine", "name"), SCENES, ids=str)
+def test_each_value_can_be_pasted_and_does_something(
+    engine: str, name: str, tmp_path: Path
+) -> None:
+    shipped = engines.make(engine, "shipped")
+    before = decided(shipped, name)
+    for knob in knobs(name, shipped):
+        for value in (*knob.values, *([knob.tuned] if knob.tuned else [])):
+            file = tmp_path / "mine.yaml"
+            file.write_text(f"{engine}: {as_text(value.options)}\n", encoding="utf-8")
+            assert decided(read_settings(file, ())[engine], name) != before, value
+
+
+@pytest.mark.parametrize(
+    "name", ["sliding_block.braking", "tipping_block", "bouncing_disk.elastic", "rolling_sphere"]
+)
+def test_a_bundle_is_the_recipe_of_its_word(name: str) -> None:
+    shipped = engines.make("mujoco", "shipped")
+    (bundle,) = [knob for knob in knobs(name, shipped) if knob.kind == "bundle"]
+    assert bundle.values
+    for value in bundle.values:
+        word = value.words.removeprefix("contacts: ")
+        spelled, called = (
+            decided(engines.make("mujoco", "mine", options), name)
+            for options in (value.options, called_by(word, value.options))
+        )
+        assert spelled == called
+
+
+def called_by(word: str, spelled: Options) -> Options:
+    """The start is no part of the recipe; it comes with it where something lies on the floor."""
+    return {"contacts": word, **{k: v for k, v in spelled.items() if k == "settled"}}
+
+
+@pytest.mark.parametrize("name", ["mujoco", "pymunk"])
+def test_steps_and_costs(name: str) -> None:
+    """A coarser step is cheaper; four stages cost what four steps do; the shipped step is there."""
+    engine = engines.make(name, "shipped")
+    assert isinstance(engine, Tunable)
+    assert engine.own_step in engine.steps
+    assert list(engine.steps) == sorted(engine.steps, reverse=True)
+    scene, _ = begun("bar_pendulum")
+    assert [engine.cost({}, h, scene) for h in (0.01, 0.005)] == [100.0, 200.0]
+    stages = {"mujoco": ({"integrator": "RK4"}, 400.0), "pymunk": ({"iterations": 100}, 100.0)}
+    options, cost = stages[name]
+    assert engine.cost(options, 0.01, scene) == cost
+
+
+def test_groups_are_merged_key_by_key() -> None:
+    one, other = {"pair": {"solref": [1, 2]}, "cone": "elliptic"}, {"pair": {"solimp": [3]}}
+    both = merged(one, other, {"cone": "pyramidal"})
+    assert both == {"pair": {"solref": [1, 2], "solimp": [3]}, "cone": "pyramidal"}
+    assert one == {"pair": {"solref": [1, 2]}, "cone": "elliptic"}
+    assert merged({"pair": {"solref": [1, 2]}}, {"pair": {"solref": [3, 4]}}) == {
+        "pair": {"solref": [3, 4]}
+    }
+
+
+def test_text() -> None:
+    """With a point in every real number, and no number that is a word."""
+    options = {"pair": {"solref": ["2h", 1e-9]}, "settled": True, "max_bias": float("inf"), "n": 3}
+    assert (
+        as_text(options) == "{pair: {solref: [2h, 1.0e-09]}, settled: true, max_bias: .inf, n: 3}"
+    )
+    assert said([1e6, 1e-9, "-1/h", 0.0]) == "1e6 1e-9 -1/h 0"

@@ -1,0 +1,115 @@
+"""A run of four steps: its feet are where a leg that is reset in flight sets them, and its gait."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from given.examples import example
+
+from textmech.reference.motion.cycle import Cycle, cycle
+from textmech.reference.motion.follow import Change, follow
+from textmech.reference.system import Array
+from textmech.reference.systems.running_gait import RunningGait, _Runner
+
+G = 9.80665  # m/s²
+TIMES = np.linspace(0.0, 1.0, 11)
+
+
+def gait(**changes: float) -> RunningGait:
+    found: Any = example("running_gait", **changes)
+    return found
+
+
+def events(system: RunningGait, name: str, times: Array = TIMES) -> list[Change]:
+    return [event for event in follow(system, times).events if event.name == name]
+
+
+def test_each_leg_touches_down_at_the_angle_of_the_first() -> None:
+    """λ = λ₀, φ = α, and the rates with which the run began."""
+    system = gait()
+    begun = np.concatenate(system.start()[1:])
+    downs = events(system, "touches down")
+    assert len(downs) == 3
+    for down in downs:
+        assert down.after == pytest.approx(begun, abs=1e-11)
+
+
+def test_a_leg_that_is_reset_in_flight_sets_its_feet_there() -> None:
+    """Of the jump alone: its take-off, then a parabola until the leg at α reaches the floor."""
+    run = gait()
+    numbers = {name: getattr(run, name) for name in ("m", "c", "l0", "alpha", "vx0", "vy0")}
+    feet = [0.0]
+    for _ in range(3):
+        jump = example("spring_mass_jump", **numbers)
+        off = follow(jump, np.array([0.0, 0.3])).events[0].before
+        x, y, _, vx, vy, _ = jump.modes["stance"].poses(0.0, *np.split(off, 2))["jumper"]
+        low = numbers["l0"] * math.sin(numbers["alpha"])
+        lasts = (vy + math.sqrt(vy * vy + 2 * G * (y - low))) / G
+        feet.append(feet[-1] + x + vx * lasts - numbers["l0"] * math.cos(numbers["alpha"]))
+        numbers |= {"vx0": vx, "vy0": vy - G * lasts}
+    assert feet == pytest.approx(run.feet, abs=1e-12)
+
+
+def on_fixed_feet() -> Cycle:
+    """Of the map from one touch-down to the next, of φ and the direction of ṙ, by energy."""
+    run = gait()
+    energy = (run.vx0**2 + run.vy0**2) / 2 + G * math.sin(run.alpha)
+
+    def step(x: Array) -> Array:
+        alpha, way = map(float, x)
+        speed = math.sqrt(2 * (energy - G * math.sin(alpha)))
+        begun = gait(alpha=alpha, vx0=speed * math.cos(way), vy0=speed * math.sin(way))
+        down = events(begun, "touches down", np.linspace(0.0, 0.4, 3))[0]
+        q, v = np.split(down.before, 2)
+        _, _, _, vx, vy, _ = begun.modes["stance 2"].poses(0.0, q, v)["jumper"]
+        return np.array([q[1], math.atan2(vy, vx)])
+
+    return cycle(step, np.array([run.alpha, math.atan2(run.vy0, run.vx0)]))
+
+
+@pytest.mark.whole
+def test_on_feet_that_stay_the_gait_is_not_stable() -> None:
+    """With the leg reset at α it is (test_legs). Nothing is lost, and what runs back is a run too:
+
+    so the multipliers are each other's inverses.
+    """
+    run, found = gait(), on_fixed_feet()
+    assert found.error < 1e-14
+    assert found.state == pytest.approx([run.alpha, math.atan2(run.vy0, run.vx0)], abs=1e-13)
+    assert found.multipliers == pytest.approx([-2.1224446, -0.4711548], abs=1e-6)
+    assert np.prod(found.multipliers).real == pytest.approx(1.0, abs=1e-8)
+
+
+def ends(system: RunningGait) -> Array:
+    run = follow(system, TIMES)
+    q, v = np.split(run.y[-1], 2)
+    return np.array(system.modes[run.modes[-1]].poses(0.0, q, v)["jumper"])
+
+
+@pytest.mark.parametrize("mistake", ["a foot", "the leap", "a leg that pulls", "no weight"])
+def test_a_mistake_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A foot 1 mm off; a flight seen from the foot that was left; stance in flight; no gravity."""
+    sound = ends(gait())
+    wrong = gait(x2=gait().x2 + 1e-3) if mistake == "a foot" else gait()
+    if mistake == "the leap":
+        monkeypatch.setattr(RunningGait, "_seen", lambda self, k, other, q, v: (q, v))
+    elif mistake == "a leg that pulls":
+        wrong.modes["flight 2"] = wrong.modes["stance 2"]  # type: ignore[index]
+    elif mistake == "no weight":
+        rates = _Runner.accelerations
+        floats = lambda self, t, q, v: rates(self, t, q, v) + np.array([G * math.sin(q[1]), 0.0])  # noqa: E731
+        monkeypatch.setattr(_Runner, "accelerations", floats)
+    assert np.abs(ends(wrong) - sound).max() > 1e-3
+
+
+def test_two_legs_at_once_are_no_run() -> None:
+    """A second foot that the mass on the first has in reach."""
+    system = gait(x2=-0.2)
+    assert "to foot 2 is -" in str(system.possible("stance 1", 0.0, *system.start()[1:]))
+    assert gait().possible("stance 1", 0.0, *gait().start()[1:]) is None
+
+
+def test_a_start_that_leaves_the_leg_is_refused() -> None:
+    with pytest.raises(ValueError, match="shortened at touch-down"):
+        gait(vx0=-9.0)

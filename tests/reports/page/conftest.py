@@ -1,0 +1,74 @@
+"""A small run with its page: two cases, one of them with a title that would be markup."""
+
+from types import SimpleNamespace
+
+import pandas as pd
+import pytest
+from given.swing import SWING
+
+from textmech.reports import suite, write
+from textmech.reports.page.folder import folder
+from textmech.reports.page.motions import motions
+from textmech.reports.page.page import page
+from textmech.reports.selection import choose_cases, choose_engines
+
+HOSTILE = "<script>window.struck = 1</script></script><b onload=x>& A bar that swings"
+ADVICE = {
+    "case": ["swing", "swing", "hostile"],
+    "engine": ["mujoco", "pymunk", "mujoco"],
+    "tolerance": ["as allowed", "1e-3", "as allowed"],
+    "margin": ["2", "2", "2"],
+    "recipe": ["RK4", "error_bias 0", ""],
+    "options": ["mujoco: {integrator: RK4}", "pymunk: {error_bias: 0.0}", ""],
+    "step": ["0.008", "0.00063", ""],
+    "cost": ["500", "1600", ""],
+    "shipped_cost": ["500", "100", "500"],
+    "worst": ["0.1", "0.3", ""],
+    "quantity": ["rod.angle", "rod.angle", ""],
+    "remains": ["", "", "<i>nothing cures it</i>"],
+}
+CAUSES = {
+    "case": ["swing", "swing", "hostile"],
+    "engine": ["pymunk", "pymunk", "pymunk"],
+    "setting": ["shipped"] * 3,
+    "quantity": ["rod.angle"] * 3,
+    "error_before": ["0.1"] * 3,
+    "allow": ["0.01"] * 3,
+    "cure": ["bias + step", "midpoint", "bias + step"],
+    "options": ["", "", ""],
+    "step": ["1e-3", "0.01", "1e-3"],
+    "error_after": ["1e-4"] * 3,
+    "cost": ["1000", "200", "1000"],
+    "law": ["h²", "", ""],
+}
+VERSIONS = {
+    "case": ["swing"] * 3,
+    "engine": ["mujoco"] * 3,
+    "version": ["3.10.0", "3.9.0", "4.0.0"],
+    "setting": ["shipped"] * 3,
+    "quantity": ["rod.angle"] * 3,
+    "error": ["0.1", "0.1", "0.001"],
+    "allow": ["0.01"] * 3,
+    "verdict": ["beyond", "beyond", "agrees"],
+    "moved": ["", "", "yes"],
+}
+
+
+@pytest.fixture(scope="package")
+def made(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
+    """The report, its folder with advice, causes and versions beside it, its motions, the page."""
+    place = tmp_path_factory.mktemp("page")
+    (place / "swing.yaml").write_text(SWING, encoding="utf-8")
+    hostile = SWING.replace("A bar that swings", f'"{HOSTILE}"').replace("rod", "arm")
+    (place / "hostile.yaml").write_text(hostile, encoding="utf-8")
+    cases = choose_cases([str(place / "swing.yaml"), str(place / "hostile.yaml")])
+    report = suite.measure(cases, choose_engines([], []), progress=lambda *_: None)
+    write.write(write.tables(report, cases), place)
+    for name, told in (("advice", ADVICE), ("causes", CAUSES), ("versions", VERSIONS)):
+        pd.DataFrame(told).to_csv(place / f"{name}.csv", index=False)
+    found, moved = folder(place), motions(report)
+    text = page(found, cases, moved)
+    (place / "index.html").write_text(text, encoding="utf-8")
+    return SimpleNamespace(
+        place=place, cases=cases, report=report, folder=found, motions=moved, text=text
+    )

@@ -1,0 +1,80 @@
+"""Cells of the heat map: the gravest verdict, the worst error, and a shade for its size."""
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from textmech.reports.page.column import Column, column, columns
+from textmech.reports.page.heat import Cell, cells, short
+from textmech.reports.row import AGREES, BEYOND, DEVIATES, DIVERGED, FAILS, Comparison
+
+ROW = Comparison("c", "", "mujoco", "4", "tuned", "native", "", "x", "m", 0.1, 1.0, 0.5, 1.0, 1.0,
+                 2.0, 0.5, AGREES, "why")  # fmt: skip
+
+
+def cell(*changes: dict[str, Any]) -> Cell:
+    rows = [replace(ROW, **{"quantity": f"x{k}", **change}) for k, change in enumerate(changes)]
+    (found,) = cells(rows, []).values()
+    return found
+
+
+def test_the_worst_error_is_told_with_its_quantity() -> None:
+    found = cell({"ratio": 0.5}, {"ratio": 470.0, "verdict": BEYOND}, {"ratio": 3.0})
+    assert (found.kind, found.text, found.worst, found.shade) == ("beyond", "470", "x1", 6)
+    assert (found.beyond, found.judged, found.within) == (2, 3, 1)
+    assert found.words == "2 of 3 beyond; worst x1 at 4.7e+02 of what is allowed"
+
+
+@pytest.mark.parametrize(
+    ("verdicts", "kind"),
+    [
+        ([AGREES, AGREES], "agrees"),
+        ([AGREES, DEVIATES], "declared"),
+        ([DEVIATES, BEYOND], "beyond"),
+        ([BEYOND, "changed since 3.9"], "changed"),
+        ([BEYOND, DIVERGED], "diverged"),
+        ([DIVERGED, FAILS], "fails"),
+        ([AGREES, "refused: engine: no"], "agrees"),
+    ],
+)
+def test_the_gravest_verdict_counts(verdicts: list[str], kind: str) -> None:
+    assert cell(*({"verdict": verdict} for verdict in verdicts)).kind == kind
+
+
+def test_what_is_refused_as_a_whole_says_why_and_has_no_size() -> None:
+    why = "refused: engine: it cannot"
+    found = cell({"verdict": why, "ratio": None})
+    assert (found.kind, found.words, found.shade, found.judged) == ("refused", why, 0, 0)
+
+
+def test_a_lost_run_is_as_dark_as_the_worst_and_has_nothing_within() -> None:
+    found = cell({"verdict": DIVERGED, "ratio": None, "because": "too far"})
+    assert (found.shade, found.within, found.words) == (7, 0, "too far")
+
+
+def test_just_allowed_is_within_and_the_next_is_not() -> None:
+    shades = [cell({"ratio": ratio}).shade for ratio in (0.0, 1e-3, 0.5, 1.0, 1.01, 10.0, 1e9)]
+    assert shades == [0, 0, 3, 3, 4, 4, 7]
+
+
+def test_the_audit_is_no_quantity() -> None:
+    assert cells([replace(ROW, quantity="audit")], []) == {}
+
+
+@pytest.mark.parametrize(
+    ("ratio", "text"),
+    [(0.0, "0"), (2.34, "2.3"), (0.021, "0.021"), (473.0, "473"), (3.2e-7, "3e-7"), (1.3e5, "1e5")],
+)
+def test_a_ratio_is_short(ratio: float, text: str) -> None:
+    assert short(ratio) == text
+
+
+def test_columns_go_from_shipped_to_own_to_tuned_and_the_book_is_last() -> None:
+    names = [("pymunk", "tuned", "law"), ("book", "smooth", "native"), ("mujoco", "mine", "native"),
+             ("mujoco", "tuned", "native"), ("mujoco", "shipped", "native")]  # fmt: skip
+    rows = [replace(ROW, engine=e, setting=s, realised=r) for e, s, r in names]
+    assert [one.title for one in columns(rows)] == [
+        "mujoco shipped", "mujoco mine", "mujoco tuned", "pymunk tuned + law", "book smooth",
+    ]  # fmt: skip
+    assert column(rows[0]) == Column("pymunk", "tuned", "law")

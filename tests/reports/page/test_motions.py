@@ -1,0 +1,89 @@
+"""What is drawn is what was computed: poses, curves and the joints between bodies."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from given import scenes
+
+from textmech.cases.motion import Motion as Looked
+from textmech.cases.observe import observe
+from textmech.reports.page.motions import FRAMES, POINTS, motion, thinned
+from textmech.reports.page.pack import unpacked
+from textmech.reports.page.strobe import _frames, _placed
+from textmech.reports.selection import choose_cases
+
+LEVEL = 1 / 4096  # of a range: half of it is rounded
+
+
+def test_samples_are_thinned_evenly_with_both_ends() -> None:
+    kept = thinned(251, FRAMES)
+    assert (kept[0], kept[-1], len(kept)) == (0, 250, FRAMES)
+    assert set(np.diff(kept)) <= {4, 5}
+    assert thinned(26, FRAMES).tolist() == list(range(26))
+
+
+def test_curves_are_the_reference_and_what_each_engine_is_off_it(made: SimpleNamespace) -> None:
+    curves = made.motions["swing"]["curves"]["quantities"]["rod.angle"]
+    (case,) = [case for case in made.cases if case.name == "swing"]
+    wanted = observe(case.scene, made.report.solutions["swing"].trajectory, "rod.angle")
+    assert unpacked(curves["reference"]) == pytest.approx(wanted, abs=LEVEL * np.ptp(wanted))
+    ran = [one for one in made.report.tried if one.pair.case.name == "swing"]
+    assert len(curves["off"]) == len(ran) == 4
+    for one in ran:
+        key = f"{one.pair.engine.name}.{one.pair.engine.setting}.{one.realised}"
+        off = one.outcome.samples["rod.angle"] - wanted
+        found = unpacked(curves["off"][key]["curve"])
+        assert found == pytest.approx(off, abs=LEVEL * np.max(np.abs(off)) + 1e-15)
+
+
+def test_what_cannot_be_told_apart_is_no_ghost(made: SimpleNamespace) -> None:
+    swing = made.motions["swing"]
+    assert "mujoco.tuned.native" in swing["covered"]
+    assert set(swing["ghosts"]) | set(swing["covered"]) == {
+        f"{engine}.{setting}.native"
+        for engine in ("mujoco", "pymunk")
+        for setting in ("shipped", "tuned")
+    }
+    assert set(swing["ghosts"]).isdisjoint(swing["covered"])
+
+
+@pytest.mark.whole
+@pytest.mark.parametrize(
+    "name", ["four_bar", "slider_crank", "spatial_four_bar", "five_axis_robot.swinging"]
+)
+def test_drawn_bodies_hang_together_as_their_joints_hold_them(name: str) -> None:
+    """The point of a joint on its second body, as drawn, is where its first body has it."""
+    (case,), trajectory = choose_cases([name]), scenes.solved(name).trajectory
+    drawn = motion(case, trajectory, [])
+    frames = _frames(drawn["poses"])
+    looked = Looked(case.scene.bodies, case.scene.points, trajectory)
+    kept = thinned(case.samples, FRAMES)
+    for joint, told in zip(case.scene.joints.values(), drawn["sketch"]["joints"], strict=True):
+        part, place = told["at"]  # on the second part
+        if "rail" in told:
+            continue
+        meant = looked.point(joint.a)[kept, : drawn["axes"]]
+        for k, right in enumerate(meant):
+            found = _placed(frames[part][k], np.array([place]))[0] if part else np.array(place)
+            assert found == pytest.approx(right, abs=2e-3 * drawn["size"])
+
+
+@pytest.mark.whole
+def test_every_shipped_scene_can_be_drawn() -> None:
+    """No element is of a kind that the drawing does not know, and nothing is far too long."""
+    from textmech.reports.page.sketch import sketch
+
+    for case in choose_cases([]):
+        drawn = sketch(case.scene, 1.0)
+        assert set(drawn["bodies"]) == set(case.scene.bodies)
+        ends = [end for link in drawn["links"] for end in link["ends"]]
+        ends += [joint["at"] for joint in drawn["joints"]]
+        known = {"", *case.scene.bodies, *(f"ground.{point}" for point in case.scene.points)}
+        assert {part for part, _ in ends} <= known
+        lengths = {len(place) for _, place in ends}
+        assert lengths <= {case.scene.frame.dimension}
+
+
+def test_a_long_curve_has_no_more_points_than_are_seen() -> None:
+    assert len(thinned(100_000, POINTS)) == POINTS

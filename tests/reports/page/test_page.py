@@ -1,0 +1,119 @@
+"""The page as text: the same bytes every time, whole by itself, and no text of a case is markup."""
+
+import json
+from html.parser import HTMLParser
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from textmech.reports.page.folder import BESIDE, Missing, folder
+from textmech.reports.page.page import embedded, motions_of, page
+
+VOID = {"meta", "link", "input", "br", "img", "hr"}
+
+
+class Parsed(HTMLParser):
+    """Elements in their order, whether each is closed, and what they refer to."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.wrong: list[str] = []
+        self.names: list[str] = []
+        self.ids: list[str] = []
+        self.links: list[str] = []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        told = dict(attrs)
+        self.names.append(tag)
+        self.ids += [told["id"] or ""] if "id" in told else []
+        self.links += [told[name] or "" for name in ("href", "src") if name in told]
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.handle_starttag(tag, attrs)
+        if tag not in VOID:
+            self.open.pop()
+
+    def handle_endtag(self, tag: str) -> None:
+        if not self.open or self.open.pop() != tag:
+            self.wrong.append(tag)
+
+
+@pytest.fixture(scope="module")
+def parsed(made: SimpleNamespace) -> Parsed:
+    return Parsed(made.text)
+
+
+def test_the_same_rows_and_motions_give_the_same_bytes(made: SimpleNamespace) -> None:
+    assert page(made.folder, made.cases, made.motions) == made.text
+
+
+def test_it_can_be_made_again_of_its_rows_and_its_own_motions(made: SimpleNamespace) -> None:
+    """So that the committed page can be checked without running an engine."""
+    kept = motions_of(made.text)
+    assert kept == json.loads(json.dumps(made.motions))
+    assert page(made.folder, made.cases, kept) == made.text
+    kept["swing"]["size"] *= 2
+    assert page(made.folder, made.cases, kept) != made.text
+
+
+def test_every_element_is_closed_and_has_a_name_of_its_own(parsed: Parsed) -> None:
+    assert parsed.wrong == []
+    assert parsed.open == []
+    assert len(parsed.ids) == len(set(parsed.ids))
+
+
+def test_links_stay_within_the_file(parsed: Parsed) -> None:
+    for link in parsed.links:
+        place = link.partition("?")[0]
+        assert place.startswith("data:,") or place[1:] in parsed.ids, link
+
+
+def test_a_title_is_text_wherever_it_stands(made: SimpleNamespace, parsed: Parsed) -> None:
+    assert "&lt;script&gt;window.struck" in made.text
+    assert "<script>window.struck" not in made.text
+    assert parsed.names.count("script") == 3  # motions, rows, ours
+    assert "<i>nothing cures it</i>" not in made.text  # nor is that of a table beside
+
+
+def test_words_in_the_data_close_no_script(made: SimpleNamespace) -> None:
+    words = {"because": "</script><script><!-- \u2028"}
+    assert "<" not in embedded(words)
+    assert json.loads(embedded(words)) == words
+    rows = made.text.partition('id="rows">')[2].partition("</script>")[0]
+    assert json.loads(rows)["cases"].keys() == {"swing", "hostile"}
+
+
+def test_tables_beside_the_reports_are_shown(made: SimpleNamespace) -> None:
+    assert "pymunk: {error_bias: 0.0}" in made.text
+    assert "bias + step" in made.text
+    shares = made.text.partition('id="versions"')[2].partition("</section>")[0]
+    assert shares.index("3.9.0") < shares.index("3.10.0") < shares.index("4.0.0")
+    assert "The 1 rows that moved" not in shares
+    assert "The row that moved" in shares
+
+
+def test_what_is_not_there_is_said_in_a_sentence(made: SimpleNamespace) -> None:
+    bare = SimpleNamespace(**{**vars(made.folder), "beside": {}})
+    text = page(bare, made.cases, made.motions)  # type: ignore[arg-type]
+    for name, words in BESIDE.items():
+        assert f"There is no {name} beside these reports; {words}" in text
+
+
+def test_a_folder_without_reports_says_so(tmp_path: Path) -> None:
+    with pytest.raises(Missing, match=r"has no tolerance\.csv, .* `textmech run --out"):
+        folder(tmp_path)
+
+
+def test_a_cut_table_is_told(made: SimpleNamespace, tmp_path: Path) -> None:
+    for file in made.place.glob("*.csv"):
+        (tmp_path / file.name).write_bytes(file.read_bytes())
+    cut = (tmp_path / "tolerance.csv").read_text().splitlines()
+    (tmp_path / "tolerance.csv").write_text("\n".join([*cut[:2], *cut[3:]]) + "\n")
+    with pytest.raises(ValueError, match="cut, or changed by hand"):
+        folder(tmp_path)

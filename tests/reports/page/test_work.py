@@ -1,0 +1,64 @@
+"""Work against precision: counted by hand beside what is drawn, and the same bytes every time."""
+
+from dataclasses import replace
+
+import pytest
+
+from textmech.reports.page.column import Column
+from textmech.reports.page.work import enough, profile, work, worst
+from textmech.reports.row import AGREES, Comparison, Rungs
+
+ROW = Comparison("a", "", "mujoco", "4", "tuned", "native", "", "x", "m", 0.1, 1.0, 0.5, 1.0, 1.0,
+                 2.0, 0.5, AGREES, "")  # fmt: skip
+RUNG = Rungs("a", "mujoco", "4", "tuned", "native", "held", "x", "m", "0.001 0.002 0.004",
+             "0.2 1 4", 1.0, 1.0, 1.0, None, None, None, "")  # fmt: skip
+TUNED = Column("mujoco", "tuned", "native")
+
+
+@pytest.mark.parametrize(
+    ("ladder", "precision", "step"),
+    [
+        ({0.001: 0.1, 0.002: 0.5, 0.004: 2.0}, 1.0, 0.002),
+        ({0.001: 0.1, 0.002: 0.5, 0.004: 2.0}, 0.2, 0.001),
+        ({0.001: 0.1, 0.002: 2.0, 0.004: 0.5}, 1.0, 0.001),  # luck at one step does not count
+        ({0.001: 3.0, 0.002: 0.5}, 1.0, None),
+        ({0.001: float("nan")}, 1.0, None),
+    ],
+)
+def test_enough_is_the_largest_step_from_which_on_all_is_within(
+    ladder: dict[float, float], precision: float, step: float | None
+) -> None:
+    assert enough(ladder, precision) == step
+
+
+def test_the_worst_quantity_counts_and_the_ladder_that_follows() -> None:
+    rows = [ROW, replace(ROW, quantity="y", allowed=0.5)]
+    rungs = [RUNG, replace(RUNG, quantity="y", errors="0.1 0.1 5")]
+    assert worst(rows, rungs) == {("a", TUNED): {0.001: 0.2, 0.002: 0.5, 0.004: 10.0}}
+    following = replace(RUNG, ladder="following", errors="0 0 0")
+    assert worst([ROW], [RUNG, following]) == {("a", TUNED): {0.001: 0, 0.002: 0, 0.004: 0}}
+
+
+def test_a_share_is_of_all_cases_whether_they_run_or_not() -> None:
+    ladders = {
+        ("a", TUNED): {0.001: 0.5, 0.002: 0.5},
+        ("b", TUNED): {0.001: 0.5, 0.002: 3.0},
+        ("b", Column("mujoco", "tuned", "law")): {0.01: 0.1},
+    }
+    cases = ["a", "b", "c", "d"]
+    x, y = profile(TUNED, cases, ladders, 1.0)
+    assert x[1:-1] == [500.0, 1000.0]
+    assert y == [0.0, 25.0, 50.0, 50.0]
+    x, y = profile(Column("mujoco", "tuned", "any way"), cases, ladders, 1.0)
+    assert x[1:-1] == [100.0, 500.0]  # the law takes the larger step
+
+
+def test_the_same_rows_give_the_same_bytes() -> None:
+    themes = {"a": ("pins",), "b": ("space",)}
+    one, other = (work([ROW], [RUNG], themes) for _ in range(2))
+    assert one == other
+    assert one.startswith("<svg")
+    assert "pins: 1 cases" not in one
+    assert "pins: 1 case" in one
+    assert "currentColor" in one
+    assert work([ROW], [], themes) == ""

@@ -1,0 +1,137 @@
+"""The interface for Python: the frames, and the command's own words for what is wrong."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from given.command import NEW
+from given.command import textmech as command
+from given.swing import SWING
+
+import textmech.reports
+from textmech.cases.mistake import CaseError
+from textmech.reports import load, run, solve
+
+Ask = Callable[[], object]
+
+
+@pytest.fixture
+def swing(tmp_path: Path) -> Path:
+    file = tmp_path / "swing.yaml"
+    file.write_text(SWING, encoding="utf-8")
+    return file
+
+
+def test_load_takes_names_variants_and_files(swing: Path) -> None:
+    assert [case.name for case in load("rolling_wheel")] == [
+        "rolling_wheel.pushed",
+        "rolling_wheel.downhill",
+    ]
+    (case,) = load("rolling_wheel.pushed")
+    assert [c.name for c in load([case, swing, str(swing)])] == ["rolling_wheel.pushed", "swing"]
+
+
+@pytest.mark.whole
+def test_load_of_nothing_is_all() -> None:
+    names = [case.name for case in load()]
+    assert {"four_bar", "sliding_block.below", "creeping_block"} <= set(names)
+    assert load([]) == load()
+
+
+def test_solve_gives_the_motion_with_its_units() -> None:
+    """A block brakes as v0 - mu g t, and stops at v0/(mu g)."""
+    found = solve("sliding_block.braking")
+    assert list(found.motion) == ["block.x", "touch.slip", "block.y"]
+    assert found.motion.index.name == "t"
+    assert found.units == {"block.x": "m", "touch.slip": "m/s", "block.y": "m"}
+    stop = 3.0 / (0.4 * 9.80665)
+    t = np.minimum(found.motion.index, stop)
+    np.testing.assert_allclose(found.motion["block.x"], 3.0 * t - 0.2 * 9.80665 * t**2, atol=1e-12)
+    assert found.events.values.tolist() == [["stops", 1, pytest.approx(stop, abs=1e-12)]]
+    assert found.checks.holds.all()
+    assert found.checks.certified.max() < 1e-9
+
+
+def test_solve_of_an_attitude_gives_its_angle() -> None:
+    found = solve("spinning_body")
+    assert found.units["body.attitude"] == "rad"
+    assert found.motion["body.attitude"].iloc[0] == 0
+    assert found.motion["body.attitude"].max() > 1
+
+
+def test_run_gives_the_reports_as_frames(swing: Path) -> None:
+    own = {"mujoco": {"integrator": "RK4"}}
+    found = run(swing, engines=["mujoco"], options=own)
+    assert list(found.summary.setting) == ["mujoco.shipped", "mujoco.own"]
+    rows = found.tolerance.set_index(["setting", "quantity"])
+    assert set(rows.index) == {
+        (setting, quantity)
+        for setting in ("shipped", "own", "tuned")
+        for quantity in ("audit", "rod.angle")
+    }
+    fourth, first = (rows.largest[setting, "rod.angle"] for setting in ("own", "shipped"))
+    assert fourth < 1e-6 < first
+    assert not found.fails
+    assert set(found.convergence.ladder) <= {"held", "following"}
+    assert found.events.empty
+    assert (found.reference.verdict == "holds").all()
+
+
+@pytest.mark.parametrize(
+    ("ask", "words"),
+    [
+        (lambda: run("four_bra"), ["four_bra"]),
+        (lambda: run("four_bar", engines=["mojoco"]), ["four_bar", "--engine", "mojoco"]),
+        (lambda: run("four_bar", engines=["book"]), ["four_bar", "--engine", "book"]),
+        (lambda: run("four_bar", settings=["tuned."]), ["four_bar", "--settings", "tuned."]),
+    ],
+)
+def test_what_is_wrong_is_said_as_by_the_command(ask: Ask, words: list[str]) -> None:
+    with pytest.raises(CaseError) as caught:
+        ask()
+    said = str(caught.value)
+    assert said
+    assert command("run", *words).stderr.startswith(f"{said}\n")
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"mujoco": {"integratr": "RK4"}}, "options: mujoco.integratr: unknown option"),
+        ({"mujoko": {}}, "options: mujoko: no such engine; did you mean 'mujoco'?"),
+        ({"mujoco": 3}, "options: mujoco: should be a map of the engine's options"),
+    ],
+)
+def test_wrong_options_are_named(options: dict, said: str) -> None:
+    with pytest.raises(CaseError) as caught:
+        run("four_bar", options=options)
+    assert str(caught.value).startswith(said)
+
+
+def test_a_file_with_mistakes_is_no_run(tmp_path: Path) -> None:
+    file = tmp_path / "cart.yaml"
+    file.write_text(NEW.replace("mass: 2.0", "mass: -2.0"), encoding="utf-8")
+    for ask in (load, solve, run):
+        with pytest.raises(CaseError, match=r"cart\.yaml:5:20"):
+            ask(file)
+
+
+def test_a_mistake_that_only_solving_finds_is_raised(tmp_path: Path) -> None:
+    file = tmp_path / "cart.yaml"
+    events = "events: {stops: {cart.vx: {rises to: 1.0e+3}}}\n"
+    text = NEW.replace("allow:", f"{events}allow:").replace("1.0e-2}", "1.0e-2, stops.time: 1.0}")
+    file.write_text(text, encoding="utf-8")
+    for ask in (solve, run):
+        with pytest.raises(CaseError, match="stops"):
+            ask(file)
+
+
+def test_variants_are_solved_one_by_one() -> None:
+    with pytest.raises(CaseError, match=r"solve one of: rolling_wheel\.pushed"):
+        solve("rolling_wheel")
+
+
+def test_what_there_is_not_is_an_attribute_error() -> None:
+    with pytest.raises(AttributeError, match="has no attribute 'sovle'"):
+        _ = textmech.reports.sovle

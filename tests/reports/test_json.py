@@ -1,0 +1,123 @@
+"""`--json`: one document on the output, whatever becomes of the command."""
+
+import json
+import os
+from math import inf, nan
+from pathlib import Path
+from typing import Any
+
+import pytest
+from given.command import NEW, textmech
+
+from textmech.cases.find import questions
+from textmech.reports.show.document import write
+
+
+@pytest.fixture(autouse=True)
+def nothing_stored(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TEXTMECH_CACHE", os.devnull)
+
+
+@pytest.fixture
+def new(tmp_path: Path) -> Path:
+    file = tmp_path / "cart.yaml"
+    file.write_text(NEW, encoding="utf-8")
+    return file
+
+
+def document(*words: object) -> dict[str, Any]:
+    """The output, which is JSON in the strict sense, and nothing else."""
+    done = textmech(*words, "--json")
+
+    def none(name: str) -> None:
+        raise AssertionError(f"{name} is no JSON")
+
+    found = json.loads(done.stdout, parse_constant=none)
+    assert found.get("exit_code", 0) == done.returncode
+    return found
+
+
+def test_a_run_tells_all_its_rows(new: Path, tmp_path: Path) -> None:
+    found = document("run", new, "--engine", "mujoco.tuned", "--out", tmp_path / "o")
+    assert list(found) == [
+        "summary",
+        "tolerance",
+        "convergence",
+        "events",
+        "reference",
+        "mistakes",
+        "written",
+        "exit_code",
+    ]
+    assert [row["quantity"] for row in found["tolerance"]] == ["audit", "cart.x", "rod.angle"]
+    assert found["summary"] == [
+        {
+            "case": "cart",
+            "setting": "mujoco.tuned",
+            "worst": "agrees",
+            "agrees": "tuned 8 ms",
+            "cured": "",
+        }
+    ]
+    assert found["written"] == str(tmp_path / "o")
+    assert {row["verdict"] for row in found["reference"]} == {"holds"}
+
+
+def test_a_verdict_that_fails_is_in_it(new: Path) -> None:
+    new.write_text(NEW.replace("rod.angle: 1.0e-2", "rod.angle: 1.0e-12"), encoding="utf-8")
+    found = document("run", new, "--engine", "mujoco.tuned")
+    assert found["exit_code"] == 1
+    assert "FAILS" in {row["verdict"] for row in found["tolerance"]}
+
+
+@pytest.mark.parametrize("command", ["run", "check"])
+def test_mistakes_are_in_it_with_their_places(command: str, new: Path) -> None:
+    new.write_text(NEW.replace("mass: 2.0", "mass: -2.0"), encoding="utf-8")
+    found = document(command, new)
+    (mistake,) = found.get("mistakes") or found["files"][0]["mistakes"]
+    assert mistake["file"] == str(new)
+    assert (mistake["line"], mistake["column"]) == (5, 20)
+    assert mistake["field"] == "scene.bodies.cart.block.mass"
+    assert found["exit_code"] == 2
+
+
+def test_one_of_two_files_is_left_out_and_the_other_is_told(new: Path) -> None:
+    other = new.with_name("other.yaml")
+    other.write_text(NEW.replace("mass: 2.0", "mass: -2.0"), encoding="utf-8")
+    found = document("run", new, other, "--engine", "pymunk.tuned")
+    assert {row["case"] for row in found["tolerance"]} == {"cart"}
+    assert [mistake["file"] for mistake in found["mistakes"]] == [str(other)]
+
+
+@pytest.mark.parametrize("words", [("run", "four_bra"), ("run", "four_bar", "--engine", "mojoco")])
+def test_a_wrong_word_is_in_it(words: tuple[str, ...]) -> None:
+    (mistake,) = document(*words)["mistakes"]
+    assert "did you mean" in mistake["what"]
+
+
+def test_check_tells_each_file(new: Path) -> None:
+    found = document("check", new)
+    assert found == {
+        "files": [{"file": str(new), "cases": ["cart"], "mistakes": [], "fails": []}],
+        "exit_code": 0,
+    }
+
+
+@pytest.mark.whole
+def test_list_tells_every_case_and_its_group() -> None:
+    cases = {case["name"]: case for case in document("list")["cases"]}
+    assert cases["sliding_block.below"]["group"] == "textbook"
+    assert cases["four_bar"]["source"] == "figure 2.3, (2.14), (2.60)"
+    asked = {name for name, case in cases.items() if case["group"] == "questions"}
+    assert asked == set(questions())
+    assert all("#" in cases[name]["thread"] for name in asked)
+
+
+def test_what_json_has_not_is_null(capsys: pytest.CaptureFixture[str]) -> None:
+    write({"rows": [{"largest": inf, "ratio": nan}, {"largest": 1e300}], "title": "→ \x1b[31m"})
+    out = capsys.readouterr().out
+    assert out.isascii()
+    assert json.loads(out) == {
+        "rows": [{"largest": None, "ratio": None}, {"largest": 1e300}],
+        "title": "→ \x1b[31m",
+    }

@@ -1,0 +1,159 @@
+"""Releases of an engine beside each other: what one moved is seen, and what it lacks is said."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from given.command import NEW, textmech
+from given.releases import DYING, HEAVIER, LACKING, SAME, index, wheel
+
+from textmech.reports import write
+from textmech.reports.diff.rule import Rule
+from textmech.reports.diff.table import read
+from textmech.reports.versions.install import here
+
+NOW = here("pymunk") or ""
+
+
+@pytest.fixture(scope="module")
+def store(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Releases that are installed, and references that are solved, once for all tests."""
+    return tmp_path_factory.mktemp("store")
+
+
+@pytest.fixture
+def case(tmp_path: Path, store: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("TEXTMECH_CACHE", str(store))
+    index(monkeypatch, tmp_path / "index")
+    file = tmp_path / "cart.yaml"
+    file.write_text(NEW, encoding="utf-8")
+    return file
+
+
+def rows(folder: Path) -> Iterator[dict[str, str]]:
+    return iter(map(dict, read(folder / "versions.csv").rows))
+
+
+@pytest.mark.whole
+def test_a_release_that_moved_a_number_is_seen_and_one_that_did_not_is_not(
+    case: Path, tmp_path: Path
+) -> None:
+    wheel(tmp_path / "index", "90.1", SAME)
+    wheel(tmp_path / "index", "90.2", HEAVIER)
+    words = (f"pymunk=={NOW}", "pymunk==90.1", "pymunk==90.2", case, "--settings", "tuned")
+    done = textmech("versions", *words, "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr  # FAILS is a finding
+    same, heavier = done.stdout.split("90.1: ")[1].split("90.2: ")
+    assert f"as in {NOW}" in same
+    assert "→" not in same
+    assert "not as in 90.1" in heavier
+    assert "rod.angle" in heavier
+    by_version: dict[str, list[dict[str, str]]] = {}
+    for row in rows(tmp_path / "out"):
+        by_version.setdefault(row["version"], []).append(row)
+    now, equal, other = (by_version[version] for version in (NOW, "90.1", "90.2"))
+    for row, its_equal in zip(now, equal, strict=True):
+        assert its_equal == {**row, "version": "90.1"}
+        assert row["moved"] == ""
+    moved = [row for row in other if row["moved"]]
+    assert {row["quantity"] for row in moved} >= {"rod.angle", "cart.x"}
+    assert {row["change"] for row in moved} == {"regression"}
+
+
+@pytest.mark.whole
+def test_what_a_release_lacks_is_a_row_that_says_so(case: Path, tmp_path: Path) -> None:
+    wheel(tmp_path / "index", "91.1", LACKING)
+    wheel(tmp_path / "index", "91.2", DYING)
+    words = ("pymunk==91.1", "pymunk==91.2", case, "--out", tmp_path / "out")
+    done = textmech("versions", *words)
+    assert done.returncode == 0, done.stderr
+    assert "Traceback" not in done.stderr
+    lacking, dying = rows(tmp_path / "out")
+    assert lacking["verdict"].startswith("refused: adapter: pymunk")
+    assert "no module of this name any more" in lacking["verdict"]
+    assert dying["verdict"] == "crashed: its process ended by signal 9"
+    assert {row["case"] for row in (lacking, dying)} == {"cart"}
+
+
+@pytest.mark.whole
+def test_another_version_than_the_one_asked_for_is_never_taken_for_it(
+    case: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    wheel(tmp_path / "index", "92.1", SAME, says="92.0")
+    done = textmech("versions", "pymunk==92.1", case)
+    assert done.returncode == 2
+    assert "pymunk 92.1 is asked for, and Python finds 92.0" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["mojoco==3.3.7"], "did you mean 'mujoco'?"),
+        (["MuJoCo==3.3.7"], "did you mean 'mujoco'?"),
+        (["numpy==2.0.0"], "no such engine; known: mujoco, pymunk"),
+        (["mujoco=3.3.7"], "should name one release, as mujoco==1.2.3"),
+        (["mujoco>=3.3.7"], "should name one release"),
+        (["mujoco=="], "should name one release"),
+        (["mujoco==--index-url"], "should name one release"),
+        (["mujoco==../wheels"], "should name one release"),
+        (["mujoco==3.3.7\n"], "should name one release"),
+        (["mujoco==3.3.7", "mujoco==3.3.7"], "named twice"),
+        (["four_bar"], "name releases of an engine"),
+        ([], "name releases of an engine"),
+        (["pymunk==7.0.1", "four_baar"], "did you mean 'four_bar'?"),
+        (["pymunk==7.0.1", "--settings", "tunned"], "did you mean 'tuned'?"),
+    ],
+)
+def test_mistakes_are_said_before_anything_is_installed(
+    words: list[str], message: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("subprocess.run", None)
+    done = textmech("versions", *words)
+    assert done.returncode == 2
+    assert message in done.stderr
+
+
+def test_a_release_that_is_not_there_names_near_ones(case: Path, tmp_path: Path) -> None:
+    for version in ("7.3.1", "7.3.2", "1.0"):
+        wheel(tmp_path / "index", version, SAME)
+    done = textmech("versions", "pymunk==7.3.9", case)
+    assert done.returncode == 2
+    assert "no such release for this Python and machine; near ones: 7.3.1, 7.3.2" in done.stderr
+
+
+def test_without_a_network_it_says_so(case: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("PIP_NO_INDEX")
+    monkeypatch.delenv("PIP_FIND_LINKS")
+    monkeypatch.setenv("PIP_INDEX_URL", "https://127.0.0.1:9/simple")
+    done = textmech("versions", "pymunk==99.1", case)
+    assert done.returncode == 2
+    assert "the package index is not reached" in done.stderr
+
+
+def test_the_committed_example_says_what_the_committed_reports_say() -> None:
+    """Of the releases that both have; where they do not, CONTRIBUTING.md tells how to renew it."""
+    errors = read(write.HERE / "tolerance.csv").rows
+    keys = ("case", "engine", "version", "setting", "realised", "quantity")
+    told = {tuple(row[key] for key in keys): row for row in errors}
+    versions = {engine: set[str]() for engine in ("mujoco", "pymunk")}
+    shared = 0
+    for row in rows(write.HERE):
+        versions[row["engine"]].add(row["version"])
+        key = tuple(row[key] for key in keys)
+        if key in told:
+            shared += 1
+            error, largest = (float(text or "nan") for text in (row["error"], told[key]["largest"]))
+            assert row["allow"] == told[key]["allowed"], key
+            assert not Rule().differ(error, largest, float(row["allow"])), key
+    assert shared > 200
+    assert all(len(found) >= 4 for found in versions.values())
+
+
+def test_the_committed_example_shows_the_release_that_moved_closed_loops() -> None:
+    moved = {
+        (row["case"].partition(".")[0], row["version"])
+        for row in rows(write.HERE)
+        if row["engine"] == "mujoco" and row["moved"] and row["error"] and row["change"] == "better"
+    }
+    assert {("four_bar", "3.7.0"), ("slider_crank", "3.7.0")} <= moved
+    assert not {case for case, version in moved if version == "4.0.0"}
