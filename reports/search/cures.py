@@ -16,6 +16,7 @@ from .together import Asking, Known
 
 LARGEST = 4  # levers in a set whose smaller ones have all been tried
 LARGEST_FINER = 3  # with a smaller step: each such run takes as long as ten others
+PAIR = 2  # levers, the step one of them: so many are tried whatever else cures
 MANY = 6  # levers, from which on it pays to ask first which of them matter
 
 
@@ -59,8 +60,8 @@ def cures(field: Field, known: Known, rows: Sequence[str]) -> Asking[dict[str, C
 def _smallest(search: Setting, rows: Sequence[str]) -> Asking[dict[str, Sequence[Cure]]]:
     """The cures of each row that has any.
 
-    Beside others a smaller step is tried where nothing else is enough: it costs most, to try as
-    to use. Alone it is known from an engine's ladder.
+    Beside more than one other a smaller step is tried where nothing else is enough: it costs most,
+    to try as to use. Alone it is known from an engine's ladder.
     """
     field, found = search.field, dict[str, Sequence[Cure]]()
     matter: Mapping[str, Sequence[Lever]] = dict.fromkeys(rows, field.levers)
@@ -70,7 +71,7 @@ def _smallest(search: Setting, rows: Sequence[str]) -> Asking[dict[str, Sequence
             matter = yield from that_matter(search, left)
         sets = {row: _sets(field, matter[row], size) for row in left}
         found |= yield from _cured(search, sets, finer=False)
-        others = {row: of for row, of in sets.items() if size == 1 or row not in found}
+        others = {row: of for row, of in sets.items() if size <= PAIR or row not in found}
         with_step = yield from _cured(search, others, finer=True)
         found |= {row: [*found.get(row, ()), *cures] for row, cures in with_step.items()}
     return found

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import pytest
 from given import scenes
 
+from textmech.reports import advise
 from textmech.reports.cache.store import usable
 from textmech.reports.row import Advice
 from textmech.reports.search.advised import Asked, row
@@ -103,3 +104,10 @@ def test_a_finer_step_costs_more_time() -> None:
         measured = ratio(one.pair, one.shipped.at(1e-3), one.shipped)
     assert measured is not None
     assert 5 < measured < 20
+
+
+@pytest.mark.whole
+def test_advice_as_a_frame() -> None:
+    found = advise("bar_pendulum", engines=["mujoco"])
+    assert list(found.columns)[:3] == ["case", "engine", "tolerance"]
+    assert found.options.tolist() == ["{integrator: RK4}"]
