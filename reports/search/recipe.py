@@ -80,8 +80,9 @@ def _usable(
 
 
 def _largest(kitchen: Kitchen, choice: Choice, rungs: Sequence[float]) -> Recipe | None:
+    """The last of the rungs is only there to be finer: where it does not hold, none does."""
     held = list(takewhile(lambda h: kitchen.bar.holds(choice.at(h)), reversed(rungs)))
-    return Recipe(choice, held[-1]) if len(held) > 1 else None
+    return Recipe(choice, held[-1]) if held else None
 
 
 def _lean(kitchen: Kitchen, whole: Recipe) -> Asking[Recipe]:

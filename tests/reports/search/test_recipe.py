@@ -66,6 +66,7 @@ def test_the_margin_is_kept_at_the_step_and_at_the_next_finer_one() -> None:
     assert of(lambda o, h: 200 * h, margin=4.0) == ({}, 1e-3)
     luck = {8e-3: 0.1, 4e-3: 9.0}
     assert of(lambda o, h: luck.get(h, 0.1)) == ({}, 2e-3)
+    assert of(lambda o, h: 0.1 if h == OWN else 9.0) is None
 
 
 def test_a_knob_of_the_wrong_sign_is_not_advised() -> None:
