@@ -3,11 +3,15 @@ VENV := .venv
 PYTHON ?= python3
 READY := $(VENV)/.ready
 
-.PHONY: reports test quick lint bench install clean
+.PHONY: reports advice test quick lint bench install clean
 
 reports: $(READY)
-	$(VENV)/bin/textmech run
+	$(VENV)/bin/textmech run --causes
 	$(VENV)/bin/textmech page
+
+# Which settings every case needs: minutes of search, which `reports` does not take.
+advice: $(READY)
+	$(VENV)/bin/textmech advise --all
 
 test: $(READY)
 	$(VENV)/bin/pytest -n auto --dist worksteal

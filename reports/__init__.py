@@ -1,6 +1,6 @@
 """The reports: comparing, judging, writing, the command, the plug-in, and the committed tables.
 
-For Python: `from textmech.reports import load, solve, run`, explained in `interface`.
+For Python: `from textmech.reports import advise, load, solve, run`, explained in `interface`.
 """
 
 import time
@@ -9,6 +9,7 @@ from typing import Any
 
 BEGUN = time.time()  # s: a file of code that is newer than this is not the code that runs
 PUBLIC = {
+    "advise": ".interface",
     "load": ".interface",
     "run": ".interface",
     "solve": ".interface",

@@ -1,4 +1,4 @@
-"""The command `textmech`: run, check, list, show, bench, diff, versions, page, plot."""
+"""The command `textmech`: run, causes, advise, check, list, show, and what compares and shows."""
 
 import sys
 
@@ -6,8 +6,10 @@ import click
 
 from ..cases.mistake import CaseError
 from . import ending
+from .command.advise import advise
 from .command.answer import BAD_INPUT
 from .command.bench import bench
+from .command.causes import causes
 from .command.check import check
 from .command.diff import diff
 from .command.done import done
@@ -57,6 +59,8 @@ def command() -> None:
       textmech run                            all cases: regenerates reports/*.csv
       textmech run bar_pendulum               one case: prints its rows, writes nothing
       textmech run --settings mine.yaml       your own engine options beside them, as mine
+      textmech causes bar_pendulum            why it is off, by experiment
+      textmech advise bar_pendulum            which setting it needs, and what to paste
       textmech check my_case.yaml             all mistakes of a file, without running it
       textmech show bar_pendulum --engine mujoco.tuned > pendulum.xml
       textmech diff before after              what changed between two report folders
@@ -75,6 +79,8 @@ command.add_command(run)
 command.add_command(check)
 command.add_command(list_)
 command.add_command(bench)
+command.add_command(advise)
+command.add_command(causes)
 command.add_command(diff)
 command.add_command(versions)
 command.add_command(page)

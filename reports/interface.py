@@ -1,6 +1,6 @@
 """The interface for Python: cases, references and comparisons, as pandas frames.
 
-    from textmech.reports import load, run, solve
+    from textmech.reports import advise, load, run, solve
 
 What the command would refuse raises `textmech.cases.mistake.CaseError`, with the same words and all
 mistakes at once in `mistakes`.
@@ -28,6 +28,8 @@ from .events.states import mistaken
 from .judge.instants import of_reference
 from .own_settings import made
 from .results import Progress
+from .search.advised import Asked, row
+from .search.session import advised
 from .selection import choose_cases
 from .show.summary import summary
 
@@ -144,6 +146,33 @@ def run(
         reference=frames["reference"],
         fails=report.fails,
     )
+
+
+def advise(
+    word: Word | Sequence[Word],
+    *,
+    engines: Sequence[str] = (),
+    tolerance: float | None = None,
+    margin: float = 2.0,
+    jobs: int | None = None,
+    cache: bool = True,
+    progress: Progress = lambda *_: None,
+) -> pd.DataFrame:
+    """Which setting cases need: a row for each case and engine, with the columns of advice.csv.
+
+    engines: as `mujoco`; all for none. tolerance: of each quantity's own size; None: as the case
+    allows. margin: how often the worst error has to fit into that. Raises CaseError.
+    """
+    wanted = asked(load(word), engines, ["shipped"])
+    found = Asked(tolerance, margin)
+    store = usable() if cache else None
+    with advised(
+        wanted.cases, wanted.engines, found, jobs=jobs, progress=progress, store=store
+    ) as advice:
+        rows = [row(one) for one in advice]
+    if wanted.mistakes:
+        raise CaseError(wanted.mistakes)
+    return pd.DataFrame(map(vars, rows))
 
 
 def _words(word: Word | Sequence[Word]) -> Sequence[Word]:

@@ -91,3 +91,45 @@ class Certificate:
     certified: float | None
     unit: str
     verdict: str
+
+
+@dataclass(frozen=True)
+class Cause:
+    """A row of causes.csv: what brings a quantity within its tolerance; of several a row each.
+
+    cure: in words; or that none was found, or looked for.
+    """
+
+    case: str
+    engine: str
+    setting: str
+    quantity: str
+    error_before: float | None
+    allow: float | None
+    cure: str
+    options: str  # YAML, as in a file of settings
+    step: float | None
+    error_after: float | None
+    cost: float | None  # over the row's own, of a simulated second
+    law: str  # how the error follows the cure's one number
+
+
+@dataclass(frozen=True)
+class Advice:
+    """A row of advice.csv: the minimal recipe for a case in an engine, natively; or what remains.
+
+    The recipe in words, `none` where nothing keeps the bar; `worst` is an error over its tolerance.
+    """
+
+    case: str
+    engine: str
+    tolerance: float | None  # of each quantity's size; None: as the case allows
+    margin: float
+    recipe: str
+    options: str  # YAML, as in a file of settings
+    step: float | None
+    cost: float | None  # of a simulated second, as the engine counts it
+    shipped_cost: float | None
+    worst: float | None
+    quantity: str
+    remains: str

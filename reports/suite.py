@@ -20,7 +20,9 @@ from .judge.metric import told
 from .judge.uncertified import failing, uncertified
 from .pool import Died, local
 from .results import Progress, Results
-from .row import FAILS, Certificate, Comparison, Instant, Rungs
+from .row import FAILS, Cause, Certificate, Comparison, Instant, Rungs
+from .search.because import with_causes
+from .search.causes import causes as found_causes
 from .selection import sound
 from .trial.book import producers
 from .trial.trial import Trial
@@ -43,6 +45,7 @@ class Report:
     equations: dict[str, set[str]] = field(default_factory=dict)  # case → executed equations
     cases: list[Case] = field(default_factory=list)
     solutions: dict[str, Solution] = field(default_factory=dict)
+    causes: list[Cause] = field(default_factory=list)
     lost: dict[str, str] = field(default_factory=dict)  # case → why it has no reference
     mistakes: list[Mistake] = field(default_factory=list)  # of files that are left out
     tried: list[Tried] = field(default_factory=list)
@@ -60,13 +63,15 @@ def measure(
     jobs: int = 1,
     progress: Progress,
     book: bool = True,
+    causes: bool = False,
     store: Store | None = None,
     executor: Executor | None = None,
 ) -> Report:
     """Solves every case once and runs every trial once, on `jobs` processes of this machine.
 
-    book: whether the book's own approximations stand beside the engines. store: where results are
-    kept as they come, and taken from if nothing that they depend on has changed; None: nowhere.
+    book: whether the book's own approximations stand beside the engines. causes: whether what
+    cures each row above its tolerance is searched for, which takes more runs. store: where results
+    are kept as they come, and taken from if nothing that they depend on has changed; None: nowhere.
     executor: any of `concurrent.futures`, a cluster's for instance, in place of the processes.
 
     A mistake that only solving finds costs its own file: `mistakes` of the report tells them.
@@ -90,6 +95,7 @@ def measure(
         for pair in pairs:
             if pair.case in report.cases and pair.case.name in report.lost:
                 _without_reference(pair, report)
+        _explain(known, results, report, search=causes)
         return report
 
 
@@ -130,6 +136,17 @@ def _take(one: Tried, report: Report) -> None:
     report.rungs += outcome.rungs
     report.instants += outcome.instants
     report.tried.append(replace(one, outcome=outcome))
+
+
+def _explain(pairs: Sequence[Pair], results: Results, report: Report, *, search: bool) -> None:
+    moments = {
+        (one.pair.case.name, one.pair.engine.name, one.pair.engine.setting, name): words
+        for one in report.tried
+        if one.realised == "native"
+        for name, words in one.outcome.moments.items()
+    }
+    report.causes = found_causes(report.comparisons, report.rungs, pairs, results, search=search)
+    report.comparisons = with_causes(report.comparisons, report.causes, moments)
 
 
 def _without_reference(pair: Pair, report: Report) -> None:

@@ -16,19 +16,22 @@ from ..cases.case import Case
 from ..reference.certificate.errors import ERROR
 from .coverage import coverage
 from .replace import replace, settle
-from .row import Certificate, Comparison, Instant, Rungs
+from .row import Advice, Cause, Certificate, Comparison, Instant, Rungs
 from .suite import Report
 
 HERE = Path(__file__).parent
 ELSEWHERE = Path("textmech-reports")
-NAMES = ("tolerance.csv", "convergence.csv", "events.csv", "reference.csv", "coverage.csv")
+NAMES = (
+    "tolerance.csv", "convergence.csv", "events.csv", "causes.csv", "reference.csv", "coverage.csv",
+)  # fmt: skip
+ADVICE = "advice.csv"
 KEYS = ("case", "engine", "setting", "realised", "ladder", "quantity", "check", "event", "k")
 KNOWN = 1e-6  # of `allow`: the least certified error that is written
 NUMBERS = ".3g"  # three digits: more would be noise from one machine to the next
 RUN = 12  # letters of a run's name: two runs never share them
 TIMES = ".9g"  # of an event's time: its difference is a thousandth of a step
 
-Row = TypeVar("Row", Comparison, Rungs, Certificate, Instant)
+Row = TypeVar("Row", Comparison, Rungs, Certificate, Instant, Cause, Advice)
 
 
 def by_default() -> Path:
@@ -42,6 +45,7 @@ def tables(report: Report, cases: Sequence[Case]) -> dict[str, pd.DataFrame]:
         _table(report.comparisons, Comparison),
         _table(report.rungs, Rungs),
         _table(report.instants, Instant),
+        _table(report.causes, Cause),
         _table(_as_known(report.certificates, cases), Certificate),
         coverage(cases, report.equations),
     )
@@ -86,6 +90,11 @@ def write(frames: Mapping[str, pd.DataFrame], folder: Path) -> None:
     content, so that files of two runs can.
     """
     replace(folder, texts(frames))
+
+
+def advice(rows: Sequence[Advice], folder: Path) -> None:
+    """Writes advice.csv, a run of its own: its search asks nothing of the other reports."""
+    replace(folder, texts({ADVICE: _table(rows, Advice)}))
 
 
 def texts(frames: Mapping[str, pd.DataFrame]) -> dict[str, str]:

@@ -11,7 +11,8 @@ TREES = {
     for room in ("cases", "reference", "engines", "reports")
     for file in sorted((ROOT / room).rglob("*.py"))
 }
-ROWS = {"Comparison", "Rungs", "Certificate", "Instant"}  # the dataclasses of reports/row.py
+# The dataclasses of reports/row.py.
+ROWS = {"Comparison", "Rungs", "Certificate", "Instant", "Cause", "Advice"}
 BOUNDS = {"forward", "backward"}  # the numbers of a law of dry friction
 
 

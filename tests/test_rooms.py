@@ -37,7 +37,7 @@ ROOMS = {
         "pool judge asking",
         "cache",
         "unit results",
-        "trials",
+        "trials search",
         "suite",
         "poses",
         "write keep session",

@@ -23,6 +23,7 @@ ROOT = Path(__file__).parents[2]
 REFERENCE = ("cases", "reference")
 ROWS = ("reports/row.py", "reports/unit.py")
 JUDGING = ("engines/*.py", "reports/trial", "reports/judge", "reports/events", *ROWS)
+TRYING = ("reports/search/candidate.py", "reports/search/errors.py")
 ROUNDING = ("NPY_", "OPENBLAS_", "OMP_", "MKL_", "BLIS_")  # variables that choose other kernels
 
 
@@ -77,6 +78,11 @@ class Keys:
     def rung(self, outcome: str, ladder: str, step: float) -> str:
         """Of one run behind that outcome."""
         return _word("rung", outcome, ladder, repr(step))
+
+    def tried(self, case: Case, engine: Engine, options: str, step: float) -> str:
+        """Of one simulation with other options of the engine."""
+        ways = self.ways(case, engine)
+        return _word("tried", ways, options, repr(step), self._code(TRYING))
 
     def run(self, pairs: Iterable[tuple[Case, Engine]]) -> str:
         """Of all together: two runs with this key compute the same."""

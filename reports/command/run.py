@@ -41,6 +41,12 @@ def named_engines(beside: str = "") -> Callable[[Any], Any]:
     help="Only this setting; a FILE of your own engine options stands beside them, by its name. "
     "May be repeated.",
 )
+@click.option(
+    "--causes",
+    is_flag=True,
+    help="Search for what cures each row above its tolerance: the smallest sets of options between "
+    "shipped and tuned. It takes about half as long again; `make reports` does so.",
+)
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default.")
 @click.option(
     "--out",
@@ -71,6 +77,7 @@ def run(
     cases: tuple[str, ...],
     names: tuple[str, ...],
     settings: tuple[str, ...],
+    causes: bool,
     jobs: int | None,
     out: Path | None,
     keep: Path | None,
@@ -110,6 +117,7 @@ def run(
             jobs=jobs or pool.workers(),
             progress=told,
             book=wanted.book,
+            causes=causes,
             store=used,
             executor=working,
         )

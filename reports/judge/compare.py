@@ -38,6 +38,7 @@ class Outcome:
     rungs: list[Rungs] = field(default_factory=list)
     samples: Samples = field(default_factory=dict)
     instants: list[Instant] = field(default_factory=list)
+    moments: dict[str, str] = field(default_factory=dict)  # of what is off at an instant, in words
     wanted: Samples = field(default_factory=dict)
 
 
@@ -52,7 +53,8 @@ def compare(trial: Trial, runs: Runs | None = None) -> Outcome:
     runs = runs or simulate(trial)
     if runs.judged is None:
         return Outcome(rows + _diverged(trial, (*motion, *events), runs.lost))
-    rows += [_judged(trial, name, runs, runs.judged[name]) for name in motion]
+    moments: dict[str, str] = {}
+    rows += [_judged(trial, name, runs, runs.judged[name], moments) for name in motion]
     studies = [
         (ladder, name, found)
         for ladder, climbed in runs.ladders.items()
@@ -64,7 +66,7 @@ def compare(trial: Trial, runs: Runs | None = None) -> Outcome:
     told, ladders = instants.judge(trial, events, runs, runs.judged)
     listed = instants.listed(trial, runs.judged)
     wanted = {name: trial.wanted(name) for name in motion} if trial.sampled else {}
-    return Outcome(rows + told, climbed + ladders, runs.judged, listed, wanted)
+    return Outcome(rows + told, climbed + ladders, runs.judged, listed, moments, wanted)
 
 
 def answered(trial: Trial, found: Climbed) -> Outcome:
@@ -106,7 +108,10 @@ def _audit(trial: Trial) -> Comparison:
     )
 
 
-def _judged(trial: Trial, name: str, runs: Runs, samples: Array) -> Comparison:
+def _judged(
+    trial: Trial, name: str, runs: Runs, samples: Array, moments: dict[str, str]
+) -> Comparison:
+    """The quantity's row; if it is off at an instant, that is noted too."""
     wanted, ladders = trial.wanted(name), list(runs.ladders)
     held = _study(trial, ladders[-1], runs, name)
     # What is promised for h → 0 is the tuned setting's, whose numbers follow the step.
@@ -118,6 +123,7 @@ def _judged(trial: Trial, name: str, runs: Runs, samples: Array) -> Comparison:
     if at is not None:
         rest = metric.error(samples[at.elsewhere], wanted[at.elsewhere]).largest
         why = f"{at.words}; elsewhere at most {told(rest, least):.2g}"
+        moments[name] = why
         if not rest <= (trial.allowed(name) or np.inf):
             others = _study(trial, list(runs.ladders)[-1], runs, name, at.elsewhere)
             others = _telling(trial, name, runs, rest, others, at.elsewhere)

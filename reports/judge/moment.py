@@ -30,13 +30,19 @@ class Moment:
 def moment(trial: Trial, samples: Array, wanted: Array, error: Error) -> Moment | None:
     """The instant at which alone the error is so large, or None."""
     words = _words(trial, float(trial.case.times[error.at]))
-    beside = BESIDE * trial.step
-    elsewhere = trial.away(beside) & (trial.case.times >= beside - TOGETHER)
-    elsewhere[0] = False
+    elsewhere = away_from_instants(trial)
     if words is None or np.count_nonzero(elsewhere) < FEWEST:
         return None
     others = largest((samples - wanted)[elsewhere])
     return Moment(words, elsewhere) if others <= ELSEWHERE * error.largest else None
+
+
+def away_from_instants(trial: Trial) -> NDArray[np.bool_]:
+    """The samples (N,) that are beside neither the start nor what happens in the reference."""
+    beside = BESIDE * trial.step
+    elsewhere = trial.away(beside) & (trial.case.times >= beside - TOGETHER)
+    elsewhere[0] = False
+    return elsewhere
 
 
 def _words(trial: Trial, t: float) -> str | None:

@@ -30,10 +30,7 @@ class Runs:
 
 def rungs(trial: Trial) -> dict[At, Rung]:
     """All that has to be run, from the reference's first row."""
-    bounds = {
-        name: RUNAWAY * max(1.0, float(np.max(np.abs(trial.wanted(name))))) for name in trial.motion
-    }
-    case, engine, start = trial.case, trial.engine, trial.start
+    case, engine, start, bounds = trial.case, trial.engine, trial.start, _bounds(trial)
     climbs = list(ladders(case, engine, trial.plan))
     return {
         (ladder.name, h): Rung(
@@ -47,6 +44,18 @@ def rungs(trial: Trial) -> dict[At, Rung]:
         )
         for ladder in climbs
         for h in reversed(ladder.steps)
+    }
+
+
+def rung(trial: Trial, step: float) -> Rung:
+    """One run at a step [s], which the numbers of its plan follow."""
+    return Rung(trial.case, trial.engine, trial.start, trial.plan, step, _bounds(trial))
+
+
+def _bounds(trial: Trial) -> dict[str, float]:
+    """What a motion's numbers stay below."""
+    return {
+        name: RUNAWAY * max(1.0, float(np.max(np.abs(trial.wanted(name))))) for name in trial.motion
     }
 
 

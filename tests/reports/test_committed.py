@@ -15,7 +15,10 @@ from textmech.reports.page.pack import unpacked
 from textmech.reports.page.page import motions_of, page
 from textmech.reports.page.write import NAME
 from textmech.reports.pytest_plugin import CaseItem, measured
-from textmech.reports.row import Certificate, Comparison, Instant, Rungs
+from textmech.reports.row import Advice, Cause, Certificate, Comparison, Instant, Rungs
+from textmech.reports.search.advised import Asked
+from textmech.reports.search.advised import row as row_of
+from textmech.reports.search.session import advised
 from textmech.reports.selection import choose_cases, choose_engines
 from textmech.reports.show import readme
 from textmech.reports.suite import Report
@@ -51,6 +54,48 @@ def report(request: pytest.FixtureRequest) -> Report:
         return measured(request.session)
     jobs, store = pool.workers(), usable()
     return suite.measure(cases, engines, jobs=jobs, progress=lambda *_: None, store=store)
+
+
+@pytest.mark.whole
+def test_causes_are_current() -> None:
+    """Of one case in the plane and one with a contact: the same cures, of nearly the same size."""
+    cases, engines = choose_cases(["four_bar", "sliding_block.below"]), choose_engines([], [])
+    found = suite.measure(
+        cases,
+        engines,
+        jobs=pool.workers(),
+        progress=lambda *_: None,
+        book=False,
+        causes=True,
+        store=usable(),
+    ).causes
+    names = {case.name for case in cases}
+    committed = [c for c in write.read(write.HERE / "causes.csv", Cause) if c.case in names]
+    assert {cure(cause) for cause in found} == {cure(cause) for cause in committed}
+
+
+def cure(cause: Cause) -> tuple[str, ...]:
+    step = "" if cause.step is None else f"{cause.step:.3g}"
+    return cause.case, cause.engine, cause.setting, cause.quantity, cause.cure, cause.options, step
+
+
+@pytest.mark.whole
+def test_advice_is_current() -> None:
+    cases = choose_cases(["bar_pendulum", "four_bar", "sliding_block.below"])
+    asked, engines = Asked(None, 2.0), choose_engines([], ["shipped"])
+    with advised(cases, engines, asked, progress=lambda *_: None, store=usable()) as found:
+        rows = {(one.case, one.engine): one for one in map(row_of, found)}
+    committed = {(a.case, a.engine): a for a in write.read(write.HERE / write.ADVICE, Advice)}
+    assert {case.name for case in choose_cases([])} == {case for case, _ in committed}
+    for key, now in rows.items():
+        before = committed[key]
+        assert (now.recipe, now.options, now.quantity) == (
+            before.recipe,
+            before.options,
+            before.quantity,
+        )
+        assert near(now.step, before.step, 0.0, DIGITS)
+        assert near(now.worst, before.worst, FLOOR, QUARTER)
 
 
 @pytest.mark.whole

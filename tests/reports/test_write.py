@@ -27,7 +27,8 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     (row,) = write.read(tmp_path / "tolerance.csv", Comparison)
     assert (row.largest, row.rms, row.because) == (1.23e-9, None, ROW.because)
     assert sorted(p.name for p in tmp_path.iterdir()) == [
-        "convergence.csv", "coverage.csv", "events.csv", "reference.csv", "tolerance.csv",
+        "causes.csv", "convergence.csv", "coverage.csv", "events.csv", "reference.csv",
+        "tolerance.csv",
     ]  # fmt: skip
 
 

@@ -79,6 +79,20 @@ def test_a_rungs_ladder_and_step_count() -> None:
     assert len({keys.rung("o", *rung) for rung in rungs}) == 3
 
 
+def test_what_is_tried_counts_and_the_code_that_tries_it(code: Path) -> None:
+    def word(options: str = "{}", step: float = 1e-3) -> str:
+        return replace(Keys.now(), salt="").tried(CASE, ENGINE, options, step)
+
+    assert len({word(), word('{"iterations": 30}'), word(step=1e-3 * (1 + 2**-52))}) == 3
+    before, row = word(), words()[1]
+    for file in ("candidate.py", "errors.py"):
+        with (code / "reports" / "search" / file).open("a", encoding="utf-8") as text:
+            text.write("# changed\n")
+        assert word() != before
+        before = word()
+    assert words()[1] == row
+
+
 @pytest.mark.parametrize(
     ("file", "reference", "outcome"),
     [

@@ -1,0 +1,88 @@
+"""`textmech causes`."""
+
+import warnings
+from collections.abc import Sequence
+from itertools import groupby
+from typing import TYPE_CHECKING
+
+import click
+
+from ...cases.mistake import CaseError
+from ..show.say import say
+from .done import finished
+from .run import allow_long, named_engines
+
+if TYPE_CHECKING:
+    from ..row import Cause
+
+
+@click.command()
+@click.argument("cases", nargs=-1, required=True, metavar="CASE...")
+@named_engines()
+@click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default.")
+@click.option("--no-cache", is_flag=True, help="Compute everything anew.")
+@allow_long
+def causes(
+    cases: tuple[str, ...],
+    names: tuple[str, ...],
+    jobs: int | None,
+    no_cache: bool,
+    allow_long: bool,
+) -> None:
+    """Why is a CASE off? For each quantity above its tolerance, what brings it within.
+
+    A cause is found by experiment: of all that the tuned setting has otherwise than the shipped
+    one, the smallest sets that cure, with the step that they need and what they cost. Where a law
+    or driver of ours is needed, the engine's own model is another one.
+    """
+    from .. import pool, suite
+    from ..cache import store
+    from ..selection import choose_cases, choose_engines
+    from ..show import progress
+    from ..trial.work import too_long
+
+    chosen = choose_cases(cases, long=allow_long)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # an engine that is broken and that nobody named
+        engines = choose_engines([name.partition(".")[0] for name in names], [])
+    if long := too_long(chosen, engines):
+        raise CaseError(long)
+    used = None if no_cache else store.usable()
+    with progress.progress() as told, finished(used is not None):
+        report = suite.measure(
+            chosen,
+            engines,
+            jobs=jobs or pool.workers(),
+            progress=told,
+            book=False,
+            causes=True,
+            store=used,
+        )
+    _print(report.causes)
+    if report.mistakes:
+        raise CaseError(report.mistakes)
+
+
+def _print(causes: "Sequence[Cause]") -> None:
+    if not causes:
+        say("every quantity is within its tolerance, in every setting")
+    for (case, engine, setting), found in groupby(
+        causes, key=lambda cause: (cause.case, cause.engine, cause.setting)
+    ):
+        say(f"\n{case} in {engine}.{setting}")
+        for quantity, cures in groupby(found, key=lambda cause: cause.quantity):
+            first, *others = cures
+            before = "diverged" if first.error_before is None else f"{first.error_before:.2g}"
+            allowed = f"(allowed {first.allow or 0:.1g})"
+            say(f"  {quantity:20} {before:>8} {allowed}  {_line(first)}")
+            for other in others:
+                say(f"  {'':20} {'':8} {'or':>{len(allowed)}}  {_line(other)}")
+
+
+def _line(cause: "Cause") -> str:
+    if cause.error_after is None:
+        return cause.cure
+    told = [f"{cause.error_after:.2g} with {cause.cure}"]
+    told += [] if cause.step is None else [f"h = {cause.step:.3g} s"]
+    told += [] if cause.cost is None else [f"×{cause.cost:.2g} the cost"]
+    return ", ".join([*told, *([f"error ~ {cause.law}"] if cause.law else [])])

@@ -1,0 +1,117 @@
+"""Which setting does a case need? The search for the minimal recipe of each engine."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from ...cases.mistake import CaseError
+from ...engines.engine import Plan, Refusal, Tunable
+from ..pool import Died
+from ..results import Results
+from ..trial.start import first
+from ..trial.trial import Trial, judged_names, planned
+from ..unit import Pair
+from .advised import Advised, Asked
+from .bar import Bar
+from .candidate import Candidate
+from .draws import held
+from .menu import NOTHING, Choice, Menu, fitting
+from .recipe import Kitchen, Recipe, recipe, rungs_of
+from .solving import solved
+from .together import Asking, Known, Search, together
+
+NO_KNOBS = "adapter: it says of nothing how it can be turned"
+NO_STEPS = "a claim about states: no step and no option plays a part"
+
+
+def advise(pairs: Sequence[Pair], asked: Asked, results: Results) -> list[Advised]:
+    """For each case in each engine as shipped; of all searches at once.
+
+    Raises CaseError with what only solving finds.
+    """
+    ready = [_prepared(pair, asked, lost) for pair, lost in _sampled(pairs, results)]
+    searches = {
+        f"{one.pair.case.name} {one.pair.engine.name}": Search(
+            one.pair, one.kitchen.bar.known, _search(one.kitchen, front=asked.front)
+        )
+        for one in ready
+        if one.kitchen is not None
+    }
+    found = together("advice", searches, results)
+    advised = [
+        replace(one, recipe=found.get(f"{one.pair.case.name} {one.pair.engine.name}"))
+        for one in ready
+    ]
+    return [_drawn(one, results) for one in advised] if asked.robust else advised
+
+
+def _drawn(one: Advised, results: Results) -> Advised:
+    if one.kitchen is None or one.recipe is None:
+        return one
+    tried = held(one.pair, one.recipe.candidate, one.kitchen.bar.scale, results)
+    return replace(one, draws=tried)
+
+
+def _sampled(pairs: Sequence[Pair], results: Results) -> list[tuple[Pair, str]]:
+    """With the samples that the engine's own step meets; of those without a reference, why."""
+    cases = [pair.sampled for pair in pairs]
+    keys = [results.keys.solution(case) for case in cases]
+    found = results.of("references", solved, dict(zip(keys, cases, strict=True)))
+    wrong = [error for error in found.values() if isinstance(error, CaseError)]
+    if wrong:
+        raise CaseError([mistake for error in wrong for mistake in error.mistakes])
+    lost = {key: answer.because for key, answer in found.items() if isinstance(answer, Died)}
+    return [
+        (replace(pair, case=case, key=key), lost.get(key, ""))
+        for pair, case, key in zip(pairs, cases, keys, strict=True)
+    ]
+
+
+def _prepared(pair: Pair, asked: Asked, lost: str) -> Advised:
+    case, engine = pair.case, pair.engine
+    if lost or case.states is not None:
+        why = f"there is no reference: {lost}" if lost else NO_STEPS
+        return Advised(pair, asked, Refusal("native", why), None, None)
+    reference = pair.reference()
+    ways = planned(engine, case.scene, first(reference))
+    way = next(way for way in ways if way.realised == "native")
+    if isinstance(way, Plan) and not isinstance(engine, Tunable):
+        way = Refusal("native", NO_KNOBS)
+    if isinstance(way, Refusal):
+        return Advised(pair, asked, way, None, None)
+    assert isinstance(engine, Tunable)
+    own = engine.own_step
+    assert own is not None  # as shipped
+    steps = fitting(engine.steps, own, case.interval)
+    start = first(reference)
+    knobs, tuned = engine.knobs(case.scene, start), engine.recipe(case.scene, start)
+    menu = Menu(knobs, steps, own, tuned)
+    bar = Bar(Known(), asked.margin, _scale(Trial(case, reference, engine, way), asked.tolerance))
+
+    def cost(candidate: Candidate) -> float:
+        return engine.cost(candidate.options, candidate.step, case.scene)
+
+    return Advised(pair, asked, way, Kitchen(menu, bar, cost), None)
+
+
+def _scale(trial: Trial, tolerance: float | None) -> Mapping[str, float]:
+    """From the case's tolerances to a part of each quantity's size; events happen as often."""
+    if tolerance is None:
+        return {}
+    dated = {f"{event}.time": trial.case.duration for event in trial.case.events}
+    counts = {f"{event}.count" for event in trial.case.events}
+    names = [name for name in judged_names(trial.case) if name not in counts]
+    sizes = {name: dated.get(name) or trial.size(name) for name in names}
+    return {
+        name: (trial.allowed(name) or 0.0) / (tolerance * size)
+        for name, size in sizes.items()
+        if size > 0
+    }
+
+
+def _search(kitchen: Kitchen, *, front: bool) -> Asking[Recipe | None]:
+    yield [NOTHING.at(kitchen.menu.own)]
+    found = yield from recipe(kitchen)
+    if front:
+        tuned = Choice(("tuned",), kitchen.menu.tuned)
+        yield rungs_of(kitchen, tuned, *([found.choice] if found else []))
+    return found

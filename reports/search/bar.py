@@ -1,0 +1,36 @@
+"""What a recipe has to keep: every quantity within its tolerance, with a margin."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import inf
+
+from .candidate import Candidate
+from .errors import of
+from .together import Known
+
+
+@dataclass(frozen=True)
+class Bar:
+    """margin: how often the worst error has to fit into what is allowed.
+
+    known: all runs; scale: by quantity what its error over the case's own tolerance is multiplied
+    by, where another tolerance is asked for.
+    """
+
+    known: Known
+    margin: float
+    scale: Mapping[str, float] = field(default_factory=dict[str, float])
+
+    def worst(self, candidate: Candidate) -> tuple[float, str]:
+        """The largest error over what is allowed, and whose; inf where the run came to nothing.
+
+        Whatever any run has told must be told: a setting may lose a quantity.
+        """
+        names = dict.fromkeys(name for errors in self.known.values() for name in errors)
+        errors = self.known[candidate]
+        found = [(of(errors, name) * self.scale.get(name, 1.0), name) for name in names]
+        return max(found, default=(inf, ""), key=lambda one: one[0])
+
+    def holds(self, candidate: Candidate) -> bool:
+        """At this step alone."""
+        return self.worst(candidate)[0] <= 1 / self.margin

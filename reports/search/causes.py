@@ -1,0 +1,86 @@
+"""The causes of a run's rows, searched where they have to be: all pairs at once."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from ...engines.engine import Tunable
+from ...reference.solve import Solution
+from ..results import Results
+from ..row import Cause, Comparison, Rungs
+from ..unit import Pair
+from .between import between
+from .cures import Cured, cures
+from .ladder import climbed
+from .solving import solved
+from .together import Search, together
+from .told import NONE, NOTHING, UNSEARCHED, Asked, by_ladder, by_ours, searched, without
+from .why import Rows, key_of
+
+
+def causes(
+    comparisons: Sequence[Comparison],
+    rungs: Sequence[Rungs],
+    pairs: Iterable[Pair],
+    results: Results,
+    *,
+    search: bool,
+) -> list[Cause]:
+    """Of every row above its tolerance: what brings it within; search: whether runs are made."""
+    rows = Rows(comparisons)
+    off, found = list(rows.off()), dict[tuple[str, ...], list[Cause]]()
+    for row in off:
+        if ours := rows.ours(row):
+            found[key_of(row)] = by_ours(row, ours)
+    left, pairs = [row for row in off if key_of(row) not in found], list(pairs)
+    states = {pair.case.name for pair in pairs if pair.case.states is not None}
+    found |= {key_of(row): [without(row, NOTHING)] for row in left if row.case in states}
+    if search:
+        found |= {key_of(cause): [cause] for cause in by_ladder(left, rungs)}
+        for asked, cured in _searched(left, rungs, pairs, results):
+            found |= {key_of(row): searched(asked, row, cured[row.quantity]) for row in asked.rows}
+    last = NONE if search else UNSEARCHED
+    return [cause for row in off for cause in found.get(key_of(row), [without(row, last)])]
+
+
+def _searched(
+    rows: Sequence[Comparison], rungs: Sequence[Rungs], pairs: Iterable[Pair], results: Results
+) -> Iterator[tuple[Asked, Mapping[str, Cured]]]:
+    of: dict[tuple[str, str, str], list[Comparison]] = {}
+    for row in rows:
+        of.setdefault((row.case, row.engine, row.setting), []).append(row)
+    tunable = {
+        key: pair
+        for pair in pairs
+        for key in [(pair.case.name, pair.engine.name, pair.engine.setting)]
+        if key in of and pair.case.states is None and isinstance(pair.engine, Tunable)
+    }
+    asked: dict[str, Asked] = {}
+    searches: dict[str, Search[dict[str, Cured]]] = {}
+    for key, pair in _referenced(tunable, results).items():
+        name, field = " ".join(key), between(pair)
+        mine = [rung for rung in rungs if (rung.case, rung.engine, rung.setting) == key]
+        known = climbed(field.base, of[key], mine)
+        asked[name] = Asked(pair, field, of[key])
+        looking = cures(field, known, [row.quantity for row in of[key]])
+        searches[name] = Search(pair, known, looking)
+    found = together("causes", searches, results)
+    for name, one in asked.items():
+        yield one, found[name]
+
+
+def _referenced(
+    pairs: Mapping[tuple[str, str, str], Pair], results: Results
+) -> dict[tuple[str, str, str], Pair]:
+    """With the samples that the engine's own step meets; their references are in the store."""
+    sampled = {key: pair.sampled for key, pair in pairs.items()}
+    keys = {key: results.keys.solution(case) for key, case in sampled.items()}
+    others = {
+        keys[key]: sampled[key] for key, pair in pairs.items() if sampled[key] is not pair.case
+    }
+    answers = results.of("references", solved, others) if others else {}
+    lost = {key for key, answer in answers.items() if not isinstance(answer, Solution)}
+    return {
+        key: replace(pair, case=sampled[key], key=keys[key])
+        for key, pair in pairs.items()
+        if keys[key] not in lost
+    }

@@ -1,0 +1,142 @@
+"""The cause of an error by experiment: the smallest sets of changes that bring it within bounds.
+
+What one change does alone tells no cause: put in and taken out name different ones, and shares do
+not add up. So all sets of a size are tried, and those of the smallest size that cures are named.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+from .candidate import Candidate
+from .law import law
+from .lever import STEP, Field, Lever, Turned
+from .matter import Setting, that_matter
+from .together import Asking, Known
+
+LARGEST = 4  # levers in a set whose smaller ones have all been tried
+LARGEST_FINER = 3  # with a smaller step: each such run takes as long as ten others
+PAIR = 2  # levers, the step one of them: so many are tried whatever else cures
+MANY = 6  # levers, from which on it pays to ask first which of them matter
+
+
+@dataclass(frozen=True)
+class Cure:
+    """A smallest set, at the largest step of the ladder from which on it keeps the bound."""
+
+    turned: Turned
+    candidate: Candidate
+    error: float  # over what is allowed
+    law: str
+
+
+@dataclass(frozen=True)
+class Cured:
+    """Of one row: its cures of the smallest size, or none.
+
+    elsewhere: they cure what is not beside an instant; with the instant nothing does.
+    """
+
+    cures: Sequence[Cure] = ()
+    elsewhere: bool = False
+
+
+def cures(field: Field, known: Known, rows: Sequence[str]) -> Asking[dict[str, Cured]]:
+    """By quantity: of the whole error, or else of the one away from instants."""
+    yield [field.base]
+    whole, away = (Setting(field, known, elsewhere) for elsewhere in (False, True))
+    found = yield from _smallest(whole, rows)
+    left = [
+        row
+        for row in rows
+        if row not in found and 1.0 < away.error(field.base, row) < whole.error(field.base, row)
+    ]
+    others = yield from _smallest(away, left)
+    cured = {row: Cured(sets) for row, sets in found.items()}
+    cured |= {row: Cured(sets, elsewhere=True) for row, sets in others.items()}
+    return {row: cured.get(row, Cured()) for row in rows}
+
+
+def _smallest(search: Setting, rows: Sequence[str]) -> Asking[dict[str, Sequence[Cure]]]:
+    """The cures of each row that has any.
+
+    Beside more than one other a smaller step is tried where nothing else is enough: it costs most,
+    to try as to use. Alone it is known from an engine's ladder.
+    """
+    field, found = search.field, dict[str, Sequence[Cure]]()
+    matter: Mapping[str, Sequence[Lever]] = dict.fromkeys(rows, field.levers)
+    for size in range(1, LARGEST + 2):
+        left = [row for row in rows if row not in found]
+        if size == 2 and len(field.levers) >= MANY and left:
+            matter = yield from that_matter(search, left)
+        sets = {row: _sets(field, matter[row], size) for row in left}
+        found |= yield from _cured(search, sets, finer=False)
+        others = {row: of for row, of in sets.items() if size <= PAIR or row not in found}
+        with_step = yield from _cured(search, others, finer=True)
+        found |= {row: [*found.get(row, ()), *cures] for row, cures in with_step.items()}
+    return found
+
+
+def _cured(
+    search: Setting, sets: Mapping[str, Sequence[Turned]], *, finer: bool
+) -> Asking[dict[str, Sequence[Cure]]]:
+    """Of the rows' sets with or without the step those that cure for good."""
+    field = search.field
+    among = {
+        row: [turned for turned in of if (STEP in turned) == finer] for row, of in sets.items()
+    }
+    yield {field.candidate(turned) for of in among.values() for turned in of}
+    within = {
+        row: [turned for turned in of if search.error(field.candidate(turned), row) <= 1.0]
+        for row, of in among.items()
+    }
+    yield {c for of in within.values() for turned in of for c in _asked(field, turned)}
+    lasting = {row: list(_lasting(search, row, of)) for row, of in within.items()}
+    return {row: _fewest(cures) for row, cures in lasting.items() if cures}
+
+
+def _fewest(cures: Sequence[Cure]) -> list[Cure]:
+    """Of sets beyond the largest, which are not all of one size."""
+    least = min(len(cure.turned) for cure in cures)
+    return [cure for cure in cures if len(cure.turned) == least]
+
+
+def _sets(field: Field, matter: Sequence[Lever], size: int) -> list[Turned]:
+    """All of that size; beyond the largest, all levers that matter, and all there are."""
+    if size <= LARGEST:
+        sets = combinations(matter, size)
+        return [turned for turned in sets if size <= LARGEST_FINER or STEP not in turned]
+    knobs = [lever for lever in matter if lever is not STEP]
+    rest = [] if field.rest is None else [field.rest]
+    every = [tuple(knobs), (*knobs, STEP), (*field.levers, *rest)]
+    return [turned for turned in every if len(turned) > LARGEST_FINER]
+
+
+def _rungs(field: Field, turned: Turned) -> list[Candidate]:
+    """The steps by which it is seen whether a set cures for good, coarse to fine.
+
+    Of one with the step all between; of any other its own and the next finer one: at one step
+    alone an error beside an event may be small by luck.
+    """
+    candidate = field.candidate(turned)
+    if STEP in turned:
+        return [candidate.at(step) for step in field.ladder(turned)[1:]]
+    return [candidate, candidate.at(candidate.step / 2)]
+
+
+def _asked(field: Field, turned: Turned) -> list[Candidate]:
+    return [*_rungs(field, turned), *field.along(turned)[1].values()]
+
+
+def _lasting(search: Setting, row: str, sets: Iterable[Turned]) -> Iterator[Cure]:
+    """Those that keep the bound from a step on, at the largest such step."""
+    for turned in sets:
+        rungs, usable = _rungs(search.field, turned), None
+        for candidate in reversed(rungs):
+            if not search.error(candidate, row) <= 1.0:
+                break
+            usable = candidate
+        if usable is not None and (STEP in turned or usable == rungs[0]):
+            number, along = search.field.along(turned)
+            told = law(number, {x: search.error(c, row) for x, c in along.items()})
+            yield Cure(turned, usable, search.error(usable, row), told)

@@ -1,0 +1,98 @@
+"""Does a recipe hold for other numbers? The same case with its parameters drawn anew, and again."""
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+
+from ...cases.case import Case
+from ...cases.language.read.document import read
+from ...cases.load import load
+from ...cases.mistake import CaseError
+from ...cases.trajectory import Trajectory
+from ...reference.solve import Solution
+from ..results import Results
+from ..unit import Pair
+from .bar import Bar
+from .candidate import Candidate
+from .errors import Run, errors
+from .solving import solved
+
+DRAWS = 6
+APART = 0.1  # of each parameter: how far a draw may be from it
+
+
+@dataclass(frozen=True)
+class Held:
+    """In how many draws the case's tolerances were kept, and of how many that were the same case.
+
+    A draw may be no case, as of a loop that does not close, or go through other phases: neither
+    tells anything of a recipe.
+    """
+
+    held: int
+    tried: int
+
+    def __str__(self) -> str:
+        left_out = DRAWS - self.tried
+        but = f"; {left_out} were no case, or another one" if left_out else ""
+        return f"holds in {self.held} of {self.tried} draws of its parameters ± {APART:.0%}{but}"
+
+
+def held(pair: Pair, candidate: Candidate, scale: Mapping[str, float], results: Results) -> Held:
+    """The candidate in every draw, each before a reference of its own; without any margin."""
+    cases = [case for seed in range(DRAWS) if (case := drawn(pair.case, seed)) is not None]
+    keys = [results.keys.solution(case) for case in cases]
+    references = results.of("draws", solved, dict(zip(keys, cases, strict=True)))
+    same = [
+        replace(pair, case=case, key=key)
+        for case, key in zip(cases, keys, strict=True)
+        if isinstance(found := references[key], Solution)
+        if found.holds and _phases(found.trajectory) == _phases(pair.reference())
+    ]
+    runs = {pair.key: Run(pair, candidate) for pair in same}
+    found = results.anew("draws", errors, runs) if runs else {}
+    kept = [Bar({candidate: one}, 1.0, scale).holds(candidate) for one in found.values()]
+    return Held(sum(kept), len(kept))
+
+
+def _phases(reference: Trajectory) -> int:
+    """How often it switches."""
+    return len(reference.switches)
+
+
+def drawn(case: Case, seed: int) -> Case | None:
+    """The case with every parameter up to a tenth larger or smaller; None where that is none.
+
+    Those with a unit of their own stay: angles, most often, which shut a loop or make it slide.
+    """
+    file = Path(case.source.file)
+    data = _varied(read(file).data, np.random.default_rng(seed))
+    with TemporaryDirectory() as folder:
+        copy = Path(folder) / file.name
+        copy.write_text(json.dumps(data), encoding="utf-8")  # JSON is YAML
+        try:
+            cases: Sequence[Case] = load(copy, long=case.long)
+        except CaseError:
+            return None
+    found = next(other for other in cases if other.name == case.name)
+    return replace(found, duration=case.duration, samples=case.samples)
+
+
+def _varied(data: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
+    """Of the file and of each variant."""
+    told = dict(data)
+    if isinstance(parameters := told.get("parameters"), Mapping):
+        told["parameters"] = {
+            name: value * (1 + APART * rng.uniform(-1, 1))
+            if isinstance(value, int | float) and not isinstance(value, bool)
+            else value
+            for name, value in parameters.items()
+        }
+    if isinstance(variants := told.get("variants"), Mapping):
+        told["variants"] = {name: _varied(of or {}, rng) for name, of in variants.items()}
+    return told

@@ -1,0 +1,113 @@
+"""Advice for real cases: recipes that are known by hand, and what is said where there is none."""
+
+from collections.abc import Mapping
+
+import pytest
+from given import scenes
+
+from textmech.reports import advise
+from textmech.reports.cache.store import usable
+from textmech.reports.row import Advice
+from textmech.reports.search.advised import Asked, row
+from textmech.reports.search.price import ratio
+from textmech.reports.search.session import advised
+from textmech.reports.selection import choose_engines
+
+CASES = ("bar_pendulum", "four_bar", "sliding_block.below", "planar_bodies", "heavy_top.cusp")
+
+
+def advice(asked: Asked, *names: str, engines: tuple[str, ...] = ()) -> Mapping[str, Advice]:
+    """By case and engine."""
+    cases = [scenes.EVERY[name] for name in names]
+    chosen = choose_engines(engines, ["shipped"])
+    with advised(cases, chosen, asked, progress=lambda *_: None, jobs=2, store=usable()) as found:
+        rows = [row(one) for one in found]
+    return {f"{one.case} {one.engine}": one for one in rows}
+
+
+@pytest.fixture(scope="module")
+def found() -> Mapping[str, Advice]:
+    return advice(Asked(None, 2.0), *CASES)
+
+
+@pytest.mark.whole
+@pytest.mark.parametrize(
+    ("name", "options", "step"),
+    [
+        ("bar_pendulum mujoco", "{integrator: RK4}", 8e-3),
+        ("bar_pendulum pymunk", "{error_bias: 0.0}", 3.125e-4),
+        ("four_bar pymunk", "{error_bias: 0.0}", 1.5625e-4),
+        ("sliding_block.below pymunk", "{}", 1e-2),
+    ],
+)
+def test_recipes_that_are_known(
+    found: Mapping[str, Advice], name: str, options: str, step: float
+) -> None:
+    assert (found[name].options, found[name].step) == (options, step)
+
+
+@pytest.mark.whole
+def test_a_loop_needs_both_and_a_creeping_block_only_its_impratio(
+    found: Mapping[str, Advice],
+) -> None:
+    loop, creep = found["four_bar mujoco"], found["sliding_block.below mujoco"]
+    assert "RK4" in loop.recipe
+    assert "d = 0.9999" in loop.recipe
+    assert (loop.step, loop.cost) == (8e-3, loop.shipped_cost)
+    assert creep.recipe.startswith("impratio")
+    assert "+" not in creep.recipe
+
+
+@pytest.mark.whole
+def test_the_margin_is_kept(found: Mapping[str, Advice]) -> None:
+    kept = [one for one in found.values() if one.recipe != "none"]
+    assert len(kept) >= 7
+    assert all(one.worst is not None and one.worst <= 0.5 for one in kept)
+
+
+@pytest.mark.whole
+def test_what_is_refused_says_why(found: Mapping[str, Advice]) -> None:
+    assert found["heavy_top.cusp pymunk"].remains.startswith("engine: ")
+    assert found["planar_bodies mujoco"].remains.startswith("a claim about states")
+
+
+@pytest.mark.whole
+def test_where_nothing_does_it_what_remains_is_said() -> None:
+    """Both engines know one coefficient of friction."""
+    found = advice(Asked(None, 2.0), "growing_force", engines=("mujoco",))
+    one = found["growing_force mujoco"]
+    assert (one.recipe, one.step) == ("none", None)
+    assert "stays ×" in one.remains
+    assert "one number for friction" in one.remains
+
+
+@pytest.mark.whole
+def test_another_tolerance_asks_for_another_step() -> None:
+    """A thousandth, or a tenth, of each quantity's size, whatever the case allows."""
+    strict, loose = (
+        advice(Asked(t, 2.0), "bar_pendulum", engines=("pymunk",))["bar_pendulum pymunk"]
+        for t in (1e-3, 1e-1)
+    )
+    assert loose.step is not None
+    assert strict.step is None or strict.step < loose.step
+    assert (strict.tolerance, loose.tolerance) == (1e-3, 1e-1)
+
+
+@pytest.mark.whole
+def test_a_finer_step_costs_more_time() -> None:
+    """Ten times as many steps: a ratio near ten, on any machine."""
+    asked = Asked(None, 2.0)
+    engines = choose_engines(["pymunk"], ["shipped"])
+    cases = [scenes.EVERY["bar_pendulum"]]
+    with advised(cases, engines, asked, progress=lambda *_: None, jobs=2) as (one,):
+        assert one.kitchen is not None
+        measured = ratio(one.pair, one.shipped.at(1e-3), one.shipped)
+    assert measured is not None
+    assert 5 < measured < 20
+
+
+@pytest.mark.whole
+def test_advice_as_a_frame() -> None:
+    found = advise("bar_pendulum", engines=["mujoco"])
+    assert list(found.columns)[:3] == ["case", "engine", "tolerance"]
+    assert found.options.tolist() == ["{integrator: RK4}"]

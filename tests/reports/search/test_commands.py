@@ -1,0 +1,64 @@
+"""`textmech causes` and `textmech advise` as a user meets them, with a case of one's own."""
+
+import json
+from pathlib import Path
+
+import pytest
+from given.command import NEW, process
+
+from textmech.reports import write
+from textmech.reports.row import Advice
+
+
+@pytest.fixture
+def new(tmp_path: Path) -> Path:
+    file = tmp_path / "cart.yaml"
+    file.write_text(NEW, encoding="utf-8")
+    return file
+
+
+@pytest.mark.whole
+def test_causes_of_ones_own_case(new: Path) -> None:
+    done = process("causes", new, "--no-cache", folder=new.parent)
+    assert done.returncode == 0, done.stderr
+    assert "cart in pymunk.shipped" in done.stdout
+    assert "the cost" in done.stdout
+    assert [file.name for file in new.parent.iterdir()] == ["cart.yaml"]
+
+
+@pytest.mark.whole
+def test_what_is_advised_for_ones_own_case_keeps_its_promise(new: Path) -> None:
+    """The printed settings, pasted into a file, bring every row within its tolerance."""
+    done = process("advise", new, "--engine", "pymunk", "--no-cache", folder=new.parent)
+    assert done.returncode == 0, done.stderr
+    lines = done.stdout.splitlines()
+    words = [lines[i + 1] for i, line in enumerate(lines) if "as a file of --settings" in line]
+    own = new.with_name("own.yaml")
+    own.write_text("\n".join(word.strip() for word in words), encoding="utf-8")
+    run = process("run", new, "--engine", "pymunk", "--settings", own, folder=new.parent)
+    (rows,) = [part for part in run.stdout.split("\ncart in ") if part.split("\n")[0].count(" own")]
+    assert rows.count(" agrees") >= 2
+    assert "beyond" not in rows.split("\n\n")[0]
+
+
+@pytest.mark.whole
+def test_scripts_read_rows(new: Path, tmp_path: Path) -> None:
+    done = process(
+        "advise", new, "--json", "--out", tmp_path / "out", "--no-cache", folder=new.parent
+    )
+    rows = {row["engine"]: row for row in json.loads(done.stdout)}
+    assert set(rows) == {"mujoco", "pymunk"}
+    assert all(0 < row["worst"] <= 0.5 for row in rows.values())
+    written = write.read(tmp_path / "out" / write.ADVICE, Advice)
+    assert [(row.engine, row.recipe) for row in written] == [
+        (name, row["recipe"]) for name, row in rows.items()
+    ]
+
+
+@pytest.mark.parametrize(
+    "words", [(), ("bar_pendulum", "--all"), ("bar_pendulum", "--margin", "0.5")]
+)
+def test_mistaken_words_are_told(words: tuple[str, ...], tmp_path: Path) -> None:
+    done = process("advise", *words, folder=tmp_path)
+    assert done.returncode == 2
+    assert "Error" in done.stderr

@@ -1,0 +1,50 @@
+"""Draws of a case's parameters: the same mechanism with other numbers, or none."""
+
+from pathlib import Path
+
+import pytest
+from given import scenes
+
+from textmech import engines
+from textmech.reports import pool
+from textmech.reports.cache.key import Keys
+from textmech.reports.cache.store import Store
+from textmech.reports.results import Results
+from textmech.reports.search.candidate import Candidate
+from textmech.reports.search.draws import APART, DRAWS, drawn, held
+from textmech.reports.unit import Pair
+
+
+def test_a_draw_is_the_case_with_each_parameter_a_little_off() -> None:
+    case = scenes.SHIPPED["rolling_wheel.downhill"]
+    found = drawn(case, 1)
+    assert found is not None
+    assert found.parameters != case.parameters
+    for name, value in found.parameters.items():
+        assert abs(value - case.parameters[name]) <= APART * abs(case.parameters[name])
+    assert (found.name, found.samples, found.allow) == (case.name, case.samples, case.allow)
+    same, other = drawn(case, 1), drawn(case, 2)
+    assert same is not None
+    assert other is not None
+    assert same.parameters == found.parameters != other.parameters
+
+
+def test_some_draws_are_no_case() -> None:
+    """Of a block that is to stay: its friction may fall below what its slope asks for, or its
+    coefficient of rest below the other."""
+    case = scenes.SHIPPED["sliding_block.below"]
+    assert any(drawn(case, seed) is None for seed in range(DRAWS))
+
+
+@pytest.mark.whole
+def test_a_recipe_holds_in_some_and_one_that_does_not_help_in_none(tmp_path: Path) -> None:
+    case, store, keys = scenes.SHIPPED["bar_pendulum"], Store(tmp_path), Keys.now()
+    pair = Pair(case, engines.make("mujoco", "shipped"), store, keys.solution(case))
+    store.put(pair.key, scenes.solved(case.name))
+    with pool.local(2) as working:
+        results = Results(working, lambda *_: None, store, keys)
+        good = held(pair, Candidate.of({"integrator": "RK4"}, 4e-3), {}, results)
+        bad = held(pair, Candidate.of({}, 4e-3), {}, results)
+    assert (good.held, bad.held) == (good.tried, 0)
+    assert good.tried == bad.tried >= DRAWS - 1
+    assert str(good) == f"holds in {good.tried} of {good.tried} draws of its parameters ± 10%"

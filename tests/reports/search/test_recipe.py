@@ -1,0 +1,135 @@
+"""The minimal recipe: the fewest options, then the largest step, of planted errors."""
+
+from collections.abc import Callable, Mapping
+from math import inf
+from typing import Any
+
+import pytest
+
+from textmech.engines.knobs import Knob, Value
+from textmech.reports.search.bar import Bar
+from textmech.reports.search.candidate import Candidate
+from textmech.reports.search.menu import Menu, fitting
+from textmech.reports.search.recipe import Kitchen, Recipe, best, front, recipe
+from textmech.reports.search.together import Known
+
+Error = Callable[[Mapping[str, Any], float], float]
+STEPS = [8e-3, 4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4]  # s
+OWN = 2e-3
+
+
+def knob(name: str, *values: Any, kind: Any = "option") -> Knob:
+    return Knob(name, tuple(Value(f"{name} {x}", {name: x}) for x in values), kind=kind)
+
+
+ONE, TWO = knob("one", 1), knob("two", 1, 2)
+WHOLE = Knob("whole", (Value("whole", {"a": {"b": 1, "c": 1}, "d": 1}),), kind="bundle")
+TUNED = {"one": 1, "two": 2, "three": 3, "inert": 1}
+
+
+def cooked(error: Error, *knobs: Knob, margin: float = 2.0) -> tuple[Recipe | None, Kitchen]:
+    menu = Menu(knobs or (ONE, TWO), STEPS, OWN, TUNED)
+    kitchen = Kitchen(menu, Bar(Known(), margin), lambda c: 1 / c.step)
+    asking = recipe(kitchen)
+    while True:
+        try:
+            wanted = next(asking)
+        except StopIteration as done:
+            return done.value, kitchen
+        for candidate in wanted:
+            found = error(candidate.options, candidate.step)
+            kitchen.bar.known[candidate] = {"x": (found, found)} if found < inf else {}
+
+
+def of(error: Error, *knobs: Knob, margin: float = 2.0) -> tuple[dict[str, Any], float] | None:
+    found, _ = cooked(error, *knobs, margin=margin)
+    return None if found is None else (dict(found.choice.options), found.step)
+
+
+def test_nothing_is_changed_where_nothing_has_to_be() -> None:
+    assert of(lambda o, h: 100 * h) == ({}, 4e-3)
+
+
+def test_a_step_below_its_own_counts_as_an_option() -> None:
+    """Either is one: the option costs less here, and there the step does."""
+    assert of(lambda o, h: 0.1 if "one" in o else 1000 * h) == ({"one": 1}, 8e-3)
+    assert of(lambda o, h: inf if o else 1000 * h) == ({}, 5e-4)
+
+
+def test_two_options_are_found_with_the_values_that_do_it() -> None:
+    found = of(lambda o, h: 0.1 if (o.get("one"), o.get("two")) == (1, 2) else 9.0)
+    assert found == ({"one": 1, "two": 2}, 8e-3)
+
+
+def test_the_margin_is_kept_at_the_step_and_at_the_next_finer_one() -> None:
+    assert of(lambda o, h: 200 * h, margin=1.0) == ({}, 4e-3)
+    assert of(lambda o, h: 200 * h, margin=4.0) == ({}, 1e-3)
+    luck = {8e-3: 0.1, 4e-3: 9.0}
+    assert of(lambda o, h: luck.get(h, 0.1)) == ({}, 2e-3)
+    assert of(lambda o, h: 0.1 if h == OWN else 9.0) is None
+
+
+def test_a_knob_of_the_wrong_sign_is_not_advised() -> None:
+    """Planted: `one` takes from the error, or adds to it."""
+
+    def error(sign: int) -> Error:
+        return lambda o, h: abs(3.0 + sign * 2.8 * o.get("one", 0)) + (0 if "two" in o else 100)
+
+    assert of(error(-1)) == ({"one": 1, "two": 1}, 8e-3)
+    assert of(error(+1)) is None
+
+
+def test_of_the_same_cost_the_engines_own_options_come_first() -> None:
+    start = knob("start", 1, kind="protocol")
+    found = of(lambda o, h: 0.1 / len(o) if o else 9.0, start, ONE)
+    assert found == ({"one": 1}, 8e-3)
+
+
+def test_a_whole_recipe_is_the_last_resort_and_loses_what_it_does_not_need() -> None:
+    asked = lambda o, h: 0.1 if o.get("a", {}).get("b") and o.get("d") else 9.0  # noqa: E731
+    assert of(asked, ONE, WHOLE) == ({"a": {"b": 1}, "d": 1}, 8e-3)
+    tuned = lambda o, h: 0.1 if o.get("three") and o.get("two") == 2 else 9.0  # noqa: E731
+    assert of(tuned, ONE, knob("two", 1)) == ({"two": 2, "three": 3}, 8e-3)
+
+
+def test_where_nothing_keeps_the_bar_the_least_worst_is_told() -> None:
+    found, kitchen = cooked(lambda o, h: 5.0 if o.get("two") == 2 else 9.0)
+    assert found is None
+    told = best(kitchen)
+    assert told is not None
+    assert (told[0].options.get("two"), told[1], told[2]) == (2, 5.0, "x")
+    _, lost = cooked(lambda o, h: inf)
+    assert best(lost) is None
+
+
+def test_a_front_has_no_point_that_costs_more_and_is_hardly_better() -> None:
+    _, kitchen = cooked(lambda o, h: 9.0)
+    kitchen.bar.known.clear()
+    for h, x in [(8e-3, 9.0), (4e-3, 8.9), (2e-3, 3.0), (1e-3, 4.0), (5e-4, 1.0), (2.5e-4, inf)]:
+        kitchen.bar.known[Candidate.of({}, h)] = {"x": (x, x)} if x < inf else {}
+    assert [(c.step, x) for c, x, _ in front(kitchen)] == [(8e-3, 9.0), (2e-3, 3.0), (5e-4, 1.0)]
+
+
+def test_what_one_setting_tells_the_others_must_tell_too() -> None:
+    known: Known = {
+        Candidate.of({}, 1.0): {"x": (0.1, 0.1), "force": (0.1, 0.1)},
+        Candidate.of({"one": 1}, 1.0): {"x": (0.1, 0.1)},
+    }
+    bar = Bar(known, 1.0)
+    assert bar.holds(Candidate.of({}, 1.0))
+    assert bar.worst(Candidate.of({"one": 1}, 1.0)) == (inf, "force")
+
+
+@pytest.mark.parametrize(
+    ("interval", "steps"),
+    [
+        (0.04, [8e-3, 4e-3, 2e-3, 1e-3]),
+        (0.02, [0.02 / 3, 4e-3, 2e-3, 1e-3]),  # 8 ms does not divide it: shortened
+        (0.006, [3e-3, 2e-3, 1e-3]),  # 8 ms is longer
+        (0.002, [2e-3, 1e-3]),
+    ],
+)
+def test_steps_meet_every_sample(interval: float, steps: list[float]) -> None:
+    found = fitting([8e-3, 4e-3, 2e-3, 1e-3], 2e-3, interval)
+    assert found == pytest.approx(steps)
+    assert all(abs(interval / h - round(interval / h)) < 1e-9 for h in found)
