@@ -91,9 +91,12 @@ def meet(scene: Scene, pair: Pair, start: Start) -> bool:
 
 
 def closed(scene: Scene, start: Start) -> bool:
-    """Whether anything lies on its plane at the start, or on another body."""
+    """Whether anything lies on its plane at the start, or on another body, or a rope is taut."""
     on_planes = any(lies(scene, contact, start) for contact in touching(scene).values())
-    return on_planes or any(meet(scene, pair, start) for pair in scene.pairs.values())
+    if on_planes or any(meet(scene, pair, start) for pair in scene.pairs.values()):
+        return True
+    motion = begun(scene, start)
+    return any(rope.observe(motion, "gap")[0] <= CLOSED for rope in scene.ropes())
 
 
 def height(scene: Scene, contact: Contact, start: Start) -> float:

@@ -131,7 +131,7 @@ def run(
     if keep is not None:
         kept.keep(report, keep)
         DONE.append(f"the trajectories are in {keep}")
-    known = cures.committed(report.cases)
+    known = {**cures.committed(report.cases), **cures.found(report.causes)}
     code = BAD_INPUT if mistakes else FAILED if report.fails else 0
     if wants_json:
         document.write(document.of_run(report, mistakes, cures=known, written=out, exit_code=code))

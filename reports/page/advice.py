@@ -44,6 +44,8 @@ def _by_theme(rows: Sequence[Mapping[str, Any]], themes: Themes) -> Any:
     """For each theme, engine and tolerance: the recipe of most cases, and the smallest step."""
     groups: dict[tuple[str, str, str], list[Mapping[str, Any]]] = {}
     for row in rows:
+        if not row["worst"] and row["recipe"] == NONE:
+            continue  # refused, or a claim about states: no setting plays a part
         for theme in themes.get(row["case"], ()):
             groups.setdefault((theme, row["engine"], row["tolerance"]), []).append(row)
     order = list(THEMES)

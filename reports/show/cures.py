@@ -1,12 +1,14 @@
 """What cures a row, from the report of causes, where there is one."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
 from ...cases.case import Case
 from ...cases.find import shipped
+from ..row import Cause
 from ..write import HERE
 from .amount import milliseconds
 from .summary import Cures
@@ -34,17 +36,26 @@ def cures(folder: Path) -> Cures:
     if not file.is_file():
         return {}
     rows = pd.read_csv(file, dtype=str, keep_default_na=False, comment="#")
-    found: dict[tuple[str, str, str, str], list[str]] = {}
-    for case, engine, setting, quantity, cure, step in rows[[*KEY, "cure", "step"]].itertuples(
-        index=False
-    ):
+    return _joined(rows[[*KEY, "cure", "step"]].itertuples(index=False))
+
+
+def found(causes: Iterable[Cause]) -> Cures:
+    """The same of causes that a run has just searched for."""
+    rows = ((c.case, c.engine, c.setting, c.quantity, c.cure, c.step) for c in causes)
+    return _joined(rows)
+
+
+def _joined(rows: Iterable[tuple[Any, ...]]) -> Cures:
+    told: dict[tuple[str, str, str, str], list[str]] = {}
+    for case, engine, setting, quantity, cure, step in rows:
         if cure not in UNTOLD:
-            found.setdefault((case, engine, setting, quantity), []).append(_told(cure, step))
-    return {key: " or ".join(words[:MOST]) for key, words in found.items()}
+            told.setdefault((case, engine, setting, quantity), []).append(_told(cure, step))
+    return {key: " or ".join(words[:MOST]) for key, words in told.items()}
 
 
-def _told(cure: str, step: str) -> str:
+def _told(cure: str, step: str | float | None) -> str:
     """With the step, where that is what is changed; a law or driver of ours by its short name."""
     if cure.startswith(OURS):
         return next(word for word in OURS if cure.startswith(word))
-    return f"{cure} {milliseconds(float(step))}" if cure.split(" + ")[-1] == "step" else cure
+    changed = cure.split(" + ")[-1] == "step"
+    return f"{cure} {milliseconds(float(step))}" if step and changed else cure

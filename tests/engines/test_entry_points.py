@@ -1,6 +1,7 @@
 """Engines of other packages: found, imported when they are asked for, and not in the way."""
 
 import os
+import re
 import subprocess
 import sys
 import warnings
@@ -67,7 +68,7 @@ def test_what_cannot_be_imported_does_not_stop_the_others(folder: Path) -> None:
     (folder / "ball.yaml").write_text(CASE + declared, encoding="utf-8")
     done = textmech(folder, "run", "ball.yaml")
     assert done.returncode == 0, done.stderr
-    assert {"mujoco.tuned", "pymunk.tuned"} <= set(done.stdout.split())
+    assert all(re.search(rf"in {name} \S+ tuned", done.stdout) for name in ("mujoco", "pymunk"))
     assert "warning: failing (failing_engine:Engine) cannot be imported" in done.stderr
     assert "OSError: no libGL" in done.stderr
     assert "warning: absent (nowhere:Engine) cannot be imported" in done.stderr
@@ -130,7 +131,7 @@ def test_no_broken_engine_stops_the_others(folder: Path, what: str) -> None:
     (folder / "path" / "failing_engine.py").write_text(text, encoding="utf-8")
     done = textmech(folder, "run", "ball.yaml")
     assert done.returncode == 0, done.stderr
-    assert {"mujoco.tuned", "pymunk.tuned"} <= set(done.stdout.split())
+    assert all(re.search(rf"in {name} \S+ tuned", done.stdout) for name in ("mujoco", "pymunk"))
     assert said in done.stderr
     assert "Traceback" not in done.stderr
     asked = textmech(folder, "run", "ball.yaml", "--engine", "failing")

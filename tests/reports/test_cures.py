@@ -1,11 +1,13 @@
 """Cures from the report of causes: joined by row, and of a user's own case none."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from given.swing import SWING
 
 from textmech.cases.load import load
+from textmech.reports.row import Cause
 from textmech.reports.selection import choose_cases
 from textmech.reports.show import cures
 
@@ -43,3 +45,12 @@ def test_a_case_of_ones_own_has_none_of_a_shipped_ones(
     own = tmp_path / "bar_pendulum.yaml"
     own.write_text(SWING, encoding="utf-8")
     assert cures.committed(load(own)) == {}
+
+
+def test_what_a_run_has_searched_is_told_alike() -> None:
+    one = Cause("mine", "mujoco", "shipped", "b.x", 2.0, 1.0, "step", "{}", 5e-4, 0.6, 4.0, "h^1")
+    none = replace(one, quantity="b.y", cure="not searched", step=None)
+    both = replace(one, cure="RK4", options="{integrator: RK4}", step=2e-3)
+    assert cures.found([both, one, none]) == {
+        ("mine", "mujoco", "shipped", "b.x"): "RK4 or step 0.5 ms"
+    }

@@ -33,6 +33,7 @@ SHIPPED: dict[At, set[str]] = dict.fromkeys(MODES, FREE) | {
     ("sliding_disk", "slips forward"): set(FORMS),
     ("stacked_blocks", "together"): set(FORMS),
     ("stacked_blocks", "on top"): set(FORMS),
+    ("ball_on_rope", "swings"): BOUND,
     ("disk_on_disk", "rolls"): BOUND,
     ("disk_on_disk", "slips"): BOUND,
 }

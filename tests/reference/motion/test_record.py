@@ -28,7 +28,8 @@ def dry(case: Case) -> bool:
 def switches(case: Case) -> bool:
     """Whether something of it touches and lets go."""
     touches = any(contact.ideal != "rolling" for contact in case.scene.contacts.values())
-    return touches or bool(case.scene.pairs) or any(case.scene.one_sided())
+    holds = [*case.scene.one_sided(), *case.scene.limits()]
+    return touches or bool(case.scene.pairs) or bool(holds)
 
 
 # Straight again for an instant: a double zero, which rounding knows to 1e-6 s and not to 1e-9.
