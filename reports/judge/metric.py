@@ -42,7 +42,7 @@ def told(number: float, floor: float) -> float:
     """The number to the digits above the floor's power of ten; below it 0."""
     if not (math.isfinite(number) and 0 < floor < math.inf):
         return number
-    return round(number, _digits(floor))
+    return round(number, _digits(floor)) + 0.0  # a zero has no sign: rounding alone decides it
 
 
 def told_uncertainty(number: float, floor: float) -> float:
