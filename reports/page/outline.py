@@ -10,7 +10,7 @@ import numpy as np
 from ...cases.point import CENTER
 from ...cases.trajectory import Array
 
-ROUND = 24  # corners of a circle
+ROUND = 72  # corners of a circle: on a large disk fewer are seen
 DIGITS = 4  # of a length: a picture has some hundred points
 CROSS = 0.08  # of what the motion reaches: the axes of a body that has neither shape nor points
 
