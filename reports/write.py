@@ -132,7 +132,7 @@ def read(path: Path, kind: type[Row]) -> list[Row]:
     run = _run(ending)
     if ending != footer(len(frame), run):
         raise ValueError(f"{path}: cut, or changed by hand: it ends in {ending!r}")
-    for name in NAMES:
+    for name in NAMES if path.name in NAMES else ():  # advice and versions are runs of their own
         other = path.with_name(name)
         if other.exists() and _run(_parted(other)[1]) != run:
             raise ValueError(f"{path}: of another run than {other.name} beside it: run both again")

@@ -39,7 +39,8 @@ def causes(
         for asked, cured in _searched(left, rungs, pairs, results):
             found |= {key_of(row): searched(asked, row, cured[row.quantity]) for row in asked.rows}
     last = NONE if search else UNSEARCHED
-    return [cause for row in off for cause in found.get(key_of(row), [without(row, last)])]
+    told = (cause for row in off for cause in found.get(key_of(row), [without(row, last)]))
+    return list(dict.fromkeys(told))  # two ways to the same set are one cause
 
 
 def _searched(

@@ -47,6 +47,7 @@ def test_out_and_keep_write_where_they_are_told(new: Path, tmp_path: Path) -> No
     )
     assert done.returncode == 0, done.stderr
     assert sorted(p.name for p in (tmp_path / "o").iterdir()) == [
+        "causes.csv",
         "convergence.csv",
         "coverage.csv",
         "events.csv",

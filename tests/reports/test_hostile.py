@@ -96,7 +96,7 @@ def test_a_stream_that_takes_nothing_costs_no_report(script: str, code: int, fol
     assert done.returncode == code
     assert "Traceback" not in done.stderr
     assert "Exception ignored" not in done.stderr
-    assert len(list((folder / "o").glob("*.csv"))) == 5
+    assert len(list((folder / "o").glob("*.csv"))) == 6
     assert ("the reports are in o" in done.stderr) == (code == 2)
 
 

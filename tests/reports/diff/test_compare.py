@@ -225,8 +225,8 @@ def test_rows_of_an_unknown_file_that_nothing_names_are_lost_and_new(tmp_path: P
 
 
 def test_a_file_of_one_folder_is_named(tmp_path: Path) -> None:
-    part = found(tmp_path, {}, {"further": {"causes.csv": CURES}})
-    assert (part.alone, part.changes) == (("causes.csv",), ())
+    part = found(tmp_path, {}, {"further": {"advice.csv": ADVICE}})
+    assert (part.alone, part.changes) == (("advice.csv",), ())
 
 
 ADVICE = pd.DataFrame(
