@@ -5,54 +5,28 @@ further step of a gait multiplies. So a foot stands on a `connect` to where it c
 strike is one impulse, from MuJoCo's own mass matrix and Jacobian.
 """
 
-from dataclasses import dataclass, field
+from collections.abc import Mapping
 
 import mujoco
 import numpy as np
-from scipy.optimize import brentq
 
 from ....cases.scene import Anchor, Scene
-from ....cases.trajectory import Array
 from ...stride import Stride, stride, strode
-
-_STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
-_ROOT = 4e-16  # s: as well as a time is known
-_SHORTEST = 1e-12  # of a step: what is left is rounding
+from .cut import Cut, Height
 
 Standing = dict[str, tuple[float, ...] | None]
 """By foot where it stands [m], or None."""
 
 
-@dataclass
-class Feet:
+class Feet(Cut[str]):
     """The feet of a scene in a model, and which of them stand."""
 
-    model: mujoco.MjModel
-    data: mujoco.MjData
-    stride: Stride
-    standing: Standing
-    kept: Array = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.kept = np.empty(mujoco.mj_stateSize(self.model, _STATE))
-
-    def step(self, step: float) -> None:
-        """One step [s], in as many parts as feet strike in it."""
-        left = step
-        while left > _SHORTEST * step:
-            self._look()
-            above = {name: y for name in self._swinging() if (y := self._height(name)) > 0.0}
-            mujoco.mj_getState(self.model, self.data, self.kept, _STATE)
-            self._take(left)
-            down = [name for name in above if self._height(name) <= 0.0]
-            if not down:
-                break
-            found = {name: self._root(name, above[name], left) for name in down}
-            first = min(found, key=found.__getitem__)
-            self._again(found[first])
-            self._strike(first)
-            left -= found[first]
-        self.model.opt.timestep = step
+    def __init__(
+        self, model: mujoco.MjModel, data: mujoco.MjData, stride: Stride, standing: Standing
+    ) -> None:
+        super().__init__(model, data)
+        self.stride, self.standing = stride, standing
+        self._above: dict[str, float] = {}  # how high [m] the swinging feet were as a part began
 
     def remember(self) -> Standing:
         """What a reading of this state needs."""
@@ -66,9 +40,15 @@ class Feet:
             if place is not None:
                 self.model.site_pos[self.model.site(name).id] = place
 
-    def _look(self) -> None:
+    def _begin(self) -> None:
         mujoco.mj_kinematics(self.model, self.data)
         self.stride.look(self._place)
+        self._above = {name: y for name in self._swinging() if (y := self._height(name)) > 0.0}
+
+    def _happens(self) -> Mapping[str, tuple[float, Height]]:
+        """Feet that came down."""
+        down = [name for name in self._above if self._height(name) <= 0.0]
+        return {name: (self._above[name], lambda name=name: self._height(name)) for name in down}
 
     def _swinging(self) -> list[str]:
         """The feet that the floor meets, and that do not stand on it."""
@@ -82,35 +62,17 @@ class Feet:
         return float(x), float(y)
 
     def _height(self, name: str) -> float:
+        mujoco.mj_kinematics(self.model, self.data)  # a step leaves places as they were
         return self._place(self.stride.feet[name].at)[1]
 
-    def _take(self, length: float) -> None:
-        self.model.opt.timestep = length
-        mujoco.mj_step(self.model, self.data)
-        mujoco.mj_kinematics(self.model, self.data)
-
-    def _again(self, length: float) -> None:
-        mujoco.mj_setState(self.model, self.data, self.kept, _STATE)
-        self._take(length)
-
-    def _root(self, name: str, above: float, longest: float) -> float:
-        """When the foot, now so high [m], is down, from the state that is kept [s]."""
-
-        def height(length: float) -> float:
-            if not length:
-                return above
-            self._again(length)
-            return self._height(name)
-
-        return float(brentq(height, 0.0, longest, xtol=_ROOT))
-
-    def _strike(self, name: str) -> None:
+    def _change(self, key: str) -> None:
         """The foot stands where it is, and the one behind is let go."""
-        foot = self.stride.feet[name]
+        mujoco.mj_kinematics(self.model, self.data)
+        foot = self.stride.feet[key]
         behind = next(n for n, other in self.stride.feet.items() if other.at == foot.ahead_of)
         place = (*self._place(foot.at), 0.0)
-        self.stride.meets = {**self.stride.meets, name: True, behind: False}
-        self.recall({**self.standing, name: place, behind: None})
+        self.stride.meets = {**self.stride.meets, key: True, behind: False}
+        self.recall({**self.standing, key: place, behind: None})
         stop(self.model, self.data)
 
 
