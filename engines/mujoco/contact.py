@@ -50,15 +50,15 @@ def worth(scene: Scene) -> list[str]:
 
 
 def _all_alone(scene: Scene) -> bool:
-    return not scene.pairs and all(alone(scene, contact) for contact in scene.touching.values())
+    return not scene.pairs and all(alone(scene, one) for one in touching(scene).values())
 
 
 def alone(scene: Scene, contact: Contact) -> bool:
     """Whether a disk or a particle touches, and nothing else holds it."""
     joined = (end.body for joint in scene.joints.values() for end in (joint.a, joint.b))
-    touching = [other.body for other in scene.touching.values()]
-    touching += [body for pair in scene.pairs.values() for body in (pair.body, pair.touched)]
-    once = touching.count(contact.body) == 1
+    met_by = [other.body for other in scene.touching.values()]
+    met_by += [body for pair in scene.pairs.values() for body in (pair.body, pair.touched)]
+    once = met_by.count(contact.body) == 1
     return contact.at.point == CENTER and once and contact.body not in joined
 
 

@@ -125,7 +125,7 @@ def slides(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> list[Sli
 def one_slide(scene: Scene) -> bool:
     """Whether friction can be told from outside: one joint, and no other force that gives way."""
     dry = [joint for joint in scene.joints.values() if joint.dry_friction is not None]
-    return len(dry) == 1 and not scene.pressed
+    return len(dry) == 1 and not scene.pressed and not any(scene.limits())
 
 
 def smooth_only(scene: Scene) -> bool:

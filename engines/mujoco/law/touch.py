@@ -149,6 +149,7 @@ def one_touch(scene: Scene) -> bool:
     return (
         len(contacts) == 1
         and not scene.pairs
+        and not any(scene.limits())
         and contacts[0].switches
         and contacts[0].plane.level  # else friction is no force along one of its coordinates
         and contacts[0].static != contacts[0].kinetic

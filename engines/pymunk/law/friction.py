@@ -46,11 +46,16 @@ def _two_bounds(contact: Contact) -> bool:
 
 
 def _only(scene: Scene, body: str) -> bool:
-    """Whether one joint or contact is all that holds the body."""
+    """Whether one joint or contact is all that holds the body, and no rope or stop ever does."""
     joints = [j for j in scene.joints.values() if body in (j.a.body, j.b.body)]
     pairs = [p for p in scene.pairs.values() if body in (p.body, p.touched)]
     contacts = [c for c in scene.contacts.values() if c.body == body]
-    return len(joints) + len(pairs) + len(contacts) == 1
+    limited = any(
+        body in (end.body for end in scene.ends(force))
+        for force in scene.forces.values()
+        if force.given
+    )
+    return len(joints) + len(pairs) + len(contacts) == 1 and not limited
 
 
 def _simple(scene: Scene, contact: Contact) -> bool:
