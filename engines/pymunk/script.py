@@ -105,6 +105,8 @@ def building(world: World, start: Start, numbers: Mapping[str, Any]) -> list[str
         *(f"{name} = {written(x)}" for name, x in numbers.items() if name.startswith("space.")),
         "ground = space.static_body",
         "bodies = {}",
+        *(["joints = []  # all that hold bodies"] if _kept(world) else []),
+        *(["limits = []  # ropes and stops, which give way"] if _limits(world) else []),
         *(["motors = {}"] if world.motors else []),
         *helpers(world.scene.laws()),
         *(["", *_CARRIED] if world.slots else []),
@@ -174,9 +176,18 @@ def _bodies(world: World) -> Iterator[str]:
         yield "space.add(body)"
 
 
+def _limits(world: World) -> dict[str, Constraint]:
+    return {**world.ropes, **world.stops}
+
+
+def _kept(world: World) -> bool:
+    """Whether a setting has joints to change."""
+    return bool(world.joints or _limits(world))
+
+
 def _owners(world: World, name: str) -> tuple[str, ...]:
     """Whose numbers a joint has."""
-    if name in world.ropes or name in world.stops:
+    if name in _limits(world):
         return "constraint", "limit"
     return ("constraint",) if name in world.joints else ()
 
@@ -203,6 +214,8 @@ def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
                 owner, _, attribute = key.partition(".")
                 if owner in _owners(world, name):
                     yield f"joint.{attribute} = {written(value)}"
+            lists = {"constraint": "joints", "limit": "limits"}
+            yield from (f"{lists[owner]}.append(joint)" for owner in _owners(world, name))
             if part is world.motors.get(name):
                 yield f"motors[{name!r}] = joint"
             if isinstance(part, PinJoint) and name in world.slots:

@@ -1,4 +1,7 @@
-"""Options as lines of Python, to paste after what builds `space`, `bodies`, `wheels`, `joints`."""
+"""Options as lines of Python, to paste after what builds the scene.
+
+It has `space`, `bodies`, `wheels`, `joints` and `limits`, as the script of `show` calls them.
+"""
 
 from collections.abc import Iterator, Sequence
 
@@ -22,7 +25,8 @@ def snippet(world: World, start: Start, choices: Sequence[Choice], step: float) 
         lines.append("for joint in joints:")
         lines += [f"    joint.{n.partition('.')[2]} = {written(x)}" for n, x in joints]
     if (eases := changed.get("limit.error_bias")) is not None:
-        lines += ["for joint in limits:", f"    joint.error_bias = {written(eases)}"]
+        lines.append("for joint in limits:  # ropes and stops")
+        lines.append(f"    joint.error_bias = {written(eases)}")
     if (seed := changed.get("start.seed")) and closed(world.scene, start):
         lines += seeds(world, start, seed)
     if changed.get("time.midpoint"):

@@ -45,7 +45,7 @@ def named_engines(beside: str = "") -> Callable[[Any], Any]:
     "--causes",
     is_flag=True,
     help="Search for what cures each row above its tolerance: the smallest sets of options between "
-    "shipped and tuned. It takes about half as long again; `make reports` does so.",
+    "shipped and tuned. It takes twice as long; `make reports` does so.",
 )
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default.")
 @click.option(

@@ -1,6 +1,8 @@
 """A user's own options stand on top of the shipped ones, and every mistake in them is named."""
 
 import math
+import re
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -150,3 +152,21 @@ def test_own_options_stand_on_top_of_the_shipped_ones(name: str) -> None:
         for engine in (engines.make(name, "own", options), SHIPPED[name])
     )
     assert own == shipped | changed
+
+
+def known(name: str, **option: Any) -> list[str]:
+    """What a wrong option's message says that there is."""
+    with pytest.raises(ValueError, match="known: ") as caught:
+        engines.make(name, "own", option)
+    return str(caught.value).rpartition("known: ")[2].split(", ")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_readme_names_every_option(name: str) -> None:
+    text = (Path(engines.__file__).parent / "README.md").read_text(encoding="utf-8")
+    table = text.partition(f"| {name} | |")[2].partition("\n\n")[0]
+    for option in known(name, xyzzy=1):
+        assert f"`{option}" in table, option
+    for group in ("connect", "rod", "pair", "joint", "tendon") if name == "mujoco" else ():
+        said = ", ".join(re.findall(rf"`{group}: {{(.*?)}}`", table)).split(", ")
+        assert set(said) == set(known(name, **{group: {"xyzzy": 1}})), group

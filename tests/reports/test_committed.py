@@ -180,7 +180,6 @@ def test_the_readme_shows_the_reports() -> None:
     assert readme.README.read_text(encoding="utf-8") == readme.current()
 
 
-@pytest.mark.skipif(not PAGE.is_file(), reason="no page is committed: `textmech page` writes it")
 def test_the_page_shows_the_reports() -> None:
     """The same bytes, of the committed rows and of the motions that the page itself carries."""
     text = PAGE.read_text(encoding="utf-8")
@@ -189,7 +188,6 @@ def test_the_page_shows_the_reports() -> None:
 
 
 @pytest.mark.whole
-@pytest.mark.skipif(not PAGE.is_file(), reason="no page is committed: `textmech page` writes it")
 def test_the_motions_of_the_page_are_current(report: Report) -> None:
     now, before = motions(report), motions_of(PAGE.read_text(encoding="utf-8"))
     assert set(now) == set(before)

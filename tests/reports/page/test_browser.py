@@ -153,7 +153,6 @@ def test_places_turn_with_their_part(tab: Tab, page: str) -> None:
         assert found == pytest.approx(centre + turned(q, place))
 
 
-@pytest.mark.skipif(not COMMITTED.is_file(), reason="no page is committed: `textmech page` does it")
 def test_every_committed_case_opens(tab: Tab) -> None:
     tab.errors.clear()
     tab.open(COMMITTED.as_uri(), width=390, prefers_reduced_motion="reduce")
