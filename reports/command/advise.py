@@ -39,7 +39,8 @@ if TYPE_CHECKING:
 @click.option(
     "--robust",
     is_flag=True,
-    help="Try the recipe with six draws of the case's parameters, each up to 10 % off.",
+    help="Try the recipe with six draws of the case's parameters, each up to 10 % off; "
+    "those with a unit of their own, such as angles in degrees, stay as they are.",
 )
 @click.option(
     "--all", "every", is_flag=True, help="All shipped cases, and no fronts: what advice.csv holds."
