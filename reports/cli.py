@@ -14,9 +14,10 @@ from .command.check import check
 from .command.diff import diff
 from .command.done import done
 from .command.list import list_
+from .command.options import allow_long
 from .command.page import page
 from .command.plot import plot
-from .command.run import allow_long, run
+from .command.run import run
 from .command.versions import versions
 from .show.say import prepare, say, tell
 

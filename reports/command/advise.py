@@ -1,22 +1,17 @@
 """`textmech advise`."""
 
-import json
 import warnings
 from dataclasses import asdict
-from math import inf
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import click
 
 from ...cases.mistake import CaseError
 from ..show.say import say, tell
+from .answer import as_json
 from .done import finished
 from .folder import Folder
-from .run import allow_long, named_engines
-
-if TYPE_CHECKING:
-    from ..row import Advice
+from .options import allow_long, jobs, named_engines, no_cache
 
 
 @click.command()
@@ -51,9 +46,9 @@ if TYPE_CHECKING:
     help="Write advice.csv there; with --all by default to the committed reports of a checkout, "
     "and outside of one to ./textmech-reports.",
 )
-@click.option("--json", "as_json", is_flag=True, help="Print rows as JSON, for scripts.")
-@click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default.")
-@click.option("--no-cache", is_flag=True, help="Compute everything anew.")
+@jobs
+@no_cache
+@as_json
 @allow_long
 def advise(
     cases: tuple[str, ...],
@@ -63,9 +58,9 @@ def advise(
     robust: bool,
     every: bool,
     out: Path | None,
-    as_json: bool,
     jobs: int | None,
     no_cache: bool,
+    wants_json: bool,
     allow_long: bool,
 ) -> None:
     """Which setting does a CASE need?
@@ -85,13 +80,13 @@ def advise(
     from ..search.advised import Asked, row
     from ..search.session import advised
     from ..selection import choose_cases, choose_engines
-    from ..show import progress
+    from ..show import document, progress
     from ..show.advice import told
     from ..trial.work import too_long
 
     if bool(cases) == every:
         raise click.UsageError("name a CASE, or say --all")
-    if every and out is None and not as_json:
+    if every and out is None and not wants_json:
         out = Folder().convert(str(write.by_default()), None, None)
     chosen = choose_cases(cases, long=allow_long)
     with warnings.catch_warnings():
@@ -100,17 +95,17 @@ def advise(
     if long := too_long(chosen, engines):
         raise CaseError(long)
     used = None if no_cache else store.usable()
-    asked = Asked(tolerance, margin, front=not (every or as_json), robust=robust)
+    asked = Asked(tolerance, margin, front=not (every or wants_json), robust=robust)
     with (
         progress.progress() as shown,
         finished(used is not None),
         advised(chosen, engines, asked, jobs=jobs, progress=shown, store=used) as found,
     ):
         rows = [row(one) for one in found]
-        if as_json:
+        if wants_json:
             draws = [{} if one.draws is None else asdict(one.draws) for one in found]
-            as_told = [_plain(one) | more for one, more in zip(rows, draws, strict=True)]
-            say(json.dumps(as_told, indent=1))
+            told_rows = [asdict(one) | more for one, more in zip(rows, draws, strict=True)]
+            document.write({"advice": told_rows, "exit_code": 0})
         elif not every:
             for one in found:
                 for line in told(one):
@@ -118,8 +113,3 @@ def advise(
     if out is not None:
         write.advice(rows, out)
         tell(f"{len(rows)} rows written to {out / write.ADVICE}")
-
-
-def _plain(one: "Advice") -> dict[str, Any]:
-    """As JSON has it: it knows no infinity."""
-    return {k: None if v in (inf, -inf) else v for k, v in asdict(one).items()}

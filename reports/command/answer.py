@@ -8,6 +8,7 @@ import click
 
 from ...cases.mistake import CaseError
 
+FAILED = 1
 BAD_INPUT = 2
 
 

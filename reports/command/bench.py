@@ -5,7 +5,8 @@ import warnings
 import click
 
 from ..show.say import say
-from .run import FAILED, allow_long, named_cases, named_engines
+from .answer import FAILED
+from .options import allow_long, named_cases, named_engines
 
 
 @click.command(short_help="What our adapters cost over the bare engines.")

@@ -9,8 +9,9 @@ import click
 
 from ...cases.mistake import CaseError
 from ..show.say import say
+from .answer import BAD_INPUT, as_json
 from .done import finished
-from .run import allow_long, named_engines
+from .options import allow_long, jobs, named_engines, no_cache
 
 if TYPE_CHECKING:
     from ..row import Cause
@@ -19,14 +20,16 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("cases", nargs=-1, required=True, metavar="CASE...")
 @named_engines()
-@click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default.")
-@click.option("--no-cache", is_flag=True, help="Compute everything anew.")
+@jobs
+@no_cache
+@as_json
 @allow_long
 def causes(
     cases: tuple[str, ...],
     names: tuple[str, ...],
     jobs: int | None,
     no_cache: bool,
+    wants_json: bool,
     allow_long: bool,
 ) -> None:
     """Why is a CASE off? For each quantity above its tolerance, what brings it within.
@@ -38,7 +41,7 @@ def causes(
     from .. import pool, suite
     from ..cache import store
     from ..selection import choose_cases, choose_engines
-    from ..show import progress
+    from ..show import document, progress
     from ..trial.work import too_long
 
     chosen = choose_cases(cases, long=allow_long)
@@ -58,6 +61,10 @@ def causes(
             causes=True,
             store=used,
         )
+    if wants_json:
+        code = BAD_INPUT if report.mistakes else 0
+        document.write(document.of_causes(report.causes, report.mistakes, exit_code=code))
+        raise click.exceptions.Exit(code)
     _print(report.causes)
     if report.mistakes:
         raise CaseError(report.mistakes)

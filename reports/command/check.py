@@ -9,8 +9,8 @@ import click
 
 from ...cases.mistake import CaseError, Mistake
 from ..show.say import say
-from .answer import BAD_INPUT, as_json
-from .run import FAILED, allow_long
+from .answer import BAD_INPUT, FAILED, as_json
+from .options import allow_long
 
 if TYPE_CHECKING:
     from ...engines.engine import Engine

@@ -8,8 +8,7 @@ from typing import Any
 import click
 
 from ..show.say import say
-from .answer import as_json
-from .run import FAILED
+from .answer import FAILED, as_json
 
 COMMITTED = Path(__file__).parents[1]
 

@@ -1,8 +1,10 @@
 """What a command measures in order to show it: the cases and engines that were named."""
 
 from collections.abc import Sequence
+from concurrent.futures import Executor
 from typing import TYPE_CHECKING
 
+from ...cases.mistake import CaseError, Mistake
 from ..show.say import tell
 
 if TYPE_CHECKING:
@@ -17,9 +19,12 @@ def looked_at(
     jobs: int | None = None,
     cached: bool = True,
     long: bool = False,
+    causes: bool = False,
+    executor: Executor | None = None,
 ) -> "Report":
     """From the store what has not changed, and with progress what has to be run.
 
+    causes: whether they are searched for; executor: what works instead of processes of our own.
     A file with mistakes is left out: `mistakes` of the report tells them. Raises CaseError where
     nothing is left.
     """
@@ -32,6 +37,8 @@ def looked_at(
 
     found, mistakes = sound_cases(words, long=long)
     wanted = asked(found, names, settings, mistakes=mistakes, named=bool(words), long=long)
+    if wanted.mistakes:
+        tell(left_out(wanted.mistakes))
     for warning in wanted.warnings:
         tell(warning)
     used = store.usable() if cached else None
@@ -42,7 +49,18 @@ def looked_at(
             jobs=jobs or pool.workers(),
             progress=shown,
             book=wanted.book,
+            causes=causes,
             store=used,
+            executor=executor,
         )
+    if used is not None:
+        used.trim()
     report.mistakes[:0] = wanted.mistakes
     return report
+
+
+def left_out(mistakes: Sequence[Mistake]) -> str:
+    """All of them, and how many files have some."""
+    files = len({mistake.file for mistake in mistakes})
+    what = "1 file has mistakes and is" if files == 1 else f"{files} files have mistakes and are"
+    return f"{CaseError(mistakes)}\n{what} left out"

@@ -6,9 +6,10 @@ import click
 
 from ...cases.mistake import CaseError
 from ..show.say import say, tell
+from .answer import BAD_INPUT
 from .folder import Folder
 from .looking import looked_at
-from .run import BAD_INPUT, allow_long, named_cases, named_engines
+from .options import allow_long, jobs, named_cases, named_engines, no_cache, own_settings
 
 OWN = Path("textmech-page")  # of what was named: the committed reports are of everything
 
@@ -16,21 +17,15 @@ OWN = Path("textmech-page")  # of what was named: the committed reports are of e
 @click.command()
 @named_cases
 @named_engines("book; ")
-@click.option(
-    "--settings",
-    multiple=True,
-    metavar="shipped|tuned|FILE",
-    help="Only this setting; a FILE of your own engine options is a further column, with its name. "
-    "May be repeated.",
-)
-@click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default.")
+@own_settings("is a further column, with its name")
+@jobs
 @click.option(
     "--out",
     type=Folder(),
     help="Where to write index.html. By default beside the reports of all cases; of cases, engines "
     "or settings that are named, ./textmech-page, with their reports.",
 )
-@click.option("--no-cache", is_flag=True, help="Run everything anew.")
+@no_cache
 @allow_long
 def page(
     cases: tuple[str, ...],

@@ -8,7 +8,7 @@ import click
 from ...cases.mistake import CaseError, nearest
 from ..show.say import say
 from .looking import looked_at
-from .run import allow_long, named_engines
+from .options import allow_long, named_engines
 
 if TYPE_CHECKING:
     from ..suite import Report

@@ -9,7 +9,7 @@ import click
 from ..show.say import say, tell
 from .done import DONE
 from .folder import Folder
-from .run import allow_long
+from .options import allow_long, jobs, own_settings
 
 CASES = (
     *("bar_pendulum", "double_pendulum", "four_bar", "slider_crank"),
@@ -20,13 +20,8 @@ CASES = (
 
 @click.command()
 @click.argument("words", nargs=-1, metavar="ENGINE==VERSION... [CASES]...")
-@click.option(
-    "--settings",
-    multiple=True,
-    metavar="shipped|tuned|FILE",
-    help="Only this setting; a FILE of your own engine options is a further one.",
-)
-@click.option("--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default.")
+@own_settings("is a further one")
+@jobs
 @click.option(
     "--out", type=Folder(), help="A folder for versions.csv: all numbers, and what moved."
 )

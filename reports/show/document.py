@@ -10,6 +10,7 @@ from typing import Any
 from ...cases.case import Case
 from ...cases.find import questions
 from ...cases.mistake import Mistake
+from ..row import Cause
 from ..suite import Report
 from .say import say
 from .summary import Cures, approximations, summary
@@ -39,10 +40,17 @@ def of_run(
         "convergence": [asdict(row) for row in report.rungs],
         "events": [asdict(row) for row in report.instants],
         "reference": [asdict(row) for row in report.certificates],
+        "causes": [asdict(row) for row in report.causes],
         "mistakes": mistakes(wrong),
         "written": None if written is None else str(written),
         "exit_code": exit_code,
     }
+
+
+def of_causes(causes: Sequence[Cause], wrong: Sequence[Mistake], *, exit_code: int) -> Document:
+    """Of `textmech causes`."""
+    found = [asdict(cause) for cause in causes]
+    return {"causes": found, "mistakes": mistakes(wrong), "exit_code": exit_code}
 
 
 def of_cases(cases: Sequence[Case]) -> Document:

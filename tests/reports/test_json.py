@@ -45,6 +45,7 @@ def test_a_run_tells_all_its_rows(new: Path, tmp_path: Path) -> None:
         "convergence",
         "events",
         "reference",
+        "causes",
         "mistakes",
         "written",
         "exit_code",
@@ -89,7 +90,15 @@ def test_one_of_two_files_is_left_out_and_the_other_is_told(new: Path) -> None:
     assert [mistake["file"] for mistake in found["mistakes"]] == [str(other)]
 
 
-@pytest.mark.parametrize("words", [("run", "four_bra"), ("run", "four_bar", "--engine", "mojoco")])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("run", "four_bra"),
+        ("run", "four_bar", "--engine", "mojoco"),
+        ("causes", "four_bra"),
+        ("advise", "four_bra"),
+    ],
+)
 def test_a_wrong_word_is_in_it(words: tuple[str, ...]) -> None:
     (mistake,) = document(*words)["mistakes"]
     assert "did you mean" in mistake["what"]

@@ -27,6 +27,18 @@ def test_causes_of_ones_own_case(new: Path) -> None:
 
 
 @pytest.mark.whole
+def test_causes_for_scripts(new: Path) -> None:
+    words = (new, "--json", "--no-cache")
+    done, run = process("causes", *words), process("run", "--causes", *words)
+    found = json.loads(done.stdout)
+    assert (found["mistakes"], found["exit_code"]) == ([], 0)
+    assert {"case": "cart", "engine": "pymunk", "setting": "shipped"}.items() <= found["causes"][
+        -1
+    ].items()
+    assert json.loads(run.stdout)["causes"] == found["causes"]
+
+
+@pytest.mark.whole
 def test_what_is_advised_for_ones_own_case_keeps_its_promise(new: Path) -> None:
     """The printed settings, pasted into a file, bring every row within its tolerance."""
     done = process("advise", new, "--engine", "pymunk", "--no-cache", folder=new.parent)
@@ -46,7 +58,9 @@ def test_scripts_read_rows(new: Path, tmp_path: Path) -> None:
     done = process(
         "advise", new, "--json", "--out", tmp_path / "out", "--no-cache", folder=new.parent
     )
-    rows = {row["engine"]: row for row in json.loads(done.stdout)}
+    found = json.loads(done.stdout)
+    assert found["exit_code"] == 0
+    rows = {row["engine"]: row for row in found["advice"]}
     assert set(rows) == {"mujoco", "pymunk"}
     assert all(0 < row["worst"] <= 0.5 for row in rows.values())
     written = write.read(tmp_path / "out" / write.ADVICE, Advice)
