@@ -59,7 +59,8 @@ class Comparisons:
     """What engines make of cases: the frames of the reports of the same names.
 
     summary: of each case and engine the worst quantity over what is allowed, and what agrees.
-    fails: whether a verdict is FAILS.
+    causes: what cures each row above its tolerance, as far as it was asked for. fails: whether a
+    verdict is FAILS.
     """
 
     summary: pd.DataFrame
@@ -67,6 +68,7 @@ class Comparisons:
     convergence: pd.DataFrame
     events: pd.DataFrame
     reference: pd.DataFrame
+    causes: pd.DataFrame
     fails: bool
 
 
@@ -111,6 +113,7 @@ def run(
     engines: Sequence[str] = (),
     settings: Sequence[str] = (),
     options: Mapping[str, Mapping[str, Any]] | None = None,
+    causes: bool = False,
     jobs: int | None = None,
     cache: bool = True,
     progress: Progress = lambda *_: None,
@@ -119,7 +122,8 @@ def run(
 
     engines: as `mujoco`, `mujoco.tuned`, `book`; all for none. settings: `shipped`, `tuned`, or
     files of own options. options: own ones as a mapping, `{"mujoco": {"integrator": "RK4"}}`, which
-    are the setting `own`. cache: whether results are kept and found again as the command's are.
+    are the setting `own`. causes: whether they are searched for, which takes as long again. cache:
+    whether results are kept and found again as the command's are.
 
     Raises CaseError with all mistakes, of the cases and of the rest.
     """
@@ -133,6 +137,7 @@ def run(
         jobs=jobs or pool.workers(),
         progress=progress,
         book=wanted.book,
+        causes=causes,
         store=store,
     )
     if mistakes := [*wanted.mistakes, *report.mistakes]:
@@ -144,6 +149,7 @@ def run(
         convergence=frames["convergence"],
         events=frames["events"],
         reference=frames["reference"],
+        causes=frames["causes"],
         fails=report.fails,
     )
 

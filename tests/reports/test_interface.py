@@ -78,6 +78,14 @@ def test_run_gives_the_reports_as_frames(swing: Path) -> None:
     assert (found.reference.verdict == "holds").all()
 
 
+def test_run_tells_why_where_it_is_asked(swing: Path) -> None:
+    found = run(swing, engines=["pymunk.shipped"], causes=True).causes
+    rows = found[found.quantity == "rod.angle"]
+    assert len(rows)
+    assert (rows.error_after <= rows.allow).all()
+    assert (rows.error_before > rows.allow).all()
+
+
 @pytest.mark.parametrize(
     ("ask", "words"),
     [
