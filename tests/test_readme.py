@@ -101,6 +101,8 @@ def test_the_first_command_prints_what_stands_below_it() -> None:
         ("run", ["my_case.yaml", "--engine", "mujoco.tuned"]),
         ("check", ["my_case.yaml"]),
         ("list", ["four_bar"]),
+        ("causes", ["my_case.yaml", "--engine", "pymunk"]),
+        ("advise", ["my_case.yaml", "--engine", "pymunk"]),
         ("any, if it ends before that", ["run", "my_cse.yaml"]),
     ],
 )
