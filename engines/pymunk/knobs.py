@@ -27,7 +27,7 @@ def knobs(scene: Scene, start: Start) -> list[Knob]:
     if "iterations" in tuned:
         found.append(_sweeps(tuned))
     if "limit_bias" in tuned:
-        eases = _number("limit_bias", tuned["limit_bias"])
+        eases = Value("limit_bias by the scene", {"limit_bias": tuned["limit_bias"]})
         found.append(Knob("limit_bias", (eases,), eases))
     return [*found, *_contacts(tuned), *_slots(tuned)]
 

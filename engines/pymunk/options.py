@@ -42,7 +42,7 @@ _NUMBERS = {
     "collision_persistence": _Number(1, 1e6, whole=True),
     "seed": _Number(0, 1e-3),  # deeper, what touches would be thrown out
     "start_iterations": _Number(1, 1e6, whole=True, scene=True),
-    "limit_bias": _Number(0, 1),
+    "limit_bias": _Number(0, 1, scene=True),
 }
 _SWITCHES = ("midpoint", "across", "reflects")
 _NAMES = (*_NUMBERS, *_SWITCHES)

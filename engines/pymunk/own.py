@@ -10,6 +10,7 @@ from .contact import is_tip
 from .holding import Holding, holding
 from .options import BY_THE_SCENE, PROTOCOL, full
 from .recipe import recipe
+from .rope import eases
 from .scene import oblique
 from .settings import DEFAULT, defaults
 
@@ -26,20 +27,27 @@ class Own:
 
     def __call__(self, step: float) -> Sequence[Choice]:
         """The numbers for a step [s]."""
-        told = {choice.name: choice for choice in (self.held.choices(step) if self.held else ())}
+        left = (*(self.held.choices(step) if self.held else ()), eases(step))
+        told = {choice.name: choice for choice in left}
         asked = {name: told[name] for name in self.by_scene if name in told}
         return list(({choice.name: choice for choice in self.always} | asked).values())
 
     @property
+    def biased(self) -> bool:
+        """Whether the bias of joints follows the step."""
+        left = "constraint.error_bias" in self.by_scene
+        return left and self.held is not None and self.held.biased
+
+    @property
     def follows(self) -> bool:
         """Whether a number follows the step."""
-        biased = self.held is not None and self.held.biased
-        return biased and "constraint.error_bias" in self.by_scene
+        return self.biased or "limit.error_bias" in self.by_scene
 
 
 def own(options: Mapping[str, Any], scene: Scene, start: Start) -> Own:
     """With a rehearsal, if an option leaves its number to the scene."""
-    by_scene = [full(name) for name, value in options.items() if value == BY_THE_SCENE]
+    left = [full(name) for name, value in options.items() if value == BY_THE_SCENE]
+    by_scene = [name for name in left if _matters(name, scene)]
     always = (*_shipped(scene, options), *_around(scene, options))
     return Own(always, tuple(by_scene), holding(scene, start) if by_scene else None)
 
@@ -80,8 +88,9 @@ def as_options(scene: Scene, start: Start) -> dict[str, Any]:
     """The tuned recipe as own options; what it finds in the scene is left to the scene."""
     best = recipe(scene, start)
     named = {name: option for option, name in PROTOCOL.items()}
-    choices = (*best.always, *best.limits)
-    found = {named.get(c.name, c.name.partition(".")[2]): c.value for c in choices}
+    found = {named.get(c.name, c.name.partition(".")[2]): c.value for c in best.always}
+    if best.limited:
+        found["limit_bias"] = BY_THE_SCENE
     if best.held is None:
         return found
     found |= dict.fromkeys(("iterations", "start_iterations"), BY_THE_SCENE)

@@ -63,7 +63,7 @@ def named(choices: Sequence[Choice]) -> dict[str, Any]:
 def _second(scene: Scene, realised: Realised, numbers: Numbers) -> bool:
     """Whether errors are of second order: by the midpoint protocol, with whole gaps closed."""
     known = named(numbers(NOMINAL))
-    closes = not scene.joints or numbers.follows or known.get("constraint.error_bias") == 0.0
+    closes = not scene.joints or numbers.biased or known.get("constraint.error_bias") == 0.0
     touches = not scene.pressed or bool(known.get("start.seed"))
     midpoint = bool(known.get("time.midpoint"))
     return midpoint and closes and touches and not _spoilt(scene, realised)

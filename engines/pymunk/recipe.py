@@ -11,7 +11,7 @@ from ...cases.scene import GROUND, Contact, Scene, Vector
 from ..engine import Choice, Start
 from .contact import is_tip
 from .holding import Holding, holding
-from .rope import EASES
+from .rope import eases
 from .scene import oblique
 
 _MIDPOINT = Choice(
@@ -78,16 +78,24 @@ class Recipe:
 
     always: tuple[Choice, ...]
     held: Holding | None
-    limits: tuple[Choice, ...] = ()  # behind what holds joints, which they are too
+    limited: bool  # whether there are ropes or stops
 
     def __call__(self, step: float) -> Sequence[Choice]:
         """The numbers for a step [s]."""
-        return [*self.always, *(self.held.choices(step) if self.held else []), *self.limits]
+        limits = (
+            [eases(step)] if self.limited else []
+        )  # behind what holds joints: they are some too
+        return [*self.always, *(self.held.choices(step) if self.held else []), *limits]
+
+    @property
+    def biased(self) -> bool:
+        """Whether the bias of joints follows the step."""
+        return self.held is not None and self.held.biased
 
     @property
     def follows(self) -> bool:
         """Whether a number follows the step."""
-        return self.held is not None and self.held.biased
+        return self.biased or self.limited
 
 
 def recipe(scene: Scene, start: Start) -> Recipe:
@@ -106,8 +114,7 @@ def recipe(scene: Scene, start: Start) -> Recipe:
         always += [_LANDING] if all(_rises(scene, contact) for contact in stays) else []
     if any(oblique(scene, joint) for joint in scene.joints.values()):
         always.append(_ACROSS)
-    limits = (EASES,) if any(scene.limits()) else ()
-    return Recipe(tuple(always), holding(scene, start), limits)
+    return Recipe(tuple(always), holding(scene, start), any(scene.limits()))
 
 
 def _across(a: Vector, b: Vector) -> float:
