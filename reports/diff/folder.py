@@ -13,6 +13,8 @@ from .files import FILES
 from .scope import Scope
 from .table import Table, read
 
+NO_RESULTS = ("mutants.csv",)  # a list of the project's tests, which no run writes or changes
+
 
 @dataclass(frozen=True)
 class Folder:
@@ -64,7 +66,7 @@ def _opened(name: str, path: Path) -> Folder:
         raise CaseError([Mistake(str(path), 0, 0, "", f"{what}; a report is one, with its *.csv")])
     with suppress(OSError):  # what an interrupted run decided and could not finish
         settle(path)
-    files = sorted(path.glob("*.csv"))
+    files = sorted(file for file in path.glob("*.csv") if file.name not in NO_RESULTS)
     if not (path / ERRORS.name).exists():
         what = f"is no report: it has no {ERRORS.name}; `textmech run --out FOLDER` writes one"
         raise CaseError([Mistake(str(path), 0, 0, "", what)])

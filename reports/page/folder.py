@@ -15,6 +15,8 @@ BESIDE = {
     "versions.csv": "textmech versions",
 }
 """What may stand beside the reports, and which command writes it."""
+MUTANTS = "mutants.csv"
+"""What the project's own tests plant. No command writes it, and beside a user's reports is none."""
 
 
 class Missing(Exception):
@@ -54,7 +56,7 @@ def folder(path: Path, beside: Path | None = None) -> Folder:
         beside={
             name: _text(place / name)
             for place in places
-            for name in BESIDE
+            for name in (*BESIDE, MUTANTS)
             if (place / name).is_file()
         },
         run=(path / NAMES[0]).read_text(encoding="utf-8").rstrip().rpartition(" of run ")[2],

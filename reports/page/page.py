@@ -13,10 +13,11 @@ from ...cases.case import Case
 from . import beside
 from .advice import advice
 from .column import Column, columns
-from .folder import BESIDE, Folder
+from .folder import BESIDE, MUTANTS, Folder
 from .heat import SHADES, Cell, cells
 from .listed import listed
 from .motions import Motion
+from .mutants import mutants
 from .overview import overview
 from .rows import rows
 from .stick_slip import stick_slip
@@ -57,6 +58,7 @@ def page(folder: Folder, cases: Sequence[Case], motions: Mapping[str, Motion]) -
         stick_slip=stick_slip(told, motions),
         files=listed(told, shown, found, about),
         trust=trust(folder),
+        mutants=mutants(folder.beside.get(MUTANTS)),
         style=_text(f"{name}.css" for name in STYLES),
         script=_text(f"{name}.js" for name in SCRIPTS),
         motions=embedded(motions),

@@ -94,6 +94,7 @@ def turned(power: Callable[[Any, Motion], Any]) -> Callable[[Any, Motion], Any]:
     return lambda of, motion: -power(of, motion)
 
 
+@pytest.mark.mutant("power of a {kind.name} with the wrong sign")
 @pytest.mark.whole
 @pytest.mark.parametrize(("kind", "name"), LOST.items(), ids=lambda x: getattr(x, "__name__", x))
 def test_a_power_of_the_wrong_sign_is_seen(
@@ -124,6 +125,7 @@ allow: {spin.work: 1.0e-2}
 """
 
 
+@pytest.mark.mutant("power of a Torque with the wrong sign")
 @pytest.mark.parametrize("scene", [SPUN, SPUN_IN_SPACE], ids=["plane", "space"])
 def test_a_torque_does_what_the_energy_of_the_turn_gains(
     scene: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -49,6 +49,7 @@ def test_the_reference_s_are_the_rates_of_its_velocities(tmp_path: Path) -> None
     assert off(tmp_path) < 1e-7  # measured 2.4e-8: the h⁴ of the differences
 
 
+@pytest.mark.mutant("accelerations 1 % too small")
 def test_a_lost_term_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     sound = bodies.accelerations
 
@@ -73,6 +74,7 @@ def test_mujoco_s_are_the_reference_s(tmp_path: Path) -> None:
     assert apart(tmp_path) < 1e-5  # measured 2e-7, of 40 m/s²
 
 
+@pytest.mark.mutant("ax read for ay")
 def test_mujoco_s_weight_is_no_acceleration(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

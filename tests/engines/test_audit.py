@@ -198,6 +198,7 @@ WRONG_IN_SPACE: Mapping[str, Callable[[Any], Scene]] = {
 }
 
 
+@pytest.mark.mutant("{what} in {name} not that of the scene")
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("what", WRONG)
 def test_the_audit_sees(what: str, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -209,6 +210,7 @@ def test_the_audit_sees(what: str, name: str, monkeypatch: pytest.MonkeyPatch) -
     assert what in because
 
 
+@pytest.mark.mutant("{what} in mujoco, in space, not that of the scene")
 @pytest.mark.parametrize("what", WRONG_IN_SPACE)
 def test_the_audit_sees_in_space(what: str, monkeypatch: pytest.MonkeyPatch) -> None:
     given_another(IN_SPACE, WRONG_IN_SPACE[what], monkeypatch)

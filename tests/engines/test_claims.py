@@ -94,6 +94,7 @@ def test_pymunk_says_what_it_does_not_know(tmp_path: Path) -> None:
     }
 
 
+@pytest.mark.mutant("{name}: mass of a body 5 % off in the engine alone")
 @pytest.mark.parametrize("name", scenes.CLAIMS)
 @pytest.mark.parametrize("engine", [MUJOCO, PYMUNK], ids=words)
 def test_an_engine_with_another_mass_is_seen(engine: Engine, name: str) -> None:
@@ -115,6 +116,11 @@ def test_an_engine_with_another_mass_is_seen(engine: Engine, name: str) -> None:
         assert np.max(np.abs(trial.read(q, good[q]) - trial.wanted(q))) <= (case.allow[q] or 0.0), q
 
 
+@pytest.mark.mutant(
+    "a place 1e-6 rad off in the engine alone",
+    "a rate 1e-6 rad/s off in the engine alone",
+    "an acceleration 1e-6 rad/s² off in the engine alone",
+)
 @pytest.mark.parametrize("number", [0, 1, 2], ids=["place", "rate", "acceleration"])
 def test_an_engine_at_another_state_is_seen(number: int) -> None:
     case = scenes.CLAIMS["robot_states"]

@@ -59,6 +59,7 @@ def test_every_step_can_be_kept(law: str) -> None:
     assert np.array_equal(every(other).states["cart"][::100], one.states["cart"])
 
 
+@pytest.mark.mutant("a {law} of a force inside a step that is not cut")
 @pytest.mark.parametrize("law", ["step", "pulse"])
 def test_a_force_sampled_inside_the_step_is_seen(law: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Corners, "_touched", lambda self: iter(()))

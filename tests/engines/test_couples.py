@@ -90,6 +90,9 @@ def backward(tell: Callable[..., Any]) -> Callable[..., Any]:
     return told
 
 
+@pytest.mark.mutant(
+    "a couple without its opposite in mujoco", "a couple on the wrong bodies in pymunk"
+)
 @pytest.mark.parametrize("engine", STEP)
 def test_a_lost_or_turned_opposite_is_seen(
     engine: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -73,8 +73,7 @@ def test_block_under_a_growing_force(name: str, way: Realised) -> None:
     engine, scene = TUNED[name], guided(GROWING)
     wanted = ("guide.friction",)
     run = moved(engine, scene, RESTS, EIGHT, STEPS[name], realised=way, reactions=wanted)
-    x = run.states["block"][:, X]
-    assert np.abs(x - growing(EIGHT)).max() < NEAR[name, way].growing
+    assert np.abs(run.states["block"][:, X] - growing(EIGHT)).max() < NEAR[name, way].growing
     if "guide.friction" in planned(engine, scene, RESTS, way).withheld:
         assert not run.reactions
         return
@@ -97,6 +96,7 @@ def test_it_slips_inside_a_step(name: str, way: Realised, b: float) -> None:
     assert np.abs(x - growing(EIGHT, b)).max() < bound
 
 
+@pytest.mark.mutant("stiction that holds to the end of its step")
 def test_a_step_that_holds_to_its_end_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     """3 N too much for a part s = 0.8 or 0.4 of a step; with b = 1 N/s there is no such part."""
 

@@ -52,6 +52,7 @@ def test_these_are_the_ways(engine: str, ends: str, tmp_path: Path) -> None:
     assert ways(TUNED[engine], case.scene, start) == ("native", *ours)
 
 
+@pytest.mark.mutant("dry friction of a pin that forgets which part is counted")
 def test_mutant_that_forgets_which_part_is_counted(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -54,6 +54,7 @@ def test_a_walker_takes_six_steps(k: int, name: str) -> None:
     assert found[1] < NEAR[name][k][1]
 
 
+@pytest.mark.mutant("a floor that meets the swinging foot in {name}")
 @pytest.mark.parametrize("name", TUNED)
 def test_a_floor_that_meets_every_foot_is_seen(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Midway the swinging foot would be stopped."""
@@ -65,6 +66,11 @@ def test_a_floor_that_meets_every_foot_is_seen(name: str, monkeypatch: pytest.Mo
     assert max(off(TUNED[name], 1e-3)) > 0.1
 
 
+@pytest.mark.mutant(
+    "a strike without an impulse",
+    "a strike after which both feet stand",
+    "a strike that stops everything",
+)
 @pytest.mark.parametrize("mistake", ["no impulse", "both stand", "of rest"])
 def test_a_strike_that_is_no_impulse_of_one_foot_is_seen(
     mistake: str, monkeypatch: pytest.MonkeyPatch

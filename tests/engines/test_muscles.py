@@ -38,6 +38,7 @@ def test_the_state_is_of_the_engine_s_order(engine: str, order: int) -> None:
     assert math.log2(apart(engine, 2 * h) / apart(engine, h)) == pytest.approx(order, abs=0.1)
 
 
+@pytest.mark.mutant("muscle in {engine}: {planted} of its inner state")
 @pytest.mark.parametrize("engine", STEPS)
 @pytest.mark.parametrize("planted", ["a rate of the other sign", "no rate", "another start"])
 def test_a_planted_mistake_is_seen(

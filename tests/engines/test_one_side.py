@@ -92,6 +92,7 @@ def test_every_step_of_the_driver_is_recorded(both: Moving) -> None:
     assert record.states["rod"][::100] == pytest.approx(run.states["rod"], abs=0.0)
 
 
+@pytest.mark.mutant("a spring's rest length at which no step is cut")
 def test_a_corner_that_is_not_cut_would_be_seen(
     both: Moving, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -105,6 +106,10 @@ def two_sided(force: Spring, length: float, rate: float) -> float:
     return force.stiffness * (length - force.rest_length)
 
 
+@pytest.mark.mutant(
+    "a one-sided spring that acts on both sides, in pymunk",
+    "a one-sided spring that acts on both sides, in mujoco",
+)
 def test_a_spring_of_both_sides_is_seen(both: Moving, monkeypatch: pytest.MonkeyPatch) -> None:
     """In the law that pymunk is told, and in the dead band that MuJoCo is."""
     monkeypatch.setitem(TENSIONS, Spring, two_sided)

@@ -38,6 +38,7 @@ def test_a_chain(engine: str, tmp_path: Path) -> None:
     assert off(engine, rods.CHAIN, tmp_path) < REACHED[engine]
 
 
+@pytest.mark.mutant("a massless rod with 1e-3 of the lightest body's mass")
 def test_a_heavy_rod_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(bars, "LIGHT", 1e-3)
     assert off("mujoco", rods.CHAIN, tmp_path) > 1e-5
@@ -70,12 +71,14 @@ def test_a_rod_in_a_loop_is_of_second_order(tmp_path: Path) -> None:
     assert 3.0 < coarse / fine < 5.0
 
 
+@pytest.mark.mutant("a rod of another length")
 def test_a_rod_of_another_length_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """MuJoCo counts from the file's own pose: what stands there is not the rod's length."""
     monkeypatch.setattr(loops, "_at", lambda root, site: (0.0, 0.0))
     assert in_a_loop("linked", tmp_path, 1e-3)[0] > 0.1
 
 
+@pytest.mark.mutant("rows of pins and rods taken for each other's")
 def test_the_rows_of_pins_and_rods_are_told_apart(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -72,6 +72,7 @@ def test_the_driver_takes_the_impact_exactly(tmp_path: Path) -> None:
     assert np.max(np.abs(found.states["sled"] - motion.states["sled"])) < 1e-11
 
 
+@pytest.mark.mutant("a rope that catches without its lever")
 def test_a_driver_that_forgets_the_lever_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -148,6 +148,7 @@ def test_a_script_in_space_says_its_sines(name: str) -> None:
     assert turned(name) < 1e-14
 
 
+@pytest.mark.mutant("{name}: a sine left out of the user's script")
 @pytest.mark.parametrize("name", SINES)
 def test_a_sine_that_is_not_pasted_is_seen(name: str) -> None:
     assert turned(name, lambda text: text.replace("= math.sin", "= 0 * math.sin")) > 1e-3

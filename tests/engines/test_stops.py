@@ -81,6 +81,7 @@ def test_engines_stop_as_the_reference(engine: str, text: str, tmp_path: Path) -
     assert torque < REACHED[engine][1]
 
 
+@pytest.mark.mutant("range of a stop not turned round with its joint")
 def test_a_range_that_is_not_turned_round_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -89,6 +89,7 @@ def test_their_joints_bear_what_the_laws_give(known: tuple[Case, Trajectory, Sta
         assert np.max(np.abs(found.reactions[name] - motion.reactions[name])) < 2e-7
 
 
+@pytest.mark.mutant("{kind} left out in {engine}", "{kind} with the wrong sign in {engine}")
 @pytest.mark.whole
 @pytest.mark.parametrize("engine", STEP)
 @pytest.mark.parametrize("kind", KINDS)

@@ -31,6 +31,7 @@ def row(outcome: Outcome, quantity: str = "ball.x") -> Any:
     return next(row for row in outcome.rows if row.quantity == quantity)
 
 
+@pytest.mark.mutant("an engine with {number} kg for 2 kg")
 @pytest.mark.parametrize("number", [2.1, 2.0 + 1e-11, float("nan")])
 def test_the_audit_sees_other_physics(trial: Make, number: float) -> None:
     assert row(compare(trial()), "audit").verdict == AGREES

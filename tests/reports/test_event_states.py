@@ -87,6 +87,7 @@ def test_a_side_is_read_with_the_order_of_its_curve(side: Side, order: int) -> N
     assert found == pytest.approx(order, abs=0.1)
 
 
+@pytest.mark.mutant("a state read on the other side of an event")
 @pytest.mark.parametrize("side", SIDES[1:])
 def test_the_other_side_would_be_seen(side: Side) -> None:
     other = "before" if side == "after" else "after"
@@ -163,6 +164,7 @@ def test_a_force_that_ends_is_continued(part: float, h: float) -> None:
     assert found == pytest.approx(stop, abs=2e2 * h**5 + 1e-14)
 
 
+@pytest.mark.mutant("a line for the curve to what has ended")
 def test_a_line_to_what_has_ended_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(reading, "CURVE", 10**6)  # never enough steps before it
     record = moving(lambda t: ending(t, 0.4005))

@@ -82,6 +82,7 @@ def test_two_stick_slip_cycles(h: float, near: float) -> None:
     assert slips(h) == pytest.approx(SLIPS, abs=near)
 
 
+@pytest.mark.mutant("a rest without the steps beside it")
 def test_without_the_steps_beside_a_rest_it_is_known_to_a_microsecond(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -104,6 +105,7 @@ def test_steps_that_are_bent_beside_a_rest_are_left_out(rows: int) -> None:
     assert slips(1e-3, bent) == pytest.approx(SLIPS, abs=1e-10)
 
 
+@pytest.mark.mutant("a line for the curve to where a slip begins")
 def test_a_line_in_place_of_the_curve_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     t = grid(10.0, 1e-4)
     curved = rests(t, slipping(t))[0][1]

@@ -30,6 +30,7 @@ def loaded(text: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
     return model, data
 
 
+@pytest.mark.mutant("a sine's control held during each step")
 def test_a_sine_between_steps_is_of_first_order() -> None:
     """The mutant of the callback: the same control, set before each step and held during it."""
     scene, begin = shaken()

@@ -99,6 +99,7 @@ def test_a_run_leaves_nothing_to_the_next(what: str) -> None:
     assert left_over(*RUNS[what]) == []
 
 
+@pytest.mark.mutant("a model lent on with the dry friction of the run before")
 def test_what_a_run_leaves_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     lost = [name for name in compilation._WRITTEN if name != "dof_frictionloss"]
     monkeypatch.setattr(compilation, "_WRITTEN", lost)

@@ -33,6 +33,7 @@ def test_a_block_leaves_the_friction_cone(name: str) -> None:
     assert off(name) < 1e-12
 
 
+@pytest.mark.mutant("{name}: normal force of the step's start")
 @pytest.mark.parametrize("name", ["friction_cone.forward", "friction_cone.backward"])
 def test_mutant_normal_force_of_the_step_s_start(
     name: str, monkeypatch: pytest.MonkeyPatch
@@ -41,6 +42,7 @@ def test_mutant_normal_force_of_the_step_s_start(
     assert off(name) > 1e-5
 
 
+@pytest.mark.mutant("kinetic friction at rest")
 def test_mutant_kinetic_friction_at_rest(monkeypatch: pytest.MonkeyPatch) -> None:
     def kinetic(self: Touch) -> DryFriction:
         bounds = Bounds(*(2 * (self.contact.kinetic * self.normal,)))
@@ -84,6 +86,7 @@ def test_a_disk_slides_then_rolls() -> None:
     assert abs(rows[-1, VX] + RADIUS * rows[-1, OMEGA]) < ROLLED
 
 
+@pytest.mark.mutant("a wheel's slip put to zero by its turn alone")
 @pytest.mark.whole
 def test_mutant_wheel_that_is_only_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
     """Its slip put to zero by its turn alone keeps what the impulse would have changed."""

@@ -97,6 +97,7 @@ def test_a_chain_with_the_default_iterations_gains_energy(monkeypatch: pytest.Mo
     assert energy_drift(ENGINE, 12) > 1.0
 
 
+@pytest.mark.mutant("friction of a whole step where a block breaks loose")
 @pytest.mark.whole
 def test_a_whole_step_at_the_onset_is_of_first_order(monkeypatch: pytest.MonkeyPatch) -> None:
     def plain(friction: DryFriction, middle: float, end: float) -> float:

@@ -26,6 +26,9 @@ def other_rule_of_friction(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(builder, "FLOOR_FRICTION", 0.5)  # as if pymunk took the mean
 
 
+@pytest.mark.mutant(
+    "J of a wheel 5 % off in pymunk's world", "friction's product rule broken in pymunk's world"
+)
 @pytest.mark.parametrize(
     ("mutant", "quantity", "told"),
     [

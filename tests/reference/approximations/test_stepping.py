@@ -75,6 +75,7 @@ def test_literal_law_has_the_same_events(name: str):
     assert [t for _, t in found] == pytest.approx([t for _, t in known], abs=5 * STEPS[-1])
 
 
+@pytest.mark.mutant("dry friction stepped, {name}: {mistake}")
 @pytest.mark.whole
 @pytest.mark.parametrize(
     ("name", "mistake", "law"),

@@ -116,6 +116,7 @@ def test_unbroken_systems_hold(case: Case) -> None:
     assert failing(case, written(case)) == set()
 
 
+@pytest.mark.mutant("hand-written system: {kind}")
 @pytest.mark.whole
 @pytest.mark.parametrize("kind", BROKEN, ids=lambda kind: kind.__name__)
 def test_a_broken_system_is_seen(kind: type[Mode]) -> None:
@@ -123,11 +124,13 @@ def test_a_broken_system_is_seen(kind: type[Mode]) -> None:
     assert seen <= failing(case, kind(**case.parameters))
 
 
+@pytest.mark.mutant("an integrator with a tolerance of 1e-6")
 def test_a_sloppy_integrator_is_seen() -> None:
     system = BarPendulum(**PENDULUM.parameters)
     assert ANGLE in failing(PENDULUM, system, tolerance=1e-6)
 
 
+@pytest.mark.mutant("another {change} in the generated bar")
 @pytest.mark.whole
 @pytest.mark.parametrize("change", ["gravity", "inertia", "mass"])
 def test_a_wrong_generated_answer_is_seen(change: str) -> None:
@@ -157,6 +160,7 @@ def test_nan_never_holds() -> None:
     assert np.isnan(difference(one, replace(one, states=states)))
 
 
+@pytest.mark.mutant("NaN in the power balance of a part of the motion")
 def test_nan_in_a_law_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     balance: Callable[..., float] = laws.energy.power_balance
 
@@ -167,6 +171,7 @@ def test_nan_in_a_law_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     assert failing(PENDULUM, BarPendulum(**PENDULUM.parameters)) == {POWER}
 
 
+@pytest.mark.mutant("J of a bar 1e-6 too large in all that the system says")
 def test_a_millionth_is_seen_however_loose_the_tolerances_are() -> None:
     """J 1e-6 too large in all that the system says, so that it agrees with itself."""
     case = replace(PENDULUM, allow={"bar.angle": 1.0}, reach={})
@@ -181,6 +186,7 @@ def test_a_millionth_is_seen_however_loose_the_tolerances_are() -> None:
     assert not broken & {LAGRANGE, ANGLE}
 
 
+@pytest.mark.mutant("1e-10 of a bar's weight left out")
 def test_a_residual_is_told_in_its_size() -> None:
     """A hundred times the bound: a ten thousand millionth of the weight that is not there."""
     case = replace(PENDULUM, allow={"bar.angle": 1.0}, reach={})

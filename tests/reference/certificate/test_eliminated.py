@@ -65,6 +65,7 @@ def _other_gravity(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(type(FORMAL["sleigh"]), "U", lambda self, t, q: 1.000001 * U(self, t, q))
 
 
+@pytest.mark.mutant("sign of β in (2.65)", "a potential 1e-6 too large")
 @pytest.mark.parametrize(
     ("plant", "seen"),
     [(_other_beta, {VORONETS}), (_other_gravity, {VORONETS, CHAPLYGIN, APPELL})],
@@ -77,6 +78,7 @@ def test_a_mistake_is_seen(
     assert {name for name, check in found.items() if not check.holds} == seen
 
 
+@pytest.mark.mutant("gyroscopic moment left out where the motion has none")
 def test_what_the_motion_never_shows_is_seen_beside_it() -> None:
     """A body that turns about a principal axis has no gyroscopic moment to lose."""
     sound: Any = FORMAL["free body"]

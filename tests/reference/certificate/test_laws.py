@@ -82,6 +82,7 @@ def test_what_lies_still_keeps_its_power_balance(tmp_path: Path, name: str) -> N
     assert [check for check in solution.checks if not check.holds] == []
 
 
+@pytest.mark.mutant("potential of what rests off by 1e-8 N ({name})")
 @pytest.mark.whole
 @pytest.mark.parametrize("name", STILL)
 def test_a_potential_that_is_wrong_is_seen_at_rest_too(
@@ -95,6 +96,7 @@ def test_a_potential_that_is_wrong_is_seen_at_rest_too(
     assert any(law.startswith("accelerations by Lagrange") for law in broken)
 
 
+@pytest.mark.mutant("NaN in the power balance of one mode")
 @pytest.mark.parametrize("part", [(0.0, 0.5), (0.9, 1.02), (1.5, 2.0)])
 def test_nan_is_not_lost_in_whichever_mode(
     tmp_path: Path, part: tuple[float, float], monkeypatch: pytest.MonkeyPatch

@@ -93,6 +93,7 @@ def test_modes_are_asked_where_there_are_others_or_what_ends_them(tmp_path: Path
     assert "modes possible" in by_name(certified(case, guarded))
 
 
+@pytest.mark.mutant("a hand-written block that never stops")
 def test_a_written_system_without_the_change_is_seen(braking: Case) -> None:
     """It slides on where the generated one stops: no difference of times, another count."""
     on = mutant(answer(braking), guards=lambda self, mode: ())
@@ -104,6 +105,7 @@ def test_a_written_system_without_the_change_is_seen(braking: Case) -> None:
     assert not checks["generated motion"].holds
 
 
+@pytest.mark.mutant("a generated block that never stops")
 def test_a_generated_one_without_the_change_is_seen(
     braking: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -114,6 +116,7 @@ def test_a_generated_one_without_the_change_is_seen(
     assert checks["closed events"].holds
 
 
+@pytest.mark.mutant("events lost by the second integrator")
 def test_a_second_integrator_without_the_change_is_seen(
     braking: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -129,6 +132,7 @@ def test_a_second_integrator_without_the_change_is_seen(
     assert not check.holds
 
 
+@pytest.mark.mutant("a stop at −1e-6 m/s, not at zero")
 def test_a_change_that_comes_late_is_seen(braking: Case) -> None:
     """Where v has fallen to −1e-6 m/s, 0.3 μs late."""
     system = answer(braking)
@@ -142,12 +146,14 @@ def test_a_change_that_comes_late_is_seen(braking: Case) -> None:
         assert not checks[row].holds
 
 
+@pytest.mark.mutant("a mode that is never possible")
 def test_modes_that_are_not_possible_are_counted(braking: Case) -> None:
     never = mutant(answer(braking), possible=lambda self, mode, t, q, v: "never")
     check = by_name(certified(braking, never))["modes possible"]
     assert (check.difference, check.holds) == (len(braking.times), False)
 
 
+@pytest.mark.mutant("floor 1 mm too low in (2.18)")
 @pytest.mark.whole
 def test_a_residual_that_does_not_vanish_is_seen(tmp_path: Path) -> None:
     """A disk whose floor lies 1 mm too low in (2.18)."""

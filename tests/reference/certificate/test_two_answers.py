@@ -224,6 +224,7 @@ def test_the_check_holds_where_nothing_is_wrong(tmp_path: Path, name: str, monke
     assert found(tmp_path, CHECKS[name], None, monkeypatch)[name].holds
 
 
+@pytest.mark.mutant("the {side} of two answers wrong: {name}")
 @pytest.mark.whole
 @pytest.mark.parametrize("side", ["one", "other"])
 @pytest.mark.parametrize("name", CHECKS)
@@ -234,6 +235,10 @@ def test_a_mistake_in_either_answer_is_seen(
     assert not found(tmp_path, two, getattr(two, side), monkeypatch)[name].holds
 
 
+@pytest.mark.mutant(
+    "explicit integrator 1e-4 off where modes switch",
+    "implicit integrator 1e-4 off where modes switch",
+)
 def test_a_wrong_first_integrator_is_seen_where_modes_switch(
     tmp_path: Path, monkeypatch: Patch
 ) -> None:

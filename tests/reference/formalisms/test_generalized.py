@@ -98,6 +98,7 @@ def test_appell_knows_its_force_too() -> None:
         assert difference(mode.accelerations(*at), found) < EXACT
 
 
+@pytest.mark.mutant("potential of a magnetic force, {name}: {planted}")
 @pytest.mark.parametrize("name", MODES)
 @pytest.mark.parametrize(
     ("planted", "V"),
@@ -114,6 +115,7 @@ def test_another_potential_is_seen(name: str, planted: str, V: Any) -> None:
     assert missed(wrong) > 1e-3
 
 
+@pytest.mark.mutant("a magnetic force with power")
 def test_a_magnetic_force_with_power_is_seen() -> None:
     sound: Any = MODES["in a force"]
 

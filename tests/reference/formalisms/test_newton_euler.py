@@ -70,6 +70,7 @@ def test_a_free_body_needs_no_cut() -> None:
     )
 
 
+@pytest.mark.mutant("{name}: gyroscopic term left out")
 @pytest.mark.parametrize("name", ["free body", "top"])
 def test_a_lost_gyroscopic_term_is_seen(name: str) -> None:
     sound = FORMAL[name]
@@ -80,6 +81,7 @@ def test_a_lost_gyroscopic_term_is_seen(name: str) -> None:
     assert balance(mutant(sound, accelerations=accelerations), name) > 1e-3
 
 
+@pytest.mark.mutant("{name}: products of inertia left out")
 @pytest.mark.parametrize("name", ["free body", "top"])
 def test_another_inertia_is_seen(name: str) -> None:
     body = next(iter(FORMAL[name].masses))
@@ -88,6 +90,7 @@ def test_another_inertia_is_seen(name: str) -> None:
     assert balance(transposed, name) > 1e-3
 
 
+@pytest.mark.mutant("{name}: attitude transposed")
 @pytest.mark.parametrize("name", ["free body", "top"])
 def test_an_attitude_from_ground_to_body_axes_is_seen(name: str) -> None:
     """E transposed: the conjugate quaternion, with all else as it is."""
@@ -100,6 +103,7 @@ def test_an_attitude_from_ground_to_body_axes_is_seen(name: str) -> None:
     assert balance(mutant(sound, poses=poses), name) > 1e-3
 
 
+@pytest.mark.mutant("top: ω in ground axes")
 def test_a_spin_in_ground_axes_is_seen() -> None:
     sound = FORMAL["top"]
 
@@ -110,6 +114,7 @@ def test_a_spin_in_ground_axes_is_seen() -> None:
     assert balance(mutant(sound, poses=poses), "top") > 1e-3
 
 
+@pytest.mark.mutant("free body: moment of a load in body axes")
 def test_a_moment_in_body_axes_is_seen() -> None:
     """Loads stand in ground axes."""
     sound = FORMAL["free body"]
@@ -121,6 +126,7 @@ def test_a_moment_in_body_axes_is_seen() -> None:
     assert balance(mutant(sound, loads=loads), "free body") > 1e-3
 
 
+@pytest.mark.mutant("free body: ω̇ 1 % off")
 def test_a_body_that_only_turns_is_balanced() -> None:
     """Nothing acts on it: what J ω̇ and ω × J ω leave is small against each of them."""
     sound = FORMAL["free body"]

@@ -95,6 +95,7 @@ def _momentum_of_the_reduced_energy(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(voronets, "momentum", lambda mode, t, q, q_dot: 0.0 * q_dot)
 
 
+@pytest.mark.mutant("Voronets, {name}: {plant}")
 @pytest.mark.parametrize(
     ("plant", "name"),
     [
@@ -186,6 +187,7 @@ def test_rates_of_the_independent_ones_meet_the_constraints() -> None:
             np.testing.assert_allclose(by.velocities(t, q, q_dot[by.a1]), v, atol=1e-13)
 
 
+@pytest.mark.mutant("Appell: gyroscopic part of the energy left out")
 def test_appell_needs_the_gyroscopic_part_of_the_energy(monkeypatch: pytest.MonkeyPatch) -> None:
     gyroscopic = appell.gyroscopic
     monkeypatch.setattr(appell, "gyroscopic", lambda mass, pose: 0.0 * gyroscopic(mass, pose))

@@ -113,6 +113,7 @@ def test_the_joint_that_holds_nothing_is_named():
         idle.solve(t, q, v)
 
 
+@pytest.mark.mutant("band of the equations with {lost!r} beside its place")
 @pytest.mark.parametrize("lost", ["one", "two", "at"])
 def test_a_mistake_in_the_band_is_seen(lost: str):
     """Each entry beside the right one, or each product beside its place."""

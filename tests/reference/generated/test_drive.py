@@ -54,6 +54,7 @@ def test_drives_hold_their_rates_and_do_the_work(tmp_path: Path) -> None:
     assert unbalanced(tmp_path) < 1e-7  # Simpson's h⁴
 
 
+@pytest.mark.mutant("a drive about a pin with the wrong sign")
 def test_a_drive_with_the_wrong_sign_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

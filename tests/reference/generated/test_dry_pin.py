@@ -41,6 +41,7 @@ def test_a_clutch_couples(tmp_path: Path, parts: str) -> None:
     assert found.modes[0] != found.modes[-1] == "clutch sticks"
 
 
+@pytest.mark.mutant("a pin that brakes the sum of both turns")
 def test_mutant_pin_that_brakes_the_sum_of_both_turns(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -54,6 +55,7 @@ def test_mutant_pin_that_brakes_the_sum_of_both_turns(
     assert np.max(np.abs(found.y[:, 5] - rubbing.coupled(case.times)[1])) > 0.1
 
 
+@pytest.mark.mutant("dry friction of a pin, forward and backward exchanged")
 def test_mutant_friction_of_the_other_way(tmp_path: Path) -> None:
     case, found = followed(tmp_path, rubbing.swinging(HUNG, 1.4, 1.0))
     assert np.max(np.abs(found.y[:, 2] - rubbing.swung(case.times, 1.0, 1.4))) > 1e-2

@@ -124,6 +124,7 @@ PLANTED: dict[str, Callable[..., Any]] = {
 }  # fmt: skip
 
 
+@pytest.mark.mutant("the row of a blade: {planted}")
 @pytest.mark.parametrize("planted", PLANTED)
 def test_planted_rows_are_seen(
     planted: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -133,6 +134,7 @@ def test_planted_rows_are_seen(
     assert max(law_of(found), observed(found, tmp_path, "free")) > 1e-3
 
 
+@pytest.mark.mutant("a blade that holds along and lets go across")
 def test_along_for_across_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Such an edge would hold its body where it has a speed, and let it go across."""
     monkeypatch.setattr(permanent.Edge, "across", property(lambda self: self.along))
@@ -140,6 +142,7 @@ def test_along_for_across_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
         mode(tmp_path, "free")
 
 
+@pytest.mark.mutant("a driven blade's speed with the wrong sign")
 def test_a_speed_with_the_wrong_sign_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -149,6 +152,7 @@ def test_a_speed_with_the_wrong_sign_is_seen(
     assert observed(mode(tmp_path, "sine"), tmp_path, "sine") > 0.1
 
 
+@pytest.mark.mutant("a driven blade's speed without its rate")
 def test_a_speed_without_its_rate_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(blades, "slope", lambda law, t: (0.0,))
     assert law_of(mode(tmp_path, "sine")) > 1e-3

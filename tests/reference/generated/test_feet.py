@@ -27,6 +27,7 @@ def test_it_strikes_when_the_one_by_hand_does() -> None:
     assert found.phases[1] == "left_foot open, right_foot sticks"
 
 
+@pytest.mark.mutant("a swinging foot that strikes midway")
 def test_a_foot_that_does_not_pass_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     """Midway it would strike the floor, with the standing one beside it."""
     monkeypatch.setattr(element.Element, "behind", lambda self, t, q, size: 0.0)

@@ -55,6 +55,7 @@ def test_an_accelerated_pivot_is_another_gravity(kind: str, tmp_path: Path) -> N
     assert apart(kind, tmp_path) < 1e-12
 
 
+@pytest.mark.mutant("acceleration of a moving point left out of a {kind}")
 @pytest.mark.parametrize("kind", HANGS)
 def test_a_lost_acceleration_is_seen(
     kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -109,18 +109,21 @@ def test_the_laws_hold_for_what_is_mutated(law: Law) -> None:
     assert seen(law, mutated()) < EXACT
 
 
+@pytest.mark.mutant("{kind}")
 @pytest.mark.parametrize("law", [lagrangian, balance])
 @pytest.mark.parametrize("kind", [Turning, Rising])
 def test_law_sees_a_wrong_body(law: Law, kind: type[Multibody]) -> None:
     assert seen(law, mutated(kind)) > 1e-4
 
 
+@pytest.mark.mutant("moment d × F of a force off centre left out")
 @pytest.mark.parametrize("law", [lagrangian, balance])
 def test_law_sees_a_lost_moment(law: Law, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "act", without_moment)
     assert seen(law, mutated()) > 1e-4
 
 
+@pytest.mark.mutant("{wrong}")
 @pytest.mark.parametrize(
     ("kind", "name", "wrong"),
     [

@@ -34,16 +34,19 @@ def _coulomb(
     return coulomb
 
 
+@pytest.mark.mutant("static friction in the place of kinetic")
 def test_mutant_static_for_kinetic(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Touching, "coulomb", _coulomb(lambda touch: -touch.static))
     assert {"generated motion", "generated events"} <= failing(tmp_path, "braking")
 
 
+@pytest.mark.mutant("kinetic friction that drives")
 def test_mutant_sign_of_kinetic_friction(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Touching, "coulomb", _coulomb(lambda touch: touch.kinetic))
     assert {"generated motion", "generated events"} <= failing(tmp_path, "braking")
 
 
+@pytest.mark.mutant("a contact that never sticks")
 @pytest.mark.whole
 def test_mutant_without_sticking(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for module in (contact_modes, mechanism):
@@ -52,6 +55,7 @@ def test_mutant_without_sticking(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     assert failing(tmp_path, "backspin")
 
 
+@pytest.mark.mutant("restitution of an impact left out")
 @pytest.mark.whole
 def test_mutant_restitution_ignored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     class Dead(impact.Meeting):
@@ -62,12 +66,14 @@ def test_mutant_restitution_ignored(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert {"generated motion", "generated events"} <= failing(tmp_path, "elastic")
 
 
+@pytest.mark.mutant("friction cone left out: a disk rolls on any slope")
 def test_mutant_cone_ignored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A disk on a slope too steep for rolling would roll."""
     monkeypatch.setattr(Touching, "margins", lambda self, forces: (1.0, 1.0))
     assert "generated motion" in failing(tmp_path, "too steep")
 
 
+@pytest.mark.mutant("bounds of stiction forward and backward exchanged")
 @pytest.mark.whole
 def test_mutant_forward_for_backward(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A sign in (2.89): seen where the two bounds differ, not in Example 2.4."""

@@ -95,6 +95,7 @@ def one_lever(pair: Pair, where: Coordinates) -> Constraint:
     return replace(slip, rows=((around, own, Turning(other.p, -other.axis)),))
 
 
+@pytest.mark.mutant("turn of the other rim counted the other way in a blow")
 def test_a_wrong_lever_of_the_blow_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     case, (_, velocities, spins, _) = oblique(tmp_path, 0.9, 6.0), by_hand(0.9, 6.0)
     known = np.column_stack([velocities, spins]).ravel()

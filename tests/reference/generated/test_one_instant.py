@@ -76,6 +76,7 @@ def test_blows_one_after_the_other_are_not(words: dict[str, object], tmp_path: P
     assert motion.states["c"][-1, VX] > 0.1
 
 
+@pytest.mark.mutant("two blows at one instant that nobody refuses")
 def test_a_check_that_is_left_out_lets_the_blow_pass(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

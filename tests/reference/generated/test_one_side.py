@@ -179,6 +179,9 @@ def test_beside_a_contact(tmp_path: Path) -> None:
     assert slack == 0.0
 
 
+@pytest.mark.mutant(
+    "a leg that only presses on the other side of its rest length", "a leg that never lets go"
+)
 def test_a_mistake_in_the_switch_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A guard of the other side, and a leg whose state never changes."""
     sound = follow(mechanism(tmp_path, 0.8, 0.0), np.linspace(0.0, 1.0, 11))

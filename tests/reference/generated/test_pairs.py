@@ -81,6 +81,7 @@ def without_turn(numbers: Any) -> Any:
     return lambda self, a, b: tuple(0.0 if i == 2 else x for i, x in enumerate(numbers(self, a, b)))
 
 
+@pytest.mark.mutant("γ of a side that turns left out")
 def test_a_lost_curvature_of_a_side_that_turns_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -93,6 +94,7 @@ def test_a_lost_curvature_of_a_side_that_turns_is_seen(
     assert off.max() > 1e-4
 
 
+@pytest.mark.mutant("a side whose turn does not move what lies on it")
 def test_a_lost_lever_of_a_side_that_turns_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -153,6 +155,7 @@ def test_two_disks_that_slip_lose_energy_and_no_momentum(tmp_path: Path) -> None
     assert energy[0] - energy[-1] > 0.01
 
 
+@pytest.mark.mutant("γ of two rims left out ({term.name})")
 @pytest.mark.parametrize("term", [Apart, Around])
 def test_a_lost_curvature_of_rims_is_seen(
     term: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -48,6 +48,7 @@ def test_strikes_are_those_of_the_energy(tmp_path: Path) -> None:
     assert strikes(tmp_path, 3.3) == pytest.approx(known, abs=1e-12)
 
 
+@pytest.mark.mutant("an impact of spokes in which the old tip stays")
 def test_an_impact_in_which_the_old_tip_stays_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -61,6 +62,7 @@ def test_an_impact_in_which_the_old_tip_stays_is_seen(
     assert len(strikes(tmp_path, 3.3)) == 1
 
 
+@pytest.mark.mutant("half of J in the impact of spokes")
 def test_another_inertia_in_the_impact_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -133,6 +135,7 @@ def test_friction_that_an_impact_needs_is_enough(tmp_path: Path) -> None:
         solve(typed(tmp_path, WHEEL.format(mu=0.99 * needed, w0=3.3, more="")))
 
 
+@pytest.mark.mutant("friction cone of a pivot left out")
 def test_margins_of_a_pivot_are_asked_of_its_samples(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -97,6 +97,7 @@ def test_a_taut_rope_that_need_not_pull_begins_slack(tmp_path: Path) -> None:
     assert np.all(found.trajectory.reactions["rope.force"] == 0.0)
 
 
+@pytest.mark.mutant("a rope that throws back what it catches")
 def test_an_impact_that_throws_back_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

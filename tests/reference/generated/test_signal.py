@@ -89,6 +89,7 @@ WRONG: dict[str, dict[Law, Callable[[Signal, Any], Any]]] = {
 }
 
 
+@pytest.mark.mutant("a law in time: {mistake}")
 @pytest.mark.parametrize("mistake", WRONG)
 def test_a_wrong_law_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch) -> None:
     ((law, wrong),) = WRONG[mistake].items()

@@ -59,6 +59,7 @@ def test_a_rod_in_a_slot_moves_as_derived_by_hand(tmp_path: Path) -> None:
     np.testing.assert_allclose(found["guide.fx"], 0.0, atol=1e-8)
 
 
+@pytest.mark.mutant("a slot that holds the {lost} of its pin")
 @pytest.mark.parametrize("lost", ["turn", "shift"])
 def test_without_one_of_its_freedoms_it_moves_differently(
     lost: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

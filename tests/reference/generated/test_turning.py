@@ -53,6 +53,7 @@ def test_typed_values() -> None:
     assert force.torsion_damper(0.4, 2.5) == -1.0
 
 
+@pytest.mark.mutant("torque of a {law} with the wrong sign")
 @pytest.mark.parametrize("law", ["torsion", "torsion_damper"])
 def test_a_torque_with_the_wrong_sign_is_seen(
     law: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -62,6 +63,7 @@ def test_a_torque_with_the_wrong_sign_is_seen(
     assert violated(built(tmp_path)) > 1e-3
 
 
+@pytest.mark.mutant("torque about a joint on one of its parts alone")
 def test_a_torque_on_one_part_alone_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

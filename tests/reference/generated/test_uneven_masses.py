@@ -83,6 +83,7 @@ def test_accelerations_of_uneven_mechanisms():
     assert max(found) < 1e-12
 
 
+@pytest.mark.mutant("accelerations of uneven masses without refinement")
 def test_without_refinement_digits_are_lost(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(module, "TURNS", 0)
     assert max(errors(40)) > 1e-10
@@ -121,6 +122,7 @@ def test_a_bob_on_a_light_rod_bounces(tmp_path: Path):
     np.testing.assert_allclose(found, found[0], rtol=1e-14)
 
 
+@pytest.mark.mutant("impact of uneven masses without refinement")
 def test_rows_after_an_impact(monkeypatch: pytest.MonkeyPatch):
     """f_a q̇⁺ = what it shall be, to rounding of the velocities; without refinement it is not."""
     random = np.random.default_rng(seed=2)

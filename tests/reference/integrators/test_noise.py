@@ -60,6 +60,7 @@ def test_noise_as_loud_as_the_slope_is_no_rounding():
     assert noise(lambda t, y: random.standard_normal(2), 0.0, PEAK, 0.1, PEAK) is None
 
 
+@pytest.mark.mutant("error of a step relative to a state that is exactly zero")
 def test_without_it_the_block_is_stuck(monkeypatch: pytest.MonkeyPatch):
     """The mistake this is for: an error relative to a state that is exactly zero."""
     monkeypatch.setattr(march, "noise", lambda *_: None)

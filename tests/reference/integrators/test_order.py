@@ -63,6 +63,7 @@ def test_implicit_order(name: str, stages: int):
     assert abs(order - (2 * stages - 1)) < 0.2
 
 
+@pytest.mark.mutant("explicit integrator: figure {entry} of its table 1e-3 off")
 @pytest.mark.parametrize("entry", [("a", (6, 4)), ("a", (11, 10)), ("c", 7), ("b", 8)])
 def test_a_wrong_figure_in_the_explicit_table_costs_orders(entry):
     order = observed_order(
@@ -71,6 +72,7 @@ def test_a_wrong_figure_in_the_explicit_table_costs_orders(entry):
     assert order < 2.0
 
 
+@pytest.mark.mutant("implicit integrator: figure {entry} of its table 1e-3 off")
 @pytest.mark.parametrize("entry", [("a", (0, 1)), ("a", (4, 2)), ("c", 2)])
 def test_a_wrong_figure_in_the_implicit_table_costs_orders(entry):
     order = observed_order(

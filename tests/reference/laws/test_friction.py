@@ -46,6 +46,7 @@ def test_extended_coulomb_law():
     assert violations(stiction) == []
 
 
+@pytest.mark.mutant("dry friction (2.89): {mistake}")
 @pytest.mark.parametrize(
     ("mistake", "law"),
     [

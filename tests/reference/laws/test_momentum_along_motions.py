@@ -91,6 +91,7 @@ def about_the_origin_with_M_c(s: System) -> float:
     return s.law(s.D(0.0, 0.0), s.moment(s.centre))
 
 
+@pytest.mark.mutant("{wrong}")
 @pytest.mark.parametrize("wrong", [absolute, uncorrected, about_the_origin_with_M_c])
 def test_another_law_does_not_hold(wrong: Callable[[System], float], in_the_plane: System):
     assert wrong(in_the_plane) > 1e-2
@@ -120,6 +121,7 @@ def steiner_only(m: float, J: Array, r: Array, v: Array, omega: Array) -> Array:
     return np.cross(r, m * v)
 
 
+@pytest.mark.mutant("{wrong}")
 @pytest.mark.parametrize(
     ("name", "wrong", "law"),
     [
@@ -142,6 +144,7 @@ def test_a_planted_mistake_is_seen(
         assert law(s) > 1e-3
 
 
+@pytest.mark.mutant("J ω in body axes added to moments in ground axes")
 def test_spin_in_body_axes_is_seen():
     """J ω of body axes added to moments in ground axes."""
     s = in_space()

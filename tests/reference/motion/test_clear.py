@@ -81,6 +81,7 @@ def test_a_guard_that_comes_near_is_asked_at_exact_states(monkeypatch: pytest.Mo
     assert calls > steps + 9
 
 
+@pytest.mark.mutant("steps that are always held for free of events")
 def test_a_look_that_is_always_clear_misses_events(monkeypatch: pytest.MonkeyPatch):
     watched = Watched([("g", lambda t, x, v: x)], Oscillator())
     times = np.linspace(0.0, 6.0, 31)
@@ -89,6 +90,7 @@ def test_a_look_that_is_always_clear_misses_events(monkeypatch: pytest.MonkeyPat
     assert not follow(watched, times).events
 
 
+@pytest.mark.mutant("guards looked at only at the ends of a step")
 def test_a_look_at_the_ends_alone_loses_a_dip(monkeypatch: pytest.MonkeyPatch):
     """Planted: what the tests above see."""
     monkeypatch.setattr(crossing, "LOOKS", (((0.0, 1.0), 0.1),))

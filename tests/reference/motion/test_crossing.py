@@ -17,6 +17,7 @@ def test_event_is_located():
     assert [time for _, time in found] == pytest.approx(known, abs=1e-12, rel=0)
 
 
+@pytest.mark.mutant("an event at a threshold of 1e-6, not at zero")
 def test_threshold_in_place_of_the_event_is_seen():
     """Where |x| falls below 1e-6 instead of through zero, the event comes 1e-6 s early."""
     [(_, time)] = events(("down", lambda t, x, v: x - 1e-6), until=5.0)

@@ -98,6 +98,7 @@ def test_rows_do_not_change_the_motion():
     assert [c.time for c in one.changes] == [c.time for c in other.changes]
 
 
+@pytest.mark.mutant("a straight line inside the steps")
 def test_interpolated_rows_are_seen(monkeypatch: pytest.MonkeyPatch):
     """A straight line inside the steps, in place of shorter steps."""
 
@@ -109,6 +110,7 @@ def test_interpolated_rows_are_seen(monkeypatch: pytest.MonkeyPatch):
     assert off(swinging(), cosine) > 1e-4
 
 
+@pytest.mark.mutant("a phase without its first row")
 def test_a_phase_without_its_first_row_is_seen(monkeypatch: pytest.MonkeyPatch):
     def enter(self: Any, mode: str) -> None:
         self.phases.append(mode)
@@ -117,6 +119,7 @@ def test_a_phase_without_its_first_row_is_seen(monkeypatch: pytest.MonkeyPatch):
     assert loose_ends(bouncing(), 3.0) == 6
 
 
+@pytest.mark.mutant("rows of a phase beyond its end")
 def test_rows_beyond_an_event_are_seen(monkeypatch: pytest.MonkeyPatch):
     """Those of the whole step, of which only a part belongs to the phase."""
     note = module._Walk._note

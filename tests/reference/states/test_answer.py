@@ -102,6 +102,7 @@ MISTAKES: dict[str, tuple[str, Any, str, Callable[..., Any]]] = {
 }  # fmt: skip
 
 
+@pytest.mark.mutant("{mistake}")
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_mistake_in_a_law_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch) -> None:
     name, module, law, wrong = MISTAKES[mistake]
@@ -111,6 +112,7 @@ def test_a_mistake_in_a_law_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatc
     assert apart(case) > 1e-6
 
 
+@pytest.mark.mutant("{name}: mass of a body 5 % off in the scene alone")
 @pytest.mark.parametrize("name", WRITTEN)
 def test_a_scene_of_another_mass_is_seen(name: str) -> None:
     """5 % of the first body's, of which the hand-written system does not know."""
@@ -170,6 +172,7 @@ class Heavier(SpatialChain):
         return 1.05 * super().T(t, q, v)
 
 
+@pytest.mark.mutant("kinetic energy of a chain 5 % too large")
 def test_energy_against_virtual_work(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     case = claimed(tmp_path, CHAIN)
     (check,) = [c for c in answered(case)[1] if "d'Alembert" in c.name]

@@ -64,6 +64,7 @@ def test_a_sound_chain(tmp_path: Path) -> None:
     assert broken(claimed(tmp_path, CHAIN)) == set()
 
 
+@pytest.mark.mutant("chain of bodies: {mistake}")
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_mistakes(mistake: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(*MISTAKES[mistake])

@@ -49,10 +49,10 @@ PLANTED: dict[str, tuple[Any, str, Any]] = {
     "forward for backward": (
         scrape, "one_way", lambda law: lambda d, v: law(Bounds(d.backward, d.forward), v),
     ),
-    "a power that is 1 % off": (
+    "a power of an edge that is 1 % off": (
         scrape, "power_loss", lambda law: lambda d, a, square: law(d, 1.01 * a, square),
     ),
-    "of a point, the same": (
+    "a power of a point that is 1 % off": (
         drag, "power_loss", lambda law: lambda d, a, square: law(d, 1.01 * a, square),
     ),
     "dry friction that pushes": (
@@ -64,6 +64,7 @@ PLANTED: dict[str, tuple[Any, str, Any]] = {
 }  # fmt: skip
 
 
+@pytest.mark.mutant("sliding points: {planted}")
 @pytest.mark.parametrize("planted", PLANTED)
 def test_a_planted_mistake_is_seen(planted: str, monkeypatch: pytest.MonkeyPatch) -> None:
     module, name, change = PLANTED[planted]
@@ -72,6 +73,7 @@ def test_a_planted_mistake_is_seen(planted: str, monkeypatch: pytest.MonkeyPatch
         assert apart() < 1e-3
 
 
+@pytest.mark.mutant("sliding points: an observed edge 0.1 rad off")
 def test_an_observed_edge_that_does_not_turn_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     found, _ = answered(CASE)
     turned = Trajectory(found.times, dict(found.states), {})

@@ -81,6 +81,7 @@ def test_a_closed_form_shares_no_function_with_the_motion(name: str) -> None:
     assert {code.co_qualname for code in ours & theirs} == set()
 
 
+@pytest.mark.mutant("accelerations of {name} 5 % off: its closed form must not follow")
 @pytest.mark.parametrize("name", ["sliding_block", "sliding_disk", "rolling_wheel"])
 def test_a_mistake_of_the_motion_leaves_the_closed_form(
     name: str, monkeypatch: pytest.MonkeyPatch

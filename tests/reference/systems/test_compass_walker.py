@@ -59,6 +59,9 @@ def _wrong(lost: str) -> Any:
     return accelerations
 
 
+@pytest.mark.mutant(
+    "compass walker on a slope the other way", "half of what the compass walker's rates do left out"
+)
 @pytest.mark.parametrize("lost", ["gravity", "coupling"])
 def test_a_lost_term_is_seen(lost: str):
     off: Any = mutant(WALKER.modes["left stands"], accelerations=_wrong(lost))
@@ -113,6 +116,10 @@ def test_impact_by_impulsive_multipliers(k: int, walker: CompassWalker):
             assert place[:3] == pytest.approx(before[:3], abs=1e-15)
 
 
+@pytest.mark.mutant(
+    "legs' inertia left out of the walker's impact",
+    "legs' inertia counted twice in the walker's impact",
+)
 @pytest.mark.parametrize("inertia", [0.0, 2 * WALKER.J])
 def test_another_impact_is_seen(inertia: float):
     """Legs whose inertia is lost, or counted twice."""

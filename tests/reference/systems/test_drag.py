@@ -51,6 +51,7 @@ def test_from_one_on_it_never_stops(alpha: float) -> None:
     assert follow(system, TIMES).y[-1, 1] > 0.0
 
 
+@pytest.mark.mutant("drag by a power {alpha}: {wrong} times what it is")
 @pytest.mark.parametrize("alpha", [0.5, 1.0, 2.0])
 @pytest.mark.parametrize("wrong", [{"alpha": 1.1}, {"d": 1.05}, {"m": 0.95}, {"d": -0.02}])
 def test_another_law_is_seen_by_the_closed_form(alpha: float, wrong: dict[str, float]) -> None:
@@ -60,6 +61,7 @@ def test_another_law_is_seen_by_the_closed_form(alpha: float, wrong: dict[str, f
     assert apart(with_mode(thrown(alpha), "moves", off), thrown(alpha)) > 1e-3
 
 
+@pytest.mark.mutant("drag: a stop at 1e-6 m/s, not at zero")
 def test_a_stop_at_a_threshold_is_seen() -> None:
     """`v < 1e-6` in the place of v = 0: 0.9 ms too early."""
     system: Any = thrown(0.5)

@@ -16,6 +16,7 @@ from textmech.reference.motion.zeno import ZenoError
 from textmech.reference.system import Array, Guard, System
 
 
+@pytest.mark.mutant("guards of {name} that fall at a threshold of 1e-6, not at zero")
 @pytest.mark.parametrize("name", ["sliding_disk", "sliding_block", "dynamometer"])
 def test_threshold_in_place_of_the_event_is_seen(name: str):
     """`stays zero` within 1e-6 m/s instead of g = 0."""
@@ -28,6 +29,7 @@ def test_threshold_in_place_of_the_event_is_seen(name: str):
     assert max(event_errors(system, mutant(system, guards=guards), duration(name))) > 1e3 * LOCATED
 
 
+@pytest.mark.mutant("{name} without its stick mode")
 @pytest.mark.parametrize("name", ["sliding_block", "dynamometer"])
 def test_missing_stick_mode_is_seen(name: str):
     """Where it should stick it goes on sliding, the other way."""
@@ -44,6 +46,7 @@ def test_missing_stick_mode_is_seen(name: str):
         event_errors(system, mutant(system, guards=guards), duration(name))
 
 
+@pytest.mark.mutant("friction that drives {name}, against (2.89)", "F₋ and F₊ of {name} exchanged")
 @pytest.mark.whole
 @pytest.mark.parametrize("name", ["growing_force", "dynamometer"])
 def test_sign_in_2_89_is_seen(name: str):
@@ -62,6 +65,7 @@ def test_sign_in_2_89_is_seen(name: str):
     assert max(event_errors(system, swapped, 4.0 if name == "dynamometer" else 10.0)) > 0.1
 
 
+@pytest.mark.mutant("sign of friction in {name}, mode {mode}")
 @pytest.mark.parametrize(
     ("name", "mode"), [("sliding_disk", "slips forward"), ("sliding_block", "down")]
 )

@@ -39,6 +39,7 @@ PLANTED: dict[str, tuple[str, str, dict[str, Any]]] = {
 }  # fmt: skip
 
 
+@pytest.mark.mutant("what rubs: {what}")
 @pytest.mark.parametrize("what", PLANTED)
 def test_a_mistake_in_what_slides_leaves_the_closed_form(what: str) -> None:
     name, mode, changed = PLANTED[what]
@@ -48,20 +49,24 @@ def test_a_mistake_in_what_slides_leaves_the_closed_form(what: str) -> None:
     assert off(system, with_mode(system, mode, replace(sound, **changed)), until) > 1e-3
 
 
-SEEN: list[tuple[str, str, dict[str, Any], Callable[..., float]]] = [
-    ("bearing", "turns", {"d": -0.05}, laws.free_cut),
-    ("bearing", "turns", {"M_k": -0.3}, laws.power),
-    ("friction_cone", "up", {"sigma": 1}, laws.free_cut),
-    ("friction_cone", "up", {"b_y": 0.0}, laws.power),
-    ("stribeck_drive", "backward", {"falls": (3.0, 0.525)}, laws.free_cut),
-    ("stribeck_drive", "forward", {"falls": (3.0, 0.5)}, laws.power),
-]
+SEEN: dict[str, tuple[str, str, dict[str, Any], Callable[..., float]]] = {
+    "oil that drives": ("bearing", "turns", {"d": -0.05}, laws.free_cut),
+    "dry friction that drives": ("bearing", "turns", {"M_k": -0.3}, laws.power),
+    "friction of the other way": ("friction_cone", "up", {"sigma": 1}, laws.free_cut),
+    "a lift that friction does not feel": ("friction_cone", "up", {"b_y": 0.0}, laws.power),
+    "friction that falls over another speed": (
+        "stribeck_drive", "backward", {"falls": (3.0, 0.525)}, laws.free_cut,
+    ),
+    "the falling part of friction with the wrong sign": (
+        "stribeck_drive", "forward", {"falls": (3.0, 0.5)}, laws.power,
+    ),
+}  # fmt: skip
 
 
-@pytest.mark.parametrize(("name", "mode", "changed", "law"), SEEN)
-def test_a_mistake_in_the_accelerations_breaks_a_law(
-    name: str, mode: str, changed: dict[str, Any], law: Callable[..., float]
-) -> None:
+@pytest.mark.mutant("what rubs: {what}, in the accelerations alone")
+@pytest.mark.parametrize("what", SEEN)
+def test_a_mistake_in_the_accelerations_breaks_a_law(what: str) -> None:
+    name, mode, changed, law = SEEN[what]
     system = example(name)
     sound: Any = system.modes[mode]
     wrong = replace(sound, **changed)
@@ -70,6 +75,7 @@ def test_a_mistake_in_the_accelerations_breaks_a_law(
     assert laws.broken(law, law(with_mode(system, mode, mixed), (name, mode)))
 
 
+@pytest.mark.mutant("guards of {name} that fall 1e-6 too early")
 @pytest.mark.parametrize("name", ["bearing", "friction_cone", "friction_of_rest", "stribeck_brake"])
 def test_an_event_that_is_early_is_seen(name: str) -> None:
     """By 1e-6 of what the guard is of."""

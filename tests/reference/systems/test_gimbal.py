@@ -137,8 +137,8 @@ def each_about_its_axis(self: Any, t: float, q: Any, v: Any) -> Any:
 
 MISTAKES: dict[str, tuple[dict[str, Any], Callable[[Mode], float]]] = {
     "coupling lost": ({"accelerations": of_crossed_axes}, equations),
-    "the same, as a motion": ({"accelerations": of_crossed_axes}, apart),
-    "the same, as power": ({"accelerations": of_crossed_axes}, power),
+    "coupling lost, as a motion": ({"accelerations": of_crossed_axes}, apart),
+    "coupling lost, as power": ({"accelerations": of_crossed_axes}, power),
     "turning axis lost": ({"reactions": without_turning}, balance),
     "φ counted backward": ({"poses": backward}, moves),
     "ω in ground axes": ({"poses": in_ground_axes}, moves),
@@ -152,12 +152,14 @@ MISTAKES: dict[str, tuple[dict[str, Any], Callable[[Mode], float]]] = {
 }
 
 
+@pytest.mark.mutant("sprung gimbal: {mistake}")
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_planted_mistake_is_seen(mistake: str) -> None:
     methods, law = MISTAKES[mistake]
     assert law(mutant(gimbal(), **methods)) > 1e3 * LIMIT
 
 
+@pytest.mark.mutant("sprung gimbal: J of a hollow globe everywhere")
 def test_a_moment_of_inertia_that_is_wrong_everywhere_is_seen() -> None:
     """The laws agree on any; the closed form knows that of a homogeneous globe."""
     wrong: Any = {"J": property(lambda self: 2 * self.m * self.R**2 / 3)}
@@ -166,6 +168,7 @@ def test_a_moment_of_inertia_that_is_wrong_everywhere_is_seen() -> None:
     assert apart(hollow) > 1e-2
 
 
+@pytest.mark.mutant("sprung gimbal: {parameter} 5 % off")
 @pytest.mark.parametrize("parameter", GIMBAL)
 def test_each_parameter_is_in_the_motion(parameter: str) -> None:
     """5 % off in the explicit accelerations or at the start."""

@@ -119,6 +119,7 @@ def test_what_has_no_answer():
 
 
 def without_steiner(self: Any) -> float:
+    """A_O without its Steiner term."""
     return self.A
 
 
@@ -139,6 +140,7 @@ def attitude_of_another_order(self: Any, t: Any, q: Any, v: Any) -> Any:
     return {"top": (*pose[:5], -pose[5], *pose[6:])}
 
 
+@pytest.mark.mutant("heavy top: {mistake}")
 @pytest.mark.parametrize(
     ("mistake", "law"),
     [
@@ -158,6 +160,7 @@ def test_a_planted_mistake_is_seen(mistake: dict[str, Any], law: laws.Law):
     assert laws.broken(law(mutant(sound, **mistake), states("heavy_top", 10)))
 
 
+@pytest.mark.mutant("heavy top: A_O without its Steiner term")
 def test_a_missing_steiner_term_leaves_the_closed_form():
     sound = only("heavy_top")
     lonely = mutant(sound, _A_O=without_steiner)

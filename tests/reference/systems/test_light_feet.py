@@ -55,6 +55,9 @@ def test_its_feet_without_mass_walk_as_published() -> None:
     assert second == pytest.approx(PUBLISHED, abs=1e-7)
 
 
+@pytest.mark.mutant(
+    "simplest walker: mass of a leg 1 % up", "simplest walker: a leg with the inertia of a bar"
+)
 @pytest.mark.parametrize("mistake", ["c", "J"])
 def test_a_leg_whose_mass_is_elsewhere_is_seen(
     mistake: str, monkeypatch: pytest.MonkeyPatch

@@ -58,6 +58,7 @@ def test_a_very_flat_hyperbola_is_a_line() -> None:
     assert apart(hill, muscle("linear_muscle_load")) < 1e-6
 
 
+@pytest.mark.mutant("{name}: {wrong} 5 % off")
 @pytest.mark.parametrize("name", PARAMETERS)
 @pytest.mark.parametrize("wrong", ["F0", "b", "cs"])
 def test_another_muscle_is_seen(name: str, wrong: str) -> None:
@@ -70,6 +71,12 @@ def test_another_muscle_is_seen(name: str, wrong: str) -> None:
         assert np.abs(end[0] - end[1]).max() > 1e-5
 
 
+@pytest.mark.mutant(
+    "{name}: energy of the spring beside left out",
+    "{name}: energy of the spring in series left out",
+    "{name}: the whole length in the spring in series",
+    "{name}: one of its loads left out",
+)
 @pytest.mark.parametrize("name", LOADS)
 def test_lost_terms_are_seen_by_the_laws(name: str) -> None:
     sound: Any = muscle(name)
@@ -86,6 +93,7 @@ def test_lost_terms_are_seen_by_the_laws(name: str) -> None:
     assert violated(mutant(sound, loads=loads), name) > 1e-4
 
 
+@pytest.mark.mutant("{name}: what contracts does so the other way")
 @pytest.mark.parametrize("name", CLOSED)
 def test_what_contracts_the_other_way_is_seen(name: str) -> None:
     """No law asks how fast it does: its rate is given, as a drive's. The closed form knows."""

@@ -9,65 +9,14 @@ from unittest import mock
 
 import numpy as np
 import pytest
-from given import laws, rotors, slowed
+from given import laws
 from given.examples import PARAMETERS, SMOOTH, only
 from given.laws import Law
 from given.mutants import mutant
+from given.seen_by import AT_THE_START, PARAMETER
 from given.states import states
 
 from textmech.reference.system import MOVING, Load, Mode, Only
-
-# Which law sees a parameter that is 5 % off in the explicit accelerations and reactions only.
-# Where a mass drops out of the motion, the reactions tell.
-PARAMETER: dict[str, dict[str, Law]] = {
-    "rolling_wheel": {
-        "m": laws.equations, "R": laws.equations, "beta": laws.free_cut, "F": laws.free_cut,
-    },
-    "bar_pendulum": {"m": laws.reactions, "l": laws.equations},
-    "double_pendulum": {
-        "m1": laws.equations, "l1": laws.free_cut, "m2": laws.power, "l2": laws.equations,
-    },
-    "four_bar": {
-        "m": laws.multipliers, "a": laws.equations, "b": laws.free_cut, "c": laws.power,
-    },
-    "particle_pendulum": {"m": laws.reactions, "x0": laws.equations, "y0": laws.equations},
-    "rhombus": {
-        "m": laws.equations, "l": laws.free_cut, "c": laws.power, "l0": laws.equations,
-    },
-    **slowed.SEEN_BY, **rotors.SEEN_BY,
-    "driven_edge": {
-        "m": laws.reactions, "J": laws.multipliers, "a": laws.equations, "A": laws.equations,
-        "Omega": laws.equations, "alpha": laws.equations,
-    },
-    "elastic_pendulum": {"m": laws.equations, "c": laws.power, "l0": laws.free_cut},
-    "driven_knee": dict.fromkeys("mlcd", laws.reactions)
-    | dict.fromkeys(("A", "Omega"), laws.equations),
-    "knife_edge": {"m": laws.reactions, "beta": laws.power},
-    "sleigh": {"m": laws.reactions, "J": laws.multipliers, "a": laws.equations},
-    "spring_mass_damper": {
-        "m": laws.equations, "c": laws.free_cut, "d": laws.power, "l0": laws.equations,
-    },
-    "torsion_pendulum": {
-        "m": laws.equations, "R": laws.free_cut, "c": laws.equations, "phi0": laws.power,
-        "d": laws.power, "M": laws.equations, "Omega": laws.free_cut,
-    },
-}  # fmt: skip
-
-# Which law sees a parameter that is 5 % off in the start only.
-AT_THE_START: dict[str, dict[str, Law]] = {
-    "charge_in_field": {"v0": laws.start},
-    "rolling_wheel": {"R": laws.start, "v0": laws.start, "w0": laws.start},
-    "bar_pendulum": {"phi0": laws.closed_form}, "spring_mass_damper": {"y0": laws.start},
-    "double_pendulum": {"a0": laws.start, "b0": laws.start},
-    "four_bar": dict.fromkeys(("a", "b", "c", "d", "crank0"), laws.start),
-    "rhombus": {"left0": laws.start, "right0": laws.start},
-    "driven_edge": {"w0": laws.start, "A": laws.start, "alpha": laws.start},
-    "elastic_pendulum": {"r0": laws.start, "phi0": laws.start},
-    "knife_edge": {"u0": laws.start, "w0": laws.start},
-    "sleigh": {"v0": laws.start, "w0": laws.start},
-    "paired_rotors": {"w0": laws.start}, "torsion_pendulum": {"phi": laws.start, "w0": laws.start},
-    "turning_sled": {"phi0": laws.start, "u0": laws.start, "w0": laws.start},
-}  # fmt: skip
 
 DROPS_OUT = {
     ("rolling_wheel", "mu"),  # rolling needs enough friction, not a certain friction
@@ -113,6 +62,7 @@ def test_every_parameter_has_a_mutant():
     assert planted | DROPS_OUT == {(name, key) for name in PARAMETER for key in PARAMETERS[name]}
 
 
+@pytest.mark.mutant("{parameter} of {name} 5 % off in its explicit accelerations and reactions")
 @pytest.mark.whole
 @pytest.mark.parametrize(("name", "parameter", "law"), flat(PARAMETER))
 def test_parameter_off_in_the_explicit_accelerations(name: str, parameter: str, law: Law):
@@ -121,6 +71,7 @@ def test_parameter_off_in_the_explicit_accelerations(name: str, parameter: str, 
     assert_seen(law, name, mutant(system, **explicit_of(off)))
 
 
+@pytest.mark.mutant("{parameter} of {name} 5 % off at the start")
 @pytest.mark.parametrize(("name", "parameter", "law"), flat(AT_THE_START))
 def test_parameter_off_at_the_start(name: str, parameter: str, law: Law):
     off = only(name, **{parameter: 1.05 * PARAMETERS[name][parameter]})
@@ -141,6 +92,7 @@ HEAVY = [name for name in PARAMETER if hasattr(module_of(only(name)), "G")]
 HEAVY = [name for name in HEAVY if name not in ("torsion_pendulum", "paired_rotors")]
 
 
+@pytest.mark.mutant("gravity upside down in the accelerations of {name}")
 @pytest.mark.whole
 @pytest.mark.parametrize("name", HEAVY)
 def test_sign_of_gravity(name: str):
@@ -154,6 +106,7 @@ def test_sign_of_gravity(name: str):
         assert_seen(law, name, mutant(system, accelerations=accelerations))
 
 
+@pytest.mark.mutant("Steiner term left out of the bar's accelerations")
 def test_missing_steiner_term_in_the_explicit_accelerations():
     system = only("bar_pendulum")
     lonely = mutant(system, _J_O=lambda self: self.m * self.l**2 / 12)
@@ -161,6 +114,7 @@ def test_missing_steiner_term_in_the_explicit_accelerations():
         assert_seen(law, "bar_pendulum", lonely)
 
 
+@pytest.mark.mutant("Steiner term left out of the bar's kinetic energy")
 def test_missing_steiner_term_in_the_kinetic_energy():
     def T(self: Any, t: Any, q: Any, v: Any) -> Any:
         return self.m * self.l**2 / 24 * v[0] ** 2
@@ -169,6 +123,7 @@ def test_missing_steiner_term_in_the_kinetic_energy():
         assert_seen(law, "bar_pendulum", mutant(only("bar_pendulum"), T=T))
 
 
+@pytest.mark.mutant("four-bar linkage on the other branch of its loop")
 def test_wrong_branch_of_the_four_bar():
     """The loop closes in two ways; mirrored at the line from B to Q it meets (2.14) as well."""
     system = only("four_bar")
@@ -179,6 +134,11 @@ def test_wrong_branch_of_the_four_bar():
     assert_seen(laws.start, "four_bar", mutant(system, start=lambda self: (mirrored, v)))
 
 
+@pytest.mark.mutant(
+    "centrifugal terms left out of double_pendulum",
+    "centrifugal terms left out of four_bar",
+    "centrifugal terms left out of rhombus",
+)
 @pytest.mark.whole
 def test_missing_centrifugal_terms():
     for name in ("double_pendulum", "four_bar", "rhombus"):
@@ -191,6 +151,7 @@ def test_missing_centrifugal_terms():
             assert_seen(law, name, still)
 
 
+@pytest.mark.mutant("a damper that drives the mass on its spring")
 def test_damping_with_the_wrong_sign():
     system = only("spring_mass_damper")
     fed = replace(system, d=-system.d)  # type: ignore[type-var, attr-defined]
@@ -198,12 +159,14 @@ def test_damping_with_the_wrong_sign():
         assert_seen(law, "spring_mass_damper", mutant(system, **explicit_of(fed)))
 
 
+@pytest.mark.mutant("rolling wheel without its generalized force")
 def test_forgotten_generalized_force():
     blind = mutant(only("rolling_wheel"), Q4=lambda self, t, q, v: np.zeros(3))
     for law in (laws.equations, laws.power):
         assert_seen(law, "rolling_wheel", blind)
 
 
+@pytest.mark.mutant("sign of the angle in the rolling wheel's constraint (2.17)")
 def test_constraint_row_with_the_wrong_sign():
     """The book's φ is clockwise: with the angle's sign in (2.17) the wheel would slip."""
     wrong = np.array([[1.0, 0.0, 0.25], [0.0, 1.0, 0.0]])
@@ -212,6 +175,7 @@ def test_constraint_row_with_the_wrong_sign():
         assert_seen(law, "rolling_wheel", slipping)
 
 
+@pytest.mark.mutant("rolling wheel's angle counted clockwise, as in the book")
 def test_angle_of_the_wheel_taken_as_the_book_counts_it():
     def poses(self: Any, t: Any, q: Any, v: Any) -> Any:
         return {"wheel": (q[0], q[1], q[2], v[0], v[1], v[2])}
@@ -219,6 +183,7 @@ def test_angle_of_the_wheel_taken_as_the_book_counts_it():
     assert_seen(laws.free_cut, "rolling_wheel", mutant(only("rolling_wheel"), poses=poses))
 
 
+@pytest.mark.mutant("double pendulum's lower bar with the velocities of the upper one")
 def test_pose_velocity_of_another_point():
     system = only("double_pendulum")
 
@@ -230,6 +195,7 @@ def test_pose_velocity_of_another_point():
         assert_seen(law, "double_pendulum", mutant(system, poses=poses))
 
 
+@pytest.mark.mutant("force of the elbow's second part on the first for the first's on the second")
 def test_reaction_with_the_parts_exchanged():
     """`elbow.fx` is the force of the first part on the second, not of the second on the first."""
     system = only("double_pendulum")
@@ -241,6 +207,7 @@ def test_reaction_with_the_parts_exchanged():
     assert_seen(laws.reactions, "double_pendulum", mutant(system, reactions=reactions))
 
 
+@pytest.mark.mutant("rhombus whose spring pulls at one knee only")
 def test_spring_that_pulls_at_one_knee_only():
     system = only("rhombus")
 

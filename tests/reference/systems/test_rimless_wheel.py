@@ -122,6 +122,11 @@ def _with_eta(wheel: RimlessWheel, eta: float) -> System:
     return mutant(wheel, guards=guards)
 
 
+@pytest.mark.mutant(
+    "rimless wheel: cos α for cos 2α in its impact",
+    "rimless wheel: J left out of its impact",
+    "rimless wheel: an impact that loses nothing",
+)
 def test_another_impact_is_seen():
     """η with cos α in place of cos 2α, without J, or all of the speed kept."""
     wheel: Any = example("rimless_wheel")
@@ -138,6 +143,7 @@ def test_another_impact_is_seen():
         assert max(late) > 1e-2
 
 
+@pytest.mark.mutant("rimless wheel: another {name}")
 @pytest.mark.parametrize("name", ["n", "l", "J", "gamma", "w0"])
 def test_a_parameter_that_is_off_is_seen_in_the_strikes(name: str):
     changed = WHEEL[name] + 1 if name == "n" else 1.05 * WHEEL[name]

@@ -117,10 +117,11 @@ heading, turn, rows = robot_knife.heading, robot_knife._turn, robot_knife.RobotK
 IN_THE_KNIFE = {
     "heading of another axis": ("heading", another_axis, slips),
     "the heading's turn with the wrong sign": ("_turn", turned_back, robot_laws.equations),
-    "the same, eliminated": ("_turn", turned_back, eliminated),
+    "the heading's turn with the wrong sign, eliminated": ("_turn", turned_back, eliminated),
 }
 
 
+@pytest.mark.mutant("robot's knife: {mistake}")
 @pytest.mark.parametrize("mistake", IN_THE_KNIFE)
 def test_a_mistake_in_the_knife_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch) -> None:
     name, wrong, law = IN_THE_KNIFE[mistake]
@@ -128,10 +129,12 @@ def test_a_mistake_in_the_knife_is_seen(mistake: str, monkeypatch: pytest.Monkey
     assert law(robot("robot_knife")) > 1e3 * LIMIT
 
 
+@pytest.mark.mutant("robot's knife: slip of the hand's centre for that of its edge")
 def test_slip_of_the_centre_is_seen() -> None:
     assert slips(mutant(robot("robot_knife"), rows=of_the_centre)) > 1e3 * LIMIT
 
 
+@pytest.mark.mutant("robot's knife: the edge's force at the hand's centre")
 def test_a_force_at_the_centre_is_seen() -> None:
     def cuts(self: Any, t: float, q: Any) -> Any:
         *hinges, edge = robot_knife.RobotKnife.cuts(self, t, q)

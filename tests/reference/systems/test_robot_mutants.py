@@ -61,6 +61,7 @@ PLANTED = [
 ]
 
 
+@pytest.mark.mutant("{name}: {wrong}")
 @pytest.mark.parametrize(("name", "function", "wrong"), PLANTED)
 def test_a_mistake_in_the_arm_is_seen_by_lagrange(
     name: str, function: str, wrong: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
@@ -129,6 +130,7 @@ IN_THE_MODE = {
 }
 
 
+@pytest.mark.mutant("{name}: {mistake}")
 @NAMES
 @pytest.mark.parametrize("mistake", IN_THE_MODE)
 def test_a_mistake_in_the_mode_is_seen(name: str, mistake: str) -> None:

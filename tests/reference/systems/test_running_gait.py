@@ -87,6 +87,12 @@ def ends(system: RunningGait) -> Array:
     return np.array(system.modes[run.modes[-1]].poses(0.0, q, v)["jumper"])
 
 
+@pytest.mark.mutant(
+    "running gait: a foot 1 mm off",
+    "running gait: a flight seen from the foot that was left",
+    "running gait: a leg that pulls in flight",
+    "running gait: no weight in stance",
+)
 @pytest.mark.parametrize("mistake", ["a foot", "the leap", "a leg that pulls", "no weight"])
 def test_a_mistake_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """A foot 1 mm off; a flight seen from the foot that was left; stance in flight; no gravity."""

@@ -106,6 +106,11 @@ def test_length_only_sets_the_time():
     assert lasts == pytest.approx(3.88246375 * math.sqrt(l / G), rel=1e-8)
 
 
+@pytest.mark.mutant(
+    "simplest walker: no slope",
+    "simplest walker: a strike that keeps all speed",
+    "simplest walker: a swinging leg that the hip does not pull",
+)
 @pytest.mark.parametrize("wrong", ["gravity", "impact", "swing"])
 def test_a_mistake_is_seen_in_the_cycle(wrong: str, monkeypatch: pytest.MonkeyPatch):
     """Gravity straight down; a strike that keeps all; a swinging leg that the hip does not pull."""

@@ -83,6 +83,7 @@ def test_motion_meets_the_closed_form(name: str):
     assert np.all(np.abs(follow(system, times).y - known).max(0) <= 1e-12 * size)
 
 
+@pytest.mark.mutant("gravity upside down in the accelerations of {name}")
 @pytest.mark.parametrize("name", ["heavy_top", "tilting_disk", "tilting_ring"])
 def test_sign_of_gravity(name: str):
     sound: Any = only(name)
@@ -108,6 +109,7 @@ PARAMETER = {
 DROPS_OUT = {("torque_free", "m"), ("tilting_disk", "mu"), ("tilting_ring", "mu")}
 
 
+@pytest.mark.mutant("{parameter} of {name} 5 % off in its explicit accelerations and reactions")
 @pytest.mark.parametrize(("name", "parameter"), PARAMETER)
 def test_parameter_off_in_the_explicit_accelerations(name: str, parameter: str):
     off: Any = only(name, **{parameter: 1.05 * SPATIAL[name][parameter]})
@@ -127,6 +129,7 @@ def test_parameter_that_drops_out(name: str, parameter: str):
         assert off.reactions(t, q, v) == sound.reactions(t, q, v)
 
 
+@pytest.mark.mutant("each parameter of a body in space 5 % off at the start")
 def test_parameter_off_at_the_start():
     """All that the start depends on and the accelerations do not; 5 % of it are seen."""
     found = {
@@ -145,6 +148,7 @@ def test_parameter_off_at_the_start():
     }
 
 
+@pytest.mark.mutant("ω in the poses of {name} in ground axes")
 @pytest.mark.parametrize("name", SPATIAL)
 def test_spin_in_ground_axes_is_seen(name: str):
     """ω of a pose stands in body axes."""
@@ -158,6 +162,7 @@ def test_spin_in_ground_axes_is_seen(name: str):
     seen(name, spoiled, "rates_of_poses", "koenig", "free_bodies")
 
 
+@pytest.mark.mutant("attitude in the poses of {name} transposed")
 @pytest.mark.parametrize("name", SPATIAL)
 def test_attitude_from_ground_to_body_is_seen(name: str):
     """A transposed E: the quaternion of the turn back."""

@@ -66,6 +66,7 @@ def broken() -> set[str]:
     return {check.name for check in solve(case).checks if not check.holds}
 
 
+@pytest.mark.mutant("restitution 0.71 for 0.7 in the generated stop")
 def test_another_restitution_in_the_generated_mechanism_is_seen(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -78,6 +79,7 @@ def test_another_restitution_in_the_generated_mechanism_is_seen(
     assert {"generated motion", "generated events"} <= broken()
 
 
+@pytest.mark.mutant("a stop 1e-6 rad elsewhere in the hand-written system")
 def test_a_stop_elsewhere_in_the_hand_written_system_is_seen(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -90,6 +92,7 @@ def test_a_stop_elsewhere_in_the_hand_written_system_is_seen(
     assert {"generated events", "closed events"} <= broken()
 
 
+@pytest.mark.mutant("Steiner term left out of the stopped bar")
 def test_a_lost_steiner_term_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     def lonely(self: Any, t: float, q: Any, v: Any) -> Any:
         return np.array([0.0 if self.rests else -6.0 * 9.80665 / self.l * math.cos(q[0])])

@@ -163,6 +163,8 @@ def changed(**terms: float) -> Any:
         a[4] += (terms.get("axes", 1.0) - 1) * w3 * tan * w1
         return a
 
+    told = [f"the {name} term of (2.33) taken {times:g} times" for name, times in terms.items()]
+    accelerations.__doc__ = ", ".join(told)
     return accelerations
 
 
@@ -173,6 +175,7 @@ def centre_slips_not(self: TiltingRing, t: Any, q: Any) -> Any:
     return rows
 
 
+@pytest.mark.mutant("tilting ring: {mistake}")
 @pytest.mark.parametrize(
     ("mistake", "law"),
     [

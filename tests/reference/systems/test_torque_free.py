@@ -198,6 +198,7 @@ def turned_by_ground_axes(self: Any, t: Any, q: Any, v: Any) -> Any:
     return np.concatenate([v[:3], np.array(e_dot) / 2])
 
 
+@pytest.mark.mutant("torque-free body: {mistake}")
 @pytest.mark.parametrize(
     ("mistake", "law"),
     [

@@ -103,6 +103,7 @@ def _softer(self: Any, k: int, v: Array) -> Array:
     return v
 
 
+@pytest.mark.mutant("cradle: {struck}")
 @pytest.mark.parametrize("struck", [_swapped, _softer])
 def test_a_wrong_blow_is_seen(struck: Callable[..., Array]) -> None:
     sound = example("cradle")
@@ -120,6 +121,7 @@ def _one_way(self: Any) -> tuple[float, float]:
     return -self.s[0] * self.mu1 * (self.m1 + self.m2) * G, self.mu2 * self.m2 * G
 
 
+@pytest.mark.mutant("stacked blocks: {sliding}")
 @pytest.mark.parametrize(
     ("variant", "mode", "sliding"),
     [
@@ -147,6 +149,10 @@ def _straight(self: Any, q: Array, v: Array) -> float:
     return self.m * G * math.sin(q[1])
 
 
+@pytest.mark.mutant(
+    "disk on disk: a drum that does not give way",
+    "disk on disk: normal force without the path's curvature",
+)
 @pytest.mark.parametrize(("mode", "lost"), [("rolls", "friction"), ("slips", "normal")])
 def test_a_lost_term_of_the_disk_is_seen(mode: str, lost: str) -> None:
     sound = example("disk_on_disk")

@@ -144,20 +144,22 @@ def across(self: Any, t: Any, q: Any, v: Any) -> Any:
 MISTAKES: dict[str, tuple[dict[str, Any], Callable[[Mode], float]]] = {
     "mass of a disk that glides": (off(M=1.3), free_cut),
     "gravity of one that glides": (off(gravity=9.80665), of_the_wheel),
-    "the same, by the formalisms": (off(gravity=9.80665), formalisms),
-    "the same, as power": (off(gravity=9.80665), power),
-    "the same, as a motion": (off(gravity=9.80665), apart),
+    "gravity of one that glides, by the formalisms": (off(gravity=9.80665), formalisms),
+    "gravity of one that glides, as power": (off(gravity=9.80665), power),
+    "gravity of one that glides, as a motion": (off(gravity=9.80665), apart),
     "another slope": (off(alpha=0.2), free_cut),
     "rolls along its axle": ({"rates": across}, of_the_wheel),
 }
 
 
+@pytest.mark.mutant("wheel from above: {mistake}")
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_planted_mistake_is_seen(mistake: str) -> None:
     methods, law = MISTAKES[mistake]
     assert law(mutant(above(), **methods)) > 1e3 * LIMIT
 
 
+@pytest.mark.mutant("wheel from above: mass and gravity of a disk that glides, everywhere")
 def test_nothing_turns_it() -> None:
     """J drops out; with the mass of the disk alone the path would be another one everywhere."""
     for t, q, v in states():

@@ -194,7 +194,7 @@ MISTAKES = {
     "φ counted backward": ({"poses": backward}, slips),
     "lost gyroscopic couple": ({"reactions": gyroscopic}, balance),
     "slip of the centre": ({"f_a": centre}, slips),
-    "the same, as equations": ({"f_a": centre}, equations),
+    "slip of the centre, as equations": ({"f_a": centre}, equations),
     "accelerations off": ({"accelerations": too_fast}, power),
     "gravity uphill": (
         {"U": lambda self, t, q: self.m * G * q[0] * math.sin(self.alpha)},
@@ -203,6 +203,7 @@ MISTAKES = {
 }
 
 
+@pytest.mark.mutant("{name}: {mistake}")
 @NAMES
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_planted_mistake_is_seen(name: str, mistake: str) -> None:
@@ -210,6 +211,7 @@ def test_a_planted_mistake_is_seen(name: str, mistake: str) -> None:
     assert law(mutant(wheel(name), **methods)) > 1e3 * LIMIT
 
 
+@pytest.mark.mutant("upright_wheel: J of a ring everywhere")
 def test_a_moment_of_inertia_that_is_wrong_everywhere_is_seen() -> None:
     """The laws agree on any; the closed form knows that of a thin disk."""
     ring = mutant(wheel("upright_wheel"), axle=lambda self: self.m * self.R**2)

@@ -87,6 +87,7 @@ class Other:
         return self.engine.plain(changed, start, step, other)
 
 
+@pytest.mark.mutant("plain loop of {name} with another gravity")
 @pytest.mark.parametrize("name", TUNED)
 def test_another_motion_is_not_compared(name: str) -> None:
     other: Any = Other(TUNED[name], heavier)
@@ -97,6 +98,7 @@ def test_another_motion_is_not_compared(name: str) -> None:
     assert row.samples is None
 
 
+@pytest.mark.mutant("plain loop of {name} with another stiction")
 @pytest.mark.parametrize("name", TUNED)
 def test_nor_is_another_law(name: str) -> None:
     """It breaks loose earlier, at any step."""

@@ -36,6 +36,7 @@ def rows(folder: Path) -> Iterator[dict[str, str]]:
     return iter(map(dict, read(folder / "versions.csv").rows))
 
 
+@pytest.mark.mutant("a release of pymunk with another gravity")
 @pytest.mark.whole
 def test_a_release_that_moved_a_number_is_seen_and_one_that_did_not_is_not(
     case: Path, tmp_path: Path

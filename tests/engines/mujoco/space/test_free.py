@@ -108,6 +108,12 @@ def _turned_back(*args: Any) -> Any:
     return [*q[:3], *inverse(np.array(q[3:])).tolist()], v
 
 
+@pytest.mark.mutant(
+    "ω read in ground axes",
+    "ω started in ground axes",
+    "attitude transposed at the start",
+    "J turned back from its principal axes",
+)
 @pytest.mark.parametrize(
     ("module", "name", "wrong"),
     [

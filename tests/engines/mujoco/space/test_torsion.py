@@ -57,6 +57,7 @@ def test_mujoco_turns_as_the_reference(scene: str, tmp_path: Path) -> None:
     assert ("wrist.phi_torque" in off) == (scene is DRIVEN)
 
 
+@pytest.mark.mutant("torque of a spring counted as the drive's")
 @pytest.mark.whole
 def test_a_drive_s_torque_with_the_spring_s_in_it_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

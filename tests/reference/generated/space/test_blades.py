@@ -59,6 +59,7 @@ directions = blades.Blades.directions
 
 
 def backward(self: Any, bodies: Any) -> Any:
+    """Its rate with the wrong sign."""
     u, u_dot = directions(self, bodies)
     return u, -u_dot
 
@@ -70,10 +71,12 @@ def carried_along(self: Any, bodies: Any) -> Any:
 
 
 def to_the_right(self: Any, bodies: Any) -> Any:
+    """To the right, for to the left."""
     u, u_dot = directions(self, bodies)
     return -u, -u_dot
 
 
+@pytest.mark.mutant("direction of a blade in space: {wrong}")
 @pytest.mark.parametrize(
     ("wrong", "law"), [(backward, worst), (carried_along, worst), (to_the_right, reactions)]
 )

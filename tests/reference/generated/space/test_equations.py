@@ -65,6 +65,7 @@ def test_a_free_body_has_no_multipliers() -> None:
     assert multipliers.shape == (0,)
 
 
+@pytest.mark.mutant("pivots of the equations in space trusted however narrow")
 @pytest.mark.parametrize("case", [1, 3, 4, 6])
 def test_narrow_pivots_are_not_trusted(case: int, monkeypatch: pytest.MonkeyPatch) -> None:
     given, bound = CASES[case]
@@ -72,6 +73,7 @@ def test_narrow_pivots_are_not_trusted(case: int, monkeypatch: pytest.MonkeyPatc
     assert lost(**given) > 10 * bound
 
 
+@pytest.mark.mutant("equations in space without refinement")
 def test_without_refinement_digits_are_lost(monkeypatch: pytest.MonkeyPatch) -> None:
     kept = lost(mass=1e-3)
     monkeypatch.setattr(equations, "TURNS", 0)

@@ -139,6 +139,7 @@ def test_the_laws_hold_where_nothing_is_planted(law: str) -> None:
     assert worst(law) < EXACT
 
 
+@pytest.mark.mutant("{mistake}")
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_planted_mistake_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch) -> None:
     plant, laws, blind = MISTAKES[mistake]
@@ -149,6 +150,7 @@ def test_a_planted_mistake_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch
     assert worst(blind) < EXACT
 
 
+@pytest.mark.mutant("sign of β in (2.65), in what rolls and in what has a blade")
 @pytest.mark.parametrize("kind", MAKES)
 def test_the_sign_of_beta_is_seen(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """(2.65): where rates cannot be integrated; elsewhere β is zero. Appell knows no β."""

@@ -64,6 +64,7 @@ MOVED = [
 ]  # fmt: skip
 
 
+@pytest.mark.mutant("γ of {kind.name} left out")
 @pytest.mark.parametrize(("kind", "name"), MOVED)
 def test_a_lost_gamma_is_seen(kind: Any, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     values = kind.values
@@ -76,6 +77,7 @@ def test_a_lost_gamma_is_seen(kind: Any, name: str, monkeypatch: pytest.MonkeyPa
     assert left_of_gamma(name) > 1e-3
 
 
+@pytest.mark.mutant("slip of a disk's centre for that of its rim")
 def test_the_slip_of_a_centre_is_not_that_of_the_rim(monkeypatch: pytest.MonkeyPatch) -> None:
     """The height of the lowest point does not change as the rows of the centre would have it."""
     monkeypatch.setattr(rolling, "skew", lambda rho: 0.0 * attitude.skew(rho))

@@ -79,6 +79,7 @@ def damper_backward(*numbers: float) -> float:
 COUPLE, TORSION, DAMPER = turning.couple, turning.torsion, turning.torsion_damper
 
 
+@pytest.mark.mutant("about a turn in space: {wrong}")
 @pytest.mark.parametrize(
     ("name", "wrong"),
     [("couple", lost_couple), ("torsion", torsion_backward), ("torsion_damper", damper_backward)],
@@ -102,6 +103,7 @@ def unsigned(turn: Any) -> Any:
 ANGLE: Any = turning.Turned.angle.fget  # type: ignore[attr-defined]
 
 
+@pytest.mark.mutant("{name} of a turn in space: {wrong}")
 @pytest.mark.parametrize(
     ("name", "wrong"), [("m", along_its_axis), ("gradient", along_its_axis), ("angle", unsigned)]
 )

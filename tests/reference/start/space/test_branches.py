@@ -91,6 +91,7 @@ def test_a_linkage_has_its_two_ways_and_none_with_a_hinge_turned_over(tmp_path: 
     assert "near: {bearing: {angle:" in text
 
 
+@pytest.mark.mutant("a hinge turned over taken for an assembly")
 @pytest.mark.whole
 def test_a_hinge_turned_over_is_no_assembly(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -122,6 +122,7 @@ def test_beside_a_dead_centre_it_starts(tmp_path: Path) -> None:
     started(tmp_path, f"{SLIDER}initial: {{rail: {{shift: 0.79}}}}\n{near}")
 
 
+@pytest.mark.mutant("a start at a dead centre that nobody refuses")
 def test_a_dead_centre_is_not_missed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Without the question Newton's method stops where the crank is 1e-5 rad off."""
     monkeypatch.setattr(positions, "DEAD", 1e-9)
