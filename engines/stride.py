@@ -37,8 +37,13 @@ class Stride:
             if y > 0.0:
                 self.meets[name] = True
             elif self.meets[name]:
-                for behind, contact in self.feet.items():
-                    self.meets[behind] &= contact.at != foot.ahead_of
+                self.come_down(name)
+
+    def come_down(self, name: str) -> None:
+        """The foot stands, and the one behind is let go."""
+        self.meets[name] = True
+        for behind, contact in self.feet.items():
+            self.meets[behind] &= contact.at != self.feet[name].ahead_of
 
     def stands(self, place: Place) -> str:
         """The foot that carries: of those that meet the floor the one behind."""

@@ -63,7 +63,7 @@ class Pymunk:
         without = [Refusal("native", why) for why in not_native(scene)]
         if without and not self._tuned:
             return without
-        ways = plans.ways(scene) if self._tuned else ("native",)
+        ways = plans.ways(scene, start) if self._tuned else ("native",)
         numbers = recipe(scene, start) if self._tuned else own(self.options, scene, start)
         shipped = self.setting == "shipped"
         return [

@@ -25,7 +25,7 @@ ABOVE = 0.1  # m; it must only be more than a step's way: up to 10 m/s with a us
 Follow = Callable[[float], None]  # before the step that starts at t [s]
 TOUCHING = 1e-9  # m: a start that the assembly has found to 1e-12, and no visible height
 GROUP = 1  # of circles, which touch planes and not each other
-_PASSES = ShapeFilter(group=GROUP, mask=0)
+PASSES = ShapeFilter(group=GROUP, mask=0)
 
 
 def is_tip(scene: Scene, contact: Contact) -> bool:
@@ -111,7 +111,7 @@ def steers(walks: Stride, shapes: Mapping[str, Circle], place: Place) -> Follow:
     def steer(t: float) -> None:
         walks.look(place)
         for name, meets in walks.meets.items():
-            shapes[name].filter = meeting[name] if meets else _PASSES
+            shapes[name].filter = meeting[name] if meets else PASSES
 
     return steer
 

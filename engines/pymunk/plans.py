@@ -13,6 +13,7 @@ from .contact import closed
 from .edge import alone
 from .force import damped
 from .lacking import lacking
+from .law.cut import cuts, lands
 from .law.friction import ruled
 from .own import Own
 from .pair import closed_pairs
@@ -24,19 +25,22 @@ NOMINAL = 1e-3  # s; whether a bias is 0 depends on no step
 SIGNED = ("fx", "fy", "torque", "drive", "friction")
 
 
-def ways(scene: Scene) -> tuple[Realised, ...]:
+def ways(scene: Scene, start: Start) -> tuple[Realised, ...]:
     """Edges by our driver, forces that pymunk has no element for by our law.
 
     Dampers also by their law: pymunk applies its own after the kick, a first order.
 
     Dry friction too: pymunk's has one bound, where the textbook's has up to four.
+
+    Landings also by our driver: pymunk finds them at the end of a step, a first order.
     """
     if scene.constraints or strides(scene):
         return ("driver",)
     if lacking(scene):
         return ("law",)
     law = damped(scene) or any(scene.dampers()) or ruled(scene)
-    return ("native", "law") if law else ("native",)
+    driver = lands(scene, start)
+    return ("native", *(("law",) if law else ()), *(("driver",) if driver else ()))
 
 
 def plan(
@@ -49,7 +53,7 @@ def plan(
         held=(1, 2) if numbers.follows else order,
         following=order if numbers.follows else None,
         numbers=numbers,
-        protocol=partial(_words, scene, start, numbers),
+        protocol=partial(_words, scene, start, realised, numbers),
         withheld=_withheld(scene),
         simplified=one_number(scene) if realised == "native" and not shipped else "",
     )
@@ -79,7 +83,10 @@ def _spoilt(scene: Scene, realised: Realised) -> bool:
     brakes = native and any(joint.dry_friction for joint in scene.joints.values())
     met = bool(scene.pairs) or any(contact.switches for contact in scene.contacts.values())
     sided, roped = any(scene.one_sided()), any(scene.limits())
-    return (native and (damped(scene) or met)) or brakes or strides(scene) or sided or roped
+    jointed = realised == "driver" and met and bool(scene.joints)  # no gap is closed in a part
+    return (
+        (native and (damped(scene) or met)) or brakes or strides(scene) or sided or roped or jointed
+    )
 
 
 def _withheld(scene: Scene) -> dict[str, str]:
@@ -104,7 +111,7 @@ def _withheld(scene: Scene) -> dict[str, str]:
     return edges | moved | joints
 
 
-def _words(scene: Scene, start: Start, numbers: Numbers, step: float) -> str:
+def _words(scene: Scene, start: Start, realised: Realised, numbers: Numbers, step: float) -> str:
     """The half step along the velocities, contacts' depth at the start, and what holds a slot."""
     known, words = named(numbers(step)), []
     if known.get("time.midpoint"):
@@ -121,6 +128,8 @@ def _words(scene: Scene, start: Start, numbers: Numbers, step: float) -> str:
         words.append(f"{', '.join(ours)} by our law before each step, which the script has not")
     if strides(scene):
         words.append("before each step the floor is told which foot it meets")
+    if realised == "driver" and cuts(scene):
+        words.append("a step is cut where something lands, which the script does not")
     if scene.constraints:
         words.append(
             f"{', '.join(scene.constraints)} held by pin joints that are laid anew before each step"

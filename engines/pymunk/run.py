@@ -13,6 +13,7 @@ from typing import Any
 from ...cases.scene import Scene
 from ..engine import Realised, Start
 from .contact import closed, sink
+from .law.cut import Landings, cuts
 from .law.force import forces
 from .pair import closed_pairs, press
 from .scene import build
@@ -75,6 +76,8 @@ def _between(
     keep: Callable[[], None] | None,
 ) -> Callable[[int, int], None]:
     """A function that takes the steps from one number up to another."""
+    if realised == "driver" and cuts(world.scene):
+        return _cutting(Landings(world, numbers.get("start.seed", 0.0)), step, keep)
     one, midpoint = world.space.step, bool(numbers.get("time.midpoint"))
     reflects = bool(numbers.get("contact.reflects"))
     applied = forces(world, step, midpoint=midpoint, law=realised != "native", reflects=reflects)
@@ -107,3 +110,17 @@ def _between(
             keep()
 
     return kept if applied else kept_free
+
+
+def _cutting(
+    landings: Landings, step: float, keep: Callable[[], None] | None
+) -> Callable[[int, int], None]:
+    """The same by our driver, which cuts a step where something lands."""
+
+    def cut(first: int, last: int) -> None:
+        for _ in repeat(None, last - first):
+            landings.step(step)
+            if keep is not None:
+                keep()
+
+    return cut

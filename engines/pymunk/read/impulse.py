@@ -15,7 +15,10 @@ Planes = dict[str, tuple[float, float]]
 
 
 def impulses(world: World, reactions: tuple[str, ...]) -> Callable[[], list[float]]:
-    """A function that reads them [N s]: a joint's or a rope's size, an edge's, a plane's two."""
+    """A function that reads them [N s]: a joint's or a rope's size, an edge's, a plane's two.
+
+    Of a step that was cut they are what its last part would give in a whole one.
+    """
     parts = [quantity.rpartition(".") for quantity in reactions]
     joints: list[Constraint | None] = [
         world.joints[name][0] if name in world.joints else world.ropes.get(name)
@@ -47,7 +50,7 @@ def impulses(world: World, reactions: tuple[str, ...]) -> Callable[[], list[floa
             else:
                 found = (felt[name] for name in names if name in felt)
                 row.append(sum(x * along + y * up for along, up in found))
-        return row
+        return row if world.share[0] == 1.0 else [impulse / world.share[0] for impulse in row]
 
     return read
 
