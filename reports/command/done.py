@@ -26,11 +26,18 @@ def finished(stored: bool) -> Iterator[None]:
 
 
 def written(frames: "Mapping[str, pd.DataFrame]", out: Path) -> None:
-    """Notes that they are there, if they are: an interruption may come after the last of them."""
+    """Notes that they are there, if they are: an interruption may come after the last of them.
+
+    Looking whether they are takes as long as writing them, and may be interrupted itself: it is
+    asked only where the writing was.
+    """
     from .. import write
 
+    there = f"the reports are in {out}"
     try:
         write.write(frames, out)
-    finally:
-        if write.holds(frames, out):
-            DONE.append(f"the reports are in {out}")
+        DONE.append(there)
+    except BaseException:
+        if there not in DONE and write.holds(frames, out):
+            DONE.append(there)
+        raise

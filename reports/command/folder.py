@@ -1,7 +1,7 @@
 """A folder that is named on the command line."""
 
+import os
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import click
@@ -20,7 +20,20 @@ class Folder(click.Path):
         folder = Path(str(super().convert(value, param, ctx)))
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            TemporaryDirectory(prefix=".writing-", dir=folder).cleanup()
+            _tried(folder)
         except OSError as error:
             self.fail(f"cannot write to {folder}: {error.strerror}", param, ctx)
         return folder
+
+
+def _tried(folder: Path) -> None:
+    """Makes something there and takes it away, if it is interrupted too. Raises OSError."""
+    probe = f"{folder}{os.sep}.writing-{os.getpid()}"
+    try:
+        os.mkdir(probe)
+    finally:
+        # Not by `suppress`: an interruption may come where that is entered.
+        try:  # noqa: SIM105
+            os.rmdir(probe)
+        except OSError:  # it was never made, or another run has swept it
+            pass

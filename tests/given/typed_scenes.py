@@ -72,6 +72,17 @@ scene:
 initial: {dot: {y: -0.7288218333333333}}
 allow: {dot.y: 1.0e-2, guide.torque: 1.0e-3}
 """,
+    "two slides in series": """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {a: {particle: {mass: 1}}, b: {particle: {mass: 1}}}
+  joints:
+    one: {slide: [ground.O, a.center], along: [1, 0], dry_friction: {static: 6, kinetic: 3}}
+    two: {slide: [a.center, b.center], along: [1, 0], dry_friction: {static: 4, kinetic: 2}}
+  forces: {pull: {push: b.center, ramp: [1.0, 0]}}
+initial: {a: {x: 0}, b: {x: 0}}
+allow: {a.x: 1.0e-3, b.x: 1.0e-3}
+""",
     "wheel without friction": WHEEL.replace("BETA", "0").replace("MU", "0").replace("UP", "0"),
 }
 

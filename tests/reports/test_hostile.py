@@ -5,10 +5,12 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from given.command import NEW, textmech
 
+from textmech.reports.command.folder import Folder
 from textmech.reports.show.say import shown
 
 ONE = ("--engine", "mujoco.shipped")
@@ -63,6 +65,23 @@ def test_a_place_that_takes_nothing_is_said_before_the_work(
     err = said("cart.yaml", *words)
     assert message in err
     assert "engines" not in err
+
+
+def test_a_folder_that_is_tried_keeps_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also where the signal comes while something is made there."""
+    (tmp_path / "o").mkdir()
+    make = os.mkdir
+
+    def struck(*words: Any) -> None:
+        make(*words)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "mkdir", struck)
+    with pytest.raises(KeyboardInterrupt):
+        Folder().convert(str(tmp_path / "o"), None, None)
+    assert list((tmp_path / "o").iterdir()) == []
 
 
 def test_a_folder_in_a_reports_place_costs_no_other_report(

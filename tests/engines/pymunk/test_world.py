@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from given.engine_scenes import RADIUS, WHEEL, G, guided, incline, touching
+from given.engine_scenes import BOX, RADIUS, WHEEL, G, guided, incline, machine, pin, touching
 from given.planning import CASES, SHIPPED, TUNED, begun, moved, planned
 from pymunk.body import Body
 from pymunk.constraints import PivotJoint
@@ -96,6 +96,19 @@ def test_a_wheel_that_leaves_the_floor_says_whose_limit_it_is() -> None:
     )
     with pytest.raises(Diverged, match=said):
         moved(SHIPPED["pymunk"], scene, start, np.linspace(0.0, 120.0, 13), 0.02)
+
+
+def test_a_rails_end_throws_nothing_back() -> None:
+    """Nor between two samples, here 30 m apart: 1 s ended 230 m off, and nobody was told."""
+    scene = machine([BOX], [pin("rail", "ground.O", "box.center", "slide")])
+    times = np.linspace(0.0, 1.0, 11)
+
+    def thrown(speed: float) -> Trajectory:
+        return moved(TUNED["pymunk"], scene, {"box": (0, 0, 0, speed, 0, 0)}, times, 1e-3)
+
+    assert thrown(300.0).states["box"][:, X] == pytest.approx(300.0 * times, abs=1e-9)
+    with pytest.raises(Diverged, match="came to the end of rail's groove, of which our adapter"):
+        thrown(15e3)
 
 
 def test_samples_that_no_step_meets() -> None:

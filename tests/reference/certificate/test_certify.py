@@ -15,6 +15,8 @@ from textmech.cases.case import Case
 from textmech.reference import systems
 from textmech.reference.certificate import laws
 from textmech.reference.certificate.agreement import Check, difference, relative, worst
+from textmech.reference.integrators.explicit import DormandPrince
+from textmech.reference.motion import follow
 from textmech.reference.motion.follow import TOLERANCE
 from textmech.reference.system import Array, Load, Mass, Mode, Only
 from textmech.reference.systems.bar_pendulum import BarPendulum
@@ -46,6 +48,7 @@ def written(case: Case) -> Mode:
 
 PENDULUM = replace(scenes.SHIPPED["bar_pendulum"], duration=2.0, samples=26)
 SPRING = replace(scenes.SHIPPED["spring_mass_damper.underdamped"], duration=2.0, samples=26)
+STOPS = scenes.SHIPPED["sliding_block.braking"]
 
 
 class Heavy(BarPendulum):
@@ -128,6 +131,22 @@ def test_a_broken_system_is_seen(kind: type[Mode]) -> None:
 def test_a_sloppy_integrator_is_seen() -> None:
     system = BarPendulum(**PENDULUM.parameters)
     assert ANGLE in failing(PENDULUM, system, tolerance=1e-6)
+
+
+@pytest.mark.mutant("the first integrator a millionth too fast, in a scene alone")
+@pytest.mark.parametrize("case", [PENDULUM, STOPS], ids=["smooth", "switching"])
+def test_the_second_integrator_is_no_copy_of_the_first(
+    case: Case, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of a scene alone no other answer is known: a first one gone wrong shows beside it only."""
+
+    def broken() -> set[str]:
+        return {check.name for check in certified(case) if not check.holds}
+
+    assert not broken()
+    faster = lambda f, *told: DormandPrince(lambda t, y: (1 + 1e-6) * f(t, y), *told)  # noqa: E731
+    monkeypatch.setattr(follow, "DormandPrince", faster)
+    assert f"error of {next(iter(case.allow))}" in broken()
 
 
 @pytest.mark.mutant("another {change} in the generated bar")

@@ -34,3 +34,12 @@ def test_it_swings_through_its_anchor(tmp_path: Path, start: tuple[float, float]
 def test_it_is_certified(tmp_path: Path):
     text = THROUGH.replace("X", "0").replace("Y", "0")
     assert solve(scenes.typed(tmp_path, text)).holds
+
+
+def test_a_stiff_one_is_followed(tmp_path: Path):
+    """1e8 N/m on 2 kg: fifty swings, each in a thousandth of a second."""
+    text = THROUGH.replace("stiffness: 50", "stiffness: 1.0e+8").replace("Y, vx: 3, vy: 1", "0")
+    mechanism = scenes.mechanism(scenes.typed(tmp_path, text.replace("X", "0.01")))
+    times = TIMES / 20
+    found = follow(mechanism, times).y[:, 0]
+    np.testing.assert_allclose(found, 0.01 * np.cos(np.sqrt(5e7) * times), atol=1e-10)

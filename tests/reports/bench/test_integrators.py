@@ -1,6 +1,7 @@
 """Methods are compared at one error, each between the two tolerances around it."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import pytest
@@ -44,3 +45,18 @@ def test_a_case_is_compared(monkeypatch: pytest.MonkeyPatch) -> None:
     assert row.ratio
     assert row.ours > 0
     assert row.best in integrators.SCIPYS
+
+
+def test_the_fastest_of_scipys_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of made-up seconds: ours takes one, scipy's first two, and each next one more."""
+
+    def took(works: Sequence[object], rounds: int) -> Array:
+        return np.array([[1.0 + i // 2] * rounds for i in range(len(works))])
+
+    monkeypatch.setattr(integrators, "turns", took)
+    monkeypatch.setattr(integrators, "ERRORS", {"bar_pendulum": 1e-6})
+    monkeypatch.setattr(integrators, "TOLERANCES", (1e-6, 1e-7, 1e-9))
+    (row,) = compared(3)
+    assert (row.ours, row.best) == (pytest.approx(1.0), integrators.SCIPYS[0])
+    assert row.ratio
+    assert row.ratio.median == pytest.approx(0.5)
