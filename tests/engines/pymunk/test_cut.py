@@ -88,6 +88,7 @@ MISTAKES: Mapping[str, tuple[object, str, Callable[..., object]]] = {
 }
 
 
+@pytest.mark.mutant("a spoke comes down: {mistake}")
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_mistake_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(*MISTAKES[mistake])
