@@ -1,14 +1,17 @@
 """Results of tasks: from the store, or from the executor and then kept as they come."""
 
+import time
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from ..cases.mistake import CaseError
 from .cache.key import Keys
 from .cache.store import Store
 from .pool import Died, spread
+
+PAUSE = 0.5  # s between two looks at the code
 
 
 class Progress(Protocol):
@@ -36,10 +39,11 @@ class Results:
         """Those that need not be computed."""
         return {key: kept for key in keys if (kept := self.store.get(key)) is not None}
 
-    def keep(self, key: str, result: Any) -> None:
-        """For the next run, unless it may be of a mixture of code."""
-        if self.keys.hold():
-            self.store.put(key, result)
+    def keep(self, results: Mapping[str, Any]) -> None:
+        """By their keys, for the next run, unless they may be of a mixture of code."""
+        if results and self.keys.hold():
+            for key, result in results.items():
+                self.store.put(key, result)
 
     def of(
         self, what: str, function: Callable[[Any], Any], tasks: Mapping[str, Any]
@@ -47,7 +51,11 @@ class Results:
         """By the tasks' keys: what is stored, and all else computed and kept at once."""
         found = self.stored(tasks)
         left = {key: task for key, task in tasks.items() if key not in found}
-        return found | self.anew(what, function, left, len(tasks), self.keep)
+        gathering = Gathering(self.keep)
+        try:
+            return found | self.anew(what, function, left, len(tasks), gathering.add)
+        finally:  # what was finished before a run is interrupted is kept too
+            gathering.release()
 
     def anew(
         self,
@@ -60,20 +68,44 @@ class Results:
         """All computed, whatever is stored; of: so many there are with those that are stored."""
         total = len(tasks) if of is None else of
         done, found, keys = total - len(tasks), dict[str, Any](), list(tasks)
-        work = {key: _work(task) for key, task in tasks.items()}
+        whole, finished = sum(map(_work, tasks.values())) or 1.0, 0.0
 
         def tell(last: str = "") -> None:
-            part = sum(work[key] for key in found) / (sum(work.values()) or 1.0)
-            self.progress(what, done + len(found), total, last, part)
+            self.progress(what, done + len(found), total, last, finished / whole)
 
         tell()
         for index, result in spread(function, list(tasks.values()), self.executor, tell):
             key = keys[index]
             found[key] = result
+            finished += _work(tasks[key])
             if not isinstance(result, Died | CaseError):
                 keep(key, result)
             tell(getattr(tasks[key], "name", ""))
         return found
+
+
+@dataclass
+class Gathering:
+    """Results as they come, handed on together every half a second.
+
+    Before any is kept each file of the code is looked at, which takes longer than most results.
+    """
+
+    keep: Callable[[Mapping[str, Any]], None]
+    since: float = field(default_factory=time.monotonic)
+    waiting: dict[str, Any] = field(default_factory=dict)
+
+    def add(self, key: str, result: Any) -> None:
+        """One more."""
+        self.waiting[key] = result
+        if time.monotonic() - self.since >= PAUSE:
+            self.release()
+
+    def release(self) -> None:
+        """All that wait."""
+        together, self.waiting = self.waiting, {}
+        self.keep(together)
+        self.since = time.monotonic()
 
 
 def _work(task: Any) -> float:

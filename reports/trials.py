@@ -54,6 +54,7 @@ def _computed(
     units: dict[str, Unit] = {}
     gone: dict[str, Died] = {}
     mine: dict[str, list[str]] = {key: [] for key in pairs}
+    planned_ways: dict[str, tuple[Realised, ...]] = {}
     for key, pair in pairs.items():
         found = ways[key]
         died = isinstance(found, Died)
@@ -63,7 +64,8 @@ def _computed(
             mine[key].append(name)
             gone |= {name: found} if died else {}
         if not died:
-            results.keep(key, tuple(way.realised for way in found))
+            planned_ways[key] = tuple(way.realised for way in found)
+    results.keep(planned_ways)
     outcomes = results.stored(units)
     left = {name: unit for name, unit in units.items() if name not in {**outcomes, **gone}}
     outcomes |= gone | _run(left, references, results)
