@@ -21,40 +21,32 @@ def passages(times: Array, u: Array, still: float) -> Iterator[float]:
     """
     times, kept = np.unique(times, return_index=True)
     u = u[kept]
-    curves = [_curve(times, u, i) for i in range(len(u))]
-    rows = sorted([*zip(times.tolist(), u.tolist(), range(len(u)), strict=True)])
-    rows = sorted([*rows, *_hidden(times, u, curves)])
+    rows = [*zip(times.tolist(), u.tolist(), range(len(u)), strict=True)]
+    rows = sorted([*rows, *_hidden(times, u)])
     clear = [row for row in rows if abs(row[1]) > still]
     for (before, above, i), (after, below, _) in pairwise(clear):
         if above > 0.0 > below:
-            yield float(brentq(curves[i], before, after, xtol=1e-14))
+            yield float(brentq(_curve(times, u, i), before, after, xtol=1e-14))
 
 
 def _curve(times: Array, u: Array, i: int) -> Callable[[float], float]:
-    """Through the rows around i; made when it is first asked for."""
+    """Through the rows around i."""
     first = min(max(0, i - AROUND // 2 + 1), max(0, len(u) - AROUND))
     rows = slice(first, first + AROUND)
-    made: list[BarycentricInterpolator] = []
-
-    def value(t: float) -> float:
-        if not made:
-            made.append(BarycentricInterpolator(times[rows], u[rows]))
-        return float(made[0](t))
-
-    return value
+    made = BarycentricInterpolator(times[rows], u[rows])
+    return lambda t: float(made(t))
 
 
-def _hidden(
-    times: Array, u: Array, curves: list[Callable[[float], float]]
-) -> Iterator[tuple[float, float, int]]:
+def _hidden(times: Array, u: Array) -> Iterator[tuple[float, float, int]]:
     """Extrema beyond zero beside a row that is as near to zero as it differs from the others."""
-    for i in range(1, len(u) - 1):
-        sign = 1.0 if u[i] > 0.0 else -1.0
-        left, here, right = (float(sign * x) for x in u[i - 1 : i + 2])
-        if not (0.0 < here <= min(left, right) and here <= max(left, right) - here):
-            continue
+    signs = np.where(u[1:-1] > 0.0, 1.0, -1.0)
+    left, here, right = signs * u[:-2], signs * u[1:-1], signs * u[2:]
+    near = (here > 0.0) & (here <= np.minimum(left, right))
+    near &= here <= np.maximum(left, right) - here
+    for i in (np.flatnonzero(near) + 1).tolist():
+        sign, curve = float(signs[i - 1]), _curve(times, u, i)
         turn = minimize_scalar(
-            lambda t, sign=sign, curve=curves[i]: sign * curve(t),
+            lambda t, sign=sign, curve=curve: sign * curve(t),
             bounds=(times[i - 1], times[i + 1]),
             method="bounded",
             options={"xatol": LOCATED},

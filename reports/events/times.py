@@ -121,13 +121,12 @@ def _off(u: Array, largest: float) -> bool:
     return bool(np.any(u > LOW * largest)) or int(np.sum(u > SMALL * largest)) >= STEPS
 
 
-def surely(scene: Scene, record: Trajectory, event: Event, step: float) -> int:
-    """How many of the reference's events steps of this size tell for sure.
+def surely(scene: Scene, record: Trajectory, event: Event, happened: Array, step: float) -> int:
+    """How many of the reference's events, at these times (K,), steps of this size tell for sure.
 
     A ball that comes to rest bounces ever lower: what lasts a few steps, or rises by 1e-4 of the
     first height, may be seen in an engine's motion or not.
     """
-    happened = reference_events(scene, record, event)
     if not event.crosses or not len(happened):
         return len(happened)
     u = event.falling(observe(scene, record, event.quantity))

@@ -79,8 +79,15 @@ class Trial:
         """The reference's samples (N,), at events (K,); of an attitude no turn, (N, 3)."""
         if self._dated(quantity):
             return self._at_events[quantity]
-        samples = observe(self.case.scene, self.reference, quantity)
-        return from_reference(samples, samples)
+        if quantity not in self._wanted:
+            samples = observe(self.case.scene, self.reference, quantity)
+            self._wanted[quantity] = from_reference(samples, samples)
+        return self._wanted[quantity]
+
+    @cached_property
+    def _wanted(self) -> dict[str, Array]:
+        """What was asked for already: every rung of every ladder asks again."""
+        return {}
 
     def read(self, quantity: str, samples: Array) -> Array:
         """A run's samples beside `wanted`: of an attitude the turn from the reference's."""
@@ -137,12 +144,10 @@ class Trial:
 
     def surely(self, event: str, step: float) -> int:
         """How many of the reference's events an engine with this step has to tell."""
-        record = self.reference.record
-        return (
-            surely(self.case.scene, record, self.case.events[event], step)
-            if record is not None
-            else 0
-        )
+        record, named = self.reference.record, self.case.events[event]
+        if record is None:
+            return 0
+        return surely(self.case.scene, record, named, self.events[event], step)
 
     @cached_property
     def _at_events(self) -> dict[str, Array]:
