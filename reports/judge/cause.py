@@ -24,7 +24,7 @@ def _told(found: Convergence, finer: str) -> str:
     limit = f"{found.limit or 0.0:.3g}"
     sizes = found.errors.values()
     return {
-        of.EXACT: "rounding",
+        of.EXACT: f"the step: {enough}" if usable else "rounding",
         of.TEXTBOOK: f"the step: it falls{order}, {enough}",
         of.WITHIN: f"the step: {enough}; the model's own {limit} would be",
         of.ANOTHER: f"the model: {limit} remains for h → 0",

@@ -1,8 +1,11 @@
 """Ladders with known expansions: order, limit, verdict and usable step come out as put in."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from textmech.reports.judge.cause import cause
 from textmech.reports.judge.convergence import (
     ANOTHER,
     EXACT,
@@ -150,3 +153,12 @@ def test_coarse_rungs_that_are_the_same_to_the_last_bit_are_no_crash() -> None:
     rungs = ladder(p=1)
     rungs[STEPS[-1]] = rungs[STEPS[-2]] = rungs[STEPS[-3]]
     assert judge(rungs, p=1).usable_step is not None
+
+
+def test_what_finer_steps_have_exactly_is_the_step_s() -> None:
+    """Off on coarse rungs, and exact from some step on: as of what begins and ends in one step."""
+    rungs = {h: REFERENCE + (0.5 if h > 2e-3 else 0.0) * T for h in STEPS}
+    found = judge(rungs, p=1)
+    assert found.verdict == EXACT
+    assert cause(found) == "the step: within from h = 0.002 s on"
+    assert cause(replace(found, usable_step=None)) == "rounding"

@@ -67,8 +67,12 @@ class Landings:
     def _cut(self, step: float) -> None:
         drift(self.space, step / 2)
         left = step
+        if late := [foot for foot in self.feet if foot.is_down and not foot.is_above]:
+            self._strike(late)  # as the step before ended, by a little more than it had foreseen
         for _ in range(_PARTS * len(self.feet)):
-            after = [foot.after(left) for foot in self.feet if foot.comes(0.0, left)]
+            after = [
+                foot.after(left) for foot in self.feet if foot.is_above and foot.comes(0.0, left)
+            ]
             if not after:
                 break
             self._part(min(after), step)

@@ -14,6 +14,7 @@ from ..contact import ABOVE, PASSES, above, is_tip, sink
 from ..world import World
 
 BELOW = 1e-12  # m: so deep it has come down for sure
+_DOWN = BELOW / 2  # m: less deep it has only come to the plane, to rounding
 _DEEPER = 1e-9  # m: what stands touches by so much, whatever the curve of its path
 _ROOT = 4e-16  # s: as well as a time is known
 
@@ -54,14 +55,19 @@ class Foot:
         self.stands = self.meets and self.gap(0.0) < near
 
     def comes(self, behind: float, length: float) -> bool:
-        """Whether it comes down within so long [s]; behind: how far [s] the place is behind now."""
-        if not self.meets or self.stands or self.gap(behind + length, length) > -BELOW:
-            return False
-        return self.gap(behind) > 0.0
+        """Whether it is down within so long [s]; behind: how far [s] the place is behind now."""
+        return self.meets and not self.stands and self.gap(behind + length, length) <= -_DOWN
+
+    @property
+    def is_above(self) -> bool:
+        """Whether it has still to come down."""
+        return self.gap(0.0) > -_DOWN
 
     def after(self, longest: float) -> float:
         """When it has come down, from now on [s]."""
         height = lambda ahead: self.gap(ahead, ahead) + BELOW  # noqa: E731
+        if height(longest) > 0.0:
+            return longest  # on the plane, to rounding
         return float(brentq(height, 0.0, longest, xtol=_ROOT))
 
     @property
