@@ -81,6 +81,9 @@ def _remains(one: Advised) -> dict[str, str | float]:
     candidate, worst, quantity = found
     best_of = f"{as_text(candidate.options)} at {candidate.step:.3g} s"
     what = f"{quantity} stays ×{worst:.2g} with {best_of}, the best of all that was tried"
+    if one.kitchen.bar.holds(candidate):
+        but = "and the next finer step does not confirm it"
+        what = f"{quantity} is ×{worst:.2g} with {best_of}, {but}"
     return {
         "worst": worst,
         "quantity": quantity,

@@ -32,7 +32,11 @@ SCENES = {
 QUANTITIES = ("touch.slip", "touch.gap", "touch.drift", "touch.normal", "touch.tangent")
 # What rounding makes of it until the end: the floor of MuJoCo is a stiff spring, and one step of
 # either engine may fall on the other side of an impact.
-NEAR = {"mujoco": 1e-7, "pymunk": 1e-7}
+STEP = 1e-3  # s
+NEAR = 1e-7
+# Where rounding falls on bounces shorter than a step, which a driver's cuts make one by one: so
+# high [m] is one of them.
+LAST = G * STEP**2 / 8
 
 
 def case(folder: Path, what: str, turn: float, at: tuple[float, float]) -> Case:
@@ -88,10 +92,11 @@ def test_engine(tmp_path: Path, what: str, name: str) -> None:
             assert way in ("law", "driver")
             continue
         motions = [
-            run(engine, each.scene, start, each.times, 1e-3, realised=way, reactions=forces)
+            run(engine, each.scene, start, each.times, STEP, realised=way, reactions=forces)
             for each, start in zip((level, turned), starts, strict=True)
         ]
+        near = LAST if (name, way, what) == ("pymunk", "driver", "bounces") else NEAR
         for quantity in QUANTITIES:
             a = observe(level.scene, motions[0], quantity)
             b = observe(turned.scene, motions[1], quantity)
-            assert b == pytest.approx(a, abs=NEAR[name] * max(1.0, np.abs(a).max())), quantity
+            assert b == pytest.approx(a, abs=near * max(1.0, np.abs(a).max())), quantity

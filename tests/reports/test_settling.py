@@ -58,9 +58,9 @@ def test_an_engine_bounces_as_often_as_its_steps_can_tell(tmp_path: Path) -> Non
     (tmp_path / "settles.yaml").write_text(SETTLES)
     done = textmech("run", tmp_path / "settles.yaml", "--engine", "pymunk.tuned")
     assert done.returncode == 0, done.stdout
-    [line] = [line for line in done.stdout.splitlines() if "bounces.count" in line]
-    assert "0.00e+00 1" in line
-    assert line.endswith("agrees")
+    lines = [line for line in done.stdout.splitlines() if "bounces.count" in line]
+    assert len(lines) == 2  # natively, and by the driver that cuts steps
+    assert all("0.00e+00 1" in line and line.endswith("agrees") for line in lines)
 
 
 def hump(t: Array) -> Array:

@@ -82,6 +82,17 @@ def test_where_nothing_does_it_what_remains_is_said() -> None:
 
 
 @pytest.mark.whole
+def test_what_holds_at_one_step_alone_is_said_to() -> None:
+    """The least step that is tried is within; nothing finer says that it is no accident."""
+    found = advice(Asked(None, 2.0), "ball_on_rope.let_go_and_caught", engines=("mujoco",))
+    one = found["ball_on_rope.let_go_and_caught mujoco"]
+    assert one.recipe == "none"
+    assert one.worst is not None
+    assert one.worst <= 0.5
+    assert one.remains.endswith("and the next finer step does not confirm it")
+
+
+@pytest.mark.whole
 def test_another_tolerance_asks_for_another_step() -> None:
     """A thousandth, or a tenth, of each quantity's size, whatever the case allows."""
     strict, loose = (
