@@ -31,7 +31,10 @@ def _size(trial: Trial, name: str) -> float:
     if quantity.part == "energy":
         parts = ("energy.kinetic", "energy.potential")
         return max(float(np.max(np.abs(trial.wanted(part)))) for part in parts)
-    return max(trial.size(name), _largest(trial, quantity.unit))
+    known = max(trial.size(name), _largest(trial, quantity.unit))
+    if quantity.unit == "rad" and known < MARGIN * EPSILON:
+        return 1.0  # an angle that stays 0 is made of points, as its cosine is
+    return known
 
 
 def _largest(trial: Trial, unit: str) -> float:

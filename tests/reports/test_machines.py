@@ -4,6 +4,7 @@ Its processor is played by this one with its vector units switched off: sums of 
 added up in another order, and differ in their last bits.
 """
 
+import json
 import os
 import platform
 import subprocess
@@ -11,6 +12,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from given.command import textmech
 
 OTHER = {
     "OPENBLAS_CORETYPE": "Prescott",
@@ -60,3 +62,10 @@ def test_the_other_machine_is_another_one() -> None:
         for more in ({}, OTHER)
     }
     assert len(sums) == 2
+
+
+def test_an_angle_that_stays_zero_has_no_digits() -> None:
+    """Two processors tell it as 1.6e-17 and 4.9e-17 rad."""
+    done = textmech("run", "heavy_on_light", "--engine", "mujoco.tuned", "--json")
+    rows = [row for row in json.loads(done.stdout)["tolerance"] if row["quantity"] == "upper.angle"]
+    assert [row["largest"] for row in rows] == [0.0]
