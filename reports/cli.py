@@ -36,6 +36,7 @@ def main() -> None:
         sys.exit(BAD_INPUT)
     except (click.Abort, KeyboardInterrupt):
         tell(f"\ninterrupted: {done()}")
+        ending.deaf()
         sys.exit(ending.INTERRUPTED)
     except CaseError as error:
         tell(str(error))

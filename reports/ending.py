@@ -17,6 +17,15 @@ def listen() -> None:
             signal.signal(number, _interrupt)
 
 
+def deaf() -> None:
+    """Nothing more is heard: as it shuts down Python takes its handlers back, and dies of a signal.
+
+    What hangs then is still ended after the time of grace.
+    """
+    for number in known():
+        signal.signal(number, signal.SIG_IGN)
+
+
 def known() -> list[signal.Signals]:
     """Those of the signals that this system has."""
     return [getattr(signal, name) for name in SIGNALS if hasattr(signal, name)]
