@@ -17,10 +17,11 @@ import pandas as pd
 import pytest
 
 from textmech.reports import write
-from textmech.reports.page.folder import MUTANTS, folder
+from textmech.reports.page.folder import folder
 from textmech.reports.page.page import motions_of, page
 from textmech.reports.page.write import NAME
 from textmech.reports.replace import replace
+from textmech.reports.row import MUTANTS
 from textmech.reports.selection import choose_cases
 
 ROOT = Path(__file__).parents[1]

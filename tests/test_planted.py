@@ -19,8 +19,8 @@ from textmech.reports import write
 from textmech.reports.diff.compare import difference
 from textmech.reports.diff.folder import opened
 from textmech.reports.diff.rule import Rule
-from textmech.reports.page.folder import MUTANTS, folder
-from textmech.reports.row import Comparison
+from textmech.reports.page.folder import folder
+from textmech.reports.row import MUTANTS, Comparison
 
 COMMITTED = write.HERE / MUTANTS
 LONGEST = 110  # letters of a mistake: it is a name, and no explanation

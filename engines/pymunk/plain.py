@@ -11,7 +11,7 @@ from pymunk.space import Space
 
 from ...cases.scene import Scene
 from ..engine import Plain, Plan, Start
-from .law.cut import lands
+from .law.cut import cuts
 from .law.present import acts, sayable
 from .plans import named
 from .run import COLD
@@ -24,7 +24,7 @@ def plain(scene: Scene, start: Start, step: float, plan: Plan) -> Callable[[floa
     law = plan.realised == "law"
     if law and not sayable(scene):
         return None
-    if plan.realised == "driver" and lands(scene, start):
+    if plan.realised == "driver" and cuts(scene):
         return None  # the script cuts no step
     numbers = named(plan.choices(step))
     world = build(scene, start, numbers, plan.realised)

@@ -82,10 +82,9 @@ class Recipe:
 
     def __call__(self, step: float) -> Sequence[Choice]:
         """The numbers for a step [s]."""
-        limits = (
-            [eases(step)] if self.limited else []
-        )  # behind what holds joints: they are some too
-        return [*self.always, *(self.held.choices(step) if self.held else []), *limits]
+        joints = self.held.choices(step) if self.held else []
+        limits = [eases(step)] if self.limited else []  # the last: they are joints, too
+        return [*self.always, *joints, *limits]
 
     @property
     def biased(self) -> bool:

@@ -12,8 +12,8 @@ from pymunk.constraints import SlideJoint
 from ..engine import Choice
 from .world import World
 
-FASTEST = 150.0  # 1/s: a taut rope is as long as it should be to v h²
-SLOWING = 1.5  # s^-1/2
+FASTEST = 150.0  # 1/s: at 0.1 ms a ball that swings on a rope is ten times nearer than with 20/s
+SLOWING = 1.5  # s^-1/2: it meets FASTEST at 0.1 ms; at 1 ms a ball that is caught is caught once
 
 
 def add_ropes(world: World) -> None:

@@ -7,13 +7,12 @@ from pathlib import Path
 
 from ...cases.mistake import CaseError, Mistake
 from ..replace import settle
+from ..row import MUTANTS
 from .errors import ERRORS
 from .file import File
 from .files import FILES
 from .scope import Scope
 from .table import Table, read
-
-NO_RESULTS = ("mutants.csv",)  # a list of the project's tests, which no run writes or changes
 
 
 @dataclass(frozen=True)
@@ -66,7 +65,7 @@ def _opened(name: str, path: Path) -> Folder:
         raise CaseError([Mistake(str(path), 0, 0, "", f"{what}; a report is one, with its *.csv")])
     with suppress(OSError):  # what an interrupted run decided and could not finish
         settle(path)
-    files = sorted(file for file in path.glob("*.csv") if file.name not in NO_RESULTS)
+    files = sorted(file for file in path.glob("*.csv") if file.name != MUTANTS)
     if not (path / ERRORS.name).exists():
         what = f"is no report: it has no {ERRORS.name}; `textmech run --out FOLDER` writes one"
         raise CaseError([Mistake(str(path), 0, 0, "", what)])

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from ..row import Certificate, Comparison, Instant, Rungs
+from ..row import MUTANTS, Certificate, Comparison, Instant, Rungs
 from ..write import NAMES, read
 
 BESIDE = {
@@ -15,8 +15,6 @@ BESIDE = {
     "versions.csv": "textmech versions",
 }
 """What may stand beside the reports, and which command writes it."""
-MUTANTS = "mutants.csv"
-"""What the project's own tests plant. No command writes it, and beside a user's reports is none."""
 
 
 class Missing(Exception):

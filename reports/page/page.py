@@ -10,10 +10,11 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from ...cases.case import Case
+from ..row import MUTANTS
 from . import beside
 from .advice import advice
 from .column import Column, columns
-from .folder import BESIDE, MUTANTS, Folder
+from .folder import BESIDE, Folder
 from .heat import SHADES, Cell, cells
 from .listed import listed
 from .motions import Motion

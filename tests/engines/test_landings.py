@@ -7,6 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 from given.engine_scenes import WHEEL, G, incline, launched, machine, touching
+from given.landings import HINGED
 from given.planning import TUNED, every, moved
 from given.scenes import tail, typed
 
@@ -25,16 +26,6 @@ scene:
   contacts: {tip: {between: [rod.start, ground.floor], friction: 0.3}}
 events: {lands: {tip.gap: falls to zero}}
 initial: {rod: {start: [0, 0.1], angle: 50 deg}}
-allow: {rod.angle: 1.0e-3}
-"""
-HINGED = """\
-scene:
-  points: {O: [0, 0.3]}
-  bodies: {rod: {bar: {mass: 2, length: 0.8}}}
-  joints: {hinge: {pin: [ground.O, rod.start]}}
-  contacts: {tip: {between: [rod.end, ground.floor], friction: 0}}
-events: {lands: {tip.gap: falls to zero}}
-initial: {rod: {angle: 20 deg}}
 allow: {rod.angle: 1.0e-3}
 """
 HOPPER = """\

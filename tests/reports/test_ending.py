@@ -102,3 +102,31 @@ def test_killed_it_leaves_no_workers(run: subprocess.Popen[str], tmp_path: Path)
     workers = at_work(tmp_path)
     run.kill()
     within(SOON, lambda: not any(map(alive, workers)))
+
+
+AGAIN = """\
+import os
+import signal
+
+from textmech.reports import cli
+
+
+class Late:
+    def __del__(self):  # when Python has taken its handlers back
+        os.kill(os.getpid(), signal.SIGINT)
+
+
+def told(**_):
+    raise KeyboardInterrupt
+
+
+late, cli.command = Late(), told
+cli.main()
+"""
+
+
+def test_told_again_while_python_shuts_down_it_ends_as_it_would() -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", AGAIN], capture_output=True, text=True, check=False, timeout=60
+    )
+    assert done.returncode == 130, done.stderr

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from given.landings import HINGED
 from given.planning import TUNED, begun, every, moved, planned, ways
 from given.scenes import SHIPPED, solved, tail, typed
 
@@ -26,16 +27,6 @@ scene:
   contacts: {tip: {between: [rod.start, ground.floor], friction: 0.1}}
 events: {lands: {tip.gap: falls to zero}}
 initial: {rod: {start: [0, 0.1], angle: 50 deg, vx: 1.0}}
-allow: {rod.angle: 1.0e-3}
-"""
-HINGED = """\
-scene:
-  points: {O: [0, 0.3]}
-  bodies: {rod: {bar: {mass: 2, length: 0.8}}}
-  joints: {hinge: {pin: [ground.O, rod.start]}}
-  contacts: {tip: {between: [rod.end, ground.floor], friction: 0}}
-events: {lands: {tip.gap: falls to zero}}
-initial: {rod: {angle: 20 deg}}
 allow: {rod.angle: 1.0e-3}
 """
 FLAT = """\

@@ -5,9 +5,9 @@ from types import SimpleNamespace
 
 import pandas as pd
 
-from textmech.reports.page.folder import MUTANTS
 from textmech.reports.page.mutants import COLUMNS, mutants
 from textmech.reports.page.page import page
+from textmech.reports.row import MUTANTS
 
 LAW, ODD = "tests/reference/test_law.py::test_seen", "tests/engines/test_odd.py::test_seen"
 FRAME = pd.DataFrame(

@@ -1,7 +1,7 @@
 """What a generated right side costs: calls, which are as many on every machine.
 
-`textmech bench` tells times. What a call takes beside a product of numpy's differed twofold between
-two processors, so no bound on a time told one computation from three.
+No test tells its time. Beside a product of numpy's it took so differently on two processors that no
+bound told one computation from three.
 """
 
 import sys
