@@ -19,6 +19,8 @@ from typing import Any
 
 from . import ending
 
+_CHILDREN = threading.Lock()  # one looks at them at a time: the system tells each end only once
+
 
 class ProcessDied(Exception):
     """A task's process ended before the task did."""
@@ -77,9 +79,8 @@ class _Process:
     def __init__(self) -> None:
         self._here, there = multiprocessing.Pipe()
         self._process = multiprocessing.Process(target=_serve, args=(there,), daemon=True)
-        self._killing = threading.Lock()
-        with _deaf():
-            self._process.start()
+        with _CHILDREN, _deaf():
+            self._process.start()  # looks at all others too
         there.close()
 
     def answer(self, call: tuple[Callable, tuple, dict[str, Any]]) -> Any:
@@ -99,7 +100,7 @@ class _Process:
 
     def kill(self) -> None:
         """Ends it, whatever it does."""
-        with self._killing:
+        with _CHILDREN:
             self._process.kill()
             self._process.join()
 
