@@ -86,8 +86,7 @@ def _told(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Take:
     model.dof_frictionloss[dof] = 0.0
     mujoco.mj_forward(model, data)
     law = partial(smooth_friction, friction, smooth=friction.smooth) if friction.smooth else None
-    laws, sense = _in_time(controls(scene)), 0
-
+    laws, sense = _in_time(controls(scene)), np.sign(data.qvel[dof])
     pushes = [f for f in of(Push, scene.forces.values()) if f.at.body == joint.b.body]
 
     def pushed() -> float:

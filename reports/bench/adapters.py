@@ -89,7 +89,8 @@ def _row(head: Row, pair: "Pair") -> Row:
         return replace(head, because="nobody has written a plain loop for it")
     apart = pair.apart(1)
     same = apart <= ROUNDED
-    if not same and head.realised != "native":
+    jumps = any(law.corners for law in pair.case.scene.laws())  # the plain loop steps over them
+    if not same and (jumps or head.realised != "native"):
         same = FALLS * apart <= pair.apart(COARSER)
     if not same:
         return replace(head, apart=apart, because="the plain loop makes another motion")

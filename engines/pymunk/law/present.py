@@ -63,7 +63,8 @@ def _friction(scene: Scene, space: Space, bodies: Mapping[str, Body], joint: Joi
     friction, body = joint.dry_friction, bodies[joint.b.body]
     assert friction
     u, carried = Vec2d(*joint.along), Vec2d(*scene.points[joint.a.point].velocity)
-    weight, sense = body.mass * space.gravity, 0
+    weight, begun = body.mass * space.gravity, u.dot(body.velocity - carried)
+    sense = (begun > 0) - (begun < 0)
     lines = [
         (f, *(_end(scene, space, bodies, end) for end in _from(f, joint.b.body)))
         for f in scene.springs()

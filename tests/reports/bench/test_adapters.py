@@ -37,6 +37,8 @@ LAWS = [
     ("growing_force", "mujoco", {"law", "driver"}),  # breaks loose at 6 s
     ("growing_force", "pymunk", {"law"}),
     ("spring_mass_damper.underdamped", "pymunk", {"law"}),
+    ("stribeck_brake.thrown", "mujoco", {"law", "driver"}),  # which moves from the start on
+    ("stribeck_brake.thrown", "pymunk", {"law"}),
 ]
 
 
@@ -50,6 +52,13 @@ def test_the_force_of_the_present_instant_is_of_first_order(
     for row in told:
         assert not row.because
         assert row.apart < 0.05
+
+
+def test_a_plain_loop_may_step_over_a_jump_of_a_force() -> None:
+    """A stage of RK4 sees it or not: of first order."""
+    (row,) = rows(CASES["pushed_cart.pulse"], [TUNED["mujoco"]], replace(FEW, steps=200))
+    assert row.samples
+    assert 1e-6 < row.apart < 0.05
 
 
 HEAVIER = 1.001
