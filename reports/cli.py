@@ -27,26 +27,31 @@ def main() -> None:
     ending.listen()
     prepare()
     try:
-        sys.exit(command(standalone_mode=False))  # an exit code, or None
-    except click.exceptions.NoArgsIsHelpError as error:
-        tell(error.format_message())
-        sys.exit(BAD_INPUT)
-    except click.ClickException as error:
-        tell(f"Error: {error.format_message()}")
-        sys.exit(BAD_INPUT)
+        code = _answered()
+        ending.deaf()
     except (click.Abort, KeyboardInterrupt):
         tell(f"\ninterrupted: {done()}")
         ending.deaf()
-        sys.exit(ending.INTERRUPTED)
+        code = ending.INTERRUPTED
+    sys.exit(code)
+
+
+def _answered() -> int | None:
+    """The exit code; None is 0 too."""
+    try:
+        return command(standalone_mode=False)
+    except click.exceptions.NoArgsIsHelpError as error:
+        tell(error.format_message())
+    except click.ClickException as error:
+        tell(f"Error: {error.format_message()}")
     except CaseError as error:
         tell(str(error))
         count = len(error.mistakes)
         tell(f"{count} mistake{'s' if count > 1 else ''}; {done()}")
-        sys.exit(BAD_INPUT)
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
         tell(f"Error: {where}{error.strerror or error}; {done()}")
-        sys.exit(BAD_INPUT)
+    return BAD_INPUT
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})

@@ -20,7 +20,7 @@ def listen() -> None:
 def deaf() -> None:
     """Nothing more is heard: as it shuts down Python takes its handlers back, and dies of a signal.
 
-    What hangs then is still ended after the time of grace.
+    After an interruption, what hangs then is still ended after the time of grace.
     """
     for number in known():
         signal.signal(number, signal.SIG_IGN)

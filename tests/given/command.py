@@ -36,6 +36,7 @@ def textmech(*words: object, folder: Path | None = None) -> subprocess.Completed
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(out), redirect_stderr(err):
         patch.setattr(sys, "argv", line := ["textmech", *map(_argument, words)])
         patch.setattr(ending, "listen", lambda: None)
+        patch.setattr(ending, "deaf", lambda: None)
         patch.setattr(done, "DONE", [])
         if folder:
             patch.chdir(folder)

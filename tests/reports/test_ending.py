@@ -104,7 +104,7 @@ def test_killed_it_leaves_no_workers(run: subprocess.Popen[str], tmp_path: Path)
     within(SOON, lambda: not any(map(alive, workers)))
 
 
-AGAIN = """\
+SHUTTING = """\
 import os
 import signal
 
@@ -117,7 +117,7 @@ class Late:
 
 
 def told(**_):
-    raise KeyboardInterrupt
+    {ends}
 
 
 late, cli.command = Late(), told
@@ -125,8 +125,16 @@ cli.main()
 """
 
 
-def test_told_again_while_python_shuts_down_it_ends_as_it_would() -> None:
+@pytest.mark.parametrize(
+    ("ends", "code"),
+    [("raise KeyboardInterrupt", 130), ("return 0", 0), ("return 1", 1), ("raise OSError", 2)],
+)
+def test_told_while_python_shuts_down_it_ends_as_it_would(ends: str, code: int) -> None:
     done = subprocess.run(
-        [sys.executable, "-c", AGAIN], capture_output=True, text=True, check=False, timeout=60
+        [sys.executable, "-c", SHUTTING.format(ends=ends)],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
     )
-    assert done.returncode == 130, done.stderr
+    assert done.returncode == code, done.stderr
