@@ -6,6 +6,8 @@ AGREES, BEYOND, DEVIATES, FAILS = "agrees", "beyond", "deviates as declared", "F
 DIVERGED, CRASHED, CHANGED = "diverged", "crashed", "changed since"
 LADDER = (AGREES, DEVIATES, BEYOND, CHANGED, "refused", DIVERGED, CRASHED, FAILS)
 """Verdicts from good to bad, by their first words."""
+UNSEARCHED = "not searched"
+"""Of causes.csv: nobody has looked for a cure."""
 MUTANTS = "mutants.csv"
 """What the project's own tests plant: beside the committed reports alone, and of no run."""
 

@@ -19,7 +19,11 @@ def as_json(found: Difference) -> str:
         "regressed": found.regressed,
         "counts": {kind: len(found.of(kind)) for kind in KINDS},
         "rows": {
-            name: {"compared": count.compared, "not looked at": [count.old, count.new]}
+            name: {
+                "compared": count.compared,
+                "not looked at": [count.old, count.new],
+                "not searched by both": list(count.searched),
+            }
             for name, count in found.counts.items()
         },
         "files of one folder": list(found.alone),

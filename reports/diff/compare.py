@@ -21,11 +21,15 @@ Bars = Mapping[Key, float]
 
 @dataclass(frozen=True)
 class Counts:
-    """Rows of one file: compared with one another, and those of each folder that were not."""
+    """Rows of one file: compared with one another, and those of each folder that were not.
+
+    searched: those of each that were not since not both runs looked for what they tell.
+    """
 
     compared: int
     old: int
     new: int
+    searched: tuple[int, int] = (0, 0)
 
 
 @dataclass(frozen=True)
@@ -68,10 +72,12 @@ def difference(old: Folder, new: Folder, rule: Rule, *, whole: bool = False) -> 
         tables = old.tables[name], new.tables[name]
         file = FILES.get(name) or unknown(*tables)
         told = [_within(file, table, scope) for table in tables]
-        before, after = ({_key(file, row): row for row in rows} for rows in told)
+        both = file.both(*told)
+        before, after = ({_key(file, row): row for row in rows} for rows in both)
         changes += _changes(file, before, after, rule, bars)
-        left = (len(t.rows) - len(rows) for t, rows in zip(tables, told, strict=True))
-        counts[name] = Counts(len(before.keys() & after.keys()), *left)
+        left = [len(t.rows) - len(rows) for t, rows in zip(tables, told, strict=True)]
+        unsearched = len(told[0]) - len(both[0]), len(told[1]) - len(both[1])
+        counts[name] = Counts(len(before.keys() & after.keys()), left[0], left[1], unsearched)
     changes.sort(key=lambda change: KINDS.index(change.kind))
     alone = tuple(sorted(old.tables.keys() ^ new.tables.keys()))
     return Difference(old, new, rule, scope, tuple(changes), counts, alone)

@@ -1,6 +1,6 @@
 """What is known of a report's file: what names a row, what is compared, and what that means."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from .change import LOST, NEW, Change, Place, Seen
@@ -17,7 +17,7 @@ class File:
     """keys: the columns that name a row. numbers, words: further ones that are compared.
 
     lost, new: what it is that only one of the folders has a row. within: the row as far as both
-    folders look at it, or None.
+    folders look at it, or None. both: of the rows of two folders those about what both looked for.
     """
 
     name: str
@@ -31,6 +31,9 @@ class File:
     new: Callable[[Row], str] = lambda row: NEW
     within: Callable[[Row, Scope], Row | None] = lambda row, scope: scope.within(row)
     verdicts: Callable[[str], bool] = lambda word: True  # whether it is one
+    both: Callable[[Sequence[Row], Sequence[Row]], tuple[Sequence[Row], Sequence[Row]]] = (
+        lambda old, new: (old, new)
+    )
 
     @property
     def needed(self) -> tuple[str, ...]:

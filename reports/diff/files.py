@@ -1,9 +1,10 @@
 """The files of a report whose columns are known; any other is compared cell by cell."""
 
+from .causes import CAUSES
 from .certificates import CERTIFICATES
 from .covered import COVERED
 from .errors import ERRORS
 from .instants import INSTANTS
 from .ladders import LADDERS
 
-FILES = {file.name: file for file in (ERRORS, LADDERS, INSTANTS, CERTIFICATES, COVERED)}
+FILES = {file.name: file for file in (ERRORS, LADDERS, INSTANTS, CERTIFICATES, COVERED, CAUSES)}

@@ -27,9 +27,9 @@ def unknown(old: Table, new: Table) -> File:
         keys=keys,
         numbers=(),
         words=(),
-        compare=partial(_compared, new.path.name, keys, rest),
-        place=partial(_place, named, keys),
-        seen=partial(_seen, rest),
+        compare=partial(compared, new.path.name, keys, rest),
+        place=partial(place, named, keys),
+        seen=partial(seen, rest),
     )
 
 
@@ -47,18 +47,19 @@ def _apart(table: Table, keys: Sequence[str]) -> bool:
     return len({tuple(row[key] for key in keys) for row in table.rows}) == len(table.rows)
 
 
-def _place(named: Sequence[str], keys: Sequence[str], row: Row) -> Place:
+def place(named: Sequence[str], keys: Sequence[str], row: Row) -> Place:
     """Of the columns that every report has their own place, all others in one."""
     column = ".".join(row[name] for name in named if name != "case" and row[name])
     what = ", ".join(row[key] for key in keys if key not in named and row[key])
     return Place(row["case"] if "case" in named else "", column, what)
 
 
-def _seen(rest: Sequence[str], row: Row) -> Seen:
+def seen(rest: Sequence[str], row: Row) -> Seen:
+    """Every cell that is not empty, with its column."""
     return Seen(", ".join(f"{name} {row[name]}" for name in rest if row[name]))
 
 
-def _compared(
+def compared(
     file: str,
     keys: Sequence[str],
     rest: Sequence[str],
@@ -72,8 +73,8 @@ def _compared(
     if not differ:
         return None
     named = [name for name in ("case", "engine", "setting") if name in keys]
-    where = _place(named, keys, new)
-    return Change(CHANGED, file, where, _seen(differ, old), _seen(differ, new))
+    where = place(named, keys, new)
+    return Change(CHANGED, file, where, seen(differ, old), seen(differ, new))
 
 
 def _another(was: str, now: str, rule: Rule) -> bool:

@@ -41,6 +41,11 @@ def looked_at(found: Difference) -> Iterator[str]:
         left = sum(count.old if side == "OLD" else count.new for count in counts)
         if left:
             yield f"not looked at: {_many(left, 'row')} of {side}: {_why(found, folder)}"
+    for name, count in found.counts.items():
+        if any(count.searched):
+            old, new = count.searched
+            rows = f"{_many(old, 'row')} of OLD and {new} of NEW in {name}"
+            yield f"not looked at: {rows}: one of the runs, or both, did not search for causes"
     for name in found.alone:
         side = "OLD" if name in found.old.tables else "NEW"
         yield f"not looked at: {name}, which only {side} has"

@@ -3,8 +3,8 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from ..row import DEVIATES, DIVERGED, Cause, Comparison
-from .told import NONE, NOTHING, UNSEARCHED
+from ..row import DEVIATES, DIVERGED, UNSEARCHED, Cause, Comparison
+from .told import NONE, NOTHING
 from .why import Key, key_of
 
 Moments = Mapping[Key, str]

@@ -6,14 +6,14 @@ from dataclasses import replace
 from ...engines.engine import Tunable
 from ...reference.solve import Solution
 from ..results import Results
-from ..row import Cause, Comparison, Rungs
+from ..row import UNSEARCHED, Cause, Comparison, Rungs
 from ..unit import Pair
 from .between import between
 from .cures import Cured, cures
 from .ladder import climbed
 from .solving import solved
 from .together import Search, together
-from .told import NONE, NOTHING, UNSEARCHED, Asked, by_ladder, by_ours, searched, without
+from .told import NONE, NOTHING, Asked, by_ladder, by_ours, searched, without
 from .why import Rows, key_of
 
 

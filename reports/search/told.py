@@ -13,7 +13,7 @@ from .ladder import usable
 from .lever import STEP, Field
 from .why import OURS
 
-NONE, UNSEARCHED = "none found", "not searched"
+NONE = "none found"
 NOTHING = "nothing can be changed: it is asked of states, without a run"
 
 

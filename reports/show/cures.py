@@ -8,7 +8,7 @@ import pandas as pd
 
 from ...cases.case import Case
 from ...cases.find import shipped
-from ..row import Cause
+from ..row import UNSEARCHED, Cause
 from ..write import HERE
 from .amount import milliseconds
 from .summary import Cures
@@ -16,7 +16,6 @@ from .summary import Cures
 NAME = "causes.csv"
 KEY = ("case", "engine", "setting", "quantity")
 MOST = 2  # cures that a table has room for
-UNTOLD = ("not searched",)
 OURS = ("our force law", "our driver")  # which go on in the report
 
 
@@ -48,7 +47,7 @@ def found(causes: Iterable[Cause]) -> Cures:
 def _joined(rows: Iterable[tuple[Any, ...]]) -> Cures:
     told: dict[tuple[str, str, str, str], list[str]] = {}
     for case, engine, setting, quantity, cure, step in rows:
-        if cure not in UNTOLD:
+        if cure != UNSEARCHED:
             told.setdefault((case, engine, setting, quantity), []).append(_told(cure, step))
     return {key: " or ".join(words[:MOST]) for key, words in told.items()}
 

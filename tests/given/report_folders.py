@@ -6,7 +6,7 @@ from pathlib import Path
 import pandas as pd
 
 from textmech.reports import write
-from textmech.reports.row import Certificate, Comparison, Instant, Rungs
+from textmech.reports.row import Cause, Certificate, Comparison, Instant, Rungs
 from textmech.reports.suite import Report
 
 ROW = Comparison(
@@ -35,6 +35,7 @@ def report(
     rungs: list[Rungs] | None = None,
     instants: list[Instant] | None = None,
     certificates: list[Certificate] | None = None,
+    causes: list[Cause] | None = None,
     covered: pd.DataFrame = COVERED,
     further: Mapping[str, pd.DataFrame] | None = None,
 ) -> Path:
@@ -44,6 +45,7 @@ def report(
         rungs=[RUNGS] if rungs is None else rungs,
         instants=[INSTANT] if instants is None else instants,
         certificates=[CERTIFICATE] if certificates is None else certificates,
+        causes=causes or [],
     )
     frames = write.tables(told, [])
     write.write({**frames, "coverage.csv": covered, **(further or {})}, folder)

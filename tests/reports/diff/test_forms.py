@@ -55,7 +55,11 @@ def test_json_says_it_all(two: tuple[Path, Path]) -> None:
     told = json.loads(done.stdout)
     assert told["counts"] == {"regression": 2, "better": 0, "changed": 0, "lost": 0, "new": 0}
     assert told["new"]["versions"] == {"mujoco": "4.0.0"}
-    assert told["rows"]["tolerance.csv"] == {"compared": 2, "not looked at": [1, 1]}
+    assert told["rows"]["tolerance.csv"] == {
+        "compared": 2,
+        "not looked at": [1, 1],
+        "not searched by both": [0, 0],
+    }
     first = told["changes"][0]
     assert (first["case"], first["column"], first["what"]) == ("swing", "mujoco.tuned", "bar.angle")
     assert (first["old"]["number"], first["new"]["number"]) == (2e-3, 9e-3)

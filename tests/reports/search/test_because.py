@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from textmech.reports.row import BEYOND, DEVIATES, Cause, Comparison
+from textmech.reports.row import BEYOND, DEVIATES, UNSEARCHED, Cause, Comparison
 from textmech.reports.search.because import with_causes
-from textmech.reports.search.told import NONE, NOTHING, UNSEARCHED
+from textmech.reports.search.told import NONE, NOTHING
 
 ROW = Comparison(
     case="b", source="", engine="mujoco", version="4.0.0", setting="shipped", realised="native",

@@ -4,8 +4,8 @@ import pytest
 from given import scenes
 
 from textmech.reports import suite
-from textmech.reports.row import BEYOND, Cause
-from textmech.reports.search.told import NOTHING, UNSEARCHED
+from textmech.reports.row import BEYOND, UNSEARCHED, Cause
+from textmech.reports.search.told import NOTHING
 from textmech.reports.search.why import OURS
 from textmech.reports.selection import choose_engines
 from textmech.reports.suite import Report
