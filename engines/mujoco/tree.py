@@ -105,11 +105,23 @@ def node(scene: Scene, anchor: Anchor) -> str:
     return anchor.body
 
 
+_LAST: list[tuple[Scene, Tree[Joint]]] = []  # one at most: a run asks for it twenty times
+
+
 def spanning_tree(scene: Scene) -> Tree[Joint]:
     """The tree over the joints, pins last that do not rub, each kind in the scene's order.
 
     What is driven comes before other pins: only a joint of the tree can be.
     """
+    for known, tree in _LAST:
+        if known is scene:
+            return tree
+    tree = _over(scene)
+    _LAST[:] = [(scene, tree)]
+    return tree
+
+
+def _over(scene: Scene) -> Tree[Joint]:
     prescribed = {quantity.rpartition(".")[0] for quantity in scene.drives}
 
     def closes(joint: Joint) -> bool:
