@@ -8,12 +8,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import mujoco
 
 from ...cases.scene import Scene
 from ...cases.trajectory import Array
 from ..engine import Choice, Plan, Start
+from .hinge import hinge
 from .law.inner import acting
 from .law.settle import settle
 from .law.signal import installed
@@ -21,6 +23,8 @@ from .law.taut import draw
 from .law.touch import one_touch, touches
 from .run import listening, started
 from .scene import mjcf
+from .settings import alone
+from .written import EACH
 
 NOMINAL = 1e-3  # s: with which a scene is compiled; any step would do
 
@@ -140,14 +144,23 @@ def _number(
 
 
 def _write(scene: Scene, model: mujoco.MjModel, choice: Choice) -> None:
-    held = getattr(model, _HELD[choice.name])
-    group = choice.name.partition(".")[0]
-    if group in _EQUALITIES:
-        held[model.eq_type == _EQUALITIES[group]] = choice.value
-        return
-    if group != "slide":
-        held[:] = choice.value
-        return
-    for joint in scene.joints.values():
-        if joint.dry_friction is not None:
-            held[model.joint(joint.name).dofadr[0]] = choice.value
+    where, _, name = choice.name.rpartition(".")
+    group, _, element = where.partition(".")
+    places: Any = slice(None)
+    if group == EACH:
+        group = alone(scene)[element]
+        places = _place(scene, model, group, element)
+    elif group in _EQUALITIES:
+        places = model.eq_type == _EQUALITIES[group]
+    elif group == "slide":
+        dry = (joint.name for joint in scene.joints.values() if joint.dry_friction is not None)
+        places = [model.joint(joint).dofadr[0] for joint in dry]
+    getattr(model, _HELD[f"{group}.{name}"])[places] = choice.value
+
+
+def _place(scene: Scene, model: mujoco.MjModel, group: str, element: str) -> int:
+    """Where the model has what is one contact's, or one joint's stops'."""
+    if group == "pair":
+        return model.pair(element).id
+    stops = next(stops for stops in scene.stops() if stops.name == element)
+    return model.joint(hinge(scene, stops).name).id

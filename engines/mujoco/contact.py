@@ -7,14 +7,14 @@ measured in tests/engines/test_floor.py, test_tips.py and test_impacts.py.
 """
 
 import math
-from collections.abc import Callable, Mapping
-
-from scipy.optimize import brentq
+from collections.abc import Callable, Iterator, Mapping
 
 from ...cases.scene import CENTER, Anchor, Contact, Pair, Scene
 from ..begun import begun
 from ..engine import Choice, Start
+from .bounce import dead, springy
 from .planes import met, touching
+from .written import of_one
 
 HARDEST = 0.9999  # of d: MuJoCo clamps it
 SOFTEST = 1.01e-4  # of d: MuJoCo clamps it at 1e-4
@@ -142,17 +142,27 @@ def _pivoting(scene: Scene) -> list[Choice]:
 
 def _bouncing(scene: Scene) -> list[Choice]:
     bounce = max(contact.restitution for contact in met(scene))
-    because = f"k = ({_BEAT}/h)²: a bounce lasts 16 h and keeps its energy to 0.2 %; b gives e"
-    b = 2 * damping_ratio(bounce) * _BEAT
-    return [*_soft(f"{_BEAT**2:.2g}/h2", b=b, along=1.0, because=because), _EXACT]
+    k, b, because = springy(bounce)
+    return [*_soft(k, b=b, along=1.0, because=because), _EXACT, *_otherwise(scene, bounce)]
+
+
+def _otherwise(scene: Scene, most: float) -> Iterator[Choice]:
+    """Springs of their own for what throws back less than the most, or nothing."""
+    for contact in met(scene):
+        e = contact.restitution
+        if e != most:
+            k, b, because = springy(e) if e else _dead(scene)
+            yield Choice(f"{of_one(contact.name)}.solref", [f"-{k}", f"{-b}/h"], because)
+
+
+def _dead(scene: Scene) -> tuple[str, float, str]:
+    bodies = [contact.body for contact in met(scene)]
+    return dead(max(map(bodies.count, bodies)))
 
 
 def _landing(scene: Scene) -> list[Choice]:
-    """By how many points a body may land: their dampers add up, and RK4 bears 2.8/h."""
-    bodies = [contact.body for contact in met(scene)]
-    b = 1 / max(map(bodies.count, bodies))
-    because = f"k = {_RISE:g}/h, b = {b:.3g}/h: it is hardly thrown back, and rises slowly"
-    return [*_soft(f"{_RISE}/h", b=b, along=b, because=because), _EXACT]
+    k, b, because = _dead(scene)
+    return [*_soft(k, b=b, along=b, because=because), _EXACT]
 
 
 def _soft(k: str, *, b: float, along: float, because: str) -> list[Choice]:
@@ -193,28 +203,4 @@ _EXACT = Choice(
     "enable",
     "or k and b are those of a mean inertia: a bar's tip has up to four times its inverse mass",
 )
-# 1/s: what has landed comes up within a tenth of a second, and is thrown back by 0.1 % of its
-# speed at 1e-4 s: both errors are of first order. A spring of 0.01/h² throws back 1 % at any h.
-_RISE = 10.0
 _ELLIPTIC = Choice("option.cone", "elliptic", "the pyramid's friction depends on the direction")
-# h times the contact's frequency. Where in a step a bounce begins decides what RK4 keeps of the
-# energy: ± 2e-3 from twelve heights at any h, ± 5e-4 with 0.1, which lasts twice as long.
-_BEAT = 0.2
-LEAST_BOUNCE = 0.02  # below, the damper that a spring of _BEAT needs is unstable with RK4
-
-
-def damping_ratio(bounce: float) -> float:
-    """ζ of a spring and damper that push only, and throw back with `bounce` of the speed.
-
-    With ζ = sin ψ: e = exp(−(π − 2ψ) tan ψ); with ζ = cosh χ: e = exp(−2χ coth χ).
-    """
-    turning = math.exp(-2.0)  # e at ζ = 1
-    if bounce == 1.0:
-        return 0.0
-    if bounce > turning:
-        psi = brentq(
-            lambda x: math.exp(-(math.pi - 2 * x) * math.tan(x)) - bounce, 0.0, math.pi / 2 - 1e-6
-        )
-        return math.sin(psi)
-    chi = brentq(lambda x: math.exp(-2 * x / math.tanh(x)) - bounce, 1e-6, 50.0)
-    return math.cosh(chi)

@@ -10,6 +10,7 @@ from ..engine import Choice
 from ..knobs import Knob, Options, Value, said
 from .contact import HARDEST, SOFTEST
 from .own import ELEMENTS, as_options, key, suffix
+from .written import EACH
 
 STEPS = (8e-3, 4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4)  # s
 STAGES = {"RK4": 4}  # evaluations of the dynamics in a step; every other integrator takes one
@@ -105,9 +106,18 @@ def _softness(group: str, tuned: Options) -> Knob:
         name: x for name, x in tuned.get(element, {}).items() if name.endswith(suffix(group))
     }
     best = value(**numbers) if numbers else None
+    if best and (own := _own(tuned, group)):
+        best = Value(f"{best.words}, {' and '.join(own)} otherwise", {**best.options, EACH: own})
     if best and best.options not in [one.options for one in values]:
         values.append(best)
     return Knob(f"softness of {whose}", tuple(values), best)
+
+
+def _own(tuned: Options, group: str) -> dict[str, Any]:
+    """What the tuned recipe gives one contact, or one joint's stops, alone."""
+    pushes = key(group, "solref").partition(".")[2]
+    given = tuned.get(EACH, {}).items() if group in ("pair", "stop") else ()
+    return {element: numbers for element, numbers in given if pushes in numbers}
 
 
 def cost(options: Options, step: float) -> float:

@@ -11,6 +11,7 @@ from .contact import RECIPES
 from .law.signal import installed
 from .run import listening
 from .space.contact import RECIPES as RECIPES_IN_SPACE
+from .written import EACH, of_one
 
 _WORDS = {
     "integrator": ("Euler", "RK4", "implicit", "implicitfast", "discrete"),
@@ -35,14 +36,16 @@ GROUPS: Mapping[str, Mapping[str, tuple[int, ...]]] = {
 }  # fmt: skip
 """Elements with how many numbers each of their attributes takes: loops by pins and by rods,
 contacts, dry joints and their stops, ropes."""
-_NAMES = ("step", *_WORDS, *_WHOLE, *_REAL, *SOFT, *GROUPS, *FLAGS, "settled")
+_LIMITS = {name: size for name, size in GROUPS["joint"].items() if name.endswith("limit")}
+_ALONE = {**GROUPS["pair"], **_LIMITS}
+_NAMES = ("step", *_WORDS, *_WHOLE, *_REAL, *SOFT, *GROUPS, *FLAGS, EACH, "settled")
 _MOST = 2**31 - 1  # MuJoCo's int
 
 
 def check(options: Mapping[str, Any]) -> None:
     """Raises ValueError with all mistakes: unknown names with the nearest right one, and values."""
     found = [mistake for name, value in options.items() for mistake in _mistakes(name, value)]
-    mistakes = found or (_refused(options) if options else [])
+    mistakes = found or [line for one in _tried(options) for line in _refused(one)]
     if mistakes:
         raise ValueError("\n".join(mistakes))
 
@@ -56,7 +59,9 @@ def _mistakes(name: str, value: Any) -> Iterator[str]:
     if name not in _NAMES:
         yield f"mujoco.{name}: unknown option; {_nearest(name, _NAMES)}"
     elif name in GROUPS:
-        yield from _in_group(name, value)
+        yield from _in_group(name, value, GROUPS[name])
+    elif name == EACH:
+        yield from _of_each(value)
     elif name in (*FLAGS, "settled"):
         if not isinstance(value, bool):
             yield f"mujoco.{name}: should be true or false, is {value!r}"
@@ -72,8 +77,15 @@ def _mistakes(name: str, value: Any) -> Iterator[str]:
             yield f"mujoco.{name}: should be {what}, is {value!r}"
 
 
-def _in_group(group: str, value: Any) -> Iterator[str]:
-    sizes = GROUPS[group]
+def _of_each(value: Any) -> Iterator[str]:
+    if not isinstance(value, Mapping):
+        yield f"mujoco.{EACH}: should be a map of contacts and stops, by their names, is {value!r}"
+        return
+    for element, numbers in value.items():
+        yield from _in_group(of_one(element), numbers, _ALONE)
+
+
+def _in_group(group: str, value: Any, sizes: Mapping[str, tuple[int, ...]]) -> Iterator[str]:
     if not isinstance(value, Mapping):
         yield f"mujoco.{group}: should be a map of {', '.join(sizes)}, is {value!r}"
         return
@@ -114,6 +126,17 @@ def _number(name: str, value: Any) -> tuple[bool, str]:
 def _finite(value: Any) -> bool:
     number = isinstance(value, int | float) and not isinstance(value, bool)
     return number and abs(value) <= mujoco.mjMAXVAL**30  # 1e300: an int can exceed every float
+
+
+def _tried(options: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
+    """The options, and what is of one contact or stop alone as if it were of all of them."""
+    usual = {name: value for name, value in options.items() if name != EACH}
+    if usual:
+        yield usual
+    for numbers in options.get(EACH, {}).values():
+        limits = {name: value for name, value in numbers.items() if name in _LIMITS}
+        touching = {name: value for name, value in numbers.items() if name not in _LIMITS}
+        yield {"pair": touching, "joint": limits}
 
 
 def _refused(options: Mapping[str, Any]) -> list[str]:

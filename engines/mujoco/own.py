@@ -5,6 +5,7 @@ from typing import Any
 
 from ..engine import Choice
 from .options import FLAGS, GROUPS, PROTOCOL, SOFT, as_written
+from .written import EACH, of_one
 
 _BECAUSE = "your own option"
 
@@ -27,10 +28,13 @@ def overlaid(
     options: Mapping[str, Any],
     soft: Sequence[str],
     contacts: Sequence[Choice],
+    *,
+    alone: Mapping[str, str],
 ) -> list[Choice]:
     """Choices with the user's own options on top.
 
     contacts: the recipe that they name, which stands between what is for all groups and the rest.
+    alone: what may have numbers of its own, by its name: of which group it is.
     """
     choices = {choice.name: choice for choice in under}
     for name in SOFT:
@@ -39,7 +43,19 @@ def overlaid(
             choices[named] = Choice(named, as_written(name, options[name]), _BECAUSE)
     choices |= {choice.name: choice for choice in contacts}
     choices |= {choice.name: choice for choice in _written(options, soft)}
+    choices |= {choice.name: choice for choice in _alone(options.get(EACH, {}), alone)}
     return list(choices.values())
+
+
+def _alone(given: Mapping[str, Mapping[str, Any]], alone: Mapping[str, str]) -> Iterator[Choice]:
+    """Of one contact or one joint's stops, as far as the scene has it."""
+    for element, numbers in given.items():
+        if group := alone.get(element):
+            yield from (
+                Choice(f"{of_one(element)}.{attribute}", value, _BECAUSE)
+                for attribute, value in numbers.items()
+                if attribute in GROUPS[ELEMENTS[group]] and attribute.endswith(suffix(group))
+            )
 
 
 def _written(options: Mapping[str, Any], soft: Sequence[str]) -> Iterator[Choice]:
@@ -55,7 +71,7 @@ def _written(options: Mapping[str, Any], soft: Sequence[str]) -> Iterator[Choice
             )
         elif name in FLAGS:
             yield Choice(f"flag.{name}", "enable" if value else "disable", _BECAUSE)
-        elif name not in (*SOFT, *PROTOCOL):
+        elif name not in (*SOFT, *PROTOCOL, EACH):
             yield Choice(f"option.{name}", as_written(name, value), _BECAUSE)
 
 
@@ -70,8 +86,11 @@ def as_options(choices: Sequence[Choice], *, settled: bool) -> dict[str, Any]:
     """Choices in terms of h as own options; settled: started as the floor carries what touches."""
     found: dict[str, Any] = {}
     for choice in choices:
-        where, _, name = choice.name.partition(".")
-        if where in ELEMENTS:
+        where, _, name = choice.name.rpartition(".")
+        group, _, element = where.partition(".")
+        if group == EACH:
+            found.setdefault(EACH, {}).setdefault(element, {})[name] = choice.value
+        elif where in ELEMENTS:
             found.setdefault(ELEMENTS[where], {})[name] = choice.value
         else:
             found[name] = choice.value == "enable" if where == "flag" else choice.value

@@ -1,6 +1,5 @@
 """Two bodies that touch, as MuJoCo's geoms, pairs and sensors."""
 
-from collections.abc import Mapping
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -8,7 +7,7 @@ import numpy as np
 from ...cases.pair import Pair
 from ...cases.scene import Scene
 from ...cases.trajectory import Array
-from .planes import POINT, dimensions, touching
+from .planes import POINT, Soft, dimensions, touching
 from .written import written
 
 NUMBERS = 9  # of a pair's sensor: its force in the axes of the contact, the normal, the tangent
@@ -37,11 +36,11 @@ def _geom(
     )  # fmt: skip
 
 
-def add_pairs(contacts: ET.Element, scene: Scene, attributes: Mapping[str, str]) -> None:
+def add_pairs(contacts: ET.Element, scene: Scene, soft: Soft) -> None:
     """The pairs."""
     for pair in scene.pairs.values():
         ET.SubElement(
-            contacts, "pair", dict(attributes),
+            contacts, "pair", dict(soft(pair.name)),
             name=pair.name, geom1=touched(pair), geom2=pair.name, condim=dimensions(pair.friction),
             friction=written(pair.friction, pair.friction, 0, 0, 0),
         )  # fmt: skip

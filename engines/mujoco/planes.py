@@ -1,11 +1,15 @@
 """Planes of the ground and what touches them, as MuJoCo's geoms, pairs and sensors."""
 
+from collections.abc import Callable, Mapping
 from xml.etree import ElementTree as ET
 
 from ...cases.pair import Pair
 from ...cases.plane import Plane
 from ...cases.scene import GROUND, Contact, Scene
 from .written import written
+
+Soft = Callable[[str], Mapping[str, str]]
+"""By a contact's name, the attributes of its pair."""
 
 POINT = 1e-12  # m, radius of a point that touches: too small to be an arm or a gap
 
@@ -40,12 +44,12 @@ def add_geom(element: ET.Element, scene: Scene, contact: Contact) -> None:
     )  # fmt: skip
 
 
-def add_contacts(contacts: ET.Element, scene: Scene, attributes: dict[str, str]) -> None:
-    """The contacts with planes, as pairs."""
+def add_contacts(contacts: ET.Element, scene: Scene, soft: Soft) -> None:
+    """The contacts with planes, as pairs; soft: what each gives way with."""
     for contact in touching(scene).values():
         # A pair takes one coefficient; two geoms would take the larger of theirs.
         ET.SubElement(
-            contacts, "pair", attributes,
+            contacts, "pair", dict(soft(contact.name)),
             name=contact.name, geom1=grounded(contact.plane), geom2=contact.name,
             condim=dimensions(contact.friction),
             friction=written(contact.friction, contact.friction, 0, 0, 0),

@@ -5,8 +5,8 @@ from collections.abc import Callable, Sequence
 from ...cases.scene import GROUND, Joint, Scene
 from ..engine import Plan, Start
 from ..stride import NO_STRIDE, strides
+from .bounce import LEAST_BOUNCE
 from .compilation import NOMINAL
-from .contact import LEAST_BOUNCE
 from .force import ELEMENTS, lacking
 from .hinge import taken
 from .tree import Branch, Tree, built_as, spanning_tree
@@ -63,10 +63,6 @@ def unbuildable(scene: Scene) -> str | None:
                 "engine: MuJoCo's floor is a spring and damper, and the damper that throws "
                 f"{contact.body} back with only {contact.restitution:g} of its speed is unstable"
             )
-    if len({stops.restitution for stops in scene.stops()}) > 1:
-        return "adapter: stops that throw back differently would each need a recipe"
-    if len({contact.restitution for contact in touching}) > 1:
-        return "adapter: contacts that throw back differently would each need a recipe"
     return None
 
 

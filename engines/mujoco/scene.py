@@ -6,6 +6,7 @@ springs and dampers are tendons, pushes and torques are actuators at sites.
 
 import math
 from collections.abc import Iterable, Sequence
+from functools import partial
 from xml.etree import ElementTree as ET
 
 from ...cases.scene import GROUND, Anchor, DryFriction, Scene
@@ -17,7 +18,7 @@ from .feet import add_pins
 from .force import BY_ITSELF, begun_with, write
 from .loops import add_loops, add_rods
 from .pairs import add_geoms, add_pair_sensors, add_pairs
-from .planes import add_contacts, add_geom, add_planes, add_sensors, touching
+from .planes import Soft, add_contacts, add_geom, add_planes, add_sensors, touching
 from .rope import finish_ropes
 from .stops import finish_stops
 from .tree import (
@@ -32,7 +33,7 @@ from .tree import (
     spanning_tree,
     turned,
 )
-from .written import attributes, written
+from .written import attributes, soft, written
 
 HEAVY = 1e15  # kg of a driven point: 1 N changes its velocity by 1e-15 m/s in a second
 LEAST = 1e-15  # kg m² (mjMINVAL) of a particle: MuJoCo takes no less of a body with a joint
@@ -62,7 +63,7 @@ def mjcf(
     _world(world, scene)
     _bodies(world, scene, tree, numbers)
     if touching(scene) or scene.pairs:
-        _touching(root, scene, attributes(numbers, "pair"))
+        _touching(root, scene, partial(soft, numbers, "pair"))
     if tree.loops:
         pins, rods = attributes(numbers, "connect"), attributes(numbers, "rod")
         add_loops(root, tree.loops, pins, rods)
@@ -72,7 +73,7 @@ def mjcf(
     write_drives(root, scene)
     write_room(root, scene)
     finish_ropes(root, scene, attributes(numbers, "rope"))
-    finish_stops(root, scene, attributes(numbers, "stop"))
+    finish_stops(root, scene, partial(soft, numbers, "stop"))
     _start(root, scene, tree, start, begun, out=_leaves_plane(scene, numbers))
     ET.indent(root)
     return ET.tostring(root, encoding="unicode") + "\n"
@@ -131,11 +132,11 @@ def _bodies(world: ET.Element, scene: Scene, tree: Tree, numbers: dict[str, obje
         add_geoms(element, scene, body.name)
 
 
-def _touching(root: ET.Element, scene: Scene, attributes: dict[str, str]) -> None:
+def _touching(root: ET.Element, scene: Scene, soft: Soft) -> None:
     """The contacts, each with a sensor: MuJoCo records its force at every step."""
     contacts, sensors = ET.SubElement(root, "contact"), ET.SubElement(root, "sensor")
-    add_contacts(contacts, scene, attributes)
-    add_pairs(contacts, scene, attributes)
+    add_contacts(contacts, scene, soft)
+    add_pairs(contacts, scene, soft)
     add_sensors(sensors, scene)
     add_pair_sensors(sensors, scene)
 

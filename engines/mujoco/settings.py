@@ -86,7 +86,7 @@ def _of_elements(scene: Scene, start: Start | None) -> Iterator[list[Choice]]:
     if "rope" in gives:
         yield ropes()
     if "stop" in gives:
-        yield stops(max(one.restitution for one in scene.stops()))
+        yield stops([*scene.stops()])
     if met(scene):
         yield recipe(scene, start)
 
@@ -134,4 +134,11 @@ def with_own(
     word = options.get("contacts")
     chosen_one = chosen(scene, start) if word == "scene" else word
     contacts = RECIPES[chosen_one](scene) if met(scene) and chosen_one else []
-    return at_step(overlaid(shipped(scene, tied_to), options, soft(scene), contacts), tied_to)
+    under = shipped(scene, tied_to)
+    return at_step(overlaid(under, options, soft(scene), contacts, alone=alone(scene)), tied_to)
+
+
+def alone(scene: Scene) -> dict[str, str]:
+    """What may have numbers of its own, by its name: of which group it is."""
+    touching = {one.name: "pair" for one in met(scene)}
+    return touching | {stops.name: "stop" for stops in scene.stops()}

@@ -6,7 +6,7 @@ from xml.etree import ElementTree as ET
 from ..engine import Choice
 from ..knobs import Options
 from .script import commented
-from .written import attributes, written
+from .written import EACH, attributes, written
 
 _ELEMENTS = {
     "connect": "equality", "pair": "pair", "slide": "joint", "rope": "tendon", "stop": "joint",
@@ -35,6 +35,10 @@ def snippet(
                 beside.append(f"each {element} of a {group} has {numbers} instead")
             else:
                 place.attrib.update(given)
+    for name, value in changed.items():
+        where, _, attribute = name.rpartition(".")
+        if where.startswith(f"{EACH}."):
+            beside.append(f"{where.partition('.')[2]} alone has {attribute}={written(value)!r}")
     return "".join(
         [commented([*notes, *beside]), _text(option), _text(default) if len(default) else ""]
     )

@@ -1,7 +1,7 @@
 """Stops of a joint's turn: the range of MuJoCo's joint, with sensors of what holds it there."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from xml.etree import ElementTree as ET
 
 import mujoco
@@ -11,13 +11,14 @@ from ...cases.scene import Scene
 from ...cases.stops import Stops
 from ...cases.trajectory import Array
 from ..engine import Choice
-from .contact import HARDEST, damping_ratio
+from .bounce import dead, springy
+from .contact import HARDEST
 from .hinge import Hinge, hinge
-from .written import written
+from .planes import Soft
+from .written import of_one, written
 
 NEVER = 1e6  # rad: where no turn ends
 BEAT = 0.05  # h times the frequency of a stop that throws back
-RISE = 10.0  # 1/s: what is stopped comes back to the stop within a fifth of a second
 
 
 def write_stops(sections: Mapping[str, ET.Element], stops: Stops, about: Hinge) -> None:
@@ -33,12 +34,12 @@ def _ends(stops: Stops) -> tuple[float, float]:
     return low, NEVER if stops.high is None else stops.high
 
 
-def finish_stops(root: ET.Element, scene: Scene, soft: dict[str, str]) -> None:
+def finish_stops(root: ET.Element, scene: Scene, soft: Soft) -> None:
     """A setting's numbers for the limits, and their sensors behind those of others."""
     for stops in scene.stops():
         about = hinge(scene, stops, root)
         assert about.element is not None
-        about.element.attrib.update(soft)
+        about.element.attrib.update(soft(stops.name))
         found = root.find("sensor")
         sensors = ET.SubElement(root, "sensor") if found is None else found
         ET.SubElement(sensors, "jointlimitfrc", name=stops.name, joint=about.name)
@@ -61,18 +62,24 @@ def pushing(scene: Scene, model: mujoco.MjModel, quantity: str, sensed: Array) -
     return np.where(below == (side == "low"), size, 0.0)
 
 
-def recipe(bounce: float) -> list[Choice]:
-    """The limits' numbers, for what throws back with a part of the speed."""
-    if bounce:
-        k, b = f"{BEAT**2:.4g}/h2", 2 * damping_ratio(bounce) * BEAT
-        because = f"k = ({BEAT}/h)²: a bounce lasts 64 h; b gives e, to 0.5 %"
-    else:
-        k, b = f"{RISE:g}/h", 1.0
-        because = f"k = {RISE:g}/h, b = 1/h: it is hardly thrown back, and rises slowly"
+def recipe(all_of_them: Sequence[Stops]) -> list[Choice]:
+    """The limits' numbers: of the stops that throw back most, and what others have instead."""
+    most = max(stops.restitution for stops in all_of_them)
+    others = [stops for stops in all_of_them if stops.restitution != most]
     return [
-        Choice("stop.solreflimit", [f"-{k}", f"{-b}/h"], because),
+        _spring("stop", most),
+        *(_spring(of_one(stops.name), stops.restitution) for stops in others),
         Choice("stop.solimplimit", [HARDEST, HARDEST, 0.001], "the hardest MuJoCo takes"),
         Choice(
             "flag.diagexact", "enable", "or k and b are those of the inertia at the file's own pose"
         ),
     ]
+
+
+def _spring(whose: str, bounce: float) -> Choice:
+    """What throws back with a part of the speed."""
+    if bounce:
+        k, b, because = springy(bounce, BEAT)
+    else:
+        k, b, because = dead(1)
+    return Choice(f"{whose}.solreflimit", [f"-{k}", f"{-b}/h"], because)

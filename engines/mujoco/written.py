@@ -11,8 +11,22 @@ def written(*values: object) -> str:
 
 def attributes(numbers: Mapping[str, object], group: str) -> dict[str, str]:
     """Those of one element: of `connect.solref` the `solref`, where the group is `connect`."""
+    parts = ((name.rpartition("."), value) for name, value in numbers.items())
     return {
-        name.partition(".")[2]: value if isinstance(value, str) else written(value)
-        for name, value in numbers.items()
-        if name.startswith(f"{group}.")
+        name: value if isinstance(value, str) else written(value)
+        for (where, _, name), value in parts
+        if where == group
     }
+
+
+def soft(numbers: Mapping[str, object], group: str, element: str) -> dict[str, str]:
+    """What one of a group gives way with: the group's numbers, and what it has instead."""
+    return attributes(numbers, group) | attributes(numbers, of_one(element))
+
+
+def of_one(element: str) -> str:
+    """The group of what is one contact's or one joint's stops' alone."""
+    return f"{EACH}.{element}"
+
+
+EACH = "each"

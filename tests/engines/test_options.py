@@ -86,6 +86,19 @@ IN_GROUPS: list[tuple[dict[str, Any], str]] = [
         "-0.25/h2, where h is the step, is ['h', 1.0]",
     ),
     (
+        {"each": {"wall": {"solrf": [0.02, 1.0]}}},
+        "mujoco.each.wall.solrf: unknown option; did you mean 'solref'?",
+    ),
+    (
+        {"each": {"wall": [0.02, 1.0]}},
+        "mujoco.each.wall: should be a map of solref, solimp, solreffriction, solreflimit, "
+        "solimplimit, is [0.02, 1.0]",
+    ),
+    (
+        {"each": "wall"},
+        "mujoco.each: should be a map of contacts and stops, by their names, is 'wall'",
+    ),
+    (
         {"pair": {1: 2}},
         "mujoco.pair.1: unknown option; known: solref, solimp, solreffriction",
     ),

@@ -81,6 +81,7 @@ NEEDED: list[tuple[str, str, str]] = [
     ("mujoco", "tipping_block", "diagexact"),
     ("mujoco", "growing_force", "joint"),
     ("mujoco", "driven_wheel.circle", "pair"),
+    ("mujoco", "rolling_into_wall", "each"),
     ("mujoco", "driven_wheel.circle", "settled"),
     ("mujoco", "spatial_four_bar", "connect"),
     ("pymunk", "bar_pendulum", "midpoint"),

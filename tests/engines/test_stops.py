@@ -1,5 +1,6 @@
 """Stops of joints in every engine: both ends, joints named backward, and what is refused."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -108,14 +109,31 @@ def test_refusals(tmp_path: Path) -> None:
     assert refused(TUNED["pymunk"], scene) == (
         "engine: pymunk's rotary limit throws nothing back, and ends has the restitution 0.5"
     )
-    two = lively.replace("    hand:", "    more: {stops: hinge, low: -9}\n    hand:")
-    assert refused(TUNED["mujoco"], scenes.typed(tmp_path, two, tail=END).scene) == (
-        "adapter: stops that throw back differently would each need a recipe"
-    )
     again = FORWARD.replace("    hand:", "    more: {stops: elbow, low: -9}\n    hand:")
     assert refused(TUNED["mujoco"], scenes.typed(tmp_path, again, tail=END).scene) == (
         "adapter: more is not the only stops of elbow"
     )
+
+
+@pytest.mark.mutant("every stop with the spring of the one that throws back most")
+def test_stops_that_throw_back_differently_have_springs_of_their_own(tmp_path: Path) -> None:
+    """The shaft's stop, which throws nothing back, beside that of the elbow."""
+    lively = FORWARD.replace("high: HIGH", "high: 35").replace("deg}", "deg, restitution: 0.5}", 1)
+    shaft = "    more: {stops: hinge, high: 12 deg}\n    hand:"
+    case, motion = known(tmp_path, lively.replace("    hand:", shaft, 1))
+    assert [stops.restitution for stops in case.scene.stops()] == [0.5, 0.0]
+    scene = case.scene
+
+    def apart(**restitution: float) -> float:
+        stops = {n: replace(scene.forces[n], restitution=e) for n, e in restitution.items()}
+        told = replace(scene, forces={**scene.forces, **stops})
+        found = moved(TUNED["mujoco"], told, first(motion), case.times, 1e-4)
+        return max(
+            float(np.abs(found.states[body] - rows)[:, 2].max())
+            for body, rows in motion.states.items()
+        )
+
+    assert apart() < 0.02 < 0.1 < apart(more=0.5)
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ from ..force import BY_ITSELF, write
 from ..force import signals as laws
 from ..scene import FLOOR, HEAVY, LEAST
 from ..tree import Branch, called
-from ..written import attributes, written
+from ..written import attributes, soft, written
 from .drive import signals as drives
 from .drive import write as write_drives
 from .edge import write_room
@@ -54,7 +54,7 @@ def mjcf(
     _world(world, scene)
     _bodies(world, scene)
     if scene.contacts:
-        _contacts(root, scene, attributes(numbers, "pair"))
+        _contacts(root, scene, numbers)
     if spanning_tree(scene).loops:
         _loops(root, scene, attributes(numbers, "connect"))
     write(root, scene)
@@ -171,12 +171,13 @@ def local(scene: SpatialScene, anchor: Anchor) -> Vector3:
     return (0.0, 0.0, 0.0) if point.driven else point.at  # type: ignore[return-value]
 
 
-def _contacts(root: ET.Element, scene: SpatialScene, given: dict[str, str]) -> None:
+def _contacts(root: ET.Element, scene: SpatialScene, numbers: dict[str, object]) -> None:
     """Pairs, each with a sensor: the floor's force along the ground's axes."""
     contacts, sensors = ET.SubElement(root, "contact"), ET.SubElement(root, "sensor")
     for contact in scene.contacts.values():
         ET.SubElement(
-            contacts, "pair", given, name=contact.name, geom1=FLOOR, geom2=contact.name,
+            contacts, "pair", soft(numbers, "pair", contact.name), name=contact.name,
+            geom1=FLOOR, geom2=contact.name,
             condim="3", friction=written(contact.friction, contact.friction, 0, 0, 0),
         )  # fmt: skip
         ET.SubElement(

@@ -46,8 +46,8 @@ def with_own(
     groups, word = soft(scene), options.get("contacts")
     chosen_one = chosen(scene) if word == "scene" else word
     contacts = RECIPES[chosen_one](scene) if scene.contacts and chosen_one else []
-    under = defaults(groups, _solver(scene))
-    return at_step(overlaid(under, options, groups, contacts), tied_to)
+    under, alone = defaults(groups, _solver(scene)), dict.fromkeys(scene.contacts, "pair")
+    return at_step(overlaid(under, options, groups, contacts, alone=alone), tied_to)
 
 
 def soft(scene: SpatialScene) -> list[str]:

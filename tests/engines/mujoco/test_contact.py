@@ -20,7 +20,7 @@ from scipy.integrate import solve_ivp
 
 from textmech.cases.scene import Anchor, Push, Signal
 from textmech.cases.trajectory import VX, Array
-from textmech.engines.mujoco.contact import damping_ratio
+from textmech.engines.mujoco.bounce import damping_ratio
 
 
 def test_a_disk_is_started_as_deep_as_it_is_carried() -> None:
