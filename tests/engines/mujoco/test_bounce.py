@@ -1,5 +1,8 @@
 """What is said of MuJoCo's bounces: how much of the speed they keep, wherever in a step."""
 
+# MuJoCo's bindings are compiled and have no stubs.
+# pyright: reportAttributeAccessIssue=false
+
 import math
 
 import mujoco
