@@ -72,6 +72,7 @@ def simulate(
     corners = Corners(controls(scene), float(model.opt.timestep))
     steps.take = corners.held(steps.take)
     with listening() as warnings, rated(scene, model), signals(scene, laws, corners):
+        steps.begin()
         if every and steps.alone and not corners.any:
             record = whole(model, data, len(grid))
         else:

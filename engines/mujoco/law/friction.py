@@ -13,6 +13,7 @@ from ....cases.scene import DryFriction, Joint, Scene
 from ....cases.trajectory import Array
 from ...law import braking, dry_friction
 from ..hinge import way
+from .closed import closed
 
 
 @dataclass
@@ -104,11 +105,14 @@ class Slide:
 
         Of the state that MuJoCo was last asked for.
         """
-        if not self._mass or not self._uncoupled:
+        gains = self._free.item(self.dof)
+        if self.data.ne:
+            gains, self._mass = closed(self.model, self.data, self.dof, self._free)
+        elif not self._mass or not self._uncoupled:
             mujoco.mj_solveM(self.model, self.data, self.effort, self.unit)
             self._mass = 1.0 / self.effort.item(0, self.dof)
         pushed = self._pushed.item(self.dof)  # our friction
-        return self.way * (self._mass * self._free.item(self.dof) - pushed), self._mass
+        return self.way * (self._mass * gains - pushed), self._mass
 
 
 def uncoupled(model: mujoco.MjModel, dof: int) -> bool:

@@ -9,6 +9,7 @@ from ....cases.scene import DryFriction, Scene
 from ....cases.trajectory import Array
 from ...law import smooth_under
 from ..hinge import way
+from .closed import closed
 from .friction import uncoupled
 from .signal import Control, bound
 
@@ -30,7 +31,7 @@ def _friction(model: mujoco.MjModel, name: str, friction: DryFriction, way: floa
     model.dof_frictionloss[dof] = 0.0
     band = friction.smooth
     assert band is not None
-    acts = alone if uncoupled(model, dof) else _among
+    acts = _among_loops if model.neq else alone if uncoupled(model, dof) else _among
 
     def bind(data: mujoco.MjData) -> Callable[[], None]:
         acting, rates, forces = acts(model, data, dof), data.qvel, data.qfrc_applied
@@ -75,6 +76,19 @@ def _among(model: mujoco.MjModel, data: mujoco.MjData, dof: int) -> Acting:
         mujoco.mj_solveM(model, data, effort, unit)
         share = effort[0] / effort[0, dof]  # of each generalized force, along the slide
         return float(share @ (data.qfrc_passive - data.qfrc_bias + actuated(model, data)))
+
+    return acting
+
+
+def _among_loops(model: mujoco.MjModel, data: mujoco.MjData, dof: int) -> Acting:
+    """The same, and through what holds the loops closed."""
+    free = np.zeros((1, model.nv))
+
+    def acting() -> float:
+        forces = data.qfrc_passive - data.qfrc_bias + actuated(model, data)
+        mujoco.mj_solveM(model, data, free, forces[None])
+        gains, mass = closed(model, data, dof, free[0])
+        return mass * gains
 
     return acting
 

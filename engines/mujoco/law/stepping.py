@@ -33,6 +33,15 @@ class Steps:
     alone: bool = True  # whether MuJoCo's own loop takes them
     noted: list[tuple[Any, ...]] = field(default_factory=list)
 
+    def begin(self) -> None:
+        """At the first sample a force may be beyond static friction already."""
+        dry = [slide for slide in self.slides if isinstance(slide, Slide | Touch)]
+        if dry:
+            mujoco.mj_forward(self.model, self.data)
+        for slide in dry:
+            applied, _ = slide.applied()
+            slide.sense = slide.sense or slide.starts(applied)
+
     def note(self) -> None:
         """Remember the senses of the slides."""
         if self.slides:
@@ -65,11 +74,6 @@ def stepping(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, realised:
     dry = slides(scene, model, data) if ours else []
     touching = touches(scene, model, data) if ours else []
     found = [*dry, *touching]
-    if found:  # at the first sample a force may be beyond static friction already
-        mujoco.mj_forward(model, data)
-    for slide in found:
-        applied, _ = slide.applied()
-        slide.sense = slide.sense or slide.starts(applied)
     walks = feet(scene, model, data) if realised == "driver" else None
     step = float(model.opt.timestep)
     if walks is not None:
