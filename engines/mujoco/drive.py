@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
 import mujoco
-import numpy as np
 
 from ...cases.joint import DRIVES
 from ...cases.scene import GROUND, Joint, Scene
@@ -18,8 +17,8 @@ from ...cases.trajectory import Array
 from ..law import TORQUES
 from ..signal import derivative
 from .force import about, signals
-from .read.reaction import Seen
-from .tree import called, coordinate, spanning_tree
+from .read.reaction import Seen, line
+from .tree import coordinate, spanning_tree
 from .written import written
 
 HEAVY = 1e15  # kg m² (kg of a slide): what a scene exerts changes the rate by 1e-15 of it
@@ -91,7 +90,7 @@ def effort(
     """
     fx, fy, torque, *_ = held
     if drive.effort.endswith(".drive"):
-        ux, uy = _line(model, seen, drive.joint)
+        ux, uy = line(model, seen, drive.joint).T
         return ux * fx + uy * fy
     place = model.joint(drive.name)
     angle = drive.way * seen["qpos"][:, place.qposadr[0]]
@@ -101,13 +100,3 @@ def effort(
             torque = torque - law(other, angle, rate)  # type: ignore[arg-type]
     sizes = seen["actuator_force"]
     return torque - drive.way * about(scene, model, drive.joint.name, sizes)
-
-
-def _line(model: mujoco.MjModel, seen: Seen, joint: Joint) -> tuple[Array, Array]:
-    """(N,) each: the line of a slide in ground axes, which turns with its first part."""
-    ux, uy = joint.along
-    if joint.a.body == GROUND:
-        ones = np.ones(len(seen["xmat"]))
-        return ux * ones, uy * ones
-    axes = seen["xmat"][:, model.body(called(joint.a.body)).id].reshape(-1, 3, 3)
-    return axes[:, 0, 0] * ux + axes[:, 0, 1] * uy, axes[:, 1, 0] * ux + axes[:, 1, 1] * uy

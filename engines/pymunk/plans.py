@@ -54,7 +54,7 @@ def plan(
         following=order if numbers.follows else None,
         numbers=numbers,
         protocol=partial(_words, scene, start, realised, numbers),
-        withheld=_withheld(scene),
+        withheld=_withheld(scene, realised),
         simplified=one_number(scene) if realised == "native" and not shipped else "",
     )
 
@@ -89,7 +89,7 @@ def _spoilt(scene: Scene, realised: Realised) -> bool:
     )
 
 
-def _withheld(scene: Scene) -> dict[str, str]:
+def _withheld(scene: Scene, realised: Realised) -> dict[str, str]:
     """A constraint's impulse has no direction; beside others, not even a sign."""
     edges = {
         name: "engine: pymunk reports a joint's impulse as a magnitude only"
@@ -108,7 +108,12 @@ def _withheld(scene: Scene) -> dict[str, str]:
         if quantity.part in scene.joints and quantity.kind == "force"
         if quantity.field in SIGNED or scene.joints[quantity.part].swings
     }
-    return edges | moved | joints
+    blurred = {
+        f"{name}.force": f"adapter: {name} rubs by a force of ours, which no impulse counts"
+        for name, joint in scene.joints.items()
+        if joint.shifts and joint.dry_friction and joint.dry_friction.smooth
+    }
+    return edges | moved | joints | (blurred if realised == "law" else {})
 
 
 def _words(scene: Scene, start: Start, realised: Realised, numbers: Numbers, step: float) -> str:

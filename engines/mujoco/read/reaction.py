@@ -5,7 +5,8 @@ from collections.abc import Iterator, Mapping
 import mujoco
 import numpy as np
 
-from ....cases.scene import Anchor, Joint, Scene
+from ....cases.drag import Viscous
+from ....cases.scene import GROUND, Anchor, Joint, Scene
 from ....cases.trajectory import Array
 from ..force import outer
 from ..loops import pulled
@@ -14,6 +15,7 @@ from ..planes import touching
 from ..rope import tension
 from ..stops import pushing
 from ..tree import Tree, called
+from ..viscous import not_polynomial
 
 Seen = Mapping[str, Array]
 _OBJECT = mujoco.mjtObj
@@ -45,7 +47,27 @@ def joint_force(
         force -= given
         moment -= _cross(place - at, given) + torque
     sign = 1.0 if branch.forward else -1.0
-    return sign * force[:, 0], sign * force[:, 1], sign * moment, np.hypot(*force.T)
+    force *= sign
+    for viscous in damped(scene, joint):  # counted too, as what the joint does
+        slip = seen["qvel"][:, model.joint(joint.name).dofadr[0]]
+        size = viscous.coefficient.forward * np.abs(slip) ** viscous.exponent * np.sign(slip)
+        force += size[:, None] * line(model, seen, joint)
+    return force[:, 0], force[:, 1], sign * moment, np.hypot(*force.T)
+
+
+def damped(scene: Scene, joint: Joint) -> list[Viscous]:
+    """The viscous friction of a slide that MuJoCo has as its joint's damping."""
+    viscous = (force for force in scene.forces.values() if isinstance(force, Viscous))
+    return [f for f in viscous if f.joint == joint.name and not not_polynomial(f)]
+
+
+def line(model: mujoco.MjModel, seen: Seen, joint: Joint) -> Array:
+    """(N, 2) the line of a slide in ground axes, which turns with its first part."""
+    ux, uy = joint.along
+    if joint.a.body == GROUND:
+        return np.array([[ux, uy]])
+    axes = seen["xmat"][:, model.body(called(joint.a.body)).id].reshape(-1, 3, 3)
+    return axes[:, :2, 0] * ux + axes[:, :2, 1] * uy
 
 
 def pinned(model: mujoco.MjModel, seen: Seen, name: str) -> Array:

@@ -19,7 +19,7 @@ from ..edge import fields
 from ..tree import Tree, spanning_tree
 from .acceleration import NEEDED, acceleration
 from .friction import SlideFriction
-from .reaction import felt_force, joint_force, pinned
+from .reaction import damped, felt_force, joint_force, pinned
 from .record import Record
 
 _TOUCHING = ("sensordata", "qfrc_applied")
@@ -85,6 +85,7 @@ def _needed(scene: Scene, tree: Tree, reactions: tuple[str, ...]) -> set[str]:
             names |= {*DRIVING} if scene.drives else set()
             closes = scene.joints[part] in tree.loops
             names |= {"efc_force", "site_xpos"} if closes else {*_JOINTS}
+            names |= {"qvel", "xmat"} if damped(scene, scene.joints[part]) else set()
     return names
 
 

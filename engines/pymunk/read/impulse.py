@@ -1,5 +1,6 @@
 """The impulses of the last step, by the quantities that are wanted."""
 
+import math
 from collections.abc import Callable, Mapping
 
 from pymunk.arbiter import Arbiter
@@ -20,10 +21,7 @@ def impulses(world: World, reactions: tuple[str, ...]) -> Callable[[], list[floa
     Of a step that was cut they are what its last part would give in a whole one.
     """
     parts = [quantity.rpartition(".") for quantity in reactions]
-    joints: list[Constraint | None] = [
-        world.joints[name][0] if name in world.joints else world.ropes.get(name)
-        for name, _, _ in parts
-    ]
+    joints = [_holding(world, name) for name, _, _ in parts]
     stops = [world.stops.get(name) for name, _, _ in parts]
     pins = [world.pins.get(quantity) for quantity in reactions]
     ways = [_way(world, name, what) for name, _, what in parts]
@@ -46,13 +44,21 @@ def impulses(world: World, reactions: tuple[str, ...]) -> Callable[[], list[floa
             elif stop:
                 row.append(pressed(stop, side))
             elif joint:
-                row.append(joint.impulse)
+                row.append(math.hypot(*[part.impulse for part in joint]))
             else:
                 found = (felt[name] for name in names if name in felt)
                 row.append(sum(x * along + y * up for along, up in found))
         return row if world.share[0] == 1.0 else [impulse / world.share[0] for impulse in row]
 
     return read
+
+
+def _holding(world: World, name: str) -> list[Constraint]:
+    """What a joint's or a rope's force is of: in a slide of what holds it and what rubs across."""
+    if name not in world.joints:
+        return [world.ropes[name]] if name in world.ropes else []
+    rubs = name in world.brakes and world.scene.joints[name].shifts
+    return [world.joints[name][0], *([world.brakes[name]] if rubs else [])]
 
 
 def _points(scene: Scene, name: str) -> list[str]:
