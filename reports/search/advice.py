@@ -51,15 +51,20 @@ def _drawn(one: Advised, results: Results) -> Advised:
     return replace(one, draws=tried)
 
 
+_FAR = "at samples as far apart as its own step asks for"
+
+
 def _sampled(pairs: Sequence[Pair], results: Results) -> list[tuple[Pair, str]]:
     """With the samples that the engine's own step meets; of those without a reference, why."""
     cases = [pair.sampled for pair in pairs]
     keys = [results.keys.solution(case) for case in cases]
     found = results.of("references", solved, dict(zip(keys, cases, strict=True)))
-    wrong = [error for error in found.values() if isinstance(error, CaseError)]
-    if wrong:
-        raise CaseError([mistake for error in wrong for mistake in error.mistakes])
+    own = {key for pair, case, key in zip(pairs, cases, keys, strict=True) if case is pair.case}
+    wrong = {key: error for key, error in found.items() if isinstance(error, CaseError)}
+    if mistaken := [wrong[key] for key in wrong.keys() & own]:
+        raise CaseError([mistake for error in mistaken for mistake in error.mistakes])
     lost = {key: answer.because for key, answer in found.items() if isinstance(answer, Died)}
+    lost |= {key: f"{_FAR}: {error.mistakes[0].what}" for key, error in wrong.items()}
     return [
         (replace(pair, case=case, key=key), lost.get(key, ""))
         for pair, case, key in zip(pairs, cases, keys, strict=True)

@@ -62,3 +62,42 @@ def test_an_approximation_that_the_book_does_not_make_is_told(folder: Path) -> N
     beside = textmech("run", folder / "swing.yaml", "growing_force", "--engine", "book")
     assert beside.returncode == 0
     assert "no row for swing: the book" in beside.stderr
+
+
+WORK = """\
+title: A mass on a stiff spring, with the spring's work
+scene:
+  gravity: none
+  points: {O: [0, 0]}
+  bodies: {bob: {particle: {mass: 1.0}}}
+  joints: {rail: {slide: [ground.O, bob.center], along: [1, 0]}}
+  forces: {coil: {spring: [ground.O, bob.center], stiffness: 1.0e+4, rest_length: 0.5}}
+initial: {bob: {x: 0.6}}
+duration: 0.4
+samples: 101
+step: {mujoco: 1.0e-3, pymunk: 1.0e-4}
+allow: {bob.x: 1.0e-3, coil.work: 30.0}
+"""
+
+
+def test_work_that_its_own_samples_are_too_rough_for_is_refused_alone(tmp_path: Path) -> None:
+    """It is summed between samples: pymunk's own step meets only every third."""
+    file, out = tmp_path / "work.yaml", tmp_path / "o"
+    file.write_text(WORK, encoding="utf-8")
+    done = textmech("run", file, "--out", out)
+    assert done.returncode == 0, done.stdout
+    rows = {
+        row.quantity: row
+        for row in write.read(out / "tolerance.csv", Comparison)
+        if (row.engine, row.setting) == ("pymunk", "shipped")
+    }
+    assert rows["coil.work"].verdict == (
+        "refused: adapter: at samples so far apart as its own step asks for, the reference is too "
+        "rough"
+    )
+    assert rows["bob.x"].verdict == "beyond"
+    told = textmech("advise", file)
+    assert "at samples as far apart as its own step asks for: 30 asks more" in " ".join(
+        told.stdout.split()
+    )
+    assert "mujoco" in told.stdout
