@@ -240,11 +240,15 @@ def _falling(mode: Mode, guard: Guard) -> Fall:
 
 
 def _within(step: Step, probe: Method) -> Within:
-    """The states inside an accepted step, each by a step of its own."""
+    """The states inside an accepted step, each by a step of its own, or by several."""
 
     def state(h: float) -> Array:
         if h == 0.0 or h == step.t_next - step.t:
             return step.y_next if h else step.y
-        return step.y + probe.attempt(step.t, step.y, h, np.maximum(np.abs(step.y), step.floor))
+        there = step.y + probe.attempt(step.t, step.y, h, np.maximum(np.abs(step.y), step.floor))
+        if np.isfinite(there).all():
+            return there
+        *_, last = march(probe, (step.t, step.t + h), step.y)  # a part may be harder than the whole
+        return last.y_next
 
     return state
