@@ -1,6 +1,6 @@
 """The events of a trial: rows for their times and counts, and the list of all instants."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -57,10 +57,13 @@ def _each(trial: Trial, name: str, found: Array, runs: Runs) -> Comparison:
     if not both:
         return row(trial, name, "refused: engine: the event never happens in its motion")
     error = metric.error(found[:both], wanted[:both])
-    (*_, held) = [Convergence(UNSETTLED, {}, None), *(c for _, _, c in _climbed(trial, name, runs))]
-    reached = verdict(
-        trial, name, error.largest, held, cause(held, runs.finer, trial.plan.simplified)
-    )
+    climbs = list(_climbed(trial, name, runs))
+    held = climbs[-1][2] if climbs else Convergence(UNSETTLED, {}, None)
+    why = cause(held, runs.finer, trial.plan.simplified)
+    sure = _first(trial, name, list(runs.ladders.values())[-1]) if climbs else both
+    if error.at >= sure:
+        why = f"number {error.at + 1}, of which the largest step cannot be sure; before it: {why}"
+    reached = verdict(trial, name, error.largest, held, why)
     return judged(trial, name, reached, error, float(times[error.at]))
 
 
@@ -71,8 +74,7 @@ def _climbed(trial: Trial, name: str, runs: Runs) -> Iterator[tuple[Ladder, str,
     """
     wanted, event = trial.wanted(name), trial.quantity(name).part
     for ladder, climbed in runs.ladders.items():
-        told = {h: trial.surely(event, h) for h in climbed}
-        first = max(1, min(told.values(), default=1))
+        told, first = {h: trial.surely(event, h) for h in climbed}, _first(trial, name, climbed)
         errors = {
             h: metric.error(samples[name][:first], wanted[:first]).largest
             if told[h] <= len(samples[name]) <= len(wanted)
@@ -81,6 +83,12 @@ def _climbed(trial: Trial, name: str, runs: Runs) -> Iterator[tuple[Ladder, str,
         }
         if errors and len(wanted):
             yield ladder, name, instants(errors, trial.allowed(name) or np.inf)
+
+
+def _first(trial: Trial, name: str, climbed: Mapping[float, Samples]) -> int:
+    """How many of its events are compared on a ladder."""
+    event = trial.quantity(name).part
+    return max(1, min((trial.surely(event, h) for h in climbed), default=1))
 
 
 def listed(trial: Trial, samples: Samples) -> list[Instant]:

@@ -57,6 +57,19 @@ def test_times_above_the_tolerance_fail_or_are_beyond(trial: Make, stopping: Cas
     )
 
 
+def test_a_late_event_that_the_ladder_does_not_look_at_is_named(
+    trial: Make, stopping: Case, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Trial, "surely", lambda self, event, step: 1)  # the second is too short
+    late = {"stops": (STOPS[0], STOPS[1] + 0.05), "setting": "shipped", "own_step": 1e-3}
+    found = row(stopped(trial, stopping, **late), "stops.time")
+    assert (found.verdict, found.largest) == (BEYOND, pytest.approx(0.05, rel=1e-3))
+    assert found.because == (
+        "number 2, of which the largest step cannot be sure; before it: "
+        "instants of events: within from h = 0.001 s on"
+    )
+
+
 @pytest.mark.parametrize(("setting", "word"), [("tuned", FAILS), ("shipped", BEYOND)])
 def test_another_count_is_its_own_row(trial: Make, stopping: Case, setting: str, word: str) -> None:
     own = None if setting == "tuned" else 1e-3
