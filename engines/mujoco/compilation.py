@@ -24,6 +24,7 @@ from .law.touch import one_touch, touches
 from .run import listening, started
 from .scene import mjcf
 from .settings import alone
+from .stops import lean
 from .written import EACH
 
 NOMINAL = 1e-3  # s: with which a scene is compiled; any step would do
@@ -110,6 +111,7 @@ def _settle(
     if plan.realised != "native" and one_touch(scene):
         touches(scene, model, data)  # friction of MuJoCo's own would press it into the floor
     moved = settle(scene, model, data, start)
+    lean(scene, model, data)
     roped = any(scene.ropes())
     moved |= draw(scene, model, data) if roped else {}
     model.key_qpos[0], model.key_qvel[0] = data.qpos, data.qvel

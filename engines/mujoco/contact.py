@@ -91,12 +91,15 @@ def meet(scene: Scene, pair: Pair, start: Start) -> bool:
 
 
 def closed(scene: Scene, start: Start) -> bool:
-    """Whether anything lies on its plane at the start, or on another body, or a rope is taut."""
+    """Whether at the start anything lies on its plane or on another, or a rope or a stop holds."""
     on_planes = any(lies(scene, contact, start) for contact in touching(scene).values())
     if on_planes or any(meet(scene, pair, start) for pair in scene.pairs.values()):
         return True
     motion = begun(scene, start)
-    return any(rope.observe(motion, "gap")[0] <= CLOSED for rope in scene.ropes())
+    if any(rope.observe(motion, "gap")[0] <= CLOSED for rope in scene.ropes()):
+        return True
+    angles = ((stops, stops.observe(motion, "angle")[0]) for stops in scene.stops())
+    return any(abs(a - at) <= CLOSED for stops, a in angles for _, at in stops.sides.values())
 
 
 def height(scene: Scene, contact: Contact, start: Start) -> float:

@@ -18,6 +18,8 @@ from .planes import Soft
 from .written import of_one, written
 
 NEVER = 1e6  # rad: where no turn ends
+AT = 1e-9  # rad: what is nearer to a stop is at it
+BEHIND = 1e-12  # rad
 BEAT = 0.05  # h times the frequency of a stop that throws back
 
 
@@ -50,6 +52,16 @@ def stop_numbers(model: mujoco.MjModel, stops: Stops, about: Hinge) -> dict[str,
     """Where the range ends."""
     ends = sorted(about.way * model.jnt_range[model.joint(about.name).id])
     return {side: ends[("low", "high").index(side)] for side in stops.sides}
+
+
+def lean(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """Puts what starts at a stop a rounding behind it: exactly there MuJoCo sees no limit."""
+    for stops in scene.stops():
+        joint = model.joint(hinge(scene, stops).name).id
+        place = model.jnt_qposadr[joint]
+        for end, way in zip(model.jnt_range[joint], (-1.0, 1.0), strict=True):
+            if abs(data.qpos[place] - end) <= AT:
+                data.qpos[place] = end + way * BEHIND
 
 
 def pushing(scene: Scene, model: mujoco.MjModel, quantity: str, sensed: Array) -> Array:

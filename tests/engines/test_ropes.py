@@ -11,7 +11,7 @@ from given.planning import TUNED, moved, refused, ways
 from textmech.cases.case import Case
 from textmech.cases.observe import observe
 from textmech.cases.trajectory import Trajectory
-from textmech.engines.engine import Start
+from textmech.engines.engine import Realised, Start
 from textmech.engines.mujoco.law import catch, taut
 from textmech.reference.solve import solve
 from textmech.reports.trial.start import first
@@ -95,6 +95,35 @@ def test_a_rope_that_swings_pulls_rightly_from_the_start() -> None:
     (begins,) = motion.reactions["rope.force"][:1]
     assert begins == pytest.approx(0.6 * (9.80665 + 6.3**2), rel=1e-12)
     assert found.reactions["rope.force"][0] == pytest.approx(begins, abs=0.2)
+
+
+HANGS = """\
+scene:
+  points: {O: [0, 1]}
+  bodies: {a: {particle: {mass: 2}}}
+  forces:
+    r: {rope: [ground.O, a.center], length: 1}
+    p: {push: a.center, sine: {amplitude: [0.1, 0], angular_frequency: 3}}
+initial: {a: {x: 0, y: 0}}
+allow: {a.x: 1.0e-3, r.force: 0.1}
+"""
+
+
+@pytest.mark.parametrize(
+    ("engine", "way"), [("mujoco", "native"), ("mujoco", "driver"), ("pymunk", "native")]
+)
+def test_what_hangs_at_rest_is_held_from_the_first_sample_on(
+    engine: str, way: Realised, tmp_path: Path
+) -> None:
+    """A limit that is just met pulls nothing in MuJoCo."""
+    case = scenes.typed(tmp_path, HANGS, tail=END)
+    motion = solve(case).trajectory
+    found = moved(
+        TUNED[engine], case.scene, first(motion), case.times, STEP, realised=way,
+        reactions=("r.force",),
+    )  # fmt: skip
+    assert motion.reactions["r.force"][0] == pytest.approx(2 * 9.80665, rel=1e-12)
+    assert found.reactions["r.force"] == pytest.approx(motion.reactions["r.force"], abs=0.02)
 
 
 @pytest.mark.parametrize(

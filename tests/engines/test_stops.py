@@ -12,6 +12,7 @@ from given.planning import TUNED, moved, refused
 from textmech.cases.case import Case
 from textmech.cases.observe import observe
 from textmech.cases.trajectory import Trajectory
+from textmech.engines.engine import Tunable
 from textmech.engines.mujoco import stops as of_mujoco
 from textmech.reference.solve import solve
 from textmech.reports.trial.start import first
@@ -134,6 +135,40 @@ def test_stops_that_throw_back_differently_have_springs_of_their_own(tmp_path: P
         )
 
     assert apart() < 0.02 < 0.1 < apart(more=0.5)
+
+
+PRESSED = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {b: {bar: {mass: 1, length: 1}}}
+  joints: {A: {pin: [PARTS]}}
+  forces: {e: {stops: A, SIDE deg}, m: {motor: A, table: {times: [0, 1], values: [0, WAY8]}}}
+initial: {b: {angle: -30 deg, omega: 0}}
+allow: {b.angle: 1.0e-2, e.torque: 0.2}
+"""
+FIRST = PRESSED.replace("PARTS", "ground.O, b.start").replace("SIDE", "low: -30")
+SECOND = PRESSED.replace("PARTS", "b.start, ground.O").replace("SIDE", "high: 30")
+
+
+@pytest.mark.parametrize(
+    "text", [FIRST.replace("WAY", ""), SECOND.replace("WAY", "-")], ids=["low", "high"]
+)
+def test_what_starts_at_its_stop_is_held_from_the_first_sample_on(
+    tmp_path: Path, text: str
+) -> None:
+    """The bar's weight presses it there, until a motor lifts it."""
+    case, motion = known(tmp_path, text)
+    (quantity,) = (f"e.{name}" for name in case.scene.forces["e"].numbers())
+    found = moved(
+        TUNED["mujoco"], case.scene, first(motion), case.times, 1e-3, reactions=(quantity,)
+    )
+    wanted = observe(case.scene, motion, "e.torque")
+    assert abs(wanted[0]) > 4
+    assert np.max(np.abs(observe(case.scene, found, "e.torque") - wanted)) < 2e-3  # 4e-4
+    assert np.max(np.abs(found.states["b"][:, 2] - motion.states["b"][:, 2])) < 1e-4
+    tuned = TUNED["mujoco"]
+    assert isinstance(tuned, Tunable)
+    assert tuned.recipe(case.scene, first(motion))["settled"] is True
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ from ....cases.scene import Scene
 from ....cases.trajectory import Array
 
 NEAR = 1e-9  # of a rope's length: so near its end it is taut
+BEHIND = 1e-12  # of a length: a limit that is just met pulls nothing
 AHEAD = 1e-6  # s: over which the turn of a tendon is measured
 
 
@@ -82,7 +83,8 @@ def lengthen(tendons: Tendons, taut: NDArray[np.intp]) -> Array:
         return moved
     numbers = np.array(tendons.numbers)[taut]
     k = -model.tendon_solref_lim[numbers, 0] * model.tendon_solimp_lim[numbers, 0]
-    moved[taut] = np.maximum(tendons.turning()[taut], 0.0) / k
+    most = model.tendon_range[numbers, 1]
+    moved[taut] = np.maximum(np.maximum(tendons.turning()[taut], 0.0) / k, BEHIND * most)
     mujoco.mj_forward(model, data)
     rows = tendons.rows()[taut]
     eased = tendons.eased(rows)
