@@ -7,6 +7,7 @@ import numpy as np
 from ....cases.space.joint import rate_of
 from ...system import Array
 from .. import messages
+from ..rates import mechanisms
 from . import refusal
 from .closure import SpatialClosure, least, null, rank
 from .given import Equation
@@ -14,7 +15,9 @@ from .positions import CLOSED
 
 
 def rates(closure: SpatialClosure, q: Array) -> Array:
-    """v (n,) with f_a v = g (2.15); what nobody gives and nothing determines of joints is 0.
+    """v (n,) with f_a v = g (2.15); what nobody gives and nothing determines is 0: rates of joints,
+
+    and all of a mechanism of which no rate is given.
 
     Raises CaseError if the given rates violate a constraint, or leave others open.
     """
@@ -48,7 +51,21 @@ def _at_rest(
         more = np.vstack([rows, equation.row])
         if rank(more * units) > rank(rows * units):
             rows, right, names = more, np.append(right, 0.0), [*names, equation.name]
+    for columns in _unsaid(closure, rows, right):
+        still = np.eye(closure.where.size)[columns]
+        rows, right = np.vstack([rows, still]), np.append(right, np.zeros(len(columns)))
+        names = [*names, *([""] * len(columns))]
     return rows, right, names
+
+
+def _unsaid(closure: SpatialClosure, rows: Array, right: Array) -> Iterator[list[int]]:
+    """The columns of each mechanism that may rest: nothing that concerns it asks for a rate."""
+    where = closure.where
+    for bodies in mechanisms(closure.scene):
+        mine = [i for i, name in enumerate(where.rate_names) if name.rpartition(".")[0] in bodies]
+        concerns = np.any(rows[:, mine] != 0.0, axis=1)
+        if not np.any(right[concerns]):
+            yield mine
 
 
 def _joints(closure: SpatialClosure, q: Array) -> Iterator[Equation]:

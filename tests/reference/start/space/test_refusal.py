@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 from given.scenes import typed
 
@@ -192,3 +193,27 @@ def test_ways_are_told_and_the_advice_helps(what: str, tmp_path: Path) -> None:
     assert told in words
     (advice,) = re.findall("for instance (near: .*)$", words)
     started(tmp_path, f"{text}{advice}\n")
+
+
+TWO = f"""\
+scene:
+  space: 3
+  points: {{O: [0, 0, 0]}}
+  bodies: {{a: {BODY}, b: {BODY}}}
+  joints: {{hub: {{hinge: [ground.O, a.q], axis: [0, 0, 1]}}}}
+"""
+
+
+def test_a_mechanism_without_a_rate_rests_beside_one_that_turns(tmp_path: Path) -> None:
+    """As in the plane; one of whose rates some are given still needs the others."""
+    place = "b: {x: 2, y: 0, z: 0, attitude: {axis: [1, 0, 0], angle: 0}RATE}"
+    start = f"initial: {{hub: {{angle: 0, omega: 1}}, {place}}}\n"
+    tail = "duration: 1.0\nsamples: 11\nallow: {a.x: 1.0e-2}\n"
+    case = typed(tmp_path, TWO, tail=start.replace("RATE", "") + tail)
+    assert isinstance(case.scene, SpatialScene)
+    _, v = assemble_in_space(case, case.scene)
+    assert not np.any(v[-6:])
+    assert np.any(v[:6])
+    half = typed(tmp_path, TWO, tail=start.replace("RATE", ", vx: 1") + tail)
+    with pytest.raises(CaseError, match=re.escape("5 more needed: b.vy, b.vz, b.omega_1")):
+        assemble_in_space(half, case.scene)
