@@ -129,9 +129,15 @@ def _projected(
         gaps = np.concatenate([modes.base.f(t, q), [p.f(t, q.tolist())[0] for p in closed]])
         f = np.vstack([modes.base.f_a(t, q), *(row(p, t, q, v)[0] for p in closed)])
         if len(gaps) == len(f):  # rolling is known as a rate only
-            q = q - _nearest(modes.M, f, gaps)
+            q = placed(modes.M, f, gaps, q)
     f, g = mode.f_a(t, q), mode.g(t, q)
     return q, v - _nearest(modes.M, f, f @ v - g) if len(f) else v
+
+
+def placed(M: Array, f: Array, gaps: Array, q: Array) -> Array:
+    """The nearest q (in M) without the gaps; inner states, behind the coordinates, stay."""
+    n = len(M)
+    return np.append(q[:n] - _nearest(M, f, gaps), q[n:])
 
 
 def _nearest(M: Array, f: Array, residual: Array) -> Array:
