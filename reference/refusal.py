@@ -69,6 +69,8 @@ def _mistake(case: Case, generated: Generated, failure: Exception) -> Mistake:
             return case.mistake(("scene", "contacts", part), str(failure))
         case Undetermined(part=part) if (name := part.partition(".")[0]) in _touching(case):
             return case.mistake(("scene", "contacts", name, "friction"), str(failure))
+        case Undetermined(part=part) if (name := part.partition(".")[0]) in case.scene.forces:
+            return case.mistake(("scene", "forces", name), str(failure))
         case Undetermined(part=part):
             return case.mistake(("scene", "joints", part, "dry_friction"), str(failure))
         case ZenoError(event=event, time=time):

@@ -62,7 +62,8 @@ def staying(modes: Modes, mode: str) -> list[Options]:
 def settled(modes: Modes, choices: Sequence[Options], t: float, q: Array, v: Array) -> After:
     """The mode among the choices in which all forces and motions agree, and its state.
 
-    Raises Undetermined where there is none, or where a contact could as well open as stay.
+    Raises Undetermined where there is none, or where a contact could as well open as stay, or rub
+    one way as the other.
     """
     found: list[tuple[State, ...]] = []
     for states in itertools.product(*choices):
@@ -77,6 +78,8 @@ def settled(modes: Modes, choices: Sequence[Options], t: float, q: Array, v: Arr
         for e, one, two in zip(modes.elements, found[0], other, strict=True):
             if (one == "open") != (two == "open") and not _grazes(modes, e, found[0], t, q, v):
                 raise painleve(e.name, f"both staying on and leaving the {e.plane}", t)
+            if sign(one) * sign(two) < 0:  # at rest, held by the others whichever way it rubs
+                raise Undetermined(e.name, str(SingularPose(e.name)), t)
     return modes.name(found[0]), *_projected(modes, found[0], t, q, v)
 
 
@@ -129,9 +132,15 @@ def _projected(
         gaps = np.concatenate([modes.base.f(t, q), [p.f(t, q.tolist())[0] for p in closed]])
         f = np.vstack([modes.base.f_a(t, q), *(row(p, t, q, v)[0] for p in closed)])
         if len(gaps) == len(f):  # rolling is known as a rate only
-            q = q - _nearest(modes.M, f, gaps)
+            q = placed(modes.M, f, gaps, q)
     f, g = mode.f_a(t, q), mode.g(t, q)
     return q, v - _nearest(modes.M, f, f @ v - g) if len(f) else v
+
+
+def placed(M: Array, f: Array, gaps: Array, q: Array) -> Array:
+    """The nearest q (in M) without the gaps; inner states, behind the coordinates, stay."""
+    n = len(M)
+    return np.append(q[:n] - _nearest(M, f, gaps), q[n:])
 
 
 def _nearest(M: Array, f: Array, residual: Array) -> Array:

@@ -32,6 +32,10 @@ class Condition:
     f: Array
     g: float
 
+    def rate(self, v: Array) -> float:
+        """f_a q̇ᵃ − g [m/s]."""
+        return float(self.f @ v) - self.g
+
 
 @dataclass(frozen=True)
 class Meeting:

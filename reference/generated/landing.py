@@ -1,5 +1,6 @@
 """Where a contact lands: the impact, and what every contact and slide may do after it."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -8,7 +9,7 @@ from ..system import Array
 from .choosing import After, Options, Undetermined, closed, settled, staying
 from .constraint import Constraint
 from .contact import row
-from .element import Element, State
+from .element import State
 from .impact import Condition, Meeting, NoImpact, impact
 from .modes import Modes, rate
 from .together import check_alone
@@ -34,28 +35,38 @@ def landed(
 
     Raises Undetermined where the impact law has no answer.
     """
-    base = modes.base
     if rests and not modes.elements[i].slips:
         return _at_rest(modes, mode, i, t, q, v)
     touching, met = _meetings(modes, mode, i, t, q, v, rests=rests)
-    held = [Condition(f, g) for f, g in zip(base.f_a(t, q), base.g(t, q), strict=True)]
-    check_alone(modes, mode, i, met, held, t, q, v, near)
-    try:
-        v, states = impact(modes.M, held, met, v)
-    except NoImpact as error:
-        what = _needed(modes, held, met, v, t) or str(error)
-        raise Undetermined(modes.elements[i].name, what, t) from error
+    still = modes.still(t, q, v, part=STILL)
+    if any(m.strikes and m.normal.rate(v) < -still for m in met):
+        v, states = _struck(modes, mode, i, met, t, q, v, near)
+        flies = math.inf if rests else still  # what the last blow throws up, falls back at once
+        found = [_after(m, state, v, still, flies) for m, state in zip(met, states, strict=True)]
+    else:  # at rest by rounding, or on its way up in a flight that is none, it strikes nothing
+        found = [closed(m.element, _clear(m.tangent.rate(v), still)) for m in met]
     choices: list[Options] = [
-        closed(e, _slip(e, t, q, v)) if e.slip is not None else (state,)
+        closed(e, _clear(rate(e.slip, t, q, v), still)) if e.slip is not None else (state,)
         for e, state in zip(modes.elements, modes.states[mode], strict=True)
     ]
     for k, e in enumerate(modes.elements):
-        if e.normal is not None and k not in touching:
-            choices[k] = ("open",)
-    for k, m, state in zip(touching, met, states, strict=True):
-        leaves = state == "open" or m.after > m.normal.g
-        choices[k] = ("open",) if leaves else _staying(m.element, state)
+        if e.normal is not None:
+            choices[k] = found[touching.index(k)] if k in touching else ("open",)
     return settled(modes, choices, t, q, v)
+
+
+def _struck(
+    modes: Modes, mode: str, i: int, met: list[Meeting], t: float, q: Array, v: Array, near: float
+) -> tuple[Array, tuple[State, ...]]:
+    """q̇⁺ (n,), and what each of the contacts does in the blow. Raises Undetermined."""
+    base = modes.base
+    held = [Condition(f, g) for f, g in zip(base.f_a(t, q), base.g(t, q), strict=True)]
+    check_alone(modes, mode, i, met, held, t, q, v, near)
+    try:
+        return impact(modes.M, held, met, v)
+    except NoImpact as error:
+        what = _needed(modes, held, met, v, t) or str(error)
+        raise Undetermined(modes.elements[i].name, what, t) from error
 
 
 def _at_rest(modes: Modes, mode: str, i: int, t: float, q: Array, v: Array) -> After:
@@ -84,9 +95,14 @@ def _needed(
     return f"the impact at t = {t:.4g} s would slip: to pivot it needs {abs(along) / up:.3g}"
 
 
-def _staying(element: Element, state: State) -> Options:
-    if element.frictionless or state == "sticks":
-        return closed(element, 0.0)
+def _after(m: Meeting, state: State, v: Array, still: float, flies: float) -> Options:
+    """What a contact may do that has done this in the blow; what rises no faster may stay."""
+    if m.after > m.normal.g or (state == "open" and m.normal.rate(v) > flies):
+        return ("open",)
+    if state == "open":
+        return closed(m.element, _clear(m.tangent.rate(v), still))
+    if m.element.frictionless or state == "sticks":
+        return closed(m.element, 0.0)
     return (state, "open")
 
 
@@ -98,7 +114,7 @@ def _meetings(
     for k, (e, state) in enumerate(zip(modes.elements, modes.states[mode], strict=True)):
         if e.normal is not None and (k == i or state != "open"):
             normal, tangent = _condition(e.normal, t, q, v), _condition(e.slip, t, q, v)
-            back = e.restitution * (float(normal.f @ v) - normal.g) if k == i and not rests else 0.0
+            back = e.restitution * normal.rate(v) if k == i and not rests else 0.0
             after = normal.g - back
             touching.append(k)
             met.append(Meeting(e, normal, tangent, after, k == i))
@@ -110,6 +126,6 @@ def _condition(part: Constraint | None, t: float, q: Array, v: Array) -> Conditi
     return Condition(np.zeros(len(v)), 0.0) if part is None else Condition(*row(part, t, q, v)[:2])
 
 
-def _slip(e: Element, t: float, q: Array, v: Array) -> float:
-    slip = rate(e.tangent, t, q, v)
-    return slip if abs(slip) > STILL * float(np.max(np.abs(v))) else 0.0
+def _clear(slip: float, still: float) -> float:
+    """Zero, if it is rounding."""
+    return slip if abs(slip) > still else 0.0

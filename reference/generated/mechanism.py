@@ -57,7 +57,7 @@ class Mechanism(System):
             return (element.only,)
         if isinstance(element, OneSided):
             return (element.began(q, v, CLOSED * self.size),)
-        still = STILL * (float(np.max(np.abs(v))) or 1.0)
+        still = self.built.still(0.0, q, v, part=STILL)
         if element.normal is not None:
             gap = element.normal.f(0.0, q.tolist())[0]
             if gap > CLOSED * self.size:
@@ -168,7 +168,7 @@ class Mechanism(System):
         forces = self.built.forces(mode, t, q, v)
         # At an event a force or rate is at its bound, as well as events are located.
         force = 1e-9 * (max(map(abs, forces.values()), default=0.0) or 1.0)
-        slow = 1e-9 * (float(np.max(np.abs(v))) or 1.0)
+        slow = self.built.still(t, q, v, part=1e-9)
         for e, state in zip(self.elements, self.built.states[mode], strict=True):
             if isinstance(e, OneSided) and e.ends(state, t, q) < -CLOSED * self.size:
                 return f"{e.name} is {state} on the wrong side of its rest length"

@@ -18,6 +18,7 @@ from .smooth import SmoothMultibody
 from .stop import stopped
 
 ROUNDING = 1e-10  # of the accelerations that the forces give alone
+LOCATED = 1e-12  # s: how well events are located
 
 
 class Modes(Mapping[str, Multibody]):
@@ -35,6 +36,7 @@ class Modes(Mapping[str, Multibody]):
             *one_sided(scene, where),
         )
         self.M = np.array(self.base.where.masses)
+        self._begins = float(np.max(np.abs(start[1]), initial=0.0))
         self.states: dict[str, tuple[State, ...]] = {}  # what each element does in a mode
         self._built: dict[str, Multibody] = {}
         self._known: tuple[str, float, bytes, bytes] | None = None
@@ -94,6 +96,14 @@ class Modes(Mapping[str, Multibody]):
     def small(self, t: float, q: Array, v: Array) -> float:
         """What rounding makes of an acceleration here [m/s²]."""
         return ROUNDING * self.base.terms(t, q, v)[0]
+
+    def still(self, t: float, q: Array, v: Array, *, part: float) -> float:
+        """A speed that is none [m/s]: that part of the motion's, and what forces give so early.
+
+        Where all comes to rest v is rounding, and no size of anything.
+        """
+        speed = max(float(np.max(np.abs(v), initial=0.0)), self._begins)
+        return part * speed + LOCATED * self.base.terms(t, q, v)[0]
 
 
 def rate(part: Constraint, t: float, q: Array, v: Array) -> float:

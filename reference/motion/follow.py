@@ -227,7 +227,7 @@ class _Walk:
             raise ZenoError(name, t, f"is one of more than {MOST} events")
         limit = accumulation(self.fired[name])
         if not refused:
-            return settles(self.fired[name], end - begin)
+            return settles(name, self.fired[name], end - begin)
         if limit is not None and ends_here(limit, t, begin, end):
             raise ZenoError(
                 name, t, f"happens without end before {limit:.6g} s (a Zeno sequence), seen"

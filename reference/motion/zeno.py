@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..system import EARLY, LAST
+from .crossing import TOGETHER
 
 MOST = 10_000  # events
 SEEN = 6  # firings of one name from which an accumulation is judged: five distances
@@ -33,15 +34,21 @@ def accumulation(instants: Sequence[float]) -> float | None:
     return instants[-1] + float(distances[-1]) * ratio / (1.0 - ratio) if ratio < 1.0 else None
 
 
-def settles(instants: Sequence[float], duration: float) -> bool:
-    """Whether the instants pile up so close to the last that the motion may go on from there."""
+def settles(event: str, instants: Sequence[float], duration: float) -> bool:
+    """Whether the instants pile up so close to the last that the motion may go on from there.
+
+    Raises ZenoError where they are one, from which no motion goes on.
+    """
     if len(instants) < 3:
         return False
     one, two = np.diff(instants[-3:]).tolist()
-    if not two < one:
-        return False
-    following = two * two / one
-    return following <= LAST * duration or following <= EARLY * duration * (1.0 - two / one)
+    if two < one:
+        following = two * two / one
+        if following <= LAST * duration or following <= EARLY * duration * (1.0 - two / one):
+            return True
+    if len(instants) >= SEEN and instants[-1] - instants[-SEEN] <= TOGETHER:
+        raise ZenoError(event, instants[-1], "happens again and again")
+    return False
 
 
 def ends_here(limit: float, t: float, begin: float, end: float) -> bool:

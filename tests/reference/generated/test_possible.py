@@ -1,11 +1,16 @@
 """What a generated mechanism says of modes that contradict contact or friction."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
+from given import scenes
 
 from textmech.cases import shape
 from textmech.cases.scene import Anchor, Contact, Scene
+from textmech.reference.generated import mechanism
 from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.solve import solve
 
 STANDS, UP = (0.0, 0.25, 0.0), 9.81
 
@@ -15,10 +20,10 @@ def said(mode: str, q: tuple[float, ...], v: tuple[float, ...], *, gravity: tupl
     disk = shape.disk(name="wheel", mass=1.3, radius=0.25, points={})
     touch = Contact("touch", Anchor("wheel", "center"), 0.4, 0.4)
     scene = Scene(gravity, {}, {"wheel": disk}, {}, {"touch": touch}, {})
-    mechanism = Mechanism(scene, (np.array(STANDS), np.zeros(3)), 0.25)
-    built = mechanism.built
+    disks = Mechanism(scene, (np.array(STANDS), np.zeros(3)), 0.25)
+    built = disks.built
     names = {s: built.name((s,)) for s in ("open", "slides +", "slides -", "sticks")}
-    return mechanism.possible(names[mode], 0.0, np.array(q), np.array(v))
+    return disks.possible(names[mode], 0.0, np.array(q), np.array(v))
 
 
 @pytest.mark.parametrize("mode", ["sticks", "slides +", "slides -"])
@@ -49,3 +54,64 @@ def test_a_mode_slides_its_own_way(mode: str, way: float):
     assert said(mode, STANDS, (way, 0.0, 0.0), gravity=(0.0, -UP)) is None
     other = said(mode, STANDS, (way, 0.0, -5.0 * way), gravity=(0.0, -UP))
     assert other == "touch slides the other way"
+
+
+@pytest.mark.parametrize("gravity", [(0.0, -UP), (3.0, -UP)])
+@pytest.mark.parametrize(("mode", "way"), [("slides +", 1.0), ("slides -", -1.0)])
+def test_rounding_at_rest_slides_no_way(mode: str, way: float, gravity: tuple[float, float]):
+    """All that moves is rounding, which is no size; a real slip is one, however slow."""
+    for speed in (1e-17, 1e-32, 1e-64):
+        assert said(mode, STANDS, (-way * speed, 0.0, 0.1 * speed), gravity=gravity) is None
+    slow = said(mode, STANDS, (-way * 1e-9, 0.0, 0.0), gravity=gravity)
+    assert slow == "touch slides the other way"
+
+
+BROKEN_LOOSE = """\
+scene:
+  gravity: none
+  points: {O: [0, 0], Q: [0, 1]}
+  bodies: {a: {particle: {mass: 1}}, b: {particle: {mass: 2}}}
+  joints:
+    R: {slide: [ground.O, a.center], along: [1, 0], dry_friction: {static: 6, kinetic: 3}}
+    S: {slide: [ground.Q, b.center], along: [1, 0]}
+    d: {distance: [a.center, b.center], length: 1.25}
+  forces: {p: {push: b.center, ramp: [10, 0]}}
+initial: {a: {x: 0}, b: {x: 0.75}}
+allow: {a.x: 1.0e-3}
+"""
+
+CORNERED = """\
+scene:
+  planes: {wall: {at: [50, 0], normal: [-1, 0]}}
+  bodies: {wheel: {disk: {mass: 800, radius: 3}}}
+  contacts:
+    floor: {between: [wheel, ground.floor], friction: 0.5}
+    wall: {between: [wheel, ground.wall], friction: 0.5}
+initial: {wheel: {x: 0, y: 10, angle: 0, vx: 20}}
+events: {lands: {floor.gap: falls to zero}, hits: {wall.gap: falls to zero}}
+allow: {wheel.x: 5.0e-2}
+"""
+
+
+def test_a_slide_breaks_loose_on_a_sample(tmp_path: Path):
+    """The ramp reaches 6 N at 0.6 s; then x⃛ = 10/3, ẍ = 1 at first."""
+    case = scenes.typed(tmp_path, BROKEN_LOOSE, tail=scenes.tail(2.0, 51))
+    found = solve(case)
+    assert found.holds
+    t = np.maximum(case.times - 0.6, 0.0)
+    known = t**2 / 2 + 10 / 18 * t**3
+    np.testing.assert_allclose(found.trajectory.states["a"][:, 0], known, atol=1e-13)
+
+
+def test_a_wheel_comes_to_rest_in_a_corner(tmp_path: Path):
+    assert solve(scenes.typed(tmp_path, CORNERED, tail=scenes.tail(6.0, 61))).holds
+
+
+@pytest.mark.mutant("the way of a slide that breaks loose taken for the other one")
+def test_a_way_taken_for_the_other_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    other = {1: -1, -1: 1, 0: 0}
+    sound = mechanism.sign
+    monkeypatch.setattr(mechanism, "sign", lambda state: other[sound(state)])
+    case = scenes.typed(tmp_path, BROKEN_LOOSE, tail=scenes.tail(0.64, 17))
+    (broken,) = [check for check in solve(case).checks if check.name == "modes possible"]
+    assert not broken.holds
