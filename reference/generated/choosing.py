@@ -73,8 +73,12 @@ def settled(modes: Modes, choices: Sequence[Options], t: float, q: Array, v: Arr
         if not one_slip(modes.elements, states):
             continue
         after = _projected(modes, states, t, q, v)
-        if _agrees(modes, states, choices, t, *after):
-            found.append(states)
+        try:
+            if _agrees(modes, states, choices, t, *after):
+                found.append(states)
+        except SingularPose as error:
+            if not found:  # else one that is likelier needs nothing of it
+                raise Undetermined(_blamed(modes, choices), str(error), t) from error
     if not found:
         raise painleve(_blamed(modes, choices), "no motion", t)
     for other in found[1:]:
@@ -94,14 +98,17 @@ def _agrees(
     q: Array,
     v: Array,
 ) -> bool:
-    """Whether the forces are within the laws, and what may move moves the way it should."""
+    """Whether the forces are within the laws, and what may move moves the way it should.
+
+    Raises SingularPose where the forces are not determined.
+    """
     mode, small = modes.name(states), modes.small(t, q, v)
     try:
         forces = modes.forces(mode, t, q, v)
-    except SingularPose as error:
+    except SingularPose:
         if _contradicts(modes, mode, t, q, v):
             return False
-        raise Undetermined(_blamed(modes, choices), str(error), t) from error
+        raise
     for e, state, choice in zip(modes.elements, states, choices, strict=True):
         if e.normal is not None:
             if state == "open":
