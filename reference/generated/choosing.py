@@ -12,6 +12,9 @@ from .mode import SingularPose
 from .modes import Modes
 from .sharing import one_slip
 
+DEPENDENT = 1e-13  # of the largest of f M⁻¹ fᵀ: its factors fail at some 1e-16
+APART = 1e-6  # of γ: what is left out by that is off by its root, 3e-7
+
 After = tuple[str, Array, Array]
 """A mode's name, q and v with which it begins."""
 Options = tuple[State, ...]
@@ -70,8 +73,12 @@ def settled(modes: Modes, choices: Sequence[Options], t: float, q: Array, v: Arr
         if not one_slip(modes.elements, states):
             continue
         after = _projected(modes, states, t, q, v)
-        if _agrees(modes, states, choices, t, *after):
-            found.append(states)
+        try:
+            if _agrees(modes, states, choices, t, *after):
+                found.append(states)
+        except SingularPose as error:
+            if not found:  # else one that is likelier needs nothing of it
+                raise Undetermined(_blamed(modes, choices), str(error), t) from error
     if not found:
         raise painleve(_blamed(modes, choices), "no motion", t)
     for other in found[1:]:
@@ -91,12 +98,17 @@ def _agrees(
     q: Array,
     v: Array,
 ) -> bool:
-    """Whether the forces are within the laws, and what may move moves the way it should."""
+    """Whether the forces are within the laws, and what may move moves the way it should.
+
+    Raises SingularPose where the forces are not determined.
+    """
     mode, small = modes.name(states), modes.small(t, q, v)
     try:
         forces = modes.forces(mode, t, q, v)
-    except SingularPose as error:
-        raise Undetermined(_blamed(modes, choices), str(error), t) from error
+    except SingularPose:
+        if _contradicts(modes, mode, t, q, v):
+            return False
+        raise
     for e, state, choice in zip(modes.elements, states, choices, strict=True):
         if e.normal is not None:
             if state == "open":
@@ -111,6 +123,17 @@ def _agrees(
         if s and s * modes.change(e.tangent, mode, t, q, v) < -small:
             return False
     return True
+
+
+def _contradicts(modes: Modes, mode: str, t: float, q: Array, v: Array) -> bool:
+    """Whether of f_a q̈ᵃ = γ rows that depend on each other ask for different accelerations.
+
+    At a dead centre a rocker turns back: the others turn it, so that it cannot stick there. Of what
+    rests they ask the same, and do not say who holds it.
+    """
+    f, _, gamma = modes[mode].rows(t, q, v)
+    left = gamma - f @ _nearest(modes.M, f, gamma, dependent=DEPENDENT)
+    return bool(np.max(np.abs(left)) > APART * np.max(np.abs(gamma)))
 
 
 def _grazes(
@@ -143,9 +166,9 @@ def placed(M: Array, f: Array, gaps: Array, q: Array) -> Array:
     return np.append(q[:n] - _nearest(M, f, gaps), q[n:])
 
 
-def _nearest(M: Array, f: Array, residual: Array) -> Array:
+def _nearest(M: Array, f: Array, residual: Array, *, dependent: float | None = None) -> Array:
     by_mass = f / M
-    return by_mass.T @ np.linalg.lstsq(f @ by_mass.T, residual, rcond=None)[0]
+    return by_mass.T @ np.linalg.lstsq(f @ by_mass.T, residual, rcond=dependent)[0]
 
 
 def _blamed(modes: Modes, choices: Sequence[Options]) -> str:

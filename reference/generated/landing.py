@@ -99,8 +99,9 @@ def _after(m: Meeting, state: State, v: Array, still: float, flies: float) -> Op
     """What a contact may do that has done this in the blow; what rises no faster may stay."""
     if m.after > m.normal.g or (state == "open" and m.normal.rate(v) > flies):
         return ("open",)
-    if state == "open":
-        return closed(m.element, _clear(m.tangent.rate(v), still))
+    if state == "open":  # it has taken no part, and is first asked to take none now
+        stays = closed(m.element, _clear(m.tangent.rate(v), still))
+        return ("open", *(state for state in stays if state != "open"))
     if m.element.frictionless or state == "sticks":
         return closed(m.element, 0.0)
     return (state, "open")

@@ -43,6 +43,16 @@ initial: {w: {x: 0, y: 0.1, angle: 0}}
 events: {hits: {v.gap: falls to zero}}
 allow: {w.x: 1.0e-2}
 """
+LAID_DOWN = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {ball: {particle: {mass: 2}}}
+  contacts: {floor: {between: [ball, ground.floor], friction: 0.3}}
+  forces: {cord: {rope: [ground.O, ball.center], length: 0.8}}
+initial: {ball: {x: 0.48, y: 0.64, vx: 3.2, vy: -2.4}}
+events: {lands: {floor.gap: falls to zero}}
+allow: {ball.x: 1.0e-2}
+"""
 
 
 def test_a_block_on_a_slope_hangs_by_its_rope(tmp_path: Path) -> None:
@@ -105,3 +115,13 @@ def test_what_is_not_thrown_up_taken_for_it_is_seen(
     assert [e.name for e in follow(scenes.mechanism(case), case.times).events] == ["r tightens"]
     monkeypatch.setattr(landing, "STILL", -1e-9)
     assert len(follow(scenes.mechanism(case), case.times).events) > 1
+
+
+def test_a_rope_that_is_not_pulled_pulls_nothing(tmp_path: Path) -> None:
+    """Swung over to the floor: the rope is then just taut along it, and the ball rests."""
+    case = scenes.typed(tmp_path, LAID_DOWN, tail=CAUGHT)
+    found = solve(case)
+    assert found.holds
+    assert found.trajectory.reactions["cord.force"][-1] == 0.0
+    assert found.trajectory.reactions["floor.normal"][-1] == pytest.approx(2 * G, abs=1e-12)
+    assert found.trajectory.states["ball"][-1].tolist() == pytest.approx([0.8, 0, 0, 0, 0, 0])
