@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 from ..coverage import look
 from ..integrators.explicit import DormandPrince
 from ..integrators.implicit import Radau
-from ..integrators.march import IntegrationError, Method, Slope, Step, march
+from ..integrators.march import IntegrationError, Method, Slope, march
 from ..integrators.radau import radau_table
 from ..system import Array, Guard, Mode, System
 from .crossing import INSIDE, TOGETHER, Fall, Within, clear, first
+from .inside import inside
 from .stops import between, on_samples, stops
 from .stuck import Stuck, Watched, slope
 from .zeno import MOST, ZenoError, accumulation, ends_here, settles
@@ -148,7 +149,7 @@ class _Walk:
         look()
         for step in march(method, ends, self.now):
             self.steps += 1
-            state = _within(step, probe)
+            state = inside(step, probe)
             length = step.t_next - step.t
             looks = self.every and not mode.stiff
             if guards and not looks:  # a stiff state may turn faster than the cubic
@@ -237,18 +238,3 @@ class _Walk:
 
 def _falling(mode: Mode, guard: Guard) -> Fall:
     return lambda t, y: guard.g(t, *mode.parted(y))
-
-
-def _within(step: Step, probe: Method) -> Within:
-    """The states inside an accepted step, each by a step of its own, or by several."""
-
-    def state(h: float) -> Array:
-        if h == 0.0 or h == step.t_next - step.t:
-            return step.y_next if h else step.y
-        there = step.y + probe.attempt(step.t, step.y, h, np.maximum(np.abs(step.y), step.floor))
-        if np.isfinite(there).all():
-            return there
-        *_, last = march(probe, (step.t, step.t + h), step.y)  # a part may be harder than the whole
-        return last.y_next
-
-    return state

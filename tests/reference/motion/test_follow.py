@@ -106,7 +106,7 @@ def test_interpolated_rows_are_seen(monkeypatch: pytest.MonkeyPatch):
         length = step.t_next - step.t
         return lambda h: step.y + h / length * (step.y_next - step.y)
 
-    monkeypatch.setattr(module, "_within", within)
+    monkeypatch.setattr(module, "inside", within)
     assert off(swinging(), cosine) > 1e-4
 
 
