@@ -40,7 +40,7 @@ from .muscle import ANOTHER, NOTHING, write_muscle
 from .rope import rope_length, write_rope
 from .stops import stop_numbers, write_stops
 from .turning import motor, torsion, torsion_damper, torsion_damping, torsion_numbers
-from .viscous import not_polynomial, viscous_numbers, write_viscous
+from .viscous import damping, not_polynomial, viscous_numbers, write_viscous
 from .written import written
 
 NEVER = 1e6  # m: a length that no tendon has
@@ -59,7 +59,8 @@ class Element:
     write: into the file's sections. numbers: for the audit. Of what has an actuator, signal: the
     law that its control follows; outer: what it exerts on bodies at its force (N,), by its gear,
     unless through a tendon, whose forces MuJoCo counts rightly itself. lacks: why MuJoCo has no
-    element for it, so that it is told by our law; or None.
+    element for it, so that it is told by our law; or None. damping: of what is its joint's damping,
+    what it exerts (N,) at the slips (N,).
     """
 
     write: Callable[..., None] = lambda *_: None
@@ -67,6 +68,7 @@ class Element:
     signal: Callable[[Any], Signal] | None = None
     outer: Callable[[Any, Array, Array], Iterator[Outer]] = lambda *_: iter(())
     lacks: Callable[[Any], str | None] = lambda force: None
+    damping: Callable[[Any, Array], Array] | None = None
 
 
 def lacking(scene: Scene) -> list[tuple[Force, str]]:
@@ -222,7 +224,7 @@ ELEMENTS: dict[type[Force], Element] = {
     TorsionDamper: Element(torsion_damper, torsion_damping),
     Motor: Element(motor, signal=lambda force: force.signal),
     Drag: Element(lacks=lambda force: "engine: MuJoCo has no drag at a point of a body"),
-    Viscous: Element(write_viscous, viscous_numbers, lacks=not_polynomial),
+    Viscous: Element(write_viscous, viscous_numbers, lacks=not_polynomial, damping=damping),
     Magnetic: Element(lacks=lambda force: "engine: MuJoCo has no force of a magnetic field"),
     Muscle: Element(write_muscle, signal=lambda force: NOTHING, lacks=lambda force: ANOTHER),
     LinearMuscle: Element(write_muscle, signal=lambda force: NOTHING, lacks=lambda force: ANOTHER),

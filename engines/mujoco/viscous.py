@@ -4,6 +4,7 @@ import mujoco
 import numpy as np
 
 from ...cases.drag import Viscous
+from ...cases.trajectory import Array
 from .hinge import Hinge
 from .written import written
 
@@ -24,6 +25,11 @@ def write_viscous(sections: object, force: Viscous, along: Hinge) -> None:
     assert along.element is not None
     d, power = force.coefficient.forward, _POWERS.index(force.exponent)
     along.element.set("damping", written(*[d if i == power else 0.0 for i in range(3)]))
+
+
+def damping(force: Viscous, slip: Array) -> Array:
+    """(N,) what such a damping exerts along the slide, by the slip [m/s]."""
+    return -force.coefficient.forward * np.abs(slip) ** force.exponent * np.sign(slip)
 
 
 def viscous_numbers(model: mujoco.MjModel, force: Viscous, along: Hinge) -> dict[str, float]:

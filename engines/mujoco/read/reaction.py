@@ -1,21 +1,20 @@
 """Forces of joints and contacts from MuJoCo's arrays, for all samples at once."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 
 import mujoco
 import numpy as np
 
-from ....cases.drag import Viscous
 from ....cases.scene import GROUND, Anchor, Joint, Scene
 from ....cases.trajectory import Array
-from ..force import outer
+from ..force import ELEMENTS, outer
 from ..loops import pulled
 from ..pairs import pair_force
 from ..planes import touching
 from ..rope import tension
 from ..stops import pushing
 from ..tree import Tree, called
-from ..viscous import not_polynomial
 
 Seen = Mapping[str, Array]
 _OBJECT = mujoco.mjtObj
@@ -48,17 +47,20 @@ def joint_force(
         moment -= _cross(place - at, given) + torque
     sign = 1.0 if branch.forward else -1.0
     force *= sign
-    for viscous in damped(scene, joint):  # counted too, as what the joint does
+    for exerted in damped(scene, joint):  # counted too, as what the joint does
         slip = seen["qvel"][:, model.joint(joint.name).dofadr[0]]
-        size = viscous.coefficient.forward * np.abs(slip) ** viscous.exponent * np.sign(slip)
-        force += size[:, None] * line(model, seen, joint)
+        force -= exerted(slip)[:, None] * line(model, seen, joint)
     return force[:, 0], force[:, 1], sign * moment, np.hypot(*force.T)
 
 
-def damped(scene: Scene, joint: Joint) -> list[Viscous]:
-    """The viscous friction of a slide that MuJoCo has as its joint's damping."""
-    viscous = (force for force in scene.forces.values() if isinstance(force, Viscous))
-    return [f for f in viscous if f.joint == joint.name and not not_polynomial(f)]
+def damped(scene: Scene, joint: Joint) -> list[Callable[[Array], Array]]:
+    """What MuJoCo has as the joint's damping, by the slip."""
+    return [
+        partial(element.damping, force)
+        for force in scene.forces.values()
+        if (element := ELEMENTS[type(force)]).damping and force.about == joint.name
+        if element.lacks(force) is None
+    ]
 
 
 def line(model: mujoco.MjModel, seen: Seen, joint: Joint) -> Array:
