@@ -1,6 +1,6 @@
 """What a contact of MuJoCo's throws back: its spring and its damper, in terms of the step h.
 
-Each returns k [1/s²] as a text, b [1/h], and what they do.
+`springy` and `dead` return k [1/s²] as a text, b [1/h], and what they do.
 """
 
 import math
@@ -25,7 +25,7 @@ def springy(e: float, beat: float = BEAT) -> tuple[str, float, str]:
     b = 2 * damping_ratio(e) * beat
     kept = 100 * max(beat**2 / 20, b / 3)
     lasts = f"k = ({beat}/h)²: a bounce lasts {math.pi / beat:.0f} h"
-    because = f"{lasts}; b gives e = {e:g}, to {kept:.1g} % by where in a step it begins"
+    because = f"{lasts}; b gives e = {e:g}, to about {kept:.2g} % by where in a step it begins"
     return f"{beat**2:.2g}/h2", b, because
 
 

@@ -39,9 +39,12 @@ class Kitchen:
     cost: Cost
 
     def rank(self, recipe: Recipe) -> tuple[float, int, float]:
-        """The cheapest first; of those the engine's own options, then the smallest error."""
+        """The cheapest first; of those the engine's own options, then the smallest error.
+
+        In digits that no rounding decides: of those that are alike the first, which changes least.
+        """
         candidate = recipe.candidate
-        return self.cost(candidate), recipe.choice.protocol, self.bar.worst(candidate)[0]
+        return self.cost(candidate), recipe.choice.protocol, _told(self.bar.worst(candidate)[0])
 
 
 def recipe(kitchen: Kitchen) -> Asking[Recipe | None]:
@@ -116,7 +119,11 @@ def best(kitchen: Kitchen) -> tuple[Candidate, float, str] | None:
     """Of all that was run the least worst, where nothing keeps the bar."""
     told = [(candidate, *kitchen.bar.worst(candidate)) for candidate in kitchen.bar.known]
     finite = [one for one in told if one[1] < inf]
-    return min(finite, key=lambda one: (one[1], kitchen.cost(one[0])), default=None)
+    return min(finite, key=lambda one: (_told(one[1]), kitchen.cost(one[0])), default=None)
+
+
+def _told(error: float) -> float:
+    return float(f"{error:.3g}")
 
 
 def front(kitchen: Kitchen, thin: float = 0.8) -> Iterator[tuple[Candidate, float, str]]:

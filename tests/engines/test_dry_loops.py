@@ -76,7 +76,7 @@ NEAR: dict[tuple[str, Realised], tuple[float, float]] = {
     ("crank", "law"): (2.5e-5, 1e-7),
     ("crank", "driver"): (5e-5, 1e-7),
     ("driven", "law"): (3e-10, 1e-7),
-    ("driven", "driver"): (3e-13, 1e-7),
+    ("driven", "driver"): (1e-11, 1e-7),  # rounding: 1e-13 on one processor
 }
 
 

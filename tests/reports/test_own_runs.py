@@ -96,6 +96,10 @@ def test_work_that_its_own_samples_are_too_rough_for_is_refused_alone(tmp_path: 
         "rough"
     )
     assert rows["bob.x"].verdict == "beyond"
+    file.write_text(WORK.replace("bob.x: 1.0e-3, ", ""), encoding="utf-8")
+    alone = textmech("run", file, "--engine", "pymunk.shipped")
+    assert (alone.returncode, "crashed" in alone.stdout) == (0, False)
+    file.write_text(WORK, encoding="utf-8")
     told = textmech("advise", file)
     assert "at samples as far apart as its own step asks for: 30 asks more" in " ".join(
         told.stdout.split()

@@ -44,10 +44,10 @@ def kept(e: float, beat: float) -> Array:
 @pytest.mark.parametrize("beat", [0.2, OF_STOPS])
 @pytest.mark.parametrize("e", [1.0, 0.9, 0.8, 0.5, 0.3, 0.1])
 def test_it_keeps_as_much_as_is_said(e: float, beat: float) -> None:
-    """To the digit that is written, for the damper's share; a step without one may keep more."""
+    """About, of what is a rule of thumb: 0.85 to 1.3 of it was measured."""
     because = springy(e, beat)[2]
-    said = float(because.partition("to ")[2].partition(" %")[0])
+    said = float(because.partition("about ")[2].partition(" %")[0])
     share = kept(e, beat) / e - 1
     off = 100 * np.max(np.abs(share))
     assert np.mean(share) == pytest.approx(0.0, abs=0.15 * off + 1e-4)
-    assert 0.5 * said < off < 1.6 * said
+    assert 0.7 * said < off < 1.5 * said
