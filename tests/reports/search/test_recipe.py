@@ -61,6 +61,19 @@ def test_two_options_are_found_with_the_values_that_do_it() -> None:
     assert found == ({"one": 1, "two": 2}, 8e-3)
 
 
+def test_what_only_rounding_makes_better_is_not_advised() -> None:
+    """Two values of one knob that do the same: the first, on any processor."""
+    for last in (-1, 1):
+
+        def error(o: Mapping[str, Any], h: float, last: int = last) -> float:
+            return 0.4 * (1 + last * o["two"] * 1e-15) if "two" in o else 9.0
+
+        assert of(error, TWO) == ({"two": 1}, 8e-3)
+        nothing, kitchen = cooked(lambda o, h, error=error: 10 * error(o, h), TWO)
+        assert nothing is None
+        assert best(kitchen)
+
+
 def test_the_margin_is_kept_at_the_step_and_at_the_next_finer_one() -> None:
     assert of(lambda o, h: 200 * h, margin=1.0) == ({}, 4e-3)
     assert of(lambda o, h: 200 * h, margin=4.0) == ({}, 1e-3)
