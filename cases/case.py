@@ -15,6 +15,7 @@ from .scene import Scene, Vector
 from .states import States, claimable
 from .trajectory import Array
 
+ROUNDED = 1e-14  # of the duration: a time nearer than this is the same but for its rounding
 _KINDS = ("example", "exercise", "figure", "section")
 
 
@@ -51,12 +52,15 @@ class Placement:
 
     given: coordinates and rates by name, as x, vx, omega_1 of a body, angle and omega of a hinge.
     attitude: a unit quaternion, of a body in space or of a ball's second part against its first.
+    polar: as the file has it, a point of the ground, how far [m] and in which direction [rad] the
+    centre is from where it starts; x and y are given by it.
     """
 
     given: Mapping[str, float] = field(default_factory=dict)  # x, y, angle, vx, vy, omega
     points: Mapping[str, Vector] = field(default_factory=dict)
     attitude: tuple[float, float, float, float] | None = None
     on: tuple[str, ...] = ()  # the points with which the body stands on planes
+    polar: tuple[str, float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -97,8 +101,17 @@ class Case:
 
     @property
     def times(self) -> Array:
-        """The sample times (samples,), the only times at which anything is compared."""
-        return np.arange(self.samples, dtype=np.float64) * self.interval
+        """The sample times (samples,), the only times at which anything is compared.
+
+        One that is a corner of a law but for rounding is that corner: 0.1 and not 1.2/12, of which
+        a double is less than 0.1, and a force that jumps there would act a sample late.
+        """
+        found = np.arange(self.samples, dtype=np.float64) * self.interval
+        for corner in {corner for law in self.scene.laws() for corner in law.corners}:
+            k = min(self.samples - 1, max(0, round(corner / self.interval)))
+            if abs(found[k] - corner) <= ROUNDED * self.duration:
+                found[k] = corner
+        return found
 
     @property
     def quantities(self) -> dict[str, Quantity]:

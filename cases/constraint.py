@@ -32,6 +32,7 @@ class Edge:
     """
 
     word: ClassVar[str] = "edge"
+    kept: ClassVar[bool] = False  # a height, which there is in space alone
     name: str
     at: Anchor
     along: Annotated[Direction, Field(description="in the axes of the body")]

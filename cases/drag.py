@@ -23,8 +23,8 @@ class Drag(Force):
     """(2.84), (2.86) F = −d |v|^α v/|v| on a point of a body; d is the force at 1 m/s.
 
     With an edge `along` the body (2.85) F_i = −d_i |v_i|^α sign(v_i) along it and across it: d₊
-    forward, d₋ `backward`, as forward if not given, and d⊥ `across`. In a motion α ≥ 1: with less
-    it would stop in a finite time, wherever it is and wherever it goes.
+    forward, d₋ `backward`, as forward if not given, and d⊥ `across`. With α < 1 what nothing else
+    moves stops in a finite time: no motion has such an edge, and a point as long as it does not.
     """
 
     word = "drag"
@@ -97,9 +97,8 @@ class Drag(Force):
         return self.exponent < 1
 
     def power(self, motion: Motion) -> Array:
-        """−F |v|."""
-        velocity = motion.point(self.at)[:, 2:]
-        return -self.observe(motion, "force") * np.sqrt(np.sum(velocity**2, axis=1))
+        """F·v: along an edge F is not against v."""
+        return np.sum(self._exerted(motion) * motion.point(self.at)[:, 2:], axis=1)
 
     def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
         """The largest d/m at 1 m/s."""

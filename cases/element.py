@@ -47,7 +47,7 @@ class Force:
 
     @property
     def ends(self) -> bool:
-        """Whether it would stop a free body in a finite time, so that only states may claim it."""
+        """Whether it would stop a free body in a finite time, if nothing else moves that."""
         return False
 
     @property

@@ -15,7 +15,8 @@ from .language.grammar.part import Length, Mass
 from .point import CENTER, Vector
 
 Points = Mapping[str, Vector]
-Inertia = Annotated[float, In("kg m²", above=0)]
+POINT = ": what turns without inertia has no equation of its turn; a point mass is a `particle`"
+Inertia = Annotated[float, In("kg m²", above=0, why=POINT)]
 CORNERS = ("lower_left", "lower_right", "upper_left", "upper_right")
 Spokes = Annotated[int, Count(least=3, most=100)]  # with 100 it is as good as round
 

@@ -37,13 +37,16 @@ class States:
     def drawn(self, scene: Scene) -> dict[str, Array]:
         """(N, 3) by coordinate: its places, rates and accelerations.
 
-        By Python's generator, whose numbers no version changes.
+        By Python's generator, whose numbers no version changes. Each coordinate has one of its own,
+        begun by its name: where it stands in the file, and what else does, is no part of them.
         """
-        names, random = coordinates(scene), Random(self.seed)
-        count = 3 * len(names) * self.random
-        parts = np.array([random.random() for _ in range(count)]).reshape(-1, len(names), 3)
         low, high = np.transpose([self.q, self.q_dot, self.q_ddot])
-        return {name: low + (high - low) * parts[:, i] for i, name in enumerate(names)}
+        return {name: low + (high - low) * self._parts(name) for name in coordinates(scene)}
+
+    def _parts(self, name: str) -> Array:
+        """(N, 3) numbers from 0 to 1."""
+        random = Random(f"{self.seed} {name}")
+        return np.array([random.random() for _ in range(3 * self.random)]).reshape(-1, 3)
 
 
 def coordinates(scene: Scene) -> dict[str, str]:

@@ -5,10 +5,11 @@ An engine's package is imported when the engine is asked for, and not before.
 
 from collections.abc import Iterator, Mapping
 from functools import cache
-from importlib.metadata import EntryPoint, entry_points
-from typing import Any
+from importlib.metadata import Distribution, EntryPoint, entry_points
+from typing import Any, cast
 
 from .engine import Engine, Maker
+from .probe import guarded, said, unsound, why_not
 
 GROUP = "textmech.engines"
 SETTINGS = ("shipped", "tuned")  # what an engine may offer
@@ -24,6 +25,11 @@ def names() -> tuple[str, ...]:
     return tuple(sorted(_found()))
 
 
+def foreign(name: str) -> bool:
+    """Whether it is somebody else's, and may do anything."""
+    return name in _found() and not _found()[name].value.startswith(f"{__name__}.")
+
+
 def settings(name: str) -> tuple[str, ...]:
     """What the engine offers, in its order. Raises KeyError, Broken."""
     return _maker(name).offers
@@ -35,12 +41,21 @@ def make(name: str, setting: str, options: Mapping[str, Any] | None = None) -> E
     Raises KeyError, Broken, and ValueError for options that the engine does not have.
     """
     maker = _maker(name)
-    try:
-        return maker(setting, options or {})
-    except ValueError:
-        raise
-    except (Exception, SystemExit) as error:
-        raise Broken(f"{name} cannot be made: {type(error).__name__}: {error}") from error
+    engine, error = guarded(lambda: maker(setting, options or {}))
+    if isinstance(error, ValueError):
+        raise error
+    if error is not None:
+        raise Broken(f"{name} cannot be made: {said(error)}") from error
+    what, error = guarded(lambda: unsound(engine, name, setting))
+    if what or error is not None:
+        raise Broken(f"{name} cannot be used: {what or said(error)}") from error
+    return engine
+
+
+def distribution(name: str) -> Distribution | None:
+    """What was installed with the engine, as its package says; None where there is no such."""
+    point = _found().get(name)
+    return None if point is None else point.dist
 
 
 class Known(Mapping[str, tuple[str, ...] | None]):
@@ -72,13 +87,14 @@ def _found() -> Mapping[str, EntryPoint]:
 @cache
 def _maker(name: str) -> Maker:
     point = _found()[name]
-    try:
-        maker = point.load()
-    except (Exception, SystemExit) as error:  # whatever a package does while it is imported
-        why = f"{type(error).__name__}: {error}"
+    why = why_not(point, SETTINGS) if foreign(name) else ""
+    maker, error = (None, None) if why else guarded(point.load)
+    if why or error is not None:
+        why = why or said(error)
         raise Broken(f"{name} ({point.value}) cannot be imported: {why}") from error
-    offers = getattr(maker, "offers", None)
-    if not isinstance(offers, tuple) or not offers or not set(offers) <= set(SETTINGS):
+    offers, _ = guarded(lambda: getattr(maker, "offers", None))
+    sound = isinstance(offers, tuple) and all(isinstance(offer, str) for offer in offers)
+    if not (sound and offers and set(offers) <= set(SETTINGS)):
         what = f"its `offers` should be a tuple of {' and '.join(SETTINGS)}, is {offers!r}"
         raise Broken(f"{name} ({point.value}) is no engine: {what}")
-    return maker
+    return cast(Maker, maker)

@@ -223,6 +223,15 @@ class Tunable(Protocol):
         ...
 
 
+@runtime_checkable
+class Paced(Protocol):
+    """What an engine may offer beside the protocol: how long it takes, for the limits of work."""
+
+    def pace(self, scene: Scene) -> float:
+        """About how long one step of the scene takes [s], in its dearest way, on one core."""
+        ...
+
+
 class Maker(Protocol):
     """What an entry point names, usually the engine's class."""
 

@@ -86,21 +86,28 @@ def change(signal: Signal) -> Factor:
 
 
 def derivative(signal: Signal) -> list[Signal]:
-    """The laws whose sum is how fast a law changes; of a table a step at each of its corners."""
-    if signal.law == "sine":
-        frequency, ahead = signal.angular_frequency, signal.phase + math.pi / 2
-        return [_scaled(signal, frequency, "sine", angular_frequency=frequency, phase=ahead)]
-    if signal.law == "ramp":
-        return [Signal("constant", signal.amplitude)]
-    if signal.law == "polynomial":
-        values = tuple(k * c for k, c in enumerate(signal.values))[1:]
-        return [Signal("polynomial", signal.amplitude, values=values)] if any(values) else []
-    if signal.law == "table":
-        corners = zip(signal.times, signal.values, strict=True)
-        rises = ((s1 - s0) / (t1 - t0) for (t0, s0), (t1, s1) in pairwise(corners))
-        bends = zip(signal.times, pairwise([0.0, *rises, 0.0]), strict=True)
-        return [_scaled(signal, after - before, "step", times=(t,)) for t, (before, after) in bends]
-    return []
+    """The laws whose sum is how fast a law changes; of a table a step at each of its corners.
+
+    Raises KeyError of a law that jumps: nothing that does is prescribed.
+    """
+    return DERIVATIVES[signal.law](signal)
+
+
+def _of_sine(signal: Signal) -> list[Signal]:
+    frequency, ahead = signal.angular_frequency, signal.phase + math.pi / 2
+    return [_scaled(signal, frequency, "sine", angular_frequency=frequency, phase=ahead)]
+
+
+def _of_polynomial(signal: Signal) -> list[Signal]:
+    values = tuple(k * c for k, c in enumerate(signal.values))[1:]
+    return [Signal("polynomial", signal.amplitude, values=values)] if any(values) else []
+
+
+def _of_table(signal: Signal) -> list[Signal]:
+    corners = zip(signal.times, signal.values, strict=True)
+    rises = ((s1 - s0) / (t1 - t0) for (t0, s0), (t1, s1) in pairwise(corners))
+    bends = zip(signal.times, pairwise([0.0, *rises, 0.0]), strict=True)
+    return [_scaled(signal, after - before, "step", times=(t,)) for t, (before, after) in bends]
 
 
 def _scaled(signal: Signal, by: float, law: Law, **numbers: Any) -> Signal:
@@ -187,6 +194,15 @@ CHANGES: dict[Law, Callable[[Signal], Factor]] = {
     "table": _table_change,
 }
 """Of what can be prescribed: nothing that jumps."""
+
+DERIVATIVES: dict[Law, Callable[[Signal], list[Signal]]] = {
+    "constant": lambda signal: [],
+    "ramp": lambda signal: [Signal("constant", signal.amplitude)],
+    "sine": _of_sine,
+    "polynomial": _of_polynomial,
+    "table": _of_table,
+}
+"""Of what can be prescribed, and of a ramp's constant."""
 
 AREAS: dict[Law, Callable[[Signal, float], float]] = {
     "step": lambda signal, t: max(0.0, t - signal.times[0]),

@@ -1,4 +1,4 @@
-"""What a case takes for granted and only its motion can tell: that it rolls, winds, moves, lands.
+"""What a case takes for granted and only its motion can tell: that it rolls, moves, lands.
 
 And what only its start can: that a hand-written system starts as the scene does.
 """
@@ -13,14 +13,14 @@ from ..cases.frame import PLANE, SPACE
 from ..cases.mistake import CaseError, Mistake
 from ..cases.observe import motion_of, observe
 from ..cases.quantity import table
-from ..cases.space.joint import rate_of
+from ..cases.scene import Contact
 from ..cases.trajectory import Array, Trajectory
 from .generated.either import Generated
-from .motion.bodies import Answer
 from .start.sizes import size_of
 from .system import Pose, System
 
 STILL = 1e-9  # of the motion's size: smaller changes are no motion
+NOISE = 1e-14  # of what carries it through its own size: rounding, where nothing has a size
 OPEN = 1e-9  # of the mechanism's size: nearer than that, a contact starts closed
 ROUNDING = 1e-12  # of the normal force: a wheel that needs no friction rolls without any
 START = 1e-12  # of the sizes: two derivations of one start differ by rounding
@@ -34,7 +34,8 @@ UNITS |= {"vx": "m/s", "vy": "m/s", "vz": "m/s"} | dict.fromkeys(("omega", *RATE
 def check_start(case: Case, system: System, generated: Generated) -> None:
     """Raises CaseError with what a hand-written system starts otherwise than the scene does."""
     mode, *state = system.start()
-    own = system.modes[mode].poses(0.0, *state)
+    told = system.modes[mode].poses(0.0, *state)
+    own = {name: told[name] for name in case.scene.bodies}  # a start of inner states is no body's
     assembled = generated.base.where.poses(*generated.start()[1:])
     if found := list(_otherwise(case, own, assembled)):
         raise CaseError(found)
@@ -72,30 +73,22 @@ def _otherwise(
             yield case.mistake(("initial", name, *([fields[i]] if given else [])), what)
 
 
-def check_shares(case: Case, built: Answer) -> None:
-    """Raises CaseError with the forces that are asked for, where only their sum is determined."""
-    modes = [built.system.modes[name] for name in dict.fromkeys(built.followed.modes)]
-    shared = {name for mode in modes for name in mode.undetermined}
-    asked = [(("allow", name), name) for name in case.allow]
-    asked += [(("events", name), event.quantity) for name, event in case.events.items()]
-    what = (
-        "{} is not determined: several points of the body stick there, and only the sum of their "
-        "frictions is known; leave it out"
-    )
-    if found := [case.mistake(path, what.format(name)) for path, name in asked if name in shared]:
-        raise CaseError(found)
+def pressed(case: Case) -> bool:
+    """Whether a premise is about forces: what rolls, pivots or is pushed by a face."""
+    ideal = any(contact.ideal is not None for contact in case.scene.contacts.values())
+    return ideal or any(pair.face is not None for pair in case.scene.pairs.values())
 
 
 def check_premises(case: Case, motion: Trajectory, happened: Collection[str | None]) -> None:
     """Raises CaseError with what the motion contradicts: the first kind of mistake there is.
 
-    happened: the names of the changes of mode, as `touch lands`.
+    motion: at every step of the march, whatever the samples are. happened: the names of the changes
+    of mode, as `touch lands`.
     """
     for mistakes in (
         _unsaid(case, motion, happened),
         _slipping(case, motion),
-        _beside(case, motion),
-        _wound(case, motion),
+        _past_ends(case, motion),
         _still(case, motion),
     ):
         if found := list(mistakes):
@@ -122,8 +115,8 @@ def _unsaid(case: Case, motion: Trajectory, happened: Collection[str | None]) ->
             yield case.mistake(("scene", "contacts", name), what)
 
 
-def _beside(case: Case, motion: Trajectory) -> Iterator[Mistake]:
-    """What is pushed by a face is between its ends, at every sample."""
+def _past_ends(case: Case, motion: Trajectory) -> Iterator[Mistake]:
+    """What is pushed by a face is between its ends, at every step."""
     for pair in case.scene.pairs.values():
         if pair.face is None:
             continue
@@ -138,7 +131,7 @@ def _beside(case: Case, motion: Trajectory) -> Iterator[Mistake]:
 
 
 def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
-    """Rolling or pivoting is assumed: |λ_t| ≤ μ λ_n and λ_n > 0 at every sample.
+    """Rolling or pivoting is assumed: |λ_t| ≤ μ λ_n and λ_n > 0 at every step.
 
     Names the first time at which it fails, and the μ that would be enough.
     """
@@ -147,15 +140,15 @@ def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
             continue
         doing = "rolling" if contact.ideal == "rolling" else "pivoting"
         normal = motion.reactions[f"{contact.name}.normal"]
-        tangent = _along_floor(motion, contact.name)
+        tangent, carried = _along_floor(motion, contact.name), _carried(case, motion, contact)
         fails = tangent > (contact.friction + ROUNDING) * normal
-        fails |= (_carried(case, motion) if contact.ahead_of else normal) <= 0
+        fails |= (carried <= 0) | (normal < 0)
         if not np.any(fails):
             continue
-        stands = normal > 0 if contact.ahead_of else np.full(len(normal), True)
+        stands = np.full(len(normal), True) if carried is normal else normal > 0
         first = int(np.argmax(fails))
         t = motion.times[first]
-        if normal[first] <= 0:
+        if carried[first] <= 0 or normal[first] < 0:
             what = f"the floor would have to pull at t = {t:.3g} s: {contact.body} leaves it"
         else:
             what = (
@@ -165,10 +158,24 @@ def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         yield case.mistake(("scene", "contacts", contact.name, "ideal"), what)
 
 
-def _carried(case: Case, motion: Trajectory) -> Array:
-    """(N,) what the feet carry [N] that stand one after the other."""
-    feet = [name for name, contact in case.scene.contacts.items() if contact.ahead_of]
-    return np.sum([motion.reactions[f"{name}.normal"] for name in feet], axis=0)
+def _carried(case: Case, motion: Trajectory, contact: Contact) -> Array:
+    """(N,) what carries the body [N]: one that stands on a corner has nothing from the others.
+
+    Of feet that stand one after the other it is what they carry together.
+    """
+    feet = [
+        name
+        for name, other in case.scene.contacts.items()
+        if (other.ahead_of if contact.ahead_of else _beside(contact, other))
+    ]
+    each = [motion.reactions[f"{name}.normal"] for name in feet]
+    return each[0] if len(each) == 1 else np.sum(each, axis=0)
+
+
+def _beside(one: Contact, other: Contact) -> bool:
+    """Whether both are points of one body on one plane that only pivot, or one contact."""
+    pivots = one.ideal == other.ideal == "pivot"
+    return one is other or (pivots and (one.body, one.on) == (other.body, other.on))
 
 
 def _along_floor(motion: Trajectory, contact: str) -> Array:
@@ -182,27 +189,6 @@ def _needed(normal: Array, tangent: Array, body: str, doing: str) -> str:
     if np.any(normal <= 0):
         return f"later {body} would even leave the floor"
     return f"{doing} all the way needs {np.max(tangent / normal):.3g}"
-
-
-def _wound(case: Case, motion: Trajectory) -> Iterator[Mistake]:
-    """In space a state holds attitudes, which tell a joint's angle within half a turn."""
-    if case.scene.frame is not SPACE:
-        return
-    for force in case.scene.forces.values():
-        if not force.winds:
-            continue
-        angle = observe(case.scene, motion, f"{force.name}.angle")
-        rate = observe(case.scene, motion, f"{force.about}.{rate_of(force.turn or 'angle')}")
-        # Between two samples as the cubic through them goes, which has their rates.
-        between = (angle[1:] + angle[:-1]) / 2 - np.diff(rate) * np.diff(motion.times) / 8
-        wound = np.abs(angle) > np.pi
-        wound[1:] |= np.abs(between) > np.pi
-        if np.any(wound):
-            what = (
-                f"is wound by more than half a turn at t = {motion.times[np.argmax(wound)]:.3g} s, "
-                "and in space its torque is known within that: shorten the duration, or turn less"
-            )
-            yield case.mistake(("scene", "forces", force.name), what)
 
 
 def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:
@@ -221,7 +207,7 @@ def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:
             np.max(np.abs(states[:, case.scene.frame.alike(quantity.unit)]), initial=0.0),
         )
         moved = _moved(samples)
-        still = moved <= STILL * size
+        still = moved <= max(STILL * size, NOISE * _floor(case, quantity.unit))
         if still and not claimed:
             at = "as it is" if samples.ndim > 1 else f"{samples[0]:.6g}"
             what = f"never moves: it stays {at}; leave it out, or say what is claimed: "
@@ -229,6 +215,12 @@ def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         elif claimed and not still:
             what = f"moves by {moved:.3g} {quantity.unit}"
             yield case.mistake(("stays", case.stays.index(name)), what)
+
+
+def _floor(case: Case, unit: str) -> float:
+    """What carries through the mechanism's size, or 1 rad, in the duration: also of all at rest."""
+    through = size_of(case) if "m" in unit else 1.0
+    return through / case.duration if unit.endswith("/s") else through
 
 
 def _moved(samples: Array) -> float:

@@ -13,6 +13,7 @@ from numpy.linalg import LinAlgError
 
 from ..cases.case import Case
 from ..cases.force import Force
+from ..cases.language.check import cost
 from ..cases.language.check.work import GO_ON
 from ..cases.mistake import CaseError, Mistake
 from ..cases.space.scene import SpatialScene
@@ -29,8 +30,7 @@ from .start.sizes import size_of
 from .start.space.closure import SpatialClosure
 from .system import Array
 
-MOST = 5e6  # evaluations: the largest shipped case takes 4e4 and 8 s, so this is a quarter hour
-FEW = 20  # bodies: an evaluation costs the more of more than these
+MOST = cost.LIMIT  # s: the largest shipped case takes 8
 SHORT = 1e-3  # of the mechanism's size: steps give up well before the length is zero
 UNEVEN = 1e4  # of two masses: the lighter one's equations then have lost four digits of sixteen
 FAST = 1e3  # swings in the duration: an integrator of order 8 takes a dozen steps for each
@@ -40,12 +40,12 @@ DEPENDENT = 1e-2  # singular values below this part of the largest: the same, fo
 @contextmanager
 def bounded(case: Case) -> Iterator[None]:
     """Turns what takes too long, or leaves the doubles, into CaseError."""
-    each = max(1.0, len(case.scene.bodies) / FEW)
+    laws = 0.0 if case.states else case.samples * cost.laws(case.scene)
     try:
-        with budget(math.inf if case.long else MOST / each):
+        with budget(math.inf if case.long else MOST - laws, cost.evaluation(case.scene)):
             yield
     except Endless as endless:
-        what = f"the reference {endless}, and was at {endless.time:.4g} s: {GO_ON}"
+        what = f"the reference {endless}, and the limit is {MOST / 60:g} minutes: {GO_ON}"
         raise CaseError([case.mistake(("duration",), what)]) from endless
     except (ArithmeticError, LinAlgError) as error:
         what = f"the numbers of this scene cannot be computed with ({error}); are the units right?"

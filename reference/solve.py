@@ -16,10 +16,13 @@ from .certificate.agreement import Check
 from .certificate.certify import certify
 from .certificate.errors import beyond
 from .coverage import look, noting
+from .determined import check_determined
 from .generated.either import Generated
+from .integrators.now import begun, doing
+from .integrators.threads import one_thread
 from .motion.bodies import Answer, Beside
 from .motion.follow import Followed, follow
-from .premises import check_premises, check_shares, check_start
+from .premises import check_premises, check_start, pressed
 from .refusal import bounded, refusals
 from .start.mechanism import mechanism
 from .states.answer import answered
@@ -48,12 +51,14 @@ def solve(case: Case) -> Solution:
     Raises CaseError where the case cannot be started, its idealisation does not hold, or it asks
     more than can be certified.
     """
-    with noting() as equations, bounded(case):
+    begun(case.name)
+    with noting() as equations, bounded(case), one_thread():
         motion, checks = _solved(case) if case.states is None else answered(case)
     return Solution(motion, case.system or "generated", checks, frozenset(equations))
 
 
 def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
+    doing("its start")
     written = _written(case)
     generated = mechanism(case)
     with refusals(case, generated):
@@ -62,19 +67,23 @@ def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
             check_start(case, written, generated)
         followed = follow(system, case.times, every=bool(case.events))
         found = followed if system is generated else follow(generated, case.times)
+        doing("its quantities")
         asked = _accelerations(case)
-        built = Answer(generated, found, accelerates=asked)
-        check_shares(case, built)
+        built = Answer(generated, found, accelerates=asked, scene=case.scene)
+        opened = check_determined(case, built, generated)
         beside = reactions_of(generated, found, followed)
-        answer = built if system is generated else Answer(system, followed, beside, asked)
+        answer = built
+        if system is not generated:
+            answer = Answer(system, followed, beside, asked, case.scene)
         look()
         corners = [t for t in system.corners if 0.0 < t < case.duration]
         switches = np.array([*(change.time for change in followed.changes), *corners], dtype=float)
         motion = replace(answer.trajectory(case.times), switches=switches)
         if case.events:
             motion = replace(motion, record=answer.record(forces=_felt(case)))
-        check_premises(case, motion, [change.name for change in found.changes])
-        checks = certify(case, answer, built, generated, motion)
+        marched = built.march(forces=pressed(case))  # in coordinates that see each turn
+        check_premises(case, marched, [change.name for change in found.changes])
+        checks = (*certify(case, answer, built, generated, motion), *opened)
     if mistakes := beyond(case, checks):
         raise CaseError(mistakes)
     return motion, checks

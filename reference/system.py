@@ -167,12 +167,15 @@ class Guard:
     zero when its mode begins has to rise first; if it falls at once, the mode ends at once.
     at_last: what `then` is in the limit, where falls without end pile up in a finite time, as those
     of a ball that bounces ever lower: it rests. None where there is no limit to go on from.
+    vain: whether it is none where `then` gives back what it was given, as a landing from a gap that
+    has just opened by rounding.
     """
 
     event: str | None
     g: Callable[[float, Array, Array], float]
     then: Callable[[float, Array, Array], tuple[str, Array, Array]]
     at_last: Callable[[float, Array, Array], tuple[str, Array, Array]] | None = None
+    vain: bool = False
 
 
 class System:

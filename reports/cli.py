@@ -19,6 +19,7 @@ from .command.page import page
 from .command.plot import plot
 from .command.run import run
 from .command.versions import versions
+from .show.progress import aloud
 from .show.say import prepare, say, tell
 
 
@@ -27,7 +28,8 @@ def main() -> None:
     ending.listen()
     prepare()
     try:
-        code = _answered()
+        with aloud():
+            code = _answered()
         ending.deaf()
     except (click.Abort, KeyboardInterrupt):
         tell(f"\ninterrupted: {done()}")
@@ -106,8 +108,12 @@ command.add_command(plot)
 @allow_long
 def show(case: str, name: str, allow_long: bool) -> None:
     """The scene as the engine's own file or script, with the settings and their reasons."""
+    from functools import partial
+
+    from ..engines.probe import guarded
     from .selection import choose_cases, choose_engines
     from .show.script import script
+    from .spelled import why
 
     chosen = choose_cases([case], long=allow_long)
     if len(chosen) > 1:
@@ -118,7 +124,12 @@ def show(case: str, name: str, allow_long: bool) -> None:
         raise click.UsageError(f"{name} is no engine, and has no file of its own")
     # Of a bare name the tuned setting, or what else the engine offers.
     engine = next((e for e in engines if e.setting == "tuned"), engines[0])
-    say(script(chosen[0], engine), nl=False)
+    text, error = guarded(partial(script, chosen[0], engine))
+    if isinstance(error, CaseError | click.ClickException):
+        raise error
+    if error is not None:
+        raise click.ClickException(f"{name} has no file to show: {why(error)}")
+    say(text, nl=False)
 
 
 if __name__ == "__main__":

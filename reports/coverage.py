@@ -1,5 +1,6 @@
 """Which equations, examples, exercises and figures of the chapter are covered, and by what."""
 
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -7,6 +8,7 @@ import pandas as pd
 from ruamel.yaml import YAML
 
 from ..cases.case import Case
+from ..cases.mistake import CaseError, Mistake
 
 EQUATIONS = 98  # (2.1) to (2.98)
 EXAMPLES, EXERCISES, FIGURES = 4, 6, 32
@@ -37,6 +39,17 @@ def coverage(cases: Sequence[Case], executed: Mapping[str, set[str]]) -> pd.Data
         ],
         columns=["kind", "number", "cases", "otherwise"],
     )
+
+
+def countable() -> None:
+    """Nothing, where equations can be noted. Raises CaseError under `python -OO`.
+
+    A function says by its docstring which equations it is, and that takes them away: every
+    equation would seem to be covered by nothing.
+    """
+    if sys.flags.optimize > 1:
+        what = "takes the docstrings away, in which the equations stand: -O alone keeps them"
+        raise CaseError([Mistake("python -OO", 0, 0, "", what)])
 
 
 def otherwise() -> dict[tuple[str, str], str]:

@@ -3,10 +3,16 @@
 import os
 import signal
 import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from typing import Any
 
 INTERRUPTED = 130
 SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
+_LAST: list[Callable[[], object]] = []  # what is done even where nothing else is any more
+_WATCHED: list[threading.Thread] = []
+OFTEN = 0.2  # s
 GRACE = 1.5  # s: workers are killed within milliseconds, and a set of reports is in its place
 
 
@@ -26,6 +32,29 @@ def deaf() -> None:
         signal.signal(number, signal.SIG_IGN)
 
 
+@contextmanager
+def at_once(last: Callable[[], object]) -> Iterator[None]:
+    """What is done too if the process ends inside without anything else: soon, or not at all."""
+    _LAST.append(last)
+    try:
+        yield
+    finally:
+        _LAST.remove(last)
+
+
+def with_parent() -> None:
+    """From now on this process ends soon after the one that started it, if that is killed."""
+
+    def watch(parent: int) -> None:
+        while os.getppid() == parent:
+            time.sleep(OFTEN)
+        _at_once()
+
+    if hasattr(os, "getppid") and not _WATCHED:
+        _WATCHED.append(threading.Thread(target=watch, args=(os.getppid(),), daemon=True))
+        _WATCHED[0].start()
+
+
 def known() -> list[signal.Signals]:
     """Those of the signals that this system has."""
     return [getattr(signal, name) for name in SIGNALS if hasattr(signal, name)]
@@ -43,4 +72,7 @@ def _interrupt(*_: Any) -> None:
 
 def _at_once(*_: Any) -> None:
     """Workers see that their parent is gone."""
+    for last in reversed(_LAST):
+        with suppress(Exception):
+            last()
     os._exit(INTERRUPTED)

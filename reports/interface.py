@@ -6,7 +6,8 @@ What the command would refuse raises `textmech.cases.mistake.CaseError`, with th
 mistakes at once in `mistakes`.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -31,6 +32,7 @@ from .results import Progress
 from .search.advised import Asked, row
 from .search.session import advised
 from .selection import choose_cases
+from .show import progress as shown
 from .show.summary import summary
 
 OWN = "own"  # how the column of a user's own options is called
@@ -93,7 +95,8 @@ def solve(word: Word) -> Reference:
         names = ", ".join(case.name for case in cases)
         raise CaseError([Mistake(str(word), 0, 0, "", f"has variants; solve one of: {names}")])
     (case,) = cases
-    solution = solved(case)
+    with shown.aloud():
+        solution = solved(case)
     if mistakes := mistaken(case, solution.trajectory):
         raise CaseError(mistakes)
     motion, units = _motion(case, solution.trajectory)
@@ -116,14 +119,15 @@ def run(
     causes: bool = False,
     jobs: int | None = None,
     cache: bool = True,
-    progress: Progress = lambda *_: None,
+    progress: Progress | None = None,
 ) -> Comparisons:
     """Compares engines with the reference of one case, of several, or of all for none.
 
     engines: as `mujoco`, `mujoco.tuned`, `book`; all for none. settings: `shipped`, `tuned`, or
     files of own options. options: own ones as a mapping, `{"mujoco": {"integrator": "RK4"}}`, which
     are the setting `own`. causes: whether they are searched for, which takes as long again. cache:
-    whether results are kept and found again as the command's are.
+    whether results are kept and found again as the command's are. progress: is told how far it is;
+    by default a line on the error stream says so where it takes longer than two seconds.
 
     Raises CaseError with all mistakes, of the cases and of the rest.
     """
@@ -131,15 +135,16 @@ def run(
     own = made(Document(Source("options", (), {}), dict(options or {}), []), OWN)
     wanted = asked(found, engines, settings, own=list(own.values()))
     store = usable() if cache else None
-    report = suite.measure(
-        wanted.cases,
-        wanted.engines,
-        jobs=jobs or pool.workers(),
-        progress=progress,
-        book=wanted.book,
-        causes=causes,
-        store=store,
-    )
+    with _aloud(progress) as told:
+        report = suite.measure(
+            wanted.cases,
+            wanted.engines,
+            jobs=jobs or pool.workers(),
+            progress=told,
+            book=wanted.book,
+            causes=causes,
+            store=store,
+        )
     if mistakes := [*wanted.mistakes, *report.mistakes]:
         raise CaseError(mistakes)
     frames = {Path(n).stem: f for n, f in write.tables(report, report.cases).items()}
@@ -162,7 +167,7 @@ def advise(
     margin: float = 2.0,
     jobs: int | None = None,
     cache: bool = True,
-    progress: Progress = lambda *_: None,
+    progress: Progress | None = None,
 ) -> pd.DataFrame:
     """Which setting cases need: a row for each case and engine, with the columns of advice.csv.
 
@@ -172,13 +177,23 @@ def advise(
     wanted = asked(load(word), engines, ["shipped"])
     found = Asked(tolerance, margin)
     store = usable() if cache else None
-    with advised(
-        wanted.cases, wanted.engines, found, jobs=jobs, progress=progress, store=store
-    ) as advice:
+    with (
+        _aloud(progress) as told,
+        advised(
+            wanted.cases, wanted.engines, found, jobs=jobs, progress=told, store=store
+        ) as advice,
+    ):
         rows = [row(one) for one in advice]
     if wanted.mistakes:
         raise CaseError(wanted.mistakes)
     return pd.DataFrame(map(vars, rows))
+
+
+@contextmanager
+def _aloud(progress: Progress | None) -> Iterator[Progress]:
+    """The user's own; else what takes longer than two seconds says on the error stream how far."""
+    with shown.aloud(), shown.progress(quiet=True) as told:
+        yield progress or told
 
 
 def _words(word: Word | Sequence[Word]) -> Sequence[Word]:

@@ -1,5 +1,6 @@
 """The motions behind the rows, for looking and plotting: three files a case, in full precision."""
 
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 
@@ -8,23 +9,38 @@ import pandas as pd
 
 from ..cases.case import Case
 from ..cases.difference import apart
+from ..cases.mistake import CaseError, Mistake
 from ..cases.observe import observe
 from ..cases.states import MASS_MATRIX
 from ..cases.trajectory import Array
-from .poses import COLUMNS, filed, poses
+from .ours import unasked
+from .poses import COLUMNS, ending, filed, poses
 from .replace import replace
 from .suite import Report
 
 INSTANTS = 12  # decimals of a second: samples of two grids that are the same
 
 
-def keep(report: Report, folder: Path) -> None:
+def names(cases: Sequence[Case]) -> list[str]:
+    """The files of the cases. Raises CaseError where two cases would have one."""
+    found: dict[str, Case] = {}
+    for case in cases:
+        ends = ["csv", "events.csv"]
+        ends += [f"poses.{ending()}"] if case.states is None else []
+        for file in (f"{case.name}.{end}" for end in ends):
+            if (other := found.setdefault(file, case)) is not case:
+                what = f"{file} would be kept of {other.name!r} and of {case.name!r}: rename one"
+                raise CaseError([Mistake(case.source.file, 0, 0, "--keep", what)])
+    return [*found]
+
+
+def keep(report: Report, folder: Path, *, overwrite: bool = False) -> None:
     """`<case>.csv`: times, each observed quantity of the reference and of every engine side by
     side, and the reference's poses. `<case>.events.csv`: the times of all events.
     `<case>.poses.csv`, or `.parquet` where pyarrow is installed: where every body is, in the
     reference and in every run, one number a row.
 
-    Raises OSError: then the folder holds what it held.
+    overwrite: also what was not kept here. Raises OSError: then the folder holds what it held.
     """
     files: dict[str, str | bytes] = {}
     for case in report.cases:
@@ -32,8 +48,9 @@ def keep(report: Report, folder: Path) -> None:
             files[f"{case.name}.csv"] = _motions(report, case).to_csv(index=False)
             files[f"{case.name}.events.csv"] = _events(report, case).to_csv(index=False)
             if case.states is None:
-                ending, held = filed(poses(report, case))
-                files[f"{case.name}.poses.{ending}"] = held
+                files[f"{case.name}.poses.{ending()}"] = filed(poses(report, case))
+    names(report.cases)  # or one case's motions would be lost in another's
+    unasked(folder, files, overwrite=overwrite)
     replace(folder, files)
 
 

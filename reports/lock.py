@@ -13,11 +13,15 @@ except ImportError:  # Windows has none of this kind: two runs at once are the u
 
 @contextmanager
 def locked(path: Path, waiting: Callable[[], None] | None = None) -> Iterator[None]:
-    """Holds the folder, or the file, which is made; waits, and says so, while another does."""
-    if fcntl is None:
+    """Holds the folder, or the file, which is made; waits, and says so, while another does.
+
+    A lock that cannot be had is none: another user's file in a cache that two share, a network
+    file system without locks. Who needs it to write learns that from the writing.
+    """
+    held = None if fcntl is None else _opened(path)
+    if fcntl is None or held is None:
         yield
         return
-    held = os.open(path, os.O_RDONLY if path.is_dir() else os.O_RDWR | os.O_CREAT, 0o600)
     try:
         try:
             fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -33,12 +37,20 @@ def locked(path: Path, waiting: Callable[[], None] | None = None) -> Iterator[No
             os.close(held)
 
 
+def _opened(path: Path) -> int | None:
+    """The folder, or the file, made where there was none; never what a link leads to, or a pipe."""
+    kind = os.O_RDONLY if path.is_dir() else os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW
+    with suppress(OSError):
+        return os.open(path, kind | os.O_NONBLOCK, 0o600)
+    return None
+
+
 def abandoned(path: Path) -> bool:
-    """Whether nobody holds the folder any more; False where locks cannot tell."""
+    """Whether nobody holds the file any more; False where locks cannot tell."""
     if fcntl is None:
         return False
     with suppress(OSError):
-        held = os.open(path, os.O_RDONLY)
+        held = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
         try:
             fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
         finally:

@@ -6,12 +6,12 @@ from typing import Any
 
 from .. import engines
 from ..cases.language.check.work import GO_ON
-from ..cases.language.grammar.number import SMALLEST
 from ..cases.language.read.document import Document, read
 from ..cases.mistake import CaseError, Mistake, Source, nearest
 from ..engines.engine import Engine
 
 SWEEPS = 10_000  # what a chain of 200 pins needs in pymunk; as shipped engines take 10 and 100
+SHORTEST = 1e-30  # s: a duration over it is a double
 SUFFIXES = (".yaml", ".yml")
 
 
@@ -55,8 +55,8 @@ def _endless(
         if key.endswith("iterations") and value > SWEEPS and not long:
             what = f"{value:g} iterations in each step, and the limit is {SWEEPS}: {GO_ON}"
             yield source.mistake((name, key), what)
-        elif key == "step" and 0 < value < SMALLEST:
-            yield source.mistake((name, key), f"must be at least {SMALLEST:g} s, is {value:g}")
+        elif key == "step" and 0 < value < SHORTEST:
+            yield source.mistake((name, key), f"must be at least {SHORTEST:g} s, is {value:g}")
 
 
 def _options(

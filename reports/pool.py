@@ -9,8 +9,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from .processes import ProcessDied, Processes
+from .spelled import spelled, why
 
-BEAT = 5.0  # s
+BEAT = 1.0  # s
 _ONE = threading.Lock()  # engines have one set of callbacks a process
 
 
@@ -75,16 +76,18 @@ def _alone(function: Callable[[Any], Any], task: Any) -> Any:
     with _ONE:
         try:
             return function(task)
-        except (Exception, SystemExit) as error:  # it must not cost the others their rows
-            return Died(f"{type(error).__name__}: {error}")
+        except BaseException as error:  # it must not cost the others their rows
+            return Died(why(error))
 
 
 def _result(future: Future) -> Any:
     try:
         return future.result()
     except ProcessDied as died:
-        return Died(str(died))
+        return Died(spelled(died))
     except BrokenExecutor:
         return Died("the process died")
-    except Exception as error:  # what the executor could not carry
-        return Died(f"{type(error).__name__}: {error}")
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # what the executor could not carry
+        return Died(why(error))

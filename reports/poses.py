@@ -32,13 +32,18 @@ def poses(report: Report, case: Case) -> pd.DataFrame:
     return pd.concat(parts, ignore_index=True)[HEAD]
 
 
-def filed(frame: pd.DataFrame) -> tuple[str, str | bytes]:
-    """A file's ending and what it holds: Parquet where pyarrow is installed, else CSV."""
-    if find_spec("pyarrow") is None:
-        return "csv", frame.to_csv(index=False)
+def ending() -> str:
+    """Of their file: Parquet where pyarrow is installed, else CSV."""
+    return "csv" if find_spec("pyarrow") is None else "parquet"
+
+
+def filed(frame: pd.DataFrame) -> str | bytes:
+    """What the file holds."""
+    if ending() == "csv":
+        return frame.to_csv(index=False)
     out = BytesIO()
     frame.to_parquet(out, index=False)
-    return "parquet", out.getvalue()
+    return out.getvalue()
 
 
 def _rows(

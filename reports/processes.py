@@ -10,6 +10,7 @@ import pickle
 import signal
 import tempfile
 import threading
+import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager
@@ -17,7 +18,14 @@ from multiprocessing.connection import Connection, wait
 from queue import SimpleQueue
 from typing import Any
 
+from ..engines.quiet import silence
+from ..reference.integrators.now import NOW, doing
 from . import ending
+from .spelled import why
+
+WORDS = 300  # bytes of what a process is at
+GLANCE = 0.5  # s
+DAYS = 1e6  # s: no system waits much longer, so no limit is one
 
 _CHILDREN = threading.Lock()  # one looks at them at a time: the system tells each end only once
 
@@ -52,6 +60,11 @@ class Processes(Executor):
                 process.kill()
         self._threads.shutdown(wait=wait, cancel_futures=True)
 
+    def doing(self) -> list[str]:
+        """What each process is at that works on something with a name."""
+        with self._lock:
+            return [said for process in self._all if (said := process.doing())]
+
     def _started(self) -> "_Process":
         with self._lock:
             if self._ended:
@@ -78,25 +91,43 @@ class _Process:
 
     def __init__(self) -> None:
         self._here, there = multiprocessing.Pipe()
-        self._process = multiprocessing.Process(target=_serve, args=(there,), daemon=True)
+        self._words = multiprocessing.RawArray("c", WORDS)
+        self._task, self._since = "", 0.0
+        serving = there, self._words
+        self._process = multiprocessing.Process(target=_serve, args=serving, daemon=True)
         with _CHILDREN, _deaf():
             self._process.start()  # looks at all others too
         there.close()
 
     def answer(self, call: tuple[Callable, tuple, dict[str, Any]]) -> Any:
         """What the call returns or raises. Raises ProcessDied."""
+        asked = call[1][-1] if call[1] else None
+        self._task = getattr(asked, "name", "")
+        self._since = time.monotonic()
         try:
             self._here.send(call)
-            wait([self._here, self._process.sentinel])
+            most = min(getattr(asked, "limit", DAYS), DAYS)
+            if not wait([self._here, self._process.sentinel], most) and most < DAYS:
+                self.kill()
+                raise ProcessDied(f"it took longer than {most:.0f} s, and was ended")
             if not self._here.poll():
                 raise EOFError
             value, error = self._here.recv()
         except (EOFError, OSError):
             self.kill()
             raise ProcessDied(f"the process died ({self._how()})") from None
+        finally:
+            self._task = ""
         if error is not None:
             raise error
         return value
+
+    def doing(self) -> str:
+        """What it is at, for how long; nothing if that has no name."""
+        if not self._task:
+            return ""
+        said = self._words.value.decode("utf-8", "ignore")
+        return f"{self._task}{said and ': ' + said} ({time.monotonic() - self._since:.0f} s)"
 
     def kill(self) -> None:
         """Ends it, whatever it does."""
@@ -123,9 +154,11 @@ def _deaf() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _serve(calls: Connection) -> None:
+def _serve(calls: Connection, words: Any) -> None:
     """What runs in the process: until its parent is gone."""
     threading.Thread(target=_with_parent, daemon=True).start()
+    threading.Thread(target=_tell, args=(words,), daemon=True).start()
+    silence()
     os.chdir(tempfile.gettempdir())  # engines write logs: let it not be the user's folder
     for number in ending.known():  # the terminal's reach all: the parent decides
         signal.signal(number, signal.SIG_IGN)
@@ -137,6 +170,7 @@ def _serve(calls: Connection) -> None:
             received = calls.recv_bytes()
         except EOFError:
             return
+        doing("")
         value, error = None, None
         try:
             fn, args, kwargs = pickle.loads(received)  # from our own parent
@@ -145,8 +179,15 @@ def _serve(calls: Connection) -> None:
             error = raised
         try:
             calls.send((value, error))
-        except Exception as unsent:  # what cannot be pickled
-            calls.send((None, RuntimeError(f"{type(unsent).__name__}: {unsent}")))
+        except BaseException as unsent:  # what cannot be pickled
+            calls.send((None, RuntimeError(why(unsent))))
+
+
+def _tell(words: Any) -> None:
+    """Where its parent looks, what it is at."""
+    while True:
+        words.value = NOW.text().encode()[: WORDS - 1]
+        time.sleep(GLANCE)
 
 
 def _with_parent() -> None:

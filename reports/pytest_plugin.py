@@ -4,9 +4,12 @@ Inert unless a case file is named on the command line, or `textmech_cases` in th
 lists some. Everything heavy is imported only then.
 """
 
+import os
 import shutil
+import sys
 import tempfile
 from collections.abc import Iterator
+from contextlib import suppress
 from fnmatch import fnmatch
 from functools import partial
 from pathlib import Path
@@ -15,6 +18,8 @@ from uuid import uuid4
 
 import pytest
 
+from .pytest_options import pytest_addoption as pytest_addoption
+
 if TYPE_CHECKING:
     from ..cases.case import Case
     from .row import Comparison
@@ -22,34 +27,8 @@ if TYPE_CHECKING:
 
 _REPORT = pytest.StashKey["Report"]()
 _FOLDER = pytest.StashKey[Path]()
+_ERRORS = os.dup(2) if sys.stderr is not None else -1  # before pytest takes it
 _SHARED = "textmech_shared"  # what a worker of xdist is told: the session's own folder
-
-
-def pytest_addoption(parser: pytest.Parser) -> None:
-    parser.addini("textmech_cases", "case files to compare engines on, as patterns", "args", [])
-    group = parser.getgroup("textmech", "comparing physics engines with textbook mechanics")
-    group.addoption(
-        "--textmech-engine",
-        dest="textmech_engine",
-        action="append",
-        default=[],
-        metavar="E",
-        help="only this engine: mujoco, pymunk, or e.g. mujoco.tuned (may be repeated)",
-    )
-    group.addoption(
-        "--textmech-case",
-        dest="textmech_case",
-        action="append",
-        default=[],
-        metavar="CASE",
-        help="only this case or variant (may be repeated)",
-    )
-    group.addoption(
-        "--textmech-allow-long",
-        dest="textmech_allow_long",
-        action="store_true",
-        help="do any amount of work, and not only what takes minutes",
-    )
 
 
 @pytest.hookimpl(optionalhook=True)
@@ -97,41 +76,23 @@ class CaseFile(pytest.File):
     """A case file: its mistakes, or the items of all its variants."""
 
     def collect(self) -> Iterator[pytest.Item]:
-        from ..cases.load import load
         from ..cases.mistake import CaseError
-        from ..engines.engine import Refusal
-        from .selection import ENGINES, HANDWRITTEN, choose_book, choose_engines
-        from .trial.book import producers
-        from .trial.start import assembled
-        from .trial.states import ways_of
-        from .trial.trial import judged_names
-        from .trial.work import too_long
+        from .collecting import collected
 
+        option = self.config.getoption
+        long, names = bool(option("textmech_allow_long")), option("textmech_engine") or []
+        wanted = option("textmech_case") or []
         try:
-            long = bool(self.config.getoption("textmech_allow_long"))
-            cases = load(self.path, systems=HANDWRITTEN, engines=ENGINES, long=long)
-            names = self.config.getoption("textmech_engine") or []
-            engines = choose_engines(names, [])
-            wanted = self.config.getoption("textmech_case") or (self.path.stem,)
-            cases = [c for c in cases if c.name in wanted or self.path.stem in wanted]
-            if mistakes := too_long(cases, engines):
-                raise CaseError(mistakes)
-            starts = [assembled(case) for case in cases]
+            found = collected(self.path, names, wanted, long=long, write=_tell)
         except CaseError as error:
             raise self.CollectError(str(error)) from None
-        for case, start in zip(cases, starts, strict=True):
+        for case, keys in found:
             yield CertificateItem.from_parent(self, name=f"{case.name}-reference", case=case)
-            for engine in producers(case, engines, book=choose_book(names, [])):
-                for way in ways_of(engine, case, start):
-                    audit = () if isinstance(way, Refusal) else ("audit",)
-                    for quantity in (*audit, *judged_names(case)):
-                        how = "" if way.realised == "native" else f".{way.realised}"
-                        yield ComparisonItem.from_parent(
-                            self,
-                            name=f"{case.name}-{engine.name}.{engine.setting}{how}-{quantity}",
-                            case=case,
-                            key=(case.name, engine.name, engine.setting, way.realised, quantity),
-                        )
+            for key in keys:
+                _, engine, setting, realised, quantity = key
+                how = "" if realised == "native" else f".{realised}"
+                name = f"{case.name}-{engine}.{setting}{how}-{quantity}"
+                yield ComparisonItem.from_parent(self, name=name, case=case, key=key)
 
 
 class CaseItem(pytest.Item):
@@ -172,7 +133,8 @@ class CertificateItem(CaseItem):
         from .show.text import certificate_text
 
         rows = [row for row in self.report().certificates if row.case == self.case.name]
-        assert rows, "no certificate was made"
+        if not rows:
+            raise RowError("no certificate was made")
         broken = [row for row in rows if row.verdict == "FAILS"]
         if broken:
             raise RowError("\n".join(certificate_text(row) for row in broken))
@@ -242,9 +204,18 @@ def _found(session: pytest.Session) -> "Report":
 def _measure(session: pytest.Session) -> "Report":
     """Runs what is collected, or takes it from another worker of xdist, which collects the same."""
     from .session import rows
+    from .show.progress import aloud, progress
 
     items = [item for item in session.items if isinstance(item, CaseItem)]
     cases = {item.case.name: item.case for item in items}
     used = {".".join(item.key[1:3]) for item in items if isinstance(item, ComparisonItem)}
     shared = getattr(session.config, "workerinput", {}).get(_SHARED)
-    return rows(list(cases.values()), sorted(used), shared)
+    cached = not session.config.getoption("textmech_no_cache")
+    with aloud(_tell), progress(quiet=True) as told:
+        return rows(list(cases.values()), sorted(used), shared, told, cached=cached)
+
+
+def _tell(line: str) -> None:
+    """On the error stream, past what pytest captures; a worker of xdist has none."""
+    with suppress(OSError):
+        os.write(_ERRORS, f"\ntextmech: {line}\n".encode(errors="backslashreplace"))

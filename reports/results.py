@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from ..cases.mistake import CaseError
+from .cache.fits import returned
 from .cache.key import Keys
 from .cache.store import Store
 from .pool import Died, spread
@@ -35,9 +36,14 @@ class Results:
     store: Store
     keys: Keys
 
-    def stored(self, keys: Iterable[str]) -> dict[str, Any]:
-        """Those that need not be computed."""
-        return {key: kept for key in keys if (kept := self.store.get(key)) is not None}
+    def __post_init__(self) -> None:
+        watch = getattr(self.progress, "watch", None)
+        if watch is not None:
+            watch(self.executor)
+
+    def stored(self, keys: Iterable[str], kind: Any) -> dict[str, Any]:
+        """Those that need not be computed; kind: what they have to be, as an annotation says it."""
+        return {key: kept for key in keys if (kept := self.store.get(key, kind)) is not None}
 
     def keep(self, results: Mapping[str, Any]) -> None:
         """By their keys, for the next run, unless they may be of a mixture of code."""
@@ -49,7 +55,7 @@ class Results:
         self, what: str, function: Callable[[Any], Any], tasks: Mapping[str, Any]
     ) -> dict[str, Any]:
         """By the tasks' keys: what is stored, and all else computed and kept at once."""
-        found = self.stored(tasks)
+        found = self.stored(tasks, returned(function))
         left = {key: task for key, task in tasks.items() if key not in found}
         gathering = Gathering(self.keep)
         try:

@@ -8,8 +8,9 @@ LADDER = (AGREES, DEVIATES, BEYOND, CHANGED, "refused", DIVERGED, CRASHED, FAILS
 """Verdicts from good to bad, by their first words."""
 UNSEARCHED = "not searched"
 """Of causes.csv: nobody has looked for a cure."""
-MUTANTS = "mutants.csv"
-"""What the project's own tests plant: beside the committed reports alone, and of no run."""
+MUTANTS, MUTATION = "mutants.csv", "mutation.csv"
+"""What the project's own tests plant, and what was planted by chance: beside the committed reports
+alone, and of no run."""
 
 
 def rank(verdict: str) -> int:

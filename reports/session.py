@@ -5,17 +5,28 @@ from pathlib import Path
 
 from ..cases.case import Case
 from ..cases.mistake import CaseError
-from . import pool, suite
+from . import ending, pool, suite
 from .cache.store import Store, usable
+from .results import Progress
 from .selection import BOOK, choose_engines
 
 
-def rows(cases: Sequence[Case], used: Sequence[str], shared: str | None) -> suite.Report:
+def rows(
+    cases: Sequence[Case],
+    used: Sequence[str],
+    shared: str | None,
+    progress: Progress,
+    *,
+    cached: bool = True,
+) -> suite.Report:
     """Runs the cases on all cores, or takes them from the store: another worker of xdist asks for
     the same, waits, and finds it there. A mistake that solving finds costs its own file.
 
-    used: `engine.setting`. shared: a folder for the workers where the user has no store.
+    used: `engine.setting`. shared: a folder for the workers where the user has no store. cached:
+    whether anything is taken from the user's store, or kept there.
     """
+    if shared is not None:
+        ending.with_parent()
     names = [name for name in used if not name.startswith(f"{BOOK}.")]
     engines = choose_engines(names, []) if names else []
     try:
@@ -23,9 +34,9 @@ def rows(cases: Sequence[Case], used: Sequence[str], shared: str | None) -> suit
             cases,
             engines,
             jobs=pool.workers(),
-            progress=lambda *_: None,
+            progress=progress,
             book=len(names) < len(used),
-            store=usable() or (Store(Path(shared)) if shared else None),
+            store=(usable() if cached else None) or (Store(Path(shared)) if shared else None),
         )
     except CaseError as error:
         return suite.Report(mistakes=error.mistakes)

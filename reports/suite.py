@@ -13,6 +13,7 @@ from ..engines.engine import Engine, Refusal
 from ..reference.solve import Solution, solve
 from .cache.key import Keys
 from .cache.store import Store, passing
+from .coverage import countable
 from .events.states import mistaken
 from .judge.compare import crashed
 from .judge.instants import of_reference
@@ -77,7 +78,8 @@ def measure(
     A mistake that only solving finds costs its own file: `mistakes` of the report tells them.
     Raises CaseError with the mistakes if no file is left.
     """
-    keys, report = Keys.now(), Report(cases=list(cases))
+    countable()
+    keys, report = Keys.now(store), Report(cases=list(cases))
     beside = [(case, e) for case in cases for e in producers(case, engines, book=book)]
     most = max(len(cases), RUNS * len(beside))
     with (

@@ -38,9 +38,9 @@ def tried(pairs: Sequence[Pair], references: References, results: Results) -> li
 
 def _stored(key: str, pair: Pair, results: Results) -> list[Tried]:
     """Of a pair, if all of it is; else nothing."""
-    ways: tuple[Realised, ...] = results.store.get(key) or ()
+    ways: tuple[Realised, ...] = results.store.get(key, tuple[Realised, ...]) or ()
     names = [results.keys.outcome(key, way) for way in ways]
-    outcomes = results.stored(names)
+    outcomes = results.stored(names, Outcome)
     if len(outcomes) < len(names):
         return []
     return [Tried(pair, way, outcomes[name]) for way, name in zip(ways, names, strict=True)]
@@ -66,7 +66,7 @@ def _computed(
         if not died:
             planned_ways[key] = tuple(way.realised for way in found)
     results.keep(planned_ways)
-    outcomes = results.stored(units)
+    outcomes = results.stored(units, Outcome)
     left = {name: unit for name, unit in units.items() if name not in {**outcomes, **gone}}
     outcomes |= gone | _run(left, references, results)
     return {key: [_tried(units[n], outcomes[n], references) for n in mine[key]] for key in pairs}

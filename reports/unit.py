@@ -1,10 +1,12 @@
 """Units of work, small enough to be sent anywhere: a case's ways, one run, a pair's rows."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from ..cases.case import Case
+from ..cases.language.check.cost import LIMIT
 from ..cases.mistake import CaseError
 from ..cases.trajectory import Trajectory
 from ..engines.engine import Engine, Plan, Realised, Refusal
@@ -12,6 +14,7 @@ from ..reference.solve import Solution, solve
 from .cache.store import Store
 from .judge.compare import Outcome, answered, compare
 from .judge.uncertified import failing, uncertified
+from .limit import limit
 from .trial import states
 from .trial.ladder import sampled
 from .trial.rung import Climbed, Rung
@@ -37,6 +40,11 @@ class Pair:
     def name(self) -> str:
         """For whoever waits for it."""
         return f"{self.case.name} in {self.engine.name}.{self.engine.setting}"
+
+    @property
+    def limit(self) -> float:
+        """How long the engine may take to plan [s]."""
+        return limit()
 
     def reference(self) -> Trajectory:
         """From the store; where that has none, as on a machine that does not share it, anew."""
@@ -79,6 +87,13 @@ class Climb:
     def name(self) -> str:
         """For whoever waits for it."""
         return self.unit.pair.name
+
+    @property
+    def limit(self) -> float:
+        """How long the audit may take [s]; of other samples the reference is solved before."""
+        pair = self.unit.pair
+        anew = 0.0 if pair.sampled is pair.case else math.inf if pair.case.long else LIMIT
+        return limit() + anew
 
 
 def planned(pair: Pair) -> tuple[Way, ...]:
@@ -127,5 +142,5 @@ def _at_own_samples(case: Case) -> tuple[Solution, set[str]]:
 
 @lru_cache(AT_HAND)
 def _at_hand(store: Store, key: str) -> Trajectory | None:
-    solution: Solution | None = store.get(key)
+    solution: Solution | None = store.get(key, Solution)
     return None if solution is None else solution.trajectory

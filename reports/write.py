@@ -14,8 +14,10 @@ import pandas as pd
 
 from ..cases.case import Case
 from ..reference.certificate.errors import ERROR
+from .content import text as content
 from .coverage import coverage
-from .replace import replace, settle
+from .ours import unasked
+from .replace import replace
 from .row import Advice, Cause, Certificate, Comparison, Instant, Rungs
 from .suite import Report
 
@@ -83,17 +85,21 @@ def _table(rows: Sequence[Any], kind: type) -> pd.DataFrame:
     return frame.sort_values(keys, kind="stable", ignore_index=True)
 
 
-def write(frames: Mapping[str, pd.DataFrame], folder: Path) -> None:
+def write(frames: Mapping[str, pd.DataFrame], folder: Path, *, overwrite: bool = False) -> None:
     """Replaces all files together or none of them. Raises OSError: then none.
+
+    overwrite: also what is no report; else that is a FileExistsError.
 
     The last line of each counts its rows, so that a cut file can be told, and names the run by its
     content, so that files of two runs can.
     """
+    unasked(folder, frames, overwrite=overwrite)
     replace(folder, texts(frames))
 
 
-def advice(rows: Sequence[Advice], folder: Path) -> None:
+def advice(rows: Sequence[Advice], folder: Path, *, overwrite: bool = False) -> None:
     """Writes advice.csv, a run of its own: its search asks nothing of the other reports."""
+    unasked(folder, [ADVICE], overwrite=overwrite)
     replace(folder, texts({ADVICE: _table(rows, Advice)}))
 
 
@@ -111,7 +117,7 @@ def holds(frames: Mapping[str, pd.DataFrame], folder: Path) -> bool:
     """Whether the folder's reports are these."""
     wanted = texts(frames)
     return all(
-        (folder / name).is_file() and (folder / name).read_text(encoding="utf-8") == text
+        (folder / name).is_file() and content(folder / name) == text
         for name, text in wanted.items()
     )
 
@@ -126,7 +132,6 @@ def read(path: Path, kind: type[Row]) -> list[Row]:
 
     Raises ValueError if the file was cut, or stands beside reports of another run.
     """
-    settle(path.parent)
     body, ending = _parted(path)
     frame = pd.read_csv(StringIO(body), dtype=str, keep_default_na=False)
     run = _run(ending)
@@ -138,8 +143,10 @@ def read(path: Path, kind: type[Row]) -> list[Row]:
             raise ValueError(f"{path}: of another run than {other.name} beside it: run both again")
     numbers = {column.name for column in fields(kind) if "float" in str(column.type)}
     counts = {column.name for column in fields(kind) if column.type is int}
+    if lacking := [column.name for column in fields(kind) if column.name not in frame.columns]:
+        raise ValueError(f"{path}: has no column {lacking[0]!r}: of another version of textmech?")
     rows: list[Row] = []
-    for record in frame.to_dict("records"):
+    for record in frame[[column.name for column in fields(kind)]].to_dict("records"):
         values: dict[str, Any] = {str(name): text for name, text in record.items()}
         values |= {name: _number(values[name]) for name in numbers}
         values |= {name: int(values[name]) for name in counts}
@@ -149,7 +156,7 @@ def read(path: Path, kind: type[Row]) -> list[Row]:
 
 def _parted(path: Path) -> tuple[str, str]:
     """The table, and the line that ends it."""
-    body, _, ending = path.read_text(encoding="utf-8").rstrip("\n").rpartition("\n")
+    body, _, ending = content(path).rstrip("\n").rpartition("\n")
     return f"{body}\n", ending
 
 

@@ -20,7 +20,7 @@ from textmech.reports.diff.compare import difference
 from textmech.reports.diff.folder import opened
 from textmech.reports.diff.rule import Rule
 from textmech.reports.page.folder import folder
-from textmech.reports.row import MUTANTS, Comparison
+from textmech.reports.row import MUTANTS, MUTATION, Comparison
 
 COMMITTED = write.HERE / MUTANTS
 LONGEST = 110  # letters of a mistake: it is a name, and no explanation
@@ -146,15 +146,16 @@ def test_a_run_beside_it_neither_reads_nor_deletes_it(
     assert len(folder(place).beside[MUTANTS]) == len(rows())
 
 
+@pytest.mark.parametrize("name", [MUTANTS, MUTATION])
 @pytest.mark.parametrize("text", ["", "cut", None])
 def test_a_diff_does_not_look_at_it(
-    text: str | None, tmp_path: Path, list_beside: Callable[[Path], Path]
+    name: str, text: str | None, tmp_path: Path, list_beside: Callable[[Path], Path]
 ) -> None:
-    """Whether one folder has none, or what is no table."""
+    """Whether one folder has none, or what is no table; nor at those that were drawn by chance."""
     old, new = list_beside(report(tmp_path / "old")), report(tmp_path / "new")
     if text is not None:
-        (new / MUTANTS).write_text(text, encoding="utf-8")
+        (new / name).write_text(text, encoding="utf-8")
     before, after = opened({"OLD": old, "NEW": new})
     found = difference(before, after, Rule())
     assert (found.alone, found.changes) == ((), ())
-    assert MUTANTS not in found.counts
+    assert not {MUTANTS, MUTATION} & found.counts.keys()

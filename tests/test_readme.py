@@ -3,6 +3,7 @@
 import json
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -10,6 +11,7 @@ from pathlib import Path
 import pytest
 from given.command import textmech
 
+from textmech.reports import write
 from textmech.reports.cli import command
 
 ROOT = Path(__file__).parents[1]
@@ -45,7 +47,19 @@ def test_nothing_else_is_in_the_shells_blocks() -> None:
     assert {line.split()[0] for block in SHELL for line in block} == KINDS
 
 
+@pytest.fixture
+def committed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A copy of the committed reports: what writes beside them by default, writes there."""
+    copy = shutil.copytree(
+        write.HERE,
+        tmp_path / "reports",
+        ignore=lambda _, names: [name for name in names if not name.endswith((".csv", ".html"))],
+    )
+    monkeypatch.setattr(write, "by_default", lambda: copy)
+
+
 @pytest.mark.whole
+@pytest.mark.usefixtures("committed")
 @pytest.mark.parametrize("block", SHELL, ids=lambda block: block[0])
 def test_commands_run_one_after_another(block: list[str], folder: Path) -> None:
     for line in block:

@@ -25,14 +25,20 @@ ROOMS = {
         "systems generated motion",
         "start",
         "approximations certificate premises refusal",
+        "determined",
         "states",
         "solve",
     ],
-    "engines": ["engine+knobs law signal stride tied told", "begun heading", "mujoco pymunk"],
+    "engines": [
+        "engine+knobs law signal stride tied told quiet+probe",
+        "begun heading",
+        "mujoco pymunk",
+    ],
     "reports": [
-        "own_settings",
-        "row pins selection coverage events lock ending cluster pytest_short",
-        "processes trial replace",
+        "own_settings spelled limit",
+        "row pins selection coverage events content lock ending cluster pytest_short"
+        " pytest_options",
+        "processes child trial replace passing ours",
         "diff",
         "pool judge asking",
         "cache",
@@ -43,7 +49,7 @@ ROOMS = {
         "write keep session",
         "show committed bench page",
         "versions",
-        "command interface",
+        "command interface collecting",
         "cli pytest_plugin",
     ],
 }

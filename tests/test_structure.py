@@ -5,7 +5,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from given.tree import FILES, PACKAGES, ROOT, TESTS, imported, module
+from given.tree import FILES, PACKAGES, ROOT, imported, module
 
 MAY_IMPORT = {
     "cases": {"cases"},
@@ -13,7 +13,6 @@ MAY_IMPORT = {
     "engines": {"cases", "engines"},
     "reports": {"cases", "reference", "engines", "reports"},
 }
-LONGEST = 250  # lines of a file: one idea
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: str(file.relative_to(ROOT)))
@@ -30,22 +29,6 @@ def test_no_module_is_imported_in_a_circle() -> None:
         free = {name for name, needed in needs.items() if not needed & set(needs)}
         assert free, f"a circle among {sorted(needs)}"
         needs = {name: needed for name, needed in needs.items() if name not in free}
-
-
-def too_long(files: list[Path]) -> set[str]:
-    return {
-        str(file.relative_to(ROOT))
-        for file in files
-        if len(file.read_text(encoding="utf-8").splitlines()) > LONGEST
-    }
-
-
-def test_no_file_is_too_long(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert too_long([*FILES, *TESTS]) == set()
-    monkeypatch.setitem(globals(), "ROOT", tmp_path)
-    for name, count in (("fits.py", LONGEST), ("long.py", LONGEST + 1)):
-        (tmp_path / name).write_text("\n" * count, encoding="utf-8")
-    assert too_long([tmp_path / "fits.py", tmp_path / "long.py"]) == {"long.py"}
 
 
 def sentence(docstring: str | None) -> bool:

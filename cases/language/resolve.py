@@ -1,6 +1,7 @@
 """The grammar's models → the nouns of the project."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from math import cos, sin
 from typing import Any
 
@@ -8,6 +9,7 @@ from ..case import Case, Deviation, Event, Origin, Placement
 from ..mistake import Source
 from ..point import anchor
 from ..scene import STANDARD_GRAVITY, Scene
+from ..space.joint import SpatialJoint
 from ..space.scene import SpatialScene
 from .grammar.file import File
 from .grammar.space.scene import SpatialScene as SpatialWords
@@ -17,7 +19,7 @@ def resolve_scene(file: File) -> Scene:
     """The scene, with its references as they stand (check/links.py checks them)."""
     s: Any = file.scene
     if s.space is not None:
-        return _in_space(s)
+        return _in_space(s, {**file.near, **file.initial})
     planes = _named(s.planes)
     bodies = _named(s.bodies)
     return Scene(
@@ -37,18 +39,25 @@ def resolve_scene(file: File) -> Scene:
     )
 
 
-def _in_space(s: SpatialWords) -> SpatialScene:
-    bodies = _named(s.bodies)
+def _in_space(s: SpatialWords, starts: Mapping[str, Any]) -> SpatialScene:
+    """starts: by part, what the file gives of the start: a joint's turns are counted from there."""
+    bodies, joints = _named(s.bodies), _named(s.joints)
     return SpatialScene(
         gravity=_gravity(s.gravity, s.incline, (1.0, 0.0, 0.0), (0.0, 0.0, -1.0)),
         points=s.points,
         bodies=bodies,
-        joints=_named(s.joints),
+        joints={name: _begun(joint, starts.get(name)) for name, joint in joints.items()},
         contacts={name: contact.named(name, bodies) for name, contact in s.contacts.items()},
         forces=_named(s.forces),
         constraints=_named(s.constraints),
         drives={rate: drive.signal for rate, drive in s.drive.items()},
     )
+
+
+def _begun(joint: SpatialJoint, start: Any) -> SpatialJoint:
+    given = {} if start is None else start.given
+    turns = [turn.name for turn in joint.turns if turn.name in given]
+    return replace(joint, begins={name: given[name] for name in turns})
 
 
 def _named(elements: Mapping[str, Any]) -> dict[str, Any]:
@@ -117,14 +126,16 @@ def _gravity(
 def _placements(places: Mapping[str, Any], scene: Scene) -> dict[str, Placement]:
     given = {name: place.given | _polar(place.polar, scene) for name, place in places.items()}
     return {
-        name: Placement(given[name], dict(place.places), place.attitude, place.stands_on)
+        name: Placement(
+            given[name], dict(place.places), place.attitude, place.stands_on, place.polar
+        )
         for name, place in places.items()
     }
 
 
 def _polar(given: tuple[str, float, float] | None, scene: Scene) -> dict[str, float]:
-    """x and y of what is so far from a point of the ground, in such a direction."""
+    """x and y of what is so far from where a point of the ground starts, in such a direction."""
     if given is None or (point := anchor(given[0]).point) not in scene.points:
         return {}  # the latter is a mistake, see check/polar.py
-    (x, y), (_, length, direction) = scene.points[point].at, given
+    (x, y, *_), (_, length, direction) = scene.points[point].state(0.0), given
     return {"x": x + length * cos(direction), "y": y + length * sin(direction)}

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -49,42 +50,65 @@ def shifted(
     return local @ solve.T, rate @ solve.T
 
 
+@dataclass(frozen=True)
+class Turns:
+    """(N, K) each: the angles [rad] of successive turns, but for whole turns, and their rates.
+
+    free (N,): of three turns the volume of their axes, 0 at gimbal lock, else 1.
+    """
+
+    angles: Array
+    rates: Array
+    free: Array
+
+    def near(self, expected: Array) -> Array:
+        """(N, K) the angles, with the whole turns that bring them nearest to what is expected."""
+        return self.angles + math.tau * np.round((expected - self.angles) / math.tau)
+
+
 def turned_by(
     axes: Sequence[Vector3], q_a: Array, omega_a: Array, q_b: Array, omega_b: Array
-) -> tuple[Array, Array]:
-    """(N, K) each: the angles [rad] of up to three successive turns, and their rates.
+) -> list[Turns]:
+    """All ways in which up to three successive turns make the attitude of b against a: one or two.
 
-    Each axis stands in the axes that the turns before it leave. Of three the middle one lies
-    between the ends of its half turn (gimbal lock at both).
+    Each axis stands in the axes that the turns before it leave. Three turns make an attitude in two
+    ways, which meet at gimbal lock; first the one whose middle turn is nearer to zero.
     """
     n = len(q_a)
-    between = product(inverse(q_a), q_b)
     if not axes:
-        return np.zeros((n, 0)), np.zeros((n, 0))
-    angles = _angles([np.asarray(axis, dtype=float) for axis in axes], between)
+        return [Turns(np.zeros((n, 0)), np.zeros((n, 0)), np.ones(n))]
+    between = product(inverse(q_a), q_b)
     relative = turned(between, omega_b) - omega_a  # ω of b against a, in the axes of a
-    columns, so_far = [], np.tile(UPRIGHT, (n, 1))
+    own = [np.asarray(axis, dtype=float) for axis in axes]
+    return [_turns(own, angles, relative) for angles in _angles(own, between)]
+
+
+def _turns(axes: Sequence[Array], angles: Array, relative: Array) -> Turns:
+    """With θ̇ of ω = Σ θ̇ n, each axis n as the turns before it leave it."""
+    columns, so_far = [], np.tile(UPRIGHT, (len(angles), 1))
     for axis, angle in zip(axes, angles.T, strict=True):
         columns.append(turned(so_far, axis))
-        so_far = product(so_far, _turn(np.asarray(axis, dtype=float), angle))
+        so_far = product(so_far, _turn(axis, angle))
     # At gimbal lock the least rates of all: two axes are one there, but for rounding.
-    solve = np.linalg.pinv(np.stack(columns, axis=-1), rcond=ROUNDING)
-    return angles, (solve @ relative[:, :, None])[:, :, 0]
+    n = np.stack(columns, axis=-1)
+    rates = (np.linalg.pinv(n, rcond=ROUNDING) @ relative[:, :, None])[:, :, 0]
+    free = np.abs(np.linalg.det(n)) if len(axes) == n.shape[1] else np.ones(len(angles))
+    return Turns(angles, rates, free)
 
 
-def _angles(axes: Sequence[Array], between: Array) -> Array:
-    """(N, K) of one, two or three turns that make the quaternion between the parts."""
+def _angles(axes: Sequence[Array], between: Array) -> list[Array]:
+    """(N, K) of one, two or three turns that make the quaternion between the parts, in all ways."""
     if len(axes) == 1:
-        return twist(between, axes[0])[:, None]
+        return [twist(between, axes[0])[:, None]]
     if len(axes) == 2:
         # Only the first turn moves the second axis, and only the second what is held in b.
         first = _swing(axes[0], axes[1], turned(between, axes[1]))
         rest = product(_turn(axes[0], -first), between)
-        return np.column_stack([first, twist(rest, axes[1])])
+        return [np.column_stack([first, twist(rest, axes[1])])]
     return _three(axes, between)
 
 
-def _three(axes: Sequence[Array], between: Array) -> Array:
+def _three(axes: Sequence[Array], between: Array) -> list[Array]:
     """The middle turn from how the last axis stands to the first; then as with two."""
     a, b, c = axes
     last = turned(between, c)  # the third axis, in the axes of the first part
@@ -100,9 +124,8 @@ def _three(axes: Sequence[Array], between: Array) -> Array:
         first = _swing(a, tilted, last)
         rest = product(_turn(b, -middle), product(_turn(a, -first), between))
         found.append(np.column_stack([first, middle, twist(rest, c)]))
-    # Of the two ways the one whose middle turn is nearer to zero; they meet at gimbal lock.
-    nearer = np.abs(found[0][:, 1]) <= np.abs(found[1][:, 1])
-    return np.where(nearer[:, None], found[0], found[1])
+    nearer = (np.abs(found[0][:, 1]) <= np.abs(found[1][:, 1]))[:, None]
+    return [np.where(nearer, *found), np.where(nearer, *reversed(found))]
 
 
 def _turn(axis: Array, angle: Array) -> Array:
@@ -123,13 +146,3 @@ def _swing(axis: Array, before: Array, after: Array) -> Array:
     flat = before - (before @ axis)[..., None] * axis
     across = np.cross(axis, flat)
     return np.arctan2(np.sum(after * across, axis=1), np.sum(after * flat, axis=1))
-
-
-def counted(angle: Array, rate: Array, times: Array) -> Array:
-    """(N,) the angle with its turns counted: the rates say which turn comes next.
-
-    Between samples it moves by the mean of both rates times the interval, to less than half a turn.
-    """
-    expected = 0.5 * (rate[1:] + rate[:-1]) * np.diff(times)
-    missing = np.round((expected - np.diff(angle)) / math.tau)
-    return angle + math.tau * np.concatenate([[0.0], np.cumsum(missing)])

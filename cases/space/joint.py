@@ -1,6 +1,7 @@
 """Joints in space: each is the freedoms that it leaves, in their order from the first part on."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
@@ -11,6 +12,8 @@ from ..motion import Motion
 from ..point import GROUND, Anchor
 from ..trajectory import Array
 from . import chain
+from .chain import Turns
+from .counting import counted, nearest
 from .rotation import UPRIGHT, Vector3, turned
 
 _FORCES: Fields = {
@@ -49,7 +52,8 @@ class SpatialJoint:
     """What joins a point of one part to a point of another, and leaves some freedoms.
 
     Shifts come before turns; without a turn the axes of both parts are parallel. What is not left
-    free is held.
+    free is held. begins: by the name of a turn, the angle [rad] near which the start has it: an
+    attitude tells it but for whole turns, and of three turns in two ways.
     """
 
     name: str
@@ -57,6 +61,7 @@ class SpatialJoint:
     a: Anchor
     b: Anchor
     freedoms: tuple[Freedom, ...]
+    begins: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def word(self) -> str:
@@ -76,6 +81,11 @@ class SpatialJoint:
     def holds_attitude(self) -> bool:
         """Whether it leaves fewer than three turns."""
         return len(self.turns) < 3 and not any(f.kind == "ball" for f in self.freedoms)
+
+    @property
+    def counts(self) -> bool:
+        """Whether a turn of it has a name, so that whole turns matter."""
+        return any(f.kind == "turn" and f.name for f in self.freedoms)
 
     @property
     def named(self) -> tuple[Freedom, ...]:
@@ -128,20 +138,14 @@ class SpatialJoint:
         rates = [rate_of(f.name) if f.name else "" for f in self.freedoms]
         if field not in (*names, *rates):
             raise KeyError(f"{self.name}.{field}")
-        if field in rates:
-            return self.coordinates(motion)[1][:, rates.index(field)]
-        i = names.index(field)
-        if self.freedoms[i].kind == "shift":
-            return self.coordinates(motion)[0][:, i]
-        return self.turn(motion, field)[0]
+        which = field in rates
+        return self.coordinates(motion)[which][:, (names, rates)[which].index(field)]
 
     def turn(self, motion: Motion, freedom: str) -> tuple[Array, Array]:
-        """(N,) the angle [rad] of a turn, its turns counted from the start, and its rate [rad/s].
-
-        It starts within half a turn of where the axes of both parts are parallel.
-        """
-        angles, rates = (x[:, self.turning(freedom)] for x in self.coordinates(motion))
-        return chain.counted(angles, rates, motion.trajectory.times), rates
+        """(N,) the angle [rad] of a turn, its whole turns counted, and its rate [rad/s]."""
+        at = self.turning(freedom)
+        angles, rates = self.coordinates(motion)
+        return angles[:, at], rates[:, at]
 
     def power(self, motion: Motion) -> Array:
         """(N,) what the drives of its rates do [W]."""
@@ -160,16 +164,36 @@ class SpatialJoint:
         return np.linalg.norm(d, axis=1)
 
     def coordinates(self, motion: Motion) -> tuple[Array, Array]:
-        """(N, K) the place [m or rad, −π to π] of each freedom, and its rate; nan of a ball."""
+        """(N, K) the place [m or rad] of each freedom, and its rate; nan of a ball.
+
+        Whole turns are those that the motion tells, or counted along its samples from the start.
+        """
         first, second = (axes_of(motion, at.body) for at in (self.a, self.b))
         d = motion.point(self.b) - motion.point(self.a)
         shifts = chain.shifted([f.axis for f in self.shifts], d[:, :3], d[:, 3:], *first)
         if any(f.kind == "ball" for f in self.freedoms):
-            turns = np.full((2, len(d), 1), np.nan)
-        else:
-            turns = chain.turned_by([f.axis for f in self.turns], *first, *second)
-        both = [np.hstack(pair) for pair in zip(shifts, turns, strict=True)]
-        return both[0], both[1]
+            return np.hstack([shifts[0], none := np.full((len(d), 1), np.nan)]), np.hstack(
+                [shifts[1], none]
+            )
+        turns = self._turned(motion, *first, *second)
+        return np.hstack([shifts[0], turns.angles]), np.hstack([shifts[1], turns.rates])
+
+    def turned(self, motion: Motion) -> Turns:
+        """Its turns by themselves, of which none is a ball's."""
+        first, second = (axes_of(motion, at.body) for at in (self.a, self.b))
+        return self._turned(motion, *first, *second)
+
+    def _turned(self, motion: Motion, *axes: Array) -> Turns:
+        ways = chain.turned_by([f.axis for f in self.turns], *axes)
+        told = motion.trajectory.near.get(self.name)
+        if told is not None:
+            return nearest(ways, told)
+        return counted(ways, motion.trajectory.times, self.begun)
+
+    @property
+    def begun(self) -> list[float | None]:
+        """Near which angle each turn begins, as far as that is said."""
+        return [self.begins.get(f.name) for f in self.turns]
 
 
 def rate_of(name: str) -> str:

@@ -19,13 +19,16 @@ UPRIGHT: Quaternion = (1.0, 0.0, 0.0, 0.0)
 
 def matrix(q: Array) -> Array:
     """(…, 3, 3) whose columns are the body axes in ground axes, whatever the length of q."""
-    w, x, y, z = np.moveaxis(np.asarray(q, dtype=float), -1, 0) / np.linalg.norm(q, axis=-1)
-    rows = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
-    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+    q = np.asarray(q, dtype=float)
+    q = q / np.linalg.norm(q, axis=-1, keepdims=True)
+    w, x, y, z = (q[..., i] for i in range(4))  # moveaxis costs more than all the rest
+    found = np.empty((*q.shape[:-1], 3, 3))
+    found[..., 0, 0], found[..., 1, 1] = 1 - 2 * (y * y + z * z), 1 - 2 * (x * x + z * z)
+    found[..., 2, 2] = 1 - 2 * (x * x + y * y)
+    found[..., 0, 1], found[..., 1, 0] = 2 * (x * y - w * z), 2 * (x * y + w * z)
+    found[..., 0, 2], found[..., 2, 0] = 2 * (x * z + w * y), 2 * (x * z - w * y)
+    found[..., 1, 2], found[..., 2, 1] = 2 * (y * z - w * x), 2 * (y * z + w * x)
+    return found
 
 
 def turned(q: Array, vector: Any) -> Array:
@@ -35,8 +38,9 @@ def turned(q: Array, vector: Any) -> Array:
 
 def product(a: Array, b: Array) -> Array:
     """(…, 4): first turned by b, then by a."""
-    aw, ax, ay, az = np.moveaxis(np.asarray(a, dtype=float), -1, 0)
-    bw, bx, by, bz = np.moveaxis(np.asarray(b, dtype=float), -1, 0)
+    a, b = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
+    aw, ax, ay, az = (a[..., i] for i in range(4))
+    bw, bx, by, bz = (b[..., i] for i in range(4))
     return np.stack(
         [
             aw * bw - ax * bx - ay * by - az * bz,

@@ -22,11 +22,20 @@ def springy(e: float, beat: float = BEAT) -> tuple[str, float, str]:
     at e = 0.8, 3.5 % at 0.5, 16 % at 0.1 (measured in test_bounce.py); of 0.05 a quarter, in a
     bounce that lasts four times as long.
     """
-    b = 2 * damping_ratio(e) * beat
-    kept = 100 * max(beat**2 / 20, b / 3)
-    lasts = f"k = ({beat}/h)²: a bounce lasts {math.pi / beat:.0f} h"
-    because = f"{lasts}; b gives e = {e:g}, to about {kept:.2g} % by where in a step it begins"
-    return f"{beat**2:.2g}/h2", b, because
+    lasts, kept = spread(e, beat)
+    because = (
+        f"k = ({beat}/h)²: a bounce lasts {lasts:.0f} h; b gives e = {e:g}, to about {kept:.2g} % "
+        "by where in a step it begins"
+    )
+    return f"{beat**2:.2g}/h2", 2 * damping_ratio(e) * beat, because
+
+
+def spread(e: float, beat: float = BEAT) -> tuple[float, float]:
+    """How many steps a bounce lasts, and how well [%] it keeps its speed, however small they are.
+
+    For MuJoCo has no impulse: what strikes obliquely slides on meanwhile.
+    """
+    return math.pi / beat, 100 * max(beat**2 / 20, 2 * damping_ratio(e) * beat / 3)
 
 
 def dead(points: int) -> tuple[str, float, str]:

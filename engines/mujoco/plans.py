@@ -8,6 +8,7 @@ from ...cases.scene import CENTER, Contact, Pair, Scene
 from ..engine import Choice, Plan, Realised, Start
 from ..law import one_number
 from ..stride import strides
+from .bounce import spread
 from .compilation import NOMINAL, placed
 from .contact import falls
 from .force import lacking
@@ -111,6 +112,9 @@ def _words(scene: Scene, start: Start, plan: Plan, settles: bool, tuned: bool, s
         words.append(f"steps cut {dry if one_slide(scene) or one_touch(scene) else acts}")
     if tuned and met(scene) and falls(scene, start):
         words.append("starts above the floor: contacts are tuned for impacts")
+    if tuned and (thrown := max((one.restitution for one in met(scene)), default=0.0)):
+        lasts, kept = spread(thrown)
+        words.append(f"a bounce lasts {lasts:.0f} steps, and keeps its speed to about {kept:.2g} %")
     if settles and (met(scene) or any(scene.ropes())):
         *_, depths = placed(scene, start, step, plan, settles=True)
         both = {**scene.touching, **scene.pairs}

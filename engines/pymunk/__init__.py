@@ -71,6 +71,15 @@ class Pymunk:
             *(plans.plan(scene, start, way, numbers, shipped=shipped) for way in ways),
         ]
 
+    def pace(self, scene: Scene) -> float:
+        """See `Paced`; measured on chains: sweeps grow by the square of the joints."""
+        joints = len(scene.joints)
+        if not self._tuned:
+            sweeps = self.options.get("iterations", 10)
+            if sweeps != options.BY_THE_SCENE:
+                return 1e-6 * (20 + 0.02 * sweeps * joints)
+        return 1e-6 * (20 + 0.17 * joints**2.5)
+
     def knobs(self, scene: Scene, start: Start) -> list[Knob]:
         """See `Tunable`."""
         return knobs(scene, start)

@@ -5,7 +5,7 @@ however sensitive the motion and however loose its tolerances are.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from .agreement import Check, worst
 
 AGREE = 1e-12  # of the largest term, if the mechanism's own equations are well conditioned
 EPS = float(np.finfo(np.float64).eps)
+ULPS, DRAWS, SEED = 2, 8, 2  # what a sum of some terms, each rounded, is off
 DIGITS = 100  # times ε and the condition of its equations: what these lose
 
 
@@ -30,7 +31,7 @@ def beside(written: Answer, built: Answer, generated: Generated, times: Array) -
     followed, phases = written.followed, built.followed.phases
     if len(phases) != len(followed.phases):
         return
-    moved, held, condition = [], [], 1.0
+    moved, held, condition, steep = [], [], 1.0, [0.0, 0.0]
     for t, phase, y in zip(times.tolist(), followed.phase.tolist(), followed.y, strict=True):
         mode, other = written.system.modes[followed.phases[phase]], generated.modes[phases[phase]]
         q, v = mode.parted(y)
@@ -38,15 +39,25 @@ def beside(written: Answer, built: Answer, generated: Generated, times: Array) -
         a = _accelerations(mode, generated.base, t, q, v)
         size = max(worst(np.abs(a)), generated.base.terms(t, *place)[0]) or 1.0
         moved.append(worst(np.abs(other.accelerations(t, *place) - a)) / size)
+        if moved[-1] > AGREE:
+            steep[0] = max(steep[0], _steep(other.accelerations, t, *place) / size)
         condition = max(condition, _condition(other.f_a(t, place[0]), generated.base))
         own, theirs = mode.reactions(t, q, v), other.reactions(t, *place)
         force = worst(map(abs, theirs.values())) or 1.0
-        held += [abs(own[name] - theirs[name]) / force for name in own if name in theirs]
-    lost = 10.0 ** math.ceil(math.log10(DIGITS * EPS * condition))  # rounding's are its digits
-    bound = max(AGREE, lost)
-    yield Check("generated accelerations", worst(moved), bound)
+        apart = worst(abs(own[name] - theirs[name]) / force for name in own if name in theirs)
+        if apart > AGREE:
+            forces = lambda *at, other=other: np.array([*other.reactions(*at).values()])  # noqa: E731
+            steep[1] = max(steep[1], _steep(forces, t, *place) / force)
+        held += [apart] if own.keys() & theirs.keys() else []
+    lost = _power(DIGITS * EPS * condition)  # rounding's are its digits
+    yield Check("generated accelerations", worst(moved), max(AGREE, lost, _power(steep[0])))
     if held:
-        yield Check("generated reactions", worst(held), bound)
+        yield Check("generated reactions", worst(held), max(AGREE, lost, _power(steep[1])))
+
+
+def _power(x: float) -> float:
+    """In whole powers of ten; of 0 it is 0."""
+    return 10.0 ** math.ceil(math.log10(x)) if x else 0.0
 
 
 def _accelerations(mode: Mode, base: Base, t: float, q: Array, v: Array) -> Array:
@@ -58,6 +69,19 @@ def _accelerations(mode: Mode, base: Base, t: float, q: Array, v: Array) -> Arra
 
     rates: Array = along(velocities, (t, q, v), (1.0, mode.rates(t, q, v), a))
     return rates
+
+
+def _steep(of: Callable[..., Array], t: float, q: Array, v: Array) -> float:
+    """How much what follows from a state changes with it: by some ulp, one way or the other.
+
+    On the threshold of smooth friction a force that is rounded is multiplied by the law's slope.
+    """
+    random, here, found = np.random.default_rng(SEED), of(t, q, v), 0.0
+    for _ in range(DRAWS):
+        ways = [1 + ULPS * EPS * random.choice((-1.0, 1.0), np.shape(x)) for x in (t, q, v)]
+        there = of(float(t * ways[0]), q * ways[1], v * ways[2])
+        found = max(found, worst(np.abs(there - here)))
+    return found
 
 
 def _condition(rows: Array, base: Base) -> float:

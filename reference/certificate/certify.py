@@ -8,6 +8,7 @@ one answer may be little farther from the others than two integrators of one sys
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -17,14 +18,20 @@ from ..coverage import look
 from ..generated.either import Generated
 from ..integrators.implicit import Radau
 from ..integrators.march import Method, Slope
+from ..integrators.now import doing
 from ..integrators.radau import radau_table
 from ..motion.bodies import Answer
 from ..motion.follow import TOLERANCE, Followed, either, follow
+from ..start.sizes import size_of
 from ..system import Array, Mode, System
 from .agreement import Check, difference, times_apart, worst
 from .beside import beside
 from .errors import errors
+from .held import held
 from .laws import laws
+from .prescribed import prescribed
+from .reading import size
+from .started import started
 
 OWN_ERROR = 1e-12  # of the motion's size: what a motion is known to that is not sensitive
 ROUNDING = 2.2e-16  # a step: a motion of many steps cannot be known better
@@ -34,6 +41,7 @@ OWN_EVENTS = 1e-12  # s, against known functions
 OTHER_EVENTS = 1e-10  # s, against another motion
 LOOSER = 100  # times what two integrators differ by: two samples of one error may differ so much
 COARSER = 1e-13  # tolerance of the second answer where there is only one stiff integrator
+UNROLLED = 0.5  # rad: a turn lost is 6.3; the integral over the march's steps is 0.01 off at most
 STAGES = 7  # Radau IIA of order 13: five stages need twice the time at this tolerance
 QUARTERS = 4  # steps a sample at least: longer ones, of order 13, lose up to two digits here
 
@@ -68,13 +76,29 @@ def certify(
         others["closed form"] = written.trajectory(times, closed)
         checks.append(Check("closed form", difference(motion, others["closed form"], inner), own))
     late = apart * float(times[-1] - times[0])
-    checks += _events(system, followed, found, max(_looser(late), system.blurred), float(times[-1]))
+    apart = max(_looser(late), 2 * system.blurred)  # either way, two answers
+    checks += _events(system, followed, found, apart, float(times[-1]))
+    doing("the laws at every sample", float(times[0]), float(times[-1]))
+    if written.turns.angles:
+        checks.append(Check("turns by their rates", written.turns.unrolled(), UNROLLED))
     checks += laws(written, generated, times)
-    checks += _drift(system, times, followed, own)
+    checks += _drift(system, followed, own)
+    checks += as_the_file_says(case, written, generated, motion, own)
     if len(system.modes) > 1 or any(system.guards(mode) for mode in followed.phases):
-        checks.append(Check("modes possible", _impossible(system, times, followed), 0.0))
-    late = worst([late, *(_apart(followed, other) for other in found.values())])
+        checks.append(Check("modes possible", _impossible(system, followed), 0.0))
+    late = worst([late, system.blurred, *(_apart(followed, other) for other in found.values())])
     return (*checks, *errors(case, motion, others, late))
+
+
+def as_the_file_says(
+    case: Case, answer: Answer, generated: Generated, motion: Trajectory, own: float
+) -> Iterator[Check]:
+    """What all answers might share: laws, joints and the start, read from the states alone."""
+    lengths = size_of(case)
+    large = size(case.scene.frame, motion, lengths, case.duration)
+    yield from prescribed(case, motion, generated, large, own)
+    yield from held(case, motion, large, own)
+    yield from started(case, answer, motion, lengths)
 
 
 def _looser(apart: float) -> float:
@@ -144,21 +168,30 @@ def _closed_form(system: System, times: Array) -> Array | None:
     return np.array([np.concatenate(row) for row in rows if row is not None])
 
 
-def _drift(system: System, times: Array, followed: Followed, bound: float) -> Iterator[Check]:
-    """Residual of (2.14) along the motion, where there is one, relative to the coordinates."""
+def _drift(system: System, followed: Followed, bound: float) -> Iterator[Check]:
+    """Residual of (2.14) at the steps of the march, where there is one, to the coordinates."""
     look()
-    samples = list(zip(times.tolist(), followed.modes, followed.y, strict=True))
-    found = [system.modes[mode].f(t, system.modes[mode].parted(y)[0]) for t, mode, y in samples]
+    steps = [(t, followed.phases[k], y) for t, k, y in followed.march]
+    found = [system.modes[mode].f(t, system.modes[mode].parted(y)[0]) for t, mode, y in steps]
     if any(len(residual) for residual in found):
-        places = np.concatenate([system.modes[mode].parted(y)[0] for _, mode, y in samples])
+        places = np.concatenate([system.modes[mode].parted(y)[0] for _, mode, y in steps])
         size = worst(np.abs(places)) or 1.0
         largest = worst(worst(np.abs(residual)) for residual in found)
         yield Check("constraint drift", largest / size, bound)
 
 
-def _impossible(system: System, times: Array, followed: Followed) -> int:
-    """At how many samples the mode contradicts friction, contact or the direction of sliding."""
+def _impossible(system: System, followed: Followed) -> int:
+    """At how many steps the mode contradicts friction, contact or the direction of sliding.
+
+    Where a mode ends it is at its bound: what begins there is asked.
+    """
     look()
-    rows = zip(times.tolist(), followed.modes, followed.y, strict=True)
+    march = followed.march
+    ends = [one[1] != other[1] for one, other in pairwise(march)]
+    rows = [
+        (t, followed.phases[k], y)
+        for (t, k, y), last in zip(march, [*ends, False], strict=True)
+        if not last
+    ]
     states = [(mode, t, *system.modes[mode].parted(y)) for t, mode, y in rows]
     return sum(system.possible(*state) is not None for state in states)

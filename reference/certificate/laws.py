@@ -15,12 +15,15 @@ from ..coverage import look
 from ..formalisms import appell, chaplygin, energy, lagrange, lagrangian, newton_euler, voronets
 from ..formalisms.dependent import dependent
 from ..generated.either import Base, Generated
+from ..generated.space.mode import SpatialMultibody
+from ..integrators.now import reached
 from ..motion.bodies import Answer
 from ..system import Array, Mode
 from .agreement import Check, gravest, worst
 from .drawn import drawn
 
 LAW = 1e-12  # of the largest term: the laws are algebra, only rounding may differ
+SOME = 8  # samples: a force that is zero at one of them is none at the others
 BESIDE = 1  # state of a mode beside its motion; the tests draw a hundred
 SINGULAR = 1e8  # condition of equations that have lost half of their digits: they are not asked
 ELIMINATED = {
@@ -36,6 +39,7 @@ class Scale:
 
     base: Base
     speeds: Array  # (n,) m/s or rad/s
+    duration: float = math.inf  # s
 
     def largest(self, mode: Mode, t: float, q: Array, v: Array) -> tuple[float, float]:
         """The largest acceleration that one force gives alone, and the power [W] it could have.
@@ -49,15 +53,45 @@ class Scale:
         return self.base.terms(t, *place)[0], worst((forces + held) * self.speeds)
 
     def alone(self, mode: Mode, t: float, q: Array, v: Array) -> float:
-        """The largest acceleration that one force gives alone."""
-        return self.base.terms(t, *self.base.place(mode.poses(t, q, v)))[0]
+        """The largest acceleration that one force gives alone, or a turn in space: ω × J ω is one.
+
+        What spins evenly is not accelerated, and what says so is a sum of such terms.
+        """
+        return max(
+            self.base.terms(t, *self.base.place(mode.poses(t, q, v)))[0],
+            self.turn(mode, t, q, v) ** 2,
+            self.least,
+        )
+
+    @property
+    def least(self) -> float:
+        """What would change the speeds of the motion in its time, as forces do that do anything."""
+        return worst(self.speeds) / self.duration
+
+    def turn(self, mode: Mode, t: float, q: Array, v: Array) -> float:
+        """In space the fastest turn of a body [rad/s]; in the plane axes stay what they are."""
+        rates = self.base.place(mode.poses(t, q, v))[1]
+        spatial = isinstance(self.base, SpatialMultibody)
+        return worst(np.abs(rates[self.base.where.turning])) if spatial else 0.0
+
+    def accelerated(self, mode: Mode, times: Array, y: Array) -> float:
+        """The largest of them at some samples of a motion, and of the accelerations.
+
+        A force may be 0 at one instant, but for its rounding.
+        """
+        some = np.unique(np.linspace(0, len(times) - 1, SOME).astype(int)).tolist()
+        states = ((float(times[k]), *mode.parted(y[k])) for k in some)
+        return worst(
+            max(worst(np.abs(mode.accelerations(t, q, v))), self.alone(mode, t, q, v))
+            for t, q, v in states
+        )
 
 
 def laws(answer: Answer, generated: Generated, times: Array) -> Iterator[Check]:
     """The laws of every mode along its own part of the motion; the worst of each."""
     found: dict[str, list[Check]] = {}
     followed, written = answer.followed, answer.system is not generated
-    scale = Scale(generated.base, _speeds(answer, generated.base, times))
+    scale = Scale(generated.base, _speeds(answer, generated.base, times), float(np.ptp(times)))
     for name in dict.fromkeys(followed.modes):
         mine, mode = np.array(followed.modes) == name, answer.system.modes[name]
         part = times[mine], followed.y[mine]
@@ -94,21 +128,25 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
     sizes, powers, derived, balances, unbalanced, forces = [], [], [], [], [], []
     by_one: list[float] = []  # of the Lagrangian, where there is a V and nothing binds
     for t, row in zip(times.tolist(), y, strict=True):
+        reached(t)
         q, v = mode.parted(row)
         a = mode.accelerations(t, q, v)
         alone = scale.largest(mode, t, q, v)
-        sizes += [worst(np.abs(a)), alone[0]]
+        turn = scale.turn(mode, t, q, v)  # momenta turn with their bodies, also where T stays
+        sizes += [worst(np.abs(a)), alone[0], turn**2, scale.least]
         p = lagrange.momentum(mode, t, q, mode.rates(t, q, v))
         if (N := lagrange.rate_matrix(mode, t, q, v)) is not None:
             p = N.T @ p
-        powers += [float(np.sum(np.abs(p * a))), alone[1]]
+        terms = energy.power_terms(mode, t, q, v)
+        powers += [float(np.sum(np.abs(p * a))), worst(np.abs(terms)), alone[1]]
+        powers.append(float(np.sum(np.abs(p * v))) * turn)
         if bound:
             derived.append(worst(np.abs(lagrange.multipliers(mode, t, q, v)[0] - a)))
         else:
             derived.append(worst(np.abs(lagrange.accelerations(mode, t, q, v) - a)))
             if lagrange.of_potential(mode, t, q, mode.rates(t, q, v)).any():
                 by_one.append(worst(np.abs(lagrangian.unbalanced(mode, t, q, v, a))))
-        balances.append(abs(energy.power_balance(mode, t, q, v)))
+        balances.append(abs(float(np.sum(terms))))
         if written:
             residual, cut_free = newton_euler.balance(mode, t, q, v, a)
             unbalanced.append(residual)
@@ -133,14 +171,14 @@ def eliminated(mode: Mode, scale: Scale, times: Array, y: Array) -> Iterator[Che
     multiplied with each other there, as multipliers need not: the bound tells what that loses.
     """
     found: dict[str, list[float]] = {}
-    bound = LAW
+    bound, least = LAW, scale.accelerated(mode, times, y)
     for t, q, v in drawn(mode, times, y, BESIDE):
         by = dependent(mode, t, q, len(v))
         if by is None or not (condition := by.condition(t, q)) < SINGULAR:
             continue
         bound = max(bound, _rounding(mode, condition))
         a = mode.accelerations(t, q, v)
-        size = worst([*np.abs(a), scale.alone(mode, t, q, v)]) or 1.0
+        size = worst([*np.abs(a), scale.alone(mode, t, q, v), least]) or 1.0
         for name, accelerations in ELIMINATED.items():
             look()
             if (other := accelerations(mode, t, q, v)) is not None:

@@ -11,7 +11,6 @@ import numpy as np
 from ..system import Array, Mode, Vector
 from .dependent import Dependent, dependent
 from .derivative import along
-from .lagrange import gradient
 from .wrench import gyroscopic, velocity
 
 
@@ -30,11 +29,12 @@ def accelerations(
     free = free_accelerations(by, t, q, v)
     gyro = np.array([gyroscopic(mass, pose) for mass, pose in _bodies(system, t, q, v)])
 
-    def slope(q_ddot: Array, still: Array, gyro: Array) -> Array:
-        return gradient(lambda a: energy(system, still + free @ a, gyro), q_ddot)
+    def slope(rates: Array, gyro: Array) -> Array:
+        """∂S/∂q̈^{a1} (k,): a column for each, and all of them at once."""
+        return along(lambda rates: energy(system, rates, gyro), (rates[..., None],), (free,))
 
-    bend = [slope(e, 0.0 * still, 0.0 * gyro) for e in np.eye(k)]
-    right = by.forces(t, q, v) - slope(np.zeros(k), still, gyro)
+    bend = [slope(free[..., i], 0.0 * gyro) for i in range(k)]
+    right = by.forces(t, q, v) - slope(still, gyro)
     q_ddot: Any = np.linalg.solve(np.stack(bend, axis=1), right)
     return by.changed(t, q, v, q_ddot)
 
@@ -42,14 +42,14 @@ def accelerations(
 def energy(system: Mode, rates: Vector, gyro: Array) -> Any:
     """(2.77) S = ½ ∫ r̈² dm = Σ ½ m r̈_c² + ½ ω̇ · J ω̇ + ω̇ · (ω × J ω), and what has no q̈ [W/s].
 
-    Of r̈_c and ω̇ (N, 3) or (N, 6), and of ω × J ω in the same columns.
+    Of r̈_c and ω̇ (N, 3) or (N, 6), and of ω × J ω in the same columns; or of many at once, (…, K).
     """
     S = 0.0
     for mass, rate, turning in zip(system.masses.values(), rates, gyro, strict=True):
         d = (len(rate) + 1) // 2
-        S = S + mass.m * (rate[:d] @ rate[:d]) / 2
+        S = S + mass.m * (rate[:d] * rate[:d]).sum(axis=0) / 2
         if mass.J is not None:
-            S = S + rate[d:] @ np.dot(rate[d:], mass.J) / 2 + rate[d:] @ turning[d:]
+            S = S + (rate[d:] * np.dot(mass.J, rate[d:])).sum(axis=0) / 2 + turning[d:] @ rate[d:]
     return S
 
 

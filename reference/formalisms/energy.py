@@ -11,7 +11,12 @@ from .lagrangian import left
 
 
 def power_balance(system: Mode, t: float, q: Array, v: Array) -> float:
-    """(2.51) d/dt (q̇ᵃ ∂T/∂q̇ᵃ − T + U) − (Q_a vᵃ + λ_b gᵇ + ∂(U + V − T)/∂t) [W]: must be 0.
+    """The sum of the terms of (2.51) [W]: must be 0."""
+    return float(np.sum(power_terms(system, t, q, v)))
+
+
+def power_terms(system: Mode, t: float, q: Array, v: Array) -> Array:
+    """(2.51) d/dt (q̇ᵃ ∂T/∂q̇ᵃ − T + U) − (Q_a vᵃ + λ_b gᵇ + ∂(U + V − T)/∂t) [W], by terms.
 
     The bracket is T + U where T is quadratic in q̇: V, linear in q̇, drops out but for ∂V/∂t. Q are
     the forces of classes 2 and 4, and the last two terms are the power of drives. A drive that is
@@ -22,16 +27,18 @@ def power_balance(system: Mode, t: float, q: Array, v: Array) -> float:
 
     def energy(t: Any, q: Any, v: Any) -> Any:
         rates = system.rates(t, q, v)
-        return momentum(system, t, q, rates) @ rates - system.T(t, q, rates) + system.U(t, q)
+        p = momentum(system, t, q, rates, even=True)
+        return p @ rates - system.T(t, q, rates) + system.U(t, q)
 
     change = along(energy, (t, q, v), (1.0, q_dot, a))
     Q = np.asarray(system.Q4(t, q, v)) - gradient(lambda v: system.D(t, q, v), v)
-    drives = derivative(
+    given = derivative(
         lambda t: system.U(t, q) + system.V(t, q, q_dot) - system.T(t, q, q_dot), (t,), (1.0,)
     )
+    drives = [np.atleast_1d(given)]
     g = np.asarray(system.g(t, q), dtype=np.float64)
     if g.any():
-        drives += multipliers(system, t, q, v)[1] @ g
+        drives.append(multipliers(system, t, q, v)[1] * g)
     if q_dot is not v and (n_0 := np.asarray(system.rates(t, q, np.zeros(len(v))))).any():
-        drives += n_0 @ left(system, t, q, v, a)
-    return float(change - Q @ v - drives)
+        drives.append(n_0 * left(system, t, q, v, a))
+    return np.concatenate([np.atleast_1d(change), -Q * v, *(-each for each in drives)])

@@ -39,19 +39,37 @@ def accelerations(system: Mode, t: float, q: Array, v: Array) -> Array:
     return v_dot
 
 
-def momentum(system: Mode, t: Any, q: Any, q_dot: Any) -> Any:
-    """p_a = ∂T/∂q̇ᵃ (m,)."""
-    return slope(system.T, t, q, q_dot)
+def momentum(system: Mode, t: Any, q: Any, q_dot: Any, *, even: bool = False) -> Any:
+    """p_a = ∂T/∂q̇ᵃ (m,); even: with digits where rates or masses are of very different sizes."""
+    return slope(system.T, t, q, q_dot, even=even)
 
 
-def slope(T: Callable[..., Any], t: Any, q: Any, q_dot: Any) -> Any:
+def slope(T: Callable[..., Any], t: Any, q: Any, q_dot: Any, *, even: bool = False) -> Any:
     """∂T/∂q̇ of any T(t, q, q̇): the central difference is exact, because T is quadratic in q̇.
 
-    Its width is the largest rate: beside a much larger or smaller one T would lose its digits.
+    Its width is the largest rate, or what has the energy of that: beside a much larger or smaller
+    one T would lose its digits.
     """
-    h = float(np.max(np.abs(np.real(q_dot)), initial=0.0)) or 1.0
+    fast = np.abs(np.real(q_dot))
+    h: Any = float(np.max(fast, initial=0.0)) or 1.0
+    if even:
+        h = _widths(T, t, q, fast, h)
     rates, steps = np.asarray(q_dot)[:, None], h * np.eye(len(q_dot))  # a column each
     return (T(t, q, rates + steps) - T(t, q, rates - steps)) / (2 * h)
+
+
+def _widths(T: Callable[..., Any], t: Any, q: Any, fast: Array, most: float) -> Array:
+    """(m,) rates, each with the largest energy that one of the rates has alone.
+
+    A ball of a micrometre turns by 1e6 rad/s where it goes 1 m/s; a flywheel has all of T.
+    """
+    ones = np.eye(len(fast))
+    M = np.real(T(t, q, ones) + T(t, q, -ones) - 2 * T(t, q, 0 * ones))  # M_aa of ½ M_aa each
+    M = np.broadcast_to(M, fast.shape)
+    energy = np.max(np.abs(M) * fast**2)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        found = np.sqrt(energy / np.abs(M))
+    return np.where(np.isfinite(found) & (found > 0.0), found, most)
 
 
 def mass_matrix(system: Mode, t: float, q: Array) -> Array:

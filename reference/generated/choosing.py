@@ -8,12 +8,13 @@ import numpy as np
 from ..system import Array
 from .contact import row
 from .element import Element, State, sign, sliding
+from .leeway import FITS
+from .loose import DEPENDENT, rank
 from .mode import SingularPose
 from .modes import Modes
 from .sharing import one_slip
 
-DEPENDENT = 1e-13  # of the largest of f M⁻¹ fᵀ: its factors fail at some 1e-16
-APART = 1e-6  # of γ: what is left out by that is off by its root, 3e-7
+YIELDS = 1e-8  # of the forces: where events are located a margin is 0 to some 1e-10 of them
 
 After = tuple[str, Array, Array]
 """A mode's name, q and v with which it begins."""
@@ -62,54 +63,89 @@ def staying(modes: Modes, mode: str) -> list[Options]:
     return found
 
 
-def settled(modes: Modes, choices: Sequence[Options], t: float, q: Array, v: Array) -> After:
-    """The mode among the choices in which all forces and motions agree, and its state.
+def yielding(
+    modes: Modes, mode: str, choices: Sequence[Options], t: float, q: Array, v: Array
+) -> list[Options]:
+    """The choices where the last forces that hold a mode are gone: all that is at its bound slips.
 
-    Raises Undetermined where there is none, or where a contact could as well open as stay, or rub
-    one way as the other.
+    Of forces that are not determined those that hold are at several bounds at once.
     """
-    found: list[tuple[State, ...]] = []
-    for states in itertools.product(*choices):
-        if not one_slip(modes.elements, states):
-            continue
-        after = _projected(modes, states, t, q, v)
-        try:
-            if _agrees(modes, states, choices, t, *after):
-                found.append(states)
-        except SingularPose as error:
-            if not found:  # else one that is likelier needs nothing of it
-                raise Undetermined(_blamed(modes, choices), str(error), t) from error
-    if not found:
-        raise painleve(_blamed(modes, choices), "no motion", t)
-    for other in found[1:]:
-        for e, one, two in zip(modes.elements, found[0], other, strict=True):
-            if (one == "open") != (two == "open") and not _grazes(modes, e, found[0], t, q, v):
-                raise painleve(e.name, f"both staying on and leaving the {e.plane}", t)
-            if sign(one) * sign(two) < 0:  # at rest, held by the others whichever way it rubs
-                raise Undetermined(e.name, str(SingularPose(e.name)), t)
-    return modes.name(found[0]), *_projected(modes, found[0], t, q, v)
+    forces, found = modes.forces(mode, t, q, v), list(choices)
+    size = YIELDS * max(map(abs, forces.values()), default=0.0)
+    for i, (e, state) in enumerate(zip(modes.elements, modes.states[mode], strict=True)):
+        if state == "sticks" and e.slips and len(found[i]) > 1:
+            forward, backward = e.margins(forces)
+            if min(forward, backward) <= size:
+                found[i] = (sliding(backward - forward), *opening(e))
+    return found
 
 
-def _agrees(
+def settled(
     modes: Modes,
-    states: tuple[State, ...],
     choices: Sequence[Options],
     t: float,
     q: Array,
     v: Array,
+) -> After:
+    """The mode among the choices in which all forces and motions agree, and its state.
+
+    What the likeliest of them holds altogether, and with no forces within the laws, none of the
+    others holds: each has a part of its rows, and of its forces those at a bound.
+
+    Raises Undetermined where there is none, or where a contact could as well open as stay, or rub
+    one way as the other.
+    """
+    found: list[After] = []
+    singular: SingularPose | None = None
+    hopeless = False
+    for states in itertools.product(*choices):
+        if not one_slip(modes.elements, states):
+            continue
+        after = _projected(modes, states, t, q, v)
+        if (hopeless and _held(modes, after, t)) or (
+            found and modes.loose(found[0][0]) and modes.loose(after[0])
+        ):
+            continue
+        try:
+            if _agrees(modes, choices, t, *after):
+                found.append(after)
+            elif all(state == choice[0] for state, choice in zip(states, choices, strict=True)):
+                hopeless = modes.loose(after[0]) and _held(modes, after, t)
+        except SingularPose as error:
+            singular = singular or error  # one that agrees needs nothing of it
+    if not found and singular:
+        raise Undetermined(_blamed(modes, choices), str(singular), t) from singular
+    if not found:
+        raise painleve(_blamed(modes, choices), "no motion", t)
+    first, *others = found
+    for other in others:
+        pairs = (modes.states[mode] for mode, _, _ in (first, other))
+        for e, one, two in zip(modes.elements, *pairs, strict=True):
+            if (one == "open") != (two == "open") and not _alike(modes, first, other, t):
+                raise painleve(e.name, f"both staying on and leaving the {e.plane}", t)
+            if sign(one) * sign(two) < 0:  # at rest, held by the others whichever way it rubs
+                raise Undetermined(e.name, str(SingularPose(e.name)), t)
+    return first
+
+
+def _held(modes: Modes, after: After, t: float) -> bool:
+    mode, q, v = after
+    return modes.held(mode, t, q, v)
+
+
+def _agrees(
+    modes: Modes, choices: Sequence[Options], t: float, mode: str, q: Array, v: Array
 ) -> bool:
     """Whether the forces are within the laws, and what may move moves the way it should.
 
-    Raises SingularPose where the forces are not determined.
+    Raises SingularPose where the forces are not determined, and the motion neither.
     """
-    mode, small = modes.name(states), modes.small(t, q, v)
-    try:
-        forces = modes.forces(mode, t, q, v)
-    except SingularPose:
-        if _contradicts(modes, mode, t, q, v):
-            return False
-        raise
-    for e, state, choice in zip(modes.elements, states, choices, strict=True):
+    small, loose = modes.small(t, q, v), modes.loose(mode)
+    if modes.contradicts(mode, t, q, v):
+        return False
+    forces = modes.forces(mode, t, q, v)
+    left = FITS * max(map(abs, forces.values()), default=0.0) if loose else 0.0
+    for e, state, choice in zip(modes.elements, modes.states[mode], choices, strict=True):
         if e.normal is not None:
             if state == "open":
                 if len(choice) > 1 and modes.change(e.normal, mode, t, q, v) < -small:
@@ -117,7 +153,7 @@ def _agrees(
                 continue
             if forces[e.push] < -small * float(np.max(modes.M)):
                 return False
-        if state == "sticks" and e.slips and min(e.margins(forces)) < 0.0:
+        if state == "sticks" and e.slips and min(e.margins(forces)) < -left:
             return False
         s = sign(state) if "sticks" in choice else 0
         if s and s * modes.change(e.tangent, mode, t, q, v) < -small:
@@ -125,29 +161,14 @@ def _agrees(
     return True
 
 
-def _contradicts(modes: Modes, mode: str, t: float, q: Array, v: Array) -> bool:
-    """Whether of f_a q̈ᵃ = γ rows that depend on each other ask for different accelerations.
-
-    At a dead centre a rocker turns back: the others turn it, so that it cannot stick there. Of what
-    rests they ask the same, and do not say who holds it.
-    """
-    f, _, gamma = modes[mode].rows(t, q, v)
-    left = gamma - f @ _nearest(modes.M, f, gamma, dependent=DEPENDENT)
-    return bool(np.max(np.abs(left)) > APART * np.max(np.abs(gamma)))
+def _alike(modes: Modes, one: After, other: After, t: float) -> bool:
+    """Whether both answers are the same motion: the floor neither pushes nor is left."""
+    a, b = (modes[mode].accelerations(t, q, v) for mode, q, v in (one, other))
+    return bool(np.max(np.abs(a - b)) <= modes.small(t, *one[1:]))
 
 
-def _grazes(
-    modes: Modes, e: Element, states: tuple[State, ...], t: float, q: Array, v: Array
-) -> bool:
-    """Whether the floor neither pushes nor is left: both answers are the same motion."""
-    forces = modes.forces(modes.name(states), t, q, v)
-    return abs(forces[e.push]) <= modes.small(t, q, v) * float(np.max(modes.M))
-
-
-def _projected(
-    modes: Modes, states: tuple[State, ...], t: float, q: Array, v: Array
-) -> tuple[Array, Array]:
-    """The nearest q (in M) on the floor and v that meets the rows: what sticks is at rest."""
+def _projected(modes: Modes, states: tuple[State, ...], t: float, q: Array, v: Array) -> After:
+    """The mode, the nearest q (in M) on the floor and v that meets the rows: what sticks rests."""
     mode = modes[modes.name(states)]
     pairs = zip(modes.elements, states, strict=True)
     closed = [e.normal for e, s in pairs if e.normal is not None and s != "open"]
@@ -157,7 +178,8 @@ def _projected(
         if len(gaps) == len(f):  # rolling is known as a rate only
             q = placed(modes.M, f, gaps, q)
     f, g = mode.f_a(t, q), mode.g(t, q)
-    return q, v - _nearest(modes.M, f, f @ v - g) if len(f) else v
+    v = v - _nearest(modes.M, f, f @ v - g) if len(f) else v
+    return modes.named(states, t, q, v), q, v
 
 
 def placed(M: Array, f: Array, gaps: Array, q: Array) -> Array:
@@ -166,9 +188,16 @@ def placed(M: Array, f: Array, gaps: Array, q: Array) -> Array:
     return np.append(q[:n] - _nearest(M, f, gaps), q[n:])
 
 
-def _nearest(M: Array, f: Array, residual: Array, *, dependent: float | None = None) -> Array:
-    by_mass = f / M
-    return by_mass.T @ np.linalg.lstsq(f @ by_mass.T, residual, rcond=dependent)[0]
+def _nearest(M: Array, f: Array, residual: Array) -> Array:
+    """The smallest change (n,), in M, with f · change = residual; rows may depend on each other."""
+    root = np.sqrt(M)
+    sizes = np.linalg.norm(f / root, axis=1)
+    sizes = np.where(sizes > 0.0, sizes, 1.0)
+    rows = f / root / sizes[:, None]
+    if rank(rows) < len(rows):
+        return np.linalg.lstsq(rows, residual / sizes, rcond=DEPENDENT)[0] / root
+    by_mass = f / M  # what comes to rest along a line does so exactly
+    return by_mass.T @ np.linalg.lstsq(f @ by_mass.T, residual, rcond=None)[0]
 
 
 def _blamed(modes: Modes, choices: Sequence[Options]) -> str:

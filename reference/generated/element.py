@@ -20,8 +20,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from ...cases.drag import Viscous
-from ...cases.force import of
 from ...cases.scene import DryFriction, Scene
 from ..laws.friction import Dry, stiction, stribeck
 from .constraint import Constraint, Numbers
@@ -123,6 +121,14 @@ class Element:
         """Friction in proportion to a normal force."""
         return []
 
+    def idle(self, state: State) -> tuple[str, ...]:
+        """The forces of the scene that do nothing in the state."""
+        return ()
+
+    def slowing(self, speed: float) -> float:
+        """What falls through zero as a slip [m/s] does, and has a slope there."""
+        return speed
+
     def braking(self, state: State) -> list[Braking]:
         """Friction forces of their own."""
         return []
@@ -167,20 +173,6 @@ class Touching(Element):
         bound = self.static * forces[f"{self.name}.normal"]
         tangent = forces[f"{self.name}.tangent"]
         return bound + tangent, bound - tangent
-
-
-@dataclass(frozen=True, kw_only=True)
-class Stopping(Element):
-    """A slide that viscous friction of an exponent below 1 stops, with no force left to hold it."""
-
-    def held(self, state: State) -> list[Constraint]:
-        """Nothing, or no slip."""
-        return [self.tangent] if state == "sticks" else []
-
-    def margins(self, forces: Mapping[str, float]) -> tuple[float, float]:
-        """(2.86) ∓F_a [N]: anything that pushes sets it off."""
-        F_a = -forces[f"{self.name}.friction"]
-        return -F_a, F_a
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -233,11 +225,8 @@ def elements(scene: Scene, where: Coordinates) -> Iterator[Element]:
                 rest=REST if contact.ideal is None else ("sticks",),
                 other=foot(contact, where) if contact.ahead_of else None,
             )
-    stopped = {force.joint for force in of(Viscous, scene.forces.values()) if force.exponent < 1}
     for joint in scene.joints.values():
         if (friction := joint.dry_friction) is None:
-            if joint.name in stopped:
-                yield Stopping(name=joint.name, slip=at_rest(joint, where))
             continue
         along = at_rest(joint, where)
         if friction.smooth is not None:

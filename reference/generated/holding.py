@@ -27,13 +27,13 @@ class Holding:
         if self.band is not None:
             return self.band.held(t, q, v)
         rows, _, gamma = self.rows(t, q, v)
-        by_mass = self._columns(t, q, v, rows) / self.M
+        by_mass = self.columns(t, q, v, rows) / self.M
         found = full(rows, gamma, by_mass, leans=bool(self._coulomb))
         if self._constant:
             self._always = found
         return found
 
-    def _columns(self, t: float, q: Array, v: Array, rows: Array) -> Array:
+    def columns(self, t: float, q: Array, v: Array, rows: Array) -> Array:
         """What a unit of each multiplier exerts, (r, n): its row and its friction.
 
         With λ_t = factor λ_n (2.87) the force of a normal row leans against the slip.

@@ -39,7 +39,7 @@ def landed(
         return _at_rest(modes, mode, i, t, q, v)
     touching, met = _meetings(modes, mode, i, t, q, v, rests=rests)
     still = modes.still(t, q, v, part=STILL)
-    if any(m.strikes and m.normal.rate(v) < -still for m in met):
+    if strikes := any(m.strikes and m.normal.rate(v) < -still for m in met):
         v, states = _struck(modes, mode, i, met, t, q, v, near)
         flies = math.inf if rests else still  # what the last blow throws up, falls back at once
         found = [_after(m, state, v, still, flies) for m, state in zip(met, states, strict=True)]
@@ -52,7 +52,8 @@ def landed(
     for k, e in enumerate(modes.elements):
         if e.normal is not None:
             choices[k] = found[touching.index(k)] if k in touching else ("open",)
-    return settled(modes, choices, t, q, v)
+    after = settled(modes, choices, t, q, v)
+    return (mode, q, v) if after[0] == mode and not strikes else after  # then nothing has happened
 
 
 def _struck(

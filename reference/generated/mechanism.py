@@ -8,12 +8,14 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from ...cases.scene import Scene
+from ...cases.scene import GROUND, Anchor, Scene
 from ..system import Array, Guard, System
-from .choosing import After, Options, closed, opening, painleve, settled, staying
+from .action import act
+from .choosing import After, Options, closed, opening, painleve, settled, staying, yielding
 from .constraint import Constraint
 from .drag import blurred
 from .element import REST, Element, State, sign
+from .halting import halting
 from .landing import STILL, landed
 from .modes import Modes, rate
 from .one_side import HAPPENS, OTHER, OneSided
@@ -83,7 +85,16 @@ class Mechanism(System):
         """Opening, landing, stopping, slipping, and what springs do, in this order."""
         states = self.built.states[mode]
         found = [g for i, s in enumerate(states) for g in self._guards(mode, i, s)]
-        order = {"opens": 0, "lands": 1, "stops": 2, "slips": 3, "slackens": 4, "tightens": 4}
+        found += halting(self.built, mode, self.size)
+        order = {
+            "opens": 0,
+            "lands": 1,
+            "stops": 2,
+            "slips": 3,
+            "slackens": 4,
+            "tightens": 4,
+            "None": 5,
+        }
         order |= {"leaves": 0, "strikes": 1}
         return sorted(found, key=lambda guard: order[str(guard.event).split()[-1]])
 
@@ -99,14 +110,14 @@ class Mechanism(System):
             if state == "open":
                 gap = self._clear(e, normal)
                 rest = self._lands(mode, i, rests=True)
-                yield Guard(f"{e.name} {e.endings[1]}", gap, self._lands(mode, i), rest)
+                yield Guard(f"{e.name} {e.endings[1]}", gap, self._lands(mode, i), rest, vain=True)
                 return
             push = lambda t, q, v: self.built.forces(mode, t, q, v)[e.push]  # noqa: E731
             yield Guard(f"{e.name} {e.endings[0]}", push, self._opens(mode, i))
         if e.frictionless or not e.slips:
             return
         if s := sign(state):
-            slip = lambda t, q, v: s * rate(e.tangent, t, q, v)  # noqa: E731
+            slip = lambda t, q, v: e.slowing(s * rate(e.tangent, t, q, v))  # noqa: E731
             yield Guard(f"{e.name} stops", slip, self._to(mode, i, REST))
             return
         for k, way in enumerate(("slides +", "slides -")):
@@ -131,6 +142,8 @@ class Mechanism(System):
             choices = staying(self.built, mode)
             for k in beside(self.elements, self.built.states[mode], i):
                 choices[k] = (*choice, *opening(self.elements[k])) if choice == REST else choice
+            if self.built.loose(mode):
+                choices = yielding(self.built, mode, choices, t, q, v)
             return settled(self.built, choices, t, q, v)
 
         return then
@@ -149,6 +162,21 @@ class Mechanism(System):
             return after
 
         return then
+
+    def driven_point(self, name: str, t: float) -> tuple[float, ...]:
+        """x, y, vx, vy of a point of the ground that moves."""
+        still = np.zeros(len(self.base.coordinates)).tolist()
+        point = self.base.where.point(Anchor(GROUND, name), t, still, still)
+        return *point.r, *point.r_dot
+
+    def powers(self, t: float, q: Array, v: Array) -> dict[str, float]:
+        """The power [W] at any rates of each force that follows a law in time, by its name."""
+        found = {}
+        for force in self.base.scene.signals():
+            Q = np.zeros(len(v))
+            act(force, self.base.where, t, q.tolist(), v.tolist(), Q)
+            found[force.name] = float(Q @ v)
+        return found
 
     def beyond(self, mode: str, t: float, q: Array, v: Array) -> After:
         """What holds by friction, and what touches, may do another thing under another force."""

@@ -25,16 +25,15 @@ class SingularPose(ArithmeticError):
     """Where the constraints depend on each other: no single reaction, no single motion."""
 
     def __init__(self, part: str) -> None:
-        super().__init__(f"what {part} holds is held by the other joints already")
+        super().__init__(f"what {part} holds is held by the others already")
 
 
 class Multibody(Mode):
     """Newton's and Euler's equations of all bodies, held together by multipliers.
 
-    q holds x, y, angle of each body in the scene's order (a particle has no angle).
-    `held` are constraints beside those of the joints, `braking` and `coulomb` what slides with dry
-    friction: the mode of a scene that switches. `shared`: what sticks by several points of a body.
-    `slack`: the springs that do not act.
+    q holds x, y, angle of each body in the scene's order (a particle has no angle). `held` are
+    constraints beside those of the joints, `braking` and `coulomb` what slides with dry friction.
+    `shared`: what sticks by several points of a body. `slack`: the springs that do not act.
     """
 
     def __init__(
@@ -61,7 +60,6 @@ class Multibody(Mode):
         masses = [mass.m for mass in self.masses.values()]
         self._turns = TURNS if max(masses) > UNEVEN * min(masses) else min(TURNS, 1)
         self._braking, self._shared = braking, shared
-        self.undetermined = tuple(name for share in shared for name in share.forces)
         places = np.cumsum([0, *(c.size for c in self._constraints)]).tolist()
         self._coulomb = [(places[self._constraints.index(law.normal)], law) for law in coulomb]
         rows = assembled(self._constraints, self.where)
@@ -88,8 +86,11 @@ class Multibody(Mode):
 
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) R_a = λ_b f_aᵇ: the force of the first part on the second, by quantity."""
-        at, numbers, multipliers = 0, q.tolist(), self.solve(t, q, v)[1].tolist()
-        of_floor = ("normal", "tangent")
+        return self.told(t, q, v, self.solve(t, q, v)[1].tolist())
+
+    def told(self, t: float, q: Array, v: Array, multipliers: Sequence[float]) -> dict[str, float]:
+        """(2.60) The same of given multipliers (r,)."""
+        at, numbers, of_floor = 0, q.tolist(), ("normal", "tangent")
         found = {f"{name}.{way}": 0.0 for name in self.scene.pressed for way in of_floor}
         for c in self._constraints:
             _add(found, c.reactions(t, numbers, multipliers[at : at + c.size]))
@@ -150,8 +151,7 @@ class Multibody(Mode):
     def terms(self, t: float, q: Array, v: Array) -> tuple[float, float]:
         """The largest acceleration [m/s² or rad/s²] and power [W] that one force gives alone.
 
-        The power is that of a force along the velocity: a hanging bar that trembles by rounding
-        does so across its weight.
+        The power is that of a force along the velocity: what hangs trembles across its weight.
         """
         largest, turning = self.largest(t, q, v), self.where.turning
         powers = [

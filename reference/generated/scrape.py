@@ -41,5 +41,10 @@ def one_way(d: Bounds, speed: Any) -> float:
 
 
 def power_loss(d: float, alpha: float, square: Any) -> Any:
-    """(2.46) d |v|^{α+1}/(α + 1) [W] of v²: a root needs no |v|, whose derivative would be lost."""
+    """(2.46) d |v|^{α+1}/(α + 1) [W] of v²: a root needs no |v|, whose derivative would be lost.
+
+    At rest it has no slope, which a complex step of less than 1 would only reach by its root.
+    """
+    if not np.real(square) > 0.0:
+        return 0.0 * square
     return d * square ** ((alpha + 1.0) / 2.0) / (alpha + 1.0)

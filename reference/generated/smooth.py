@@ -44,10 +44,10 @@ class SmoothMultibody(Multibody):
         self._resting = Multibody(
             scene, start, held=resting, braking=braking, coulomb=coulomb, slack=slack
         )
-        smooth = [Braking(part, self._friction(k)) for k, part in enumerate(self._rests)]
+        self.rubbing = [Braking(part, self._friction(k)) for k, part in enumerate(self._rests)]
         super().__init__(
-            scene, start, held=held, braking=[*braking, *smooth], coulomb=coulomb, shared=shared,
-            slack=slack,
+            scene, start, held=held, braking=[*braking, *self.rubbing], coulomb=coulomb,
+            shared=shared, slack=slack,
         )  # fmt: skip
 
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:

@@ -1,7 +1,8 @@
 """How much one reference may cost, all of its motions together.
 
 What a case asks for is estimated when it is loaded. This is the net below: a motion that turns out
-to need ever more steps ends with a message, and the same one on every machine.
+to need ever more steps ends with a message, and the same one on every machine, for not the clock
+is asked but evaluations, each at what it takes on a common one.
 """
 
 from collections.abc import Iterator
@@ -9,38 +10,87 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 
+from ...cases.language.check.cost import about
+from .now import doing, reached
+
+PATIENCE = 15.0  # s of a motion, before it is asked where it leads: twice what a shipped one takes
+WINDOW = 5.0  # s: where its latest part leads is asked, which after a stiff first moment is faster
+TWICE = 2.0  # the first motion of a reference has another answer beside it, which takes as long
+ANSWERS = ("the motion", "its second answer", "its third answer", "a further answer")
+
 
 class Endless(Exception):
-    """A motion that has used up the budget; `time` [s] is how far it got."""
+    """A motion that would use up more than the budget.
 
-    def __init__(self, evaluations: float, time: float) -> None:
-        super().__init__(f"takes more than {evaluations:.3g} evaluations")
+    time: how far it got [s], until: where it should lead, needs: what all would take [s], or
+    nothing where nobody knows.
+    """
+
+    def __init__(self, evaluations: int, time: float, until: float, needs: float | None) -> None:
+        far = f" of {until:.4g}" if until else ""
+        more = f" and needs {about(needs)}" if needs else ""
+        super().__init__(f"reached t = {time:.4g}{far} s after {evaluations} evaluations{more}")
         self.time = time
 
 
 @dataclass
 class _Purse:
+    """Seconds, and what an evaluation costs; of the motion that is followed, where it stood."""
+
     given: float
-    left: float
+    price: float
+    spent: float = 0.0
+    evaluations: int = 0
+    motions: int = 0
+    begin: float = 0.0
+    until: float = 0.0
+    before: float = 0.0  # spent when the motion began
+    marks: tuple[tuple[float, float], ...] = ((0.0, 0.0),)  # spent and t, lately
+
+    def needs(self, time: float) -> float | None:
+        """What all takes [s] if the motion goes on like that; None: it is too early to say."""
+        marks = self.marks
+        if self.spent >= marks[-1][0] + WINDOW:
+            self.marks = (*marks[-1:], (self.spent, time))
+        if self.spent - self.before < PATIENCE or not self.until > self.begin:
+            return None
+        pace = min((self.spent - s) / max(time - t, 1e-300) for s, t in marks if s < self.spent)
+        return self.spent + (self.until - time) * pace
 
 
 _purse: ContextVar[_Purse | None] = ContextVar("purse", default=None)
 
 
 @contextmanager
-def budget(evaluations: float) -> Iterator[None]:
-    """Lets the integrations within take so many evaluations of slopes, together."""
-    token = _purse.set(_Purse(evaluations, evaluations))
+def budget(seconds: float, price: float) -> Iterator[None]:
+    """Lets the integrations within take so long together; price: of an evaluation of slopes [s]."""
+    token = _purse.set(_Purse(seconds, price))
     try:
         yield
     finally:
         _purse.reset(token)
 
 
+def motion(begin: float, until: float) -> None:
+    """A motion begins that leads from one time to the other [s]; for whoever waits it is named."""
+    before = 0
+    if (purse := _purse.get()) is not None:
+        purse.begin, purse.until, purse.before = begin, until, purse.spent
+        before, purse.motions = purse.motions, purse.motions + 1
+        purse.marks = ((purse.spent, begin),)
+    doing(ANSWERS[min(before, len(ANSWERS) - 1)], begin, until)
+
+
 def spend(evaluations: int, time: float) -> None:
-    """Takes them from the budget, if there is one. Raises Endless where nothing is left."""
+    """Takes them from the budget, if there is one. Raises Endless where it cannot be enough."""
+    reached(time)
     purse = _purse.get()
-    if purse is not None:
-        purse.left -= evaluations
-        if purse.left < 0:
-            raise Endless(purse.given, time)
+    if purse is None:
+        return
+    purse.evaluations += evaluations
+    purse.spent += evaluations * purse.price
+    needs = purse.needs(time)
+    if needs is not None and purse.motions == 1:
+        needs *= TWICE
+    if purse.spent > purse.given or (needs is not None and needs > purse.given):
+        raise Endless(purse.evaluations, time, purse.until, needs)

@@ -6,7 +6,7 @@ the states at the samples.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
@@ -20,6 +20,7 @@ SAFETY = 0.8  # aim below the tolerance: on chaotic motion 0.9 has a quarter of 
 SHRINK, GROW = 0.2, 6.0  # one estimate is not trusted to change the step by more than this
 FUTILE = 0.5  # an error that falls less than that with a shorter step is no error of the step
 ROUNDED = 10.0  # an error row adds up to 8 slopes, each with its rounding
+AT_ONCE = 1e-3  # of the interval after it: a shorter first one says nothing of the motion
 STRETCH = 0.05  # a step may be this much longer than wanted if that saves a step before a sample
 
 
@@ -104,6 +105,7 @@ class _Walker:
     peak: Vector
     wanted: float
     noise: Vector
+    ahead: float  # s: in which a slope that begins at zero becomes more than its rounding
     quiet: bool = True  # nothing is known of any noise
 
     def step(self, target: float) -> Step:
@@ -136,7 +138,8 @@ class _Walker:
         """Learn the rounding of the slopes: the error did not fall as the step did."""
         with np.errstate(all="ignore"):
             try:
-                found = noise(self.method.f, self.t, self.y, h, self.peak)
+                far = h if self.peak.any() else max(h, self.ahead)  # all of rest is its rounding
+                found = noise(self.method.f, self.t, self.y, far, self.peak)
             except (ArithmeticError, ValueError):  # too far out, as in an attempt
                 return
         self.method.evaluations += POINTS
@@ -185,6 +188,15 @@ def _first_step(y: Vector, slope: Vector, size: Vector, span: float) -> float:
     return min(span, 0.01 * value / rate)
 
 
+def _span(samples: Sequence[float]) -> float:
+    """The first interval [s]; the second one, where the first ends at once.
+
+    A motion that begins anew just before a sample need not take steps as short as what is left.
+    """
+    first, *more = np.diff(samples[:3]).tolist()
+    return max([first, *(span for span in more if first < AT_ONCE * span)])
+
+
 def march(
     method: Method, times: ArrayLike, y0: ArrayLike, *, most: int = 100_000_000
 ) -> Iterator[Step]:
@@ -201,9 +213,10 @@ def march(
     if len(samples) == 1:
         return
     size = sizes(np.abs(y), method.tolerance)
-    first = _first_step(y, slope, size, samples[1] - samples[0])
+    first = _first_step(y, slope, size, _span(samples))
     none = np.zeros_like(y)
-    walker = _Walker(method, samples[0], y, none, np.abs(y), first, none)
+    ahead = AT_ONCE * _span(samples)
+    walker = _Walker(method, samples[0], y, none, np.abs(y), first, none, ahead)
     taken = 0
     for target in samples[1:]:
         while walker.t < target:

@@ -2,15 +2,18 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from ...cases.scene import Scene
 from ...cases.trajectory import Trajectory
 from ..formalisms.derivative import along
 from ..system import Array, Mode, Pose, System
 from .follow import Followed, Kept
 from .stuck import Stuck
+from .turns import Counted, counted
 
 Beside = Callable[[int, float, Mapping[str, Pose]], Mapping[str, float]]
 """(number of the phase, t, poses) → reactions that somebody else derives for the same motion."""
@@ -20,13 +23,15 @@ Beside = Callable[[int, float, Mapping[str, Pose]], Mapping[str, float]]
 class Answer:
     """A system, how it moved, and who derives the reactions that it does not know itself.
 
-    accelerates: whether its bodies' accelerations are asked for too.
+    accelerates: whether its bodies' accelerations are asked for too. scene: of which the turns of
+    joints are counted; None: of nothing.
     """
 
     system: System
     followed: Followed
     beside: Beside = lambda phase, t, poses: {}
     accelerates: bool = False
+    scene: Scene | None = None
 
     def trajectory(self, times: Array, y: Array | None = None) -> Trajectory:
         """The samples; of another motion y (N, ·) through the same phases, if given.
@@ -35,12 +40,26 @@ class Answer:
         """
         y = self.followed.y if y is None else y
         phases = self.followed.phase.tolist()
-        return self._bodies(zip(times.tolist(), phases, y, strict=True), forces=True)
+        rows = zip(times.tolist(), phases, y, strict=True)
+        return self.turns.told(self._bodies(rows, forces=True))
+
+    @cached_property
+    def turns(self) -> Counted:
+        """The turns of joints in space, counted along the march."""
+        return counted(self.scene, self.system, self.followed) if self.scene else Counted()
+
+    def march(self, *, forces: bool) -> Trajectory:
+        """The start and the ends of all steps, with reactions or without: closer than samples.
+
+        Raises Stuck as `trajectory` does.
+        """
+        return self.turns.told(self._bodies(self.followed.march, forces=forces))
 
     def record(self, *, forces: bool) -> Trajectory:
         """The rows that were kept on the way, with reactions or without."""
         phase = np.array([row[1] for row in self.followed.rows], dtype=np.int64)
-        return replace(self._bodies(self.followed.rows, forces=forces), phase=phase)
+        record = replace(self._bodies(self.followed.rows, forces=forces), phase=phase)
+        return self.turns.told(record)
 
     def _bodies(self, rows: Iterable[Kept], *, forces: bool) -> Trajectory:
         times: list[float] = []

@@ -5,6 +5,7 @@ until it ends on the zero.
 """
 
 from collections.abc import Callable, Sequence
+from functools import cache
 
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
@@ -166,10 +167,13 @@ def _near(
     return (float(turn.x), right) if turn.fun < 0.0 else None
 
 
-def _root(g: Callable[[float], float], left: float, right: float) -> float:
+def _root(values: Callable[[float], float], left: float, right: float) -> float:
     """Just beyond the zero between a positive value and one that is not: g has fallen there."""
-    if g(right) > 0.0:  # an implicit step repeated differs by rounding: the zero is here
+    g = cache(values)  # an implicit step repeated differs by rounding
+    if g(right) > 0.0:  # so that the zero is here
         return right
+    if not g(left) > 0.0:  # or there
+        return left
     root = float(brentq(g, left, right, xtol=ROOT, rtol=4 * np.finfo(float).eps))
     beyond = ROOT
     while root < right and g(root) > 0.0:

@@ -10,6 +10,7 @@ from numpy.linalg import LinAlgError
 from numpy.typing import NDArray
 
 from ..coverage import look
+from ..integrators.budget import motion, spend
 from ..integrators.explicit import DormandPrince
 from ..integrators.implicit import Radau
 from ..integrators.march import IntegrationError, Method, Slope, march
@@ -17,12 +18,13 @@ from ..integrators.radau import radau_table
 from ..system import Array, Guard, Mode, System
 from .crossing import INSIDE, TOGETHER, Fall, Within, clear, first
 from .inside import inside
-from .stops import between, on_samples, stops
+from .stops import between, on_sample, on_samples, stops
 from .stuck import Stuck, Watched, slope
 from .zeno import MOST, ZenoError, accumulation, ends_here, settles
 
 TOLERANCE = 1e-15  # per step; the integrators do not go below 4 ε, so: as well as doubles can
 STAGES = 5  # of the implicit integrator
+GUARD = 3  # evaluations that looking at a guard in a step is worth: judged, not measured
 
 Chosen = Callable[[Mode, Slope, int], Method]
 """(mode, its slope, size of y) → the integrator that follows it."""
@@ -57,8 +59,9 @@ class Followed:
     """States y (N, ·), (q, v) each, at the samples, and the changes of mode in order.
 
     A phase lasts from one change to the next; `phase` (N,) numbers it at each sample and `phases`
-    names its mode. rows: the accepted steps with three states inside each, if they were asked for;
-    an event stands there twice, as the last row of one phase and the first of the next.
+    names its mode. march: the start and the end of every accepted step. rows: the same with three
+    states inside each step, if they were asked for. An event stands in both twice, as the last row
+    of one phase and the first of the next.
     """
 
     y: Array
@@ -66,6 +69,7 @@ class Followed:
     phases: tuple[str, ...]
     changes: tuple[Change, ...]
     steps: int
+    march: tuple[Kept, ...] = ()
     rows: tuple[Kept, ...] = ()
 
     @property
@@ -85,12 +89,13 @@ def follow(system: System, times: Array, *, by: Chosen = either, every: bool = F
     by: the integrator of each mode. every: whether the rows are kept. Raises ZenoError where the
     events do not end, and Stuck where the steps shrink to nothing or the equations have no answer.
     """
+    motion(float(times[0]), float(times[-1]))
     walk = _Walk(system, np.asarray(times, dtype=np.float64), by, every)
     while walk.lasts():
         walk.through_one_mode()
     return Followed(
         np.array(walk.y), np.array(walk.phase, dtype=np.int64), tuple(walk.phases),
-        tuple(walk.changes), walk.steps, tuple(walk.rows),
+        tuple(walk.changes), walk.steps, tuple(walk.march), tuple(walk.rows),
     )  # fmt: skip
 
 
@@ -106,6 +111,7 @@ class _Walk:
     phase: list[int] = field(default_factory=list)
     phases: list[str] = field(default_factory=list)
     changes: list[Change] = field(default_factory=list)
+    march: list[Kept] = field(default_factory=list)
     rows: list[Kept] = field(default_factory=list)
     steps: int = 0
     passed: float = -math.inf  # the last corner
@@ -145,7 +151,7 @@ class _Walk:
         falls = [here(_falling(mode, guard)) for guard in guards]
         f, bare = here(watched), here(slope(mode))
         method, probe = self.by(mode, f, len(self.now)), self.by(mode, bare, len(self.now))
-        begins = True
+        begins, probed = True, 0
         look()
         for step in march(method, ends, self.now):
             self.steps += 1
@@ -160,15 +166,18 @@ class _Walk:
             spent = self.spent if begins else None
             near = falls if looks else ()
             found = first(near, step.t, points, states, state, begins=begins, spent=spent)
+            spend(probe.evaluations - probed + GUARD * len(guards), step.t)
+            probed = probe.evaluations
             if found is not None:
                 i, after = found
                 self._note(step.t, [part * after for part in (*INSIDE, 1.0)], state)
                 self._switch(guards[i], i, step.t + after, state(after))
                 return
             begins = False
+            self._stepped(step.t_next, step.y_next)
             self._note(step.t, points[1:], state, states[1:])
-            self.t, self.now = step.t_next, step.y_next
-            self._keep(self.t)
+            self.now = step.y_next
+            self._keep(step.t_next)
         if self.t == corner:
             self._cross(mode)
 
@@ -180,7 +189,7 @@ class _Walk:
             self._change(Change(None, 0, self.t, self.phases[-1], name, before, np.append(q, v)))
 
     def _keep(self, t: float) -> None:
-        """A sample, if there is one at t."""
+        self.t = t  # and a sample, if there is one
         if len(self.y) < len(self.times) and self.times[len(self.y)] <= t:
             self.y.append(self.now)
             self.phase.append(len(self.changes))
@@ -197,11 +206,17 @@ class _Walk:
 
     def _enter(self, mode: str) -> None:
         self.phases.append(mode)
+        self._stepped(self.t, self.now)
         if self.every:
             self.rows.append((self.t, len(self.changes), self.now))
 
+    def _stepped(self, t: float, y: Array) -> None:
+        if t <= self.stops[-2]:  # and not behind the last sample
+            self.march.append((t, len(self.changes), y))
+
     def _switch(self, guard: Guard, i: int, t: float, before: Array) -> None:
         look()
+        self._stepped(t, before)
         ended = self.phases[-1]
         parted = self.system.modes[ended].parted(before)
         mode, q, v = guard.then(t, *parted)
@@ -210,6 +225,10 @@ class _Walk:
             mode, q, v = guard.at_last(t, *parted)
         self.spent = i if mode == ended else None
         k, after = len(self.fired[name]), np.concatenate([q, v])
+        if guard.vain and mode == ended and np.array_equal(before, after):
+            self.t, self.now = t, before
+            self.fired[name].pop()
+            return
         self._change(Change(guard.event, k, t, ended, mode, before, after))
 
     def _change(self, change: Change) -> None:
@@ -218,7 +237,7 @@ class _Walk:
         self._enter(change.mode_after)
         if self.t - self.times[len(self.y) - 1] <= TOGETHER:
             self.y[-1], self.phase[-1] = self.now, len(self.changes)
-        self._keep(self.t)
+        self._keep(on_sample(self.t, self.stops))
 
     def _piles_up(self, name: str, t: float, *, refused: bool) -> bool:
         """Whether this was the last of infinitely many; raises ZenoError if that is refused."""

@@ -9,6 +9,7 @@ import numpy as np
 from ..system import Array
 from .crossing import TOGETHER
 
+AT_ONCE = 256  # ulp: in so little time a force that grows from zero is nothing but rounding
 Timed = Callable[[float, Array], Any]
 """(t, y) → a slope, or what guards a mode."""
 
@@ -33,6 +34,12 @@ def on_samples(corners: Iterable[float], samples: Array) -> list[float]:
         near = float(samples[np.argmin(np.abs(samples - corner))])
         found.append(near if abs(near - corner) <= TOGETHER else corner)
     return found
+
+
+def on_sample(t: float, samples: Array) -> float:
+    """The time of an event, or the sample that comes at once: no step leads there."""
+    ahead = samples[samples >= t][:1].tolist()
+    return next((sample for sample in ahead if sample - t <= AT_ONCE * math.ulp(sample)), t)
 
 
 def between(passed: float, corner: float) -> Callable[[Timed], Timed]:

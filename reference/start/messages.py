@@ -31,6 +31,15 @@ def several(case: Case, count: int, coordinate: str, values: list[str]) -> CaseE
     )
 
 
+def none_near(case: Case, name: str, values: list[str]) -> CaseError:
+    """Ways to assemble, of which none is where `near` says; told by what is farthest from it."""
+    part, _, field = name.partition(".")
+    has = " or ".join(dict.fromkeys(values))
+    place = ("near", part, field) if field in case.near[part].given else ("near", part)
+    what = f"the mechanism cannot be assembled near this: {name} is {has}; say one of these"
+    return CaseError([case.mistake(place, what)])
+
+
 def missing(case: Case, count: int, names: list[str]) -> CaseError:
     """Coordinates or rates that follow from nothing."""
     return initial(
@@ -66,3 +75,12 @@ def dependent(case: Case, section: str, part: str, such: str = "") -> CaseError:
 def rates_violate(case: Case, part: str) -> CaseError:
     """The given rates contradict each other."""
     return initial(case, f"the rates violate {part}: no motion satisfies all that is given")
+
+
+def moves(case: Case, point: str) -> CaseError:
+    """The given rates move a point that is to stand still."""
+    return initial(
+        case,
+        f"`on` says that {point} does not move at the start, and the rates that are given move it: "
+        f"leave these out, or give its place instead ({point.replace('.', ': {', 1)}: [x, y]}})",
+    )

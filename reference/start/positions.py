@@ -14,7 +14,9 @@ RANK = 1e-9  # singular values below this part of the largest count as zero
 DEAD = 1e-5  # and below this, a rounding of 1e-16 already moves the start by more than 1e-11
 SEEDS = 200  # starts from which other assemblies are looked for
 SAME = 1e-6  # solutions nearer than this (in sizes and rad) are the same one
-NEAR = 0.5  # rad or sizes: a solution this close to `near` is the one that was meant
+NEAR = 0.5  # rad or sizes: of ways this close to `near` only nearer ones are looked for
+BESIDE = 20  # starts around it: two ways this close to each other draw about as many each
+FAR = math.pi / 2  # rad, or as many sizes: what `near` says and is so far off, is a mistake
 FULL_TURN = 1e-9  # rad: −180° within rounding is written 180°
 
 
@@ -28,11 +30,12 @@ def positions(closure: Closure) -> Array:
     nearest = gap, q
     closed = CLOSED * closure.rounding
     found = [q] if gap < closed else []
+    seeds = _seeds(closure, SEEDS)
     if found:
         _determined(closure, q)
-        if wanted.given and wanted.distance(q) < NEAR:
-            return q
-    for guess in _seeds(closure):
+        if wanted.given and wanted.distance(q) < NEAR:  # but another one may be nearer still
+            seeds = _seeds(closure, BESIDE, around=wanted)
+    for guess in seeds:
         q, gap = _newton(closure, guess)
         nearest = min(nearest, (gap, q), key=lambda pair: pair[0])
         if gap < closed and all(_apart(closure, q, other) > SAME for other in found):
@@ -44,7 +47,19 @@ def positions(closure: Closure) -> Array:
     _determined(closure, ways[0])
     if len(ways) > 1:
         raise refusal.several_ways(closure, ways)
+    if wanted.distance(ways[0]) > FAR:
+        told = [max(wanted.apart(q), key=lambda each: abs(each[1])) for q in found]
+        raise messages.none_near(closure.case, told[0][0], [value for *_, value in told])
+    _on_its_turns(closure, ways[0])
     return ways[0]
+
+
+def _on_its_turns(closure: Closure, q: Array) -> None:
+    """Refuses a joint's angle that is a turn more or less than its bodies' angles are apart."""
+    for part in closure.posed:
+        for off, angular in zip(part.f(0.0, q.tolist()), part.angular, strict=True):
+            if angular and abs(off) > math.pi:
+                raise refusal.another_turn(closure, part.part, off)
 
 
 class _Near:
@@ -57,33 +72,45 @@ class _Near:
         self.given = bool(self.numbers or self.points)
 
     def guess(self) -> Array:
-        q = np.zeros(self.closure.n)
+        return _laid_out(self.closure, self.said(np.zeros(self.closure.n)), keep=self.numbers)
+
+    def said(self, q: Array) -> Array:
+        """q with what is near and what is given in their places."""
         for i, value in (self.numbers | self.closure.given).items():
             q[i] = value
-        return _laid_out(self.closure, q, keep=self.numbers.keys())
+        return q
 
     def distance(self, q: Array) -> float:
         """In rad and sizes; 0 if nothing is said."""
+        return max((abs(off) for _, off, _ in self.apart(q)), default=0.0)
+
+    def apart(self, q: Array) -> Iterator[tuple[str, float, str]]:
+        """Of all that is said its name, how far q is from it, in rad or sizes, and what q has."""
         c = self.closure
-        apart = [_turned(c, i, q[i] - value) / c.units[i] for i, value in self.numbers.items()]
+        for i, value in self.numbers.items():
+            off = _turned(c, i, q[i] - value) / c.units[i]
+            yield c.where.names[i], off, refusal.shown(q[i], turns=bool(c.turning[i]))
         for anchor, at in self.points:
-            p = c.where.point(anchor, 0.0, q.tolist(), q.tolist())
-            apart += [(p.r[0] - at[0]) / c.size, (p.r[1] - at[1]) / c.size]
-        return max(map(abs, apart), default=0.0)
+            r = c.where.point(anchor, 0.0, q.tolist(), q.tolist()).r
+            off = math.hypot(r[0] - at[0], r[1] - at[1]) / c.size
+            yield str(anchor), off, f"[{r[0]:.4g}, {r[1]:.4g}]"
 
 
-def _seeds(closure: Closure) -> Iterator[Array]:
-    """Guesses with the free angles anywhere; without free angles the equations are linear."""
+def _seeds(closure: Closure, count: int, around: _Near | None = None) -> Iterator[Array]:
+    """Guesses with the free angles anywhere; without free angles the equations are linear.
+
+    around: what is near is kept.
+    """
     angles = [i for i in closure.free if closure.turning[i]]
     q = np.zeros(closure.n)
     q[list(closure.given)] = list(closure.given.values())
     rng = np.random.default_rng(seed=1)  # any: the same starts in every run
     rods = any(joint.swings for joint in closure.case.scene.joints.values())
     places = [i for i in closure.free if not closure.turning[i]] if rods else []
-    for _ in range(SEEDS if angles or places else 0):
+    for _ in range(count if angles or places else 0):
         q[angles] = rng.uniform(-math.pi, math.pi, len(angles))
         q[places] = closure.reach * rng.uniform(-2.0, 2.0, len(places))
-        yield _laid_out(closure, q)
+        yield _laid_out(closure, q) if around is None else _laid_out(closure, around.said(q.copy()))
 
 
 def _laid_out(closure: Closure, guess: Array, keep: Collection[int] = ()) -> Array:

@@ -40,6 +40,8 @@ def _of_one(closure: Closure, q: Array, v: Array, columns: list[int], free: list
     residual, violated = _open(rows, g, scaled)
     if violated:
         worst = owners[int(np.argmax(np.abs(residual)))]
+        if any(worst is part for part in closure.still):
+            raise messages.moves(closure.case, worst.part)
         raise messages.rates_violate(closure.case, worst.part)
     names = [_as_rate(closure.where.names[i]) for i in free]
     if loose := undetermined(rows[:, free], names, RANK):

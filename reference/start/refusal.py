@@ -29,14 +29,24 @@ def several_ways(closure: Closure, ways: list[Array]) -> CaseError:
     differ = np.where(closure.turning, np.abs(np.sin(differ / 2)), differ / closure.size)
     turning = closure.turning & (differ > np.max(differ) / 10)  # angles are easier to guess
     i = int(np.argmax(np.where(turning, differ, 0.0) if np.any(turning) else differ))
-    values = list(dict.fromkeys(_shown(closure, i, q) for q in ways))
+    shown_each = (shown(q[i], turns=bool(closure.turning[i])) for q in ways)
+    values = list(dict.fromkeys(shown_each))
     return messages.several(closure.case, len(ways), closure.where.names[i], values)
 
 
-def _shown(closure: Closure, column: int, q: Array) -> str:
-    if closure.turning[column]:
-        return f"{q[column] * DEGREES:.4g} deg"
-    return f"{q[column]:.4g} m"
+def shown(value: float, *, turns: bool) -> str:
+    """A coordinate as a file has it."""
+    return f"{value * DEGREES:.4g} deg" if turns else f"{value:.4g} m"
+
+
+def another_turn(closure: Closure, joint: str, off: float) -> CaseError:
+    """A joint's angle that is whole turns from that of its bodies; off [rad]: how far."""
+    given = closure.case.initial[joint].given["angle"]
+    what = (
+        f"is {given:.6g} rad, but the bodies start {given + off:.6g} rad apart, which is another "
+        "turn: angles count their turns, so give both on the same one"
+    )
+    return CaseError([closure.case.mistake(("initial", joint, "angle"), what)])
 
 
 def open_ended(

@@ -17,6 +17,7 @@ from ..certificate.errors import beyond, errors
 from ..coverage import look
 from ..generated.free import FreeBodies
 from ..generated.space.chain import SpatialChain
+from ..integrators.now import doing, reached
 from ..stated import Stated
 from ..system import Array, Pose
 from ..systems.stated import STATED
@@ -85,7 +86,10 @@ def rows(case: Case, mode: Stated) -> Iterator[tuple[Array, Array, Array]]:
     assert case.states is not None
     drawn = case.states.drawn(case.scene)
     stacked = np.stack([drawn[name] for name in mode.coordinates], axis=1)  # (N, n, 3)
-    yield from ((row[:, 0], row[:, 1], row[:, 2]) for row in stacked)
+    doing("its states", 0.0, len(stacked), unit="")
+    for k, row in enumerate(stacked):
+        reached(k)
+        yield row[:, 0], row[:, 1], row[:, 2]
 
 
 def _trajectory(
@@ -138,12 +142,11 @@ def _worked(case: Case, mode: Stated, built: Trajectory) -> Iterator[Check]:
     yield Check("coordinates read back", read, LAW)
     look()
     each = [by_virtual_work(mode, case.scene.gravity, *row) for row in rows(case, mode)]
-    pairs = [
-        (built.reactions[effort], np.array([row[name] for row in each]))
+    size = worst(term for row in each for _, term in row.values())
+    apart = (
+        relative(built.reactions[effort], np.array([row[name][0] for row in each]), least=size)
         for name, effort in efforts(case.scene)
-    ]
-    size = worst(worst(np.abs(own)) for own, _ in pairs)
-    apart = (relative(own, other, least=size) for own, other in pairs)
+    )
     yield Check("Lagrange (2.44) against d'Alembert (2.39)", worst(apart), LAW)
 
 

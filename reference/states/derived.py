@@ -109,17 +109,29 @@ def efforts(scene: SpatialScene) -> Iterator[tuple[str, str]]:
             yield f"{joint.name}.{freedom.name}", f"{joint.name}.{effort_of(freedom)}"
 
 
-def by_virtual_work(mode: Stated, g: Any, q: Array, v: Array, a: Array) -> Mapping[str, float]:
-    """(2.39), (2.50) Σ (m (r̈_c − g)·∂ṙ_c/∂q̇ᵃ + (J ω̇ + ω × J ω)·∂ω/∂q̇ᵃ), by coordinate."""
+def by_virtual_work(
+    mode: Stated, g: Any, q: Array, v: Array, a: Array
+) -> Mapping[str, tuple[float, float]]:
+    """(2.39), (2.50) Σ (m (r̈_c − g)·∂ṙ_c/∂q̇ᵃ + (J ω̇ + ω × J ω)·∂ω/∂q̇ᵃ), by coordinate.
+
+    And the size of its terms: the sum of what each product of two numbers has, however they cancel.
+    """
     poses, changes = mode.poses(0.0, q, v), moving(mode, q, v, a)
     still = mode.poses(0.0, q, 0.0 * v)
-    found = dict.fromkeys(mode.coordinates, 0.0)
+    found = dict.fromkeys(mode.coordinates, (0.0, 0.0))
     for name, e in zip(mode.coordinates, np.eye(len(v)), strict=True):
         virtual = mode.poses(0.0, q, e)
         for body, mass in mode.masses.items():
             way = np.array(virtual[body], float) - np.array(still[body], float)
             omega = np.array(poses[body][SPACE.spin])
             force = mass.m * (changes[body][SPACE.velocity] - np.asarray(g))
-            moment = mass.J @ changes[body][SPACE.spin] + np.cross(omega, mass.J @ omega)
-            found[name] += float(force @ way[SPACE.velocity] + moment @ way[SPACE.spin])
+            spun = np.cross(omega, mass.J @ omega)
+            moment = mass.J @ changes[body][SPACE.spin] + spun
+            done = float(force @ way[SPACE.velocity] + moment @ way[SPACE.spin])
+            # What cancels in ω × J ω is as large as J ω², also where ω is along an axis of J.
+            fast = np.linalg.norm(mass.J) * (omega @ omega)
+            size = np.abs(force) @ np.abs(way[SPACE.velocity])
+            size += (np.abs(moment) + fast) @ np.abs(way[SPACE.spin])
+            work, largest = found[name]
+            found[name] = work + done, largest + float(size)
     return found

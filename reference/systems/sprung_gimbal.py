@@ -127,7 +127,7 @@ class SprungGimbal(Mode):
         return np.array([self.M * np.sin(self.Omega * t), 0.0 * t])
 
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
-        """(2.8) the centre stays; E₁ by the turns θ about n₁, then φ about n₂.
+        """(2.8) the centre stays; E₁ by the turns θ about n₁, then φ about n₂, which are told too.
 
         The quaternion is (cos θ/2, 0, 0, sin θ/2) ∘ (cos φ/2, n₂ sin φ/2), and in body axes
         ω = θ̇ n₁ + φ̇ n₂, n₁ turned by −φ about n₂.
@@ -139,7 +139,8 @@ class SprungGimbal(Mode):
         one = (s * k * (1 - cos), s * sin, k * k + s * s * cos)
         omega = (v[0] * one[0] + v[1] * s, v[0] * one[1], v[0] * one[2] + v[1] * k)
         still = 0.0 * q[0]
-        return {"globe": (still, still, still, *attitude, still, still, still, *omega)}
+        globe = (still, still, still, *attitude, still, still, still, *omega)
+        return {"globe": globe, "gimbal.theta": (q[0],), "gimbal.phi": (q[1],)}
 
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight, and M₁ about n₁ and M₂ about n₂ as one moment, in the plane of both."""

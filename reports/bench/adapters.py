@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -10,7 +11,10 @@ from ...cases.case import Case
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ...engines.engine import Diverged, Engine, Loop, Plain, Plan, Realised, Refusal, Start
+from ...engines.probe import guarded
 from ..selection import choose_cases
+from ..spelled import why
+from ..trial.answers import plans
 from ..trial.ladder import wanted_reactions
 from ..trial.start import assembled
 from ..trial.states import moving
@@ -73,15 +77,20 @@ def rows(case: Case, engines: list[Engine], amount: Amount) -> Iterator[Row]:
     start = assembled(moving(case))
     for engine in engines:
         if isinstance(engine, Loop):
-            for way in engine.plans(case.scene, start):
+            ways, error = guarded(partial(plans, engine, case.scene, start))
+            if error is not None:
+                yield Row(case.name, engine.name, engine.setting, "native", because=why(error))
+            for way in ways or ():
                 head = Row(case.name, engine.name, engine.setting, way.realised)
                 if isinstance(way, Refusal):
                     yield replace(head, because=f"refused: {way.because}")
                     continue
-                try:
-                    yield _row(head, Pair(case, start, engine, way, amount))
-                except Diverged as gone:
-                    yield replace(head, because=str(gone))
+                found, error = guarded(partial(_row, head, Pair(case, start, engine, way, amount)))
+                yield found or replace(head, because=_lost(error))
+
+
+def _lost(error: BaseException | None) -> str:
+    return str(error) if error is None or isinstance(error, Diverged) else why(error)
 
 
 def _row(head: Row, pair: "Pair") -> Row:

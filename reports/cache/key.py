@@ -4,6 +4,7 @@ import os
 import platform
 import sys
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, fields, is_dataclass
 from functools import cache, partial
 from hashlib import sha256
@@ -17,47 +18,55 @@ import scipy
 
 from ...cases.case import Case
 from ...engines.engine import Engine
-from .. import BEGUN
+from .. import BEGUN, pins
+from .digest import Place, Stat, told
+from .parts import BASIS, Parts, located
+from .store import Store
 
 ROOT = Path(__file__).parents[2]
-REFERENCE = ("cases", "reference")
-ROWS = ("reports/row.py", "reports/unit.py")
+REFERENCE = ("cases", "reference", "reports/cache/form.py")
+ROWS = tuple(f"reports/{name}.py" for name in ("row", "unit", "pins", "limit", "spelled"))
 JUDGING = ("engines/*.py", "reports/trial", "reports/judge", "reports/events", *ROWS)
 TRYING = ("reports/search/candidate.py", "reports/search/errors.py")
-ROUNDING = ("NPY_", "OPENBLAS_", "OMP_", "MKL_", "BLIS_")  # variables that choose other kernels
+ROUNDING = ("NPY_", "OPENBLAS_", "OMP_", "MKL_", "BLIS_", "GLIBC_TUNABLES", "LD_", "DYLD_")
+"""Variables that choose other kernels, or other libraries."""
 
 
 @dataclass(frozen=True)
 class Keys:
     """The keys of results of the code as it was when the run began."""
 
-    files: tuple[tuple[Path, int, int], ...]  # each file of code, when it was changed, its size
+    files: tuple[tuple[Path, Stat], ...]  # each file of code, and what the disk says of it
     salt: str  # of code that is newer than the process: nobody else has this word
+    memo: Store | None = None  # of digests; None: no result outlives the run, nor needs them
+    libraries: str = ""  # what is in those that compute
     _described: dict[int, tuple[object, str]] = field(default_factory=dict, compare=False)
+    _parts: dict[tuple[type, str], Parts] = field(default_factory=dict, compare=False)
 
     @staticmethod
-    def now() -> "Keys":
+    def now(memo: Store | None) -> "Keys":
+        """memo: where results last, or None where they go with the run."""
         files = tuple(_seen())
-        newer = any(changed > BEGUN * 1e9 for _, changed, _ in files)
-        return Keys(files, uuid4().hex if newer else "")
+        newer = any(max(stat[2], stat[3]) > BEGUN * 1e9 for _, stat in files)
+        return Keys(files, uuid4().hex if newer else "", memo, basis(memo) if memo else "")
 
     def hold(self) -> bool:
         """Whether the code is still what it was: else a result may be of a mixture.
 
         Asked for every result. A new file alone changes none: something known must import it.
         """
-        return all(_is(*file) for file in self.files)
+        seen = all(_is(*file) for file in self.files)
+        return seen and all(parts.hold() for parts in self._parts.values())
 
     def solution(self, case: Case) -> str:
         """Of a case's reference."""
-        return _word(
-            "solution", self.salt, self._once(case, _case), self._code(REFERENCE), machine()
-        )
+        of = self._once(case, _case), self._code(REFERENCE)
+        return _word("solution", self.salt, *of, machine(), self.libraries)
 
     def ways(self, case: Case, engine: Engine) -> str:
         """Of how an engine would run it."""
-        told = self._once(engine, _engine)
-        return _word("ways", self.solution(case), told, self._code(JUDGING))
+        of = self._once(engine, self._engine)
+        return _word("ways", self.solution(case), of, self._code(JUDGING))
 
     def _once(self, thing: Any, describe: Callable[[Any], str]) -> str:
         """A case meets every engine, and an engine every case: each is described once in a run."""
@@ -67,6 +76,24 @@ class Keys:
                 describe(thing),
             )  # kept, so that its id stays its own
         return self._described[id(thing)][1]
+
+    def _engine(self, engine: Engine) -> str:
+        """Its settings, its version, all files of it and its adapter, and what judges its version.
+
+        A word of its own for what cannot be told from another of its kind, or is newer than the
+        process, which may have loaded what was there before.
+        """
+        try:
+            word = _word(described(engine), engine.version, pins.version(engine.name) or "")
+            if self.memo is None:
+                return word
+            kind = type(engine), engine.name
+            if kind not in self._parts:
+                self._parts[kind] = Parts.of(engine, self.memo)
+            parts = self._parts[kind]
+            return _word(word, parts.word(), uuid4().hex if parts.newer(BEGUN) else "")
+        except (TypeError, OSError):
+            return uuid4().hex
 
     def _code(self, places: tuple[str, ...]) -> str:
         return _code(places, self.files)
@@ -98,14 +125,6 @@ def _case(case: Case) -> str:
     return described({f.name: getattr(case, f.name) for f in fields(case) if f.name != "source"})
 
 
-def _engine(engine: Engine) -> str:
-    """Its settings, its version and its adapter's code."""
-    try:
-        return described(engine) + engine.version + _hashed(_modules(_home(type(engine))))
-    except TypeError:  # something that cannot be told from another of its kind
-        return uuid4().hex
-
-
 def described(value: Any) -> str:
     """Equal for equal values, and for no others. Raises TypeError where that cannot be said."""
     kind = type(value)
@@ -133,17 +152,6 @@ def described(value: Any) -> str:
     raise TypeError(f"{name} cannot be described")
 
 
-def _home(kind: type) -> Path:
-    """The folder of an engine's package, or its one file."""
-    names = kind.__module__.split(".")
-    own = 3 if names[0] == "textmech" else 1  # textmech.engines.<name>; theirs from the top
-    for known in (".".join(names[:own]), kind.__module__):
-        file = getattr(sys.modules.get(known), "__file__", None)
-        if file is not None:
-            return Path(file).parent if Path(file).name == "__init__.py" else Path(file)
-    raise TypeError(f"{kind.__module__} has no file")
-
-
 def _modules(place: Path) -> Iterable[Path]:
     if place.is_dir():
         return sorted(place.rglob("*.py"))
@@ -151,44 +159,52 @@ def _modules(place: Path) -> Iterable[Path]:
 
 
 @cache
-def _code(places: tuple[str, ...], seen: tuple[tuple[Path, int, int], ...]) -> str:
+def _code(places: tuple[str, ...], seen: tuple[tuple[Path, Stat], ...]) -> str:
     """Of code that was seen so: read once in a run."""
-    return _hashed(path for place in places for path in _modules(ROOT / place))
+    paths = [path for place in places for path in _modules(ROOT / place)]
+    return _word(*(f"{path.name} {sha256(path.read_bytes()).hexdigest()}" for path in paths))
 
 
-def _hashed(paths: Iterable[Path]) -> str:
-    return _word(*(f"{path.name} {_text(path, path.stat().st_mtime_ns)}" for path in paths))
-
-
-@cache
-def _text(path: Path, changed: int) -> str:
-    return sha256(path.read_bytes()).hexdigest()
-
-
-def _is(path: Path, changed: int, size: int) -> bool:
+def _is(path: Path, stat: Stat) -> bool:
     """Whether the file is what was seen."""
-    try:
-        stat = path.stat()
-    except OSError:
-        return False
-    return (stat.st_mtime_ns, stat.st_size) == (changed, size)
+    with suppress(OSError):
+        return told("", path.stat()) == stat
+    return False
 
 
-def _seen() -> Iterable[tuple[Path, int, int]]:
+def _seen() -> Iterable[tuple[Path, Stat]]:
     for room in ("cases", "reference", "engines", "reports"):
         for path in _modules(ROOT / room):
-            stat = path.stat()
-            yield path, stat.st_mtime_ns, stat.st_size
+            yield path, told("", path.stat())
+
+
+def basis(memo: Store) -> str:
+    """The contents of the libraries that compute, tests left out; memo: what is known of them.
+
+    A word that nobody else has where they are newer than the process, which has loaded others.
+    """
+    folders = [folder for name in BASIS for folder in located(name)]
+    libraries = [folder.with_name(f"{folder.name}.libs") for folder in folders]
+    places = [Place(path, tests=False) for path in [*folders, *libraries] if path.exists()]
+    stats = [place.stats() for place in places]
+    if any(max(file[2], file[3]) > BEGUN * 1e9 for files in stats for file in files):
+        return uuid4().hex
+    return _word(*(p.told(files, memo).digest for p, files in zip(places, stats, strict=True)))
 
 
 @cache
 def machine() -> str:
-    """What decides the last digits: interpreter, libraries, the processor's vector units."""
+    """What decides the last digits: interpreter, libraries, the processor's vector units.
+
+    Not how many cores it has: nothing here multiplies matrices so large that a library would share
+    them out, and rows of one and of many were always the same.
+    """
     found = np.show_config(mode="dicts") or {}
     variables = {k: v for k, v in os.environ.items() if k.startswith(ROUNDING)}
     return described(
         (
             sys.version,
+            sys.flags.optimize,  # without assertions code is other code
             platform.system(),
             platform.machine(),
             platform.libc_ver(),

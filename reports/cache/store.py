@@ -1,9 +1,10 @@
 """Where results lie: one file each, whole or not there, and the least used go first."""
 
+import errno
 import os
-import shutil
+import re
+import stat
 import tempfile
-import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass
@@ -11,49 +12,42 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from ..lock import abandoned, locked
+from .. import passing as folder
+from ..content import content
+from ..lock import locked
+from .fits import fits
 from .form import packed, unpacked
 
 LIMIT = 500_000_000  # bytes, some ten full runs with different code
 FOLDER = "TEXTMECH_CACHE"  # the variable that names another folder
 MAKING = ".making-"
 PASSING = "textmech-run-"
-NEW = 60.0  # s: a folder may be made, and not yet held
 DIGEST = sha256().digest_size
+_OURS = re.compile(r"[0-9a-f]{64}|\.making-[a-z0-9_]{8}")
+_SHELF = re.compile(r"[0-9a-f]{2}")
 
 
 def by_default() -> Path:
-    """The user's own: never the project's."""
+    """The user's own: never the project's. The same from wherever a process looks."""
     base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    return Path(os.environ.get(FOLDER) or Path(base) / "textmech")
+    return Path(os.environ.get(FOLDER) or Path(base) / "textmech").absolute()
 
 
 def usable() -> "Store | None":
     """The user's store, or None where it cannot be written to."""
     with suppress(OSError, RuntimeError):  # no home
-        folder = by_default()
-        folder.mkdir(parents=True, exist_ok=True, mode=0o700)
-        if os.access(folder, os.W_OK):
-            return Store(folder)
+        place = by_default()
+        place.mkdir(parents=True, exist_ok=True, mode=0o700)
+        if os.access(place, os.W_OK):
+            return Store(place)
     return None
 
 
 @contextmanager
 def passing() -> Iterator["Store"]:
     """A store for one run, of which nothing stays; what killed runs left behind goes too."""
-    _sweep(Path(tempfile.gettempdir()))
-    with tempfile.TemporaryDirectory(prefix=PASSING) as made:
-        folder = Path(made)
-        with locked(folder):
-            yield Store(folder)
-
-
-def _sweep(among: Path) -> None:
-    for folder in among.glob(f"{PASSING}*"):
-        with suppress(OSError):  # another's, or gone
-            old = time.time() - folder.stat().st_mtime > NEW
-            if old and abandoned(folder):
-                shutil.rmtree(folder, ignore_errors=True)
+    with folder.passing(PASSING) as made:
+        yield Store(made)
 
 
 @dataclass(frozen=True)
@@ -62,16 +56,19 @@ class Store:
 
     folder: Path
 
-    def get(self, key: str) -> Any | None:
-        """The result, or None where there is none, or none that is whole."""
-        path = self._path(key)
+    def get(self, key: str, kind: Any = Any) -> Any | None:
+        """The result, or None where there is none, or none that is whole and what was asked for.
+
+        kind: what it has to be, as an annotation says it.
+        """
         try:
-            data = path.read_bytes()
-            if sha256(data[DIGEST:]).digest() != data[:DIGEST]:
-                raise ValueError("cut or changed")
-            os.utime(path)  # used now
-            return unpacked(data[DIGEST:])
-        except (OSError, ValueError, KeyError, TypeError):
+            self._shelf(key)
+            data = content(self._path(key), LIMIT, links=False, touched=True)
+            if _digest(key, data[DIGEST:]) != data[:DIGEST]:
+                return None
+            found = unpacked(data[DIGEST:])
+            return found if fits(found, kind) else None
+        except Exception:  # of bytes that anyone may have written: computed again, it is right
             return None
 
     def put(self, key: str, value: Any) -> None:
@@ -79,11 +76,11 @@ class Store:
         path = self._path(key)
         with suppress(OSError, TypeError):  # of a value that has no form
             data = packed(value)
-            path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+            self._shelf(key, made=True)
             handle, made = tempfile.mkstemp(prefix=MAKING, dir=path.parent)
             try:
                 with os.fdopen(handle, "wb") as file:
-                    file.write(sha256(data).digest() + data)
+                    file.write(_digest(key, data) + data)
                 os.replace(made, path)
             except BaseException:
                 Path(made).unlink(missing_ok=True)
@@ -93,24 +90,25 @@ class Store:
         """Forgets what is in other results by now."""
         for key in keys:
             with suppress(OSError):
+                self._shelf(key)
                 self._path(key).unlink()
 
     @contextmanager
     def alone(self, key: str, waiting: Callable[[], None]) -> Iterator[None]:
         """Waits for another process that computes the same, and then finds its results."""
-        path = self._path(key)
+        path = None
         with suppress(OSError):
-            path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
-        with locked(path, waiting) if path.parent.is_dir() else nullcontext():
+            path = self._shelf(key, made=True) / key
+        with locked(path, waiting) if path else nullcontext():
             yield
 
     def trim(self, limit: int = LIMIT) -> None:
         """Deletes the least recently used beyond the limit [bytes], and what was never finished."""
         found: list[tuple[float, int, Path]] = []
-        for path in self.folder.glob("??/*"):
-            with suppress(OSError):  # another process trims too
-                stat = path.stat()
-                found.append((stat.st_mtime, stat.st_size, path))
+        with suppress(OSError):  # another process trims too
+            for shelf in list(os.scandir(self.folder)):
+                if _SHELF.fullmatch(shelf.name) and shelf.is_dir(follow_symlinks=False):
+                    found += _files(shelf.path)
         total = 0
         for _, size, path in sorted(found, reverse=True):
             total += size
@@ -118,5 +116,31 @@ class Store:
                 with suppress(OSError):
                     path.unlink()
 
+    def _shelf(self, key: str, *, made: bool = False) -> Path:
+        """The entry's folder, which is one. Raises OSError: behind a link lies another's.
+
+        made: where there is none.
+        """
+        shelf = self._path(key).parent
+        if made:
+            shelf.mkdir(parents=True, exist_ok=True, mode=0o700)
+        if not stat.S_ISDIR(shelf.lstat().st_mode):
+            raise NotADirectoryError(errno.ENOTDIR, "is no folder", str(shelf))
+        return shelf
+
     def _path(self, key: str) -> Path:
         return self.folder / key[:2] / key
+
+
+def _digest(key: str, data: bytes) -> bytes:
+    """Of both: what was computed for one key is never taken for another's."""
+    return sha256(key.encode() + b"\0" + data).digest()
+
+
+def _files(shelf: str) -> Iterator[tuple[float, int, Path]]:
+    """(when used, size, path) of what we wrote there, and of nothing else that may lie there."""
+    with suppress(OSError):
+        for file in list(os.scandir(shelf)):
+            if _OURS.fullmatch(file.name) and file.is_file(follow_symlinks=False):
+                found = file.stat(follow_symlinks=False)
+                yield found.st_mtime, found.st_size, Path(file.path)

@@ -11,7 +11,7 @@ from ..show.say import say, tell
 from .answer import as_json
 from .done import finished
 from .folder import Folder
-from .options import allow_long, jobs, named_engines, no_cache
+from .options import allow_long, jobs, named_engines, no_cache, overwrite
 
 
 @click.command()
@@ -46,6 +46,7 @@ from .options import allow_long, jobs, named_engines, no_cache
     help="Write advice.csv there; with --all by default to the committed reports of a checkout, "
     "and outside of one to ./textmech-reports.",
 )
+@overwrite
 @jobs
 @no_cache
 @as_json
@@ -58,6 +59,7 @@ def advise(
     robust: bool,
     every: bool,
     out: Path | None,
+    overwrite: bool,
     jobs: int | None,
     no_cache: bool,
     wants_json: bool,
@@ -77,6 +79,7 @@ def advise(
     """
     from .. import write
     from ..cache import store
+    from ..ours import unasked
     from ..search.advised import Asked, row
     from ..search.session import advised
     from ..selection import choose_cases, choose_engines
@@ -88,6 +91,8 @@ def advise(
         raise click.UsageError("name a CASE, or say --all")
     if every and out is None and not wants_json:
         out = Folder().convert(str(write.by_default()), None, None)
+    if out is not None:
+        unasked(out, [write.ADVICE], overwrite=overwrite)
     chosen = choose_cases(cases, long=allow_long)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # an engine that is broken and that nobody named
@@ -111,5 +116,5 @@ def advise(
                 for line in told(one):
                     say(line)
     if out is not None:
-        write.advice(rows, out)
+        write.advice(rows, out, overwrite=overwrite)
         tell(f"{len(rows)} rows written to {out / write.ADVICE}")

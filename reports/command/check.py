@@ -19,12 +19,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Checked:
-    """A file's cases by name, its mistakes, and of which case's reference a check does not hold."""
+    """A file's cases by name, its mistakes, and of which case's reference a check does not hold.
+
+    otherwise: of which case the system is another scene's, in words.
+    """
 
     file: str
     cases: Sequence[str]
     mistakes: Sequence[Mistake]
     broken: Sequence[tuple[str, "Check"]]
+    otherwise: Sequence[str] = ()
 
 
 @click.command()
@@ -56,6 +60,7 @@ def check(files: tuple[str, ...], wants_json: bool, allow_long: bool) -> None:
 def _checked(file: str, engines: "Sequence[Engine]", *, long: bool) -> Checked:
     from ...reference.solve import solve
     from ..events.states import mistaken
+    from ..judge.uncertified import otherwise
     from ..selection import choose_cases
     from ..trial.work import too_long
 
@@ -71,10 +76,13 @@ def _checked(file: str, engines: "Sequence[Engine]", *, long: bool) -> Checked:
         [case.name for case in cases],
         [mistake for case, solution in solved for mistake in mistaken(case, solution.trajectory)],
         [(case.name, c) for case, solution in solved for c in solution.checks if not c.holds],
+        [what for _, solution in solved if (what := otherwise(solution).rstrip("; "))],
     )
 
 
 def _lines(one: Checked) -> Iterator[str]:
+    for what in dict.fromkeys(one.otherwise):
+        yield f"{one.file}: FAILS: {what}"
     for _, broken in one.broken:
         numbers = f"{broken.difference:.2e} is above {broken.bound:.1e}"
         yield f"{one.file}: FAILS: the reference's {broken.name}: {numbers}"

@@ -25,7 +25,7 @@ def finished(stored: bool) -> Iterator[None]:
         raise
 
 
-def written(frames: "Mapping[str, pd.DataFrame]", out: Path) -> None:
+def written(frames: "Mapping[str, pd.DataFrame]", out: Path, *, overwrite: bool = False) -> None:
     """Notes that they are there, if they are: an interruption may come after the last of them.
 
     Looking whether they are takes as long as writing them, and may be interrupted itself: it is
@@ -35,7 +35,7 @@ def written(frames: "Mapping[str, pd.DataFrame]", out: Path) -> None:
 
     there = f"the reports are in {out}"
     try:
-        write.write(frames, out)
+        write.write(frames, out, overwrite=overwrite)
         DONE.append(there)
     except BaseException:
         if there not in DONE and write.holds(frames, out):

@@ -6,6 +6,8 @@ from typing import Any
 
 import click
 
+from ..passing import taken
+
 
 class Folder(click.Path):
     """A folder to write into, by a name that is not empty."""
@@ -21,6 +23,7 @@ class Folder(click.Path):
         try:
             folder.mkdir(parents=True, exist_ok=True)
             _tried(folder)
+            taken(folder)
         except OSError as error:
             self.fail(f"cannot write to {folder}: {error.strerror}", param, ctx)
         return folder

@@ -1,6 +1,6 @@
 """What a command measures in order to show it: the cases and engines that were named."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from typing import TYPE_CHECKING
 
@@ -8,6 +8,7 @@ from ...cases.mistake import CaseError, Mistake
 from ..show.say import tell
 
 if TYPE_CHECKING:
+    from ...cases.case import Case
     from ..suite import Report
 
 
@@ -21,10 +22,12 @@ def looked_at(
     long: bool = False,
     causes: bool = False,
     executor: Executor | None = None,
+    before: "Callable[[Sequence[Case]], None]" = lambda cases: None,
 ) -> "Report":
     """From the store what has not changed, and with progress what has to be run.
 
-    causes: whether they are searched for; executor: what works instead of processes of our own.
+    causes: whether they are searched for; executor: what works instead of processes of our own;
+    before: is told the cases before any work, and may raise.
     A file with mistakes is left out: `mistakes` of the report tells them. Raises CaseError where
     nothing is left.
     """
@@ -41,6 +44,7 @@ def looked_at(
         tell(left_out(wanted.mistakes))
     for warning in wanted.warnings:
         tell(warning)
+    before(wanted.cases)
     used = store.usable() if cached else None
     with progress() as shown, finished(used is not None):
         report = suite.measure(

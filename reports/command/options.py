@@ -5,17 +5,40 @@ from typing import Any
 
 import click
 
+from ..limit import choose
+from ..ours import OVERWRITE
+
 Decorated = Callable[[Any], Any]
 
 named_cases = click.argument("cases", nargs=-1, metavar="[CASES]...")
-jobs = click.option(
-    "--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default."
-)
+
+
+def jobs(command: Any) -> Any:
+    """How the work is spread over processes, and how long one of them may take for a task."""
+    decorated = click.option(
+        "--time-limit",
+        type=click.FloatRange(min=0, min_open=True),
+        expose_value=False,
+        callback=lambda _, __, value: choose(value),
+        metavar="S",
+        help="How long an engine may take for one run, beyond ten times what its steps are worth; "
+        "120 s by default, or $TEXTMECH_TIME_LIMIT.",
+    )(command)
+    return click.option(
+        "--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default."
+    )(decorated)
+
+
 no_cache = click.option(
     "--no-cache",
     is_flag=True,
     help="Compute everything anew. Else results lie in $TEXTMECH_CACHE, by default "
     "~/.cache/textmech, and are used while nothing they depend on has changed.",
+)
+overwrite = click.option(
+    f"--{OVERWRITE}",
+    is_flag=True,
+    help="Overwrite files of the names that are written there which textmech did not write.",
 )
 allow_long = click.option(
     "--allow-long", is_flag=True, help="Do any amount of work, and not only what takes minutes."

@@ -9,7 +9,15 @@ from ..show.say import say, tell
 from .answer import BAD_INPUT
 from .folder import Folder
 from .looking import looked_at
-from .options import allow_long, jobs, named_cases, named_engines, no_cache, own_settings
+from .options import (
+    allow_long,
+    jobs,
+    named_cases,
+    named_engines,
+    no_cache,
+    overwrite,
+    own_settings,
+)
 
 OWN = Path("textmech-page")  # of what was named: the committed reports are of everything
 
@@ -25,6 +33,7 @@ OWN = Path("textmech-page")  # of what was named: the committed reports are of e
     help="Where to write index.html. By default beside the reports of all cases; of cases, engines "
     "or settings that are named, ./textmech-page, with their reports.",
 )
+@overwrite
 @no_cache
 @allow_long
 def page(
@@ -33,6 +42,7 @@ def page(
     settings: tuple[str, ...],
     jobs: int | None,
     out: Path | None,
+    overwrite: bool,
     no_cache: bool,
     allow_long: bool,
 ) -> None:
@@ -47,6 +57,7 @@ def page(
       textmech page --settings mine.yaml           all cases, with your settings as a column
     """
     from .. import write
+    from ..ours import unasked
     from ..page.folder import Missing
     from ..page.write import NAME, write_committed, write_measured
 
@@ -54,13 +65,14 @@ def page(
     rows = write.by_default()
     folder = out or Folder().convert(str(OWN if named else rows), None, None)
     try:
+        unasked(folder, [*(write.NAMES if named else ()), NAME], overwrite=overwrite)
         if not named:
             _there(rows)
         report = looked_at(cases, names, settings, jobs=jobs, cached=not no_cache, long=allow_long)
         if named:
-            write_measured(report, folder)
+            write_measured(report, folder, overwrite=overwrite)
         else:
-            write_committed(report, report.cases, rows, folder)
+            write_committed(report, report.cases, rows, folder, overwrite=overwrite)
     except (Missing, ValueError) as error:
         raise click.ClickException(str(error)) from None
     say(f"written to {folder / NAME}")

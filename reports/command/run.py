@@ -1,6 +1,8 @@
 """`textmech run`."""
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -9,7 +11,18 @@ from .answer import BAD_INPUT, FAILED, as_json
 from .done import DONE, written
 from .folder import Folder
 from .looking import left_out, looked_at
-from .options import allow_long, jobs, named_cases, named_engines, no_cache, own_settings
+from .options import (
+    allow_long,
+    jobs,
+    named_cases,
+    named_engines,
+    no_cache,
+    overwrite,
+    own_settings,
+)
+
+if TYPE_CHECKING:
+    from ...cases.case import Case
 
 
 @click.command()
@@ -35,6 +48,7 @@ from .options import allow_long, jobs, named_cases, named_engines, no_cache, own
     help="Write the trajectories too, one CSV a case, reference and engines side by side, one "
     "with the times of its events, and one long table of all poses (Parquet where pyarrow is).",
 )
+@overwrite
 @no_cache
 @click.option(
     "--cluster",
@@ -51,6 +65,7 @@ def run(
     jobs: int | None,
     out: Path | None,
     keep: Path | None,
+    overwrite: bool,
     no_cache: bool,
     cluster: str | None,
     wants_json: bool,
@@ -63,6 +78,7 @@ def run(
     from .. import keep as kept
     from .. import write
     from ..cluster import executor
+    from ..ours import unasked
     from ..show import cures, document, terminal
 
     full = not (cases or names or settings)
@@ -70,6 +86,13 @@ def run(
         out = Folder().convert(str(write.by_default()), None, None)
     if out is not None and keep is not None and out.resolve() == keep.resolve():
         raise click.UsageError("--out and --keep are one folder: a case may be called as a report")
+    if out is not None:
+        unasked(out, write.NAMES, overwrite=overwrite)
+
+    def before(found: "Sequence[Case]") -> None:
+        if keep is not None:
+            unasked(keep, kept.names(found), overwrite=overwrite)
+
     with executor(cluster) as working:
         report = looked_at(
             cases,
@@ -80,14 +103,15 @@ def run(
             long=allow_long,
             causes=causes,
             executor=working,
+            before=before,
         )
     mistakes = report.mistakes
     if full and mistakes:
         out = None  # what is left is no full run
     if out is not None:
-        written(write.tables(report, report.cases), out)
+        written(write.tables(report, report.cases), out, overwrite=overwrite)
     if keep is not None:
-        kept.keep(report, keep)
+        kept.keep(report, keep, overwrite=overwrite)
         DONE.append(f"the trajectories are in {keep}")
     known = {**cures.committed(report.cases), **cures.found(report.causes)}
     code = BAD_INPUT if mistakes else FAILED if report.fails else 0

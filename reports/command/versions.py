@@ -9,7 +9,7 @@ import click
 from ..show.say import say, tell
 from .done import DONE
 from .folder import Folder
-from .options import allow_long, jobs, own_settings
+from .options import allow_long, jobs, overwrite, own_settings
 
 CASES = (
     *("bar_pendulum", "double_pendulum", "four_bar", "slider_crank"),
@@ -25,12 +25,14 @@ CASES = (
 @click.option(
     "--out", type=Folder(), help="A folder for versions.csv: all numbers, and what moved."
 )
+@overwrite
 @allow_long
 def versions(
     words: tuple[str, ...],
     settings: tuple[str, ...],
     jobs: int | None,
     out: Path | None,
+    overwrite: bool,
     allow_long: bool,
 ) -> None:
     """Which release of an engine moved which textbook number.
@@ -51,6 +53,7 @@ def versions(
     Exit codes: 0 done, 2 a mistake: no engine, no such release, no network
     """
     from .. import write
+    from ..ours import unasked
     from ..selection import choose_cases, choose_engines
     from ..versions.measure import measure
     from ..versions.table import NAME, steps, table
@@ -58,6 +61,8 @@ def versions(
     from ..versions.wanted import parted
 
     releases, named = parted(words)
+    if out is not None:
+        unasked(out, [NAME], overwrite=overwrite)
     chosen = named or [*CASES]
     cases = [case.name for case in choose_cases(chosen, known=None, long=allow_long)]
     with warnings.catch_warnings():
@@ -66,7 +71,7 @@ def versions(
     measured = [*measure(releases, chosen, settings, jobs, allow_long, tell)]
     found = steps(measured)
     if out is not None:
-        write.write({NAME: table(found, cases)}, out)
+        write.write({NAME: table(found, cases)}, out, overwrite=overwrite)
         DONE.append(f"{NAME} is in {out}")
     say(text(found, shutil.get_terminal_size().columns))
     if out is not None:

@@ -1,13 +1,11 @@
 """A report folder: all its tables, whole, of one run, and with the columns that are compared."""
 
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from ...cases.mistake import CaseError, Mistake
-from ..replace import settle
-from ..row import MUTANTS
+from ..row import MUTANTS, MUTATION
 from .errors import ERRORS
 from .file import File
 from .files import FILES
@@ -63,9 +61,7 @@ def _opened(name: str, path: Path) -> Folder:
     if not path.is_dir():
         what = "is no folder" if path.exists() else "no such folder"
         raise CaseError([Mistake(str(path), 0, 0, "", f"{what}; a report is one, with its *.csv")])
-    with suppress(OSError):  # what an interrupted run decided and could not finish
-        settle(path)
-    files = sorted(file for file in path.glob("*.csv") if file.name != MUTANTS)
+    files = sorted(file for file in path.glob("*.csv") if file.name not in (MUTANTS, MUTATION))
     if not (path / ERRORS.name).exists():
         what = f"is no report: it has no {ERRORS.name}; `textmech run --out FOLDER` writes one"
         raise CaseError([Mistake(str(path), 0, 0, "", what)])

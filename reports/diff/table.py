@@ -1,6 +1,7 @@
 """A CSV file of a report as text: its head, its rows with their lines, and the run it names."""
 
 import csv
+import errno
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -8,9 +9,9 @@ from io import StringIO
 from pathlib import Path
 
 from ...cases.mistake import CaseError, Mistake
+from ..content import LARGEST, content
 
-FOOTER = re.compile(r"# (\d+) rows of run ([0-9a-f]+)")
-LARGEST = 100_000_000  # bytes: half a million rows; ours have five thousand
+FOOTER = re.compile(r"# (\d{1,12}) rows of run ([0-9a-f]{1,100})", re.ASCII)
 Row = Mapping[str, str]
 
 
@@ -52,16 +53,13 @@ def read(path: Path) -> Table:
 
 def _text(path: Path) -> str:
     try:
-        if not path.is_file():
-            raise _wrong(path, "is no file")
-        if (size := path.stat().st_size) > LARGEST:
-            raise _wrong(path, f"too large for a report: {size / 1e6:.0f} MB, at most 100")
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            return file.read()
+        return content(path, LARGEST).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise _wrong(path, f"is no text in UTF-8: byte {error.start} cannot be read") from None
     except OSError as error:
-        raise _wrong(path, f"cannot be read: {error.strerror}") from None
+        what = error.strerror or "cannot be read"
+        ours = error.errno in (errno.EINVAL, errno.EFBIG)  # what `content` says of it
+        raise _wrong(path, what if ours else f"cannot be read: {what}") from None
 
 
 def _records(path: Path, body: str) -> list[tuple[int, list[str]]]:

@@ -1,5 +1,6 @@
 """A trial's rows: audit, ladders, and a verdict for every observed quantity."""
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
@@ -10,6 +11,7 @@ from ...cases.trajectory import Array
 from ...engines import SETTINGS
 from ...engines.engine import Refusal
 from ..row import AGREES, CRASHED, DIVERGED, FAILS, Comparison, Instant, Rungs
+from ..spelled import why
 from ..trial.audit import EQUAL, audit
 from ..trial.ladder import Ladder
 from ..trial.rung import Climbed, Samples
@@ -95,7 +97,10 @@ def _diverged(trial: Trial, names: Iterable[str], because: str) -> list[Comparis
 
 
 def _audit(trial: Trial) -> Comparison:
-    worst, because = audit(trial)
+    try:
+        worst, because = audit(trial)
+    except Exception as error:  # it costs no other row
+        worst, because = math.inf, why(error)
     return row(
         trial,
         "audit",

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from ...cases.case import Case
+from ...cases.quantity import at_event
 from ...cases.trajectory import Array, Trajectory
 from ..events.times import reference_events
 from ..row import Comparison, Instant, Rungs
@@ -18,6 +19,8 @@ from .convergence import UNSETTLED, Convergence, instants
 from .rounding import floor
 from .rows import judged, row, rungs
 from .verdict import verdict
+
+LATER = "say so by `tube`, as `tube: 2 ms` at the top of the file: it is then read so much later"
 
 
 def judge(
@@ -63,8 +66,16 @@ def _each(trial: Trial, name: str, found: Array, runs: Runs) -> Comparison:
     sure = _first(trial, name, list(runs.ladders.values())[-1]) if climbs else both
     if error.at >= sure:
         why = f"number {error.at + 1}, of which the largest step cannot be sure; before it: {why}"
-    reached = verdict(trial, name, error.largest, held, why)
+    reached = verdict(trial, name, error.largest, held, f"{why}{_spread(trial, name)}")
     return judged(trial, name, reached, error, float(times[error.at]))
+
+
+def _spread(trial: Trial, name: str) -> str:
+    """What else may be wrong with a state just after an event, and what cures it."""
+    at = at_event(name, trial.case.events)
+    if at is None or at.side != "after" or trial.case.tube:
+        return ""
+    return f"; if an impact lasts some steps here, {LATER}"
 
 
 def _climbed(trial: Trial, name: str, runs: Runs) -> Iterator[tuple[Ladder, str, Convergence]]:

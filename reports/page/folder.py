@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from ..content import text as content
 from ..row import MUTANTS, Certificate, Comparison, Instant, Rungs
 from ..write import NAMES, read
 
@@ -57,12 +58,12 @@ def folder(path: Path, beside: Path | None = None) -> Folder:
             for name in (*BESIDE, MUTANTS)
             if (place / name).is_file()
         },
-        run=(path / NAMES[0]).read_text(encoding="utf-8").rstrip().rpartition(" of run ")[2],
+        run=content(path / NAMES[0]).rstrip().rpartition(" of run ")[2],
     )
 
 
 def _text(path: Path) -> pd.DataFrame:
     """A table as it is written: no number is read, so that none is written otherwise."""
-    lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
+    lines = content(path).splitlines(keepends=True)
     body = [line for line in lines if not line.startswith("# ")]
     return pd.read_csv(StringIO("".join(body)), dtype=str, keep_default_na=False)

@@ -23,7 +23,7 @@ def strobe(axes: Any, motion: Motion, ghosts: Sequence[tuple[str, str]]) -> None
     last = len(unpacked(motion["times"])) - 1
     for k in sorted({round(last * i / (INSTANTS - 1)) for i in range(INSTANTS)}):
         now = {part: rows[k] for part, rows in frames.items()}
-        _bodies(axes, motion, now, color=INK, alpha=0.2 + 0.8 * k / last, lw=1.6)
+        _bodies(axes, motion, now, color=INK, alpha=0.2 + 0.8 * (k / last), lw=1.6)
         if k == last:
             _links(axes, motion, now)
     for key, label in ghosts:

@@ -2,10 +2,11 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from ...cases.case import Case
 from .. import write
+from ..ours import unasked
+from ..passing import passing
 from ..replace import replace
 from ..suite import Report
 from .folder import folder
@@ -15,18 +16,23 @@ from .page import page
 NAME = "index.html"
 
 
-def write_committed(report: Report, cases: Sequence[Case], rows: Path, out: Path) -> None:
+def write_committed(
+    report: Report, cases: Sequence[Case], rows: Path, out: Path, *, overwrite: bool = False
+) -> None:
     """The page of reports that are there, and of the motions behind them.
 
-    Raises Missing where there are none, and OSError: then the folder holds what it held.
+    overwrite: also what is no page of ours. Raises Missing where there are none, and OSError: then
+    the folder holds what it held.
     """
+    unasked(out, [NAME], overwrite=overwrite)
     replace(out, {NAME: page(folder(rows), cases, motions(report))})
 
 
-def write_measured(report: Report, out: Path) -> None:
+def write_measured(report: Report, out: Path, *, overwrite: bool = False) -> None:
     """The reports of a run and their page. Raises OSError: then the folder holds what it held."""
     frames = write.tables(report, report.cases)
-    with TemporaryDirectory() as made:
-        write.write(frames, Path(made))
-        found = folder(Path(made), beside=out)
+    unasked(out, [*frames, NAME], overwrite=overwrite)
+    with passing("textmech-page-") as made:
+        write.write(frames, made)
+        found = folder(made, beside=out)
     replace(out, write.texts(frames) | {NAME: page(found, report.cases, motions(report))})

@@ -11,6 +11,7 @@ from ..trial.start import first
 from ..trial.trial import Trial, judged_names, planned
 from ..unit import Pair
 from .advised import Advised, Asked
+from .asked import lost
 from .bar import Bar
 from .candidate import Candidate
 from .draws import held
@@ -28,7 +29,9 @@ def advise(pairs: Sequence[Pair], asked: Asked, results: Results) -> list[Advise
 
     Raises CaseError with what only solving finds.
     """
-    ready = [_prepared(pair, asked, lost) for pair, lost in _sampled(pairs, results)]
+    sampled = _sampled(pairs, results)
+    broken = lost({pair.name: pair for pair, why in sampled if not why}, results)
+    ready = [_prepared(pair, asked, why, broken.get(pair.name, "")) for pair, why in sampled]
     searches = {
         f"{one.pair.case.name} {one.pair.engine.name}": Search(
             one.pair, one.kitchen.bar.known, _search(one.kitchen, front=asked.front)
@@ -71,10 +74,12 @@ def _sampled(pairs: Sequence[Pair], results: Results) -> list[tuple[Pair, str]]:
     ]
 
 
-def _prepared(pair: Pair, asked: Asked, lost: str) -> Advised:
+def _prepared(pair: Pair, asked: Asked, unsolved: str, broken: str) -> Advised:
     case, engine = pair.case, pair.engine
-    if lost or case.states is not None:
-        why = f"there is no reference: {lost}" if lost else NO_STEPS
+    if broken:
+        return Advised(pair, asked, Refusal("native", broken), None, None)
+    if unsolved or case.states is not None:
+        why = f"there is no reference: {unsolved}" if unsolved else NO_STEPS
         return Advised(pair, asked, Refusal("native", why), None, None)
     reference = pair.reference()
     ways = planned(engine, case.scene, first(reference))

@@ -8,6 +8,7 @@ from ...reference.solve import Solution
 from ..results import Results
 from ..row import UNSEARCHED, Cause, Comparison, Rungs
 from ..unit import Pair
+from .asked import lost
 from .between import between
 from .cures import Cured, cures
 from .ladder import climbed
@@ -57,8 +58,12 @@ def _searched(
     }
     asked: dict[str, Asked] = {}
     searches: dict[str, Search[dict[str, Cured]]] = {}
-    for key, pair in _referenced(tunable, results).items():
-        name, field = " ".join(key), between(pair)
+    referenced = {" ".join(key): (key, p) for key, p in _referenced(tunable, results).items()}
+    broken = lost({name: pair for name, (_, pair) in referenced.items()}, results)
+    for name, (key, pair) in referenced.items():
+        if name in broken:
+            continue
+        field = between(pair)
         mine = [rung for rung in rungs if (rung.case, rung.engine, rung.setting) == key]
         known = climbed(field.base, of[key], mine)
         asked[name] = Asked(pair, field, of[key])

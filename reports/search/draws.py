@@ -4,7 +4,6 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -15,6 +14,7 @@ from ...cases.load import load
 from ...cases.mistake import CaseError
 from ...cases.trajectory import Trajectory
 from ...reference.solve import Solution
+from ..passing import passing
 from ..results import Results
 from ..unit import Pair
 from .bar import Bar
@@ -72,8 +72,8 @@ def drawn(case: Case, seed: int) -> Case | None:
     """
     file = Path(case.source.file)
     data = _varied(read(file).data, np.random.default_rng(seed))
-    with TemporaryDirectory() as folder:
-        copy = Path(folder) / file.name
+    with passing("textmech-draw-") as folder:
+        copy = folder / file.name
         copy.write_text(json.dumps(data), encoding="utf-8")  # JSON is YAML
         try:
             cases: Sequence[Case] = load(copy, long=case.long)

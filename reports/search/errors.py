@@ -10,10 +10,12 @@ from ...cases.trajectory import Array
 from ...engines.engine import Plan
 from ..judge import metric
 from ..judge.moment import away_from_instants
+from ..limit import limit
 from ..trial.rung import Samples, climbed
 from ..trial.simulate import rung
 from ..trial.start import first
 from ..trial.trial import Trial, judged_names, planned
+from ..trial.work import pace
 from ..unit import Pair
 from .candidate import Candidate
 
@@ -33,6 +35,12 @@ class Run:
     def name(self) -> str:
         """For progress."""
         return f"{self.pair.case.name} in {self.pair.engine.name}"
+
+    @property
+    def limit(self) -> float:
+        """How long the engine may take [s], and before it a reference."""
+        steps = self.pair.case.duration / self.candidate.step
+        return self.pair.limit + limit(steps * pace(self.pair.case, self.pair.engine))
 
 
 def of(errors: Errors, name: str, *, elsewhere: bool = False) -> float:

@@ -30,7 +30,7 @@ def advised(
 
     jobs, store and executor as of `suite.measure`. Raises CaseError for what only solving finds.
     """
-    keys = Keys.now()
+    keys = Keys.now(store)
     with (
         nullcontext(store) if store else passing() as used,
         nullcontext(executor) if executor else local(jobs or workers()) as working,

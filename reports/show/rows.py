@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 from textwrap import wrap
 
-from ..row import AGREES, Certificate, Comparison
+from ..row import AGREES, FAILS, Certificate, Comparison
 from .amount import milliseconds
 from .table import WIDTH
 
@@ -43,8 +43,11 @@ def head(group: Sequence[Comparison]) -> str:
 
 
 def known(certificates: Sequence[Certificate]) -> Iterator[str]:
-    """Lines: what each reference is known to, of all that its case bounds."""
-    for case, found in groupby(certificates, key=lambda row: row.case):
+    """Lines: what each reference is known to, of all that its case bounds; of one that holds."""
+    for case, rows in groupby(certificates, key=lambda row: row.case):
+        found = [*rows]
+        if any(row.verdict == FAILS for row in found):
+            continue  # what it would be known to is no comfort, and is not said
         certified = [
             f"{row.check.removeprefix('error of ')} to {row.certified:.0e} {row.unit}"
             for row in found

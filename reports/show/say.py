@@ -2,11 +2,14 @@
 
 import os
 import sys
+import threading
 from contextlib import suppress
 
 import click
 
 KEPT = "\n\t\r"
+_STREAM = threading.RLock()  # a thread draws what is being done
+_DRAWN: list[int] = []  # the width of the line that the next one replaces
 
 
 def prepare() -> None:
@@ -22,7 +25,9 @@ def prepare() -> None:
 def say(text: str = "", *, nl: bool = True) -> None:
     """To the output. Raises OSError if it takes nothing more, but not if nobody reads on."""
     try:
-        click.echo(shown(text), nl=nl)
+        with _STREAM:
+            _clear()
+            click.echo(shown(text), nl=nl)
     except BrokenPipeError:
         _silence()
     except OSError:
@@ -32,8 +37,22 @@ def say(text: str = "", *, nl: bool = True) -> None:
 
 def tell(text: str = "", *, nl: bool = True) -> None:
     """To the error stream; one that is gone is no reason to end."""
-    with suppress(OSError):
+    with suppress(OSError), _STREAM:
+        _clear()
         click.echo(shown(text), nl=nl, err=True)
+
+
+def draw(line: str) -> None:
+    """To the terminal of the error stream: a line in the place of the one drawn before."""
+    with suppress(OSError), _STREAM:
+        click.echo(f"\r{shown(line)}", nl=False, err=True)
+        _DRAWN[:] = [len(line)]
+
+
+def _clear() -> None:
+    """What was drawn stands in nobody's way."""
+    if _DRAWN:
+        click.echo(f"\r{' ' * _DRAWN.pop()}\r", nl=False, err=True)
 
 
 def shown(text: str) -> str:

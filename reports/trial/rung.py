@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -14,7 +15,12 @@ from ...cases.trajectory import Array, Trajectory
 from ...engines.engine import Claims, Diverged, Engine, Plan, Start
 from ..events.states import engine_states
 from ..events.times import engine_events
+from ..limit import limit
+from ..spelled import spelled
+from .answers import moved
 from .ladder import wanted_reactions
+from .turns import counted
+from .work import pace
 
 Samples = Mapping[str, Array]
 """By quantity, (N,); of a run that is looked at also by body, the places and attitudes (N, …)."""
@@ -27,7 +33,8 @@ class Rung:
     """One run: the engine with a plan at a step [s]. It is pickled, and needs no reference.
 
     bounds: what is read, and how large it may become and still be a motion. poses: whether the
-    bodies' places and attitudes are kept beside it.
+    bodies' places and attitudes are kept beside it. fastest: how fast joints turn in the reference
+    [rad/s], in space, where turns are counted.
     """
 
     case: Case
@@ -37,6 +44,7 @@ class Rung:
     step: float
     bounds: Mapping[str, float]
     poses: bool = False
+    fastest: float = 0.0
 
     @property
     def name(self) -> str:
@@ -48,26 +56,33 @@ class Rung:
         """How many the engine takes."""
         return self.case.duration / self.step
 
+    @property
+    def limit(self) -> float:
+        """How long the engine may take [s]."""
+        return limit(self.steps * pace(self.case, self.engine))
+
 
 def climbed(rung: Rung) -> Climbed:
     """The run's samples, or in words why it has none."""
     try:
         return _run(rung) if rung.case.states is None else _answers(rung)
     except Diverged as gone:
-        return str(gone)
+        return spelled(gone)
 
 
 def _run(rung: Rung) -> Samples:
     case, scene = rung.case, rung.case.scene
     wanted = dict.fromkeys((*rung.bounds, *told_by(case.events, case.allow)))
-    trajectory = rung.engine.run(
-        scene,
-        rung.start,
-        case.times,
-        rung.step,
-        rung.plan,
+    run = partial(
+        rung.engine.run,
         reactions=wanted_reactions(scene, wanted),
         record=bool(case.events),
+    )
+    trajectory = counted(
+        case,
+        lambda times: moved(run(scene, rung.start, times, rung.step, rung.plan), scene, times),
+        rung.step,
+        rung.fastest,
     )
     samples = {name: observe(scene, trajectory, name) for name in rung.bounds}
     for name, most in rung.bounds.items():

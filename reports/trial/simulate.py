@@ -41,6 +41,7 @@ def rungs(trial: Trial) -> dict[At, Rung]:
             h,
             bounds,
             poses=ladder is climbs[0] and h == trial.step,  # the judged run is looked at
+            fastest=trial.reference.fastest,
         )
         for ladder in climbs
         for h in reversed(ladder.steps)
@@ -49,7 +50,10 @@ def rungs(trial: Trial) -> dict[At, Rung]:
 
 def rung(trial: Trial, step: float) -> Rung:
     """One run at a step [s], which the numbers of its plan follow."""
-    return Rung(trial.case, trial.engine, trial.start, trial.plan, step, _bounds(trial))
+    return Rung(
+        trial.case, trial.engine, trial.start, trial.plan, step, _bounds(trial),
+        fastest=trial.reference.fastest,
+    )  # fmt: skip
 
 
 def _bounds(trial: Trial) -> dict[str, float]:

@@ -6,6 +6,7 @@ from ...cases.case import Case
 from ...cases.mistake import CaseError
 from ...cases.trajectory import Array
 from ...engines.engine import Claims, Engine, Plan, Refusal, Start
+from ..spelled import spelled, why
 from .rung import Rung
 from .trial import Trial, planned
 
@@ -26,8 +27,10 @@ def ways_of(engine: Engine, case: Case, start: Start) -> tuple[Plan | Refusal, .
         return planned(engine, case.scene, start)
     try:
         return ways(engine, case, start)
-    except (Exception, SystemExit) as error:
-        return (Refusal("native", f"{type(error).__name__}: {error}"),)
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
+        return (Refusal("native", why(error)),)
 
 
 def ways(engine: Engine, case: Case, start: Start) -> tuple[Plan | Refusal, ...]:
@@ -39,7 +42,7 @@ def ways(engine: Engine, case: Case, start: Start) -> tuple[Plan | Refusal, ...]
     if isinstance(way, Refusal):
         return (way,)
     told = engine.answer(case.scene, start, _drawn(case, 1), tuple(case.allow))
-    whys = {name: why for name, why in told.items() if isinstance(why, str)}
+    whys = {name: spelled(what) for name, what in told.items() if isinstance(what, str)}
     return (Plan("native", held=(), withheld=whys),)
 
 

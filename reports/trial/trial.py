@@ -15,6 +15,8 @@ from ...cases.trajectory import Array, Trajectory
 from ...engines.engine import Engine, Plan, Realised, Refusal, Start
 from ..events.states import reference_states
 from ..events.times import reference_events, surely
+from ..spelled import why
+from .answers import plans
 from .ladder import judged_step
 from .start import first
 
@@ -24,7 +26,7 @@ SAME_COUNT = 0.5  # what counts may differ by where the case does not say: they 
 
 def ways(engine: Engine, scene: Scene, start: Start) -> tuple[Plan | Refusal, ...]:
     """How a scene is tried: beside a law or driver always a native row, or why there is none."""
-    found = tuple(engine.plans(scene, start))
+    found = plans(engine, scene, start)
     native = any(way.realised == "native" for way in found)
     return found if native else (Refusal("native", NOTHING_OF_ITS_OWN), *found)
 
@@ -44,8 +46,10 @@ def planned(engine: Engine, scene: Scene, start: Start) -> tuple[Plan | Refusal,
     """As `ways`; what an engine raises is one native way, which fails when it is tried."""
     try:
         return ways(engine, scene, start)
-    except (Exception, SystemExit) as error:
-        return (Refusal("native", f"{type(error).__name__}: {error}"),)
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # of an engine's own kind too
+        return (Refusal("native", why(error)),)
 
 
 def judged_names(case: Case) -> tuple[str, ...]:

@@ -4,18 +4,19 @@ Whatever this environment has or asks for plays no part: nothing else is install
 pieces that the release itself pins to one version.
 """
 
+import os
 import platform
 import re
 import shutil
-import subprocess
 import sys
-import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from difflib import get_close_matches
 from importlib import metadata, util
 from pathlib import Path
 
 from ...cases.mistake import CaseError, Mistake
+from .. import child
+from ..passing import passing
 from .wanted import Release
 
 PIECE = re.compile(r"([\w.-]+) ?\(?== ?([\w.+!]+)\)?")
@@ -37,12 +38,12 @@ def place(release: Release, among: Path, tell: Callable[[str], None]) -> Path | 
         tell(f"installing {release}")
         shutil.rmtree(folder, ignore_errors=True)  # what somebody took a part of
         among.mkdir(parents=True, exist_ok=True, mode=0o700)
-        with tempfile.TemporaryDirectory(prefix=".making-", dir=among) as made:
-            _install([str(release)], Path(made) / "first", release)
-            pieces = [*_pieces(Path(made) / "first")]
+        with passing(".making-", among) as made:
+            _install([str(release)], made / "first", release)
+            pieces = [*_pieces(made / "first")]
             if pieces:
-                _install([str(release), *pieces], Path(made) / "whole", release)
-            _kept(Path(made) / ("whole" if pieces else "first"), folder)
+                _install([str(release), *pieces], made / "whole", release)
+            _kept(made / ("whole" if pieces else "first"), folder)
     return folder
 
 
@@ -69,15 +70,15 @@ def _kept(made: Path, folder: Path) -> None:
 
 def _install(names: Sequence[str], folder: Path, release: Release) -> None:
     """Raises CaseError."""
-    said = subprocess.run(
+    scratch = folder.with_name(f"{folder.name}-tmp")  # what it leaves there goes with ours
+    scratch.mkdir()
+    code, said = child.run(
         [*_installer(release), "--no-deps", "--only-binary", ":all:", "--target", folder, *names],
-        capture_output=True,
-        text=True,
-        stdin=subprocess.DEVNULL,
-        check=False,
+        env=os.environ | {"TMPDIR": str(scratch)},
+        told=True,
     )
-    if said.returncode:
-        raise _wrong(release, _because(release, said.stderr))
+    if code:
+        raise _wrong(release, _because(release, said))
 
 
 def _installer(release: Release) -> list[str]:

@@ -2,17 +2,17 @@
 
 import json
 import os
-import subprocess
 import sys
-import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 from ...cases.mistake import CaseError, Mistake
+from .. import child
 from ..cache.store import FOLDER, by_default, usable
 from ..diff.folder import Folder, opened
+from ..passing import passing
 from .install import place
 from .one import BROKEN
 from .wanted import Release
@@ -47,22 +47,21 @@ def measure(
             places.append(place(release, cache / ENVIRONMENTS, tell))
         for release, found in zip(releases, places, strict=True):
             tell(f"running {release}")
-            with tempfile.TemporaryDirectory(prefix="textmech-") as out:
+            with passing("textmech-release-") as out:
                 asked = {
                     "engine": release.engine,
                     "version": release.version,
                     "cases": [*cases],
                     "settings": [*settings],
-                    "folder": out,
+                    "folder": str(out),
                     "jobs": jobs,
                     "long": long,
                 }
-                code = subprocess.run(
+                code, _ = child.run(
                     [sys.executable, "-P", "-m", f"{__package__}.one", json.dumps(asked)],
                     env=_environment(found, cache),
-                    check=False,
-                ).returncode
-                yield _measured(release, code, Path(out))
+                )
+                yield _measured(release, code, out)
 
 
 @contextmanager
@@ -71,8 +70,8 @@ def _cache() -> Iterator[Path]:
     if usable() is not None:
         yield by_default()
         return
-    with tempfile.TemporaryDirectory(prefix="textmech-") as folder:
-        yield Path(folder)
+    with passing("textmech-releases-") as folder:
+        yield folder
 
 
 def _environment(found: Path | None, cache: Path) -> dict[str, str]:

@@ -4,15 +4,10 @@ Written into the folder are its reports; or, where it cannot be imported, in BRO
 """
 
 import json
+import os
 import sys
+import threading
 from pathlib import Path
-
-from ...cases.mistake import CaseError
-from .. import ending, pool, suite, write
-from ..cache.store import usable
-from ..selection import choose_cases, choose_engines
-from ..show.progress import progress
-from ..show.say import prepare, tell
 
 BROKEN = "broken.txt"
 MISTAKEN = 2
@@ -20,12 +15,21 @@ MISTAKEN = 2
 
 def main(told: str) -> int:
     """told: JSON of the engine, its version, cases, settings, folder, jobs, long."""
+    from ...cases.mistake import CaseError
+    from .. import pool, suite, write
+    from ..cache.store import usable
+    from ..selection import choose_cases, choose_engines
+    from ..show.progress import progress
+    from ..show.say import tell
+
     asked = json.loads(told)
     name, folder = asked["engine"], Path(asked["folder"])
     try:
         engines = choose_engines([name], asked["settings"], long=asked["long"])
     except (CaseError, ValueError) as error:  # it cannot be imported, or does not have an option
-        (folder / BROKEN).write_text(_said(error), encoding="utf-8")
+        mistakes = error.mistakes if isinstance(error, CaseError) else []
+        said = "; ".join(m.what for m in mistakes) or str(error)
+        (folder / BROKEN).write_text(" ".join(said.split()), encoding="utf-8")  # a table's line
         return 0
     other = {engine.version for engine in engines} - {asked["version"]}
     if other:
@@ -49,13 +53,18 @@ def main(told: str) -> int:
     return 0
 
 
-def _said(error: CaseError | ValueError) -> str:
-    """In one line of a table."""
-    told = [m.what for m in error.mistakes] if isinstance(error, CaseError) else [str(error)]
-    return " ".join("; ".join(told).split())
+def _with_parent() -> None:
+    """Ends with whoever started it: its stdin does."""
+    while os.read(0, 1):
+        pass
+    os._exit(1)
 
 
 if __name__ == "__main__":
+    threading.Thread(target=_with_parent, daemon=True).start()  # before seconds of imports
+    from .. import ending
+    from ..show.say import prepare
+
     ending.listen()
     prepare()
     try:

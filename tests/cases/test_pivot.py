@@ -81,7 +81,7 @@ def test_what_spokes_cannot_is_said(tmp_path: Path, changed: dict[str, str], wor
 @pytest.mark.parametrize(
     ("start", "words"),
     [
-        ("x: 0, angle: 0, on: tip1, vx: 1, omega: -2", "no motion satisfies all that is given"),
+        ("x: 0, angle: 0, on: tip1, vx: 1, omega: -2", "`on` says that"),
         ("x: 0, angle: 0, y: 1, on: tip1", "stays open by"),
         ("angle: 0, on: tip1", "wheel.x is not determined"),
     ],

@@ -70,3 +70,15 @@ def test_corners_of_a_block() -> None:
         "upper_left": (-0.2, 0.3),
         "upper_right": (0.2, 0.3),
     }
+
+
+@pytest.mark.mutant("an angle that is no number read as zero")
+def test_a_point_of_a_body_at_no_angle_is_nowhere() -> None:
+    """Else a run that has broken down would still be within: NaN is within nothing."""
+    rod = shape.bar(name="rod", mass=1.0, length=2.0, points={})
+    states = np.array([[0.5, 0.2, np.nan, 1.0, 0.0, 3.0]])
+    for point in ("center", "start", "end"):
+        assert np.isnan(rod.point(states, point)).all()
+    assert np.isnan(rod.observe(states, "", "angle")).all()
+    read = np.nan_to_num(states)
+    assert not np.isnan(rod.point(read, "end")).any()

@@ -1,6 +1,7 @@
 """Claims about states: what is drawn, what can be bounded, and what such a file must not say."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -196,3 +197,18 @@ def test_the_readme_says_every_quantity_of_states_alone(tmp_path: Path) -> None:
     assert said.pop("mass_matrix") == "kg m², kg"
     assert {said.pop(f"joint.{q}") for q in ("torque", "theta_torque", "s_force")} == {"N m, N"}
     assert said == found
+
+
+@pytest.mark.mutant("states drawn in the order of the scene")
+def test_where_a_body_stands_in_the_file_is_no_part_of_what_is_drawn(tmp_path: Path) -> None:
+    """Another body beside it, or before it, changes nothing of its places and rates."""
+    case = claimed(tmp_path, PLANE)
+    assert case.states is not None
+    bodies = dict(reversed([*case.scene.bodies.items()]))
+    turned = replace(case.scene, bodies=bodies)
+    alone = replace(case.scene, bodies=dict([*case.scene.bodies.items()][-1:]))
+    every = case.states.drawn(case.scene)
+    assert len(bodies) > 1
+    for scene in (turned, alone):
+        for name, numbers in case.states.drawn(scene).items():
+            assert np.array_equal(numbers, every[name])

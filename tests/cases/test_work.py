@@ -70,6 +70,65 @@ def test_endless_work_is_said_with_its_number_and_the_way_on(
         assert first.long
 
 
+SLED = """\
+title: A sled spins on its blade
+scene:
+  gravity: none
+  bodies: {{sled: {{rigid: {{mass: 1.7, inertia: 0.09}}, points: {{P: [-0.35, 0]}}}}}}
+  constraints: {{blade: {{edge: sled.P, along: [1, 0.2]{speed}}}}}
+initial: {{sled: {{x: 0, y: 0, angle: 0.1, omega: {omega}}}{start}}}
+duration: 0.4
+samples: 11
+allow: {{sled.x: 1.0e-2}}
+"""
+FREE = SLED.format(speed="", omega="OMEGA", start=", blade: {speed: 0.4}")
+DRIVEN = SLED.format(
+    speed=", speed: {sine: {amplitude: 1, angular_frequency: OMEGA}}", omega="1", start=""
+)
+STATES = """\
+title: A chain in space at many states
+scene:
+  space: 3
+  points: {{O: [0, 0, 0]}}
+  bodies: {{{bodies}}}
+  joints: {{{joints}}}
+states: {{random: 10000, seed: 1, q: [-1, 1], q_dot: [-1, 1]}}
+allow: {{j0.torque: 1.0e-8}}
+"""
+
+
+def states(bars: int) -> str:
+    ends = ["ground.O", *(f"b{i}.end" for i in range(bars))]
+    return STATES.format(
+        bodies=", ".join(f"b{i}: {{bar: {{mass: 1.0, length: 0.1}}}}" for i in range(bars)),
+        joints=", ".join(
+            f"j{i}: {{hinge: [{ends[i]}, b{i}.start], axis: [0, 1, 0]}}" for i in range(bars)
+        ),
+    )
+
+
+@pytest.mark.parametrize("text", [FREE, DRIVEN], ids=["set off", "driven"])
+def test_what_spins_on_a_blade_is_counted(tmp_path: Path, text: str) -> None:
+    """Free it would only turn, which costs nothing; on a blade each turn is a swing."""
+    assert said(tmp_path, text.replace("OMEGA", "50.0")) == []
+    (mistake,) = said(tmp_path, text.replace("OMEGA", "1.0e+6"))
+    assert "swings at 1e+06 rad/s, 4e+05 rad in all, which take about 2.4 hours" in mistake[1]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (pendulum(samples=199_999), "199999 samples of 1 body, 199999 rows, take about"),
+        (chain(100).replace("samples: 26", "samples: 5001"), "5001 samples of 100 bodies"),
+        (states(30), "10000 states of 30 bodies take about"),
+    ],
+)
+def test_samples_and_states_cost_what_their_laws_cost(
+    tmp_path: Path, text: str, words: str
+) -> None:
+    assert any(words in what for _, what in said(tmp_path, text))
+
+
 @pytest.mark.parametrize(
     "text",
     [

@@ -48,6 +48,13 @@ def test_what_acts_in_a_step_with_a_corner_is_the_mean(row: dict[str, Any]) -> N
     assert told(row["t"]) == pytest.approx(row["mean"], rel=1e-12)
 
 
+@pytest.mark.parametrize("law", ["step", "pulse"])
+def test_what_jumps_has_no_rate(law: Any) -> None:
+    """No kind is taken for another one that has none."""
+    with pytest.raises(KeyError):
+        derivative(Signal(law, (1.0,), times=(0.2, 0.5)))
+
+
 def test_the_derivative_of_a_law_is_its_rate() -> None:
     """Of a table the sum of steps, at all times but its corners."""
     for row in TABLE["signals"]:

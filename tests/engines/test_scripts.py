@@ -21,9 +21,11 @@ from textmech.cases.frame import SPACE
 from textmech.cases.scene import Scene
 from textmech.cases.shape import bar
 from textmech.cases.space.rotation import matrix
+from textmech.cases.space.scene import SpatialScene
 from textmech.engines.engine import Engine, Start
 from textmech.engines.mujoco.drive import controls
-from textmech.engines.mujoco.law.signal import Corners, installed, signals
+from textmech.engines.mujoco.law.signal import Corners, following, installed, together
+from textmech.engines.mujoco.space.scene import signals as controls_in_space
 from textmech.reports.trial.start import assembled
 
 STEP = 1e-3  # s: whole steps in the 1 s that a script of pymunk's runs
@@ -48,8 +50,10 @@ def with_means(text: str, scene: Scene) -> mujoco.MjData:
     model = mujoco.MjModel.from_xml_string(text)
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, 0)
-    corners = Corners(controls(scene), model.opt.timestep)
-    with signals(scene, corners=corners):
+    in_space = isinstance(scene, SpatialScene)
+    laws = controls_in_space(scene) if in_space else controls(scene)
+    corners = Corners(laws, model.opt.timestep)
+    with together([following(laws, corners)]):
         corners.held(lambda n: mujoco.mj_step(model, data, n))(round(1.0 / model.opt.timestep))
     mujoco.mj_kinematics(model, data)
     return data

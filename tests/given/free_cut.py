@@ -3,7 +3,7 @@
 All from `poses` alone, in ground axes, by the complex step: no angular acceleration is written out.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -23,10 +23,16 @@ def matrix(pose: Pose) -> Any:
     return of_quaternion(pose[3:7])
 
 
+def _moving(mode: Mode, t: Any, q: Any, v: Any) -> Iterator[tuple[str, Pose]]:
+    """Each body with its pose; a spring that counts its turns has a state of its own beside."""
+    poses = mode.poses(t, q, v)
+    return ((body, poses[body]) for body in mode.masses)
+
+
 def momenta(mode: Mode, t: Any, q: Any, v: Any) -> Any:
     """(bodies, 6): (2.22) p = m ṙ_c and (2.25) D_c = E ω J, in ground axes."""
     rows = []
-    for body, pose in mode.poses(t, q, v).items():
+    for body, pose in _moving(mode, t, q, v):
         spin = matrix(pose) @ (mode.masses[body].J @ np.array(pose[10:]))
         rows.append([*(mode.masses[body].m * np.array(pose[7:10])), *spin])
     return np.array(rows)
@@ -41,7 +47,7 @@ def change(mode: Mode, t: float, q: Array, v: Array, a: Array) -> Array:
 def total(mode: Mode, t: float, q: Array, v: Array, wrenches: Sequence[Wrench]) -> Array:
     """(bodies, 6): F and M_c of all wrenches together."""
     poses = mode.poses(t, q, v)
-    sums = {body: np.zeros(6) for body in poses}
+    sums = {body: np.zeros(6) for body in mode.masses}
     for body, at, force, moment in wrenches:
         arm = np.asarray(at) - poses[body][:3]
         sums[body] += [*np.asarray(force), *(np.cross(arm, force) + np.asarray(moment))]
@@ -51,7 +57,7 @@ def total(mode: Mode, t: float, q: Array, v: Array, wrenches: Sequence[Wrench]) 
 def turning(mode: Mode, t: float, q: Array, v: Array) -> float:
     """(2.1)–(2.6) How far `poses` is from moving as it says: ṙ = v, q̇ = ½ q∘ω, |q| = 1."""
     worst = 0.0
-    for body, pose in mode.poses(t, q, v).items():
+    for body, pose in _moving(mode, t, q, v):
         moved = along(lambda t, q, body=body: mode.poses(t, q, v)[body][:7], (t, q), (1.0, v))
         w, x = pose[3], np.array(pose[4:7])
         omega = np.array(pose[10:])
@@ -63,7 +69,7 @@ def turning(mode: Mode, t: float, q: Array, v: Array) -> float:
 def kinetic(mode: Mode, t: float, q: Array, v: Array) -> float:
     """(2.54) Σ ½ m ṙ_c² + ½ ωᵀ J ω of the poses."""
     found = 0.0
-    for body, pose in mode.poses(t, q, v).items():
+    for body, pose in _moving(mode, t, q, v):
         mass, omega = mode.masses[body], np.array(pose[10:])
         found += mass.m * np.sum(np.square(pose[7:10])) / 2 + omega @ mass.J @ omega / 2
     return float(found)

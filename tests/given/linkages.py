@@ -42,3 +42,28 @@ scene:
   joints: {top: {pin: [ground.O, one.start]}, knee: {JOINT}}
 allow: {one.angle: 1.0e-2}
 """
+
+LINKAGE = """\
+scene:
+  space: 3
+  points: {O: [0, 0, 0], Q: [0.6, 0.1, 0]}
+  bodies:
+    crank:
+      rigid: {mass: 0.5, inertia: [1.0e-3, 2.0e-3, 2.2e-3, 0, 0, 0]}
+      points: {foot: [-0.07, 0, 0], pin: [0.07, 0, 0]}
+    coupler:
+      rigid: {mass: 0.5, inertia: [1.5e-3, 3.0e-2, 2.9e-2, 0, 0, 0]}
+      points: {a: [-0.3, 0, 0], b: [0.3, 0, 0]}
+    rocker:
+      rigid: {mass: 0.8, inertia: [1.2e-2, 1.0e-2, 1.5e-2, 0, 0, 0]}
+      points: {foot: [-0.1, -0.2, 0], pin: [0.1, 0.2, 0]}
+  joints:
+    motor: {hinge: [ground.O, crank.foot], axis: [0, 0, 1]}
+    near:
+      freedoms: {yaw: {hinge: [0, 0, 1]}, pitch: {hinge: [0, 1, 0]}, roll: {hinge: [1, 0, 0]}}
+      of: [crank.pin, coupler.a]
+    far: {ball: [coupler.b, rocker.pin]}
+    bearing: {hinge: [ground.Q, rocker.foot], axis: [0.6, 0, 0.8]}
+initial: {motor: {angle: 30 deg}, near: {roll: 0}}
+"""
+"""A crank, a coupler and a rocker about a skew axis: it closes in two ways."""

@@ -37,3 +37,38 @@ def test_what_is_said_to_stay_and_moves_is_a_mistake(tmp_path: Path, more: str) 
     (mistake,) = caught.value.mistakes
     assert mistake.where == "stays.1"
     assert mistake.what.startswith("moves by ")
+
+
+SLIDES = """\
+scene:
+  space: 3
+  gravity: none
+  points: {O: [0, 0, 0]}
+  bodies: {b: {rigid: {mass: 1, inertia: [0.5, 0.4, 0.3, 0.02, 0, 0]}}}
+  joints: {q: {slide: [ground.O, b.center], along: [1, 0, 0]}}
+initial: {q: {shift: 0, shift_dot: 3}}
+allow: {q.shift: 1.0e-3, b.omega_1: 1.0e-3}
+"""
+
+
+def test_where_nothing_turns_a_rate_of_rounding_is_none(tmp_path: Path) -> None:
+    """It has no size to be small against but 1 rad in the whole duration."""
+    assert solve(typed(tmp_path, f"{SLIDES}stays: [b.omega_1]\n")).holds
+    with pytest.raises(CaseError, match="never moves"):
+        solve(typed(tmp_path, SLIDES))
+
+
+@pytest.mark.mutant("a rate that changes by 1e-10 rad/s taken for one that stays")
+def test_a_rate_that_is_none_of_rounding_moves(tmp_path: Path) -> None:
+    """(2.33) ω̇₁ = (J₂ − J₃) ω₂ ω₃/J₁ = 6e-11 rad/s², where all turns are slow."""
+    free = """\
+scene:
+  space: 3
+  gravity: none
+  bodies: {b: {rigid: {mass: 1, inertia: [0.5, 0.4, 0.3, 0, 0, 0]}}}
+initial:
+  b: {x: 0, y: 0, z: 0, vx: 3, attitude: {axis: [0, 0, 1], angle: 0}, omega: [0, 3.0e-5, 1.0e-5]}
+allow: {b.x: 1.0e-3, b.omega_1: 1.0e-3}
+"""
+    with pytest.raises(CaseError, match="moves by"):
+        solve(typed(tmp_path, f"{free}stays: [b.omega_1]\n"))

@@ -10,6 +10,7 @@ from given.command import textmech
 from given.pendulum import pendulum
 
 from textmech.cases.case import Case
+from textmech.cases.find import shipped
 from textmech.reference import solve
 from textmech.reference.certificate.agreement import Check
 from textmech.reports.cli import command
@@ -62,6 +63,19 @@ def test_check_says_no_mistakes_only_where_nothing_fails(
     assert done.exit_code == 1
     assert "FAILS: the reference's closed form: 2.00e-03 is above 1.0e-12" in done.output
     assert "no mistakes" not in done.output
+
+
+@pytest.mark.mutant("a scene that is changed under its system, told by numbers alone")
+def test_a_scene_that_is_changed_under_its_system_is_told_as_that(files: Path) -> None:
+    text = shipped()["bar_pendulum"].read_text(encoding="utf-8")
+    edited = files / "edited.yaml"
+    edited.write_text(text.replace("{mass: m, length: l}", "{mass: 1.7, length: l}"), "utf-8")
+    done = CliRunner().invoke(command, ["check", str(edited)])
+    assert done.exit_code == 1
+    what = "the system 'bar_pendulum' moves otherwise than this scene, or by other forces: leave"
+    assert f"FAILS: {what}" in done.output
+    (files / "sound.yaml").write_text(text, "utf-8")
+    assert what not in CliRunner().invoke(command, ["check", str(files / "sound.yaml")]).output
 
 
 @pytest.mark.parametrize(

@@ -34,6 +34,9 @@ FOLLOWING = (
     "closed form",
     "closed events",
     "constraint drift",
+    "drives follow their laws",
+    "joints hold",
+    "nothing slips",
 )
 # Below this part of a tolerance a number is rounding's, and differs between machines.
 FLOOR = 1e-6

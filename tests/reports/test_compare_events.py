@@ -6,10 +6,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from given.otherwise import otherwise
 
 from textmech.cases.case import Case, Deviation, Event
 from textmech.cases.trajectory import Trajectory
 from textmech.reports.events.times import never
+from textmech.reports.judge import compare as comparing
 from textmech.reports.judge.compare import Outcome, compare
 from textmech.reports.judge.convergence import INSTANTS
 from textmech.reports.row import AGREES, BEYOND, DEVIATES, FAILS
@@ -136,3 +138,29 @@ def test_an_event_that_never_happens_is_a_mistake_of_the_case(trial: Make, stopp
     other = replace(stopping, events={"slips": Event("ball.x", "leaves zero")})
     (mistake,) = never(other, trial(case=stopping).reference)
     assert "never happens" in str(mistake)
+
+
+def order(made: Trial, module: Any = comparing) -> float | None:
+    found = module.compare(made)
+    return next(rung.order for rung in found.rungs if rung.quantity == "ball.x")
+
+
+@pytest.mark.mutant("orders are taken beside events")
+def test_what_is_beside_an_event_plays_no_part_in_an_order(
+    trial: Make, stopping: Case, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Beside the first stop a sample is off by a part of a step that no halving halves."""
+    made = trial(case=stopping, stops=STOPS)
+    kind, run = type(made.engine), type(made.engine).run
+
+    def bent(*given: Any, **more: Any) -> Trajectory:
+        found, step = run(*given, **more), given[4]
+        beside = np.abs(found.times - STOPS[0]) < 0.03
+        jumps = {1e-3: 0.7, 2e-3: 0.1, 4e-3: 0.9, 8e-3: 0.3}[round(step, 12)]
+        found.states["ball"][beside, 0] += 8e-3 * jumps
+        return found
+
+    monkeypatch.setattr(kind, "run", bent)
+    assert order(made) == pytest.approx(1.0, abs=0.01)
+    was = "        away=trial.away(AWAY * max(climbed))[keep],\n"
+    assert order(made, otherwise(comparing, was, "")) != pytest.approx(1.0, abs=0.01)

@@ -1,10 +1,13 @@
 """Ladders with known expansions: order, limit, verdict and usable step come out as put in."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
+from given.otherwise import otherwise
 
+from textmech.reports.judge import convergence
 from textmech.reports.judge.cause import cause
 from textmech.reports.judge.convergence import (
     ANOTHER,
@@ -162,3 +165,27 @@ def test_what_finer_steps_have_exactly_is_the_step_s() -> None:
     assert found.verdict == EXACT
     assert cause(found) == "the step: within from h = 0.002 s on"
     assert cause(replace(found, usable_step=None)) == "rounding"
+
+
+@pytest.mark.mutant("orders of the coarsest rungs: of {named}")
+@pytest.mark.parametrize(
+    ("named", "was"),
+    [
+        ("differences", "if fine > floor and coarse][:LAST]"),
+        ("sizes", "itertools.pairwise(self.sizes)][:LAST]"),
+    ],
+)
+def test_orders_are_of_the_finest_rungs(named: str, was: str) -> None:
+    """Of eight rungs the coarse ones are off by h⁴ too, which no fine one sees."""
+    steps = [1e-3 * 2**k for k in range(8)]
+    rungs = {h: REFERENCE + T * (h + 0.016 * (h / 0.016) ** 4) for h in steps}
+    sizes = [float(np.max(np.abs(u - REFERENCE))) for u in rungs.values()]
+
+    def order(module: Any = convergence) -> float | None:
+        if named == "sizes":
+            return module._Size(sizes).orders[0]
+        return module.study(rungs, REFERENCE, exponents=(1, 4), allow=1e-2, floor=1e-15).order
+
+    assert order() == pytest.approx(1.0, abs=0.05)
+    coarsest = order(otherwise(convergence, was, was.replace("[:LAST]", "[-LAST:]")))
+    assert coarsest is None or coarsest > 2.0

@@ -3,14 +3,18 @@
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
+from given.otherwise import otherwise
 from given.scenes import SHIPPED
 
 from textmech.cases.case import Case
 from textmech.cases.load import load
 from textmech.reports.judge.compare import compare
 from textmech.reports.row import AGREES
+from textmech.reports.show import script as showing
+from textmech.reports.trial import ladder as stepping
 from textmech.reports.trial.ladder import USUAL, judged_step, ladders, wanted_reactions
 from textmech.reports.trial.trial import Trial
 
@@ -110,3 +114,33 @@ def test_an_engine_is_asked_for_what_quantities_are_made_of(
 ) -> None:
     part = asked[0].partition(".")[0]
     assert wanted_reactions(SHIPPED[name].scene, asked) == tuple(f"{part}.{f}" for f in given)
+
+
+@pytest.mark.mutant("samples of an engine's own step may be fewer than asked")
+@pytest.mark.parametrize("own", [0.003, 0.0007, 0.0301, 0.04, 0.05])
+def test_samples_of_an_engines_own_step_are_as_often_as_asked(
+    trial: Make, moving: Case, own: float
+) -> None:
+    """Where the step allows it; and at whole steps, as many as fit into the motion."""
+    engine = trial(setting="shipped", own_step=own).engine
+    found = stepping.sampled(moving, engine)
+    assert found.interval <= max(moving.interval, own) * (1 + 1e-9)
+    assert found.interval / own == pytest.approx(round(found.interval / own), rel=1e-9)
+    assert moving.duration - found.interval < found.duration <= moving.duration * (1 + 1e-9)
+    was = "own * max(1, int(case.interval / own))"
+    rarer = otherwise(stepping, was, "own * (1 + int(case.interval / own))").sampled(moving, engine)
+    assert rarer.interval > max(moving.interval, own) or own >= 0.04  # one a sample at least
+
+
+def shown(trial: Trial, module: Any = showing) -> str:
+    return module.script(trial.case, trial.engine)
+
+
+@pytest.mark.mutant("the shown file has twice the step")
+def test_a_shown_file_has_the_judged_step(trial: Make, monkeypatch: pytest.MonkeyPatch) -> None:
+    made = trial()
+    told = lambda self, scene, start, step, plan, title="": f"{step:g} s of {title}"  # noqa: E731
+    monkeypatch.setattr(type(made.engine), "script", told)
+    assert shown(made) == f"0.001 s of moving: {made.case.title}"
+    was = "judged_step(case, engine), native"
+    assert shown(made, otherwise(showing, was, f"2 * {was}")).startswith("0.002 s")

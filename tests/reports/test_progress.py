@@ -2,15 +2,18 @@
 
 import time
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from types import SimpleNamespace
 
 import pytest
 
+from textmech.reference.integrators import now
 from textmech.reports import pool
 from textmech.reports.cache.key import Keys
 from textmech.reports.cache.store import passing
+from textmech.reports.processes import Processes
 from textmech.reports.results import Results
-from textmech.reports.show import progress
+from textmech.reports.show import progress, say
 
 
 @pytest.mark.parametrize(
@@ -58,7 +61,7 @@ def test_tasks_tell_their_names_and_a_long_one_counts_for_more() -> None:
         "short": SimpleNamespace(name="a short one", steps=1000.0),
     }
     with ThreadPoolExecutor(1) as executor, passing() as store:
-        results = Results(executor, lambda *words: heard.append(words), store, Keys.now())
+        results = Results(executor, lambda *words: heard.append(words), store, Keys.now(None))
         results.anew("engines", str, tasks)
     assert heard == [
         ("engines", 0, 2, "", 0.0),
@@ -74,3 +77,61 @@ def test_a_task_that_takes_long_is_waited_for_aloud(monkeypatch: pytest.MonkeyPa
         found = dict(pool.spread(time.sleep, [0.1], executor, lambda: beats.append(1.0)))
     assert found == {0: None}
     assert len(beats) > 2
+
+
+def test_what_takes_long_has_a_line_that_moves(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Whoever works, in this process: where it is in the motion, and how long that still takes."""
+    for name in ("FIRST", "INTERVAL", "BEAT"):
+        monkeypatch.setattr(progress, name, 0.05)
+    with progress.aloud():
+        now.begun("swing")
+        now.doing("the motion", 0.0, 10.0)
+        now.reached(2.5)
+        now.NOW.since -= 30.0
+        time.sleep(0.5)
+        now.reached(5.0)
+        time.sleep(0.5)
+    said = capsys.readouterr().err
+    assert "swing: the motion, at 2.5 of 10 s, about 1:3" in said
+    assert "swing: the motion, at 5 of 10 s" in said
+
+
+def test_what_is_soon_done_says_nothing(capsys: pytest.CaptureFixture[str]) -> None:
+    with progress.aloud():
+        now.doing("the motion", 0.0, 10.0)
+        time.sleep(2 * progress.BEAT)
+    assert capsys.readouterr().err == ""
+
+
+def moving(task: SimpleNamespace) -> None:
+    now.doing("the motion", 0.0, 10.0)
+    now.reached(4.0)
+    time.sleep(task.seconds)
+
+
+def _hear(executor: Processes, heard: list[list[str]]) -> None:
+    heard.append(executor.doing())
+
+
+def test_what_another_process_is_at_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    heard: list[list[str]] = []
+    monkeypatch.setattr(pool, "BEAT", 0.2)
+    with pool.local(1) as executor:
+        task = SimpleNamespace(name="a long one", seconds=2.0)
+        assert isinstance(executor, Processes)
+        told = partial(dict, pool.spread(moving, [task], executor, partial(_hear, executor, heard)))
+        assert told() == {0: None}
+        assert executor.doing() == []
+    assert any(
+        said and said[0].startswith("a long one: the motion, at 4 of 10 s") for said in heard
+    )
+
+
+def test_a_line_that_was_drawn_stands_in_nobodys_way(capsys: pytest.CaptureFixture[str]) -> None:
+    say.draw("half a line")
+    say.tell("a whole one")
+    say.tell("another")
+    wiped = " " * len("half a line")
+    assert capsys.readouterr().err == f"\rhalf a line\r{wiped}\ra whole one\nanother\n"

@@ -1,16 +1,19 @@
 """What people ask: every question has a case, and with the setting that it names it comes right."""
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import pandas as pd
 import pytest
+from given.otherwise import otherwise
 
 from textmech.cases.find import of_the_book
 from textmech.cases.find import questions as files
 from textmech.cases.load import load
 from textmech.reports import run
 from textmech.reports.row import AGREES
+from textmech.reports.show import questions as asking
 from textmech.reports.show.questions import WORDS, listed, questions
 
 Setting = Mapping[str, Any] | str
@@ -75,3 +78,21 @@ def test_the_table_says_question_case_answer_and_setting() -> None:
     assert "impratio: 100" in rows["creeping_block"][3]
     assert WORDS["law"] in rows["break_away"][3]
     assert all(line[0].endswith("?") for line in lines)
+
+
+@pytest.mark.mutant("the engines of the README's settings exchanged")
+def test_each_engine_has_its_own_setting(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    listed = tmp_path / "questions.yaml"
+    listed.write_text(
+        "moving:\n  asks: why?\n  answer: so\n"
+        "  with: {mujoco: {integrator: RK4}, pymunk: {error_bias: 0.0}}\n",
+        encoding="utf-8",
+    )
+    monkeypatch.setattr(asking, "LISTED", listed)
+    wanted = "mujoco: `integrator: RK4`<br>pymunk: `error_bias: 0`"
+    assert asking.questions()[1][-1] == wanted
+    was = "for e, s in question.settings.items())"
+    now = "for e, s in zip(question.settings, reversed(question.settings.values())))"
+    exchanged = otherwise(asking, was, now)
+    exchanged.LISTED = listed
+    assert exchanged.questions()[1][-1] != wanted

@@ -2,21 +2,21 @@
 
 import multiprocessing
 import os
-import shutil
 import signal
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from textmech.reports.replace import replace, settle
+from textmech.reports.replace import replace
 
 NAMES = ("a.csv", "b.csv", "c.csv")
 OLD = {name: f"old {name}\n" for name in NAMES}
 NEW = {name: f"new {name}\n" for name in (*NAMES, "d.csv")}
 FORK = multiprocessing.get_context("fork")
 STRIKES = ("mkdir", "open", "rename", "replace")  # what a replacement does to the disk
+SWEEPS = ("unlink", "rmdir")  # after it
 
 
 def struck(at: int, name: str, strike: Callable[[], None], patch: pytest.MonkeyPatch) -> None:
@@ -56,9 +56,9 @@ def refuse() -> None:
     raise OSError(28, "No space left on device")
 
 
-@pytest.mark.parametrize("name", STRIKES)
+@pytest.mark.parametrize("name", STRIKES + SWEEPS)
 @pytest.mark.parametrize("at", range(1, 6))
-def test_killed_anywhere_the_next_reader_finds_one_run(name: str, at: int, folder: Path) -> None:
+def test_killed_anywhere_the_next_writer_finds_one_run(name: str, at: int, folder: Path) -> None:
     def doomed() -> None:
         with pytest.MonkeyPatch.context() as patch:
             struck(at, name, kill, patch)
@@ -67,14 +67,10 @@ def test_killed_anywhere_the_next_reader_finds_one_run(name: str, at: int, folde
     process = FORK.Process(target=doomed)
     process.start()
     process.join()
-    settle(folder)
-    assert found_files(folder) in (OLD, NEW)
+    replace(folder, {})  # whoever writes there next finishes it
+    assert found(folder) in (OLD, NEW)
     replace(folder, OLD | NEW)
     assert found(folder) == NEW  # nothing is left of the one that was killed
-
-
-def found_files(folder: Path) -> dict[str, str]:
-    return {path.name: path.read_text() for path in folder.iterdir() if path.is_file()}
 
 
 @pytest.mark.parametrize("strike", [interrupt, refuse])
@@ -122,23 +118,16 @@ def test_two_at_once_are_one_after_the_other(folder: Path) -> None:
     assert set(found(folder)) == set(NEW)
 
 
-def test_an_interruption_while_it_sweeps_is_not_lost(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("strike", [interrupt, refuse])
+@pytest.mark.parametrize("name", SWEEPS)
+@pytest.mark.parametrize("at", range(1, 6))
+def test_a_sweep_that_is_struck_costs_nothing_and_is_the_next_ones(
+    strike: Callable[[], None], name: str, at: int, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Python's rmtree, interrupted as it closes a folder, closes it again: that is an OSError."""
-    whole, calls = shutil.rmtree, [0]
-
-    def closing_twice(path: Path, **words: Any) -> None:
-        calls[0] += 1
-        if calls[0] > 1:
-            whole(path, **words)
-            return
-        try:
-            raise KeyboardInterrupt
-        finally:
-            os.close(10_000)
-
-    monkeypatch.setattr(shutil, "rmtree", closing_twice)
-    with pytest.raises(KeyboardInterrupt):
-        replace(folder, NEW)
+    with monkeypatch.context() as patch:
+        struck(at, name, strike, patch)
+        with suppress(KeyboardInterrupt):
+            replace(folder, NEW)
+    assert {name: (folder / name).read_text() for name in NEW} == NEW
+    replace(folder, NEW)
     assert found(folder) == NEW

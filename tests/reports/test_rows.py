@@ -1,8 +1,10 @@
 """The rows of a run on a terminal of 80 columns."""
 
+from dataclasses import replace
+
 from given.lines import refused, row
 
-from textmech.reports.row import Certificate
+from textmech.reports.row import FAILS, Certificate
 from textmech.reports.show.rows import known, rows
 
 LONG = "the model: 0.346 remains for h → 0; " + "one number for friction where there are two; " * 3
@@ -65,3 +67,5 @@ def test_what_a_reference_is_certified_to() -> None:
     said = "swing: the reference is certified: rod.angle to 3e-12 rad"
     assert list(known([law, certified])) == ["", said]
     assert max(map(len, known([certified] * 9))) <= 80
+    broken = replace(law, verdict=FAILS)
+    assert list(known([broken, certified])) == []  # of one that does not hold nothing is known

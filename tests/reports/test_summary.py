@@ -1,11 +1,15 @@
 """The short table: its worst quantity, what agrees, what cures it, and the book's own lines."""
 
 from math import inf, nan
+from typing import Any
 
 import pytest
 from given.lines import ladder, refused, row
+from given.otherwise import otherwise
 
 from textmech.reports.row import CHANGED, DIVERGED, FAILS, Comparison
+from textmech.reports.show import agreement
+from textmech.reports.show import summary as short
 from textmech.reports.show.summary import Line, approximations, summary
 
 
@@ -99,3 +103,43 @@ def test_the_books_approximations_are_told_apart() -> None:
         Line("swing", "book.karnopp", "agrees", "1 ms", ""),
     ]
     assert [found.setting for found in summary([row(), *book], rungs)] == ["mujoco.shipped"]
+
+
+def told(module: Any = short) -> list[tuple[str, str, str, str]]:
+    """Two engines of which nothing is alike."""
+    rows = [row(ratio=3.0), row(ratio=7.0, engine="pymunk")]
+    rungs = [ladder(5e-4), ladder(2.5e-4, engine="pymunk")]
+    cures = {("swing", r.engine, "shipped", "rod.angle"): f"{r.engine}'s" for r in rows}
+    found = module.summary(rows, rungs, cures)
+    return [(one.setting, one.worst, one.agrees, one.cured) for one in found]
+
+
+@pytest.mark.mutant("the engines of the README's tables exchanged")
+def test_each_engine_has_its_own_numbers() -> None:
+    assert told() == [
+        ("mujoco.shipped", "rod.angle ×3", "shipped 0.5 ms", "mujoco's"),
+        ("pymunk.shipped", "rod.angle ×7", "shipped 0.25 ms", "pymunk's"),
+    ]
+    other = '{"mujoco": "pymunk", "pymunk": "mujoco"}[engine]'
+    exchanged = told(otherwise(short, "yield case, engine, ways", f"yield case, {other}, ways"))
+    assert [line[:2] for line in exchanged] == [
+        ("pymunk.shipped", "rod.angle ×3"),
+        ("mujoco.shipped", "rod.angle ×7"),
+    ]
+
+
+def usable(steps: list[float | None], module: Any = agreement) -> str:
+    """With what a case agrees of which the quantities have these usable steps."""
+    rows = [row(ratio=3.0, quantity=f"x{k}") for k in range(len(steps))]
+    rungs = [ladder(step, quantity=f"x{k}") for k, step in enumerate(steps)]
+    way = ("shipped", "native")
+    return module.agreement({way: rows}, {way: rungs})
+
+
+@pytest.mark.mutant("it agrees up to the largest of all usable steps")
+def test_all_quantities_agree_up_to_the_smallest_of_their_steps() -> None:
+    assert usable([2e-3, 5e-4, 1e-3]) == "shipped 0.5 ms"
+    assert usable([2e-3, None]) == "none"
+    assert usable([2e-3, 5e-4], otherwise(agreement, "return min(known)", "return max(known)")) == (
+        "shipped 2 ms"
+    )

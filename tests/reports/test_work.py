@@ -16,6 +16,7 @@ from textmech.reports.trial.start import assembled
 from textmech.reports.trial.trial import planned
 from textmech.reports.trial.work import STEPS, _steps, too_long
 
+SLOW = pendulum(duration=3e3, length=2, step=1e-2)
 LANDS = "events: {turns: {rod.omega: falls to zero}}"
 
 
@@ -30,7 +31,11 @@ def cases(folder: Path, text: str, *, long: bool = False) -> list[Case]:
     [
         (pendulum(step=1e-9), "10:1 step", "tuned's step 1e-09 s"),
         (pendulum(duration=1e3, step=1e-4), "10:1 step", "4e+07 steps"),
-        (pendulum(duration=3e3, step=1e-2), "8:1 duration", "mujoco.shipped's step 0.002 s"),
+        (
+            pendulum(duration=3e3, length=2, step=1e-2),
+            "8:1 duration",
+            "mujoco.shipped's step 0.002 s",
+        ),
         (pendulum(duration=1e3, more=LANDS), "8:1 duration", "rows kept for the events"),
     ],
 )

@@ -5,7 +5,7 @@ The steps of engines are counted where engines are known (reports/trial/work.py)
 """
 
 from collections.abc import Iterator, Mapping
-from math import hypot, sqrt
+from math import hypot, isnan, sqrt
 from typing import Any
 
 from ...mistake import Path
@@ -13,12 +13,11 @@ from ...scene import Anchor, Body, Scene
 from ...signal import fastest
 from ..grammar.file import File
 from ..parse import Finding
+from . import cost
 from .space.work import spins
 
 VARIANTS = 100  # each is solved and run; a sweep of more is several files
-PARTS = 300  # bodies and what is between them: a chain of 100 bars has 200 and takes 13 s
-ROWS = 200_000  # samples × bodies: each is a step of the reference, four times at 0.1 ms at least
-SWING = 20_000.0  # rad: 800 evaluations each (measured on a pendulum), a quarter of an hour
+PARTS = 300  # bodies and what is between them: a chain of 100 bars has 200
 DAMPED = 50.0  # what a damper slows down costs so much less: only stability bounds its steps
 
 GO_ON = "if that is meant, go on with --allow-long (pytest: --textmech-allow-long)"
@@ -36,20 +35,37 @@ def work(file: File, scene: Scene) -> Iterator[Finding]:
     parts = len([*scene.elements()])
     if what := _above(parts, PARTS, f"{parts} bodies, joints, constraints, contacts and forces"):
         yield ("scene",), what
-    rows = file.samples * len(scene.bodies)
+        return
     bodies = "body" if len(scene.bodies) == 1 else "bodies"
-    each = f"{file.samples} samples of {len(scene.bodies)} {bodies} are {rows} rows"
-    if what := _above(rows, ROWS, each):
+    of = f"of {len(scene.bodies)} {bodies}"
+    if file.states is not None:
+        count = file.states.random
+        if what := _long(count * cost.state(scene), f"{count} states {of}"):
+            yield ("states", "random"), what
+        return
+    sampled = file.samples * cost.sample(scene)
+    rows = file.samples * len(scene.bodies)
+    if what := _long(sampled, f"{file.samples} samples {of}, {rows} rows,"):
         yield ("samples",), what
-    rate, path = max([*_rates(scene), *_spins(file, scene)], default=(0.0, ()))
+        return
+    found = (each for each in (*_rates(scene), *_spins(file, scene)) if not isnan(each[0]))
+    rate, path = max(found, default=(0.0, ()))  # of a spoiled number its own mistake is said
     swing = rate * file.duration
     where = ".".join(map(str, path))
-    if what := _above(swing, SWING, f"{where} swings at {rate:.3g} rad/s, {swing:.3g} rad in all"):
+    swings = f"{where} swings at {rate:.3g} rad/s, {swing:.3g} rad in all, which"
+    if what := _long(sampled + cost.swung(scene, swing), swings):
         yield ("duration",), what
 
 
 def _above(number: float, limit: float, what: str) -> str | None:
     return f"{what}, and the limit is {limit:g}: {GO_ON}" if number > limit else None
+
+
+def _long(seconds: float, what: str) -> str | None:
+    if not seconds > cost.LIMIT:  # nor where a number of the file is spoiled
+        return None
+    limit = f"the limit is {cost.LIMIT / 60:g} minutes"
+    return f"{what} take {cost.about(seconds)}, and {limit}: {GO_ON}"
 
 
 def _rates(scene: Scene) -> Iterator[tuple[float, Path]]:
@@ -76,7 +92,10 @@ def _rates(scene: Scene) -> Iterator[tuple[float, Path]]:
 
 
 def _spins(file: File, scene: Scene) -> Iterator[tuple[float, Path]]:
-    """How fast what turns about a pin is set off; what is free only turns, which costs nothing."""
+    """How fast what turns about a pin or on a blade is set off, or by what acts beside its centre.
+
+    What is free only turns, which costs nothing.
+    """
     if scene.frame.dimension == 3:
         yield from spins(file, scene)
         return
@@ -87,10 +106,20 @@ def _spins(file: File, scene: Scene) -> Iterator[tuple[float, Path]]:
         start = file.initial.get(name)
         if start is not None and start.omega is not None:
             yield abs(start.omega), ("initial", name)
-    for at in _pins(scene):
-        start = file.initial.get(at.body)
-        if start is not None and start.omega is not None and any(_arm(scene, at)):
-            yield abs(start.omega), ("initial", at.body)
+    for edge in scene.constraints.values():
+        if edge.speed is not None:
+            yield edge.speed.angular_frequency, ("scene", "constraints", edge.name)
+    for body in {*_turned(scene)}:
+        start = file.initial.get(body)
+        if start is not None and start.omega is not None:
+            yield abs(start.omega), ("initial", body)
+
+
+def _turned(scene: Scene) -> Iterator[str]:
+    """The bodies whose motion depends on how they are turned."""
+    yield from (edge.at.body for edge in scene.constraints.values())
+    acting = [at for force in scene.forces.values() for at in force.refers()]
+    yield from (at.body for at in (*_pins(scene), *acting) if any(_arm(scene, at)))
 
 
 def _pins(scene: Scene) -> Iterator[Anchor]:
@@ -100,7 +129,8 @@ def _pins(scene: Scene) -> Iterator[Anchor]:
 
 
 def _arm(scene: Scene, at: Anchor) -> tuple[float, ...]:
-    return scene.bodies[at.body].points.get(at.point, (0.0, 0.0))
+    body = scene.bodies.get(at.body)
+    return (0.0, 0.0) if body is None else body.points.get(at.point, (0.0, 0.0))
 
 
 def _pendulum(body: Body, point: str, g: float) -> float:

@@ -45,12 +45,16 @@ class Plain:
 
 @dataclass(frozen=True)
 class In(Plain):
-    """A number in a unit ("1": none), resolved to SI; nan stands for a mistaken parameter."""
+    """A number in a unit ("1": none), resolved to SI; nan stands for a mistaken parameter.
+
+    why: what else to write where it would be 0, as the end of a sentence.
+    """
 
     unit: str
     above: float | None = None
     least: float | None = None
     most: float | None = None
+    why: str = ""
 
     def check(self, value: object, known: Names) -> float:
         found = number(value, self.unit, known)
@@ -58,7 +62,8 @@ class In(Plain):
             return float("nan")
         by_name = f" ({value})" if isinstance(value, str) else ""
         if self.above is not None and not found.value > self.above:
-            raise NumberMistake(f"must be positive, is {found.value:g}{by_name}")
+            why = "" if found.value else self.why
+            raise NumberMistake(f"must be positive, is {found.value:g}{by_name}{why}")
         if self.least is not None and not found.value >= self.least:
             what = f"must be at least {self.least:g}" if self.least else "must not be negative"
             raise NumberMistake(f"{what}, is {found.value:g}{by_name}")

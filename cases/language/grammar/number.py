@@ -16,7 +16,8 @@ _QUANTITY = re.compile(rf"({_LITERAL})\s*({_TERM}(?:\s*[ */·]\s*{_TERM}){{0,5}}
 
 # The units a case can use. The angle is a dimension of its own here (to pint's own table it is
 # none), so that an angle is no friction coefficient, and 2 Hz, which could mean 2 or 4π rad/s,
-# is no angular frequency.
+# is no angular frequency. A gram is a gramme by name: pint gives the kgram the name of prefix and
+# unit, and a kilogram of 1000 grams, each 1e-3 of it, would have no end.
 _UNITS = """
 nano- = 1e-9 = n-
 micro- = 1e-6 = µ- = μ-
@@ -29,7 +30,7 @@ meter = [length] = m = metre
 kilogram = [mass] = kg
 second = [time] = s
 radian = [angle] = rad
-gram = 1e-3 kilogram = g
+gramme = 1e-3 kilogram = g = gram
 minute = 60 second = min
 hour = 3600 second = h
 degree = 3.141592653589793 / 180 radian = deg = °
@@ -43,7 +44,9 @@ ampere = [current] = A
 coulomb = ampere * second = C
 tesla = kilogram / ampere / second**2 = T
 """
-SMALLEST, LARGEST = 1e-30, 1e30  # in SI: beyond them squares of products leave the doubles
+# In SI: an electron has 9e-31 kg, a molecule 1e-46 kg m². Beyond them squares of products of two
+# leave the doubles, or nearly.
+SMALLEST, LARGEST = 1e-60, 1e30
 _KNOWN = ("m", "mm", "cm", "kg", "g", "s", "ms", "rad", "deg", "rpm", "N", "kN", "J", "W")
 
 

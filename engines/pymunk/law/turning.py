@@ -12,13 +12,16 @@ from .line import Exerted, Load
 
 
 def twist(world: World, force: Turning, name: str) -> Exerted:
-    """What a torsion spring or damper exerts on the body `name`."""
+    """What a torsion spring or damper exerts on the body `name`, which is the second part.
+
+    Friction by law knows loads of what one joint alone holds, to the ground.
+    """
     a, b = _parts(world, force)
-    way = 1.0 if world.bodies[name] is b else -1.0
+    assert b is world.bodies[name]
 
     def exerted(t: float, drift: float) -> Load:
         rate = b.angular_velocity - a.angular_velocity
-        return 0.0, 0.0, way * turning(force, b.angle - a.angle + drift * rate, rate)
+        return 0.0, 0.0, turning(force, b.angle - a.angle + drift * rate, rate)
 
     return exerted
 
@@ -48,10 +51,9 @@ def motor(world: World, force: Motor, step: float, drift: float) -> Callable[[fl
 
 
 def motor_load(world: World, force: Motor, name: str) -> Exerted:
-    """What it exerts on the body `name`."""
-    _, b = _parts(world, force)
-    way = 1.0 if world.bodies[name] is b else -1.0
-    return lambda t, drift: (0.0, 0.0, way * value(force.signal, t)[0])
+    """What it exerts on the body `name`, the second part as in `twist`."""
+    assert _parts(world, force)[1] is world.bodies[name]
+    return lambda t, drift: (0.0, 0.0, value(force.signal, t)[0])
 
 
 def couple_as_text(

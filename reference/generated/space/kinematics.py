@@ -17,12 +17,16 @@ UPRIGHT, NONE = np.array([1.0, 0.0]), np.zeros(1)  # behind q and v, for what do
 
 @dataclass(frozen=True)
 class Bodies:
-    """Of each body, and last of the ground: R (K, 3, 3), r, ṙ, ω in its own axes (K, 3)."""
+    """Of each body, and last of the ground: R (K, 3, 3), r, ṙ, ω in its own axes (K, 3).
+
+    wound: what counts the turns of joints, behind the bodies' coordinates.
+    """
 
     R: Any
     r: Any
     r_dot: Any
     omega: Any
+    wound: Any
 
     @cached_property
     def spin(self) -> Any:
@@ -65,9 +69,11 @@ class Layout:
         self._omega = _places([c.omega for c in at], (none,) * 3)
 
     def bodies(self, q: Any, v: Any) -> Bodies:
-        """At q (m,) and v (n,)."""
-        q, v = np.concatenate((q, UPRIGHT)), np.concatenate((v, NONE))
-        return Bodies(matrices(q[self._attitude]), q[self._r], v[self._r_dot], v[self._omega])
+        """At q (m,), with what counts turns behind it or without, and v (n,)."""
+        m = len(self.where.names)
+        wound, q, v = q[m:], np.concatenate((q[:m], UPRIGHT)), np.concatenate((v, NONE))
+        R = matrices(q[self._attitude])
+        return Bodies(R, q[self._r], v[self._r_dot], v[self._omega], wound)
 
     def attached(self, anchors: Sequence[Anchor]) -> "Attached":
         """Points by name, ready to be asked where they are."""

@@ -1,5 +1,8 @@
 """Any scene in space as a System: nothing switches there, so it has one mode and no guards."""
 
+import numpy as np
+
+from ....cases.scene import GROUND, Anchor
 from ....cases.space.scene import SpatialScene
 from ...system import MOVING, Array, System
 from .mode import SpatialMultibody
@@ -16,3 +19,16 @@ class SpatialMechanism(System):
     def start(self) -> tuple[str, Array, Array]:
         """The assembled start."""
         return MOVING, *self.base.start()
+
+    def driven_point(self, name: str, t: float) -> tuple[float, ...]:
+        """x, y, z, vx, vy, vz of a point of the ground that moves."""
+        layout = self.base.layout
+        still = np.zeros(layout.where.size)
+        bodies = layout.bodies(self.base.start()[0], still)
+        point = layout.attached([Anchor(GROUND, name)]).at(t, bodies)
+        return *point.r[0].tolist(), *point.r_dot[0].tolist()
+
+    def powers(self, t: float, q: Array, v: Array) -> dict[str, float]:
+        """The power [W] at any rates of each force that follows a law in time, by its name."""
+        each = dict(zip(self.base.scene.forces, self.base.forces(t, q, v), strict=True))
+        return {force.name: float(each[force.name] @ v) for force in self.base.scene.signals()}

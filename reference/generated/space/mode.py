@@ -1,5 +1,6 @@
 """Any scene in space as a Mode, in maximal coordinates with multipliers (2.60)."""
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
@@ -14,13 +15,15 @@ from .coordinates import SpatialCoordinates
 from .equations import Equations
 from .held import held
 from .kinematics import Layout, carried
+from .turning import Turn, wound
 
 
 class SpatialMultibody(Mode):
     """(2.23), (2.33) of all bodies, held together by multipliers.
 
     q holds r and a unit quaternion of each body in the scene's order, v holds ṙ and ω in body
-    axes; a particle has neither quaternion nor ω.
+    axes; a particle has neither quaternion nor ω. Behind them q has the angle of each turn that a
+    torsion spring acts about, by its rate: it says which whole turns those of the attitudes have.
     """
 
     stiff = False
@@ -29,12 +32,16 @@ class SpatialMultibody(Mode):
     def __init__(self, scene: SpatialScene, start: tuple[Array, Array]) -> None:
         self.scene = scene
         self.where = SpatialCoordinates(scene)
-        self.coordinates = self.where.names
+        self._turns = wound(scene)
+        self.coordinates = (*self.where.names, *self._turns)
         self.masses = {
             b.name: Mass(b.mass, b.tensor if b.turns else None) for b in scene.bodies.values()
         }
-        self._start = start
         self.layout = Layout(self.where)
+        self._wound = [Turn(self.layout, force) for force in self._turns.values()]
+        self._start = start
+        if len(start[0]) == len(self.where.names):  # where there is a start, and nobody counts yet
+            self._start = np.append(start[0], self._begun(*start)), start[1]
         self.constraints = SpatialRows(held(scene), self.layout)
         self._actions = Actions(self.layout)
         self._weight = np.zeros(self.where.size)
@@ -51,8 +58,23 @@ class SpatialMultibody(Mode):
         return self._start
 
     def rates(self, t: Any, q: Vector, v: Vector) -> Vector:
-        """(2.5), (2.6) q̇ (m,): ṙ, and ½ q ∘ (0, ω)."""
-        return self.where.rates(q, v)
+        """(2.5), (2.6) q̇ (m,): ṙ, and ½ q ∘ (0, ω); and φ̇ of what is counted."""
+        rates = self.where.rates(q, v)
+        if not self._wound:
+            return rates
+        bodies = self.layout.bodies(q, v)
+        return np.append(rates, [turn.at(t, bodies).rate for turn in self._wound])
+
+    def _begun(self, q: Array, v: Array) -> list[float]:
+        """The angles at the start, each nearest to what the joint begins with."""
+        bodies = self.layout.bodies(q, v)
+        found = []
+        for name, turn in zip(self._turns, self._wound, strict=True):
+            joint, _, freedom = name.partition(".")
+            begins = self.scene.joints[joint].begins.get(freedom, 0.0)
+            phi = turn.at(0.0, bodies).angle
+            found.append(phi + math.tau * round((begins - phi) / math.tau))
+        return found
 
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.60) M v̇ = Q + λ_b f_aᵇ with f_aᵇ v̇ᵃ = γᵇ, (n,)."""
@@ -98,6 +120,10 @@ class SpatialMultibody(Mode):
         turning = np.zeros(self.where.size)
         self._gyroscopic(v, turning)
         yield turning
+        yield from self.forces(t, q, v)
+
+    def forces(self, t: float, q: Array, v: Array) -> Iterator[Array]:
+        """The generalized force (n,) of each force element by itself, in the scene's order."""
         yield from self._actions.alone(t, self.layout.bodies(q, v), self.where.size)
 
     def largest(self, t: float, q: Array, v: Array) -> Array:
@@ -114,12 +140,27 @@ class SpatialMultibody(Mode):
         return float(np.max(largest / np.array(self.where.masses))), float(np.max(powers))
 
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
-        """(2.8) R_k, E_k: the coordinates themselves, quaternions with the length 1."""
-        return self.where.poses(q, v)
+        """(2.8) R_k, E_k: the coordinates themselves, quaternions with the length 1.
+
+        And the angles of counted turns, by quantity.
+        """
+        if not self._wound:
+            return self.where.poses(q, v)
+        bodies = self.layout.bodies(q, v)
+        angles = [turn.at(t, bodies).angle for turn in self._wound]
+        turned = {name: (phi,) for name, phi in zip(self._turns, angles, strict=True)}
+        return self.where.poses(q, v) | turned
 
     def place(self, poses: Mapping[str, Pose]) -> tuple[Any, Any]:
-        """q and v of given poses: how another system's motion is read in these coordinates."""
-        return self.where.place(poses)
+        """q and v of given poses: how another system's motion is read in these coordinates.
+
+        With the turns that it tells.
+        """
+        q, v = self.where.place(poses)
+        if not self._wound:
+            return q, v
+        told = zip(self._turns, self._begun(q, v), strict=True)  # or as near as where they begin
+        return np.append(q, [poses.get(name, (phi,))[0] for name, phi in told]), v
 
     def without_direction(self, t: float, q: Array, within: float) -> str | None:
         """The first force along a line that is shorter than that [m]."""

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ....cases.signal import Signal
+from ..signal import signal, slope
 from .attitude import cross, dot, skew
 from .held import Drive, Rim
 from .kinematics import Bodies, Fixed, Layout, back
@@ -105,7 +105,7 @@ class Drives:
         gap, gap_dot, turning = ends.between(self.size)
         omega = bodies.spin.take(self._ends.body, axis=0)
         beside = m_dot * (omega[self.size :] - omega[: self.size]) + 2 * u_dot * gap_dot
-        laws = np.array([_law(law, t) for law in self._laws])
+        laws = np.array([(*signal(law, t), *slope(law, t)) for law in self._laws])
         gamma = laws[:, 1] - (beside + u_turning * gap + u * turning).sum(axis=1)
         arms = np.concatenate((-gap - ends.d[: self.size], ends.d[self.size :]))
         turned = cross(arms, np.concatenate((u, u))) + np.concatenate((-m, m))
@@ -138,14 +138,3 @@ def _dual(drive: Drive) -> Any:
         return np.zeros(3)
     axes = np.array(drive.shifts, float)
     return np.linalg.pinv(axes.T)[drive.shifts.index(drive.shift)]
-
-
-def _law(signal: Signal, t: Any) -> tuple[Any, Any]:
-    """g and ġ of a named law in time."""
-    (A,) = signal.amplitude
-    if signal.law == "constant":
-        return A, 0.0
-    if signal.law == "ramp":
-        return A * t, A
-    w, at = signal.angular_frequency, signal.angular_frequency * t + signal.phase
-    return A * np.sin(at), A * w * np.cos(at)

@@ -13,6 +13,7 @@ import numpy as np
 
 from ....cases.space.chain import across
 from ....cases.space.joint import SpatialJoint
+from ....cases.space.scene import SpatialScene
 from ....cases.turning import Motor, Torsion, TorsionDamper, Turning
 from ...laws.force import torsion, torsion_damper
 from ..signal import signal
@@ -40,6 +41,7 @@ class Turned:
     weights: tuple[float, float]  # of first and last in m
     way: float
     alone: bool  # one turn: both axes are one
+    near: Any = None  # what the motion has counted, where it does
 
     @property
     def m(self) -> Any:
@@ -48,9 +50,17 @@ class Turned:
 
     @property
     def angle(self) -> Any:
-        """[rad] φ = 2 atan (s/(c + √(c² + s²))): the pointer's, which has a complex step."""
+        """[rad] φ = 2 atan (s/(c + √(c² + s²))) + 2π k: the pointer's, which has a complex step.
+
+        k are the whole turns that bring it to what is counted.
+        """
         s, c = dot(self.pointer[0], self.side[0]), dot(self.pointer[0], self.flat[0])
-        return 2 * self.way * np.arctan(s / (c + np.sqrt(c * c + s * s)))
+        if np.real(c) >= 0.0:  # of two forms the one that does not divide by little
+            phi = 2 * self.way * np.arctan(s / (c + np.sqrt(c * c + s * s)))
+        else:
+            phi = self.way * (np.pi - 2 * np.arctan(s / (np.sqrt(c * c + s * s) - c)))
+        near = 0.0 if self.near is None else self.near
+        return phi + 2 * np.pi * np.round(np.real(near - phi) / (2 * np.pi))
 
     @property
     def rate(self) -> Any:
@@ -73,12 +83,23 @@ class Turned:
         return cross(two, normal) / dot(normal, normal)
 
 
+def wound(scene: SpatialScene) -> dict[str, Turning]:
+    """The turns of which a torsion spring counts the whole ones: by quantity, one that does."""
+    return {_called(force): force for force in scene.forces.values() if force.winds}  # type: ignore[misc]
+
+
+def _called(force: Turning) -> str:
+    return f"{force.about}.{force.turn or 'angle'}"
+
+
 class Turn:
     """The turn about which a force acts. Raises ValueError of one of three."""
 
     def __init__(self, layout: Layout, force: Turning) -> None:
         joint: SpatialJoint = layout.scene.joints[force.about]
         number = joint.turning(force.turn) - len(joint.shifts)
+        counts = list(wound(layout.scene))
+        self._counted = counts.index(_called(force)) if _called(force) in counts else None
         axes = [np.asarray(f.axis, float) for f in joint.turns]
         if len(axes) > 2:
             raise ValueError(f"{force.name}: about none of three turns can anything act")
@@ -96,7 +117,10 @@ class Turn:
     def at(self, t: Any, bodies: Bodies) -> Turned:
         """At one state."""
         first, last, flat, side, pointer = self._vectors.at(bodies)[:, :2]
-        return Turned(first, last, flat, side, pointer, self._weights, self._way, self._alone)
+        near = None
+        if self._counted is not None and len(bodies.wound):
+            near = bodies.wound[self._counted]
+        return Turned(first, last, flat, side, pointer, self._weights, self._way, self._alone, near)
 
 
 def couple(numbers: Sequence[int], M: Any) -> Iterator[Moment]:

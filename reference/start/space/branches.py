@@ -3,11 +3,13 @@
 Rows say which directions are at right angles. That holds of a joint turned over, too.
 """
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
 
 from ....cases.scene import GROUND
+from ....cases.space.chain import turned_by
 from ....cases.space.joint import SpatialJoint
 from ....cases.space.rotation import UPRIGHT, about, angle_between, matrix, product, turned
 from ....cases.space.scene import SpatialScene
@@ -15,6 +17,7 @@ from ...system import Array
 from .closure import SpatialClosure
 from .given import attitude
 
+UP, STILL = np.array([UPRIGHT]), np.zeros((1, 3))
 LOCKED = 1e-9  # sine: below, a turn about one axis is not told from one about the other
 REACHED = 1e-6  # rad: near gimbal lock half of the digits of an angle are lost
 ALIKE = 0.5  # between the cosine of a held axis, 1, and those of its joint turned over, 0 and -1
@@ -56,6 +59,26 @@ def unreached(closure: SpatialClosure, q: Array) -> Iterator[SpatialJoint]:
         a, b = (attitude(closure.mode, end.body, q) for end in (joint.a, joint.b))
         if angle_between(product(a, made), b) > REACHED:
             yield joint
+
+
+def past_lock(closure: SpatialClosure, q: Array) -> int:
+    """How many joints have their middle turn of three past gimbal lock, and no word that says so.
+
+    Three turns make an attitude in two ways: with a last turn of 0 it is another one past the lock.
+    """
+    found = 0
+    for joint in closure.scene.joints.values():
+        if len(joint.turns) < 3:
+            continue
+        middle, at = joint.turns[1].name, len(joint.shifts) + 1
+        words = (closure.case.initial.get(joint.name), closure.case.near.get(joint.name))
+        if any(said is not None and middle in said.given for said in words):
+            continue
+        made = closure.given.attitude(joint.name, q)[None]
+        first, *_ = turned_by([t.axis for t in joint.turns], UP, STILL, made, STILL)
+        _, angle, _ = closure.given.coordinates(joint, q)[at]
+        found += abs(math.remainder(angle - float(first.angles[0, 1]), math.tau)) > REACHED
+    return found
 
 
 def locked(closure: SpatialClosure) -> Iterator[tuple[SpatialJoint, float]]:

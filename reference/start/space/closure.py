@@ -6,7 +6,6 @@ Lengths are counted in the mechanism's size, so that a watch and a crane are tre
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ....cases.case import Case
 from ....cases.space.scene import SpatialScene
@@ -36,7 +35,7 @@ class SpatialClosure:
         owners = [name for name, k in zip(self.constraints.owners, keep, strict=True) if k]
         scale = np.where(self.constraints.angular[keep], 1.0, self.size)
         found = list(self.given.places(self.case.initial, q))
-        own = [1.0 if _angle(self.where.turning, e) else self.size for e in found]
+        own = [1.0 if self.about_turn(e) else self.size for e in found]
         residual = np.concatenate([residual, [e.residual for e in found]])
         rows = np.vstack([rows, *(e.row for e in found)])
         scale = np.concatenate([scale, own])
@@ -45,6 +44,11 @@ class SpatialClosure:
             rows * self.units / scale[:, None],
             owners + [e.name for e in found],
         )
+
+    def about_turn(self, equation: Equation) -> bool:
+        """Whether an equation is about a turn: its row is of ω alone."""
+        row, turning = equation.row, self.where.turning
+        return bool(np.all(row[~turning] == 0.0)) and bool(np.any(row))
 
     def dependent(self, q: Array, below: float) -> str | None:
         """The first part, or drive, whose rows repeat what is held by those before it.
@@ -78,11 +82,6 @@ def size_in_space(case: Case, scene: SpatialScene) -> float:
         if key in ("x", "y", "z")
     ]
     return max(reach, default=1.0) or 1.0
-
-
-def _angle(turning: NDArray[np.bool_], equation: Equation) -> bool:
-    """Whether an equation is about a turn: its row is of ω alone."""
-    return bool(np.all(equation.row[~turning] == 0.0)) and bool(np.any(equation.row))
 
 
 def least(rows: Array, right: Array) -> Array:

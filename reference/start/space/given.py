@@ -4,13 +4,14 @@ Places and attitudes of bodies and points, and coordinates of joints.
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ....cases.case import Case, Placement
 from ....cases.scene import GROUND, Anchor
 from ....cases.space import chain
+from ....cases.space.counting import counted
 from ....cases.space.joint import Freedom, SpatialJoint, rate_of
 from ....cases.space.rotation import UPRIGHT, about, inverse, matrix, product, turned
 from ...generated.space.attitude import skew
@@ -77,18 +78,25 @@ class Given:
         return rows, points.at(0.0, bodies).r[0]
 
     def _joint(self, joint: SpatialJoint, placement: Placement, q: Array) -> Iterator[Equation]:
-        coordinates = self.coordinates(joint, q)
-        for freedom, value, row in coordinates:
+        given = {freedom.name for freedom in joint.named} & placement.given.keys()
+        for freedom, value, row in self.coordinates(joint, q) if given else ():
             if freedom.name and freedom.name in placement.given:
                 off = value - placement.given[freedom.name]
                 if freedom.kind == "turn":
                     off = float(np.remainder(off + np.pi, 2 * np.pi) - np.pi)
                 yield Equation(f"{joint.name}.{freedom.name}", off, row)
         if placement.attitude is not None:
-            a, b = (attitude(self.mode, at.body, q) for at in (joint.a, joint.b))
-            apart = _between(placement.attitude, product(inverse(a), b))
+            apart = _between(placement.attitude, self.attitude(joint.name, q))
             for i, row in enumerate(self.relative(joint, q)):
                 yield Equation(f"{joint.name}.attitude", apart[i], row)
+
+    def attitude(self, part: str, q: Array) -> Array:
+        """(4,) of a body; of a joint, of its second part against its first."""
+        if part not in self.scene.joints:
+            return attitude(self.mode, part, q)
+        joint = self.scene.joints[part]
+        a, b = (attitude(self.mode, at.body, q) for at in (joint.a, joint.b))
+        return product(inverse(a), b)
 
     def relative(self, joint: SpatialJoint, q: Array) -> Array:
         """(3, n) ω of the second part against the first, in the axes of the second."""
@@ -111,7 +119,8 @@ class Given:
         if joint.turns and joint.turns[0].kind == "turn":
             axes = [freedom.axis for freedom in joint.turns]
             still = np.zeros((1, 3))
-            angles, _ = chain.turned_by(axes, a[None], still, b[None], still)
+            ways = chain.turned_by(axes, a[None], still, b[None], still)
+            angles = counted(ways, np.zeros(1), joint.begun).angles
             columns, so_far = [], np.array(UPRIGHT)
             for axis, angle in zip(axes, angles[0], strict=True):
                 columns.append(turned(so_far, axis))
@@ -134,11 +143,32 @@ class Given:
         solve = np.linalg.pinv(axes.T)
         return list(zip(joint.shifts, (solve @ d).tolist(), solve @ rows, strict=True))
 
+    def named(self, joint: SpatialJoint, q: Array) -> Iterator[Equation]:
+        """The rates of its freedoms that have names; the residual is what the ground's points do.
+
+        Against a point that moves the rate of a shift is another one than against the ground.
+        """
+        axes = np.array([freedom.axis for freedom in joint.shifts]).reshape(-1, 3)
+        a, b = (self._driven(at) for at in (joint.a, joint.b))
+        back = matrix(attitude(self.mode, joint.a.body, q)).T
+        ground = np.linalg.pinv(axes.T) @ back @ (b - a) if len(axes) else np.zeros(0)
+        moved = dict(zip((freedom.name for freedom in joint.shifts), ground.tolist(), strict=True))
+        for freedom, _, row in self.coordinates(joint, q):
+            if freedom.name:
+                own = moved.get(freedom.name, 0.0)
+                yield Equation(f"{joint.name}.{rate_of(freedom.name)}", own, row)
+
+    def _driven(self, anchor: Anchor) -> Array:
+        """(3,) the velocity of a point of the ground; a body's stands in its rows."""
+        if anchor.body != GROUND:
+            return np.zeros(3)
+        return np.array(self.scene.points[anchor.point].state(0.0)[3:])
+
     def end(self, anchor: Anchor, q: Array) -> tuple[Array, Array]:
         """As `point`; of the ground the rows are zero."""
         if anchor.body != GROUND:
             return self.point(anchor, q)
-        return np.zeros((3, self.n)), np.array(self.scene.points[anchor.point].at)
+        return np.zeros((3, self.n)), np.array(self.scene.points[anchor.point].state(0.0)[:3])
 
     def rates(self, placements: Mapping[str, Placement], q: Array) -> Iterator[Equation]:
         """Of what is given of velocities: row · v = the residual's opposite."""
@@ -146,10 +176,10 @@ class Given:
             given = placement.given
             if name in self.scene.joints:
                 joint = self.scene.joints[name]
-                for freedom, _, row in self.coordinates(joint, q):
-                    rate = rate_of(freedom.name)
-                    if freedom.name and rate in given:
-                        yield Equation(f"{name}.{rate}", -given[rate], row)
+                for equation in self.named(joint, q):
+                    rate = equation.name.rpartition(".")[2]
+                    if rate in given:
+                        yield replace(equation, residual=equation.residual - given[rate])
                 for i, row in enumerate(self.relative(joint, q)):
                     if SPINS[i] in given:
                         yield Equation(f"{name}.{SPINS[i]}", -given[SPINS[i]], row)

@@ -1,6 +1,6 @@
 """The positions at the start in space: Newton's method from a guess, and other ways to assemble."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -8,15 +8,18 @@ import numpy as np
 from ....cases.case import Case, Placement
 from ...system import Array
 from . import refusal
-from .branches import closes, faithful, locked, unreached
+from .branches import closes, faithful, locked, past_lock, unreached
 from .closure import SpatialClosure, least, null
 from .guess import laid_out
-from .ways import several_ways
+from .ways import alike, distance, none_near, several_ways, unnamed
 
 DEAD = 1e-5  # singular values below this part of the largest: there rounding moves the start
 CLOSED = 1e-12  # residual in sizes or rad; Newton reaches rounding or fails
 SEEDS = 40  # starts from which other assemblies are looked for
 SAME = 1e-6  # solutions nearer than this (in sizes and rad) are the same one
+NEAR = 0.5  # rad or sizes: of ways this close to `near` only nearer ones are looked for
+BESIDE = 12  # starts that have what is near: two ways this close draw about as many each
+FAR = np.pi / 2  # rad, or as many sizes: what `near` says and is so far off, is a mistake
 STEPS = 50  # of Newton: quadratic, more only where nothing closes
 LONGEST = 1.0  # size or rad in one step
 NO_STEP = 1e-16  # of sizes and rad
@@ -34,19 +37,20 @@ def positions(closure: SpatialClosure) -> Array:
     placed = _together(closure.case)
     nearest: tuple[float, Array] | None = None
     ways: list[Array] = []
-    for seeds in _seeds(closure):
+    for tried, seeds in enumerate(_seeds(closure)):
         q, gap = _newton(closure, laid_out(closure.where, placed, seeds))
         if nearest is None or gap < nearest[0]:
             nearest = gap, q
         if gap < CLOSED and faithful(closure, q) and _new(closure, q, ways):
             ways.append(q)
-        if ways and (closure.case.near or not _loops(closure)):
+        if ways and (not _loops(closure) or (tried >= BESIDE and _near(closure, ways))):
             break
     assert nearest is not None
     if not ways and not np.isfinite(nearest[0]):
         raise refusal.flat(closure.case)
     if not ways:
         raise refusal.cannot_close(closure, nearest[1])
+    found, ways = ways, nearest_ways(closure, ways)
     loose = null(closure.equations(ways[0])[1], closure.where.size)
     if len(loose):
         raise refusal.open_ended(closure, ways[0], loose)
@@ -55,9 +59,36 @@ def positions(closure: SpatialClosure) -> Array:
         raise refusal.dead_centre(closure, ways[0], loose)
     if len(ways) > 1:
         raise several_ways(closure, ways)
+    if distance(closure, ways[0]) > FAR:
+        raise none_near(closure, found)
     for joint in unreached(closure, ways[0]):
         raise refusal.unreached(closure.case, joint)
     return ways[0]
+
+
+def _near(closure: SpatialClosure, ways: list[Array]) -> bool:
+    """Whether one is so near to what `near` says that only nearer ones would matter."""
+    return bool(closure.case.near) and min(distance(closure, q) for q in ways) < NEAR
+
+
+def nearest_ways(closure: SpatialClosure, ways: list[Array]) -> list[Array]:
+    """The one that is nearest to what `near` says, or several that are as near as each other.
+
+    Three turns are within gimbal lock where nothing says their middle one is past it.
+    Of ways that differ in turns without a name alone, as of a rod that hangs on a universal joint
+    turned over, that in which these turns are least.
+    """
+    nearest = _least(ways, [distance(closure, q) for q in ways])
+    if len(nearest) > 1:
+        nearest = _least(nearest, [past_lock(closure, q) for q in nearest])
+    if closure.case.near and len(nearest) > 1 and alike(closure, nearest):
+        return _least(nearest, [unnamed(closure, q) for q in nearest])
+    return nearest
+
+
+def _least(ways: list[Array], sizes: Sequence[float]) -> list[Array]:
+    """Those of the smallest size."""
+    return [q for q, size in zip(ways, sizes, strict=True) if size < min(sizes) + SAME]
 
 
 def _together(case: Case) -> dict[str, Placement]:

@@ -4,7 +4,6 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ....cases.space.joint import rate_of
 from ...system import Array
 from .. import messages
 from ..rates import mechanisms
@@ -15,9 +14,10 @@ from .positions import CLOSED
 
 
 def rates(closure: SpatialClosure, q: Array) -> Array:
-    """v (n,) with f_a v = g (2.15); what nobody gives and nothing determines is 0: rates of joints,
+    """v (n,) with f_a v = g (2.15); what nobody gives and nothing determines is 0.
 
-    and all of a mechanism of which no rate is given.
+    That are rates of joints, of the second part against the first, and all of a mechanism of which
+    no rate is given.
 
     Raises CaseError if the given rates violate a constraint, or leave others open.
     """
@@ -27,7 +27,8 @@ def rates(closure: SpatialClosure, q: Array) -> Array:
     right = np.concatenate([g, [-e.residual for e in found]])
     names = [*closure.constraints.owners, *(e.name for e in found)]
     still = _still(closure, found)
-    if not _violated(rows, right, still):
+    carried = any(equation.residual for equation in _joints(closure, q))  # by a point that moves
+    if not carried and not _violated(rows, right, still):
         return still
     rows, right, names = _at_rest(closure, q, rows, right, names)
     units = closure.units
@@ -50,7 +51,8 @@ def _at_rest(
     for equation in _joints(closure, q):
         more = np.vstack([rows, equation.row])
         if rank(more * units) > rank(rows * units):
-            rows, right, names = more, np.append(right, 0.0), [*names, equation.name]
+            rows, right = more, np.append(right, -equation.residual)
+            names = [*names, equation.name]
     for columns in _unsaid(closure, rows, right):
         still = np.eye(closure.where.size)[columns]
         rows, right = np.vstack([rows, still]), np.append(right, np.zeros(len(columns)))
@@ -70,9 +72,7 @@ def _unsaid(closure: SpatialClosure, rows: Array, right: Array) -> Iterator[list
 
 def _joints(closure: SpatialClosure, q: Array) -> Iterator[Equation]:
     for joint in closure.scene.joints.values():
-        for freedom, _, row in closure.given.coordinates(joint, q):
-            if freedom.name:
-                yield Equation(f"{joint.name}.{rate_of(freedom.name)}", 0.0, row)
+        yield from closure.given.named(joint, q)
 
 
 def _still(closure: SpatialClosure, found: Sequence[Equation]) -> Array:

@@ -6,7 +6,8 @@ import numpy as np
 
 from ....cases.frame import SPACE
 from ....cases.mistake import CaseError
-from ....cases.space.rotation import angle_between
+from ....cases.scene import Anchor
+from ....cases.space.rotation import UPRIGHT, angle_between
 from ...system import Array
 from .. import messages
 from ..messages import DEGREES
@@ -17,17 +18,76 @@ ALIKE = 1e-6  # rad or sizes: what differs by less is the same in all ways
 
 def several_ways(closure: SpatialClosure, ways: list[Array]) -> CaseError:
     """Names the joint's coordinate in which the ways differ most, with its values."""
+    name, apart = _most(closure, ways)
+    if apart < ALIKE:
+        name, told = _attitudes(closure, ways)
+    else:
+        told = [_told(closure, q, name) for q in ways]
+    return messages.several(closure.case, len(ways), name, list(dict.fromkeys(told)))
+
+
+def alike(closure: SpatialClosure, ways: list[Array]) -> bool:
+    """Whether no coordinate with a name tells them apart."""
+    return _most(closure, ways)[1] < ALIKE
+
+
+def unnamed(closure: SpatialClosure, q: Array) -> float:
+    """The largest turn [rad] of a joint that has turns without a name."""
+    joints = closure.scene.joints.values()
+    loose = (joint.name for joint in joints if any(not turn.name for turn in joint.turns))
+    turned = (closure.given.attitude(name, q) for name in loose)
+    return max((float(angle_between(np.array(UPRIGHT), e)) for e in turned), default=0.0)
+
+
+def _most(closure: SpatialClosure, ways: list[Array]) -> tuple[str, float]:
+    """The coordinate with a name in which ways differ most, and by how much, in rad or sizes."""
     values = [_coordinates(closure, q) for q in ways]
     apart = {
         name: max(_differ(closure, at, other[name]) for other in values)
         for name, at in values[0].items()
     }
     name = max(apart, key=apart.__getitem__, default="")
-    if not name or apart[name] < ALIKE:
-        name, told = _attitudes(closure, ways)
-    else:
-        told = [_shown(*v[name]) for v in values]
-    return messages.several(closure.case, len(ways), name, list(dict.fromkeys(told)))
+    return name, apart.get(name, 0.0)
+
+
+def distance(closure: SpatialClosure, q: Array) -> float:
+    """How far q is from what `near` says, in rad or sizes; 0 if nothing is said."""
+    return max(_apart(closure, q).values(), default=0.0)
+
+
+def _apart(closure: SpatialClosure, q: Array) -> dict[str, float]:
+    """The same of all that is said, by name: of an attitude, and of a point, in all directions."""
+    found: dict[str, float] = {}
+    for equation in closure.given.places(closure.case.near, q):
+        off = equation.residual / (1.0 if closure.about_turn(equation) else closure.size)
+        name = _whole(equation.name)
+        found[name] = math.hypot(found.get(name, 0.0), off)
+    return found
+
+
+def _whole(name: str) -> str:
+    """`a.P` of the component `a.P.x`; a body's own x stands by itself."""
+    return name.rpartition(".")[0] if name.count(".") > 1 else name
+
+
+def none_near(closure: SpatialClosure, ways: list[Array]) -> CaseError:
+    """Ways to assemble, of which none is where `near` says."""
+    apart = _apart(closure, ways[0])
+    name = max(apart, key=apart.__getitem__)
+    return messages.none_near(closure.case, name, [_told(closure, q, name) for q in ways])
+
+
+def _told(closure: SpatialClosure, q: Array, name: str) -> str:
+    """What a way has of a name, as a file says it."""
+    if name in (known := _coordinates(closure, q)):
+        return _shown(*known[name])
+    part, _, field = name.partition(".")
+    if field == "attitude":
+        return _turn(closure.given.attitude(part, q))
+    if field in closure.scene.bodies[part].points:
+        _, place = closure.given.point(Anchor(part, field), q)
+        return f"[{', '.join(f'{x:.4g}' for x in place)}]"
+    return _shown(float(q[closure.where.columns[part].r + "xyz".index(field)]), turns=False)
 
 
 def _coordinates(closure: SpatialClosure, q: Array) -> dict[str, tuple[float, bool]]:

@@ -85,8 +85,16 @@ def test_joints(tmp_path: Path) -> None:
             (Freedom("shift", X, "x"), Freedom("shift", Y, "y"), Freedom("turn", Z, "theta")),
         ),
     }  # fmt: skip
+    begins = {"q1": {"angle": radians(30)}}  # of what `initial` and `near` say
     assert dict(scene_of(tmp_path).joints) == {
-        name: SpatialJoint(name, kind, Anchor(*a.split(".")), Anchor(*b.split(".")), left)  # type: ignore[arg-type]
+        name: SpatialJoint(
+            name,
+            kind,
+            Anchor(*a.split(".")),
+            Anchor(*b.split(".")),
+            left,
+            begins.get(name, {}),  # type: ignore[arg-type]
+        )
         for name, (kind, a, b, left) in freedoms.items()
     }
 

@@ -52,7 +52,7 @@ def said(tmp_path: Path, **changed: object) -> list[str]:
             {"forces": "s: {spring: [ball.center, ground.O], stiffness: 1.0e8, rest_length: 0}"},
             "duration: scene.forces.s swings at 1e+04 rad/s",
         ),
-        ({"samples": 200_000}, "samples: 200000 samples of 2 bodies are 400000 rows"),
+        ({"samples": 200_000}, "samples: 200000 samples of 2 bodies, 400000 rows, take about"),
     ],
 )
 def test_endless_work_is_said_with_its_number(
@@ -65,4 +65,4 @@ def test_endless_work_is_said_with_its_number(
 
 def test_what_takes_minutes_is_not_said(tmp_path: Path) -> None:
     assert said(tmp_path) == []
-    assert said(tmp_path, omega=1e3, spin="[0, 0, 1.0e3]", drive="q.omega: {ramp: 100}") == []
+    assert said(tmp_path, omega=1e2, spin="[0, 0, 1.0e2]", drive="q.omega: {ramp: 10}") == []

@@ -102,12 +102,12 @@ def test_nan_is_not_lost_in_whichever_mode(
     tmp_path: Path, part: tuple[float, float], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """It slides until 1.02 s and sticks after that."""
-    balance = laws.energy.power_balance
+    terms = laws.energy.power_terms
 
-    def sometimes(system: Mode, t: float, q: Array, v: Array) -> float:
-        return float("nan") if part[0] <= t <= part[1] else balance(system, t, q, v)
+    def sometimes(system: Mode, t: float, q: Array, v: Array) -> Array:
+        return np.array([np.nan]) if part[0] <= t <= part[1] else terms(system, t, q, v)
 
-    monkeypatch.setattr(laws.energy, "power_balance", sometimes)
+    monkeypatch.setattr(laws.energy, "power_terms", sometimes)
     case = written_scenes.case(tmp_path, "braking")
     checks = certified(case, written(case.system or "", case.parameters))
     assert [check.name for check in checks if not check.holds] == [POWER]

@@ -57,8 +57,22 @@ class Polar(Betatron):
         return turning + np.array([cos * x + sin * y, cos * y - sin * x])
 
 
+class Damped(Betatron):
+    """The same in a viscous gas: a V and a D in one mode."""
+
+    d: float = 0.9
+
+    def accelerations(self, t: float, q: Array, v: Array) -> Array:
+        """m r̈ = e (E + ṙ × B) − d ṙ."""
+        return super().accelerations(t, q, v) - self.d / self.m * v
+
+    def D(self, t: Any, q: Any, v: Any) -> Any:
+        return self.d * (v[0] ** 2 + v[1] ** 2) / 2
+
+
 MODES: dict[str, Mode] = {
     "betatron": Betatron(), "by polar velocities": Polar(), "in a force": only("charge_in_field"),
+    "in a gas": Damped(),
 }  # fmt: skip
 
 
@@ -82,12 +96,27 @@ def missed(mode: Mode) -> float:
 
 @pytest.mark.parametrize("name", MODES)
 def test_by_a_force_and_by_the_lagrangian(name: str) -> None:
-    """d/dt ∂L/∂q̇ᵃ − ∂L/∂qᵃ = 0 (2.52)."""
+    """d/dt ∂L/∂q̇ᵃ − ∂L/∂qᵃ = −∂D/∂q̇ᵃ (2.51), and without D = 0 (2.52)."""
     mode = MODES[name]
     assert missed(mode) < EXACT
+    d = mode.d if isinstance(mode, Damped) else 0.0
     for t, q, v in drawn(5):
         a = mode.accelerations(t, q, v)
-        assert np.abs(lagrangian.left(mode, t, q, v, a)).max() < 1e-12 * np.abs(a).max() * 2
+        found = lagrangian.left(mode, t, q, v, a)
+        assert np.abs(found + d * v).max() < 1e-12 * np.abs(a).max() * 2
+
+
+@pytest.mark.mutant("Lagrangian (2.51) without the dissipation of a damper")
+def test_a_lost_dissipation_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Only where a V and a D stand in one mode: one with a V alone has none to lose."""
+    monkeypatch.setattr(lagrangian, "gradient", _without_velocities(lagrangian.gradient))
+    assert missed(MODES["betatron"]) < EXACT
+    assert missed(MODES["in a gas"]) > 1e-2
+
+
+def _without_velocities(gradient: Any) -> Any:
+    """D's slope is the one gradient that is taken by v and of `unbalanced`."""
+    return lambda f, x: 0.0 * x if "unbalanced" in f.__qualname__ else gradient(f, x)
 
 
 def test_appell_knows_its_force_too() -> None:

@@ -177,6 +177,29 @@ def test_chaplygin_needs_what_depends_on_nothing_that_it_leaves_out() -> None:
         assert chaplygin.accelerations(changed, *at) is None
 
 
+@pytest.mark.parametrize("share", [1e-3, 1e-10])
+@pytest.mark.parametrize("part", ["T", "f_a"])
+def test_a_small_dependence_is_one(part: str, share: float) -> None:
+    """Chaplygin's equations would be wrong by as much, and pass for another law."""
+    sound = FORMAL["sleigh"]
+    changed = {
+        "T": lambda self, t, q, v: sound.T(t, q, v) * (1 + share * (q[0] + 2 * q[1])),
+        "f_a": lambda self, t, q: sound.f_a(t, q + share * np.array([0, 0, 1]) * (q[0] + 2 * q[1])),
+    }
+    for at in drawn("sleigh", 10):
+        mode = mutant(sound, **{part: changed[part]})
+        assert chaplygin.ignorable(mode, *at) == []
+        assert chaplygin.accelerations(mode, *at) is None
+
+
+@pytest.mark.mutant("a dependence of 1e-10 taken for none")
+def test_a_coarse_sense_of_dependence_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(chaplygin, "ROUNDING", 1e-8)
+    for part in ("T", "f_a"):
+        with pytest.raises(AssertionError):
+            test_a_small_dependence_is_one(part, 1e-10)
+
+
 def test_rates_of_the_independent_ones_meet_the_constraints() -> None:
     for name in ("sleigh on a driven blade", "upright wheel", "free body"):
         mode = FORMAL[name]

@@ -91,11 +91,16 @@ def test_a_block_rocks_itself_to_rest_at_a_wall(tmp_path: Path) -> None:
     assert last["u.normal"] - last["t.normal"] == pytest.approx(2 * lever, abs=1e-11)
 
 
-def test_what_rope_and_friction_hold_together_is_refused_as_that(tmp_path: Path) -> None:
+def test_what_rope_and_friction_hold_together_rests_and_is_not_divided(tmp_path: Path) -> None:
     """It rests, but how much of its weight the rope has depends on what came before."""
-    mistake = refused(scenes.typed(tmp_path, ON_A_ROPE.replace("MU", "0.1"), tail=CAUGHT))
-    assert mistake.where == "scene.contacts.a.friction"
-    assert mistake.what == "what a holds is held by the other joints already"
+    text = ON_A_ROPE.replace("MU", "0.1")
+    assert solve(scenes.typed(tmp_path, text, tail=CAUGHT)).holds
+    asked = text.replace("1.0e-3}", "1.0e-3, r.force: 1.0e-1}")
+    mistake = refused(scenes.typed(tmp_path, asked, tail=CAUGHT))
+    assert mistake.where == "allow.r.force"
+    down, across = 10 * G * math.sin(math.radians(25)), 10 * G * math.cos(math.radians(25))
+    low, high = down - 0.1 * across, down + 0.1 * across
+    assert f"r.force: anything from {low:.4g} to {high:.4g} N" in mistake.what
 
 
 def test_a_rope_is_no_joint(tmp_path: Path) -> None:

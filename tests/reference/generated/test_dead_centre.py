@@ -12,7 +12,7 @@ from given.refused import refused
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from textmech.reference.generated import choosing
+from textmech.reference.generated.modes import Modes
 from textmech.reference.solve import solve
 
 A, B, C, D = 0.15, 0.5, 0.4, 0.5  # m: crank, coupler, rocker, base
@@ -95,16 +95,20 @@ def test_a_rocker_turns_back_and_its_crank_goes_on(tmp_path: Path) -> None:
     assert set(np.round(friction, 14)) == {-DRY, DRY}
 
 
-def test_what_a_stop_holds_too_is_still_refused(tmp_path: Path) -> None:
-    """Stop and dry pin ask for the same, and nobody knows who holds how much."""
-    mistake = refused(scenes.typed(tmp_path, ON_A_STOP, tail=END))
-    assert "is held by the other joints already" in mistake.what
+def test_what_a_stop_holds_too_rests_and_leaves_open_who_holds_it(tmp_path: Path) -> None:
+    """Of m g cos 30° l/2 the dry pin has 0.5 N m, or as much against it."""
+    rests = f"{ON_A_STOP}rests: true\n"
+    assert solve(scenes.typed(tmp_path, rests, tail=END)).holds
+    asked = rests.replace("1.0e-2}", "1.0e-2, ends.torque: 1.0e-2}")
+    mistake = refused(scenes.typed(tmp_path, asked, tail=END))
+    m = 9.80665 * math.cos(math.radians(30)) * 0.2
+    assert f"ends.torque: anything from {m - 0.5:.4g} to {m + 0.5:.4g} N m" in mistake.what
 
 
 @pytest.mark.mutant("a joint that sticks where the others turn it")
 def test_a_rocker_that_sticks_at_its_dead_centre_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(choosing, "_contradicts", lambda *_: False)
+    monkeypatch.setattr(Modes, "contradicts", lambda *_: False)
     mistake = refused(scenes.typed(tmp_path, FOUR_BAR, tail=END))
-    assert mistake.where == "scene.joints.D.dry_friction"
+    assert mistake.where == "duration"  # it is held where the others move it

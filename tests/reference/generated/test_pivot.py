@@ -108,7 +108,7 @@ def test_a_rod_that_pivots_on_its_end(tmp_path: Path) -> None:
     [
         (WHEEL.format(mu=0.2, w0=3.3, more=""), "the impact at t = 0.2455 s would slip: "),
         (WHEEL.format(mu=2.0, w0=9, more=""), "the floor would have to pull at t = 0 s: wheel"),
-        (WHEEL.format(mu=2.0, w0=3.3, more=", vx: 1.5"), "no motion satisfies all that is given"),
+        (WHEEL.format(mu=2.0, w0=3.3, more=", vx: 1.5"), "`on` says that wheel.tip1 does not move"),
         (ROD.format(mu=0.2, w0=0.1), "pivoting is not possible with friction 0.2: at t = 0 s"),
         (ROD.format(mu=0, w0=0.1), "pivoting is not possible with friction 0: at t = 0 s"),
         (ROD.format(mu=0.5, w0=-0.1).replace("on: start", "y: 9"), "rod leaves it"),

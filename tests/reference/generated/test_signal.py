@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from given import scenes
 
+from textmech.cases.observe import observe
 from textmech.cases.signal import Law, Signal
 from textmech.cases.trajectory import Array
 from textmech.reference.generated import signal as laws
@@ -150,3 +151,36 @@ def test_a_corner_on_a_sample_belongs_to_what_follows(tmp_path: Path) -> None:
     v = np.maximum(0.0, 2.0 * (t - 0.28))
     assert np.max(np.abs(moved.states["block"][:, 3] - v)) < 1e-13
     assert moved.reactions["rail.friction"][7] == pytest.approx(-3.0, rel=1e-12)
+
+
+JUMPS = """\
+scene:
+  gravity: none
+  bodies: {ball: {particle: {mass: 2}}}
+  forces: {hand: {push: ball.center, step: {amplitude: [6, 0], at: AT}}}
+initial: {ball: {x: 0, y: 0, vx: 1, vy: 0}}
+allow: {ball.x: 1.0e-3, ball.ax: 1.0e-3}
+"""
+
+
+# k/(n − 1) of the duration is, as a double, more than what is typed, less, or the same.
+@pytest.mark.parametrize(
+    ("duration", "samples", "k", "at"),
+    [(0.9, 10, 3, "0.3"), (1.2, 13, 1, "0.1"), (1.2, 4, 1, "0.4"), (0.6, 7, 3, "0.3"),
+     (0.6, 7, 3, "0.30000000000000004"), (3.0, 26, 11, "1.32")],
+)  # fmt: skip
+def test_a_sample_on_a_jump_holds_what_is_after_it(
+    duration: float, samples: int, k: int, at: str, tmp_path: Path
+) -> None:
+    text = JUMPS.replace("AT", at)
+    case = scenes.typed(tmp_path, text, tail=scenes.tail(duration, samples))
+    assert np.diff(case.times) == pytest.approx(np.full(samples - 1, case.interval), rel=1e-12)
+    ax = observe(case.scene, solve(case).trajectory, "ball.ax")
+    assert ax.tolist() == [0.0] * k + [3.0] * (samples - k)
+
+
+@pytest.mark.mutant("a sample on a jump where rounding put it")
+def test_a_sample_before_its_jump_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("textmech.cases.case.ROUNDED", -1.0)
+    with pytest.raises(AssertionError):
+        test_a_sample_on_a_jump_holds_what_is_after_it(1.2, 13, 1, "0.1", tmp_path)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from given.problems import BOTH, PROBLEMS, by_scipy, double_pendulum, kepler, kepler_solution
 
+from textmech.reference.integrators import march
 from textmech.reference.integrators.explicit import dormand_prince
 from textmech.reference.integrators.implicit import radau
 
@@ -55,3 +56,28 @@ def test_what_rounding_cuts_off_a_step_is_carried_on():
     times = np.linspace(0.0, 0.2, 20001)
     found = dormand_prince(lambda t, y: np.full(1, 1.0 / 3.0), times, [1.0])
     assert abs(found.y[-1, 0] - (1.0 + 0.2 / 3.0)) <= 20 * np.spacing(1.0)
+
+
+def summed(tolerance: float = 1e-13) -> float:
+    """How far y = 1000 + t/3 is off after ten thousand steps, in its last digits."""
+    times = np.linspace(0.0, 1.0, 10_001)
+    y = dormand_prince(lambda t, y: np.array([1.0 / 3.0]), times, [1000.0], tolerance=tolerance).y
+    return float(np.abs(y[:, 0] - (1000.0 + times / 3.0)).max() / np.spacing(1000.0))
+
+
+def test_what_rounding_cuts_off_a_step_is_kept():
+    """A step adds 3e-5, of which 1000 has eight digits."""
+    assert summed() <= 1.0
+
+
+@pytest.mark.mutant("what rounding cuts off a step is lost")
+def test_a_sum_that_is_not_compensated_is_seen(monkeypatch: pytest.MonkeyPatch):
+    accept = march._Walker._accept
+
+    def lossy(self, *given):
+        step = accept(self, *given)
+        self.low = 0.0 * self.low
+        return step
+
+    monkeypatch.setattr(march._Walker, "_accept", lossy)
+    assert summed() > 10.0

@@ -3,36 +3,40 @@
 import numpy as np
 import pytest
 
-from textmech.reference.integrators.budget import Endless, budget
+from textmech.reference.integrators import budget as purse
+from textmech.reference.integrators.budget import Endless, budget, motion, spend
 from textmech.reference.integrators.explicit import DormandPrince
 from textmech.reference.integrators.march import integrate
+from textmech.reference.integrators.now import NOW
+
+SECOND = 1.0  # s an evaluation: the budget then counts them
 
 
 def swing(t: float, y: np.ndarray) -> np.ndarray:
     return np.array([y[1], -1e4 * y[0]])
 
 
-def motion(evaluations: float) -> DormandPrince:
+def moved(evaluations: float) -> DormandPrince:
     method = DormandPrince(swing, 2, 1e-12)
-    with budget(evaluations):
+    with budget(evaluations, SECOND):
         integrate(method, [0.0, 1.0, 2.0], [1.0, 0.0], most=10**6)
     return method
 
 
 def test_what_fits_is_not_hindered() -> None:
-    assert motion(np.inf).evaluations == motion(1e5).evaluations > 1000
+    assert moved(np.inf).evaluations == moved(1e5).evaluations > 1000
 
 
 def test_what_does_not_ends_and_says_where_it_was() -> None:
-    with pytest.raises(Endless, match="more than 1e\\+03 evaluations") as caught:
-        motion(1000)
+    with pytest.raises(Endless, match=r"s after 10\d\d evaluations") as caught:
+        moved(1000)
     assert 0.0 < caught.value.time < 2.0
 
 
 def test_motions_share_one_budget() -> None:
-    needed = motion(np.inf).evaluations
+    needed = moved(np.inf).evaluations
     method = DormandPrince(swing, 2, 1e-12)
-    with budget(1.5 * needed):
+    with budget(1.5 * needed, SECOND):
         integrate(method, [0.0, 1.0, 2.0], [1.0, 0.0], most=10**6)
         with pytest.raises(Endless):
             integrate(method, [0.0, 1.0, 2.0], [1.0, 0.0], most=10**6)
@@ -40,5 +44,46 @@ def test_motions_share_one_budget() -> None:
 
 def test_a_budget_ends_with_its_block() -> None:
     with pytest.raises(Endless):
-        motion(10)
+        moved(10)
     integrate(DormandPrince(swing, 2, 1e-12), [0.0, 1.0, 2.0], [1.0, 0.0], most=10**6)
+
+
+def ended(pace: list[float], seconds: float, until: float) -> Endless | None:
+    """A motion that gets so far [s] with each second of work."""
+    t = 0.0
+    with budget(seconds, SECOND):
+        motion(0.0, until)
+        try:
+            for dt in pace:
+                t += dt
+                spend(1, t)
+        except Endless as endless:
+            return endless
+    return None
+
+
+def test_where_it_leads_is_asked_after_some_patience() -> None:
+    """A second of work brings 0.1 s of the motion: 1000 s, and its second answer as long again."""
+    endless = ended([0.1] * 1000, 300.0, 100.0)
+    assert endless is not None
+    assert endless.time == pytest.approx(0.1 * purse.PATIENCE)
+    assert str(endless) == (
+        "reached t = 1.5 of 100 s after 15 evaluations and needs about 33 minutes"
+    )
+    assert ended([0.1] * 1000, 2001.0, 100.0) is None
+    assert NOW.text().startswith("the motion, at 100 of 100 s")
+
+
+def test_a_slow_beginning_does_not_end_a_motion_that_hurries_on() -> None:
+    """The first 14 s of work bring nothing, and all that follows a lot: 14 + 25 s are needed.
+
+    Foreseen from the first moment on, and not from its latest part, it would be refused.
+    """
+    pace = [1e-6] * 14 + [2.0] * 50
+    assert ended(pace, 300.0, 50.0) is None
+
+
+def test_what_gets_nowhere_is_ended_with_no_number_too_large_for_words() -> None:
+    endless = ended([0.0] * 100, 300.0, 50.0)
+    assert endless is not None
+    assert "years" in str(endless)

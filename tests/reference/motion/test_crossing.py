@@ -1,12 +1,14 @@
 """Events: located, ordered, and never missed."""
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
 from given.watched import Oscillator, Still, Watched, events
 
-from textmech.reference.motion.crossing import TOGETHER
+from textmech.reference.motion import crossing as module
+from textmech.reference.motion.crossing import TOGETHER, crossing
 from textmech.reference.motion.follow import follow
 
 
@@ -84,3 +86,35 @@ def test_a_touch_is_no_fall(sink: float):
     assert events(touch, until=6.0, samples=2) == []
     on_a_sample = Watched([touch], Oscillator())
     assert follow(on_a_sample, np.array([0.0, math.pi, 6.0])).events == ()
+
+
+POINTS = [0.0, 0.25, 0.5, 0.75, 1.0]
+
+
+def found(g: Callable[[float], float], **how: bool) -> float | None:
+    how = {"begins": False, "spent": False} | how
+    return crossing(g, POINTS, [g(at) for at in POINTS], **how)
+
+
+def dips(a: float, b: float) -> Callable[[float], float]:
+    return lambda t: (t - a) * (t - b)
+
+
+@pytest.mark.parametrize(("a", "b"), [(0.3, 0.45), (0.26, 0.49), (0.55, 0.7), (0.02, 0.2)])
+def test_a_dip_between_the_points_is_found(a: float, b: float):
+    """At every point it is positive."""
+    assert found(dips(a, b)) == pytest.approx(a, abs=4e-15)
+
+
+@pytest.mark.parametrize(("a", "b"), [(0.55, 0.7), (0.8, 0.95)])
+def test_a_dip_after_a_rise_is_found(a: float, b: float):
+    """It begins below zero, as the guard that ended the mode before; that is no fall."""
+    g = lambda t: (t - 0.1) * (t - a) * (t - b)  # noqa: E731
+    assert g(0.0) < 0.0 < g(0.25)
+    assert found(g, spent=True) == pytest.approx(a, abs=4e-15)
+
+
+@pytest.mark.mutant("a guard that dips below zero between the points of a step")
+def test_a_dip_that_is_not_looked_for_is_seen(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(module, "_near", lambda *given: None)
+    assert found(dips(0.3, 0.45)) is None

@@ -4,6 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,8 +12,9 @@ from given import scenes
 from given.watched import Oscillator, Still, Watched
 
 from textmech.reference.motion import follow as event
+from textmech.reference.motion import zeno as module
 from textmech.reference.motion.follow import follow
-from textmech.reference.motion.zeno import ZenoError, accumulation
+from textmech.reference.motion.zeno import ZenoError, accumulation, ends_here, settles
 from textmech.reference.system import Array, Guard, System
 from textmech.reference.systems.bouncing_disk import BouncingDisk
 
@@ -131,3 +133,24 @@ def test_accumulation():
     assert accumulation(instants) == pytest.approx(1.0)
     assert accumulation(instants[:-1]) is None
     assert accumulation(list(range(6))) is None
+
+
+def test_the_slowest_of_the_last_distances_tells():
+    """Halved once and hardly shorter from then on: at 0.49 of 0.5 they come to 25, not to 2.5."""
+    instants = np.cumsum([0.0, 1.0, 0.5, 0.49, 0.48, 0.47]).tolist()
+    limit = accumulation(instants)
+    assert limit == pytest.approx(instants[-1] + 0.47 * 0.98 / 0.02)  # of 0.49/0.5
+    assert limit is not None
+    assert not ends_here(limit, instants[-1], 0.0, 10.0)
+
+
+@pytest.mark.mutant("an accumulation by the quickest of its distances")
+def test_the_quickest_of_the_distances_is_seen(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(module, "np", SimpleNamespace(diff=np.diff, max=np.min))
+    with pytest.raises(AssertionError):
+        test_the_slowest_of_the_last_distances_tells()
+
+
+def test_distances_that_stay_pile_up_nowhere():
+    assert not settles("bounces", [0.0, 1.0, 1.5, 1.99], 10.0)
+    assert settles("bounces", [0.0, 1.0, 1.0 + 1e-13], 10.0)

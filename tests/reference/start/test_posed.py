@@ -112,3 +112,11 @@ def test_what_does_not_fit(scene: str, start: str, what: str, tmp_path: Path) ->
     with pytest.raises(CaseError) as caught:
         begun(tmp_path, scene, start)
     assert what in caught.value.mistakes[0].what
+
+
+@pytest.mark.mutant("an angle of a joint a turn from that of its body")
+def test_an_angle_that_is_given_twice_is_given_on_one_turn(tmp_path: Path) -> None:
+    start = "{{rod: {{angle: {rod} deg}}, hinge: {{angle: 20 deg}}, elbow: {{angle: 0}}}}"
+    assert begun(tmp_path, CHAIN, start.format(rod=20))[0][2] == pytest.approx(np.radians(20))
+    with pytest.raises(CaseError, match=r"hinge.angle: is 0.349066 rad, but .* another turn"):
+        begun(tmp_path, CHAIN, start.format(rod=380))

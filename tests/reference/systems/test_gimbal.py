@@ -72,7 +72,8 @@ def apart(mode: Mode) -> float:
 
 def start(mode: Mode) -> float:
     """How far the start is from the typed one: two turns, and ω in body axes."""
-    ((q, v), (pose,)) = mode.start(), mode.poses(0.0, *mode.start()).values()
+    q, v = mode.start()
+    pose = mode.poses(0.0, q, v)["globe"]
     c20, s20, c15, s15 = (f(math.radians(a)) for a in (20, 15) for f in (math.cos, math.sin))
     attitude = [c20 * c15 + 0.8 * s20 * s15, -0.6 * c20 * s15, -0.6 * s20 * s15,
                 s20 * c15 - 0.8 * c20 * s15]  # fmt: skip

@@ -18,6 +18,7 @@ from scipy.optimize import brentq
 from textmech.cases.quantity import at_event
 from textmech.reference.motion.follow import Followed, either, follow
 from textmech.reference.system import Array, Guard, System
+from textmech.reference.systems.trunk_on_legs import TrunkOnLegs
 from textmech.reports.events.states import reference_states
 from textmech.reports.events.times import reference_events
 
@@ -92,6 +93,37 @@ def test_a_leg_that_pulls_is_seen() -> None:
     assert "longer in stance" in str(sound.possible("stance", 0.0, *np.split(beyond, 2)))
     glued = jump(with_mode(sound, "flight", sound.modes["stance"]))
     assert np.abs(glued.y[-1] - jump(sound).y[-1]).max() > 0.1
+
+
+def reached(y: float, phi: float) -> dict[str, str | None]:
+    """What the trunk on two legs says of each mode, there."""
+    trunk = example("trunk_on_legs")
+    state = np.array([y, phi]), np.zeros(2)
+    return {mode: trunk.possible(mode, 0.0, *state) for mode in trunk.modes}
+
+
+def test_a_leg_of_the_trunk_that_pulls_or_passes_through_is_said() -> None:
+    """Each leg by itself: level below its rest length, level above it, and pitched about it."""
+    trunk: Any = example("trunk_on_legs")
+    low, high = reached(0.95 * trunk.l0, 0.0), reached(1.05 * trunk.l0, 0.0)
+    assert [mode for mode, said in low.items() if said is None] == ["stance"]
+    assert [mode for mode, said in high.items() if said is None] == ["flight"]
+    assert "the hind leg is 0.05 of its rest length longer in stance" in str(high["stance"])
+    assert "the fore leg is 0.05 of its rest length longer in fore" in str(high["fore"])
+    assert "the fore leg is -0.05 of its rest length longer in hind" in str(low["hind"])
+    (sits,) = [mode for mode, said in reached(trunk.l0, 0.1).items() if said is None]
+    assert sits == "hind"
+    (sits,) = [mode for mode, said in reached(trunk.l0, -0.1).items() if said is None]
+    assert sits == "fore"
+
+
+@pytest.mark.mutant("a leg of the trunk that pulls, and nobody says so")
+def test_a_trunk_that_never_says_so_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By how much a leg is too long is a number that may be of any sign."""
+    free = TrunkOnLegs._free
+    monkeypatch.setattr(TrunkOnLegs, "_free", lambda self, leg, q: min(0.0, free(self, leg, q)))
+    with pytest.raises((AssertionError, ValueError)):
+        test_a_leg_of_the_trunk_that_pulls_or_passes_through_is_said()
 
 
 def test_a_start_that_leaves_the_leg_is_refused() -> None:

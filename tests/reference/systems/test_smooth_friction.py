@@ -1,8 +1,11 @@
 """The smooth law (2.95) as a system: what it prints, how it is integrated, and what it is not."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from given.examples import example, only
+from given.mutants import mutant
 from scipy.integrate import solve_ivp
 
 from textmech.reference.integrators.implicit import radau
@@ -23,6 +26,31 @@ def test_smooth_mode_within_its_band_is_the_printed_law(name: str):
         written = system.accelerations(t, np.array([x]), np.array([v]))[0]
         # A times the rounding of F_a, 1e-15 of 15 N: what the steep edges make of it.
         assert written == pytest.approx(printed, abs=2e-9)
+
+
+def missed(mode: Any) -> float:
+    """N: (2.23) m v̇ against the force along the slide and the friction that it tells."""
+    random, worst = np.random.default_rng(7), 0.0
+    for _ in range(50):
+        t, x, v = random.uniform((0.0, -2.0, -1e-3), (8.0, 6.0, 1e-3))  # in the band, and out of it
+        at = t, np.array([x]), np.array([v])
+        acting = mode.r * t - mode.c * x
+        held = mode.reactions(*at)["guide.fx"]
+        worst = max(worst, abs(mode.m * mode.accelerations(*at)[0] - acting - held))
+    return worst
+
+
+@pytest.mark.parametrize("name", ["smooth_dynamometer", "smooth_growing_force"])
+def test_friction_that_is_told_is_that_which_brakes(name: str):
+    """No cut finds it: it is an applied force, and no law but this one asks for it."""
+    assert missed(only(name)) < 1e-8  # A times the rounding of 15 N, on the edges
+
+
+@pytest.mark.mutant("smooth friction told of a spring that pushes where it pulls")
+def test_friction_of_another_force_is_seen():
+    sound: Any = only("smooth_dynamometer")
+    told = lambda self, t, q, v: sound.reactions(t, -q, v)  # noqa: E731
+    assert missed(mutant(sound, reactions=told)) > 1.0
 
 
 @pytest.mark.whole

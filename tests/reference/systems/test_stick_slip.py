@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from textmech.reference.laws.friction import Dry
+from textmech.reference.motion.follow import follow
 from textmech.reference.systems import stick_slip
+from textmech.reference.systems.dynamometer import Dynamometer
 
 DRY = Dry(F_minus=3.0, F_plus=1.0, Fs_minus=4.0, Fs_plus=2.0)
 
@@ -64,3 +66,21 @@ def test_each_mode_has_its_friction():
     assert forces == {"backward": 3.0, "forward": -1.0, "stuck": -0.5}
     changes = {name: mode.accelerations(*at)[0] for name, mode in modes.items()}
     assert changes == {"backward": 1.75, "forward": -0.25, "stuck": 0.0}
+
+
+@pytest.mark.parametrize(("Fs_minus", "sticks"), [(3.0, True), (2.001, True), (1.999, False)])
+def test_what_overshoots_sticks_by_its_static_friction_backward(
+    Fs_minus: float, sticks: bool
+) -> None:
+    """The spring is left with 2 F₊ − F_s₊ = −2 N: kinetic friction of 1.5 N would not hold it."""
+    parameters = {"m": 1.3, "c": 4.0, "u": 1.0, "F_minus": 1.5, "F_plus": 1.0}
+    system = Dynamometer(**parameters, Fs_minus=Fs_minus, Fs_plus=4.0)
+    known = system.closed_events(5.0)
+    assert (known is not None) == sticks
+    found = [(event.name, event.time) for event in follow(system, np.linspace(0, 5, 11)).events]
+    if known is None:
+        assert found[1][1] > 3.6  # at 3.532 s it goes back, and stops later
+    else:
+        assert [name for name, _ in found] == [name for name, _ in known]
+        times = [t for _, t in known]
+        assert [t for _, t in found] == pytest.approx(times, abs=1e-11)

@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array, System
+from textmech.reference.systems import tilting_ring
 from textmech.reference.systems.tilting_ring import TiltingRing
 
 m, R, G = 1.3, 0.25, 9.80665
@@ -83,10 +84,31 @@ def test_steady_circle():
 
 
 def test_other_motions_have_no_closed_form():
-    """Nor a circle whose ω₂ is off by 1e-12."""
+    """Nor a circle whose ω₂ is off by 1e-12, to either side."""
     assert example("tilting_disk").closed_form(1.0) is None
     near = {"w1": 0.0, "w2": (1 + 1e-12) * steady(20.0, -1.2), "w3": -1.2}
     assert example("tilting_disk", **near, beta0=math.radians(20)).closed_form(1.0) is None
+
+
+@pytest.mark.parametrize("degrees", [*range(5, 86, 5)])
+def test_every_steady_circle_has_one(degrees: int):
+    """Whatever its tilt: the moments cancel but for rounding, which is of their size."""
+    for turn in (-0.3, -1.2, 2.7, 19.0):
+        spin = {"w1": 0.0, "w2": steady(degrees, turn), "w3": turn}
+        known = example("tilting_disk", **spin, beta0=math.radians(degrees)).closed_form(1.0)
+        assert known is not None, turn
+
+
+@pytest.mark.mutant("moments of a steady circle that cancel exactly, or not at all")
+def test_a_circle_that_rounding_takes_away_is_seen(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(tilting_ring, "STEADY", 0.0)
+    lost = 0
+    for degrees in range(5, 86, 5):
+        try:
+            test_every_steady_circle_has_one(degrees)
+        except AssertionError:
+            lost += 1
+    assert lost > 3
 
 
 MOTIONS: dict[str, dict[str, float]] = {  # start, and how long it is followed

@@ -1,20 +1,26 @@
 """Whatever a result depends on changes its key, and what it does not depend on does not."""
 
+import math
 import os
 import shutil
+import sys
+import time
 from collections.abc import Callable
 from dataclasses import fields, replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 from given import scenes
+from given.tree import FILES, imported, module
 
 from textmech.cases.case import Case
 from textmech.engines import make
-from textmech.reports.cache import key
+from textmech.reports.cache import key, parts
 from textmech.reports.cache.key import Keys, described
+from textmech.reports.cache.store import Store, usable
 
 CASE = scenes.SHIPPED["rolling_wheel.pushed"]
 ENGINE = make("pymunk", "tuned")
@@ -22,7 +28,15 @@ OTHER = {
     "name": "other", "title": "other", "system": None, "duration": 9.0, "samples": 9, "step": 9.0,
     "rests": True, "drops_out": ("x",),
 }  # fmt: skip
+MEMO = Store(Path(os.devnull))
 SAME = ("source",)  # its text: only for messages
+
+
+@pytest.fixture(autouse=True)
+def nothing_is_newer(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """What a test writes would be newer than its process, and no key that of another."""
+    monkeypatch.setattr(key, "BEGUN", math.inf)
+    monkeypatch.setitem(globals(), "MEMO", Store(tmp_path / "memo"))
 
 
 @pytest.fixture
@@ -36,7 +50,7 @@ def code(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def words(case: Case = CASE, engine: Any = ENGINE) -> tuple[str, str]:
     """The keys of the reference and of an outcome."""
-    keys = replace(Keys.now(), salt="")
+    keys = replace(Keys.now(usable() or MEMO), salt="")
     return keys.solution(case), keys.outcome(keys.ways(case, engine), "native")
 
 
@@ -81,7 +95,7 @@ def test_a_rungs_ladder_and_step_count() -> None:
 
 def test_what_is_tried_counts_and_the_code_that_tries_it(code: Path) -> None:
     def word(options: str = "{}", step: float = 1e-3) -> str:
-        return replace(Keys.now(), salt="").tried(CASE, ENGINE, options, step)
+        return replace(Keys.now(None), salt="").tried(CASE, ENGINE, options, step)
 
     assert len({word(), word('{"iterations": 30}'), word(step=1e-3 * (1 + 2**-52))}) == 3
     before, row = word(), words()[1]
@@ -107,13 +121,17 @@ def test_what_is_tried_counts_and_the_code_that_tries_it(code: Path) -> None:
         ("reports/events/times.py", False, True),
         ("reports/row.py", False, True),
         ("reports/unit.py", False, True),
+        ("reports/pins.py", False, True),
+        ("reports/limit.py", False, True),
+        ("reports/spelled.py", False, True),
+        ("reports/cache/form.py", True, True),
         ("reports/write.py", False, False),
     ],
 )
 def test_the_code_that_makes_it_counts_and_no_other(
     file: str, reference: bool, outcome: bool, code: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(key, "_home", lambda kind: code / "engines" / "pymunk")
+    monkeypatch.setattr(parts, "home_of", lambda kind: code / "engines" / "pymunk")
     before = words()
     with (code / file).open("a", encoding="utf-8") as text:
         text.write("# changed\n")
@@ -121,8 +139,32 @@ def test_the_code_that_makes_it_counts_and_no_other(
     assert (before[0] != after[0], before[1] != after[1]) == (reference, outcome)
 
 
+COMPUTING = (
+    "reports.unit",
+    "reports.trial.rung",
+    "reports.search.errors",
+    "reports.search.solving",
+)
+CARRYING = ("ending", "content", "lock", "passing", "cache.store", "cache.fits", "search.solving")
+"""What they import too, and what changes no result: where results lie."""
+
+
+def test_all_code_counts_that_computes() -> None:
+    """As far as imports lead from it, in reports and in what engines share."""
+    modules = {module(file): file for file in FILES}
+    needed, left = set[str](), set(COMPUTING)
+    while left:
+        needed |= left
+        left = {other for name in left for other in imported(modules[name])} & set(modules) - needed
+    places = [*key.REFERENCE, *key.JUDGING, *key.TRYING]
+    told = {path for place in places for path in key._modules(key.ROOT / place)}
+    known = {f"reports.{name}" for name in CARRYING}
+    packages = {name for name in modules if modules[name].name == "__init__.py"}
+    assert {name for name in needed - known - packages if modules[name] not in told} == set()
+
+
 def test_an_engine_is_its_package() -> None:
-    assert key._home(type(ENGINE)) == key.ROOT / "engines" / "pymunk"
+    assert parts.home_of(type(ENGINE)) == key.ROOT / "engines" / "pymunk"
 
 
 @pytest.mark.parametrize(
@@ -135,6 +177,9 @@ def test_an_engine_is_its_package() -> None:
         lambda patch: patch.setattr("sys.version", "0"),
         lambda patch: patch.setattr(key, "_processor", lambda: "another"),
         lambda patch: patch.setattr("platform.machine", lambda: "another"),
+        lambda patch: patch.setenv("LD_PRELOAD", "libother.so"),
+        lambda patch: patch.setenv("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2"),
+        lambda patch: patch.setattr(sys, "flags", SimpleNamespace(optimize=2)),
     ],
 )
 def test_the_machine_counts(
@@ -145,21 +190,32 @@ def test_the_machine_counts(
     assert key.machine.__wrapped__() != before
 
 
-def test_code_newer_than_the_process_gives_keys_of_its_own(code: Path) -> None:
+@pytest.mark.mutant("the machine is no part of the key")
+def test_another_machine_has_other_keys(monkeypatch: pytest.MonkeyPatch) -> None:
+    before = words()
+    monkeypatch.setattr(key, "machine", lambda: "another")
+    assert not set(words()) & set(before)
+
+
+def test_code_newer_than_the_process_gives_keys_of_its_own(
+    code: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also where it was given an older date: what the disk says of the change counts."""
     file = code / "cases" / "observe.py"
-    for path in code.rglob("*.py"):
-        os.utime(path, (1, 1))
-    assert Keys.now().salt == ""
-    os.utime(file)
-    assert Keys.now().salt != Keys.now().salt != ""
+    assert Keys.now(None).salt == ""
+    monkeypatch.setattr(key, "BEGUN", time.time())
+    time.sleep(0.02)  # a tick of the disk's clock
+    file.write_bytes(file.read_bytes())
+    os.utime(file, (1, 1))
+    assert Keys.now(None).salt != Keys.now(None).salt != ""
 
 
 def test_code_that_changes_meanwhile_is_noticed(code: Path) -> None:
-    keys = Keys.now()
+    keys = Keys.now(None)
     assert keys.hold()
     (code / "cases" / "observe.py").write_text("", encoding="utf-8")
     assert not keys.hold()
-    keys = Keys.now()
+    keys = Keys.now(None)
     (code / "cases" / "observe.py").unlink()
     assert not keys.hold()
 
@@ -167,7 +223,8 @@ def test_code_that_changes_meanwhile_is_noticed(code: Path) -> None:
 @pytest.mark.parametrize(
     ("one", "other"),
     [(1, 1.0), (0.0, -0.0), ("1", 1), ((1, 2), [1, 2]), ({"a": 1, "b": 2}, {"b": 2, "a": 1}),
-     ("a, 'b'", ("a", "b")), (np.zeros(2), np.zeros((2, 1))), (True, 1), (None, "None")],
+     ("a, 'b'", ("a", "b")), (np.zeros(2), np.zeros((2, 1))), (True, 1), (None, "None"),
+     (np.zeros(2), np.zeros(2, np.int64)), (np.zeros(2, "<f4"), np.zeros(2, ">f4"))],
 )  # fmt: skip
 def test_what_differs_is_described_differently(one: object, other: object) -> None:
     assert described(one) != described(other)

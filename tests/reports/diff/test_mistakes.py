@@ -140,7 +140,7 @@ def test_a_file_that_is_far_too_large_is_not_read(
     old: Path, new: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("textmech.reports.diff.table.LARGEST", 100)
-    assert "too large for a report" in said(old, new)
+    assert "is too large: 0 MB" in said(old, new)
 
 
 def test_a_pipe_is_no_file(old: Path, new: Path) -> None:

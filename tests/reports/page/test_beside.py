@@ -1,8 +1,12 @@
 """Tables that other commands write, as the page sums them up: counted by hand."""
 
+from typing import Any
+
 import pandas as pd
 import pytest
+from given.otherwise import otherwise
 
+from textmech.reports.page import beside
 from textmech.reports.page.advice import advice
 from textmech.reports.page.beside import causes, versions
 
@@ -74,3 +78,22 @@ mujoco 4.0.0   shipped beyond  -
 def test_without_the_file_there_is_nothing(read: object) -> None:
     assert read(None) is None  # type: ignore[operator]
     assert advice(None, {}) is None
+
+
+@pytest.mark.mutant("what a release lacks counts as within")
+def test_only_what_agrees_is_within_of_a_release() -> None:
+    frame = rows("""
+case engine version setting quantity verdict  moved
+a    mujoco 3.9     shipped x        agrees   -
+a    mujoco 3.9     shipped y        beyond   -
+b    mujoco 3.9     shipped x        diverged -
+c    mujoco 3.9     shipped x        refused  -
+c    mujoco 3.9     shipped audit    agrees   -
+""")
+
+    def within(module: Any = beside) -> list[tuple[int, int, int]]:
+        return [(s["within"], s["judged"], s["percent"]) for s in module.versions(frame)["shares"]]
+
+    assert within() == [(1, 4, 25)]
+    lax = otherwise(beside, 'row["verdict"] == WITHIN for', 'row["verdict"] != "beyond" for')
+    assert within(lax) == [(3, 4, 75)]

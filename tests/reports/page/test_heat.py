@@ -4,7 +4,10 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from given.otherwise import otherwise
+from given.report_folders import RUNGS
 
+from textmech.reports.page import heat
 from textmech.reports.page.column import Column, column, columns
 from textmech.reports.page.heat import Cell, cells, short
 from textmech.reports.row import AGREES, BEYOND, DEVIATES, DIVERGED, FAILS, Comparison
@@ -78,3 +81,20 @@ def test_columns_go_from_shipped_to_own_to_tuned_and_the_book_is_last() -> None:
         "mujoco shipped", "mujoco mine", "mujoco tuned", "pymunk tuned + law", "book smooth",
     ]  # fmt: skip
     assert column(rows[0]) == Column("pymunk", "tuned", "law")
+
+
+def usable(steps: list[float | None], module: Any = heat) -> float | None:
+    """The step of a cell whose quantities have these."""
+    ladders = [replace(RUNGS, usable_step=step, quantity=f"x{k}") for k, step in enumerate(steps)]
+    row = replace(ROW, engine=RUNGS.engine, setting=RUNGS.setting, case=RUNGS.case)
+    (found,) = module.cells([row], ladders).values()
+    return found.step
+
+
+@pytest.mark.mutant("the step from which on all is within is the largest of all")
+def test_all_is_within_from_the_smallest_of_the_usable_steps_on() -> None:
+    assert usable([4e-3, 1e-3, 2e-3]) == 1e-3
+    assert usable([4e-3, None, 2e-3]) is None
+    assert (
+        usable([4e-3, 1e-3], otherwise(heat, "min(known) if known", "max(known) if known")) == 4e-3
+    )

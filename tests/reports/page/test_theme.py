@@ -1,8 +1,12 @@
 """Themes are told from the scene alone: some cases, as a person would sort them."""
 
+from dataclasses import replace
+
 import pytest
+from given.otherwise import otherwise
 
 from textmech.cases.case import Case
+from textmech.reports.page import theme
 from textmech.reports.page.theme import THEMES, themes
 
 
@@ -34,3 +38,19 @@ def test_a_case_is_about(name: str, about: set[str], shipped: list[Case]) -> Non
 def test_every_case_is_about_something_that_has_a_meaning(shipped: list[Case]) -> None:
     for case in shipped:
         assert set(themes(case)) & (set(THEMES) - {"driven", "space"}), case.name
+
+
+@pytest.mark.mutant("every contact is one with friction")
+@pytest.mark.parametrize(
+    ("friction", "about"), [(0.0, {"impacts"}), (0.3, {"impacts", "friction"})]
+)
+def test_a_smooth_contact_has_no_friction(
+    friction: float, about: set[str], shipped: list[Case]
+) -> None:
+    (case,) = [case for case in shipped if case.name == "bouncing_disk.elastic"]
+    ((name, contact),) = case.scene.contacts.items()
+    other = replace(contact, static=friction, kinetic=friction)
+    smooth = replace(case, scene=replace(case.scene, contacts={name: other}))
+    assert set(themes(smooth)) == about
+    blind = otherwise(theme, "c.switches and c.static > 0.0", "c.switches")
+    assert set(blind.themes(smooth)) == {"impacts", "friction"}

@@ -5,7 +5,9 @@ from math import inf
 from typing import Any
 
 import pytest
+from given.otherwise import otherwise
 
+from textmech.reports.search import cures as searching
 from textmech.reports.search.candidate import Candidate
 from textmech.reports.search.cures import Cured, cures
 from textmech.reports.search.lever import STEP, Field, Lever, halved
@@ -17,11 +19,13 @@ ONE, TWO, THREE = (Lever(name, {name: True}) for name in ("one", "two", "three")
 SHIPPED = 2e-3  # s
 
 
-def cured(error: Error, *levers: Lever, finer: int = 16) -> tuple[Cured, Known]:
+def cured(
+    error: Error, *levers: Lever, finer: int = 16, rest: Lever | None = None
+) -> tuple[Cured, Known]:
     """What is found of one row, and all that was run for it."""
     known = Known()
     steps = halved(SHIPPED, SHIPPED / finer)
-    field = Field(Candidate.of({}, SHIPPED), [*levers, STEP], steps, steps)
+    field = Field(Candidate.of({}, SHIPPED), [*levers, STEP], steps, steps, rest)
     asking = cures(field, known, ["x"])
     while True:
         try:
@@ -117,6 +121,22 @@ def test_of_large_sets_the_smallest_of_those_that_were_tried_is_named() -> None:
 
     found, _ = cured(lambda o, h: error(o, h) if "inert" not in o else error(o, h) + 1, *levers)
     assert names(found) == {("0", "1", "2", "step")}
+
+
+@pytest.mark.mutant("the largest set of changes is told as the cause")
+def test_of_sets_beyond_the_largest_the_one_with_the_fewest_changes_is_the_cause(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Three knobs and the step cure; so do these and all the rest, of which nothing is needed."""
+    levers, rest = [Lever(f"{i}", {f"{i}": True}) for i in range(3)], Lever("rest", {"rest": True})
+
+    def error(o: Mapping[str, Any], h: float) -> float:
+        return 0.5 if all(o.get(f"{i}") for i in range(3)) and h < SHIPPED else 9.0 - len(o)
+
+    assert names(cured(error, *levers, rest=rest)[0]) == {("0", "1", "2", "step")}
+    most = otherwise(searching, "least = min(len(", "least = max(len(")
+    monkeypatch.setattr(searching, "_fewest", most._fewest)
+    assert names(cured(error, *levers, rest=rest)[0]) == {("0", "1", "2", "step", "rest")}
 
 
 def test_beside_an_instant_the_rest_may_still_be_cured() -> None:

@@ -1,15 +1,21 @@
 """Draws of a case's parameters: the same mechanism with other numbers, or none."""
 
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
+import numpy as np
 import pytest
 from given import scenes
 
 from textmech import engines
+from textmech.reference.certificate.agreement import Check
 from textmech.reports import pool
 from textmech.reports.cache.key import Keys
 from textmech.reports.cache.store import Store
 from textmech.reports.results import Results
+from textmech.reports.search import draws
 from textmech.reports.search.candidate import Candidate
 from textmech.reports.search.draws import APART, DRAWS, drawn, held
 from textmech.reports.unit import Pair
@@ -38,7 +44,7 @@ def test_some_draws_are_no_case() -> None:
 
 @pytest.mark.whole
 def test_a_recipe_holds_in_some_and_one_that_does_not_help_in_none(tmp_path: Path) -> None:
-    case, store, keys = scenes.SHIPPED["bar_pendulum"], Store(tmp_path), Keys.now()
+    case, store, keys = scenes.SHIPPED["bar_pendulum"], Store(tmp_path), Keys.now(None)
     pair = Pair(case, engines.make("mujoco", "shipped"), store, keys.solution(case))
     store.put(pair.key, scenes.solved(case.name))
     with pool.local(2) as working:
@@ -48,3 +54,27 @@ def test_a_recipe_holds_in_some_and_one_that_does_not_help_in_none(tmp_path: Pat
     assert (good.held, bad.held) == (good.tried, 0)
     assert good.tried == bad.tried >= DRAWS - 1
     assert str(good) == f"holds in {good.tried} of {good.tried} draws of its parameters ± 10%"
+
+
+@pytest.mark.mutant("a draw that goes through other phases counts")
+def test_a_draw_that_goes_through_other_phases_is_another_case(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Two of six references switch once more, and two are not certified: none of them counts."""
+    case, store = scenes.SHIPPED["bar_pendulum"], Store(tmp_path)
+    keys = Keys.now(store)
+    sound = scenes.solved(case.name)
+    other = replace(sound, trajectory=replace(sound.trajectory, switches=np.array([0.1])))
+    unsure = replace(sound, checks=(Check("drift", 1.0, 0.5),))
+    pair = Pair(case, engines.make("mujoco", "shipped"), store, keys.solution(case))
+    store.put(pair.key, sound)
+    results: Any = SimpleNamespace(keys=keys)
+    results.of = lambda what, function, tasks: {
+        key: (sound, other, unsure)[k % 3] for k, key in enumerate(tasks)
+    }
+    results.anew = lambda what, function, tasks: {key: {"x": (0.5, 0.5)} for key in tasks}
+    found = held(pair, Candidate.of({}, 4e-3), {}, results)
+    assert (found.held, found.tried) == (DRAWS // 3, DRAWS // 3)
+    assert str(found).endswith(f"{DRAWS - DRAWS // 3} were no case, or another one")
+    monkeypatch.setattr(draws, "_phases", lambda reference: 0)
+    assert held(pair, Candidate.of({}, 4e-3), {}, results).tried == 2 * DRAWS // 3

@@ -5,8 +5,10 @@ from math import inf
 from typing import Any
 
 import pytest
+from given.otherwise import otherwise
 
 from textmech.engines.knobs import Knob, Value
+from textmech.reports.search import recipe as searching
 from textmech.reports.search.bar import Bar
 from textmech.reports.search.candidate import Candidate
 from textmech.reports.search.menu import Menu, fitting
@@ -146,3 +148,39 @@ def test_steps_meet_every_sample(interval: float, steps: list[float]) -> None:
     found = fitting([8e-3, 4e-3, 2e-3, 1e-3], 2e-3, interval)
     assert found == pytest.approx(steps)
     assert all(abs(interval / h - round(interval / h)) < 1e-9 for h in found)
+
+
+def smallest_error(kitchen: Kitchen, recipe: Recipe) -> tuple[float]:
+    """The recipe of the smallest error in place of the cheapest."""
+    return (kitchen.bar.worst(recipe.candidate)[0],)
+
+
+@pytest.mark.mutant("the recipe of the smallest error in place of the cheapest")
+def test_of_recipes_that_keep_the_bar_the_cheapest_is_taken(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """`one` is within at 8 ms, hardly; `two` at 1 ms alone, and there by far."""
+
+    def error(o: Mapping[str, Any], h: float) -> float:
+        return 0.4 if "one" in o else (1e-3 if h <= 2e-3 else 9.0) if "two" in o else 9.0
+
+    assert of(error) == ({"one": 1}, 8e-3)
+    monkeypatch.setattr(Kitchen, "rank", smallest_error)
+    assert of(error) == ({"two": 1}, 2e-3)
+
+
+@pytest.mark.mutant("what is taken out of a recipe is not confirmed at half the step")
+def test_what_is_left_of_a_recipe_holds_at_half_its_step_too(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Without `d` it is within at 8 ms alone, by luck: `d` stays."""
+    luck = lambda o, h: h == 8e-3 or o.get("d")  # noqa: E731
+
+    def error(o: Mapping[str, Any], h: float) -> float:
+        return 0.1 if o.get("a", {}).get("b") and luck(o, h) else 9.0
+
+    assert of(error, ONE, WHOLE) == ({"a": {"b": 1}, "d": 1}, 8e-3)
+    was = "rungs = [less.candidate, less.choice.at(less.step / 2)]"
+    hasty = otherwise(searching, was, "rungs = [less.candidate]")
+    monkeypatch.setattr(searching, "_lean", hasty._lean)
+    assert of(error, ONE, WHOLE) == ({"a": {"b": 1}}, 8e-3)

@@ -45,7 +45,7 @@ def results(
 ) -> Iterator[Results]:
     monkeypatch.setattr(tested, "errors", planted)
     with pool.local(2) as working:
-        yield Results(working, lambda *now: told.append(now[:3]), Store(tmp_path), Keys.now())
+        yield Results(working, lambda *now: told.append(now[:3]), Store(tmp_path), Keys.now(None))
 
 
 def search(results: Results, name: str, *rounds: list[Candidate]) -> Search[list[Errors]]:

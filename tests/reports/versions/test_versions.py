@@ -147,7 +147,7 @@ def test_this_environments_own_release_is_not_installed(tmp_path: Path) -> None:
 def test_mistakes_are_said_before_anything_is_installed(
     words: list[str], message: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("subprocess.run", None)
+    monkeypatch.setattr("textmech.reports.child.run", None)
     done = textmech("versions", *words)
     assert done.returncode == 2
     assert message in done.stderr

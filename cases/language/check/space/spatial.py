@@ -9,12 +9,11 @@ from .blade import blades
 from .drive import drives
 from .roll import rolls
 from .start import starts
-from .turn import starts_wound
 
 
 def spatial(parsed: Parsed, scene: Any) -> Iterator[Finding]:
     """Every mistake in the sound parts that only a scene in space can have."""
-    for check in (turns_freely, rolls, drives, blades, starts_wound):
+    for check in (turns_freely, rolls, drives, blades):
         yield from check(parsed, scene)
     for key in ("initial", "near"):
         yield from starts(parsed, scene, key)

@@ -1,16 +1,10 @@
-"""What acts about a joint in space: which of its turns is meant, and how far it starts."""
+"""What acts about a joint in space: which of its turns is meant."""
 
-import math
-from collections.abc import Iterator
 from typing import Any
 
 from ....element import Force
 from ....mistake import listed, nearest
 from ....space.joint import SpatialJoint
-from ....space.scene import SpatialScene
-from ...parse import Finding, Parsed
-
-HALF = math.pi * (1 + 1e-9)  # rad: numbers are typed with up to ten digits
 
 
 def no_turn(joint: Any, force: Force) -> str | None:
@@ -34,23 +28,3 @@ def no_turn(joint: Any, force: Force) -> str | None:
     if freedom and freedom not in turns:
         return f"{name!r} has no turn {freedom!r}{nearest(f'{name}.{freedom}', written)}"
     return None
-
-
-def starts_wound(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
-    """A spring whose joint is given as turned by more than half a turn.
-
-    From the attitudes of both parts, which are all that a state holds, it starts a turn off.
-    """
-    for force in scene.forces.values():
-        joint = scene.joints.get(force.about or "")
-        if joint is None or not force.winds:
-            continue
-        freedom = force.turn or "angle"
-        start = parsed.file.initial.get(joint.name)
-        angle = getattr(start, "given", {}).get(freedom, 0.0)
-        if abs(angle) > HALF:
-            what = (
-                f"is {math.degrees(angle):.6g} deg, and {force.name!r} acts about it: it can start "
-                "within half a turn; put what is more into `rest_angle`"
-            )
-            yield ("initial", joint.name, freedom), what

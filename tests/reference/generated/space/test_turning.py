@@ -9,10 +9,7 @@ import pytest
 from given import scenes, torsion
 from given.multibody_laws import EXACT, balance, lagrangian
 
-from textmech.cases.mistake import CaseError
 from textmech.cases.observe import observe
-from textmech.cases.trajectory import Trajectory
-from textmech.reference import premises
 from textmech.reference.generated.space import turning
 from textmech.reference.generated.space.mode import SpatialMultibody
 from textmech.reference.solve import solve
@@ -118,28 +115,6 @@ WINDING = torsion.FLAT.replace("pull: {motor: hinge, ramp: 0.8}", "pull: {motor:
 
 
 @pytest.mark.whole
-def test_a_spring_that_is_wound_by_more_than_half_a_turn_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(CaseError) as refused:
-        solve(scenes.typed(tmp_path, WINDING))
-    (mistake,) = refused.value.mistakes
-    assert mistake.where == "scene.forces.wire"
-    assert mistake.what.startswith("is wound by more than half a turn at t = 0.")
-
-
-@pytest.mark.parametrize(("rate", "wound"), [(10.0, True), (2.0, False)])
-def test_winding_between_samples_is_seen(rate: float, wound: bool, tmp_path: Path) -> None:
-    """From 175° and back within 0.1 s: at 10 rad/s the cubic reaches 189°, at 2 rad/s 178°."""
-    case = scenes.typed(tmp_path, torsion.FLAT)
-    half = np.radians(175.0 / 2)
-    rows = np.tile([0, 0, 0, np.cos(half), 0, 0, np.sin(half), 0, 0, 0, 0, 0, rate], (2, 1))
-    rows[1, -1] = -rate
-    still = np.tile([0.0] * 3 + [1.0] + [0.0] * 9, (2, 1))
-    motion = Trajectory(np.array([0.0, 0.1]), {"rod": rows, "arm": still}, {})
-    found = [mistake.where for mistake in premises._wound(case, motion)]
-    assert found == (["scene.forces.wire", "scene.forces.knee"] if wound else [])
-
-
-@pytest.mark.whole
 def test_what_needs_no_angle_may_turn_on(tmp_path: Path) -> None:
     """A damper's angle has its turns counted; its torque is that of the rate."""
     wires = "    wire: {torsion: hinge, stiffness: 9.0, rest_angle: -30 deg}\n"
@@ -151,11 +126,3 @@ def test_what_needs_no_angle_may_turn_on(tmp_path: Path) -> None:
     assert np.max(np.abs(np.diff(turned))) < np.pi
     rate = observe(case.scene, motion, "hinge.omega")
     np.testing.assert_allclose(observe(case.scene, motion, "wire.torque"), -0.1 * rate, rtol=1e-14)
-
-
-def test_a_start_beyond_half_a_turn_is_a_mistake(tmp_path: Path) -> None:
-    with pytest.raises(CaseError) as refused:
-        scenes.typed(tmp_path, torsion.FLAT.replace("{angle: 20 deg", "{angle: 200 deg"))
-    (mistake,) = refused.value.mistakes
-    assert mistake.where == "initial.hinge.angle"
-    assert "'wire' acts about it: it can start within half a turn" in mistake.what

@@ -4,40 +4,21 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from given.linkages import LINKAGE
 from given.scenes import typed
 
 from textmech.cases.mistake import CaseError
+from textmech.cases.space.rotation import about
 from textmech.cases.space.scene import SpatialScene
 from textmech.reference.start.space import positions
 from textmech.reference.start.space.assembly import assemble_in_space
+from textmech.reference.start.space.branches import faithful
+from textmech.reference.start.space.closure import SpatialClosure
 
 BODY = (
     "{rigid: {mass: 1.0, inertia: [0.02, 0.03, 0.025, 0, 0, 0]}, "
     "points: {p: [0.2, 0, 0], q: [-0.2, 0, 0]}}"
 )
-LINKAGE = """\
-scene:
-  space: 3
-  points: {O: [0, 0, 0], Q: [0.6, 0.1, 0]}
-  bodies:
-    crank:
-      rigid: {mass: 0.5, inertia: [1.0e-3, 2.0e-3, 2.2e-3, 0, 0, 0]}
-      points: {foot: [-0.07, 0, 0], pin: [0.07, 0, 0]}
-    coupler:
-      rigid: {mass: 0.5, inertia: [1.5e-3, 3.0e-2, 2.9e-2, 0, 0, 0]}
-      points: {a: [-0.3, 0, 0], b: [0.3, 0, 0]}
-    rocker:
-      rigid: {mass: 0.8, inertia: [1.2e-2, 1.0e-2, 1.5e-2, 0, 0, 0]}
-      points: {foot: [-0.1, -0.2, 0], pin: [0.1, 0.2, 0]}
-  joints:
-    motor: {hinge: [ground.O, crank.foot], axis: [0, 0, 1]}
-    near:
-      freedoms: {yaw: {hinge: [0, 0, 1]}, pitch: {hinge: [0, 1, 0]}, roll: {hinge: [1, 0, 0]}}
-      of: [crank.pin, coupler.a]
-    far: {ball: [coupler.b, rocker.pin]}
-    bearing: {hinge: [ground.Q, rocker.foot], axis: [0.6, 0, 0.8]}
-initial: {motor: {angle: 30 deg}, near: {roll: 0}}
-"""
 FREE_LOOP = f"""\
 scene:
   space: 3
@@ -128,3 +109,47 @@ def test_a_disk_that_lies_flat_is_told_so(tmp_path: Path) -> None:
 
 def test_of_three_turns_none_can_be_driven(tmp_path: Path) -> None:
     assert "leaves three turns, and of these none can be driven" in refused(tmp_path, DRIVEN)
+
+
+SLIDES = """\
+scene:
+  space: 3
+  points: {O: [0, 0, 0]}
+  bodies: {box: {rigid: {mass: 1, inertia: [0.1, 0.1, 0.1, 0, 0, 0]}}}
+  joints: {guide: {slide: [ground.O, box.center], along: [1, 0, 0]}}
+initial: {guide: {shift: 0}}
+allow: {box.x: 1.0e-3}
+"""
+# Of those with all its rows closed the first alone is what a slide means.
+TURNED = {
+    "as it is": ((1, 1, 1), 0.0, True),
+    "its axes in a cycle": ((1, 1, 1), 2 * np.pi / 3, False),
+    "about its line, half a turn": ((1, 0, 0), np.pi, False),
+    "across its line, half a turn": ((0, 1, 0), np.pi, False),
+}
+
+
+def meant(name: str, folder: Path) -> tuple[float, bool]:
+    """The largest residual of a box turned about an axis, and whether it is an assembly."""
+    case = typed(folder, SLIDES)
+    assert isinstance(case.scene, SpatialScene)
+    closure = SpatialClosure(case, case.scene)
+    axis, angle, _ = TURNED[name]
+    q = np.array([0.0, 0.0, 0.0, *about(axis, angle)])
+    return float(np.abs(closure.mode.f(0.0, q)).max()), faithful(closure, q)
+
+
+@pytest.mark.parametrize("name", TURNED)
+def test_rows_of_right_angles_hold_of_axes_turned_over(name: str, tmp_path: Path) -> None:
+    """Three rows e_i ⊥ e_j hold after half a turn, and after a third of one about (1, 1, 1)."""
+    residual, assembled = meant(name, tmp_path)
+    assert residual < 1e-15
+    assert assembled == TURNED[name][2]
+
+
+@pytest.mark.mutant("a slide with its axes in a cycle taken for an assembly")
+def test_axes_in_a_cycle_are_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Their cosine is 0, between 1 and the −1 of half a turn."""
+    monkeypatch.setattr("textmech.reference.start.space.branches.ALIKE", -0.5)
+    assert meant("its axes in a cycle", tmp_path)[1]
+    assert not meant("across its line, half a turn", tmp_path)[1]

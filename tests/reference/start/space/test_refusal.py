@@ -102,7 +102,7 @@ WRONG: dict[str, tuple[str, str]] = {
         "6 more needed: a.vx, a.vy, a.vz, a.omega_1",
     ),
     "a dead centre": (
-        f"{SLIDER}initial: {{rail: {{shift: 0.79999999999}}}}\nnear: {{motor: {{angle: 0}}}}\n",
+        f"{SLIDER}initial: {{rail: {{shift: 0.79999999999}}}}\nnear: {{motor: {{angle: 1 deg}}}}\n",
         "the mechanism stands at a dead centre, where what is given hardly determines motor.angle, "
         "small_end.attitude; give one of these instead",
     ),

@@ -1,0 +1,99 @@
+"""Somebody else's engine is tried in a process of its own before it is let into this one."""
+
+import multiprocessing
+import pickle
+import signal
+from collections.abc import Callable
+from importlib.metadata import EntryPoint
+from math import isfinite
+from multiprocessing.connection import Connection
+from typing import Any
+
+from .quiet import quiet, silence
+
+SECONDS = 60.0  # of an import: the slowest package that anybody uses takes ten
+LETTERS = 100  # of a version
+
+
+def why_not(point: EntryPoint, settings: tuple[str, ...]) -> str:
+    """Why it cannot be imported and made in these settings, as far as it has them; empty: it can.
+
+    Whatever it does meanwhile is done to another process.
+    """
+    if multiprocessing.current_process().daemon:  # a worker, and whoever started it has tried
+        return ""
+    here, there = multiprocessing.Pipe(duplex=False)
+    process = multiprocessing.Process(target=_try, args=(there, point, settings), daemon=True)
+    process.start()
+    there.close()
+    try:
+        if not here.poll(SECONDS):
+            return f"it takes longer than {SECONDS:g} s"
+        return str(here.recv())
+    except EOFError:
+        process.join()
+        return f"its process ended ({_how(process.exitcode)})"
+    finally:
+        process.kill()
+        process.join()
+
+
+def unsound(engine: Any, name: str, setting: str) -> str:
+    """What of its description is none, in words; nothing if all of it is."""
+    for word, wanted in (("name", name), ("setting", setting)):
+        if (found := getattr(engine, word)) != wanted or not isinstance(found, str):
+            return f"its {word} should be {wanted!r}, is {_short(found)}"
+    version, step = engine.version, engine.own_step
+    if not (isinstance(version, str) and version.isprintable() and 0 < len(version) <= LETTERS):
+        return f"its version should be a short text, is {_short(version)}"
+    if step is None:
+        return ""
+    number = isinstance(step, float | int) and not isinstance(step, bool)
+    if not (number and isfinite(step) and step > 0):
+        return f"its own_step should be a time in s or None, is {_short(step)}"
+    return ""
+
+
+def said(error: BaseException | None) -> str:
+    """What it is called, and what it says, in a short line."""
+    return f"{type(error).__name__}: {_short(error, str)}"
+
+
+def guarded(call: Callable[[], Any]) -> tuple[Any, BaseException | None]:
+    """What the call gives, or raises, whatever that is but an interruption; nothing is printed."""
+    try:
+        with quiet():
+            return call(), None
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # SystemExit, and what a panic of Rust is
+        return None, error
+
+
+def _try(there: Connection, point: EntryPoint, settings: tuple[str, ...]) -> None:
+    """What runs in the process."""
+    silence()
+    try:
+        maker: Any = point.load()
+        offers = getattr(maker, "offers", ())
+        for setting in settings if isinstance(offers, tuple) else ():  # else its own words say so
+            if setting in offers:
+                engine = maker(setting, {})
+                pickle.loads(pickle.dumps(engine))
+                unsound(engine, point.name, setting)
+        there.send("")
+    except BaseException as error:
+        there.send(said(error))
+
+
+def _how(code: int | None) -> str:
+    return signal.Signals(-code).name if code is not None and code < 0 else f"exit code {code}"
+
+
+def _short(value: object, say: Callable[[object], str] = repr) -> str:
+    try:
+        said = say(value)
+    except BaseException as error:
+        return f"what raises {type(error).__name__}"
+    said = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in said[: 2 * LETTERS])
+    return said if len(said) < 2 * LETTERS else f"{said}…"

@@ -1,0 +1,156 @@
+"""Whether each force that a case asks for has one value, at every sample.
+
+All rows that hold are looked at by their rank, and not by what a solver's pivots make of it: of
+forces that equilibrium leaves open the laws of contact may still leave one value each.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+import numpy as np
+
+from ..cases.case import Case
+from ..cases.kind import WORK
+from ..cases.mistake import CaseError
+from ..cases.observe import observe
+from ..cases.quantity import at_event, table
+from ..cases.trajectory import Trajectory
+from .certificate.agreement import Check, worst
+from .generated.either import Generated
+from .generated.leeway import LEANS, Leeway
+from .generated.mechanism import Mechanism
+from .motion.bodies import Answer
+from .system import Pose
+
+NAME = "forces determined"
+POINT = 1e-8  # of the largest force: a span that is shorter is one value, as a programme knows it
+STEADY = 3  # samples of one state: with constant forces work is a sum over them
+
+WHAT = (
+    "statics does not decide it at t = {:.3g} s: {}; what sticks, rubs or leans there holds more "
+    "than there is to hold; leave it out"
+)
+
+Spans = Mapping[str, tuple[float, float]]
+"""By reaction: its least and its largest value."""
+
+
+def check_determined(case: Case, built: Answer, generated: Generated) -> tuple[Check, ...]:
+    """How far apart the values of a force are that is asked for, of the largest force.
+
+    Raises CaseError with those that statics does not decide.
+    """
+    asked = dict(_asked(case))
+    forces = [name for name in dict.fromkeys(asked.values()) if _felt(case, name)]
+    if not forces or not isinstance(generated, Mechanism):
+        return ()
+    found: dict[str, tuple[float, str]] = {}
+    widest = [0.0]
+    for t, poses, leeway in _samples(case, built, generated):
+        moved = list(_open(case, poses, leeway, forces))
+        widest += [width for _, width, _ in moved]
+        for name, width, spans in moved:
+            if width > POINT and name not in found:
+                found[name] = t, _told(case, name, spans)
+    mistakes = [
+        case.mistake(path, WHAT.format(*found[name]))
+        for path, name in asked.items()
+        if name in found
+    ]
+    if mistakes:
+        raise CaseError(mistakes)
+    return (Check(NAME, worst(widest), POINT),)
+
+
+def _asked(case: Case) -> Iterator[tuple[tuple[str, ...], str]]:
+    """Where a quantity is asked for, and which."""
+    for name in case.allow:
+        at = at_event(name, case.events)
+        yield ("allow", name), name if at is None else at.quantity
+    yield from ((("events", name), event.quantity) for name, event in case.events.items())
+
+
+def _felt(case: Case, name: str) -> bool:
+    """Whether it may be told by a force."""
+    known = table(case.scene)
+    return name in known and (known[name].kind == "force" or known[name].field in WORK)
+
+
+def _samples(
+    case: Case, built: Answer, generated: Mechanism
+) -> Iterator[tuple[float, Mapping[str, Pose], Leeway]]:
+    """The samples at which equilibrium leaves forces open, and those."""
+    followed = built.followed
+    for t, name, y in zip(case.times.tolist(), followed.modes, followed.y, strict=True):
+        mode = generated.modes[name]
+        q, v = mode.parted(y)
+        if (leeway := generated.built.leeway(name, t, q, v)) is not None:
+            yield t, mode.poses(t, q, v), leeway
+
+
+def _open(
+    case: Case, poses: Mapping[str, Pose], leeway: Leeway, forces: list[str]
+) -> Iterator[tuple[str, float, Spans]]:
+    """The asked quantities that equilibrium leaves open, how wide, and the forces that do it."""
+    states = {name: np.tile(pose, (STEADY, 1)) for name, pose in poses.items() if len(pose) > 1}
+    inner = {name: pose[0] for name, pose in poses.items() if len(pose) == 1}
+    times = np.arange(float(STEADY))
+
+    def seen(name: str, reactions: Mapping[str, float]) -> float:
+        told = {key: np.full(STEADY, x) for key, x in {**reactions, **inner}.items()}
+        return float(observe(case.scene, Trajectory(times, states, told), name)[-1])
+
+    for name in forces:
+        own = seen(name, leeway.one)
+        others = [seen(name, way) for way in leeway.ways]
+        if all(abs(other - own) <= LEANS * leeway.size for other in others):
+            continue
+        spans = {name: leeway.spanned(own, others)}
+        if not _linear(leeway, own, others, lambda forces, name=name: seen(name, forces)):
+            part = f"{table(case.scene)[name].part}."
+            parts = (x for x in leeway.one if x.startswith(part) and leeway.open(x))
+            spans = {x: leeway.span(x) for x in parts}
+        spans = {x: _clear(span, leeway.size) for x, span in spans.items()}
+        yield name, worst(high - low for low, high in spans.values()) / leeway.size, spans
+
+
+def _linear(
+    leeway: Leeway,
+    own: float,
+    others: Sequence[float],
+    seen: Callable[[Mapping[str, float]], float],
+) -> bool:
+    """Whether a quantity is linear in the forces, told by twice the ways: a size is not."""
+    far = {
+        name: x + 2 * sum(way[name] - x for way in leeway.ways) for name, x in leeway.one.items()
+    }
+    told = own + 2 * sum(other - own for other in others)
+    return abs(seen(far) - told) <= LEANS * leeway.size
+
+
+def _clear(span: tuple[float, float], size: float) -> tuple[float, float]:
+    """A span without the rounding of a bound that is 0."""
+    low, high = (0.0 if abs(x) <= LEANS * size else x for x in span)
+    return low, high
+
+
+def _told(case: Case, name: str, spans: Spans) -> str:
+    """`foot.normal: anything from 43.67 to 57.19 N`."""
+    known = table(case.scene)
+    each = [
+        f"{force}: {_between(*span)} {known[force].unit if force in known else known[name].unit}"
+        for force, span in spans.items()
+    ]
+    return each[0] if name in spans else f"{name} ({', '.join(each)})"
+
+
+def _between(low: float, high: float) -> str:
+    match math.isinf(low), math.isinf(high):
+        case True, True:
+            return "anything, in"
+        case True, False:
+            return f"anything up to {high:.4g}"
+        case False, True:
+            return f"anything from {low:.4g} on, in"
+        case _:
+            return f"anything from {low:.4g} to {high:.4g}"

@@ -1,0 +1,61 @@
+"""Another program, run to its end, which never outlives us: in whatever way we are ended."""
+
+import ctypes
+import os
+import signal
+import subprocess
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+
+from . import ending
+
+_WITH_PARENT = 1  # Linux: PR_SET_PDEATHSIG
+
+
+def run(
+    words: Sequence[object], *, env: Mapping[str, str] | None = None, told: bool = False
+) -> tuple[int, str]:
+    """Its exit code, negative if a signal ended it, and what it wrote to stderr, if that is `told`.
+
+    It has a session of its own: Ctrl-C in the terminal reaches us, and we end it. Its stdin ends
+    when we do.
+    """
+    pipe = subprocess.PIPE
+    process = subprocess.Popen(
+        [str(word) for word in words],
+        env=env,
+        stdin=pipe,
+        stdout=pipe if told else None,
+        stderr=pipe if told else None,
+        start_new_session=True,
+        preexec_fn=_tied(),
+    )
+    with process, ending.at_once(lambda: _kill(process)):
+        try:
+            if told:
+                said = process.communicate()[1].decode(errors="replace")
+            else:
+                said = ""
+                process.wait()
+        finally:
+            _kill(process)
+    return process.returncode, said
+
+
+def _kill(process: subprocess.Popen[bytes]) -> None:
+    """With what it has started itself."""
+    if process.poll() is not None:
+        return
+    with suppress(OSError):
+        if hasattr(os, "killpg"):
+            os.killpg(process.pid, signal.SIGKILL)
+        else:
+            process.kill()
+
+
+def _tied() -> Callable[[], object] | None:
+    """What the new process does first, where the system has it: it asks to be killed with us."""
+    with suppress(OSError, AttributeError, TypeError):
+        ask = ctypes.CDLL(None).prctl
+        return lambda: ask(_WITH_PARENT, int(signal.SIGKILL))
+    return None

@@ -1,0 +1,44 @@
+"""What a file holds, where it is a file: no pipe, no device and no endless one is waited for."""
+
+import errno
+import os
+import stat
+from contextlib import suppress
+from pathlib import Path
+
+LARGEST = 100_000_000  # bytes of a report: half a million rows; ours have five thousand
+_FLAGS = ("O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC", "O_BINARY")  # those that this system has
+
+
+def content(path: Path, most: int = LARGEST, *, links: bool = True, touched: bool = False) -> bytes:
+    """The file's bytes. Raises OSError if it is no regular file, or longer than `most`.
+
+    links: whether a link to one will do. touched: note that it is used now, at the file itself.
+    """
+    flags = os.O_RDONLY | sum(getattr(os, name, 0) for name in _FLAGS)
+    held = os.open(path, flags if links else flags | getattr(os, "O_NOFOLLOW", 0))
+    with open(held, "rb", buffering=0) as file:
+        found = os.fstat(held)
+        if not stat.S_ISREG(found.st_mode):
+            raise OSError(errno.EINVAL, "is no file", str(path))
+        data = bytearray()
+        while len(data) <= most:  # what says 0 bytes, as in /proc, may have more, and no end
+            if not (more := file.read(max(1, min(most + 1 - len(data), found.st_size + 1)))):
+                break
+            data += more
+        if len(data) > most:
+            told = f"{found.st_size / 1e6:.0f} MB, at most {most / 1e6:.0f}"
+            raise OSError(errno.EFBIG, f"is too large: {told}", str(path))
+        if touched and os.utime in os.supports_fd:
+            with suppress(OSError):  # another user's
+                os.utime(held)
+    return bytes(data)
+
+
+def text(path: Path, most: int = LARGEST) -> str:
+    """The same as text. Raises OSError, and ValueError for bytes that are none."""
+    try:
+        return content(path, most).decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        what = f"is no text in UTF-8: byte {error.start} cannot be read"
+        raise ValueError(f"{path}: {what}") from None

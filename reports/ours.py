@@ -1,0 +1,62 @@
+"""Whether a file is one that we wrote: a stranger's is never overwritten unasked."""
+
+import errno
+import re
+from collections.abc import Iterable
+from pathlib import Path
+
+from .content import content
+
+FOOTER = re.compile(r"# \d{1,12} rows of run [0-9a-f]+")
+"""The last line of a report."""
+TITLE = "<title>textmech: "
+"""In the head of a page."""
+_TABLES = {
+    "times of events": re.compile(r"engine,setting,realised,event,k,"),
+    "poses": re.compile(r"engine,setting,realised,body,field,unit,t \[s\],value"),
+    "motions": re.compile(r"(t \[s\]|state)(,[^\r\n]* reference|$)"),
+}
+"""The first lines of what `--keep` writes, in which no comment may stand."""
+_PARQUET = b"PAR1"
+_HEAD = 4000  # bytes
+HERE = Path(__file__).parent
+OVERWRITE = "overwrite"
+
+
+def unasked(folder: Path, names: Iterable[str], *, overwrite: bool) -> None:
+    """Nothing, if each of the names is free there, or is a file of ours, or may be overwritten.
+
+    The committed reports of a checkout are ours whatever they hold. Raises FileExistsError.
+    """
+    if overwrite or (folder.resolve() == HERE and (HERE.parent / "pyproject.toml").is_file()):
+        return
+    for name in names:
+        if (what := _strange(folder / name)) is not None:
+            what = f"{what}, and would be overwritten: name another folder, or say --{OVERWRITE}"
+            raise FileExistsError(errno.EEXIST, what, str(folder / name))
+
+
+def _strange(file: Path) -> str | None:
+    """Why it is none of ours, if it is none; whatever is no file is refused as it is written."""
+    if file.is_symlink():
+        return "is a link"
+    if not file.is_file():
+        return None
+    try:
+        return None if _ours(content(file), file.suffix) else "was not written by textmech"
+    except OSError as error:
+        return f"cannot be read ({error.strerror})"
+
+
+def _ours(held: bytes, ending: str) -> bool:
+    if ending == ".parquet":
+        columns = (b"realised", b"field", b"t [s]", b"value")
+        return held.startswith(_PARQUET) and all(column in held for column in columns)
+    head = held[:_HEAD].decode(errors="replace")
+    if ending == ".html":
+        return TITLE in head
+    last = held.rstrip(b"\r\n").rpartition(b"\n")[2]
+    if FOOTER.fullmatch(last.decode(errors="replace").strip()):
+        return True
+    first = held.partition(b"\n")[0].decode(errors="replace").rstrip("\r").removeprefix("\ufeff")
+    return any(table.match(first) for table in _TABLES.values())

@@ -1,0 +1,36 @@
+"""What pytest may be told: each of our options has a name that is nobody else's."""
+
+import pytest
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addini("textmech_cases", "case files to compare engines on, as patterns", "args", [])
+    group = parser.getgroup("textmech", "comparing physics engines with textbook mechanics")
+    group.addoption(
+        "--textmech-engine",
+        dest="textmech_engine",
+        action="append",
+        default=[],
+        metavar="E",
+        help="only this engine: mujoco, pymunk, or e.g. mujoco.tuned (may be repeated)",
+    )
+    group.addoption(
+        "--textmech-case",
+        dest="textmech_case",
+        action="append",
+        default=[],
+        metavar="CASE",
+        help="only this case or variant (may be repeated)",
+    )
+    group.addoption(
+        "--textmech-no-cache",
+        dest="textmech_no_cache",
+        action="store_true",
+        help="compute everything anew, and take nothing from earlier runs",
+    )
+    group.addoption(
+        "--textmech-allow-long",
+        dest="textmech_allow_long",
+        action="store_true",
+        help="do any amount of work, and not only what takes minutes",
+    )

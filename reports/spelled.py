@@ -1,0 +1,28 @@
+"""What others say, made fit for a table: one line, short, and nothing that no file can hold."""
+
+MOST = 300  # letters: a row is read
+
+
+def spelled(text: object, most: int = MOST) -> str:
+    """The text in one line, what cannot be printed spelled out, and no longer than so."""
+    said = _said(text)
+    size = len(said)
+    # Of a megabyte only what can be shown is looked at.
+    line = " ".join(said[: 4 * most].split())
+    line = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in line)
+    if size <= 4 * most and len(line) <= most:
+        return line
+    return f"{line[:most]}… ({size} letters)"
+
+
+def why(error: BaseException) -> str:
+    """What an error is called, and what it says, whatever that is."""
+    return spelled(f"{type(error).__name__}: {_said(error)}")
+
+
+def _said(text: object) -> str:
+    try:
+        said = str(text)
+    except BaseException as error:  # somebody's own __str__
+        return f"(it cannot be said: {type(error).__name__})"
+    return said

@@ -1,0 +1,103 @@
+"""Every unit of the language with every prefix, against the table of pint's own."""
+
+import re
+from functools import cache
+from itertools import product
+from typing import Any
+
+import pint
+import pytest
+
+from textmech.cases.language.grammar import number
+from textmech.cases.language.grammar.number import amount
+
+ROUNDING = 1e-15  # a few products in a double each
+LINES = [line.partition("=") for line in number._UNITS.strip().splitlines()]
+
+
+def words(*, prefixes: bool) -> list[str]:
+    """All names and short forms of the table: what stands between its signs of equality."""
+    found = []
+    for name, _, rest in LINES:
+        if name.strip().endswith("-") is prefixes:
+            found += [name, *rest.split("=")[1:]]
+    return [word.strip().removesuffix("-") for word in found]
+
+
+PREFIXES, UNITS = words(prefixes=True), words(prefixes=False)
+ALONE = {"kilogram", "kg"}  # has its prefix already, and no other is one to pint
+ALL = UNITS + [p + u for p, u in product(PREFIXES, UNITS) if u not in ALONE]
+OURS = [word for word in ALL if (len(word) <= 12 and word.isascii()) or word in "°µmμm"]
+
+
+@cache
+def known() -> Any:
+    """pint with the table that it comes with."""
+    return pint.UnitRegistry()
+
+
+def off(word: str) -> float:
+    """How far a unit's size is from pint's, relative."""
+    found = amount(f"1 {word}").value
+    return float(abs(found / theirs(word).to_base_units().magnitude - 1.0))
+
+
+def theirs(word: str) -> Any:
+    """1 of it to pint, which knows a revolution by no short name, and a gramme by one alone."""
+    return known().Quantity(1.0, re.sub("rev$", "turn", re.sub("gramme$", "gram", word)))
+
+
+def test_the_table_is_read_whole() -> None:
+    assert {"n", "µ", "μ", "m", "c", "k", "M", "G", "giga"} <= {*PREFIXES}
+    assert {"m", "kg", "g", "s", "min", "h", "rad", "deg", "°", "rev", "rpm", "Hz"} <= {*UNITS}
+    assert {"N", "J", "W", "A", "C", "T"} <= {*UNITS}
+    assert len(OURS) > 300
+
+
+def test_every_unit_is_that_of_pint() -> None:
+    """Long words are no units of ours: a term has at most twelve letters.
+
+    With a gram that is 1e-3 kilogram, a kgram made every force after it a RecursionError.
+    """
+    far = {word: off(word) for word in OURS}
+    assert {word: by for word, by in far.items() if not by < ROUNDING} == {}
+
+
+@pytest.mark.parametrize("word", OURS[: len(UNITS)])
+def test_its_dimension_is_that_of_pint(word: str) -> None:
+    """But for the angle, which has one of its own here."""
+    ours = number._quantity(1.0, word).dimensionality
+    expected = theirs(word).dimensionality
+    assert {k: v for k, v in ours.items() if k != "[angle]"} == dict(expected.items())
+
+
+@pytest.mark.mutant("unit: {old} for {new}")
+@pytest.mark.parametrize(
+    ("new", "old"),
+    [
+        ("1e9 = G", "1e6 = G"),
+        ("joule / second = W", "joule * second = W"),
+        ("/ 180 radian", "/ 200 radian"),
+        ("revolution / minute", "revolution / second"),
+        ("1e-9 = n", "1e-6 = n"),
+        ("kilogram / ampere / second**2 = T", "kilogram / ampere / second = T"),
+    ],
+)
+def test_another_size_is_seen(new: str, old: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert number._UNITS.count(new) == 1
+    monkeypatch.setattr(number, "_UNITS", number._UNITS.replace(new, old))
+    number._registry.cache_clear()
+    try:
+        seen = [word for word in OURS if not off(word) < ROUNDING]
+        seen += [w for w in UNITS if not _alike(w)]
+    finally:
+        number._registry.cache_clear()
+    assert seen
+
+
+def _alike(word: str) -> bool:
+    try:
+        test_its_dimension_is_that_of_pint(word)
+    except AssertionError:
+        return False
+    return True

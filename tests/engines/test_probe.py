@@ -1,0 +1,121 @@
+"""Whatever an engine's package does while it is imported and made: it is told, nobody dies."""
+
+import sys
+from collections.abc import Iterator
+from importlib.metadata import EntryPoint
+from pathlib import Path
+
+import pytest
+
+from textmech import engines
+from textmech.engines import probe
+from textmech.reports.selection import choose_engines
+
+SOUND = """\
+from dataclasses import dataclass
+import os, signal, sys, time
+
+class Panic(BaseException):
+    pass
+
+@dataclass(frozen=True)
+class Engine:
+    setting: str
+    options: object = None
+    name: str = "strange"
+    version: str = "1.0"
+    own_step: object = 1e-3
+    offers = ("shipped",)
+
+"""
+
+IMPORTING = {
+    "raise Panic('no')": "Panic: no",
+    "sys.exit(0)": "SystemExit: 0",
+    "raise KeyboardInterrupt": "KeyboardInterrupt",
+    "os._exit(0)": "its process ended (exit code 0)",
+    "os._exit(7)": "its process ended (exit code 7)",
+    "os.abort()": "its process ended (SIGABRT)",
+    "os.kill(os.getpid(), signal.SIGKILL)": "its process ended (SIGKILL)",
+    "time.sleep(3600)": "it takes longer than 0.5 s",
+    "raise OSError('half \\ud800 a letter')": r"OSError: half \ud800 a letter",
+    "raise OSError('x' * 1_000_000)": "OSError: xxx",
+    "Engine.__init__ = lambda *_: os._exit(5)": "its process ended (exit code 5)",
+    "Engine.__init__ = lambda *_: sys.exit(5)": "SystemExit: 5",
+    "Engine.__reduce__ = lambda self: 1 / 0": "ZeroDivisionError",
+    "Engine.__getattribute__ = lambda *_: os._exit(6)": "its process ended (exit code 6)",
+    "Engine = None": "its `offers` should be a tuple",
+    "Engine.offers = 'shipped'": "its `offers` should be a tuple",
+    "Engine.offers = (3,)": "its `offers` should be a tuple",
+    "Engine.offers = ('best',)": "its `offers` should be a tuple",
+}
+MADE = {
+    "version: object = 3": "its version should be a short text, is 3",
+    "version: object = None": "its version should be a short text, is None",
+    "version: str = 'v' * 1000": "its version should be a short text, is 'vvv",
+    "version: str = 'a\\nb'": "its version should be a short text",
+    "version: str = ''": "its version should be a short text",
+    "name: str = '../x'": "its name should be 'strange', is '../x'",
+    "name: object = None": "its name should be 'strange', is None",
+    "own_step: object = 0.0": "its own_step should be a time",
+    "own_step: object = 'fast'": "its own_step should be a time",
+    "own_step: object = float('nan')": "its own_step should be a time",
+    "own_step: object = True": "its own_step should be a time",
+}
+
+
+@pytest.fixture
+def strange(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """The file of an engine that is found by its entry point."""
+    point = EntryPoint("strange", "strange_engine:Engine", engines.GROUP)
+    found = {**engines._found(), "strange": point}
+    monkeypatch.setattr(engines, "_found", lambda: found)
+    monkeypatch.syspath_prepend(tmp_path)
+    engines._maker.cache_clear()
+    yield tmp_path / "strange_engine.py"
+    engines._maker.cache_clear()
+    sys.modules.pop("strange_engine", None)
+
+
+def why() -> str:
+    """Why it is left out, of a run that asks for all engines; the others are there."""
+    with pytest.warns(UserWarning, match="strange") as told:
+        found = choose_engines([], [])
+    assert {engine.name for engine in found} == {"mujoco", "pymunk"}
+    (said,) = {str(warning.message) for warning in told}
+    assert len(said) < 500
+    assert said.isprintable()
+    return said
+
+
+@pytest.mark.parametrize("does", IMPORTING)
+def test_what_it_does_at_import_is_told(
+    does: str, strange: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if "sleep" in does:
+        monkeypatch.setattr(probe, "SECONDS", 0.5)
+    strange.write_text(f"{SOUND}\n{does}\n", encoding="utf-8")
+    assert IMPORTING[does] in why()
+
+
+@pytest.mark.parametrize("is_", MADE)
+def test_what_it_says_of_itself_is_looked_at(is_: str, strange: Path) -> None:
+    word = is_.partition(":")[0]
+    lines = [is_ if line.strip().startswith(f"{word}:") else line.strip("\n")
+             for line in SOUND.splitlines()]  # fmt: skip
+    text = "\n".join(f"    {line}" if line is is_ else line for line in lines)
+    strange.write_text(text, encoding="utf-8")
+    assert MADE[is_] in why()
+
+
+def test_what_it_prints_is_not_in_the_output(
+    strange: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    prints = "print('a banner'); os.write(1, b'and from C\\n')"
+    strange.write_text(f"{SOUND}\n{prints}\n", encoding="utf-8")
+    engine = engines.make("strange", "shipped")
+    said = capfd.readouterr()
+    assert engine.version == "1.0"
+    assert said.out == ""
+    assert "a banner" in said.err
+    assert "and from C" in said.err

@@ -1,0 +1,158 @@
+"""How small a mistake each bound of the certificate still sees: bounds are not only there."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from given import scenes
+from given.certified import certified
+from given.mutants import mutant
+
+from textmech.cases.case import Case
+from textmech.reference.certificate import beside as at_states
+from textmech.reference.certificate import certify as module
+from textmech.reference.certificate.agreement import Check
+from textmech.reference.generated.space.mode import SpatialMultibody
+from textmech.reference.motion.follow import TOLERANCE
+from textmech.reference.solve import solve
+from textmech.reference.system import Array, Only
+from textmech.reference.systems.bar_pendulum import BarPendulum
+from textmech.reference.systems.spring_mass_damper import SpringMassDamper
+
+Patch = pytest.MonkeyPatch
+
+PENDULUM = replace(scenes.SHIPPED["bar_pendulum"], duration=0.8, samples=6)
+SPRING = replace(scenes.SHIPPED["spring_mass_damper.underdamped"], duration=0.8, samples=6)
+SMOOTH = replace(scenes.SHIPPED["dynamometer_smooth"], duration=2.0, samples=6)
+
+
+def broken(case: Case, system: Any) -> set[str]:
+    return {check.name for check in certified(case, system) if not check.holds}
+
+
+def pushed(share: float) -> Any:
+    """The pendulum with reactions so much too large."""
+
+    def reactions(self: Any, t: float, q: Array, v: Array) -> dict[str, float]:
+        sound = BarPendulum.reactions(self, t, q, v)
+        return {name: (1 + share) * force for name, force in sound.items()}
+
+    return mutant(Only(BarPendulum(**PENDULUM.parameters)).mode, reactions=reactions)
+
+
+def test_reactions_are_compared_to_rounding() -> None:
+    """AGREE is 1e-12 where the mechanism's equations are well conditioned."""
+    seen = "generated reactions"
+    assert seen not in broken(PENDULUM, Only(pushed(0.0)))
+    assert seen in broken(PENDULUM, Only(pushed(3e-12)))
+
+
+@pytest.mark.mutant("bound of the generated reactions ten thousandfold")
+def test_a_loose_bound_of_reactions_is_seen(monkeypatch: Patch) -> None:
+    monkeypatch.setattr(at_states, "AGREE", 1e-8)
+    assert "generated reactions" not in broken(PENDULUM, Only(pushed(3e-12)))
+
+
+def off(share: float) -> Any:
+    """The spring with a closed form so much too large."""
+
+    def closed_form(self: Any, t: float) -> Any:
+        q, v = SpringMassDamper.closed_form(self, t)
+        return (1 + share) * q, (1 + share) * v
+
+    return mutant(SpringMassDamper(**SPRING.parameters), closed_form=closed_form)
+
+
+def test_closed_forms_are_compared_to_what_a_motion_is_known_to() -> None:
+    assert broken(SPRING, Only(off(0.0))) == set()
+    assert "closed form" in broken(SPRING, Only(off(2e-12)))
+
+
+def slower(share: float) -> Any:
+    """The spring whose explicit accelerations are so much too small, and nothing to tell it by."""
+    sound = SpringMassDamper(**SPRING.parameters)
+    scaled = lambda self, t, q, v: (1 - share) * sound.accelerations(t, q, v)  # noqa: E731
+    return mutant(sound, accelerations=scaled, closed_form=lambda self, t: None)
+
+
+def test_a_generated_motion_is_compared_to_1e_9() -> None:
+    assert "generated motion" in broken(SPRING, Only(slower(1e-8)))
+    assert "generated motion" not in broken(SPRING, Only(slower(0.0)))
+
+
+@pytest.mark.mutant("a motion taken for a million times as sensitive as it is")
+def test_a_bound_that_grows_with_rounding_is_seen(monkeypatch: Patch) -> None:
+    monkeypatch.setattr(module, "LOOSER", 100 * 1e6)
+    assert "closed form" not in broken(SPRING, Only(off(2e-12)))
+    assert "generated motion" not in broken(SPRING, Only(slower(1e-8)))
+
+
+def tolerances(patch: Patch) -> set[float]:
+    """Those by which the second answer to a stiff motion is followed."""
+    used, either = set(), module.either
+
+    def noted(*given: Any, tolerance: float = TOLERANCE) -> Any:
+        used.add(tolerance)
+        return either(*given, tolerance=tolerance)
+
+    patch.setattr(module, "either", noted)
+    assert all(check.holds for check in certified(SMOOTH))
+    return used
+
+
+def test_a_stiff_motion_has_a_second_answer_by_another_tolerance(monkeypatch: Patch) -> None:
+    """There is one stiff integrator: by its own tolerance it would agree with itself."""
+    (used,) = tolerances(monkeypatch)
+    assert used > 5 * TOLERANCE
+
+
+@pytest.mark.mutant("a stiff motion compared with itself")
+def test_the_error_of_a_stiff_motion_is_that_of_its_tolerance(monkeypatch: Patch) -> None:
+    """Ten times coarser it is known ten times less well, but for rounding of the states."""
+
+    def known() -> float:
+        found = {c.name: c for c in certified(SMOOTH)}
+        certified_to = found["error of block.x"].certified
+        assert certified_to is not None
+        return certified_to
+
+    usual = known()
+    other = module._other
+    monkeypatch.setattr(module, "_other", lambda mode, f, n: module.either(mode, f, n))
+    assert known() < usual / 3
+    monkeypatch.setattr(module, "_other", other)
+    monkeypatch.setattr(module, "COARSER", 1e-9)
+    assert known() > 100 * usual
+
+
+HANGS = """\
+rests: true
+scene:
+  space: 3
+  points: {O: [0, 0, 0]}
+  bodies:
+    bell:
+      rigid: {mass: 2000, inertia: [300, 400, 350, 0, 0, 0]}
+      points: {eye: [0, 0, 1.0]}
+  joints: {pin: {hinge: [ground.O, bell.eye], axis: [0, 1, 0]}}
+initial: {pin: {angle: 0, omega: 0}}
+allow: {bell.x: 1.0e-3}
+"""
+
+
+def failing(folder: Path) -> list[Check]:
+    case = scenes.typed(folder, HANGS, tail=scenes.tail(1.0, 11))
+    return [check for check in solve(case).checks if not check.holds]
+
+
+@pytest.mark.mutant("a heavy body that hangs at rest in space pulled by 1e-9 of its weight")
+def test_what_hangs_at_rest_in_space_is_balanced(tmp_path: Path, monkeypatch: Patch) -> None:
+    """Nothing moves, so that only the equations at its states can say so."""
+    assert failing(tmp_path) == []
+    U = SpatialMultibody.U
+    pull = 1e-9 * 2000 * 9.80665
+    monkeypatch.setattr(SpatialMultibody, "U", lambda self, t, q: U(self, t, q) + pull * np.sum(q))
+    names = {check.name for check in failing(tmp_path)}
+    assert any(name.startswith("accelerations by Lagrange") for name in names)

@@ -1,0 +1,205 @@
+"""Turns of joints in space: the start has them as it says, and the march counts them.
+
+Known by closed forms, and by the same scene in the plane, where a state holds its turns.
+"""
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from given import scenes
+
+from textmech.cases.case import Case
+from textmech.cases.motion import Motion
+from textmech.cases.observe import observe
+from textmech.cases.scene import Scene
+from textmech.cases.space.joint import SpatialJoint
+from textmech.reference.motion import bodies, turns
+from textmech.reference.motion.follow import Followed
+from textmech.reference.motion.turns import Counted
+from textmech.reference.solve import Solution, solve
+from textmech.reference.system import System
+from textmech.reports.events.times import reference_events
+
+J = 0.5  # kg m²
+SPACE = """\
+title: A body on a hinge in space
+scene:
+  space: 3
+  gravity: none
+  points: {O: [0, 0, 0]}
+  bodies: {b: {rigid: {mass: 1, inertia: [0.5, 0.5, 0.5, 0, 0, 0]}}}
+"""
+HINGE = "  joints: {q: {hinge: [ground.O, b.center], axis: [0, 0, 1]}}\n"
+NAMED = "  joints: {q: {freedoms: {angle: {hinge: [0, 0, 1]}}, of: [ground.O, b.center]}}\n"
+PLANE = """\
+title: The same in the plane
+scene:
+  gravity: none
+  points: {O: [0, 0]}
+  bodies: {b: {rigid: {mass: 1, inertia: 0.5}}}
+  joints: {q: {pin: [ground.O, b.center]}}
+"""
+STARTS = [200, 190, 350, 400, 800, -200, 180, -180]  # deg
+
+
+def typed(tmp_path: Path, text: str, duration: float, samples: int, allow: str) -> Case:
+    tail = f"duration: {duration}\nsamples: {samples}\nstep: 1.0e-4\nallow: {{{allow}}}\n"
+    path = tmp_path / "case.yaml"
+    path.write_text(text + tail)
+    (case,) = scenes.load(path)
+    return case
+
+
+def held(case: Case) -> Solution:
+    found = solve(case)
+    assert [check for check in found.checks if not check.holds] == []
+    assert "turns by their rates" in [check.name for check in found.checks]
+    return found
+
+
+def angle(case: Case, quantity: str = "q.angle") -> np.ndarray:
+    return observe(case.scene, held(case).trajectory, quantity)
+
+
+WOUND = """\
+  forces:
+    w: {torsion: q, stiffness: 2.0, rest_angle: 0.3}
+    M: {motor: q, sine: {amplitude: 100, angular_frequency: 10, phase: 90 deg}}
+initial: {PART: {angle: 0, omega: 0}}
+"""
+
+
+@pytest.mark.parametrize("samples", [7, 61])
+@pytest.mark.parametrize("start", [0, 200, -500])
+def test_a_spring_counts_its_turns_as_in_the_plane(
+    start: int, samples: int, tmp_path: Path
+) -> None:
+    """It winds past half a turn between two samples, or starts beyond it."""
+    wound = WOUND.replace("angle: 0,", f"angle: {start} deg,")
+    allow = "q.angle: 1, q.omega: 1, w.torque: 1, energy.total: 1"
+    case = typed(tmp_path, SPACE + HINGE + wound.replace("PART", "q"), 1.8, samples, allow)
+    planar = typed(tmp_path, PLANE + wound.replace("PART", "b"), 1.8, samples, allow)
+    found, known = held(case).trajectory, solve(planar).trajectory
+    for name in case.allow:
+        expected = observe(planar.scene, known, name)
+        np.testing.assert_allclose(observe(case.scene, found, name), expected, atol=3e-10)
+    assert np.max(np.abs(observe(case.scene, found, "q.angle"))) > math.pi
+
+
+@pytest.mark.parametrize(("joint", "about"), [(HINGE, "q"), (NAMED, "q.angle")])
+@pytest.mark.parametrize("start", STARTS)
+def test_a_start_is_what_it_says(start: int, joint: str, about: str, tmp_path: Path) -> None:
+    """(2.44) J φ̈ = M: φ = φ₀ + ω₀ t + M t²/2J."""
+    rest = f"""\
+  forces: {{M: {{motor: {about}, polynomial: {{coefficients: [1]}}}}}}
+initial: {{q: {{angle: {start} deg, omega: 1}}}}
+"""
+    case = typed(tmp_path, SPACE + joint + rest, 3.0, 4, "q.angle: 1")
+    t = case.times
+    np.testing.assert_allclose(angle(case), math.radians(start) + t + t**2, atol=1e-12)
+
+
+@pytest.mark.parametrize("start", [-200, -100, -800])
+def test_an_event_on_an_angle_is_where_the_angle_is(start: int, tmp_path: Path) -> None:
+    """It rises to zero where φ₀ + t + t² = 0, and never where it starts above."""
+    rest = f"""\
+  forces: {{M: {{motor: q, polynomial: {{coefficients: [1]}}}}}}
+initial: {{q: {{angle: {start} deg, omega: 1}}}}
+events: {{up: {{q.angle: rises to zero}}}}
+"""
+    case = typed(tmp_path, SPACE + HINGE + rest, 4.0, 5, "q.angle: 1, up.time: 0.1")
+    record = held(case).trajectory.record
+    assert record is not None
+    times = reference_events(case.scene, record, case.events["up"])
+    phi = math.radians(start)
+    assert times == pytest.approx([(-1 + math.sqrt(1 - 4 * phi)) / 2], abs=1e-12)
+    above = typed(
+        tmp_path, SPACE + HINGE + rest.replace(f"{start} deg", "200 deg"), 4.0, 5, "q.angle: 1"
+    )
+    record = held(above).trajectory.record
+    assert record is not None
+    assert len(reference_events(above.scene, record, above.events["up"])) == 0
+
+
+SWING = """\
+  forces: {M: {motor: q, sine: {amplitude: 100, angular_frequency: 6.283185307179586}}}
+initial: {q: {angle: 0, omega: 0}}
+"""
+
+
+@pytest.mark.parametrize("samples", [4, 6, 31])
+def test_coarse_samples_lose_no_turn(samples: int, tmp_path: Path) -> None:
+    """(2.44) J φ̈ = A sin wt: φ = (A/Jw) (t − sin(wt)/w), whose rate is zero at whole seconds."""
+    case = typed(tmp_path, SPACE + HINGE + SWING, 3.0, samples, "q.angle: 1")
+    t, w = case.times, math.tau
+    expected = 100 / (J * w) * (t - np.sin(w * t) / w)
+    assert expected[-1] == pytest.approx(95.493, abs=1e-3)
+    np.testing.assert_allclose(angle(case), expected, atol=1e-10)
+
+
+THREE = (
+    "  joints: {f: {freedoms: {al: {hinge: [0, 0, 1]}, be: {hinge: [0, 1, 0]}, "
+    "ga: {hinge: [1, 0, 0]}}, of: [ground.O, b.center]}}\n"
+)
+
+
+@pytest.mark.parametrize("start", [60, 120, -100, 300])
+@pytest.mark.parametrize("samples", [3, 11])
+def test_the_middle_one_of_three_turns_goes_on(start: int, samples: int, tmp_path: Path) -> None:
+    """Only it moves, evenly, also through gimbal lock at 90 deg."""
+    rest = f"initial: {{f: {{al: 0.2, be: {start} deg, ga: -0.1, be_dot: 1.2}}}}\nstays: [f.al]\n"
+    case = typed(tmp_path, SPACE + THREE + rest, 1.0, samples, "f.be: 1, f.al: 1")
+    found = held(case).trajectory
+    be = math.radians(start) + 1.2 * case.times
+    np.testing.assert_allclose(observe(case.scene, found, "f.be"), be, atol=1e-7)
+    np.testing.assert_allclose(observe(case.scene, found, "f.al"), 0.2, atol=1e-7)
+
+
+@pytest.mark.parametrize(("aside", "told"), [(0.1, True), (1e-6, False)])
+def test_what_passes_by_gimbal_lock_jumps_or_is_not_told(
+    aside: float, told: bool, tmp_path: Path
+) -> None:
+    """ω stays in space, at an angle of about `aside` to the middle axis: be turns back there."""
+    rest = f"initial: {{f: {{al: 0, be: 60 deg, ga: 0, be_dot: 1.2, ga_dot: {aside}}}}}\n"
+    case = typed(tmp_path, SPACE + THREE + rest, 1.0, 11, "f.be: 1, f.al: 1")
+    found = solve(case)
+    assert found.holds == told
+    if told:
+        be = observe(case.scene, found.trajectory, "f.be")
+        assert np.max(be) < math.pi / 2
+        assert np.ptp(observe(case.scene, found.trajectory, "f.al")) == pytest.approx(3.06, abs=0.1)
+
+
+@pytest.mark.mutant("whole turns of a joint in space: {name}")
+@pytest.mark.parametrize("name", ["one lost on the way", "guessed at the samples"])
+def test_a_lost_turn_is_seen(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By the integral of the rate."""
+    case = typed(tmp_path, SPACE + HINGE + SWING, 3.0, 4, "q.angle: 1")
+    if name == "one lost on the way":
+        turned = SpatialJoint.turned
+
+        def lost(self: SpatialJoint, motion: Motion) -> object:
+            found = turned(self, motion)
+            found.angles[len(found.angles) // 2 :] -= math.tau
+            return found
+
+        monkeypatch.setattr(SpatialJoint, "turned", lost)
+    else:
+
+        def guessed(scene: Scene, system: System, followed: Followed) -> Counted:
+            rows = zip(case.times.tolist(), followed.phase.tolist(), followed.y, strict=True)
+            return turns.counted(scene, system, replace(followed, march=tuple(rows)))
+
+        monkeypatch.setattr(turns, "ROUNDS", 1)
+        monkeypatch.setattr(bodies, "counted", guessed)
+    failed = [check.name for check in solve(case).checks if not check.holds]
+    assert "turns by their rates" in failed
+
+
+def test_nothing_is_counted_in_the_plane(tmp_path: Path) -> None:
+    case = typed(tmp_path, PLANE + WOUND.replace("PART", "b"), 1.8, 7, "q.angle: 1")
+    assert solve(case).trajectory.near == {}
+    assert Counted().unrolled() == 0.0

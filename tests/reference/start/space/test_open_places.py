@@ -1,0 +1,43 @@
+"""Of two free bodies in space the one is named that is not placed, and nothing of the other."""
+
+from pathlib import Path
+
+import pytest
+from given.otherwise import otherwise
+from given.scenes import typed
+
+from textmech.cases.mistake import CaseError
+from textmech.cases.space.scene import SpatialScene
+from textmech.reference.start.space import refusal
+from textmech.reference.start.space.assembly import assemble_in_space
+
+BODY = "{rigid: {mass: 1.0, inertia: [0.02, 0.03, 0.025, 0, 0, 0]}}"
+SCENE = f"""\
+scene:
+  space: 3
+  gravity: none
+  bodies: {{one: {BODY}, other: {BODY}}}
+initial:
+  one: {{x: 0, y: 0, z: 0, attitude: {{axis: [0, 0, 1], angle: 0.3}}, omega: [1, 0, 0]}}
+  other: {{y: 1, z: 0, attitude: {{axis: [0, 0, 1], angle: 0.3}}}}
+allow: {{one.x: 1.0e-3}}
+"""
+
+
+def said(tmp_path: Path) -> str:
+    case = typed(tmp_path, SCENE)
+    assert isinstance(case.scene, SpatialScene)
+    with pytest.raises(CaseError) as refused:
+        assemble_in_space(case, case.scene)
+    return str(refused.value)
+
+
+@pytest.mark.mutant("the attitude of a body that is open where the next one's place is")
+def test_only_what_is_open_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    told = said(tmp_path)
+    assert "other.x" in told
+    assert "attitude" not in told
+    was = "at.omega : at.omega + 3"
+    wider = otherwise(refusal, was, was.replace("+ 3", "+ 4"))
+    monkeypatch.setattr(refusal, "_open", wider._open)
+    assert "one.attitude" in said(tmp_path)

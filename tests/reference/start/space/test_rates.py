@@ -1,0 +1,124 @@
+"""The rates that joints in space are given at the start, read back by matrices alone."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from given.scenes import typed
+from scipy.spatial.transform import Rotation
+
+from textmech.cases.space.scene import SpatialScene
+from textmech.reference.generated.space.coordinates import SpatialCoordinates
+from textmech.reference.start.space import given as module
+from textmech.reference.start.space.assembly import assemble_in_space
+from textmech.reference.system import Array
+
+KNOWN = 1e-12  # rad/s, m/s: all rates are near 1
+PAIR = """\
+scene:
+  space: 3
+  points: {O: [0, 0, 0], hook: {at: [0.1, 0.2, 0.3], velocity: [0.3, -0.2, 0.5]}}
+  bodies:
+    a: {rigid: {mass: 1.0, inertia: [0.2, 0.3, 0.25, 0, 0, 0]}, points: {P: [0.2, 0.1, 0]}}
+    b: {rigid: {mass: 1.0, inertia: [0.1, 0.2, 0.15, 0, 0, 0]}, points: {P: [0, 0.1, -0.2]}}
+  joints:
+    stand: {hinge: [ground.O, a.center], axis: [1, 2, 2]}
+    k: {JOINT}
+initial: {stand: {angle: 40 deg, omega: 0.7}, k: {GIVEN}}
+allow: {a.attitude: 1.0e-3}
+"""
+BALL = ("ball: [a.P, b.P]", "attitude: {axis: [1, 1, 0], angle: 50 deg}, omega: [0.3, -0.4, 0.9]")
+FREEDOMS = "freedoms: {{{}}}, of: [{}]"
+TWO = FREEDOMS.format("p: {hinge: [0, 0, 1]}, q: {hinge: [1, 0, 1]}", "a.P, b.P")
+THREE = FREEDOMS.format(
+    "s: {slide: [1, 0, 1]}, p: {hinge: [0, 0, 1]}, q: {hinge: [0, 1, 0]}, r: {hinge: [1, 0, 0]}",
+    "a.P, b.P",
+)
+ON_HOOK = FREEDOMS.format("s: {slide: [1, 0, 1]}, u: {slide: [0, 1, 0]}", "ground.hook, b.P")
+
+
+def started(folder: Path, joint: str, given: str) -> dict[str, Array]:
+    case = typed(folder, PAIR.replace("JOINT", joint).replace("GIVEN", given))
+    assert isinstance(case.scene, SpatialScene)
+    poses = SpatialCoordinates(case.scene).poses(*assemble_in_space(case, case.scene))
+    return {name: np.array(pose, float) for name, pose in poses.items()}
+
+
+def spins(poses: dict[str, Array]) -> tuple[Array, Array, Array]:
+    """ω of b against a in the axes of a, and both matrices (3, 3)."""
+    R = {n: Rotation.from_quat(s[3:7], scalar_first=True).as_matrix() for n, s in poses.items()}
+    relative = R["a"].T @ (R["b"] @ poses["b"][10:] - R["a"] @ poses["a"][10:])
+    return relative, R["a"], R["b"]
+
+
+def about(axis: tuple[float, float, float], angle: float) -> Array:
+    unit = np.array(axis) / np.linalg.norm(axis)
+    return Rotation.from_rotvec(angle * unit).as_matrix()
+
+
+def two_turns(folder: Path) -> float:
+    poses = started(folder, TWO, "p: 0.5, q: -0.8, p_dot: 2.0, q_dot: -1.0")
+    skew = np.array([1, 0, 1]) / np.sqrt(2)
+    wanted = 2.0 * np.array([0, 0, 1.0]) - 1.0 * about((0, 0, 1), 0.5) @ skew
+    return float(np.max(np.abs(spins(poses)[0] - wanted)))
+
+
+def ball(folder: Path) -> float:
+    relative, R_a, R_b = spins(started(folder, *BALL))
+    return float(np.max(np.abs(R_b.T @ R_a @ relative - [0.3, -0.4, 0.9])))
+
+
+def on_hook(folder: Path) -> float:
+    """b does not turn: its rate is that of the hook, and both slides'."""
+    pose = started(folder, ON_HOOK, "s: 0.2, u: 0.1, s_dot: 0.4, u_dot: -0.6")["b"]
+    wanted = np.array([0.3, -0.2, 0.5]) + 0.4 * np.array([1, 0, 1]) / np.sqrt(2)
+    return float(np.max(np.abs(pose[7:10] - wanted - [0, -0.6, 0])))
+
+
+@pytest.mark.parametrize("off", [two_turns, ball, on_hook])
+def test_rates_of_a_joint_are_those_of_its_second_part_against_its_first(
+    off: object, tmp_path: Path
+) -> None:
+    assert off(tmp_path) < KNOWN  # type: ignore[operator]
+
+
+def test_three_turns_and_a_slide_between_moving_parts(tmp_path: Path) -> None:
+    given = "s: 0.3, s_dot: 0.8, p: 0.4, q: 0.3, r: -0.6, p_dot: 1.0, q_dot: 0.5, r_dot: -0.7"
+    poses = started(tmp_path, THREE, given)
+    relative, R_a, R_b = spins(poses)
+    z, y, x = np.eye(3)[::-1]
+    first = about((0, 0, 1), 0.4)
+    wanted = z + 0.5 * first @ y - 0.7 * first @ about((0, 1, 0), 0.3) @ x
+    assert np.max(np.abs(relative - wanted)) < KNOWN
+    v = {}
+    for name, R, P in (("a", R_a, [0.2, 0.1, 0]), ("b", R_b, [0, 0.1, -0.2])):
+        pose = poses[name]
+        v[name] = pose[7:10] + np.cross(R @ pose[10:], R @ np.array(P))
+    slid = R_a @ np.array([1, 0, 1]) / np.sqrt(2)
+    turning = np.cross(R_a @ poses["a"][10:], 0.3 * slid)
+    assert np.max(np.abs(v["b"] - v["a"] - turning - 0.8 * slid)) < KNOWN
+
+
+@pytest.mark.mutant("rates of a joint between moving parts: ω of the first in wrong axes, {off}")
+@pytest.mark.parametrize("off", ["two turns", "a ball"])
+def test_rates_in_the_axes_of_the_other_part_are_seen(
+    off: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """−R_aᵀ R_b in place of −R_bᵀ R_a."""
+    sound = module.Given.relative
+
+    def wrong(self: module.Given, joint: object, q: Array) -> Array:
+        rows = sound(self, joint, q)  # type: ignore[arg-type]
+        at = self.mode.where.columns["a"].omega
+        assert at is not None
+        rows[:, at : at + 3] = rows[:, at : at + 3].T
+        return rows
+
+    monkeypatch.setattr(module.Given, "relative", wrong)
+    assert {"two turns": two_turns, "a ball": ball}[off](tmp_path) > 0.01
+
+
+@pytest.mark.mutant("the rate of a slide on a point that moves counted from the ground")
+def test_a_rate_against_the_ground_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module.Given, "_driven", lambda self, anchor: np.zeros(3))
+    assert on_hook(tmp_path) > 0.1

@@ -1,0 +1,133 @@
+"""A mechanism that is drawn: its outlines, its springs, and each body in its own motion."""
+
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from given.otherwise import otherwise
+from given.scenes import SHIPPED
+
+from textmech.cases.case import Case
+from textmech.cases.load import load
+from textmech.cases.trajectory import Array
+from textmech.reports.page import motions, outline, sketch, strobe
+from textmech.reports.page.pack import unpacked
+
+TEXT = """\
+title: A block and a particle, free of each other, with a spring between their edges
+scene:
+  gravity: none
+  points: {O: [0, 0]}
+  bodies:
+    box: {rigid: {mass: 1.0, inertia: 1.0}, points: {edge: [0.3, 0.1]}}
+    crate: {block: {mass: 1.0, width: 0.4, height: 0.2}}
+  forces: {link: {spring: [box.edge, crate.center], stiffness: 1.0, rest_length: 1.0}}
+initial: {box: {x: 0, y: 0, vx: 1, vy: 0, angle: 0, omega: 1}, crate: {x: 1, y: 0, angle: 0}}
+duration: 1.0
+samples: 11
+step: 1 ms
+allow: {box.x: 1 mm}
+"""
+
+
+@pytest.fixture(scope="module")
+def case(tmp_path_factory: pytest.TempPathFactory) -> Case:
+    file = tmp_path_factory.mktemp("drawn") / "drawn.yaml"
+    file.write_text(TEXT, encoding="utf-8")
+    (found,) = load(file)
+    return found
+
+
+def extents(case: Case, module: Any = outline) -> list[float]:
+    """Width and height of the crate as it is drawn."""
+    (line,) = module.outline(case.scene.bodies["crate"], 1.0)["lines"]
+    return [float(x) for x in np.ptp(line, axis=0)]
+
+
+@pytest.mark.mutant("blocks are drawn twice as large")
+def test_a_block_is_drawn_as_large_as_it_is(case: Case) -> None:
+    assert extents(case) == [0.4, 0.2]
+    twice = otherwise(outline, "_box(np.asarray(body.size) / 2)", "_box(np.asarray(body.size))")
+    assert extents(case, twice) == [0.8, 0.4]
+
+
+def ends(case: Case, module: Any = sketch) -> list[Any]:
+    (link,) = module.sketch(case.scene, 1.0)["links"]
+    return link["ends"]
+
+
+@pytest.mark.mutant("springs end in the centres of bodies")
+def test_a_spring_ends_where_it_is_fixed(case: Case) -> None:
+    assert ends(case) == [["box", [0.3, 0.1]], ["crate", [0.0, 0.0]]]
+    was = "rounded(scene.bodies[anchor.body].points[anchor.point])"
+    centred = otherwise(sketch, was, 'rounded(scene.bodies[anchor.body].points["center"])')
+    assert ends(case, centred)[0] == ["box", [0.0, 0.0]]
+
+
+def moved(case: Case) -> dict[str, Array]:
+    """Two poses (N, 3) that are nothing alike."""
+    t = case.times
+    return {
+        "box": np.stack([t, 0.2 * t, 2.0 * t], axis=1),
+        "crate": np.stack([1.0 - 0.5 * t, t * t, -t], axis=1),
+    }
+
+
+def columns(case: Case, module: Any = motions) -> dict[str, Array]:
+    frames = module.thinned(case.samples, motions.FRAMES)
+    found = module._columns(moved(case), frames)
+    return {body: np.stack([unpacked(c) for c in rows], axis=1) for body, rows in found.items()}
+
+
+@pytest.mark.mutant("every body moves as the first one")
+def test_each_body_moves_by_itself(case: Case) -> None:
+    for body, rows in moved(case).items():
+        assert columns(case)[body] == pytest.approx(rows, abs=1e-3)
+    first = otherwise(
+        motions, "np.ascontiguousarray(rows[frames].T)",
+        "np.ascontiguousarray(next(iter(poses.values()))[frames].T)",
+    )  # fmt: skip
+    assert columns(case, first)["crate"] != pytest.approx(moved(case)["crate"], abs=1e-3)
+
+
+def covers(case: Case, off: Callable[[Array], Array], module: Any = motions) -> bool:
+    """Whether a crate that is otherwise by so much looks as the reference's."""
+    poses = moved(case)
+    return module._covered({"crate": off(poses["crate"].copy())}, poses, case, 1.0)
+
+
+def turned(by: float) -> Callable[[Array], Array]:
+    return lambda rows: rows + np.array([0.0, 0.0, by])
+
+
+@pytest.mark.mutant("a body that only turns otherwise is covered")
+def test_what_only_turns_otherwise_is_seen(case: Case) -> None:
+    assert covers(case, turned(0.0))
+    assert covers(case, turned(0.9 * motions.SEEN))
+    assert not covers(case, turned(1.1 * motions.SEEN))
+    assert not covers(case, lambda rows: rows + np.array([1.1 * motions.SEEN, 0.0, 0.0]))
+    blind = otherwise(motions, " or np.max(turns) > SEEN", "")
+    assert covers(case, turned(1.0), blind)
+
+
+def test_an_attitude_in_space_is_seen_and_its_opposite_quaternion_is_the_same() -> None:
+    case: Any = SimpleNamespace(scene=SHIPPED["heavy_top.cusp"].scene)
+    one = np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]])
+    other = np.array([[0.0, 0.0, 0.0, np.cos(0.05), np.sin(0.05), 0.0, 0.0]])
+    assert motions._covered({"top": -one}, {"top": -one}, case, 1.0)
+    assert motions._covered({"top": one * (1, 1, 1, -1, -1, -1, -1)}, {"top": one}, case, 1.0)
+    assert not motions._covered({"top": other}, {"top": one}, case, 1.0)
+
+
+def placed(module: Any = strobe) -> Array:
+    """Where a quarter of a turn takes a point to the right of the centre: up."""
+    return module._placed(np.array([1.0, 2.0, np.pi / 2]), np.array([[0.5, 0.0]]))[0]
+
+
+@pytest.mark.mutant("bodies are drawn turned the other way")
+def test_a_turned_body_is_drawn_turned() -> None:
+    assert placed() == pytest.approx([1.0, 2.5])
+    back = otherwise(strobe, "[[cos, sin], [-sin, cos]]", "[[cos, -sin], [sin, cos]]")
+    assert placed(back) == pytest.approx([1.0, 1.5])

@@ -1,0 +1,67 @@
+"""The picture of one quantity on paper: its curves, its tube, and its ladder."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from given.otherwise import otherwise
+from given.report_folders import RUNGS
+from matplotlib.figure import Figure
+
+from textmech.reports.page import picture
+from textmech.reports.page.column import Column
+from textmech.reports.page.pack import packed, packed_by_size
+
+ALLOWED = 1e-2
+
+
+def drawn(module: Any = picture) -> tuple[list[float], list[float]]:
+    """The first line of the ladder: steps, and what is drawn over them."""
+    axes = Figure().subplots()
+    rung = replace(RUNGS, steps="0.001 0.002", errors="1e-3 5e-2")
+    module._ladder(axes, [rung], ALLOWED)
+    line = axes.get_lines()[0]
+    return np.asarray(line.get_xdata()).tolist(), np.asarray(line.get_ydata()).tolist()
+
+
+@pytest.mark.mutant("a ladder of errors that are not over what is allowed")
+def test_a_ladder_is_of_errors_over_what_is_allowed() -> None:
+    steps, errors = drawn()
+    assert steps == [1e-3, 2e-3]
+    assert errors == pytest.approx([0.1, 5.0])  # beyond from 1 on, as the line says
+    bare = otherwise(picture, "dtype=float) / allowed\n", "dtype=float)\n")
+    assert drawn(bare)[1] == pytest.approx([1e-3, 5e-2])
+
+
+def tube(module: Any = picture) -> tuple[list[float], list[float]]:
+    """The engine's curve, and the lowest and the highest of what is allowed."""
+    axes, times = Figure().subplots(), np.array([0.0, 1.0])
+    curves = {
+        "reference": packed(np.array([1.0, 2.0])),
+        "off": {"mujoco.tuned.native": {"curve": packed_by_size(np.array([0.0, 0.5]))}},
+    }
+    module._tube(axes, times, curves, [Column("mujoco", "tuned", "native")], 0.25, "x [m]")
+    (area,) = axes.collections
+    heights = np.asarray(area.get_paths()[0].vertices)[:, 1]
+    curve = np.asarray(axes.get_lines()[1].get_ydata()).tolist()
+    return curve, [float(np.min(heights)), float(np.max(heights))]
+
+
+@pytest.mark.mutant("the picture's {named}")
+@pytest.mark.parametrize(
+    ("named", "was", "now"),
+    [
+        (
+            "engines off the other way",
+            "+ unpacked_by_size",
+            "- unpacked_by_size",
+        ),
+        ("tube twice as wide", "reference + allowed, color", "reference + 2 * allowed, color"),
+    ],
+)
+def test_a_curve_is_as_far_off_as_the_engine_is(named: str, was: str, now: str) -> None:
+    curve, allowed = tube()
+    assert curve == pytest.approx([1.0, 2.5], rel=0.005)
+    assert allowed == pytest.approx([0.75, 2.25], rel=1e-3)
+    assert tube(otherwise(picture, was, now)) != (curve, allowed)

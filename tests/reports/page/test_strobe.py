@@ -1,0 +1,88 @@
+"""A mechanism on paper: engines where they end, space seen from above, links between places."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from given.otherwise import otherwise
+from matplotlib.figure import Figure
+
+from textmech.cases.trajectory import Array
+from textmech.reports.page import strobe
+from textmech.reports.page.pack import packed
+
+T = np.linspace(0.0, 1.0, 7)
+UP = np.stack([0 * T, 2 * T, 0 * T], axis=1)  # x, y, angle: it rises by 2 m
+RIGHT = np.stack([3 * T, 0 * T, 0 * T], axis=1)
+
+
+def columns(rows: Array) -> list[Any]:
+    return [packed(column) for column in np.ascontiguousarray(rows.T)]
+
+
+MOTION: dict[str, Any] = {
+    "axes": 2,
+    "times": packed(T),
+    "poses": {"dot": columns(UP), "ground.hook": columns(RIGHT[:, :2])},
+    "ghosts": {"mujoco.tuned.native": {"poses": {"dot": columns(RIGHT)}}},
+    "sketch": {
+        "bodies": {"dot": {"lines": [], "dot": True}},
+        "links": [{"kind": "spring", "ends": [["dot", [0.5, 0.0]], ["ground.hook", [0.0, 0.0]]]}],
+        "ground": [],
+    },
+}
+
+
+def drawn(module: Any = strobe) -> list[tuple[str, list[list[float]]]]:
+    """Each line by its label, as places."""
+    axes = Figure().subplots()
+    module.strobe(axes, MOTION, [("mujoco.tuned.native", "mujoco tuned")])
+    return [
+        (str(line.get_label()), np.round(np.asarray(line.get_xydata()), 3).tolist())
+        for line in axes.get_lines()
+    ]
+
+
+@pytest.mark.mutant("engines are drawn where they begin")
+def test_an_engine_is_drawn_where_it_ends() -> None:
+    assert ("mujoco tuned", [[3.0, 0.0]]) in drawn()
+    began = otherwise(strobe, "{part: rows[-1] for part", "{part: rows[0] for part")
+    assert ("mujoco tuned", [[0.0, 0.0]]) in drawn(began)
+
+
+def test_the_reference_is_drawn_at_its_instants_and_its_links_at_the_last() -> None:
+    places = [place for label, place in drawn() if label != "mujoco tuned"]
+    dots = np.array([place[0] for place in places if len(place) == 1])
+    assert dots == pytest.approx(UP[:, :2], abs=1e-3)
+    assert [place for place in places if len(place) == 2] == [[[0.5, 2.0], [3.0, 0.0]]]
+
+
+@pytest.mark.mutant("ink by 0.8 k / last, of which rounding may make more than all")
+@pytest.mark.parametrize("count", range(3, 62))
+def test_the_last_instant_is_in_full_ink_however_many_there_are(count: int) -> None:
+    rows = columns(np.linspace(0.0, 1.0, count)[:, None] * np.ones(3))
+    motion = {**MOTION, "times": rows[0], "poses": {"dot": rows}, "ghosts": {}}
+    motion["sketch"] = {**MOTION["sketch"], "links": []}
+
+    def last(module: Any = strobe) -> float | None:
+        axes = Figure().subplots()
+        module.strobe(axes, motion, [])
+        return axes.get_lines()[-1].get_alpha()
+
+    assert last() == 1.0
+    if 0.2 + 0.8 * (count - 1) / (count - 1) > 1.0:
+        with pytest.raises(ValueError, match="outside 0-1 range"):
+            last(otherwise(strobe, "0.8 * (k / last)", "0.8 * k / last"))
+
+
+@pytest.mark.mutant("space seen from below")
+def test_space_is_seen_from_the_side_and_above() -> None:
+    """What is higher is drawn higher, and so is what is further away."""
+    near = np.array([[np.cos(strobe.AZIMUTH), np.sin(strobe.AZIMUTH), 0.0]])
+    up, right = np.array([[0.0, 0.0, 1.0]]), np.array([[-near[0, 1], near[0, 0], 0.0]])
+    assert strobe._seen(up)[0] == pytest.approx([0.0, np.cos(strobe.ELEVATION)])
+    assert strobe._seen(right)[0] == pytest.approx([1.0, 0.0])
+    assert strobe._seen(near)[0] == pytest.approx([0.0, -np.sin(strobe.ELEVATION)])
+    was = "z * np.cos(ELEVATION) - towards"
+    below = otherwise(strobe, was, was.replace("-", "+"))
+    assert below._seen(near)[0, 1] > 0.0

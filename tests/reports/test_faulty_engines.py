@@ -1,0 +1,62 @@
+"""Whatever an engine does costs its own rows: they say so, and all others are as they were."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+from given.faulty import ACTS, ANSWERS, AUDITS, PLANS, Faulty
+
+from textmech.cases.case import Case
+from textmech.engines.engine import Engine
+from textmech.reports import limit, suite, write
+from textmech.reports.row import AGREES, FAILS, Comparison
+from textmech.reports.show import document
+
+LONGEST = 400  # letters of what a row says
+
+ENGINES = [
+    *(Faulty(verb=verb, act=act) for verb in ("plans", "measure", "run") for act in ACTS),
+    *(Faulty(answer=answer) for answer in ANSWERS),
+    *(Faulty(planned=planned) for planned in PLANS),
+    *(Faulty(read=read) for read in AUDITS),
+    Faulty(act="diverges at length"),
+]
+
+
+def told(engine: Faulty) -> str:
+    return "-".join(
+        filter(None, (engine.verb, engine.act, engine.answer, engine.planned, engine.read))
+    )
+
+
+def measured(case: Case, *engines: Engine) -> suite.Report:
+    return suite.measure([case], engines, jobs=2, progress=lambda *_: None, book=False)
+
+
+def of(report: suite.Report, setting: str) -> list[Comparison]:
+    return [row for row in report.comparisons if row.setting == setting]
+
+
+@pytest.mark.parametrize("engine", ENGINES, ids=told)
+@pytest.mark.whole
+def test_a_fault_costs_the_engines_own_rows(
+    engine: Faulty, moving: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(limit.VARIABLE, "1.0" if engine.act in ("hangs", "spins") else "60")
+    report = measured(moving, engine, Faulty(setting="sound"))
+    sound = of(report, "sound")
+    assert [row.verdict for row in sound] == [AGREES, AGREES], [row.because for row in sound]
+    mine = of(report, "tuned")
+    assert mine
+    assert any(row.verdict == FAILS for row in mine), [row.verdict for row in mine]
+    for row in mine:
+        assert len(row.because) <= LONGEST
+        assert row.because.isprintable()
+        assert row.because or row.verdict == AGREES
+        assert row.realised == "native"
+    write.write(write.tables(report, report.cases), tmp_path / "reports")
+    with (tmp_path / "reports" / "tolerance.csv").open(encoding="utf-8", newline="") as file:
+        assert sum(line[0] == "moving" for line in csv.reader(file)) == len(report.comparisons)
+    found = document.of_run(report, [], cures={}, written=None, exit_code=1)
+    assert json.loads(json.dumps(found))["exit_code"] == 1

@@ -1,0 +1,190 @@
+"""A folder from elsewhere may hold anything: nothing outside of it is touched, nor what is not ours
+in it, and who only reads writes nothing at all."""
+
+import os
+import shutil
+import stat
+from collections.abc import Callable
+from dataclasses import replace as changed
+from pathlib import Path
+
+import pytest
+from given.command import NEW, textmech
+from given.report_folders import ROW, report
+from given.trees import digest
+
+from textmech.reports import replace as replacing
+from textmech.reports.replace import replace
+from textmech.reports.row import Comparison
+from textmech.reports.write import NAMES, read
+
+VICTIM = "what must stay\n"
+Hostile = Callable[[Path], None]
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A report beside a file that must stay."""
+    (tmp_path / "victim.txt").write_text(VICTIM, encoding="utf-8")
+    (tmp_path / "victims").mkdir()
+    (tmp_path / "victims" / "names").write_text(VICTIM, encoding="utf-8")
+    return report(tmp_path / "in" / "reports")
+
+
+def decided(folder: Path, *names: str, mark: bool = True, prefix: str = ".written-") -> Path:
+    """What an interrupted run would leave, if it had such names; marked as ours if it can be."""
+    made = folder / f"{prefix}abc"
+    (made / "new").mkdir(parents=True)
+    (made / "old").mkdir()
+    told = [replacing._mark(made)] if mark else []
+    (made / "names").write_text("\n".join([*told, *names]), encoding="utf-8")
+    return made
+
+
+def led(path: Path, to: Path) -> None:
+    shutil.rmtree(path)
+    path.symlink_to(to)
+
+
+OUTSIDE = "../../victim.txt"
+HOSTILE: dict[str, Hostile] = {
+    "undone": lambda f: void(decided(f, OUTSIDE, mark=False)),
+    "undone, marked": lambda f: void(decided(f, OUTSIDE)),
+    "written": lambda f: void((decided(f, OUTSIDE) / "victim.txt").write_text("x")),
+    "absolute": lambda f: void(decided(f, str(f.parents[1] / "victim.txt"))),
+    "itself": lambda f: void(decided(f, ".", "..", "")),
+    "folders that lead elsewhere": lambda f: led(
+        decided(f, "victim.txt") / "new", f.parents[1] / "victims"
+    ),
+    "the folder leads elsewhere": lambda f: (f / ".written-x").symlink_to(f.parents[1] / "victims"),
+    "swept leads elsewhere": lambda f: (f / ".writing-x").symlink_to(f.parents[1] / "victims"),
+    "names lead elsewhere": lambda f: linked(decided(f) / "names", f.parents[1] / "victim.txt"),
+    "no text": lambda f: void((decided(f) / "names").write_bytes(b"\xff\xfe\0")),
+    "a pipe of names": lambda f: piped(decided(f) / "names"),
+    "a device of names": lambda f: linked(decided(f) / "names", Path("/dev/zero")),
+    "no folder": lambda f: void((f / ".written-x").write_text("names")),
+}
+
+
+def void(_: object) -> None:
+    return None
+
+
+def linked(path: Path, to: Path) -> None:
+    path.unlink()
+    path.symlink_to(to)
+
+
+def piped(path: Path) -> None:
+    path.unlink()
+    os.mkfifo(path)
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_what_a_folder_says_is_decided_reaches_nothing_outside(name: str, folder: Path) -> None:
+    """Also of one that bears our mark: somebody may know the number of its node."""
+    HOSTILE[name](folder)
+    above = folder.parents[1]
+    before = (above / "victim.txt").read_bytes(), digest(above / "victims")
+    replace(folder, {"tolerance.csv": "new"})
+    assert ((above / "victim.txt").read_bytes(), digest(above / "victims")) == before
+    assert (folder / "tolerance.csv").read_text() == "new"
+    assert sorted(path.name for path in above.iterdir()) == ["in", "victim.txt", "victims"]
+
+
+@pytest.mark.parametrize("prefix", [".written-", ".writing-"])
+def test_of_a_copy_nothing_is_finished_or_swept(prefix: str, folder: Path, tmp_path: Path) -> None:
+    """Somebody's notes may lie in a folder of such a name."""
+    made = decided(folder, "notes.txt", prefix=prefix)
+    (made / "new" / "notes.txt").write_text("theirs")
+    copy = shutil.copytree(folder, tmp_path / "copy")
+    replace(copy, {"a.csv": "x"})
+    assert (copy / made.name / "new" / "notes.txt").read_text() == "theirs"
+    assert not (copy / "notes.txt").exists()
+
+
+def test_what_stands_in_a_files_place_is_replaced_and_never_written_through(folder: Path) -> None:
+    linked(folder / "tolerance.csv", folder.parents[1] / "victim.txt")
+    replace(folder, {"tolerance.csv": "new"})
+    assert (folder.parents[1] / "victim.txt").read_text() == VICTIM
+    assert not (folder / "tolerance.csv").is_symlink()
+
+
+@pytest.mark.parametrize("make", [os.mkfifo, lambda path: os.symlink("/dev/zero", path)])
+def test_a_pipe_or_device_in_a_files_place_hangs_nothing(
+    make: Callable[[Path], None], folder: Path
+) -> None:
+    (folder / "tolerance.csv").unlink()
+    make(folder / "tolerance.csv")
+    if not (folder / "tolerance.csv").is_symlink():
+        with pytest.raises(OSError, match="is no file"):
+            replace(folder, {"tolerance.csv": "new"})
+    assert stat.S_ISCHR(os.stat("/dev/zero").st_mode)
+
+
+READING = {
+    "diff": lambda f, other: ("diff", f, other, "--json"),
+    "diff --markdown": lambda f, other: ("diff", other, f, "--markdown"),
+    "check": lambda f, other: ("check", f / "cart.yaml"),
+    "list": lambda f, other: ("list",),
+    "show": lambda f, other: ("show", f / "cart.yaml", "--engine", "mujoco.shipped"),
+    "run": lambda f, other: ("run", f / "cart.yaml", "--engine", "mujoco.shipped"),
+}
+
+
+@pytest.mark.parametrize("name", READING)
+def test_who_reads_writes_nothing(name: str, folder: Path, tmp_path: Path) -> None:
+    """Into the folder, beside it, or anywhere below, whatever an interrupted run has left there."""
+    (folder / "cart.yaml").write_text(NEW, encoding="utf-8")
+    (decided(folder, "tolerance.csv") / "new" / "tolerance.csv").write_text("half")
+    other = report(tmp_path / "other", rows=[changed(ROW, largest=3e-3)])
+    before = digest(tmp_path)
+    folder.chmod(0o555)
+    try:
+        done = textmech(*READING[name](folder, other), folder=folder)
+    finally:
+        folder.chmod(0o755)
+    assert done.returncode in (0, 1), done.stderr
+    assert digest(tmp_path) == before
+
+
+def test_a_folder_that_was_left_between_two_runs_is_read_as_neither(
+    folder: Path, tmp_path: Path
+) -> None:
+    """Of files half of which a killed run has replaced: said, and not settled."""
+    other = report(tmp_path / "other", rows=[changed(ROW, largest=3e-3)])
+    made = decided(folder, *NAMES)
+    for name in NAMES[:2]:
+        shutil.copy(other / name, folder / name)
+    for name in NAMES[2:]:
+        shutil.copy(other / name, made / "new" / name)
+    assert "of run" in textmech("diff", folder, other).stderr
+    with pytest.raises(ValueError, match="of another run"):
+        read(folder / "tolerance.csv", Comparison)
+    replace(folder, {})  # whoever writes there next finishes it
+    assert textmech("diff", folder, other).stdout.strip().endswith("nothing changed")
+
+
+WRONG = {
+    "digits": ("# 1 rows", f"# {'9' * 5000} rows"),
+    "letters": (" of run ", f" of run {'a' * 5000}"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_a_footer_of_any_length_is_told(name: str, folder: Path, tmp_path: Path) -> None:
+    file = folder / "tolerance.csv"
+    file.write_text(file.read_text(encoding="utf-8").replace(*WRONG[name]), encoding="utf-8")
+    done = textmech("diff", folder, report(tmp_path / "other"))
+    assert (done.returncode, "cut, or no report" in done.stderr) == (2, True)
+
+
+@pytest.mark.parametrize("to", ["/dev/zero", "/dev/stdin", "/proc/kmsg", "/dev/full", "."])
+def test_a_table_that_leads_to_a_device_hangs_nothing(
+    to: str, folder: Path, tmp_path: Path
+) -> None:
+    """Some say that they are files, as those of /proc."""
+    linked(folder / "tolerance.csv", Path(to))
+    done = textmech("diff", folder, report(tmp_path / "other"))
+    assert done.returncode == 2
+    assert "tolerance.csv: " in done.stderr

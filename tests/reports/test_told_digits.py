@@ -1,0 +1,86 @@
+"""Which digits are told: of a certificate a power of ten above it, of a row what is no rounding."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from given.otherwise import otherwise
+from given.report_folders import CERTIFICATE
+
+from textmech.cases.case import Case
+from textmech.reports import poses, write
+from textmech.reports.judge import metric, rounding
+from textmech.reports.row import FAILS
+from textmech.reports.suite import Report
+from textmech.reports.trial.trial import Trial
+
+ERRORS = 10.0 ** np.random.default_rng(5).uniform(-16, 2, 50)
+
+
+def known(error: float, module: Any = write) -> float:
+    """What is written of a certified error."""
+    (frame,) = [
+        frame
+        for name, frame in module.tables(
+            Report(certificates=[replace(CERTIFICATE, certified=error)]), []
+        ).items()
+        if name == "reference.csv"
+    ]
+    return float(frame["certified"].iloc[0])
+
+
+@pytest.mark.mutant("a certificate that is told smaller than it is")
+def test_a_certified_error_is_told_larger_and_by_less_than_ten_times() -> None:
+    for error in ERRORS.tolist():
+        assert error <= known(error) < 10 * error
+    down = otherwise(write, "10.0 ** math.ceil(math.log10", "10.0 ** math.floor(math.log10")
+    assert known(3e-9, down) == pytest.approx(1e-9)
+
+
+@pytest.mark.mutant("digits of rounding are told")
+def test_what_rounding_makes_of_a_motion_is_no_digit(trial: Callable[..., Trial]) -> None:
+    """A random walk of 1000 steps, each off by the last bit of 1 m, stays below the floor."""
+    made = trial()
+    floor = rounding.floor(made, "ball.x", 1e-3)
+    chance = np.random.default_rng(1)
+    walks = np.cumsum(chance.choice([-1, 1], (200, 1000)), axis=1) * rounding.EPSILON
+    assert np.max(np.abs(walks)) < floor < 100 * np.max(np.abs(walks))
+    assert metric.told(1 / 3, floor) == pytest.approx(1 / 3, abs=10 * floor)
+    assert metric.told(floor / 3, floor) == 0.0
+    bare = otherwise(rounding, "MARGIN * EPSILON * made", "EPSILON * made / MARGIN")
+    assert bare.floor(made, "ball.x", 1e-3) < np.max(np.abs(walks))
+
+
+@pytest.mark.mutant("a certificate that fails alone fails no run")
+def test_a_certificate_that_fails_fails_the_run() -> None:
+    assert not Report(certificates=[CERTIFICATE]).fails
+    assert Report(certificates=[CERTIFICATE, replace(CERTIFICATE, verdict=FAILS)]).fails
+
+
+def times(case: Case, own: Case, module: Any = poses) -> list[float]:
+    """When a run's poses are told to be."""
+    ball = np.zeros((own.samples, 3))
+    pair = SimpleNamespace(
+        case=case, sampled=own, engine=SimpleNamespace(name="mujoco", setting="shipped")
+    )
+    run = SimpleNamespace(
+        pair=pair, realised="native", outcome=SimpleNamespace(samples={"ball": ball})
+    )
+    trajectory = SimpleNamespace(states={"ball": np.zeros((case.samples, 6))})
+    report = SimpleNamespace(
+        tried=[run], solutions={case.name: SimpleNamespace(trajectory=trajectory)}
+    )
+    frame = module.poses(report, case)
+    told = frame[(frame["engine"] == "mujoco") & (frame["field"] == "x")]
+    return told["t [s]"].tolist()
+
+
+@pytest.mark.mutant("poses at the case's samples, whatever the engine's own step")
+def test_poses_are_told_at_the_engines_own_samples(moving: Case) -> None:
+    own = replace(moving, duration=0.9, samples=moving.samples)
+    assert times(moving, own) == pytest.approx(own.times.tolist())
+    other = otherwise(poses, "one.pair.sampled.times, one.outcome", "case.times, one.outcome")
+    assert times(moving, own, other) == pytest.approx(moving.times.tolist())

@@ -1,0 +1,118 @@
+"""No word of the grammar goes unread without a line that says why, and each is compared."""
+
+import ast
+import json
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from second import both, drawn_plane, drawn_space, drawn_switching, read, words
+
+HERE = Path(__file__).parent
+CASES = HERE.parents[1] / "cases"
+ENGINES = {"mujoco", "pymunk"}
+
+
+def literals() -> set[str]:
+    """All strings that stand in the files that read."""
+    found = set()
+    for file in HERE.glob("*.py"):
+        if not file.name.startswith(("test_", "drawn", "words", "both", "size")):
+            for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                    found.add(node.value)
+    return found
+
+
+def said(told: Any) -> Iterator[str]:
+    """The keys of a schema's properties, and the words that a value can be, to any depth."""
+    if isinstance(told, dict):
+        if isinstance(told.get("properties"), dict):
+            yield from told["properties"]
+        yield from (word for word in told.get("enum", []) if isinstance(word, str))
+        if isinstance(told.get("const"), str):
+            yield told["const"]
+        told = list(told.values())
+    if isinstance(told, list):
+        for each in told:
+            yield from said(each)
+
+
+def grammar() -> set[str]:
+    """Every word of the grammar."""
+    schema = json.loads((CASES / "case.schema.json").read_text(encoding="utf-8"))
+    return set(said(schema)) - ENGINES
+
+
+def fields() -> set[str]:
+    """The last words of all quantities in the README's tables."""
+    readme = (CASES / "README.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| ((?:`[a-z]+[._][^|]*`(?:, )?)+) \|", readme, flags=re.MULTILINE)
+    names = [name for row in rows for name in re.findall(r"`([^`]+)`", row)]
+    return {n.split(".")[-1] for n in names if re.fullmatch(r"[a-z_]+(\.[a-z_0-9]+)*", n)}
+
+
+MADE = {
+    "theta": "a name of its own", "theta_dot": "a name of its own", "s": "a name of its own",
+    "s_dot": "a name of its own", "theta_torque": "made of a name", "s_force": "made of a name",
+    "vx": "v and an axis", "vy": "v and an axis", "vz": "v and an axis", "ax": "a and an axis",
+    "ay": "a and an axis", "az": "a and an axis", "fx": "f and an axis", "fy": "f and an axis",
+    "fz": "f and an axis", "mx": "m and an axis", "my": "m and an axis", "mz": "m and an axis",
+    "alpha_x": "alpha_ and an axis", "alpha_y": "alpha_ and an axis",
+    "alpha_z": "alpha_ and an axis", "time": "of events.times", "count": "of events.times",
+    "mass_matrix": "of test_states",
+    **{f"angular_{axis}": "angular_ and an axis" for axis in "xyz"},
+    **{f"omega_{i}": "omega_ and a number" for i in (1, 2, 3)},
+    **{f"inertia_{i}": "inertia_ and two" for i in ("11", "22", "33", "12", "13", "23")},
+}  # fmt: skip
+"""Fields that are put together when they are read, and so stand nowhere as they are."""
+
+
+def unread(every: set[str], known: set[str]) -> set[str]:
+    """Words that are neither read nor said to be not."""
+    return every - known - set(words.UNREAD)
+
+
+def keys(told: Any) -> Iterator[str]:
+    """All keys and words of a file."""
+    if isinstance(told, dict):
+        for key, value in told.items():
+            yield key
+            yield from keys(value)
+    elif isinstance(told, list):
+        for each in told:
+            yield from keys(each)
+    elif isinstance(told, str):
+        yield told
+
+
+def test_every_word_of_the_grammar_is_read_or_has_a_line() -> None:
+    assert unread(grammar(), literals()) == set()
+    assert unread(fields(), literals() | set(MADE)) == set()
+
+
+def test_no_line_is_about_what_is_no_word() -> None:
+    assert set(words.UNREAD) <= grammar()
+    assert set(words.UNDRAWN) <= grammar()
+
+
+@pytest.mark.mutant("a new word of the grammar that the second reading passes over")
+def test_a_new_word_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert unread(grammar() | {"gearbox"}, literals()) == {"gearbox"}
+    monkeypatch.delitem(words.UNREAD, "smooth")
+    assert unread(grammar(), literals()) == {"smooth"}
+
+
+def test_every_word_that_is_read_is_compared() -> None:
+    """By a shipped case, or by one of the first random scenes."""
+    used = {word for file in both.FILES for word in keys(read.text(file.read_text("utf-8")))}
+    for seed in range(20):
+        used |= set(keys(drawn_switching.drawn(seed)))
+    for seed in range(33):
+        used |= set(keys(drawn_plane.drawn(seed)))
+    for seed in range(27):
+        used |= set(keys(drawn_space.drawn(seed)))
+    assert grammar() - used - set(words.UNREAD) == set()
