@@ -1,4 +1,4 @@
-"""The committed tolerance.csv as a bar: what was reached is not lost unnoticed.
+"""The committed reports: tolerance.csv as a bar, so that what was reached is not lost unnoticed.
 
 It binds shipped cases in pytest, at the engine's version and step of the committed row. `make
 reports` writes it anew whatever it was, and a person reads the difference: so every row has a bar
@@ -6,15 +6,17 @@ near what is measured, no bar is typed by the suite, and no verdict depends on a
 """
 
 from collections.abc import Mapping
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
 from ..cases.case import Case
 from ..cases.find import shipped
-from .row import Comparison, rank
+from .row import Cause, Comparison, rank
 from .write import read
 
 FILE = Path(__file__).parent / "tolerance.csv"
+CAUSES = FILE.with_name("causes.csv")
 WORSE = 10  # × what was committed; another processor changes a third beside an event, see the tests
 USELESS = 1e-6  # of `allow`: where a shipped setting's figure is nothing to anyone
 ROUNDING = 1e-8  # of `allow`: where a tuned setting's figure may be rounding's on another processor
@@ -34,6 +36,16 @@ def rows() -> Mapping[Key, Comparison]:
 def key_of(row: Comparison) -> Key:
     """What names a row."""
     return row.case, row.engine, row.setting, row.realised, row.quantity
+
+
+def causes() -> dict[tuple[str, str, str, str], list[Cause]]:
+    """By case, engine, setting, quantity what causes.csv tells; empty where it cannot be read."""
+    found: dict[tuple[str, str, str, str], list[Cause]] = {}
+    with suppress(OSError, ValueError):  # cut, or half of a merge: then all are searched anew
+        for cause in read(CAUSES, Cause):
+            key = cause.case, cause.engine, cause.setting, cause.quantity
+            found.setdefault(key, []).append(cause)
+    return found
 
 
 def before(case: Case, key: Key, version: str, step: float | None) -> Comparison | None:

@@ -22,7 +22,7 @@ from ..cases.observe import observe
 from ..cases.states import MASS_MATRIX
 from ..cases.trajectory import Trajectory
 from ..reference.solve import solve as solved
-from . import pool, suite, write
+from . import committed, pool, suite, write
 from .asking import asked
 from .cache.store import usable
 from .events.states import mistaken
@@ -143,6 +143,7 @@ def run(
             progress=told,
             book=wanted.book,
             causes=causes,
+            known=committed.causes() if causes and cache else None,
             store=store,
         )
     if mistakes := [*wanted.mistakes, *report.mistakes]:

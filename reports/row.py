@@ -13,6 +13,14 @@ MUTANTS, MUTATION = "mutants.csv", "mutation.csv"
 alone, and of no run."""
 
 
+NUMBERS = ".3g"  # three digits: more would be noise from one machine to the next
+
+
+def as_written(number: float | None) -> float | None:
+    """What a report says of it."""
+    return None if number is None else float(format(number, NUMBERS))
+
+
 def rank(verdict: str) -> int:
     """How bad it is, from 0; what is no verdict is worse than all of them."""
     return next((i for i, word in enumerate(LADDER) if verdict.startswith(word)), len(LADDER))
@@ -102,7 +110,8 @@ class Certificate:
 class Cause:
     """A row of causes.csv: what brings a quantity within its tolerance; of several a row each.
 
-    cure: in words; or that none was found, or looked for.
+    cure: in words; or that none was found, or looked for. searched_with: the engine's version and a
+    word of the case, the setting, our adapter and the search; nothing where no search is behind it.
     """
 
     case: str
@@ -117,6 +126,7 @@ class Cause:
     error_after: float | None
     cost: float | None  # over the row's own, of a simulated second
     law: str  # how the error follows the cure's one number
+    searched_with: str = ""
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,7 @@ from .pool import Died, local
 from .results import Progress, Results
 from .row import FAILS, Cause, Certificate, Comparison, Instant, Rungs
 from .search.because import with_causes
+from .search.causes import Known
 from .search.causes import causes as found_causes
 from .selection import sound
 from .trial.book import producers
@@ -65,15 +66,17 @@ def measure(
     progress: Progress,
     book: bool = True,
     causes: bool = False,
+    known: Known | None = None,
     store: Store | None = None,
     executor: Executor | None = None,
 ) -> Report:
     """Solves every case once and runs every trial once, on `jobs` processes of this machine.
 
     book: whether the book's own approximations stand beside the engines. causes: whether what
-    cures each row above its tolerance is searched for, which takes more runs. store: where results
-    are kept as they come, and taken from if nothing that they depend on has changed; None: nowhere.
-    executor: any of `concurrent.futures`, a cluster's for instance, in place of the processes.
+    cures each row above its tolerance is searched for, which takes more runs; known: what is
+    carried over where it stands on the same, instead of a search. store: where results are kept as
+    they come, and taken from if nothing that they depend on has changed; None: nowhere. executor:
+    any of `concurrent.futures`, a cluster's for instance, in place of the processes.
 
     A mistake that only solving finds costs its own file: `mistakes` of the report tells them.
     Raises CaseError with the mistakes if no file is left.
@@ -90,14 +93,14 @@ def measure(
         results = Results(working, progress, used, keys)
         pairs = [Pair(case, engine, used, keys.solution(case)) for case, engine in beside]
         _solve(cases, results, report)
-        known = [pair for pair in pairs if pair.case.name in report.solutions]
+        paired = [pair for pair in pairs if pair.case.name in report.solutions]
         references = {name: solved.trajectory for name, solved in report.solutions.items()}
-        for one in tried(known, references, results):
+        for one in tried(paired, references, results):
             _take(one, report)
         for pair in pairs:
             if pair.case in report.cases and pair.case.name in report.lost:
                 _without_reference(pair, report)
-        _explain(known, results, report, search=causes)
+        _explain(paired, results, report, search=causes, known=known)
         return report
 
 
@@ -140,14 +143,18 @@ def _take(one: Tried, report: Report) -> None:
     report.tried.append(replace(one, outcome=outcome))
 
 
-def _explain(pairs: Sequence[Pair], results: Results, report: Report, *, search: bool) -> None:
+def _explain(
+    pairs: Sequence[Pair], results: Results, report: Report, *, search: bool, known: Known | None
+) -> None:
     moments = {
         (one.pair.case.name, one.pair.engine.name, one.pair.engine.setting, name): words
         for one in report.tried
         if one.realised == "native"
         for name, words in one.outcome.moments.items()
     }
-    report.causes = found_causes(report.comparisons, report.rungs, pairs, results, search=search)
+    report.causes = found_causes(
+        report.comparisons, report.rungs, pairs, results, search=search, known=known
+    )
     report.comparisons = with_causes(report.comparisons, report.causes, moments)
 
 

@@ -18,7 +18,7 @@ from .content import text as content
 from .coverage import coverage
 from .ours import unasked
 from .replace import replace
-from .row import Advice, Cause, Certificate, Comparison, Instant, Rungs
+from .row import NUMBERS, Advice, Cause, Certificate, Comparison, Instant, Rungs
 from .suite import Report
 
 HERE = Path(__file__).parent
@@ -29,7 +29,6 @@ NAMES = (
 ADVICE = "advice.csv"
 KEYS = ("case", "engine", "setting", "realised", "ladder", "quantity", "check", "event", "k")
 KNOWN = 1e-6  # of `allow`: the least certified error that is written
-NUMBERS = ".3g"  # three digits: more would be noise from one machine to the next
 RUN = 12  # letters of a run's name: two runs never share them
 TIMES = ".9g"  # of an event's time: its difference is a thousandth of a step
 

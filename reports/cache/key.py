@@ -20,13 +20,14 @@ from ...cases.case import Case
 from ...engines.engine import Engine
 from .. import BEGUN, pins
 from .digest import Place, Stat, told
-from .parts import BASIS, Parts, located
+from .parts import BASIS, Parts, home_of, located
 from .store import Store
 
 ROOT = Path(__file__).parents[2]
 REFERENCE = ("cases", "reference", "reports/cache/form.py")
 ROWS = tuple(f"reports/{name}.py" for name in ("row", "unit", "pins", "limit", "spelled"))
 JUDGING = ("engines/*.py", "reports/trial", "reports/judge", "reports/events", *ROWS)
+SEARCHING = ("reports/search", *JUDGING)
 TRYING = ("reports/search/candidate.py", "reports/search/errors.py")
 ROUNDING = ("NPY_", "OPENBLAS_", "OMP_", "MKL_", "BLIS_", "GLIBC_TUNABLES", "LD_", "DYLD_")
 """Variables that choose other kernels, or other libraries."""
@@ -110,6 +111,21 @@ class Keys:
         """Of one simulation with other options of the engine."""
         ways = self.ways(case, engine)
         return _word("tried", ways, options, repr(step), self._code(TRYING))
+
+    def search(self, case: Case, engine: Engine) -> str:
+        """Of a search for what cures the engine's rows: the same on every machine.
+
+        Without the reference's code, which the rows' own errors tell of. Nothing where that cannot
+        be said: of an engine that cannot be described, or of code that is newer than the process.
+        """
+        if self.salt:
+            return ""
+        try:
+            adapter = home_of(type(engine)).relative_to(ROOT)
+            of = described(engine), self._once(case, _case)
+        except (TypeError, ValueError):  # somebody else's
+            return ""
+        return _word("search", engine.version, *of, self._code((*SEARCHING, str(adapter))))
 
     def run(self, pairs: Iterable[tuple[Case, Engine]]) -> str:
         """Of all together: two runs with this key compute the same."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ...cases.mistake import CaseError
-from ..show.say import say
+from ..show.say import say, tell
 from .answer import BAD_INPUT, as_json
 from .done import finished
 from .options import allow_long, jobs, named_engines, no_cache
@@ -38,10 +38,10 @@ def causes(
     one, the smallest sets that cure, with the step that they need and what they cost. Where a law
     or driver of ours is needed, the engine's own model is another one.
     """
-    from .. import pool, suite
+    from .. import committed, pool, suite
     from ..cache import store
     from ..selection import choose_cases, choose_engines
-    from ..show import document, progress
+    from ..show import cures, document, progress
     from ..trial.work import too_long
 
     chosen = choose_cases(cases, long=allow_long)
@@ -50,7 +50,7 @@ def causes(
         engines = choose_engines([name.partition(".")[0] for name in names], [])
     if long := too_long(chosen, engines):
         raise CaseError(long)
-    used = None if no_cache else store.usable()
+    used, known = (None, {}) if no_cache else (store.usable(), committed.causes())
     with progress.progress() as told, finished(used is not None):
         report = suite.measure(
             chosen,
@@ -59,8 +59,11 @@ def causes(
             progress=told,
             book=False,
             causes=True,
+            known=known,
             store=used,
         )
+    if told := cures.carried(report.causes, known):
+        tell(told)
     if wants_json:
         code = BAD_INPUT if report.mistakes else 0
         document.write(document.of_causes(report.causes, report.mistakes, exit_code=code))

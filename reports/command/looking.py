@@ -31,13 +31,15 @@ def looked_at(
     A file with mistakes is left out: `mistakes` of the report tells them. Raises CaseError where
     nothing is left.
     """
-    from .. import pool, suite
+    from .. import committed, pool, suite
     from ..asking import asked
     from ..cache import store
     from ..selection import sound_cases
+    from ..show.cures import carried
     from ..show.progress import progress
     from .done import finished
 
+    known = committed.causes() if causes and cached else {}
     found, mistakes = sound_cases(words, long=long)
     wanted = asked(found, names, settings, mistakes=mistakes, named=bool(words), long=long)
     if wanted.mistakes:
@@ -54,12 +56,15 @@ def looked_at(
             progress=shown,
             book=wanted.book,
             causes=causes,
+            known=known,
             store=used,
             executor=executor,
         )
     if used is not None:
         used.trim()
     report.mistakes[:0] = wanted.mistakes
+    if told := carried(report.causes, known):
+        tell(told)
     return report
 
 

@@ -1,4 +1,8 @@
-"""The causes of a run's rows, searched where they have to be: all pairs at once."""
+"""The causes of a run's rows, searched where they have to be: all pairs at once.
+
+A cause is a fact about a scene, a setting, an engine's version and our adapter: where none of these
+is another than that of a committed row, nor the error that it explains, it is that row's.
+"""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -6,7 +10,7 @@ from dataclasses import replace
 from ...engines.engine import Tunable
 from ...reference.solve import Solution
 from ..results import Results
-from ..row import UNSEARCHED, Cause, Comparison, Rungs
+from ..row import UNSEARCHED, Cause, Comparison, Rungs, as_written
 from ..unit import Pair
 from .asked import lost
 from .between import between
@@ -15,7 +19,11 @@ from .ladder import climbed
 from .solving import solved
 from .together import Search, together
 from .told import NONE, NOTHING, Asked, by_ladder, by_ours, searched, without
-from .why import Rows, key_of
+from .why import Key, Rows, key_of
+
+LETTERS = 12  # of a word: two searches never share them
+Known = Mapping[Key, Sequence[Cause]]
+"""What earlier runs have found, by the row that it explains."""
 
 
 def causes(
@@ -25,8 +33,12 @@ def causes(
     results: Results,
     *,
     search: bool,
+    known: Known | None = None,
 ) -> list[Cause]:
-    """Of every row above its tolerance: what brings it within; search: whether runs are made."""
+    """Of every row above its tolerance: what brings it within; search: whether runs are made.
+
+    known: what is carried over where it stands on the same.
+    """
     rows = Rows(comparisons)
     off, found = list(rows.off()), dict[tuple[str, ...], list[Cause]]()
     for row in off:
@@ -37,11 +49,52 @@ def causes(
     found |= {key_of(row): [without(row, NOTHING)] for row in left if row.case in states}
     if search:
         found |= {key_of(cause): [cause] for cause in by_ladder(left, rungs)}
+        words = _words(left, pairs, results)
+        carried = _carried(left, words, known or {})
+        found |= carried
+        left = [row for row in left if key_of(row) not in carried]
         for asked, cured in _searched(left, rungs, pairs, results):
-            found |= {key_of(row): searched(asked, row, cured[row.quantity]) for row in asked.rows}
+            for row in asked.rows:
+                causes = searched(asked, row, cured[row.quantity])
+                found[key_of(row)] = [replace(c, searched_with=words[_where(row)]) for c in causes]
     last = NONE if search else UNSEARCHED
     told = (cause for row in off for cause in found.get(key_of(row), [without(row, last)]))
     return list(dict.fromkeys(told))  # two ways to the same set are one cause
+
+
+def _where(row: Comparison) -> tuple[str, str, str]:
+    return row.case, row.engine, row.setting
+
+
+def _words(
+    rows: Sequence[Comparison], pairs: Iterable[Pair], results: Results
+) -> dict[tuple[str, str, str], str]:
+    """What a search of each of the rows' pairs stands on."""
+    asked = {_where(row) for row in rows}
+    words: dict[tuple[str, str, str], str] = {}
+    for pair in pairs:
+        where = pair.case.name, pair.engine.name, pair.engine.setting
+        if where in asked:
+            word = results.keys.search(pair.case, pair.engine)
+            words[where] = f"{pair.engine.version} {word[:LETTERS]}" if word else ""
+    return words
+
+
+def _carried(
+    rows: Sequence[Comparison], words: Mapping[tuple[str, str, str], str], known: Known
+) -> dict[Key, list[Cause]]:
+    """Of the rows that are as the known causes found them, all of their causes."""
+    found: dict[Key, list[Cause]] = {}
+    for row in rows:
+        word, before = words[_where(row)], known.get(key_of(row), ())
+        asked = (word, as_written(row.largest), as_written(row.allowed))
+        if word and before and all(_asked(cause) == asked for cause in before):
+            found[key_of(row)] = list(before)
+    return found
+
+
+def _asked(cause: Cause) -> tuple[str, float | None, float | None]:
+    return cause.searched_with, as_written(cause.error_before), as_written(cause.allow)
 
 
 def _searched(
@@ -49,7 +102,7 @@ def _searched(
 ) -> Iterator[tuple[Asked, Mapping[str, Cured]]]:
     of: dict[tuple[str, str, str], list[Comparison]] = {}
     for row in rows:
-        of.setdefault((row.case, row.engine, row.setting), []).append(row)
+        of.setdefault(_where(row), []).append(row)
     tunable = {
         key: pair
         for pair in pairs

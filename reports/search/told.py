@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from ...engines.engine import Tunable
 from ...engines.knobs import as_text, merged
-from ..row import Cause, Comparison, Rungs
+from ..row import Cause, Comparison, Rungs, as_written
 from ..unit import Pair
 from .candidate import Candidate
 from .cures import LARGEST, Cure, Cured
@@ -47,8 +47,9 @@ def _cause(asked: Asked, row: Comparison, cure: Cure, elsewhere: bool) -> Cause:
         without(row, f"{words}, but for the instant" if elsewhere else words),
         options=as_text(merged(*(lever.options for lever in cure.turned))),
         step=cure.candidate.step,
-        error_after=cure.error * (row.allowed or 0.0),
-        cost=asked.cost(cure.candidate),
+        # As the report says them: a sentence about a row that is carried over must be the same.
+        error_after=as_written(cure.error * (row.allowed or 0.0)),
+        cost=as_written(asked.cost(cure.candidate)),
         law=cure.law,
     )
 

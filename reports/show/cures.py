@@ -9,6 +9,8 @@ import pandas as pd
 from ...cases.case import Case
 from ...cases.find import shipped
 from ..row import UNSEARCHED, Cause
+from ..search.causes import Known
+from ..search.why import Key, key_of
 from ..write import HERE
 from .amount import milliseconds
 from .summary import Cures
@@ -42,6 +44,18 @@ def found(causes: Iterable[Cause]) -> Cures:
     """The same of causes that a run has just searched for."""
     rows = ((c.case, c.engine, c.setting, c.quantity, c.cure, c.step) for c in causes)
     return _joined(rows)
+
+
+def carried(causes: Iterable[Cause], known: Known) -> str:
+    """Of how many rows the causes are those that were known, in words; nothing where none is."""
+    searched: dict[Key, list[Cause]] = {}
+    for cause in causes:
+        if cause.searched_with:
+            searched.setdefault(key_of(cause), []).append(cause)
+    count = sum(known.get(key) == told for key, told in searched.items())
+    left = len(searched) - count
+    told = f"causes: those of {count} rows are the committed ones, for nothing that they stand on"
+    return f"{told} has changed; those of {left} were searched" if count else ""
 
 
 def _joined(rows: Iterable[tuple[Any, ...]]) -> Cures:

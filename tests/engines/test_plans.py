@@ -18,7 +18,7 @@ from given.engine_scenes import (
     touching,
 )
 from given.planning import (
-    EVERY,
+    COVERING,
     NAMES,
     SETTINGS,
     SHIPPED,
@@ -39,7 +39,7 @@ from textmech.reports.trial.trial import ways as tried
 
 
 @pytest.mark.parametrize("engine", SETTINGS, ids=words)
-@pytest.mark.parametrize("name", EVERY)
+@pytest.mark.parametrize("name", COVERING)
 def test_a_plan_crosses_into_a_process(name: str, engine: Engine) -> None:
     scene, start = begun(name)
     for plan in tried(engine, scene, start):

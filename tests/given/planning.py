@@ -1,8 +1,9 @@
 """The engines that are installed, their plans one way at a time, and one run of a scene."""
 
-from collections.abc import Mapping
-from dataclasses import astuple
+from collections.abc import Iterator, Mapping
+from dataclasses import astuple, fields, is_dataclass
 from functools import cache
+from typing import Any
 
 from textmech import engines
 from textmech.cases.force import of
@@ -39,8 +40,45 @@ def builds(engine: Engine, scene: Scene) -> bool:
     return engine.name in SPATIAL or (scene.frame is PLANE and not thrown and not pulled)
 
 
-PAIRS = [(name, e) for name, case in EVERY.items() for e in SETTINGS if builds(e, case.scene)]
-"""Each shipped case with each engine that builds it."""
+def kinds(part: Any, where: str = "") -> Iterator[str]:
+    """What a scene is made of: each kind of element, what each says and leaves out, each choice."""
+    if is_dataclass(part):
+        yield type(part).__name__
+        for field in fields(part):
+            yield from kinds(getattr(part, field.name), f"{type(part).__name__}.{field.name}")
+    elif isinstance(part, Mapping):
+        for one in part.values():
+            yield from kinds(one, where)
+    elif isinstance(part, tuple | list) and any(map(is_dataclass, part)):
+        for one in part:
+            yield from kinds(one, where)
+    elif isinstance(part, str | bool) and where.rpartition(".")[2] not in NAMED:
+        yield f"{where} {part}"
+    else:
+        yield f"{where} {'none' if part is None or part == () or part == 0 else 'some'}"
+
+
+NAMED = ("name", "body", "point", "at", "touched")
+"""Fields that are what a user has called something."""
+
+
+def covering() -> list[str]:
+    """The fewest shipped cases, about, that have all kinds there are: those with most new first."""
+    left = {name: set(kinds(case.scene)) for name, case in EVERY.items()}
+    found: list[str] = []
+    while any(left.values()):
+        best = max(left, key=lambda name: len(left[name]))
+        found.append(best)
+        covered = left.pop(best)
+        left = {name: new - covered for name, new in left.items()}
+    return sorted(found)
+
+
+COVERING = covering()
+"""What a test of engines asks where every shipped case would tell it nothing more: the rows of all
+of them are made in the same session, with their audits and certificates."""
+PAIRS = [(name, e) for name in COVERING for e in SETTINGS if builds(e, EVERY[name].scene)]
+"""Each of them with each engine that builds it."""
 
 
 def damps(engine: Engine, scene: Scene) -> list[Viscous]:

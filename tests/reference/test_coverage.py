@@ -142,7 +142,7 @@ def test_of_two_watches_the_inner_one_looks() -> None:
 
 
 @pytest.mark.whole
-@pytest.mark.parametrize("name", scenes.EVERY)
-def test_claimed_equations_are_executed(name: str) -> None:
-    missing = set(scenes.EVERY[name].origin.equations) - scenes.solved(name).equations
-    assert not missing, f"{name} claims {sorted(missing)}, which nothing in its solution executes"
+def test_claimed_equations_are_executed() -> None:
+    for name, case in scenes.EVERY.items():
+        left = sorted(set(case.origin.equations) - scenes.solved(name).equations)
+        assert not left, f"{name} claims {left}, which nothing in its solution executes"

@@ -12,17 +12,15 @@ from textmech.reference.solve import reactions_of, solve
 
 
 @pytest.mark.whole
-@pytest.mark.parametrize("name", scenes.SHIPPED)
-def test_shipped_case_is_certified(name: str) -> None:
-    """And a hand-written motion is the generated one, whatever the certificate asks of it."""
-    solution, system = scenes.solved(name), scenes.SHIPPED[name].system
-    assert [check for check in solution.checks if not check.holds] == []
-    assert solution.holds
-    assert solution.system == (system or "generated")
-    found = {check.name: check.difference for check in solution.checks}
-    for check in ("generated motion", "generated accelerations"):
-        assert (check in found) == (system is not None)
-        assert found.get(check, 0.0) < 1e-9
+def test_a_hand_written_motion_is_the_generated_one() -> None:
+    """Of every shipped case, whatever its certificate asks of it."""
+    for name, case in scenes.SHIPPED.items():
+        solution = scenes.solved(name)
+        assert solution.system == (case.system or "generated"), name
+        found = {check.name: check.difference for check in solution.checks}
+        for check in ("generated motion", "generated accelerations"):
+            assert (check in found) == (case.system is not None), name
+            assert found.get(check, 0.0) < 1e-9, name
 
 
 @pytest.mark.whole

@@ -163,6 +163,30 @@ def test_all_code_counts_that_computes() -> None:
     assert {name for name in needed - known - packages if modules[name] not in told} == set()
 
 
+@pytest.mark.mutant("{file}: what a search of causes stands on is another set of files")
+@pytest.mark.parametrize(
+    ("file", "stands"),
+    [
+        ("engines/pymunk/force.py", True),
+        ("engines/engine.py", True),
+        ("reports/search/cures.py", True),
+        ("reports/judge/metric.py", True),
+        ("engines/mujoco/run.py", False),
+        ("reference/laws/friction.py", False),  # of a reference the rows' own errors tell
+        ("reports/write.py", False),
+    ],
+)
+def test_a_search_stands_on_the_adapter_and_the_search(
+    file: str, stands: bool, code: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(key, "home_of", lambda kind: code / "engines" / "pymunk")
+    before = key.Keys.now(None).search(CASE, ENGINE)
+    with (code / file).open("a", encoding="utf-8") as text:
+        text.write("# changed\n")
+    assert (key.Keys.now(None).search(CASE, ENGINE) != before) == stands
+    assert before
+
+
 def test_an_engine_is_its_package() -> None:
     assert parts.home_of(type(ENGINE)) == key.ROOT / "engines" / "pymunk"
 
