@@ -1,9 +1,9 @@
-# Two commands do everything: `make reports` and `make test`. All set up `.venv` themselves.
+# Two commands do what most need: `make reports` and `make test`. All set up `.venv` themselves.
 VENV := .venv
 PYTHON ?= python3
 READY := $(VENV)/.ready
 
-.PHONY: reports advice test processors quick lint mutants bench install clean
+.PHONY: reports advice test test-slow test-all processors quick lint mutants speed bench install clean
 
 reports: $(READY)
 	$(VENV)/bin/textmech run --causes
@@ -13,22 +13,28 @@ reports: $(READY)
 advice: $(READY)
 	$(VENV)/bin/textmech advise --all
 
+# Every engine on every case, and all tests but the slow ones.
 test: $(READY)
-	$(VENV)/bin/pytest -n auto --dist worksteal
+	$(VENV)/bin/pytest -n auto --dist worksteal -m "not slow"
+
+test-slow: $(READY)
+	$(VENV)/bin/pytest -n auto --dist worksteal -m slow
+
+# Everything.
+test-all: test test-slow
 
 # Whether the tests hang on rounding: all of them as other processors would run them, hours of work;
 # fewer by WHAT, as `make processors WHAT=tests/reference`.
 processors: $(READY)
 	$(VENV)/bin/python tests/processors.py -n auto --dist worksteal $(WHAT)
 
-# What a change of one file needs: its style and types, and the tests of its room but for those
-# marked `whole`, which solve or run all shipped cases or take long.
+# What a change of one file needs: its style and types, and the quick tests of its room.
 quick: $(READY)
 	$(VENV)/bin/ruff check .
 	$(VENV)/bin/ruff format --check .
 	mkdir -p $(VENV)/typing && ln -sfn ../.. $(VENV)/typing/textmech
 	$(VENV)/bin/pyright $$($(VENV)/bin/python tests/touched.py --files)
-	$(VENV)/bin/pytest -q -n auto -m "not whole" $$($(VENV)/bin/python tests/touched.py)
+	$(VENV)/bin/pytest -q -n auto -m "not slow" $$($(VENV)/bin/python tests/touched.py)
 
 lint: $(READY)
 	$(VENV)/bin/ruff check .
@@ -43,6 +49,10 @@ mutants: $(READY)
 	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check \
 		--constraint reports/environment.txt --editable '.[mutants]'
 	$(VENV)/bin/python tests/mutants.py --count $(COUNT) --seed $(SEED)
+
+# What a person waits for, in a fresh clone of the last commit: half an hour of an idle machine.
+speed: $(READY)
+	$(VENV)/bin/python tests/speed.py
 
 bench: $(READY)
 	$(VENV)/bin/textmech bench

@@ -8,9 +8,9 @@ LADDER = (AGREES, DEVIATES, BEYOND, CHANGED, "refused", DIVERGED, CRASHED, FAILS
 """Verdicts from good to bad, by their first words."""
 UNSEARCHED = "not searched"
 """Of causes.csv: nobody has looked for a cure."""
-MUTANTS, MUTATION = "mutants.csv", "mutation.csv"
-"""What the project's own tests plant, and what was planted by chance: beside the committed reports
-alone, and of no run."""
+MUTANTS, MUTATION, SPEED = OF_NO_RUN = "mutants.csv", "mutation.csv", "speed.csv"
+"""What the project's own tests plant, what was planted by chance, how long what is typed takes:
+beside the committed reports alone, and of no run."""
 
 
 NUMBERS = ".3g"  # three digits: more would be noise from one machine to the next

@@ -27,7 +27,8 @@ from textmech.reports.selection import choose_cases
 ROOT = Path(__file__).parents[1]
 PAGE = write.HERE / NAME
 MARK = "mutant"
-COLUMNS = ["room", "planted", "seen_by"]
+SLOW = "slow"
+COLUMNS = ["room", "planted", "seen_by", "loop"]
 
 
 class Word(str):
@@ -66,9 +67,17 @@ def collected() -> list[pytest.Item]:
 
 
 def listed(items: Iterable[pytest.Item]) -> pd.DataFrame:
-    """A row for each mistake of each test; tests of one function that plant the same are one."""
-    rows = sorted({row for item in items for row in planted(item)})
-    return pd.DataFrame(rows, columns=["room", "seen_by", "planted"])[COLUMNS]
+    """A row for each mistake of each test; tests of one function that plant the same are one.
+
+    loop: `quick` where `make test` sees it, `slow` where `make test-all` alone does.
+    """
+    found: dict[tuple[str, str, str], str] = {}
+    for item in items:
+        loop = SLOW if item.get_closest_marker(SLOW) else "quick"
+        for row in planted(item):
+            found[row] = min(loop, found.get(row, loop))
+    rows = [(*row, loop) for row, loop in sorted(found.items())]
+    return pd.DataFrame(rows, columns=["room", "seen_by", "planted", "loop"])[COLUMNS]
 
 
 def planted(item: pytest.Item) -> Iterator[tuple[str, str, str]]:

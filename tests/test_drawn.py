@@ -121,7 +121,7 @@ TRIPLE, FOREVER = THING.replace("2 *", "3 *"), THING.replace("return 2 * x", "wh
 SAW = "tests/cases/test_sees.py::test_double"
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("source", "tests", "wanted"),
     [
@@ -145,7 +145,7 @@ def test_what_becomes_of_a_mistake(
     assert found.run >= wanted[2]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_who_never_ends_is_told_as_that(
     tree: Callable[..., tried.Copy], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -154,7 +154,7 @@ def test_who_never_ends_is_told_as_that(
     assert (found.said, found.by) == (tried.TIMED_OUT, SAW.replace("double", "others"))
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_where_the_time_is_over_nothing_is_decided(
     tree: Callable[..., tried.Copy], monkeypatch: pytest.MonkeyPatch
 ) -> None:

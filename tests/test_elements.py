@@ -59,7 +59,7 @@ def test_asking_is_seen(line: str) -> None:
     assert asked(line)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_new_force_element_is_said_in_five_places(tmp_path: Path) -> None:
     """tests/cable.py adds one to the tables, in a process of its own, and a case uses it."""
     script = Path(__file__).with_name("cable.py")

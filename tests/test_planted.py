@@ -20,7 +20,7 @@ from textmech.reports.diff.compare import difference
 from textmech.reports.diff.folder import opened
 from textmech.reports.diff.rule import Rule
 from textmech.reports.page.folder import folder
-from textmech.reports.row import MUTANTS, MUTATION, Comparison
+from textmech.reports.row import MUTANTS, OF_NO_RUN, Comparison
 
 COMMITTED = write.HERE / MUTANTS
 LONGEST = 110  # letters of a mistake: it is a name, and no explanation
@@ -32,7 +32,7 @@ def rows() -> pd.DataFrame:
     return pd.read_csv(COMMITTED, comment="#", dtype=str, keep_default_na=False)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_the_committed_list_is_what_the_tests_plant() -> None:
     """Collected in a process of its own, whatever this session collects, and once."""
     told = {key: value for key, value in os.environ.items() if key != "PYTEST_ADDOPTS"}
@@ -97,13 +97,14 @@ def test_a_parameter_says_itself(value: Any, words: str) -> None:
     assert planted.worded(value) == words
 
 
-def item(test: str, *words: str, **params: Any) -> Any:
+def item(test: str, *words: str, slow: bool = False, **params: Any) -> Any:
     """A collected test with the mark."""
     marks = [SimpleNamespace(args=words)]
     return SimpleNamespace(
         nodeid=f"tests/engines/{test}",
         callspec=SimpleNamespace(params=params),
         iter_markers=lambda name: marks if name == planted.MARK else [],
+        get_closest_marker=lambda name: slow if name == planted.SLOW else None,
     )
 
 
@@ -112,13 +113,15 @@ def test_a_row_is_a_mistake_of_a_test_and_not_each_of_its_parameters() -> None:
         [
             item("test_b.py::test_seen[one-x]", "{wrong} lost in {where}", wrong="J", where=Heavy),
             item("test_a.py::test_seen[x]", "γ of {kind.name} lost", "no γ", kind=Heavy),
-            item("test_a.py::test_seen[y]", "γ of {kind.name} lost", "no γ", kind=Heavy),
+            item("test_a.py::test_seen[y]", "γ of {kind.name} lost", slow=True, kind=Heavy),
+            item("test_a.py::test_long", "no γ", slow=True),
         ]
     )
     assert found.to_numpy().tolist() == [
-        ["engines", "no γ", "tests/engines/test_a.py::test_seen"],
-        ["engines", "γ of Heavy lost", "tests/engines/test_a.py::test_seen"],
-        ["engines", "J lost in J 5 % too large", "tests/engines/test_b.py::test_seen"],
+        ["engines", "no γ", "tests/engines/test_a.py::test_long", "slow"],
+        ["engines", "no γ", "tests/engines/test_a.py::test_seen", "quick"],
+        ["engines", "γ of Heavy lost", "tests/engines/test_a.py::test_seen", "quick"],
+        ["engines", "J lost in J 5 % too large", "tests/engines/test_b.py::test_seen", "quick"],
     ]
 
 
@@ -146,7 +149,7 @@ def test_a_run_beside_it_neither_reads_nor_deletes_it(
     assert len(folder(place).beside[MUTANTS]) == len(rows())
 
 
-@pytest.mark.parametrize("name", [MUTANTS, MUTATION])
+@pytest.mark.parametrize("name", OF_NO_RUN)
 @pytest.mark.parametrize("text", ["", "cut", None])
 def test_a_diff_does_not_look_at_it(
     name: str, text: str | None, tmp_path: Path, list_beside: Callable[[Path], Path]
@@ -158,4 +161,4 @@ def test_a_diff_does_not_look_at_it(
     before, after = opened({"OLD": old, "NEW": new})
     found = difference(before, after, Rule())
     assert (found.alone, found.changes) == ((), ())
-    assert not {MUTANTS, MUTATION} & found.counts.keys()
+    assert not {*OF_NO_RUN} & found.counts.keys()

@@ -58,7 +58,7 @@ def committed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(write, "by_default", lambda: copy)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.usefixtures("committed")
 @pytest.mark.parametrize("block", SHELL, ids=lambda block: block[0])
 def test_commands_run_one_after_another(block: list[str], folder: Path) -> None:
@@ -93,14 +93,14 @@ def only_parsed(line: str) -> None:
         assert command.commands[name].make_context(name, words) is not None
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("program", fenced("python"), ids=lambda text: text.split("\n")[0])
 def test_a_program_runs(program: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(folder)
     exec(compile(program, "README.md", "exec"), {})
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_the_first_command_prints_what_stands_below_it() -> None:
     first = TEXT.split("<!-- first: ")[1].split("<!-- /first -->")[0]
     table = first.split("```\n")[1]
@@ -108,7 +108,7 @@ def test_the_first_command_prints_what_stands_below_it() -> None:
     assert table in textmech("run", "four_bar").stdout
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "words"),
     [

@@ -83,7 +83,7 @@ def test_no_engine_is_named_in_the_cases_code() -> None:
             assert not [name for name in ("mujoco", "pymunk") if name in text], file
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_every_public_function_says_what_it_is() -> None:
     bare = [
         f"{file.relative_to(ROOT)}: {node.name}"

@@ -30,7 +30,8 @@ STAYS = 0.1  # of a tolerance: what a parameter that drops out may move by 5 % o
 TOLERANCE = 1e-9  # of the integrator: far below STAYS
 PARTS = (0.25, 1.0)  # of the duration: what is seen in the first needs no other
 
-PARAMETERS = [(file, name) for file in shipped().values() for name in load(file)[0].parameters]
+FIRST = {Path(case.source.file): case for case in reversed(scenes.EVERY.values())}
+PARAMETERS = [(file, name) for file in shipped().values() for name in FIRST[file].parameters]
 
 
 def observed(case: Case, trajectory: Trajectory) -> Mapping[str, Array]:
@@ -80,7 +81,7 @@ def ratios(file: Path, name: str, folder: Path, part: float) -> Iterator[float]:
             yield float(np.max(apart)) / (case.allow[quantity] or inf)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("file", "name"), PARAMETERS, ids=[f"{file.stem}-{name}" for file, name in PARAMETERS]
 )

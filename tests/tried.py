@@ -2,7 +2,7 @@
 
 The tests are those of the broken file's own room, the nearest first: who imports it or is named
 after it, then who speaks of it, then the folder that mirrors its own, then the others of that one
-of the four folders. Those marked `whole` are left out. That a test fails is believed where it does
+of the four folders. Those marked `slow` are left out. That a test fails is believed where it does
 so twice, and passes in a copy without the mistake.
 """
 
@@ -187,7 +187,7 @@ def _asked(mistake: Mistake, copy: Copy, sound: Sound) -> Outcome:
     waiting = stages(mistake.file, copy.root)
     while waiting:
         without = [f"--deselect={test}" for test in doubted]
-        told = copy.run(["-m", "not whole", *without, *waiting[0]], left)
+        told = copy.run(["-m", "not slow", *without, *waiting[0]], left)
         run, left = run + told.run, left - told.work
         if told.code not in (0, 5) and not told.stopped:
             if told.code == -signal.SIGXCPU:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...cases.mistake import CaseError, Mistake
-from ..row import MUTANTS, MUTATION
+from ..row import OF_NO_RUN
 from .errors import ERRORS
 from .file import File
 from .files import FILES
@@ -61,7 +61,7 @@ def _opened(name: str, path: Path) -> Folder:
     if not path.is_dir():
         what = "is no folder" if path.exists() else "no such folder"
         raise CaseError([Mistake(str(path), 0, 0, "", f"{what}; a report is one, with its *.csv")])
-    files = sorted(file for file in path.glob("*.csv") if file.name not in (MUTANTS, MUTATION))
+    files = sorted(file for file in path.glob("*.csv") if file.name not in OF_NO_RUN)
     if not (path / ERRORS.name).exists():
         what = f"is no report: it has no {ERRORS.name}; `textmech run --out FOLDER` writes one"
         raise CaseError([Mistake(str(path), 0, 0, "", what)])

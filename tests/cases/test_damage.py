@@ -37,7 +37,7 @@ def outcome(file: Path, content: bytes) -> str:
     return "refused"
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_damaged_file_is_loaded_or_refused_with_places(tmp_path: Path) -> None:
     seen: Counter[str] = Counter()
 
@@ -50,7 +50,7 @@ def test_a_damaged_file_is_loaded_or_refused_with_places(tmp_path: Path) -> None
     assert min(seen["loaded"], seen["refused"]) > N / 20  # or the damage is too small or too large
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_damaged_file_in_space_is_loaded_or_refused_with_places(tmp_path: Path) -> None:
     seen: Counter[str] = Counter()
 
@@ -63,7 +63,7 @@ def test_a_damaged_file_in_space_is_loaded_or_refused_with_places(tmp_path: Path
     assert min(seen["loaded"], seen["refused"]) > N / 20
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_any_bytes_are_refused_with_places(tmp_path: Path) -> None:
     text = st.text(max_size=60).map(lambda text: text.encode("utf-8", "replace"))
 

@@ -107,7 +107,7 @@ def opposite(motion: Trajectory) -> Trajectory:
     return replace(motion, states=states, record=None)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SPATIAL)
 def test_what_is_observed_does_not_know_the_sign_of_a_quaternion(name: str) -> None:
     """Angles of joints are counted, which no sign may change; but for rounding of the sums."""

@@ -23,7 +23,7 @@ def mangled(text: str, chance: random.Random) -> str:
     return "".join(tokens)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_mangled(tmp_path: Path) -> None:
     chance = random.Random(1)
     texts = [path.read_text(encoding="utf-8") for path in shipped().values()]

@@ -74,7 +74,7 @@ def balance(scene: Scene, motion: Trajectory) -> float:
     return float(np.max(np.abs(held - held[0] - given)) / max(sizes))
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "left"), MOVING.items())
 def test_the_energy_is_the_work_that_was_done(name: str, left: float) -> None:
     assert balance(scenes.SHIPPED[name].scene, scenes.solved(name).trajectory) < left
@@ -95,7 +95,7 @@ def turned(power: Callable[[Any, Motion], Any]) -> Callable[[Any, Motion], Any]:
 
 
 @pytest.mark.mutant("power of a {kind.name} with the wrong sign")
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "name"), LOST.items(), ids=lambda x: getattr(x, "__name__", x))
 def test_a_power_of_the_wrong_sign_is_seen(
     kind: type[Force], name: str, monkeypatch: pytest.MonkeyPatch

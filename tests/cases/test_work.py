@@ -41,7 +41,7 @@ def said(folder: Path, text: str) -> list[tuple[str, str]]:
     return []
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "place", "number"),
     [
@@ -152,7 +152,7 @@ def test_a_stiff_spring_between_light_jointed_links_is_no_fast_swing(tmp_path: P
     assert said(tmp_path, text) == []
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_many_mistakes_are_found_quickly_and_shown_in_part(tmp_path: Path) -> None:
     file = tmp_path / "case.yaml"
     file.write_text(pendulum(more="\n".join(f"k{i}: 1" for i in range(11_778))), encoding="utf-8")

@@ -66,7 +66,7 @@ def test_these_are_the_ways(name: str) -> None:
     assert ways(TUNED[name], guided(GROWING), RESTS) == ("native", *ours)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "way"), ROWS)
 def test_block_under_a_growing_force(name: str, way: Realised) -> None:
     """It slips at t = 6 s."""
@@ -86,7 +86,7 @@ def test_block_under_a_growing_force(name: str, way: Realised) -> None:
 INSIDE = {"law": 3 / 8, "driver": 0.0}
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("b", [1.0007, 0.99])
 @pytest.mark.parametrize(("name", "way"), ROWS)
 def test_it_slips_inside_a_step(name: str, way: Realised, b: float) -> None:
@@ -118,7 +118,7 @@ def _slips_inside(name: str, way: Realised, b: float) -> Array:
     return run.states["block"][:, X]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "way"), ROWS)
 def test_block_drawn_by_a_spring(name: str, way: Realised) -> None:
     """It sticks, slips from 1.5 s on, is at rest from 4.790543662 s, and slips again."""
@@ -161,7 +161,7 @@ def test_a_block_turns_back_without_a_rest(name: str, way: Realised) -> None:
 ONE = {"mujoco": 3e-6, "pymunk": 1e-15}
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_the_engine_alone_has_one_bound(name: str) -> None:
     """It breaks loose at 3 N; where that is the only bound, it does as our law."""
@@ -183,7 +183,7 @@ SMOOTH = Smooth(5e-4, 1e5)
 SMOOTHLY = {"mujoco": (1e-9, 1.2e-8), "pymunk": (2e-8, 4e-5)}  # measured 3e-10, 4e-9; 7e-9, 1.3e-5
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_the_smooth_law_slips_and_creeps(name: str) -> None:
     scene, times = guided(DRAWN, smooth=SMOOTH), np.linspace(0.0, 6.0, 61)
@@ -209,7 +209,7 @@ def test_the_smooth_law_slips_and_creeps(name: str) -> None:
 # Contacts: both engines know one coefficient, and both adapters have a law for two.
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("static", [0.6, 0.42])  # tan 25° = 0.466: it stays, it comes back
 def test_a_block_thrown_up_by_the_law_with_two_bounds(static: float, name: str) -> None:
@@ -234,7 +234,7 @@ def test_a_block_thrown_up_by_the_law_with_two_bounds(static: float, name: str) 
 ROLLED = {"mujoco": 1.3e-6, "pymunk": 5e-9}  # 4.4e-7, 1.7e-9
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_a_disk_slides_then_rolls_by_the_law_with_two_bounds(name: str) -> None:
     """Its slip falls by 3 μ g, for it resists with a third of its mass."""

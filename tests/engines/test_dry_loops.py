@@ -99,7 +99,7 @@ def off(case: Case, motion: Trajectory, way: Realised) -> tuple[float, float]:
     return max(places), float(np.abs(rubs).max())
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("what", "way"), NEAR)
 def test_friction_feels_what_loops_pass_on(what: str, way: Realised, tmp_path: Path) -> None:
     place, rubs = off(*known(tmp_path, what), way)

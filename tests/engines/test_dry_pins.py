@@ -34,7 +34,7 @@ def typed(tmp_path: Path, text: str) -> tuple[Case, Start]:
     return case, {body: tuple(rows[0].tolist()) for body, rows in states.items()}  # type: ignore[misc]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("engine", "way", "ends"), SWUNG)
 def test_a_bar_swings_to_rest(engine: str, way: Realised, ends: str, tmp_path: Path) -> None:
     """By friction that differs to and fro, whichever part is named first."""
@@ -109,7 +109,7 @@ def test_what_an_engine_holds_is_the_scene_s(engine: str, tmp_path: Path) -> Non
 BENT: dict[Realised, float] = {"law": 7e-6, "driver": 1e-11}
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("parts", ["rod.end, arm.start", "arm.start, rod.end"])
 @pytest.mark.parametrize("way", BENT)
 def test_an_elbow_rubs_as_the_reference(way: Realised, parts: str, tmp_path: Path) -> None:
@@ -129,7 +129,7 @@ def test_an_elbow_rubs_as_the_reference(way: Realised, parts: str, tmp_path: Pat
     assert np.max(np.abs(run.reactions["elbow.friction"] - known)) < 4 * BENT[way]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("engine", "ends"), [("mujoco", HUNG), ("mujoco", HELD), ("pymunk", HUNG)])
 def test_the_smooth_law_of_a_pin(engine: str, ends: str, tmp_path: Path) -> None:
     """(2.95) with Δ = 0.01 rad/s: measured 2.8e-5 and 6.3e-5 rad at this step."""

@@ -20,7 +20,7 @@ PLACES, FORCES = {"mujoco": 1e-9, "pymunk": 3e-7}, {"mujoco": 1e-8, "pymunk": 1e
 END = scenes.tail(0.4, 6)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", HELD)
 @pytest.mark.parametrize("name", ["free", "constant", "ramp", "sine", "train"])
 def test_edges_move_and_hold_as_the_reference(engine: str, name: str, tmp_path: Path) -> None:

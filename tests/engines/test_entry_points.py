@@ -62,7 +62,7 @@ def textmech(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
     return forked(run)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_what_cannot_be_imported_does_not_stop_the_others(folder: Path) -> None:
     declared = "deviates: {failing.shipped: {ball.y: {limit: 1.0, because: it is soft}}}\n"
     (folder / "ball.yaml").write_text(CASE + declared, encoding="utf-8")
@@ -75,7 +75,7 @@ def test_what_cannot_be_imported_does_not_stop_the_others(folder: Path) -> None:
     assert "Traceback" not in done.stderr
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_who_asks_for_it_is_told(folder: Path) -> None:
     done = textmech(folder, "run", "ball.yaml", "--engine", "failing")
     assert done.returncode == 2
@@ -86,7 +86,7 @@ def test_who_asks_for_it_is_told(folder: Path) -> None:
     assert "mine.yaml:2:1: absent: absent (nowhere:Engine) cannot be imported" in done.stderr
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_name_nobody_has_is_hinted_at(folder: Path) -> None:
     for word, hint in (("mojoco.tuned", "mujoco.tuned"), ("mujoco.tunned", "mujoco.tuned")):
         done = textmech(folder, "run", "ball.yaml", "--engine", word)
@@ -124,7 +124,7 @@ BROKEN = {
 }
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("what", BROKEN)
 def test_no_broken_engine_stops_the_others(folder: Path, what: str) -> None:
     text, said = BROKEN[what]
@@ -139,7 +139,7 @@ def test_no_broken_engine_stops_the_others(folder: Path, what: str) -> None:
     assert said in asked.stderr
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("taken", ["book", "reference", "my.engine"])
 def test_a_name_that_no_case_can_write_is_no_engine(folder: Path, taken: str) -> None:
     info = folder / "path" / "failing-1.0.dist-info" / "entry_points.txt"

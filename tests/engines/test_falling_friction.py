@@ -32,13 +32,13 @@ def far(engine: str, way: Realised, name: str = "stribeck_drive") -> float:
     return float(np.max(np.abs(run.states["block"] - exact)[:, X]))
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("engine", "way"), WAYS)
 def test_it_sticks_and_slips(engine: str, way: Realised) -> None:
     assert far(engine, way) < DRAWN[engine, way]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_the_driver_cuts_at_the_events(monkeypatch: pytest.MonkeyPatch) -> None:
     """At F_s/(c u) = 6 s it slips; where it stops the reference has found it."""
     scene, start = begun("stribeck_drive")

@@ -86,7 +86,7 @@ BLOCKS = {
 }
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("what", BLOCKS)
 def test_block(what: str, name: str) -> None:
@@ -112,7 +112,7 @@ def test_block(what: str, name: str) -> None:
         assert run.reactions["touch.tangent"][0] == pytest.approx(braking, abs=near.forces)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("omega", [0.0, 20.0], ids=["without spin", "backspin"])
 def test_a_disk_slides_then_rolls(omega: float, name: str) -> None:

@@ -71,7 +71,7 @@ class Landed:
 LANDED = {"mujoco": Landed(angle=12.0, omega=80.0, normal=0.3)}
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("e", [0.0, 0.1, 0.5, 0.8, 1.0])
 def test_a_disk_bounces(e: float, name: str) -> None:

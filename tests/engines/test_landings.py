@@ -129,7 +129,7 @@ def test_a_pin_and_the_floor_do_not_undo_each_other(name: str, solved: Solved) -
     assert abs(landed - wanted) < near.time
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "near"), [(n, near) for n, hops in HOPS.items() for near in hops])
 def test_a_hopper_lands_four_times(name: str, near: Hops, solved: Solved) -> None:
     """Two landings are 66 ms apart, and a foot deep in the floor would drown the hop between."""

@@ -66,7 +66,7 @@ def damper_error(name: str, variant: str, way: Realised, step: float) -> float:
     return float(np.abs(y - damped(times, DAMPINGS[variant])).max())
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("variant", DAMPINGS)
 @pytest.mark.parametrize(
     ("name", "way"), [(name, way) for name, found in DAMPED.items() for way in found]
@@ -80,7 +80,7 @@ def test_a_damper_shows_the_declared_order(name: str, way: Realised, variant: st
     assert damper_error(name, variant, way, 1e-4) < DAMPED[name][way]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("variant", DAMPINGS)
 def test_pymunks_own_damper_is_off_by_more_than_the_law(variant: str) -> None:
     law, native = (damper_error("pymunk", variant, way, 1e-4) for way in ("law", "native"))
@@ -91,7 +91,7 @@ def test_pymunks_own_damper_is_off_by_more_than_the_law(variant: str) -> None:
 LIMIT = {"mujoco": 2e-12, "pymunk": 1e-10}
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_the_limit_of_a_pendulum_is_the_textbook(name: str) -> None:
     """By Romberg with the declared exponents."""

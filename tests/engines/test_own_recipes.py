@@ -51,7 +51,7 @@ def same(one: Trajectory, other: Trajectory) -> bool:
     )
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "tuned"), RUNS, ids=pair)
 def test_the_tuned_recipe_as_own_options_is_the_same_run(
     name: str, tuned: Engine, tmp_path: Path

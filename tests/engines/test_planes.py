@@ -78,7 +78,7 @@ def test_reference(tmp_path: Path, what: str) -> None:
     assert found.switches == pytest.approx(wanted.switches, abs=1e-9)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("what", SCENES)
 def test_engine(tmp_path: Path, what: str, name: str) -> None:

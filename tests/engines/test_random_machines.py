@@ -92,7 +92,7 @@ def agrees(
 trees, chains, wheels_of = cache(tree), cache(chain), cache(rolling)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "way"), TREE)
 @pytest.mark.parametrize("driven", [False, True])
 @pytest.mark.parametrize("seed", range(12))
@@ -112,7 +112,7 @@ def test_few_trees_are_refused() -> None:
     assert sum(refused(TUNED["pymunk"], scene) is not None for scene in builds) == 3
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "way"), LOOP)
 @pytest.mark.parametrize("driven", [False, True])
 @pytest.mark.parametrize("seed", range(10))
@@ -128,7 +128,7 @@ def test_loop(seed: int, driven: bool, name: str, way: Realised) -> None:
     agrees(name, way, build, near, start_near=LOOSE if name == "pymunk" else None)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "way"), ROLLING)
 @pytest.mark.parametrize("wheels", [1, 2])
 @pytest.mark.parametrize("seed", range(3))

@@ -45,7 +45,7 @@ def off(case: Case, motion: Trajectory, found: Trajectory, forces: tuple[str, ..
     return max(places), max(pulls)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ropes.EVERY)
 @pytest.mark.parametrize(("engine", "realised"), REACHED, ids=".".join)
 def test_engines_move_as_the_reference(

@@ -93,7 +93,7 @@ def same(engine: Engine, scene: Scene, start: Start) -> None:
         assert ends[body] == pytest.approx(wanted, rel=near, abs=near)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "engine"), NATIVE, ids=pair)
 def test_a_cases_script_makes_the_same_motion(name: str, engine: Engine) -> None:
     same(engine, *begun(name))

@@ -69,7 +69,7 @@ def solved(scene: str, tmp_path: Path) -> tuple[Scene, Start, Array, Array]:
     return case.scene, first(motion), case.times, motion.states["rod"][:, ANGLE]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("what", SCENES)
 def test_a_slot(what: str, name: str, tmp_path: Path) -> None:

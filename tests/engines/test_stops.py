@@ -74,7 +74,7 @@ def test_the_reference_presses_on_both_stops_alike(tmp_path: Path) -> None:
     assert np.ptp(angle) == pytest.approx(np.radians(60.0), abs=1e-12)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [FORWARD, BACKWARD], ids=["forward", "backward"])
 @pytest.mark.parametrize("engine", REACHED)
 def test_engines_stop_as_the_reference(engine: str, text: str, tmp_path: Path) -> None:

@@ -175,7 +175,7 @@ def test_two_bars_slide_apart(k: int, name: str) -> None:
         assert off(run.reactions[each], G + ay) < near.normal[k]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SLIPS)
 def test_a_tip_sticks_and_then_slips(name: str, tmp_path: Path) -> None:
     """A contact that opened now and then carried nothing or the double: 15 N of 4.8."""

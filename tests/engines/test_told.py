@@ -72,13 +72,13 @@ def apart(engine: str, known: tuple[Case, Trajectory, Start], h: float) -> float
     )
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", STEP)
 def test_engines_move_as_the_reference(engine: str, known: tuple[Case, Trajectory, Start]) -> None:
     assert apart(engine, known, STEP[engine]) < REACHED[engine]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_their_joints_bear_what_the_laws_give(known: tuple[Case, Trajectory, Start]) -> None:
     case, motion, start = known
     wanted = ("hinge.fx", "hinge.fy", "rail.fx", "rail.torque")
@@ -90,7 +90,7 @@ def test_their_joints_bear_what_the_laws_give(known: tuple[Case, Trajectory, Sta
 
 
 @pytest.mark.mutant("{kind} left out in {engine}", "{kind} with the wrong sign in {engine}")
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", STEP)
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_lost_law_and_a_wrong_sign_are_seen(

@@ -17,7 +17,7 @@ REACHED = {("mujoco", "native"): 1e-8, ("pymunk", "law"): 1e-5, ("pymunk", "nati
 STEP = {"mujoco": 1e-3, "pymunk": 2e-4}
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("engine", "realised"), REACHED, ids=".".join)
 def test_engines_turn_as_the_reference(engine: str, realised: str, tmp_path: Path) -> None:
     case = scenes.typed(tmp_path, torsion.ARM, tail=END)

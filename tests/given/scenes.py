@@ -15,6 +15,9 @@ from textmech.reports.cache.store import usable
 EVERY = {case.name: case for path in shipped().values() for case in load(path)}
 SHIPPED = {name: case for name, case in EVERY.items() if case.states is None}
 """Those that move."""
+FIRST = {Path(case.source.file).stem: case for case in reversed(SHIPPED.values())}
+ONE_OF_EACH_FILE = [case.name for case in reversed(FIRST.values())]
+"""The first variant of every file: the others move the same scene."""
 CLAIMS = {name: case for name, case in EVERY.items() if case.states is not None}
 """Those about states."""
 

@@ -141,7 +141,7 @@ def test_of_two_watches_the_inner_one_looks() -> None:
     assert inner == {"2.82"}
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_claimed_equations_are_executed() -> None:
     for name, case in scenes.EVERY.items():
         left = sorted(set(case.origin.equations) - scenes.solved(name).equations)

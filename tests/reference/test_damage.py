@@ -32,7 +32,7 @@ def scenes(draw: st.DrawFn) -> str:
     return pendulum(forces=FORCES.format(**sound), samples=6, **other)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_any_numbers_give_a_motion_or_a_mistake_with_a_place(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

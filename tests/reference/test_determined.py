@@ -72,7 +72,7 @@ def slides(angle: float, mu: float, nu: float, length: float, until: float) -> f
     return float(found.y[0, -1])
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("angle", [-0.7, -0.81, -0.9, -0.955, -0.96, -0.961, -1.0, -1.2])
 @pytest.mark.parametrize(("mu", "nu"), [(0.4, 0.4), (0.2, 0.2), (0.5, 0.1), (0.35, 0.9)])
 def test_a_ladder_rests_where_some_forces_hold_it_and_slides_elsewhere(
@@ -91,7 +91,7 @@ def test_a_ladder_rests_where_some_forces_hold_it_and_slides_elsewhere(
     assert end == pytest.approx(known, abs=1e-10)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [1e-6, 1.0, 1e3])
 @pytest.mark.parametrize("name", FORCES)
 def test_its_forces_are_refused_with_their_interval(tmp_path: Path, name: str, size: float) -> None:

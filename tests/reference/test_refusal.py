@@ -18,7 +18,7 @@ from textmech.reference.solve import solve
 from textmech.reference.system import Array
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_flat_parallelogram_ends_the_motion(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -54,7 +54,7 @@ def test_a_spring_that_loses_its_length_on_the_way(tmp_path: Path) -> None:
     assert f"beyond t = {t:.4g} s: coil has no length there" in mistake.what
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_rhombus_that_folds_flat_ends_the_motion() -> None:
     """Its own coordinates know no constraint; the generated answer stops where it lies flat."""
     rhombus = scenes.SHIPPED["rhombus"]
@@ -69,7 +69,7 @@ def test_a_rhombus_that_folds_flat_ends_the_motion() -> None:
     assert "diagonal has no length there" in mistake.what
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_disk_that_bounces_until_it_rests_is_no_mistake(tmp_path: Path) -> None:
     text, end = written_scenes.text("elastic")
     solution = solve(scenes.typed(tmp_path, text.replace("e: 1", "e: 0.5"), tail=end))

@@ -18,7 +18,6 @@ from textmech.reference.premises import check_premises
 from textmech.reference.solve import solve
 from textmech.reference.start.mechanism import mechanism
 from textmech.reference.systems import written
-from textmech.reports.bench.adapters import one_of_each_file
 
 NAMES = list(scenes.SHIPPED)
 OPEN = {
@@ -28,7 +27,7 @@ OPEN = {
 """What is known not to hold, and has to be mended: a test that then passes says so."""
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
     [
@@ -47,10 +46,10 @@ def test_other_samples_tell_the_same(name: str) -> None:
 
 
 TURNS = "elastic_pendulum.swings"  # its event is read from the motion, and changes no mode
-SWITCHING = [case.name for case in one_of_each_file() if case.events and case.name != TURNS]
+SWITCHING = [n for n in scenes.ONE_OF_EACH_FILE if scenes.SHIPPED[n].events and n != TURNS]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SWITCHING)
 def test_a_sample_on_an_event_changes_nothing(name: str) -> None:
     """Of the motion up to a little after its first event, which is the third of four samples."""

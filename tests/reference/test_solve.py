@@ -11,7 +11,7 @@ from textmech.reference.motion.follow import follow
 from textmech.reference.solve import reactions_of, solve
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_hand_written_motion_is_the_generated_one() -> None:
     """Of every shipped case, whatever its certificate asks of it."""
     for name, case in scenes.SHIPPED.items():
@@ -23,7 +23,7 @@ def test_a_hand_written_motion_is_the_generated_one() -> None:
             assert found.get(check, 0.0) < 1e-9, name
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", AT_REST)
 def test_what_rests_is_certified(tmp_path: Path, name: str) -> None:
     """At rest only rounding moves: no check may be relative to that."""
@@ -31,7 +31,7 @@ def test_what_rests_is_certified(tmp_path: Path, name: str) -> None:
     assert [check for check in solution.checks if not check.holds] == []
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["pin", "weld"])
 def test_a_particle_at_the_end_of_a_bar(tmp_path: Path, kind: str) -> None:
     text = AT_REST["hanging bar"].replace("bodies: {", "bodies: {dot: {particle: {mass: 2}}, ")

@@ -76,7 +76,7 @@ def struck(number: signal.Signals, delay: float, start: Callable[[], None], fold
     (folder / "began").unlink()
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("number", STRIKES, ids=lambda number: number.name)
 def test_struck_at_random_moments(
     number: signal.Signals, moving: Case, trial: Callable[..., Trial], tmp_path: Path

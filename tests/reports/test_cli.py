@@ -27,7 +27,7 @@ def reports() -> dict[str, bytes]:
     return {file.name: file.read_bytes() for file in write.HERE.glob("*.csv")}
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_case_of_ones_own_runs_in_both_engines_and_writes_nothing(new: Path) -> None:
     before = reports()
     done = process("run", new, folder=new.parent)
@@ -40,7 +40,7 @@ def test_a_case_of_ones_own_runs_in_both_engines_and_writes_nothing(new: Path) -
     assert [file.name for file in new.parent.iterdir()] == ["cart.yaml"]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_out_and_keep_write_where_they_are_told(new: Path, tmp_path: Path) -> None:
     done = textmech(
         "run", new, "--engine", "mujoco.tuned", "--out", "o", "--keep", "k", folder=tmp_path
@@ -76,7 +76,7 @@ def test_a_verdict_that_fails_is_exit_code_1_and_is_named(new: Path) -> None:
     assert "FAILS: cart: mujoco.tuned rod.angle" in done.stdout
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_verdict_that_fails_is_exit_code_1_though_it_is_written(new: Path) -> None:
     new.write_text(NEW.replace("cart.x: 1.0e-2", "cart.x: 1.0e-8"), encoding="utf-8")
     done = textmech("run", new, "--engine", "pymunk.tuned", "--out", "o", folder=new.parent)
@@ -137,7 +137,7 @@ def test_check_of_sound_files(new: Path) -> None:
     assert "1 case, no mistakes" in done.stdout
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_two_files_of_one_name_are_refused(new: Path) -> None:
     other = new.parent / "other" / new.name
     other.parent.mkdir()
@@ -148,7 +148,7 @@ def test_two_files_of_one_name_are_refused(new: Path) -> None:
     assert textmech("check", new, new).returncode == 0
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_own_settings_are_a_line_below_shipped(new: Path) -> None:
     file = new.with_name("mine.yaml")
     file.write_text("mujoco: {step: 4.0e-3, integrator: implicitfast}\n", encoding="utf-8")
@@ -161,7 +161,7 @@ def test_own_settings_are_a_line_below_shipped(new: Path) -> None:
     assert "cart in mujoco 4.0.0 tuned" in done.stdout
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_the_own_settings_of_the_readme(new: Path) -> None:
     readme = Path(write.HERE.parent / "README.md").read_text(encoding="utf-8")
     own = next(block for block in readme.split("```") if block.startswith("yaml\nmujoco: {step"))
@@ -172,7 +172,7 @@ def test_the_own_settings_of_the_readme(new: Path) -> None:
     assert {"mujoco.mine", "pymunk.mine"} <= set(done.stdout.split())
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_what_moves_late_is_no_mistake(new: Path) -> None:
     """Under a force that grows from zero nothing is to be seen in the first samples."""
     new.write_text(
@@ -213,7 +213,7 @@ def test_bad_settings_are_exit_code_2(new: Path, text: str, message: str) -> Non
     assert message in done.stderr
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_list_names_every_case_with_its_source() -> None:
     done = process("list")
     assert done.returncode == 0
@@ -225,7 +225,7 @@ def test_list_names_every_case_with_its_source() -> None:
     assert max(map(len, done.stdout.splitlines())) <= 80
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ["mujoco", "mujoco.shipped", "pymunk", "pymunk.shipped"])
 def test_show_is_ready_to_paste(engine: str) -> None:
     done = textmech("show", "double_pendulum", "--engine", engine)
@@ -238,7 +238,7 @@ def test_show_is_ready_to_paste(engine: str) -> None:
         mujoco.MjModel.from_xml_string(done.stdout)  # pyright: ignore[reportAttributeAccessIssue]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_the_number_of_workers_does_not_change_the_rows(new: Path, tmp_path: Path) -> None:
     for jobs in ("1", "2"):
         assert textmech("run", new, "--jobs", jobs, "--out", tmp_path / jobs).returncode == 0

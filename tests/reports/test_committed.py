@@ -59,7 +59,7 @@ def report(request: pytest.FixtureRequest) -> Report:
     return suite.measure(cases, engines, jobs=jobs, progress=lambda *_: None, store=store)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_causes_are_current() -> None:
     """Of one case in the plane and one with a contact: the same cures, of nearly the same size."""
     cases, engines = choose_cases(["four_bar", "sliding_block.below"]), choose_engines([], [])
@@ -82,7 +82,7 @@ def cure(cause: Cause) -> tuple[str, ...]:
     return cause.case, cause.engine, cause.setting, cause.quantity, cause.cure, cause.options, step
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_advice_is_current() -> None:
     cases = choose_cases(["bar_pendulum", "four_bar", "sliding_block.below"])
     asked, engines = Asked(None, 2.0), choose_engines([], ["shipped"])
@@ -101,7 +101,7 @@ def test_advice_is_current() -> None:
         assert near(now.worst, before.worst, FLOOR, QUARTER)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_tolerances_are_current(report: Report) -> None:
     committed = {key(row): row for row in write.read(write.HERE / "tolerance.csv", Comparison)}
     assert {key(row) for row in report.comparisons} == set(committed)
@@ -120,7 +120,7 @@ def test_tolerances_are_current(report: Report) -> None:
         assert near(row.final, before.final, floor, spread), key(row)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_orders_and_limits_are_current(report: Report) -> None:
     committed = {
         (*key(row), row.ladder): row for row in write.read(write.HERE / "convergence.csv", Rungs)
@@ -140,7 +140,7 @@ def test_orders_and_limits_are_current(report: Report) -> None:
             assert near(row.order, before.order, ORDER), key(row)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_events_are_current(report: Report) -> None:
     committed = {instant(row): row for row in write.read(write.HERE / "events.csv", Instant)}
     assert {instant(row) for row in report.instants} == set(committed)
@@ -150,7 +150,7 @@ def test_events_are_current(report: Report) -> None:
         assert abs(row.time - before.time) <= AFTER_EVENTS * off + FLOOR, instant(row)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_certificates_are_current(report: Report) -> None:
     rows = write.read(write.HERE / "reference.csv", Certificate)
     committed = {(row.case, row.check): row for row in rows}
@@ -165,14 +165,14 @@ def test_certificates_are_current(report: Report) -> None:
             assert row.certified <= LOST * before.certified, row.check
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_coverage_is_current(report: Report) -> None:
     now = write.tables(report, choose_cases([]))["coverage.csv"]
     text = now.to_csv(index=False, lineterminator="\n") + f"# {len(now)} rows of run "
     assert (write.HERE / "coverage.csv").read_text(encoding="utf-8").startswith(text)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_every_equation_that_a_case_names_is_executed_by_it(report: Report) -> None:
     for case in choose_cases([]):
         missing = set(case.origin.equations) - report.equations[case.name]
@@ -190,7 +190,7 @@ def test_the_page_shows_the_reports() -> None:
     assert page(folder(write.HERE), choose_cases([]), motions_of(text)) == text
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_the_motions_of_the_page_are_current(report: Report) -> None:
     now, before = motions(report), motions_of(PAGE.read_text(encoding="utf-8"))
     assert set(now) == set(before)

@@ -31,18 +31,18 @@ def table() -> pd.DataFrame:
     return coverage(list(scenes.EVERY.values()), executed)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_nothing_else_is_open(table: pd.DataFrame) -> None:
     assert open_items(table) == set()
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_what_a_case_covers_needs_no_other_word(table: pd.DataFrame) -> None:
     both = table[(table.cases != "") & (table.otherwise != "")]
     assert list(zip(both.kind, both.number, strict=True)) == []
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_an_item_that_loses_its_case_is_seen() -> None:
     lost = {n: c for n, c in scenes.EVERY.items() if n != "four_bar"}
     executed = {name: set(scenes.solved(name).equations) for name in lost}

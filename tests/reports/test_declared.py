@@ -100,7 +100,7 @@ def expected(case: Case) -> dict[str, float]:
     return off
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ONE)
 def test_one_number_of_friction_costs_what_is_declared(name: str) -> None:
     case = scenes.SHIPPED[name]

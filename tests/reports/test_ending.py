@@ -62,7 +62,7 @@ def at_work(folder: Path) -> list[int]:
     return [int(file.name) for file in (folder / "work").iterdir()]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("number", "strike"),
     [(signal.SIGINT, os.killpg), (signal.SIGTERM, os.kill), (signal.SIGHUP, os.killpg)],
@@ -86,7 +86,7 @@ def test_it_ends_soon_and_says_so(
     assert list((tmp_path / "out").iterdir()) == []
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_told_twice_it_ends_without_a_traceback(run: subprocess.Popen[str], tmp_path: Path) -> None:
     for _ in range(5):
         os.killpg(run.pid, signal.SIGINT)
@@ -97,7 +97,7 @@ def test_told_twice_it_ends_without_a_traceback(run: subprocess.Popen[str], tmp_
     within(SOON, lambda: not any(map(alive, at_work(tmp_path))))
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_killed_it_leaves_no_workers(run: subprocess.Popen[str], tmp_path: Path) -> None:
     workers = at_work(tmp_path)
     run.kill()

@@ -39,7 +39,7 @@ def of(report: suite.Report, setting: str) -> list[Comparison]:
 
 
 @pytest.mark.parametrize("engine", ENGINES, ids=told)
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_fault_costs_the_engines_own_rows(
     engine: Faulty, moving: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -105,7 +105,7 @@ def shell(script: str, folder: Path, **variables: str) -> subprocess.CompletedPr
     )
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("script", "code"),
     [("RUN 2>&-", 0), ("RUN >&- 2>&- <&-", 0), ("RUN | head -c 1", 0), ("RUN >/dev/full", 2)],
@@ -119,7 +119,7 @@ def test_a_stream_that_takes_nothing_costs_no_report(script: str, code: int, fol
     assert ("the reports are in o" in done.stderr) == (code == 2)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_stream_without_the_letters_spells_them_out(folder: Path) -> None:
     done = shell("RUN", folder, PYTHONIOENCODING="cp437", PYTHONUTF8="0")
     assert done.returncode == 0, done.stderr

@@ -32,7 +32,7 @@ def test_load_takes_names_variants_and_files(swing: Path) -> None:
     assert [c.name for c in load([case, swing, str(swing)])] == ["rolling_wheel.pushed", "swing"]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_load_of_nothing_is_all() -> None:
     names = [case.name for case in load()]
     assert {"four_bar", "sliding_block.below", "creeping_block"} <= set(names)

@@ -112,7 +112,7 @@ def test_check_tells_each_file(new: Path) -> None:
     }
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_list_tells_every_case_and_its_group() -> None:
     cases = {case["name"]: case for case in document("list")["cases"]}
     assert cases["sliding_block.below"]["group"] == "textbook"

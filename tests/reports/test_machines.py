@@ -36,7 +36,7 @@ def written(folder: Path, environment: dict[str, str]) -> dict[str, bytes]:
 
 
 @ELSEWHERE
-@pytest.mark.whole
+@pytest.mark.slow
 def test_other_vector_units_write_the_same_bytes(tmp_path: Path) -> None:
     here, there = written(tmp_path / "here", {}), written(tmp_path / "there", OTHER)
     assert set(here) == set(there)

@@ -27,7 +27,7 @@ def run(folder: Path, *words: str) -> Result:
     return CliRunner().invoke(command, ["run", str(folder / "swing.yaml"), *words])
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_games_step_is_taken_by_both_engines_as_it_is(folder: Path) -> None:
     out, kept = folder / "o", folder / "k"
     settings = ("--settings", str(folder / "game.yaml"), "--settings", "shipped")

@@ -14,31 +14,31 @@ def project(pytester: pytest.Pytester) -> pytest.Pytester:
     return pytester
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_it_is_inert_in_other_projects(project: pytest.Pytester) -> None:
     inner(project).assert_outcomes(passed=1)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_other_projects_may_have_an_engine_option(project: pytest.Pytester) -> None:
     project.makeconftest("def pytest_addoption(parser): parser.addoption('--engine')")
     inner(project, "--engine", "x").assert_outcomes(passed=1)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_named_file_is_compared(project: pytest.Pytester) -> None:
     done = project.runpytest_subprocess("swing.yaml", "-v", "--textmech-engine", "mujoco.tuned")
     done.assert_outcomes(passed=3)  # the reference, the audit, the angle
     done.stdout.fnmatch_lines(["swing.yaml::swing-mujoco.tuned-rod.angle PASSED*"])
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_configured_files_are_compared(project: pytest.Pytester) -> None:
     project.makeini("[pytest]\ntextmech_cases = sw*.yaml")
     inner(project, "--textmech-engine", "mujoco.tuned").assert_outcomes(passed=4)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_failure_prints_the_row_and_the_files_line(project: pytest.Pytester) -> None:
     project.makefile(".yaml", swing=swing("1.0e-12"))
     done = inner(project, "swing.yaml", "--textmech-engine", "mujoco.tuned")
@@ -47,7 +47,7 @@ def test_a_failure_prints_the_row_and_the_files_line(project: pytest.Pytester) -
     assert "Traceback" not in done.stdout.str()
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_finding_is_an_expected_failure_with_the_row_as_its_reason(
     project: pytest.Pytester,
 ) -> None:
@@ -57,7 +57,7 @@ def test_a_finding_is_an_expected_failure_with_the_row_as_its_reason(
     done.stdout.fnmatch_lines(["*rod.angle*allowed 1.0e-06*beyond*"])
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_mistakes_of_a_file_are_shown_as_they_are(project: pytest.Pytester) -> None:
     project.makefile(".yaml", swing=SWING.replace("mass: 0.5", "mas: 0.5"))
     done = inner(project, "swing.yaml")
@@ -65,14 +65,14 @@ def test_mistakes_of_a_file_are_shown_as_they_are(project: pytest.Pytester) -> N
     done.stdout.fnmatch_lines(["*swing.yaml:4:*did you mean 'mass'?*"])
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_case_that_is_not_there_does_not_look_like_a_pass(project: pytest.Pytester) -> None:
     done = inner(project, "swing.yaml", "--textmech-case", "swung")
     assert done.ret == pytest.ExitCode.USAGE_ERROR
     done.stderr.fnmatch_lines(["*no such case*swung*"])
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_two_files_of_one_name_do_not_share_their_rows(project: pytest.Pytester) -> None:
     strict = project.mkdir("strict") / "swing.yaml"
     strict.write_text(swing("1.0e-12"), encoding="utf-8")

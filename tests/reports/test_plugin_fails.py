@@ -27,7 +27,7 @@ def run(pytester: pytest.Pytester, change: str, engine: str = "mujoco.shipped") 
     return inner(pytester, "swing.yaml", "--textmech-engine", engine)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_reference_that_is_not_certified_is_red(pytester: pytest.Pytester) -> None:
     change = "import textmech.reference.certificate.agreement as a; a.Check.holds = False\n"
     done = run(pytester, change)
@@ -36,14 +36,14 @@ def test_a_reference_that_is_not_certified_is_red(pytester: pytest.Pytester) -> 
     done.stdout.fnmatch_lines(["*the reference (generated) is not certified*"])
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_an_audit_that_fails_is_red(pytester: pytest.Pytester) -> None:
     done = run(pytester, "import textmech.reports.judge.compare as c; c.EQUAL = -1.0\n")
     done.assert_outcomes(passed=1, failed=1, xfailed=1)
     done.stdout.fnmatch_lines(["*: audit*", "*FAILS*"])
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("version", "largest", "verdict", "red"),
     [

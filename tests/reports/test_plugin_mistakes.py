@@ -9,7 +9,7 @@ pytest_plugins = ["pytester"]
 ONLY = ("--textmech-engine", "mujoco.tuned")
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_mistake_that_solving_finds_costs_its_own_file(pytester: pytest.Pytester) -> None:
     pytester.makefile(".yaml", good=pendulum(), still=pendulum(angle="-90 deg"))
     done = inner(pytester, "good.yaml", "still.yaml", *ONLY)
@@ -17,7 +17,7 @@ def test_a_mistake_that_solving_finds_costs_its_own_file(pytester: pytest.Pytest
     done.stdout.fnmatch_lines(["*still.yaml:11:9: allow.rod.angle: never moves*"])
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_endless_work_is_said_and_allow_long_goes_on(pytester: pytest.Pytester) -> None:
     pytester.makefile(".yaml", slow=pendulum(step=1e-9))
     done = inner(pytester, "slow.yaml", *ONLY)

@@ -23,7 +23,7 @@ results.spread = counted
 """
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_no_trial_runs_twice_and_nothing_stays(
     pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

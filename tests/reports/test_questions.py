@@ -37,13 +37,13 @@ def holds(case: str, engine: str, setting: Setting) -> bool:
     return agrees(rows, "own", "native") and not agrees(rows, "shipped", "native")
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("case", "engine", "setting"), EACH, ids=[f"{c}-{e}" for c, e, _ in EACH])
 def test_the_setting_is_an_answer(case: str, engine: str, setting: Setting) -> None:
     assert holds(case, engine, setting)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("case", "engine", "setting"),
     [

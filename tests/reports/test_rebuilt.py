@@ -47,7 +47,7 @@ def started(
     )
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.mutant("an engine that was rebuilt under the same version is answered for by the old")
 def test_a_rebuilt_engine_is_another_one_for_run_and_for_pytest(
     rebuilt: Path, tmp_path: Path
@@ -62,7 +62,7 @@ def test_a_rebuilt_engine_is_another_one_for_run_and_for_pytest(
         assert started(*words, folder=tmp_path).returncode == 0
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_pytest_remembers_nothing_if_it_is_told_so(
     pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
@@ -80,7 +80,7 @@ def test_pytest_remembers_nothing_if_it_is_told_so(
     assert all(path.stat().st_size == 0 for path in kept)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_without_docstrings_a_run_is_refused_and_no_equation_is_lost(tmp_path: Path) -> None:
     """`python -OO` would write a table of what is covered in which nothing is."""
     (tmp_path / "swing.yaml").write_text(SWING, encoding="utf-8")

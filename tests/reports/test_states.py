@@ -126,7 +126,7 @@ def test_nothing_of_it_can_be_shown(tmp_path: Path) -> None:
         script(claimed(tmp_path, PLANE), MUJOCO)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", scenes.CLAIMS)
 def test_shipped_claims(name: str) -> None:
     case = scenes.CLAIMS[name]

@@ -40,7 +40,7 @@ def test_a_strangers_file_is_never_overwritten_unasked(name: str, tmp_path: Path
 ONE = ("--engine", "mujoco.shipped")
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_what_we_wrote_is_overwritten_and_a_strangers_if_asked(tmp_path: Path) -> None:
     """Of reports, of what is kept, of a page: each is known as ours again."""
     (tmp_path / "cart.yaml").write_text(NEW, encoding="utf-8")

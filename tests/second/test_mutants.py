@@ -101,7 +101,7 @@ PHYSICS: dict[str, tuple[str, Any, str, Any]] = {
 }  # fmt: skip
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.mutant("{mistake}, in the second reading")
 @pytest.mark.parametrize("mistake", PHYSICS)
 def test_wrong_physics_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch) -> None:

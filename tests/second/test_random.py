@@ -69,7 +69,7 @@ def compared(told: dict[str, Any], folder: Path) -> dict[str, Any]:
 
 def seeds(normal: range, more: range) -> list[Any]:
     """Some of the normal test, and more of the whole one."""
-    return [*normal, *(pytest.param(seed, marks=pytest.mark.whole) for seed in more)]
+    return [*normal, *(pytest.param(seed, marks=pytest.mark.slow) for seed in more)]
 
 
 @pytest.mark.parametrize("seed", seeds(PLANE, MORE_PLANE))

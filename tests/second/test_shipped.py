@@ -59,7 +59,7 @@ def at_samples(case: dict[str, Any]) -> list[str]:
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(n, marks=[pytest.mark.whole] if n in LONG else []) for n in SMOOTH]
+    "name", [pytest.param(n, marks=[pytest.mark.slow] if n in LONG else []) for n in SMOOTH]
 )
 def test_a_smooth_case_moves_the_same(name: str) -> None:
     case = both.SHIPPED[name]

@@ -56,7 +56,7 @@ def unlike(motion: Motion, name: str) -> dict[str, object]:
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(n, marks=[pytest.mark.whole] if n in LONG else []) for n in SWITCHING]
+    "name", [pytest.param(n, marks=[pytest.mark.slow] if n in LONG else []) for n in SWITCHING]
 )
 def test_a_case_that_switches_moves_the_same(name: str) -> None:
     case = both.SHIPPED[name]

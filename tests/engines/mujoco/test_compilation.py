@@ -27,7 +27,7 @@ from textmech.reports.trial.trial import Trial
 TUNED = MuJoCo("tuned")
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", dict(NATIVE))
 def test_it_equals_the_compiled_script_field_by_field(name: str) -> None:
     scene, start = begun(name)
@@ -127,7 +127,7 @@ def test_what_a_failing_run_leaves_is_not_used_again() -> None:
     assert compilation._SHELF == []
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["four_bar", "rolling_wheel.pushed"])
 def test_a_trial_compiles_once(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     made: list[int] = []

@@ -57,7 +57,7 @@ def test_mutant_kinetic_friction_at_rest(monkeypatch: pytest.MonkeyPatch) -> Non
 THROWN = {0.6: 3e-10, 0.42: 7e-8}
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("static", THROWN)  # tan 25° = 0.466: it stays, it comes back
 def test_a_block_thrown_up(static: float) -> None:
     beta, times = math.radians(25), np.linspace(0.0, 2.0, 21)
@@ -75,7 +75,7 @@ def test_a_block_thrown_up(static: float) -> None:
 ROLLED = 7e-5
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_disk_slides_then_rolls() -> None:
     """It stops slipping by an impulse where it touches, which turns it too."""
     times, v, omega, mu = np.linspace(0.0, 3.0, 21), 2.0, 20.0, 0.2
@@ -87,7 +87,7 @@ def test_a_disk_slides_then_rolls() -> None:
 
 
 @pytest.mark.mutant("a wheel's slip put to zero by its turn alone")
-@pytest.mark.whole
+@pytest.mark.slow
 def test_mutant_wheel_that_is_only_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
     """Its slip put to zero by its turn alone keeps what the impulse would have changed."""
 

@@ -98,7 +98,7 @@ def test_a_chain_with_the_default_iterations_gains_energy(monkeypatch: pytest.Mo
 
 
 @pytest.mark.mutant("friction of a whole step where a block breaks loose")
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_whole_step_at_the_onset_is_of_first_order(monkeypatch: pytest.MonkeyPatch) -> None:
     def plain(friction: DryFriction, middle: float, end: float) -> float:
         return breakaway.dry_friction(friction, 0.0, middle)

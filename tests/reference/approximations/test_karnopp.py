@@ -28,7 +28,7 @@ def test_karnopp_by_his_own_rule_is_the_exact_law_for_small_bands():
     assert np.abs(found.y - exact.y)[:, 0].max() == pytest.approx(2 * Delta**2 / 6, rel=0.01)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_karnopp_taken_literally_keeps_its_speed_while_it_sticks():
     times, Delta = np.linspace(0.0, 10.0, 2001), 5e-4
     exact = follow(example("dynamometer"), times)
@@ -38,7 +38,7 @@ def test_karnopp_taken_literally_keeps_its_speed_while_it_sticks():
     assert np.abs(found.y - exact.y)[:, 0].max() == pytest.approx(8.7e-4, rel=0.01)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_boxcar_form_approaches_karnopp_taken_literally():
     times = np.linspace(0.0, 10.0, 101)
     known = follow(_karnopp(literal=True, Delta=5e-4), times).y

@@ -47,7 +47,7 @@ def error(name: str, h: float, law: Law = stiction) -> float:
     return float(np.abs(literal(name, h, law)[0] - known)[:, 0].max())
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["growing_force", "dynamometer", "anisotropic_drift"])
 def test_literal_law_approaches_the_motion_with_order_1(name: str):
     errors = [error(name, h) for h in STEPS]
@@ -63,7 +63,7 @@ def test_literal_law_under_a_constant_force_errs_in_the_step_of_the_stop_only():
         assert error("sliding_block", h) < 5.6 * h**2 / 2
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PULLS)
 def test_literal_law_has_the_same_events(name: str):
     times = np.linspace(0.0, PULLS[name][-1], SAMPLES + 1)
@@ -76,7 +76,7 @@ def test_literal_law_has_the_same_events(name: str):
 
 
 @pytest.mark.mutant("dry friction stepped, {name}: {mistake}")
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "mistake", "law"),
     [

@@ -235,7 +235,7 @@ def test_the_other_way_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 
 
 @pytest.mark.mutant("in space the first way to assemble in place of the nearest")
-@pytest.mark.whole
+@pytest.mark.slow
 def test_the_first_way_in_space_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     text = LINKAGE.replace("30 deg", "80 deg") + "near: {bearing: {angle: 157.1 deg}}\n"
     text += "allow: {crank.x: 1.0}\n"

@@ -113,14 +113,14 @@ BROKEN: dict[type[Mode], tuple[Case, set[str]]] = {
 }
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("case", [PENDULUM, SPRING], ids=lambda case: case.name)
 def test_unbroken_systems_hold(case: Case) -> None:
     assert failing(case, written(case)) == set()
 
 
 @pytest.mark.mutant("hand-written system: {kind}")
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", BROKEN, ids=lambda kind: kind.__name__)
 def test_a_broken_system_is_seen(kind: type[Mode]) -> None:
     case, seen = BROKEN[kind]
@@ -150,7 +150,7 @@ def test_the_second_integrator_is_no_copy_of_the_first(
 
 
 @pytest.mark.mutant("another {change} in the generated bar")
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("change", ["gravity", "inertia", "mass"])
 def test_a_wrong_generated_answer_is_seen(change: str) -> None:
     """The mistake is in the scene here: the written system does not look there."""
@@ -167,7 +167,7 @@ def test_a_wrong_generated_answer_is_seen(change: str) -> None:
     assert {GENERATED, REACTIONS} <= failing(case, BarPendulum(**case.parameters))
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_nan_never_holds() -> None:
     """Python's max drops a NaN that does not come first."""
     assert not Check("any", float("nan"), 1.0).holds

@@ -124,7 +124,7 @@ def test_equations_that_lost_half_of_their_digits_are_not_asked(light: float, as
     assert all(check.holds for check in found.values())
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "numbers"),
     [

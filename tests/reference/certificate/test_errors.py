@@ -49,7 +49,7 @@ def known(solution: Solution) -> dict[str, float]:
     }
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ORDINARY)
 def test_an_ordinary_scene_is_certified(tmp_path: Path, name: str) -> None:
     """Each of them was once refused by a bound that was one number for all motions."""
@@ -57,7 +57,7 @@ def test_an_ordinary_scene_is_certified(tmp_path: Path, name: str) -> None:
     assert [check for check in solution.checks if not check.holds] == []
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_every_bounded_quantity_has_an_error() -> None:
     for name, case in scenes.SHIPPED.items():
         trajectory, found = scenes.solved(name).trajectory, known(scenes.solved(name))
@@ -90,7 +90,7 @@ def test_a_reach_that_cannot_be_certified_is_told_by_itself(tmp_path: Path) -> N
     assert refused(case).where == "reach.mujoco.bar.angle"
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_chaotic_motion_asks_for_a_shorter_duration() -> None:
     """Two bars that turn over: an error grows tenfold in half a second."""
     case = scenes.SHIPPED["double_pendulum"]
@@ -114,7 +114,7 @@ def _wild(case: Case) -> Case:
     )  # fmt: skip
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("degrees", [-30.0, 70.0, 80.0])
 def test_the_stated_error_is_true(tmp_path: Path, degrees: float) -> None:
     """Against elliptic functions: never more than three times what is stated."""
@@ -136,7 +136,7 @@ def test_momentum_keeps_its_digits(size: float) -> None:
     np.testing.assert_allclose(lagrange.momentum(mode, 0.0, q, v), matrix @ v, rtol=1e-13)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("part", [0.9, 1.1])
 def test_the_share_is_one_per_cent(tmp_path: Path, part: float) -> None:
     case = pendulum(tmp_path, {"ANGLE": "80 deg", "DURATION": "10"})

@@ -75,7 +75,7 @@ allow: {left.angle: 1.0e-3}
 }
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", STILL)
 def test_what_lies_still_keeps_its_power_balance(tmp_path: Path, name: str) -> None:
     solution = solve(scenes.typed(tmp_path, STILL[name], tail=scenes.tail(2.0, 26)))
@@ -83,7 +83,7 @@ def test_what_lies_still_keeps_its_power_balance(tmp_path: Path, name: str) -> N
 
 
 @pytest.mark.mutant("potential of what rests off by 1e-8 N ({name})")
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", STILL)
 def test_a_potential_that_is_wrong_is_seen_at_rest_too(
     tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch

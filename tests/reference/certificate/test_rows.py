@@ -62,7 +62,7 @@ def test_rows_of_what_never_switches(name: str) -> None:
     assert all(check.holds for check in checks.values())
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SWITCHING)
 def test_rows_of_what_may_switch(tmp_path: Path, name: str) -> None:
     """Where nothing changes there is no row of events, but the modes are asked all the same."""
@@ -72,7 +72,7 @@ def test_rows_of_what_may_switch(tmp_path: Path, name: str) -> None:
     assert all(check.holds for check in checks.values())
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_generated_answer_is_not_compared_with_itself(tmp_path: Path) -> None:
     checks = by_name(certified(written_scenes.generated(tmp_path, "braking")))
     seen = {"implicit integrator: events", "constraint drift", "modes possible"}
@@ -155,7 +155,7 @@ def test_modes_that_are_not_possible_are_counted(braking: Case) -> None:
 
 
 @pytest.mark.mutant("floor 1 mm too low in (2.18)")
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_residual_that_does_not_vanish_is_seen(tmp_path: Path) -> None:
     """A disk whose floor lies 1 mm too low in (2.18)."""
     case = written_scenes.case(tmp_path, "too steep")

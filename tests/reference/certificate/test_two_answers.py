@@ -226,21 +226,21 @@ def _gravity(check: Check) -> tuple[bool, float]:
     return not check.holds, check.difference
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_every_check_of_a_shipped_case_is_here() -> None:
     names = {c.name for name in scenes.SHIPPED for c in scenes.solved(name).checks}
     named = {ERROR if name.startswith(ERROR) else name for name in names}
     assert named == set(CHECKS) | OF_ONE_ANSWER
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CHECKS)
 def test_the_check_holds_where_nothing_is_wrong(tmp_path: Path, name: str, monkeypatch: Patch):
     assert found(tmp_path, CHECKS[name], None, monkeypatch)[name].holds
 
 
 @pytest.mark.mutant("the {side} of two answers wrong: {name}")
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("side", ["one", "other"])
 @pytest.mark.parametrize("name", CHECKS)
 def test_a_mistake_in_either_answer_is_seen(

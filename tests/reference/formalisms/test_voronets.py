@@ -58,7 +58,7 @@ def worst(form: ModuleType, name: str, count: int, mode: Mode | None = None) -> 
     return max(x for x in found if x is not None)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FORMAL)
 def test_formalisms_agree(name: str) -> None:
     for key, form in FORMS.items():
@@ -67,7 +67,7 @@ def test_formalisms_agree(name: str) -> None:
         assert all(x is None or x < EXACT for x in found), key
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("at", MODES, ids=".".join)
 def test_formalisms_agree_on_written_systems(at: At) -> None:
     mode = example(at[0]).modes[at[1]]

@@ -72,7 +72,7 @@ def test_smooth_friction_of_a_slide_by_the_formalisms() -> None:
     assert mechanism.accelerations(0.0, q, v) == pytest.approx(-2.0 / 1.3 * v, abs=1e-12)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_smooth_friction_on_an_oblique_slide_of_odd_mass() -> None:
     """Forces that cancel leave no rounding behind: from rest, steps would shrink to nothing."""
     friction = DryFriction(Bounds(6.0, 6.0), Bounds(3.0, 3.0), Smooth(band=0.0005, sharpness=1e5))

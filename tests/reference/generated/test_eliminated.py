@@ -32,7 +32,7 @@ def apart(mode: Multibody, form: ModuleType, t: float, q: Array, v: Array) -> fl
     return None if found is None else float(np.max(np.abs(found - a)) / size)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SHIPPED)
 def test_shipped_mechanisms_at_random_states(name: str) -> None:
     mode, case = scenes.mechanism(scenes.SHIPPED[name]).base, scenes.SHIPPED[name]
@@ -48,7 +48,7 @@ def test_shipped_mechanisms_at_random_states(name: str) -> None:
         assert all(x is None or x < EXACT for x in found), form.__name__
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_random_scenes() -> None:
     applied = dict.fromkeys(FORMS, 0)
     for mode, random in random_scenes.mechanisms(COUNT):

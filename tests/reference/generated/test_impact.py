@@ -21,7 +21,7 @@ G = 9.80665
 SHORT = "duration: 0.25\nsamples: 6\n"
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "changed",
     [
@@ -65,7 +65,7 @@ def test_a_disk_that_lands_turning_rolls_or_slides_by_the_cone() -> None:
         assert land.mode_after == ("touch sticks" if rolls else "touch slides +")
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_painleve_is_refused(tmp_path: Path) -> None:
     """1 + 3 cos² − 3 μ sin cos < 0 from μ = 1.35 on, pushed into the floor: no motion at all."""
     solve(rod(tmp_path, mu=1.3, vx=-1))
@@ -98,7 +98,7 @@ allow: {leaning.x: 1.0e-3, lands.time: 1.0e-3}
 """
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("angle", [-0.758, -1.065, -0.418])
 @pytest.mark.parametrize("mu", [0.0, 0.3])
 def test_an_impact_does_not_concern_what_rests_apart(

@@ -26,7 +26,7 @@ def generated(tmp_path: Path, name: str) -> Solution:
     return solve(replace(case, events=case.events or SLIP))
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", written_scenes.WRITTEN)
 def test_hand_written_and_generated_answers_agree(tmp_path: Path, name: str) -> None:
     solution = solve(written_scenes.case(tmp_path, name))
@@ -36,7 +36,7 @@ def test_hand_written_and_generated_answers_agree(tmp_path: Path, name: str) -> 
     assert ("generated events" in names) == (name not in WITHOUT_CHANGES)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_braking_by_its_closed_form(tmp_path: Path) -> None:
     """(2.87) v₀/(μ g) and v₀²/(2 μ g); stiction above friction changes nothing."""
     solution = generated(tmp_path, "braking")
@@ -46,7 +46,7 @@ def test_braking_by_its_closed_form(tmp_path: Path) -> None:
     assert abs(solution.trajectory.states["block"][-1, 3]) < 1e-15
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_backspin_by_its_closed_form(tmp_path: Path) -> None:
     """Slip v₀ + R ω₀ falls by 3 μ g: rolling starts with v = (2 v₀ − R ω₀)/3."""
     solution = generated(tmp_path, "backspin")
@@ -57,14 +57,14 @@ def test_backspin_by_its_closed_form(tmp_path: Path) -> None:
     assert solution.trajectory.states["wheel"][-1, 3] == pytest.approx((2 * v - 10) / 3, abs=1e-12)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_published_times_of_example_2_4(tmp_path: Path) -> None:
     """Six digits: slip, stick, slip, stick."""
     times = boundaries(generated(tmp_path, "example 2.4").trajectory)
     assert times == pytest.approx([1.5, 4.790544, 6.290544, 9.581087], abs=1e-6)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_events_stand_twice_in_the_record(tmp_path: Path) -> None:
     solution = generated(tmp_path, "elastic")
     record = solution.trajectory.record
@@ -91,7 +91,7 @@ allow: {wheel.x: 1.0e-3, block.x: 1.0e-3}
 SMOOTH = "{static: 6, kinetic: 3, smooth: {band: 5.0e-4, sharpness: 1.0e5}}"
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_smooth_friction_may_stand_beside_a_contact(tmp_path: Path) -> None:
     """Two bodies that know nothing of each other move as each would alone.
 

@@ -13,7 +13,7 @@ from textmech.reference.generated.mode import Multibody
 COUNT = 60  # random scenes: every kind of body, joint and force comes ten times and more
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("law", [lagrangian, balance])
 def test_law_on_random_scenes(law: Law) -> None:
     found = [

@@ -47,7 +47,7 @@ def test_mutant_sign_of_kinetic_friction(tmp_path: Path, monkeypatch: pytest.Mon
 
 
 @pytest.mark.mutant("a contact that never sticks")
-@pytest.mark.whole
+@pytest.mark.slow
 def test_mutant_without_sticking(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for module in (contact_modes, mechanism):
         monkeypatch.setattr(module, "REST", ("slides +", "slides -"))
@@ -56,7 +56,7 @@ def test_mutant_without_sticking(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 
 
 @pytest.mark.mutant("restitution of an impact left out")
-@pytest.mark.whole
+@pytest.mark.slow
 def test_mutant_restitution_ignored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     class Dead(impact.Meeting):
         def __init__(self, element, normal, tangent, after, strikes) -> None:  # type: ignore[no-untyped-def]
@@ -74,7 +74,7 @@ def test_mutant_cone_ignored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 
 
 @pytest.mark.mutant("bounds of stiction forward and backward exchanged")
-@pytest.mark.whole
+@pytest.mark.slow
 def test_mutant_forward_for_backward(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A sign in (2.89): seen where the two bounds differ, not in Example 2.4."""
     margins = contact_modes.Sliding.margins

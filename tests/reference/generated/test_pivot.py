@@ -76,7 +76,7 @@ def test_another_inertia_in_the_impact_is_seen(
     assert abs(np.array(strikes(tmp_path, 3.3)) - known).max() > 1e-4
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_it_rocks_to_rest_as_the_hand_written_one(tmp_path: Path) -> None:
     case = typed(tmp_path, WHEEL.format(mu=2.0, w0=0.5, more=""))
     mechanism, wheel = scenes.mechanism(case), written("rimless_wheel", {**PARAMETERS, "w0": 0.5})

@@ -76,7 +76,7 @@ def test_from_rest_the_sum_decides(tmp_path: Path, push: float, a: float):
     np.testing.assert_allclose(x - 0.5, a * case.times**2 / 2, atol=1e-13)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("mu", [1.2, 0.6])
 def test_a_bar_that_falls_flat_rests(tmp_path: Path, mu: float):
     case = scenes.typed(tmp_path, FALLS.format(mu=mu), tail=scenes.tail(0.6, 7))
@@ -96,7 +96,7 @@ def test_what_is_not_determined_cannot_be_asked_for(tmp_path: Path):
     assert f"b.tangent: anything from {-high:.4g} to {-low:.4g} N" in mistake.what
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_while_both_slide_their_frictions_are_known(tmp_path: Path):
     case = lying(tmp_path, "constant: [5, 0]", b=0.1, more=", b.tangent: 1.0e-3")
     forces = solve(case).trajectory.reactions

@@ -28,7 +28,7 @@ def test_the_error_follows_the_tolerance(method):
         assert np.abs(y[-1] - exact).max() < 100.0 * tolerance
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_double_pendulum_against_each_other_and_scipy():
     times, start = np.linspace(0.0, 5.0, 26), [1.0, 0.5, 0.0, 0.0]
     explicit = dormand_prince(double_pendulum, times, start, tolerance=1e-14)
@@ -40,7 +40,7 @@ def test_double_pendulum_against_each_other_and_scipy():
     assert np.abs(explicit.y - theirs).max() < 1e-5
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @BOTH
 def test_long_double_pendulum_keeps_its_energy(method):
     y = method(double_pendulum, [0.0, 10.0, 20.0], [1.0, 0.5, 0.0, 0.0], tolerance=1e-14).y
@@ -50,7 +50,7 @@ def test_long_double_pendulum_keeps_its_energy(method):
     assert np.abs(energy - energy[0]).max() < 1e-12 * abs(energy[0])
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_what_rounding_cuts_off_a_step_is_carried_on():
     """Steps of 1e-5 s, 20000 of them: a plain sum would be off by a hundred ulp and more."""
     times = np.linspace(0.0, 0.2, 20001)

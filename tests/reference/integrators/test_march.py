@@ -50,7 +50,7 @@ def test_one_sample_is_the_start(method):
     assert result.y.tolist() == [[2.0, 0.0]]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @BOTH
 def test_blow_up_is_reported_where_it_happens(method):
     with pytest.raises(IntegrationError, match="at t = ") as caught:

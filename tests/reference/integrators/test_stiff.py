@@ -30,7 +30,7 @@ def test_prothero_robinson(start: float):
     assert result.steps < 200
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_van_der_pol_against_scipy():
     """Samples away from the jumps, where the state is as well determined as the time of a jump."""
     times = np.array([0.0, 300.0, 600.0, 1000.0, 1400.0])

@@ -49,7 +49,7 @@ def moved(tmp_path: Path, name: str, start: float) -> tuple[Mechanism, Followed]
     return mechanism, follow(mechanism, TIMES)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["slide", "slide 3.0001", "floor"])
 @pytest.mark.parametrize("start", [0.0, 0.1])
 def test_from_anywhere_it_is_the_same_motion(tmp_path: Path, name: str, start: float):
@@ -64,7 +64,7 @@ def test_from_anywhere_it_is_the_same_motion(tmp_path: Path, name: str, start: f
     assert len(found.changes) == 1
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("start", [0.0, 0.1])
 def test_a_spring_pulls_it_loose(tmp_path: Path, start: float):
     """(2.98) with F_s = F: x = u τ − (u/ω) sin ω τ, and v only touches zero at ω τ = 2 π."""

@@ -59,7 +59,7 @@ def test_guard_at_zero_that_falls_ends_the_mode_at_once():
     assert time == 0.0
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_guard_of_time_alone_is_met_by_steps_that_are_not_too_long():
     """While nothing moves, a step may be as long as the motion: `longest` bounds it."""
     still = Watched([("beats", lambda t, x, v: math.cos(20 * t) + 0.9)], Still())

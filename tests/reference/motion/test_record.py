@@ -16,7 +16,6 @@ from textmech.cases.trajectory import Array, Trajectory
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 from textmech.reference.system import Guard, System
-from textmech.reports.bench.adapters import one_of_each_file
 from textmech.reports.events.times import never, reference_events
 
 
@@ -35,13 +34,12 @@ def switches(case: Case) -> bool:
 # Straight again for an instant: a double zero, which rounding knows to 1e-6 s and not to 1e-9.
 TOUCHING = ("driven_knee.spring", "driven_knee.damped")
 HELD = ("muscle_isometric.rise", "muscle_isometric.release")  # nothing of it moves but inside
-ONE_OF_EACH_FILE = [case.name for case in one_of_each_file()]
 # In space one of each file: a spatial motion costs ten planar ones, and another start of the same
 # mechanism has the same record.
 SMOOTH = [
     name
     for name, case in scenes.SHIPPED.items()
-    if (case.scene.frame is PLANE or name in ONE_OF_EACH_FILE)
+    if (case.scene.frame is PLANE or name in scenes.ONE_OF_EACH_FILE)
     and not (case.scene.frame is PLANE and (dry(case) or switches(case)))
     and name not in (*TOUCHING, *HELD)
 ]
@@ -121,7 +119,7 @@ def located(case: Case) -> list[float]:
     return [event.time for event in found if event.time > 0.0]  # the start itself is no event
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SMOOTH)
 def test_a_smooth_case_may_have_an_event(name: str) -> None:
     case, happens = with_event(scenes.SHIPPED[name])

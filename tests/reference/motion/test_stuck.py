@@ -34,7 +34,7 @@ def stuck(case: Case) -> tuple[Mechanism, Stuck]:
     return mechanism, caught.value
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_flat_parallelogram(tmp_path: Path):
     mechanism, failure = stuck(scenes.typed(tmp_path, PARALLELOGRAM))
     [name] = mechanism.modes
@@ -56,7 +56,7 @@ def test_a_spring_that_loses_its_length(tmp_path: Path):
     np.testing.assert_allclose(failure.q, 0.0, atol=1e-3)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("omega", "mode"), [(-20, "touch sticks"), (-40, "touch slides -")])
 def test_beside_a_contact_it_is_the_mode_of_that_time(tmp_path: Path, omega: int, mode: str):
     """The disk rolls from 0.68 s on, or not before 1.1 s."""

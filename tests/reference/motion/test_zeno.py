@@ -28,7 +28,7 @@ def disk(e: float) -> BouncingDisk:
     return BouncingDisk(m=1.0, R=0.2, e=e, y0=0.7)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("e", [0.001, 0.2, 0.5, 0.9])
 def test_a_disk_that_bounces_ever_lower_rests(e: float):
     times = np.linspace(0.0, 2 * limit(e), 41)
@@ -93,7 +93,7 @@ def test_zeno_sequence_that_the_motion_does_not_reach_is_none():
     )
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_more_events_than_anyone_wants_end_with_a_message(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(event, "MOST", 30)
     beats = Watched([("beats", lambda t, x, v: math.cos(100 * t))], Still())

@@ -44,7 +44,7 @@ def test_the_loop_closes_and_rates_follow_from_the_crank(tmp_path: Path) -> None
     assert v["rocker.angle"] == pytest.approx(rate, rel=1e-12)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("near", "angle"),
     [

@@ -69,7 +69,7 @@ def rocker(folder: Path, crank: int, near: str) -> float:
     return math.degrees(2 * math.atan2(np.dot(axis, [0.6, 0, 0.8]), w)) % 360
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("crank", "one", "other"), WAYS)
 def test_the_way_that_near_says_is_taken_in_space(
     crank: int, one: float, other: float, tmp_path: Path
@@ -80,7 +80,7 @@ def test_the_way_that_near_says_is_taken_in_space(
 
 
 @pytest.mark.mutant("in space the first way that is found in place of the nearest")
-@pytest.mark.whole
+@pytest.mark.slow
 def test_the_first_way_that_is_found_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -89,7 +89,7 @@ def test_the_first_way_that_is_found_is_seen(
     assert rocker(tmp_path, 80, "bearing: {angle: 157.1 deg}") == pytest.approx(57.1, abs=0.06)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_what_does_not_decide_is_refused_in_space(tmp_path: Path) -> None:
     with pytest.raises(CaseError, match=r"can be assembled in 2 ways: bearing\.angle"):
         rocker(tmp_path, 80, "motor: {angle: 80 deg}")

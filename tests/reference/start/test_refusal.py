@@ -32,7 +32,7 @@ def test_two_ways_are_both_printed(tmp_path: Path) -> None:
     assert "near: {rocker: {angle: 95.93 deg}}" in mistake.what
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_what_cannot_be_assembled_names_the_joint_and_the_gap(tmp_path: Path) -> None:
     text = SLIDER_CRANK + "initial: {crank: {angle: 0}, piston: {x: 0.83}}\n"
     mistake = refused(tmp_path, text)
@@ -56,7 +56,7 @@ def test_a_violated_angle_is_told_in_degrees(tmp_path: Path) -> None:
     assert "knee stays open by 5 deg" in refused(tmp_path, text).what
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_placed_point_out_of_reach(tmp_path: Path) -> None:
     mistake = refused(tmp_path, BAR + "initial: {bar: {end: [3, 5]}}\n")
     assert "cannot be assembled" in mistake.what
@@ -123,7 +123,7 @@ allow: {wheel.x: 1.0e-2}
     assert "wheel.angle is not determined" in refused(tmp_path, text).what
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("x", ["0.8", "0.79999999999"])
 def test_a_piston_given_at_its_dead_centre_leaves_the_crank_open(tmp_path: Path, x: str) -> None:
     text = SLIDER_CRANK + f"initial: {{piston: {{x: {x}}}}}\nnear: {{crank: {{angle: 0}}}}\n"

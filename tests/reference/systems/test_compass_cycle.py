@@ -22,7 +22,7 @@ def found() -> Cycle:
     return cycle(lambda x: stepped(WALKER, x), np.array([0.2135, 0.8617, 0.6753]))
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_limit_cycle_closes_and_is_stable():
     """Its place and multipliers are this computation's; both legs walk alike."""
     assert found().error < 1e-14
@@ -53,7 +53,7 @@ def test_a_step_loses_in_the_strike_what_the_slope_gives():
     assert kinetic[0] - kinetic[1] == pytest.approx(fall, rel=1e-10)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_on_light_feet_it_comes_to_the_simplest_walker():
     """m/M → 0 with the legs' mass in the feet: an error of m/M, extrapolated to 0."""
     published = np.array([0.200310900544287, 0.199832473004977])

@@ -84,7 +84,7 @@ def four_bar(*, m: float, a: float, b: float, c: float, d: float, **_: float) ->
     return sketch.solved(q, loop=[gap.dot(sketch.N.x), gap.dot(sketch.N.y)])
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("derive", [double_pendulum, rhombus, four_bar], ids=lambda f: f.__name__)
 def test_sympy_derives_the_same_accelerations(derive: Callable[..., Derived]):
     name = derive.__name__

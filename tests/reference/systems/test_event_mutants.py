@@ -47,7 +47,7 @@ def test_missing_stick_mode_is_seen(name: str):
 
 
 @pytest.mark.mutant("friction that drives {name}, against (2.89)", "F₋ and F₊ of {name} exchanged")
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["growing_force", "dynamometer"])
 def test_sign_in_2_89_is_seen(name: str):
     """Friction that drives instead of braking; and the bound of the other side."""

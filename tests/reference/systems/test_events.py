@@ -9,7 +9,7 @@ from textmech.reference.motion.follow import follow
 from textmech.reference.systems.dynamometer import Dynamometer
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("variant", VARIANTS)
 def test_motion_and_events_meet_the_closed_form(variant: str):
     name, changed, names = VARIANTS[variant]

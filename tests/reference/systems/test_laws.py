@@ -28,7 +28,7 @@ def test_every_system_is_tested():
     assert set(SYSTEMS) == set().union(PARAMETERS, SPATIAL, muscles.PARAMETERS, *rooms)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("at", "law"), ASKED)
 def test_mode_obeys(at: laws.At, law: laws.Law):
     violation = law(example(at[0]), at)
@@ -52,7 +52,7 @@ def test_laws_left_out_have_nothing_to_say(at: laws.At):
     assert found == {law: at in laws.ONLY[law] for law in found}
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("variant", VARIANTS)
 def test_variant_obeys(variant: str):
     name, changed, _ = VARIANTS[variant]

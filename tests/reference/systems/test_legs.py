@@ -154,7 +154,7 @@ RUNS = 0.94030026326  # m: the apex of the gait that repeats itself
 ENERGY = 80.0 * (SPEED**2 / 2 + G)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_the_running_gait_repeats_itself_and_is_stable() -> None:
     """Seyfarth et al. 2002: the return map has two fixed points, of which the lower attracts.
 

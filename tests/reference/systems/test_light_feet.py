@@ -33,7 +33,7 @@ def gait(m: float) -> Cycle:
     return cycle(step, np.array([theta, rate, rate * math.cos(2 * theta)]))
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_the_shipped_walker_repeats_itself_and_is_stable() -> None:
     found = gait(SHIPPED.m)
     lean = SHIPPED.left0 - math.pi / 2
@@ -43,7 +43,7 @@ def test_the_shipped_walker_repeats_itself_and_is_stable() -> None:
     assert math.pi - SHIPPED.left0 == pytest.approx(SHIPPED.right0, abs=1e-15)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_its_feet_without_mass_walk_as_published() -> None:
     """m/M → 0: an error of that order, and of its square when it is taken off."""
     places = [gait(m).state[:2] for m in (0.1, 0.05, 0.025)]

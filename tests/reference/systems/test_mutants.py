@@ -63,7 +63,7 @@ def test_every_parameter_has_a_mutant():
 
 
 @pytest.mark.mutant("{parameter} of {name} 5 % off in its explicit accelerations and reactions")
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "parameter", "law"), flat(PARAMETER))
 def test_parameter_off_in_the_explicit_accelerations(name: str, parameter: str, law: Law):
     system = only(name)
@@ -93,7 +93,7 @@ HEAVY = [name for name in HEAVY if name not in ("torsion_pendulum", "paired_roto
 
 
 @pytest.mark.mutant("gravity upside down in the accelerations of {name}")
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", HEAVY)
 def test_sign_of_gravity(name: str):
     system = only(name)
@@ -139,7 +139,7 @@ def test_wrong_branch_of_the_four_bar():
     "centrifugal terms left out of four_bar",
     "centrifugal terms left out of rhombus",
 )
-@pytest.mark.whole
+@pytest.mark.slow
 def test_missing_centrifugal_terms():
     for name in ("double_pendulum", "four_bar", "rhombus"):
         system = only(name)

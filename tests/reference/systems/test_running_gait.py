@@ -68,7 +68,7 @@ def on_fixed_feet() -> Cycle:
     return cycle(step, np.array([run.alpha, math.atan2(run.vy0, run.vx0)]))
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_on_feet_that_stay_the_gait_is_not_stable() -> None:
     """With the leg reset at α it is (test_legs). Nothing is lost, and what runs back is a run too:
 

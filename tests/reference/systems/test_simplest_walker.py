@@ -132,7 +132,7 @@ def test_a_mistake_is_seen_in_the_cycle(wrong: str, monkeypatch: pytest.MonkeyPa
         assert returned(off, (0, 2))[0] == pytest.approx(x, abs=1e-4)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_steeper_slope_takes_longer_steps():
     """θ* ∝ γ^(1/3) for small slopes."""
     small = [found(slope).state[0] / slope ** (1 / 3) for slope in (0.004, 0.009)]

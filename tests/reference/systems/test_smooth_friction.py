@@ -53,7 +53,7 @@ def test_friction_of_another_force_is_seen():
     assert missed(mutant(sound, reactions=told)) > 1.0
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["smooth_dynamometer", "smooth_growing_force"])
 def test_smooth_law_by_stiff_integrators(name: str):
     system, times = example(name), np.linspace(0.0, 6.6, 34)  # as far as a slip after a stick
@@ -70,7 +70,7 @@ def test_smooth_law_by_stiff_integrators(name: str):
     assert np.abs(found.y - other.y.T).max() <= 1e-9
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_smooth_law_is_another_model():
     """Erratum 15: it never rests, and by 10 s it is 7.6e-4 m from the exact law."""
     times = np.linspace(0.0, 10.0, 2001)

@@ -45,7 +45,7 @@ def test_every_system_in_space_is_asked() -> None:
     assert set(APPLY) == set().union(*rooms)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", APPLY)
 def test_formalisms_agree(name: str) -> None:
     mode, states = drawn(name)

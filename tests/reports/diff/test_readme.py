@@ -27,7 +27,7 @@ def words(line: str) -> list[str]:
     return rest
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_two_folders_are_compared(tmp_path: Path) -> None:
     lines = blocks("shell")[0].splitlines()
     assert len(lines) == 4

@@ -20,7 +20,7 @@ COMMITTED = write.HERE / NAME
 
 pytestmark = [
     pytest.mark.skipif(found() is None, reason="there is no Chromium on this machine to look with"),
-    pytest.mark.whole,
+    pytest.mark.slow,
 ]
 
 

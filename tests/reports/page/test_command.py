@@ -20,7 +20,7 @@ def cart(tmp_path: Path) -> Path:
     return file
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_page_of_ones_own_case_comes_with_its_reports(cart: Path, tmp_path: Path) -> None:
     before = [file.read_bytes() for file in sorted(write.HERE.glob("*.csv"))]
     done = textmech("page", cart, folder=tmp_path)
@@ -34,7 +34,7 @@ def test_a_page_of_ones_own_case_comes_with_its_reports(cart: Path, tmp_path: Pa
     assert [file.read_bytes() for file in sorted(write.HERE.glob("*.csv"))] == before
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_ones_own_settings_are_a_column(cart: Path, tmp_path: Path) -> None:
     (tmp_path / "mine.yaml").write_text("mujoco: {integrator: RK4}\n", encoding="utf-8")
     words = ("page", cart, "--settings", "mine.yaml", "--settings", "shipped", "--out", "o")

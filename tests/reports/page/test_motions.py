@@ -50,7 +50,7 @@ def test_what_cannot_be_told_apart_is_no_ghost(made: SimpleNamespace) -> None:
     assert set(swing["ghosts"]).isdisjoint(swing["covered"])
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["four_bar", "slider_crank", "spatial_four_bar", "five_axis_robot.swinging"]
 )

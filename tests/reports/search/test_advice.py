@@ -30,7 +30,7 @@ def found() -> Mapping[str, Advice]:
     return advice(Asked(None, 2.0), *CASES)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "options", "step"),
     [
@@ -46,7 +46,7 @@ def test_recipes_that_are_known(
     assert (found[name].options, found[name].step) == (options, step)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_loop_needs_both_and_a_creeping_block_only_its_impratio(
     found: Mapping[str, Advice],
 ) -> None:
@@ -58,20 +58,20 @@ def test_a_loop_needs_both_and_a_creeping_block_only_its_impratio(
     assert "+" not in creep.recipe
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_the_margin_is_kept(found: Mapping[str, Advice]) -> None:
     kept = [one for one in found.values() if one.recipe != "none"]
     assert len(kept) >= 7
     assert all(one.worst is not None and one.worst <= 0.5 for one in kept)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_what_is_refused_says_why(found: Mapping[str, Advice]) -> None:
     assert found["heavy_top.cusp pymunk"].remains.startswith("engine: ")
     assert found["planar_bodies mujoco"].remains.startswith("a claim about states")
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_where_nothing_does_it_what_remains_is_said() -> None:
     """Both engines know one coefficient of friction."""
     found = advice(Asked(None, 2.0), "growing_force", engines=("mujoco",))
@@ -81,7 +81,7 @@ def test_where_nothing_does_it_what_remains_is_said() -> None:
     assert "one number for friction" in one.remains
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_what_holds_at_one_step_alone_is_said_to() -> None:
     """The least step that is tried is within; nothing finer says that it is no accident."""
     found = advice(Asked(None, 2.0), "ball_on_rope.let_go_and_caught", engines=("mujoco",))
@@ -92,7 +92,7 @@ def test_what_holds_at_one_step_alone_is_said_to() -> None:
     assert one.remains.endswith("and the next finer step does not confirm it")
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_another_tolerance_asks_for_another_step() -> None:
     """A thousandth, or a tenth, of each quantity's size, whatever the case allows."""
     strict, loose = (
@@ -104,7 +104,7 @@ def test_another_tolerance_asks_for_another_step() -> None:
     assert (strict.tolerance, loose.tolerance) == (1e-3, 1e-1)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_finer_step_costs_more_time() -> None:
     """Ten times as many steps: a ratio near ten, on any machine."""
     asked = Asked(None, 2.0)
@@ -117,7 +117,7 @@ def test_a_finer_step_costs_more_time() -> None:
     assert 5 < measured < 20
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_advice_as_a_frame() -> None:
     found = advise("bar_pendulum", engines=["mujoco"])
     assert list(found.columns)[:3] == ["case", "engine", "tolerance"]

@@ -33,7 +33,7 @@ def of(
     return [c for c in report.causes if (c.case, c.engine, c.setting, c.quantity) == key]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("case", "engine", "quantity", "cures"),
     [
@@ -54,7 +54,7 @@ def test_causes_that_are_known(
     assert [cause.cure for cause in of(report, case, engine, quantity)] == cures
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_cure_brings_the_error_within_and_says_at_what_cost(report: Report) -> None:
     cured = [cause for cause in report.causes if cause.error_after is not None]
     assert len(cured) > 20
@@ -65,7 +65,7 @@ def test_a_cure_brings_the_error_within_and_says_at_what_cost(report: Report) ->
     assert (finer.options, finer.step, finer.cost, finer.law) == ("{}", 5e-4, 4.0, "h^1")
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_the_last_column_of_every_row_beyond_says_them(report: Report) -> None:
     rows = {(r.case, r.engine, r.quantity): r for r in report.comparisons if r.verdict == BEYOND}
     pendulum = rows["bar_pendulum", "mujoco", "energy.total"]
@@ -74,7 +74,7 @@ def test_the_last_column_of_every_row_beyond_says_them(report: Report) -> None:
     assert len(told) == len(rows)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_declared_deviation_keeps_its_words(report: Report) -> None:
     row = next(
         r

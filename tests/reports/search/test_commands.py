@@ -17,7 +17,7 @@ def new(tmp_path: Path) -> Path:
     return file
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_causes_of_ones_own_case(new: Path) -> None:
     done = process("causes", new, "--no-cache", folder=new.parent)
     assert done.returncode == 0, done.stderr
@@ -26,7 +26,7 @@ def test_causes_of_ones_own_case(new: Path) -> None:
     assert [file.name for file in new.parent.iterdir()] == ["cart.yaml"]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_causes_for_scripts(new: Path) -> None:
     words = (new, "--json", "--no-cache")
     done, run = process("causes", *words), process("run", "--causes", *words)
@@ -38,7 +38,7 @@ def test_causes_for_scripts(new: Path) -> None:
     assert json.loads(run.stdout)["causes"] == found["causes"]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_what_is_advised_for_ones_own_case_keeps_its_promise(new: Path) -> None:
     """The printed settings, pasted into a file, bring every row within its tolerance."""
     done = process("advise", new, "--engine", "pymunk", "--no-cache", folder=new.parent)
@@ -53,7 +53,7 @@ def test_what_is_advised_for_ones_own_case_keeps_its_promise(new: Path) -> None:
     assert "beyond" not in rows.split("\n\n")[0]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_scripts_read_rows(new: Path, tmp_path: Path) -> None:
     done = process(
         "advise", new, "--json", "--out", tmp_path / "out", "--no-cache", folder=new.parent

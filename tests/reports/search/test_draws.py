@@ -42,7 +42,7 @@ def test_some_draws_are_no_case() -> None:
     assert any(drawn(case, seed) is None for seed in range(DRAWS))
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_recipe_holds_in_some_and_one_that_does_not_help_in_none(tmp_path: Path) -> None:
     case, store, keys = scenes.SHIPPED["bar_pendulum"], Store(tmp_path), Keys.now(None)
     pair = Pair(case, engines.make("mujoco", "shipped"), store, keys.solution(case))

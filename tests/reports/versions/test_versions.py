@@ -37,7 +37,7 @@ def rows(folder: Path) -> Iterator[dict[str, str]]:
 
 
 @pytest.mark.mutant("a release of pymunk with another gravity")
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_release_that_moved_a_number_is_seen_and_one_that_did_not_is_not(
     case: Path, tmp_path: Path
 ) -> None:
@@ -66,7 +66,7 @@ def test_a_release_that_moved_a_number_is_seen_and_one_that_did_not_is_not(
     assert {row["change"] for row in moved} == {"regression"}
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_what_a_release_lacks_is_a_row_that_says_so(case: Path, tmp_path: Path) -> None:
     wheel(tmp_path / "index", "91.1", LACKING)
     wheel(tmp_path / "index", "91.2", DYING)
@@ -82,7 +82,7 @@ def test_what_a_release_lacks_is_a_row_that_says_so(case: Path, tmp_path: Path) 
     assert {row["case"] for row in (lacking, dying)} == {"cart"}
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_another_version_than_the_one_asked_for_is_never_taken_for_it(
     case: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:

@@ -44,7 +44,7 @@ def fall() -> tuple[Array, Array]:
     return found.y[:N].T, found.y[N:].T
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("back", [(), (1, 3), (0, 1, 2, 3, 4)])
 def test_five_skew_hinges_fall(fall: tuple[Array, Array], back: tuple[int, ...]) -> None:
     """Whichever part a joint names first. Reached: 3e-11 and, of 50 N, 3e-10; at 1e-4 2e-12."""
@@ -92,7 +92,7 @@ def test_five_driven_hinges_go_where_they_are_told(back: tuple[int, ...]) -> Non
     assert np.max(np.abs(found - torques)) < 1e-10
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_hinges_that_are_not_driven_follow() -> None:
     """Reached: 1e-11, and of the torques 5e-10."""
     q, q_dot, _ = driven(TIMES[:1])

@@ -82,7 +82,7 @@ def test_a_ball_that_turns_evenly_is_led_by_its_blade() -> None:
     assert np.max(np.abs(found.reactions["blade.normal"] - 2.0 * M)) < 1e-10
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("words", [(", height: kept", ""), ("", ", vz: 0.2")])
 def test_a_blade_off_the_centre_moves_and_holds_as_the_reference(
     words: tuple[str, str], tmp_path: Path

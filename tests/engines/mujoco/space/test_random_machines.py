@@ -65,7 +65,7 @@ def alike(a: Array, b: Array) -> Array:
     return np.hstack([b[:, SPACE.place], b[:, SPACE.attitude] * flips[:, None], b[:, 7:]])
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("what", "seed"), [(what, seed) for what, (_, seeds, _) in MACHINES.items() for seed in seeds]
 )

@@ -115,7 +115,7 @@ def limit(rungs: list[Array]) -> Array:
     return (4 * (2 * fine - middle) - (2 * middle - coarse)) / 3
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("lean", "turning", "seconds", "reached"),
     [(82.0, 2.0, 0.4, 1e-8), (60.0, 6.0, 0.4, 3e-8), (20.0, -14.0, 0.2, 5e-7)],

@@ -48,7 +48,7 @@ def apart(case: Case) -> dict[str, float]:
     return {name: float(np.max(np.abs(a - b))) for name, (a, b) in pairs.items()}
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", [torsion.SPATIAL, DRIVEN], ids=["free", "driven"])
 def test_mujoco_turns_as_the_reference(scene: str, tmp_path: Path) -> None:
     """Of a driven turn the drive's torque is told apart from those of spring, damper and motor."""
@@ -58,7 +58,7 @@ def test_mujoco_turns_as_the_reference(scene: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.mutant("torque of a spring counted as the drive's")
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_drive_s_torque_with_the_spring_s_in_it_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -67,7 +67,7 @@ def errors(name: str, step: float, *, told: bool, monkeypatch: pytest.MonkeyPatc
     return float(np.max(apart(*both)))
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ENDS)
 def test_with_the_missing_term_the_order_is_two(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Measured at 2e-4 s: 1.2e-3 and 1.7e-3 rad without it, 4.4e-4 and 6.0e-5 rad with it.

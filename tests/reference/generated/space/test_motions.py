@@ -11,7 +11,7 @@ from textmech.cases.trajectory import Array
 
 G = 9.80665  # m/s²
 
-pytestmark = pytest.mark.whole  # they take the certified motions
+pytestmark = pytest.mark.slow  # they take the certified motions
 
 
 def seen(name: str, *quantities: str) -> list[Array]:

@@ -26,7 +26,7 @@ allow: {top.attitude: 1.0e-2, touch.normal: 1.0}
 """
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_the_top_is_the_one_on_a_ball_joint() -> None:
     """(2.33) Its tip stays at the origin, and the floor's force is that of the joint."""
     parameters = {key: value for key, value in TOP.parameters.items() if key != "mu"}

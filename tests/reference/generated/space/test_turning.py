@@ -50,7 +50,7 @@ def test_signs(tmp_path: Path) -> None:
     assert wire == pytest.approx([0, 0, -9.0 * np.radians(50.0)], rel=1e-14)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_in_the_plane_it_is_the_plane_s(tmp_path: Path) -> None:
     flat = scenes.typed(tmp_path, torsion.FLAT, tail=SHORT)
     seen = solve(flat).trajectory
@@ -114,7 +114,7 @@ def test_a_mistaken_axis_is_seen(
 WINDING = torsion.FLAT.replace("pull: {motor: hinge, ramp: 0.8}", "pull: {motor: hinge, ramp: 120}")
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_what_needs_no_angle_may_turn_on(tmp_path: Path) -> None:
     """A damper's angle has its turns counted; its torque is that of the rate."""
     wires = "    wire: {torsion: hinge, stiffness: 9.0, rest_angle: -30 deg}\n"

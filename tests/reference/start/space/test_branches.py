@@ -65,7 +65,7 @@ def started(folder: Path, scene: str) -> np.ndarray:
     return assemble_in_space(case, case.scene)[0]
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_linkage_has_its_two_ways_and_none_with_a_hinge_turned_over(tmp_path: Path) -> None:
     text = refused(tmp_path, LINKAGE)
     assert "can be assembled in 2 ways" in text
@@ -73,7 +73,7 @@ def test_a_linkage_has_its_two_ways_and_none_with_a_hinge_turned_over(tmp_path: 
 
 
 @pytest.mark.mutant("a hinge turned over taken for an assembly")
-@pytest.mark.whole
+@pytest.mark.slow
 def test_a_hinge_turned_over_is_no_assembly(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

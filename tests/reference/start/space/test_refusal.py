@@ -109,7 +109,7 @@ WRONG: dict[str, tuple[str, str]] = {
 }
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("what", WRONG)
 def test_what_is_wrong_is_said(what: str, tmp_path: Path) -> None:
     text, words = WRONG[what]
@@ -185,7 +185,7 @@ SEVERAL = {
 }
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.parametrize("what", SEVERAL)
 def test_ways_are_told_and_the_advice_helps(what: str, tmp_path: Path) -> None:
     text, told = SEVERAL[what]
