@@ -139,7 +139,7 @@ def write(found: Sequence[Figure]) -> None:
 
 
 def main() -> None:
-    """Measures in a clone of the last commit, and writes what it has found, also where one fails."""
+    """Measures in a clone of the last commit, and writes what is found as it comes."""
     found: list[Figure] = []
     with tempfile.TemporaryDirectory(prefix="textmech-speed-") as place:
         clone = Clone(Path(place) / "clone", Path(place) / "store")
