@@ -52,6 +52,7 @@ def exchanged(text: str, spot: Spot) -> str:
     return f"{text[:at]}3{text[at + 1 :]}"
 
 
+@pytest.mark.slow
 def test_a_draw_is_the_same_for_a_seed_and_plants_nothing_in_words_or_types() -> None:
     folders = {"a": {"a/half.py": SOURCE}}
     one, again, other = (drawn.draw(folders, 2, seed, ones, exchanged) for seed in (1, 1, 2))

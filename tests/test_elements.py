@@ -42,6 +42,7 @@ def _words(node: ast.AST) -> set[str]:
     return names | {n.attr for n in ast.walk(node) if isinstance(n, ast.Attribute)}
 
 
+@pytest.mark.slow
 def test_nobody_asks_an_element_what_it_is() -> None:
     found = {str(file.relative_to(ROOT)): asked(file.read_text("utf-8")) for file in FILES}
     assert {file: places for file, places in found.items() if places} == {}

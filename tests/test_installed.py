@@ -80,6 +80,7 @@ def run(*words: object, cwd: Path | None = None) -> subprocess.CompletedProcess[
     return done
 
 
+@pytest.mark.slow
 def test_the_wheel_holds_one_package_and_its_data(wheel: Path) -> None:
     names = zipfile.ZipFile(wheel).namelist()
     assert {name.split("/")[0].split("-")[0] for name in names} == {"textmech"}
@@ -90,10 +91,12 @@ def test_the_wheel_holds_one_package_and_its_data(wheel: Path) -> None:
         assert {f"textmech/{folder}/{file}" for file in files} <= set(names)
 
 
+@pytest.mark.slow
 def test_a_strangers_tests_run_as_before(python: Path, project: Path) -> None:
     assert "1 passed" in run(python, "-m", "pytest", "-q", cwd=project).stdout
 
 
+@pytest.mark.slow
 def test_a_case_is_tested_beside_them(python: Path, project: Path) -> None:
     done = run(python, "-m", "pytest", "-v", "test_mine.py", "swing.yaml", cwd=project).stdout
     assert "test_mine.py::test_mine PASSED" in done
@@ -101,6 +104,7 @@ def test_a_case_is_tested_beside_them(python: Path, project: Path) -> None:
         assert f"swing.yaml::swing-{engine}.tuned-rod.angle PASSED" in done
 
 
+@pytest.mark.slow
 def test_the_command_runs_beside_them(python: Path, project: Path) -> None:
     done = run(python.parent / "textmech", "run", "swing.yaml", cwd=project)
     assert "swing in mujoco" in done.stdout
@@ -108,16 +112,19 @@ def test_the_command_runs_beside_them(python: Path, project: Path) -> None:
     assert "bar_pendulum" in run(python.parent / "textmech", "list", cwd=project).stdout
 
 
+@pytest.mark.slow
 def test_it_is_asked_from_python(python: Path, project: Path) -> None:
     asked = "from textmech.reports import run; print(run('swing.yaml').summary.worst.to_list())"
     assert "×" in run(python, "-c", asked, cwd=project).stdout
 
 
+@pytest.mark.slow
 def test_a_full_run_would_write_where_the_user_stands(python: Path, project: Path) -> None:
     asked = "from textmech.reports import write; print(write.by_default())"
     assert run(python, "-c", asked, cwd=project).stdout == "textmech-reports\n"
 
 
+@pytest.mark.slow
 def test_the_plug_in_imports_nothing_of_ours_until_a_case_is_collected(
     python: Path, project: Path
 ) -> None:
@@ -149,6 +156,7 @@ reach: {toy: {ball.x: 1.0e-2}}
 """
 
 
+@pytest.mark.slow
 def test_an_engine_of_somebody_else_is_a_column(
     wheel: Path, project: Path, tmp_path_factory: pytest.TempPathFactory
 ) -> None:

@@ -55,6 +55,7 @@ def test_each_says_in_words_what_is_wrong() -> None:
         assert (planted.ROOT / "tests" / row["room"]).is_dir()
 
 
+@pytest.mark.slow
 def test_what_is_called_a_mutant_is_marked() -> None:
     unmarked = set()
     for file in TESTS:

@@ -77,6 +77,7 @@ def climbs(one: str, other: str) -> bool:
     return room != other_room and not there < here
 
 
+@pytest.mark.slow
 def test_no_import_runs_back_up_between_rooms() -> None:
     modules = {module(file) for file in FILES}
     wrong = [

@@ -15,6 +15,7 @@ MAY_IMPORT = {
 }
 
 
+@pytest.mark.slow
 def test_imports_flow_one_way() -> None:
     for file in FILES:
         package = file.relative_to(ROOT).parts[0]
@@ -22,6 +23,7 @@ def test_imports_flow_one_way() -> None:
         assert ours <= MAY_IMPORT[package], file
 
 
+@pytest.mark.slow
 def test_no_module_is_imported_in_a_circle() -> None:
     modules = {module(file): file for file in FILES}
     needs = {name: imported(file) & set(modules) - {name} for name, file in modules.items()}
@@ -68,6 +70,7 @@ def test_everything_is_in_the_wheel() -> None:
     assert data <= shipped, f"not in the wheel: {sorted(map(str, data - shipped))}"
 
 
+@pytest.mark.slow
 def test_only_adapters_know_their_engine() -> None:
     for file in FILES:
         for engine in ("mujoco", "pymunk"):

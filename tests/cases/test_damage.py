@@ -75,6 +75,7 @@ def test_any_bytes_are_refused_with_places(tmp_path: Path) -> None:
     each()
 
 
+@pytest.mark.slow
 @often
 @given(numbers() | st.text(max_size=20) | st.floats() | st.integers() | st.booleans())
 def test_a_number_is_finite_and_of_a_size_to_compute_with_or_refused(value: object) -> None:

@@ -149,6 +149,7 @@ def test_no_variant(tmp_path: Path, variants: str, field: str, what: str) -> Non
 BILLION = "a: &a [1, 1]\nb: &b [*a, *a]\nc: &c [*b, *b]\nd: [*c, *c]\n"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("content", "what"),
     [

@@ -125,6 +125,7 @@ allow: {spin.work: 1.0e-2}
 """
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("power of a Torque with the wrong sign")
 @pytest.mark.parametrize("scene", [SPUN, SPUN_IN_SPACE], ids=["plane", "space"])
 def test_a_torque_does_what_the_energy_of_the_turn_gains(
@@ -162,6 +163,7 @@ allow: {hand.work: ALLOWED}
 """
 
 
+@pytest.mark.slow
 def test_a_jump_between_samples_is_a_mistake_with_its_number(tmp_path: Path) -> None:
     case = scenes.typed(tmp_path, FLAT.replace("ALLOWED", "1.0e-2"))
     with pytest.raises(CaseError) as told:

@@ -34,6 +34,7 @@ def test_bar() -> None:
     }
 
 
+@pytest.mark.slow
 def test_disk() -> None:
     body = shape.disk(name="d", mass=1.3, radius=0.25, points={})
     x, y = np.meshgrid(midpoints(0.5), midpoints(0.5))

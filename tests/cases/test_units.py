@@ -54,6 +54,7 @@ def test_the_table_is_read_whole() -> None:
     assert len(OURS) > 300
 
 
+@pytest.mark.slow
 def test_every_unit_is_that_of_pint() -> None:
     """Long words are no units of ours: a term has at most twelve letters.
 

@@ -45,10 +45,12 @@ def off(folder: Path) -> float:
     return worst
 
 
+@pytest.mark.slow
 def test_the_reference_s_are_the_rates_of_its_velocities(tmp_path: Path) -> None:
     assert off(tmp_path) < 1e-7  # measured 2.4e-8: the h⁴ of the differences
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("accelerations 1 % too small")
 def test_a_lost_term_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     sound = bodies.accelerations
@@ -83,6 +85,7 @@ def test_mujoco_s_weight_is_no_acceleration(
     assert apart(tmp_path) > 1.0
 
 
+@pytest.mark.slow
 def test_pymunk_knows_none(tmp_path: Path) -> None:
     one = case(tmp_path)
     start = first(solve(one).trajectory)

@@ -62,6 +62,7 @@ def test_an_engine_turns_as_with_the_motor(engine: str, law: str, tmp_path: Path
     assert np.max(np.abs(angles(engine, coupled) - angles(engine, motor))) < SAME
 
 
+@pytest.mark.slow
 def test_the_reference_moves_as_with_the_motor(tmp_path: Path) -> None:
     coupled, motor = (solve(case) for case in cases(tmp_path, "sine"))
     assert coupled.holds

@@ -44,6 +44,7 @@ def off(engine: str, folder: Path) -> tuple[float, float]:
     return float(max(apart)), float(max(forces, default=0.0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", REACHED)
 def test_engines_move_as_the_reference(engine: str, tmp_path: Path) -> None:
     motion, forces = off(engine, tmp_path)
@@ -51,6 +52,7 @@ def test_engines_move_as_the_reference(engine: str, tmp_path: Path) -> None:
     assert forces < 1e-4
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("torques about a joint counted as the drive's")
 def test_what_else_acts_about_the_joint_is_not_the_drive_s(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -59,6 +61,7 @@ def test_what_else_acts_about_the_joint_is_not_the_drive_s(
     assert off("mujoco", tmp_path)[1] > 1.0
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a motor of pymunk that is told the present rate")
 def test_a_motor_told_the_present_rate_is_late(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

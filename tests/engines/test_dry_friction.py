@@ -96,6 +96,7 @@ def test_it_slips_inside_a_step(name: str, way: Realised, b: float) -> None:
     assert np.abs(x - growing(EIGHT, b)).max() < bound
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("stiction that holds to the end of its step")
 def test_a_step_that_holds_to_its_end_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     """3 N too much for a part s = 0.8 or 0.4 of a step; with b = 1 N/s there is no such part."""
@@ -145,6 +146,7 @@ REVERSED: dict[tuple[str, Realised], float] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "way"), ROWS)
 def test_a_block_turns_back_without_a_rest(name: str, way: Realised) -> None:
     """Under a strong sine: friction jumps from one bound to the other within a step."""

@@ -107,6 +107,7 @@ def test_friction_feels_what_loops_pass_on(what: str, way: Realised, tmp_path: P
     assert rubs < NEAR[what, way][1]
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("dry friction {way} of {what} blind for what loops pass on")
 @pytest.mark.parametrize(
     ("what", "way"), [("tied", "law"), ("tied", "driver"), ("blurred", "law"), ("crank", "law")]

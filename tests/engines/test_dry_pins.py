@@ -44,6 +44,7 @@ def test_a_bar_swings_to_rest(engine: str, way: Realised, ends: str, tmp_path: P
     assert error < SWUNG[engine, way, ends]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ends", [HUNG, HELD])
 @pytest.mark.parametrize("engine", TUNED)
 def test_these_are_the_ways(engine: str, ends: str, tmp_path: Path) -> None:
@@ -52,6 +53,7 @@ def test_these_are_the_ways(engine: str, ends: str, tmp_path: Path) -> None:
     assert ways(TUNED[engine], case.scene, start) == ("native", *ours)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("dry friction of a pin that forgets which part is counted")
 def test_mutant_that_forgets_which_part_is_counted(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -98,6 +98,7 @@ def test_a_name_nobody_has_is_hinted_at(folder: Path) -> None:
     assert "reach.failng: unknown engine 'failng'; did you mean 'failing'?" in done.stderr
 
 
+@pytest.mark.slow
 def test_only_what_is_asked_for_is_imported(folder: Path) -> None:
     asked = (
         "import sys\n"

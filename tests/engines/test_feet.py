@@ -48,6 +48,7 @@ def off(engine: Engine, step: float) -> tuple[float, float]:
     return max(apart(leg, ANGLE) for leg in ("left", "right")), apart("hip", X)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TUNED)
 @pytest.mark.parametrize("k", range(len(STEPS)))
 def test_a_walker_takes_six_steps(k: int, name: str) -> None:
@@ -132,6 +133,7 @@ def test_what_holds_otherwise_takes_part_in_a_strike() -> None:
     assert np.abs(others @ impulse).max() < 1e-14
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TUNED)
 def test_a_run_leaves_nothing_to_the_next(name: str) -> None:
     """Which feet the floor meets is part of the model that MuJoCo's runs are lent in turn."""

@@ -125,6 +125,7 @@ def test_a_disk_slides_then_rolls(omega: float, name: str) -> None:
     assert abs(rows[-1, VX] + RADIUS * rows[-1, OMEGA]) < slip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_a_disk_on_a_slope_too_steep_slides_and_turns(name: str) -> None:
     beta = math.radians(40)

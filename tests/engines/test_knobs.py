@@ -70,6 +70,7 @@ def decided(engine: Engine, name: str) -> tuple[Any, ...]:
     return {c.name: c.value for c in plan.choices(STEP)}, plan.protocol(STEP)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("engine", "name"), SCENES, ids=str)
 def test_each_value_can_be_pasted_and_does_something(
     engine: str, name: str, tmp_path: Path
@@ -83,6 +84,7 @@ def test_each_value_can_be_pasted_and_does_something(
             assert decided(read_settings(file, ())[engine], name) != before, value
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["sliding_block.braking", "tipping_block", "bouncing_disk.elastic", "rolling_sphere"]
 )

@@ -107,6 +107,7 @@ def landings(case: Case, exact: Trajectory, run: Trajectory) -> tuple[Array, Arr
     return wanted, engine_events(case.scene, every(run), case.events["lands"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", DROPS)
 def test_a_bar_falls_on_its_end(name: str, solved: Solved) -> None:
     """It stays, with the impact's own restitution, and its force is right at once."""
@@ -118,6 +119,7 @@ def test_a_bar_falls_on_its_end(name: str, solved: Solved) -> None:
     assert abs(landed - wanted) < near.time
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", HINGES)
 def test_a_pin_and_the_floor_do_not_undo_each_other(name: str, solved: Solved) -> None:
     """What a joint holds down is lifted slowly: at once it would shake by 0.02 rad."""

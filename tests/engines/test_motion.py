@@ -77,6 +77,7 @@ def worst(a: Array, b: Array) -> float:
     return float(np.abs(a - b).max())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_pendulum(name: str) -> None:
     scene, start = begun("bar_pendulum")
@@ -151,6 +152,7 @@ def test_angles_stay_on_their_turn(name: str) -> None:
     assert found.states["rod"][0, ANGLE] == pytest.approx(8.0, abs=1e-14)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("n", [5, 12])
 def test_a_chain_keeps_its_energy(n: int, name: str) -> None:

@@ -70,6 +70,7 @@ def off(both: Moving, engine: str, way: Realised | None = None, step: float = ST
     return float(np.max(np.abs(run.states["rod"][:, :3] - both.known.states["rod"][:, :3])))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("engine", "way"), REACHED, ids=[".".join(pair) for pair in REACHED])
 def test_engines_follow_the_reference(engine: str, way: Realised, both: Moving) -> None:
     switches = len(both.known.switches)

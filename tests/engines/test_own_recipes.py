@@ -94,6 +94,7 @@ NEEDED: list[tuple[str, str, str]] = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("engine", "name", "option"), NEEDED, ids=str)
 def test_it_is_not_the_same_run_without(engine: str, name: str, option: str) -> None:
     """What the comparison above would miss if it could not fail."""

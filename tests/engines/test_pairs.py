@@ -67,6 +67,7 @@ def off(name: str, what: str, scene: Scene | None = None) -> dict[str, float]:
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", NEAR)
 @pytest.mark.parametrize("what", SCENES)
 def test_sides_and_rims_that_turn_are_met(engine: str, what: str) -> None:
@@ -116,6 +117,7 @@ def refused(name: str, scene: Scene, start: Start) -> str:
     return found.because
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("every contact with the spring of the one that throws back most")
 def test_what_throws_back_differently_has_springs_of_its_own() -> None:
     """Of what hits the second disk, and of what that hits: both in reach of the blow's phase."""
@@ -152,6 +154,7 @@ def test_pymunk_tells_apart_what_it_has_bits_for(monkeypatch: pytest.MonkeyPatch
     assert "tells apart what touches what by 1 bits" in refused("pymunk", scene, start)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["stacked_blocks.pulled", "stacked_blocks.thrown"])
 def test_all_at_once_or_one_after_the_other_a_start_settles_alike(
     name: str, monkeypatch: pytest.MonkeyPatch

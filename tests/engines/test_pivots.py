@@ -82,6 +82,7 @@ def late(run: Trajectory, struck: Array) -> float:
     return float(np.abs(found - struck).max()) if len(found) == len(struck) else np.inf
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("inertia", [HEAVY_RIM, LIGHT_RIM])
 @pytest.mark.parametrize("name", TUNED)
 @pytest.mark.parametrize("k", range(len(STEPS)))
@@ -92,6 +93,7 @@ def test_a_wheel_walks_on_its_spokes(k: int, name: str, inertia: float) -> None:
     assert np.abs(run.states["wheel"][:, ANGLE] - angle).max() < near.angle[k]
 
 
+@pytest.mark.slow
 def test_the_carrying_recipe_throws_a_tip_back() -> None:
     """MuJoCo's for a tip that only stands: 20 times later in three strikes."""
     struck, _ = known(HEAVY_RIM)
@@ -108,6 +110,7 @@ def carried(t: float) -> float:
     return M * (g * np.cos(0.1) - L * (turning * np.sin(lean) + rate**2 * np.cos(lean)))
 
 
+@pytest.mark.slow
 def test_a_seed_that_is_too_small_leaves_no_force_at_the_start() -> None:
     """pymunk: 1e-9 m are less than the tip's path rises in half a step."""
     for seed, opens in ((1e-6, False), (1e-9, True)):
@@ -115,6 +118,7 @@ def test_a_seed_that_is_too_small_leaves_no_force_at_the_start() -> None:
         assert (abs(run.reactions[NORMAL][0] - carried(0.0)) > 0.1) == opens
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TUNED)
 def test_the_floor_carries_the_sum_of_all_tips(name: str) -> None:
     """At the start, and 45 ms before the first strike; measured 4e-3 N of 12."""
@@ -123,6 +127,7 @@ def test_the_floor_carries_the_sum_of_all_tips(name: str) -> None:
         assert run.reactions[NORMAL][at] == pytest.approx(carried(float(TIMES[at])), abs=2e-2)
 
 
+@pytest.mark.slow
 def test_too_few_sweeps_keep_another_part_of_the_speed() -> None:
     """pymunk, one sweep in place of 120, where two tips touch at once."""
     few = [Choice(f"{of}.iterations", 1, "") for of in ("space", "start")]

@@ -67,6 +67,7 @@ def pairs(folder: Path, what: str) -> Iterator[Case]:
     yield case(folder / "turned", what, TURNED, AT)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", SCENES)
 def test_reference(tmp_path: Path, what: str) -> None:
     level, turned = pairs(tmp_path, what)

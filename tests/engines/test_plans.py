@@ -58,6 +58,7 @@ def test_a_plan_crosses_into_a_process(name: str, engine: Engine) -> None:
 ROUNDING = 1e-9  # m, rad, m/s: what a stop that differs in its last digits may leave
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["anisotropic_drift", "dynamometer", "dynamometer_smooth"])
 def test_tied_numbers_that_are_said_to_make_no_difference_make_none(name: str) -> None:
     """Under our law and driver MuJoCo's friction holds what lies still: how softly is all one."""

@@ -107,6 +107,7 @@ def test_tree(seed: int, driven: bool, name: str, way: Realised) -> None:
     agrees(name, way, build, TREE[name, way], start_near=START[name])
 
 
+@pytest.mark.slow
 def test_few_trees_are_refused() -> None:
     builds = [trees(seed, driven=driven).scene for seed in range(12) for driven in (False, True)]
     assert sum(refused(TUNED["pymunk"], scene) is not None for scene in builds) == 3

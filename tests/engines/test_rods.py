@@ -33,11 +33,13 @@ def off(engine: str, scene: str, folder: Path) -> float:
     return float(max(apart))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", REACHED)
 def test_a_chain(engine: str, tmp_path: Path) -> None:
     assert off(engine, rods.CHAIN, tmp_path) < REACHED[engine]
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a massless rod with 1e-3 of the lightest body's mass")
 def test_a_heavy_rod_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(bars, "LIGHT", 1e-3)
@@ -59,6 +61,7 @@ def in_a_loop(name: str, folder: Path, step: float) -> tuple[float, float]:
     return float(max(apart)), float(max(pulls))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", LOOPS)
 def test_mujoco_s_loops(name: str, tmp_path: Path) -> None:
     places, forces = in_a_loop(name, tmp_path, 1e-4)
@@ -66,11 +69,13 @@ def test_mujoco_s_loops(name: str, tmp_path: Path) -> None:
     assert forces < 2e-2
 
 
+@pytest.mark.slow
 def test_a_rod_in_a_loop_is_of_second_order(tmp_path: Path) -> None:
     coarse, fine = (in_a_loop("linked", tmp_path, step)[0] for step in (4e-4, 2e-4))
     assert 3.0 < coarse / fine < 5.0
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a rod of another length")
 def test_a_rod_of_another_length_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """MuJoCo counts from the file's own pose: what stands there is not the rod's length."""
@@ -78,6 +83,7 @@ def test_a_rod_of_another_length_is_seen(tmp_path: Path, monkeypatch: pytest.Mon
     assert in_a_loop("linked", tmp_path, 1e-3)[0] > 0.1
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("rows of pins and rods taken for each other's")
 def test_the_rows_of_pins_and_rods_are_told_apart(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -87,6 +93,7 @@ def test_the_rows_of_pins_and_rods_are_told_apart(
     assert in_a_loop("both", tmp_path, 1e-3)[1] > 0.5
 
 
+@pytest.mark.slow
 def test_a_script_holds_the_rod(tmp_path: Path) -> None:
     case = scenes.typed(tmp_path, rods.LINKED, tail=scenes.tail(1.0, 11))
     start = first(solve(case).trajectory)
@@ -104,6 +111,7 @@ def test_pymunk_s_loops(tmp_path: Path) -> None:
     assert off("pymunk", rods.SWING, tmp_path) < REACHED["pymunk"]
 
 
+@pytest.mark.slow
 def test_pymunk_knows_no_sign_of_a_rod_s_force(tmp_path: Path) -> None:
     case = scenes.typed(tmp_path, rods.CHAIN)
     plan = planned(TUNED["pymunk"], case.scene, first(solve(case).trajectory))

@@ -159,6 +159,7 @@ allow: {ball.x: 1.0e-2}
 """
 
 
+@pytest.mark.slow
 def test_what_a_coarse_step_catches_is_hardly_thrown_back(tmp_path: Path) -> None:
     """pymunk finds a rope too long by up to v h, and takes it back at the rate r: v h r."""
     begins = (0.5, 0.5004, 0.5009, 0.5014, 0.5019)  # wherever in a step it comes taut

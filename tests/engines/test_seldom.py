@@ -94,6 +94,7 @@ def off(
     return largest
 
 
+@pytest.mark.slow
 def test_a_rope_that_would_have_to_push_is_let_go(tmp_path: Path) -> None:
     """Measured 7e-5 m and rad, 1e-3 rad/s, of second order.
 
@@ -125,6 +126,7 @@ def test_the_later_of_two_first_is_seen(tmp_path: Path, monkeypatch: pytest.Monk
     assert off(case, motion, 1e-3)[:2].max() > 3e-4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", ["native", "driver"])
 def test_a_rope_that_starts_inward_is_slack(way: Realised, tmp_path: Path) -> None:
     """Until 0.053 s it falls freely, which RK4 has exactly."""
@@ -145,12 +147,14 @@ def test_a_rope_that_is_drawn_though_slack_is_seen(
     assert off(case, motion, 1e-3, way="native").max() > 1e-7
 
 
+@pytest.mark.slow
 def test_smooth_friction_of_what_another_body_swings_on(tmp_path: Path) -> None:
     """Measured 6e-6 m and rad at 1 ms; in pymunk 4e-4."""
     case, motion = known(tmp_path, SWINGS_ON_SLIDE, 1.0)
     assert off(case, motion, 1e-3, way="law")[:3].max() < 2e-5
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("smooth friction of a slide by what acts on its own coordinate alone")
 def test_friction_that_does_not_feel_what_swings_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -195,6 +199,7 @@ allow: {box.angle: 1.0e-2}
 """
 
 
+@pytest.mark.slow
 def test_a_block_that_rocks_is_carried_by_its_corner(tmp_path: Path) -> None:
     """Measured 6e-3 rad over four knocks, and with the recipe of what falls 7e-2."""
     case, motion = known(tmp_path, ROCKS, 1.5, 76)
@@ -203,6 +208,7 @@ def test_a_block_that_rocks_is_carried_by_its_corner(tmp_path: Path) -> None:
     assert off(case, motion, 1e-3, way="native")[:3].max() < 1e-2
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a block that rocks on the spring of what falls")
 def test_a_rocking_block_that_sinks_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

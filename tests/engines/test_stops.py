@@ -62,6 +62,7 @@ def off(engine: str, case: Case, motion: Trajectory) -> tuple[float, float]:
     return max(angles), float(np.abs(torque)[away].max())
 
 
+@pytest.mark.slow
 def test_the_reference_presses_on_both_stops_alike(tmp_path: Path) -> None:
     """Of a joint that is named backward all signs turn, and the motion stays."""
     (case, motion), (turned, same) = (known(tmp_path, text) for text in (FORWARD, BACKWARD))
@@ -83,6 +84,7 @@ def test_engines_stop_as_the_reference(engine: str, text: str, tmp_path: Path) -
     assert torque < REACHED[engine][1]
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("range of a stop not turned round with its joint")
 def test_a_range_that_is_not_turned_round_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -95,6 +97,7 @@ def test_a_range_that_is_not_turned_round_is_seen(
     assert off("mujoco", case, motion)[0] > 0.1
 
 
+@pytest.mark.slow
 def test_what_engines_hold(tmp_path: Path) -> None:
     for text in (FORWARD, BACKWARD):
         case, motion = known(tmp_path, text)
@@ -116,6 +119,7 @@ def test_refusals(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("every stop with the spring of the one that throws back most")
 def test_stops_that_throw_back_differently_have_springs_of_their_own(tmp_path: Path) -> None:
     """The shaft's stop, which throws nothing back, beside that of the elbow."""
@@ -150,6 +154,7 @@ FIRST = PRESSED.replace("PARTS", "ground.O, b.start").replace("SIDE", "low: -30"
 SECOND = PRESSED.replace("PARTS", "b.start, ground.O").replace("SIDE", "high: 30")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "text", [FIRST.replace("WAY", ""), SECOND.replace("WAY", "-")], ids=["low", "high"]
 )

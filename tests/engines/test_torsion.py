@@ -34,6 +34,7 @@ def test_engines_turn_as_the_reference(engine: str, realised: str, tmp_path: Pat
         assert np.max(np.abs(found.reactions[name] - known.reactions[name])) < 1e-5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", STEP)
 def test_what_an_engine_holds_is_the_scene_s(engine: str, tmp_path: Path) -> None:
     """A sign or a unit that is lost on the way shows in the audit."""

@@ -58,6 +58,7 @@ def long(tmp_path_factory: pytest.TempPathFactory) -> tuple[Solution, Counter[st
         return solved(tmp_path_factory.mktemp("long"), 20, patch)
 
 
+@pytest.mark.slow
 def test_a_long_chain_costs_no_more_evaluations(
     long: tuple[Solution, Counter[str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):

@@ -26,6 +26,7 @@ def found() -> set[str]:
     return {number for place in PLACES for file in place.rglob("*.py") for number in stated(file)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", NUMBERS)
 def test_equation_is_stated(number: int) -> None:
     assert f"2.{number}" in found()

@@ -104,6 +104,7 @@ def test_its_forces_are_refused_with_their_interval(tmp_path: Path, name: str, s
     assert f"{name}: anything from {low:.4g} to {high:.4g} N" in mistake.what
 
 
+@pytest.mark.slow
 def test_one_value_that_the_cones_leave_is_certified(tmp_path: Path) -> None:
     """At the least angle at which it may rest both frictions are all that there is."""
     mu, nu = 0.4, 0.3
@@ -130,6 +131,7 @@ rests: true
 allow: {p.x: 1.0e-3"""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("k", "name"), [*enumerate(("floor.normal", "floor.tangent", "wall.normal"))]
 )
@@ -156,6 +158,7 @@ initial: {b: {x: 0, y: 0.25, angle: 0}}
 allow: {b.x: 1.0e-3"""
 
 
+@pytest.mark.slow
 def test_three_points_on_one_plane_slide_when_their_sum_is_spent(tmp_path: Path) -> None:
     """At 6 t = μ m g, whoever bears how much; x = (t − t₀)³/2 then."""
     found = solve(scenes.typed(tmp_path, THREE + "}\n", tail=scenes.tail(2.0, 41)))
@@ -178,6 +181,7 @@ initial: {b: {angle: 0}, p: {angle: 20 deg}}
 allow: {p.angle: 1.0e-3"""
 
 
+@pytest.mark.slow
 def test_while_a_pendulum_swings_on_it_the_pins_force_is_open(tmp_path: Path) -> None:
     """A bar lies on its hinge and a rubbing tip: fx and the friction share what pulls."""
     tail = scenes.tail(0.3, 13)
@@ -202,6 +206,7 @@ allow: {p.angle: 1.0e-3}
         assert (mistake.where, "anything from" in mistake.what) == (f"allow.{name}", True)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("forces that statics leaves open taken for determined")
 def test_what_is_open_and_is_taken_for_one_value_fails_by_itself(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -244,6 +249,7 @@ initial: {box: {x: 0, y: 0.1, angle: 0}, cart: {x: 0, vx: 1}}
 """
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("forces left open beside smooth friction taken for determined")
 def test_beside_smooth_friction_too_a_shared_friction_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -34,6 +34,7 @@ def functions(file: str) -> set[str]:
     return {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("entry", ENTRIES)
 def test_each_entry_has_its_code_its_rows_and_a_test(entry: str) -> None:
     _, code, rows, tests = ENTRIES[entry]

@@ -51,6 +51,7 @@ allow: {q.shift: 1.0e-3, b.omega_1: 1.0e-3}
 """
 
 
+@pytest.mark.slow
 def test_where_nothing_turns_a_rate_of_rounding_is_none(tmp_path: Path) -> None:
     """It has no size to be small against but 1 rad in the whole duration."""
     assert solve(typed(tmp_path, f"{SLIDES}stays: [b.omega_1]\n")).holds

@@ -82,6 +82,7 @@ STRIKES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a program outlives the run that was ended")
 @pytest.mark.parametrize("name", STRIKES)
 def test_it_ends_with_us_and_nothing_stays(
@@ -99,6 +100,7 @@ def test_it_ends_with_us_and_nothing_stays(
     assert list((tmp_path / "tmp").iterdir()) == []
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(child._tied() is None, reason="the system ends no child with its parent")
 def test_killed_it_takes_the_program_along(
     running: tuple[subprocess.Popen[str], list[int]],
@@ -114,6 +116,7 @@ def test_killed_it_takes_the_program_along(
     os.kill(inner, signal.SIGKILL)
 
 
+@pytest.mark.slow
 def test_what_it_says_and_how_it_ended_is_told() -> None:
     code = "import sys; sys.stderr.write('b\\xe4d'); sys.exit(3)"
     assert child.run([sys.executable, "-X", "utf8", "-c", code], told=True) == (3, "bäd")

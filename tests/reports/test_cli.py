@@ -69,6 +69,7 @@ def test_out_and_keep_write_where_they_are_told(new: Path, tmp_path: Path) -> No
     assert events == "engine,setting,realised,event,k,time [s],difference [s]\n"
 
 
+@pytest.mark.slow
 def test_a_verdict_that_fails_is_exit_code_1_and_is_named(new: Path) -> None:
     new.write_text(NEW.replace("rod.angle: 1.0e-2", "rod.angle: 1.0e-12"), encoding="utf-8")
     done = textmech("run", new, "--engine", "mujoco.tuned")
@@ -84,6 +85,7 @@ def test_a_verdict_that_fails_is_exit_code_1_though_it_is_written(new: Path) -> 
     assert (new.parent / "o" / "tolerance.csv").is_file()
 
 
+@pytest.mark.slow
 def test_an_unknown_tolerance_is_never_written_but_said(new: Path) -> None:
     new.write_text(NEW.replace("rod.angle: 1.0e-2", "rod.angle: unknown"), encoding="utf-8")
     done = textmech("run", new, "--engine", "mujoco.tuned")
@@ -92,6 +94,7 @@ def test_an_unknown_tolerance_is_never_written_but_said(new: Path) -> None:
     assert "unknown" in new.read_text()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "message"),
     [

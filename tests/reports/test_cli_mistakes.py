@@ -25,6 +25,7 @@ def files(tmp_path: Path) -> Path:
     return tmp_path
 
 
+@pytest.mark.slow
 def test_a_mistake_costs_its_own_file(files: Path) -> None:
     names = ("bad.yaml", "good.yaml", "long.yaml", "still.yaml")
     done = textmech("run", *names, "--engine", "mujoco.tuned", folder=files)
@@ -42,6 +43,7 @@ def test_without_a_sound_file_nothing_runs(files: Path) -> None:
     assert "2 mistakes; nothing was written" in done.stderr or "3 mistakes" in done.stderr
 
 
+@pytest.mark.slow
 def test_check_says_what_would_take_for_ever_and_allow_long_goes_on(files: Path) -> None:
     done = textmech("check", "long.yaml", "good.yaml", folder=files)
     assert done.returncode == 2
@@ -65,6 +67,7 @@ def test_check_says_no_mistakes_only_where_nothing_fails(
     assert "no mistakes" not in done.output
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a scene that is changed under its system, told by numbers alone")
 def test_a_scene_that_is_changed_under_its_system_is_told_as_that(files: Path) -> None:
     text = shipped()["bar_pendulum"].read_text(encoding="utf-8")
@@ -128,6 +131,7 @@ def test_without_words_it_helps_and_blames_nobody() -> None:
     assert done.stderr.startswith("Usage: ")
 
 
+@pytest.mark.slow
 def test_list_finds_words_or_says_that_it_does_not() -> None:
     done = textmech("list", "wheel", "slope")
     assert "rimless_wheel\n" in done.stdout

@@ -179,10 +179,12 @@ def test_every_equation_that_a_case_names_is_executed_by_it(report: Report) -> N
         assert not missing, f"{case.name} names {sorted(missing)} and never runs them"
 
 
+@pytest.mark.slow
 def test_the_readme_shows_the_reports() -> None:
     assert readme.README.read_text(encoding="utf-8") == readme.current()
 
 
+@pytest.mark.slow
 def test_the_page_shows_the_reports() -> None:
     """The same bytes, of the committed rows and of the motions that the page itself carries."""
     text = PAGE.read_text(encoding="utf-8")

@@ -106,6 +106,7 @@ def test_a_finding_that_grew_tenfold_got_worse(
     assert committed.worse(moving, replace(row, largest=float("nan"))) != ""
 
 
+@pytest.mark.slow
 def test_every_committed_tuned_row_has_a_bar_near_its_figure() -> None:
     """A hundredfold loss is seen in each, whatever the case allows."""
     cases = {case.name: case for path in shipped().values() for case in load(path)}

@@ -118,6 +118,7 @@ def test_one_number_of_friction_costs_what_is_declared(name: str) -> None:
         assert high <= NARROW * low or quantity.endswith(".count"), quantity
 
 
+@pytest.mark.slow
 def test_no_other_interval_is_declared() -> None:
     """But for a bounce, an energy and a floor that carries nothing, which are derived elsewhere."""
     found = {

@@ -132,6 +132,7 @@ READING = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", READING)
 def test_who_reads_writes_nothing(name: str, folder: Path, tmp_path: Path) -> None:
     """Into the folder, beside it, or anywhere below, whatever an interrupted run has left there."""

@@ -84,6 +84,7 @@ def test_a_folder_that_is_tried_keeps_nothing(
     assert list((tmp_path / "o").iterdir()) == []
 
 
+@pytest.mark.slow
 def test_a_folder_in_a_reports_place_costs_no_other_report(
     folder: Path, said: Callable[..., str]
 ) -> None:

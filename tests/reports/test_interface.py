@@ -53,6 +53,7 @@ def test_solve_gives_the_motion_with_its_units() -> None:
     assert found.checks.certified.max() < 1e-9
 
 
+@pytest.mark.slow
 def test_solve_of_an_attitude_gives_its_angle() -> None:
     found = solve("spinning_body")
     assert found.units["body.attitude"] == "rad"
@@ -60,6 +61,7 @@ def test_solve_of_an_attitude_gives_its_angle() -> None:
     assert found.motion["body.attitude"].max() > 1
 
 
+@pytest.mark.slow
 def test_run_gives_the_reports_as_frames(swing: Path) -> None:
     own = {"mujoco": {"integrator": "RK4"}}
     found = run(swing, engines=["mujoco"], options=own)
@@ -78,6 +80,7 @@ def test_run_gives_the_reports_as_frames(swing: Path) -> None:
     assert (found.reference.verdict == "holds").all()
 
 
+@pytest.mark.slow
 def test_run_tells_why_where_it_is_asked(swing: Path) -> None:
     found = run(swing, engines=["pymunk.shipped"], causes=True).causes
     rows = found[found.quantity == "rod.angle"]
@@ -125,6 +128,7 @@ def test_a_file_with_mistakes_is_no_run(tmp_path: Path) -> None:
             ask(file)
 
 
+@pytest.mark.slow
 def test_a_mistake_that_only_solving_finds_is_raised(tmp_path: Path) -> None:
     file = tmp_path / "cart.yaml"
     events = "events: {stops: {cart.vx: {rises to: 1.0e+3}}}\n"

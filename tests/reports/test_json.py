@@ -37,6 +37,7 @@ def document(*words: object) -> dict[str, Any]:
     return found
 
 
+@pytest.mark.slow
 def test_a_run_tells_all_its_rows(new: Path, tmp_path: Path) -> None:
     found = document("run", new, "--engine", "mujoco.tuned", "--out", tmp_path / "o")
     assert list(found) == [
@@ -64,6 +65,7 @@ def test_a_run_tells_all_its_rows(new: Path, tmp_path: Path) -> None:
     assert {row["verdict"] for row in found["reference"]} == {"holds"}
 
 
+@pytest.mark.slow
 def test_a_verdict_that_fails_is_in_it(new: Path) -> None:
     new.write_text(NEW.replace("rod.angle: 1.0e-2", "rod.angle: 1.0e-12"), encoding="utf-8")
     found = document("run", new, "--engine", "mujoco.tuned")
@@ -82,6 +84,7 @@ def test_mistakes_are_in_it_with_their_places(command: str, new: Path) -> None:
     assert found["exit_code"] == 2
 
 
+@pytest.mark.slow
 def test_one_of_two_files_is_left_out_and_the_other_is_told(new: Path) -> None:
     other = new.with_name("other.yaml")
     other.write_text(NEW.replace("mass: 2.0", "mass: -2.0"), encoding="utf-8")

@@ -45,6 +45,7 @@ def test_other_vector_units_write_the_same_bytes(tmp_path: Path) -> None:
         assert [pair for pair in lines if pair[0] != pair[1]] == [], name
 
 
+@pytest.mark.slow
 @ELSEWHERE
 def test_the_other_machine_is_another_one() -> None:
     """Else the test above compares a run with itself."""

@@ -80,6 +80,7 @@ allow: {bob.x: 1.0e-3, coil.work: 10.0}
 """
 
 
+@pytest.mark.slow
 def test_work_that_its_own_samples_are_too_rough_for_is_refused_alone(tmp_path: Path) -> None:
     """It is summed between samples: pymunk's own step meets only every third."""
     file, out = tmp_path / "work.yaml", tmp_path / "o"

@@ -84,6 +84,7 @@ def measured(case: Case, *engines: Any) -> list[Comparison]:
     return [row for row in report.comparisons if row.quantity != "audit"]
 
 
+@pytest.mark.slow
 def test_a_games_step_is_judged_as_it_is(moving: Case, trial: Make) -> None:
     """x is off by h t: the step shows in the error, and the reference is solved for its times."""
     (row,) = measured(moving, own(trial, 1 / 60))

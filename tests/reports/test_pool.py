@@ -60,6 +60,7 @@ class Strange(Exception):
         super().__init__(one)
 
 
+@pytest.mark.slow
 def test_whatever_a_task_does_it_is_told_and_costs_no_other() -> None:
     tasks = [*["dies", "leaves", "raises"] * 5, *map(str, range(20))]
     with pool.local(2) as executor:
@@ -72,6 +73,7 @@ def test_whatever_a_task_does_it_is_told_and_costs_no_other() -> None:
             assert found[index] == task
 
 
+@pytest.mark.slow
 def test_of_many_that_die_at_once_each_end_is_told_once() -> None:
     """A process that is replaced while its neighbour dies: some of these were wrong."""
     tasks = ["dies", "dies", "lives"] * 80

@@ -79,6 +79,7 @@ def test_a_task_that_takes_long_is_waited_for_aloud(monkeypatch: pytest.MonkeyPa
     assert len(beats) > 2
 
 
+@pytest.mark.slow
 def test_what_takes_long_has_a_line_that_moves(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -98,6 +99,7 @@ def test_what_takes_long_has_a_line_that_moves(
     assert "swing: the motion, at 5 of 10 s" in said
 
 
+@pytest.mark.slow
 def test_what_is_soon_done_says_nothing(capsys: pytest.CaptureFixture[str]) -> None:
     with progress.aloud():
         now.doing("the motion", 0.0, 10.0)
@@ -115,6 +117,7 @@ def _hear(executor: Processes, heard: list[list[str]]) -> None:
     heard.append(executor.doing())
 
 
+@pytest.mark.slow
 def test_what_another_process_is_at_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
     heard: list[list[str]] = []
     monkeypatch.setattr(pool, "BEAT", 0.2)

@@ -103,6 +103,7 @@ def test_a_folder_in_the_place_of_a_file_costs_none_of_the_others(folder: Path) 
     assert found(folder) == OLD
 
 
+@pytest.mark.slow
 def test_two_at_once_are_one_after_the_other(folder: Path) -> None:
     def many(text: str) -> None:
         for _ in range(10):

@@ -66,6 +66,7 @@ def rows(report: Report, cases: list[Case]) -> dict[str, str]:
     return write.texts(write.tables(report, cases))
 
 
+@pytest.mark.slow
 def test_a_second_run_computes_nothing_and_says_the_same(
     trial: Make, moving: Case, store: Store, done: Callable[[], dict[str, int]]
 ) -> None:
@@ -77,6 +78,7 @@ def test_a_second_run_computes_nothing_and_says_the_same(
     assert rows(first, [moving]) == rows(second, [moving])
 
 
+@pytest.mark.slow
 def test_without_a_store_nothing_is_kept(
     trial: Make, moving: Case, done: Callable[[], dict[str, int]]
 ) -> None:
@@ -85,6 +87,7 @@ def test_without_a_store_nothing_is_kept(
         assert done() == {"solve": 1, "run": RUNGS, "compare": 1}
 
 
+@pytest.mark.slow
 def test_one_changed_engine_is_done_alone(
     trial: Make, moving: Case, store: Store, done: Callable[[], dict[str, int]]
 ) -> None:
@@ -95,6 +98,7 @@ def test_one_changed_engine_is_done_alone(
     assert done() == {"run": RUNGS, "compare": 1}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("phase", "finished", "left"),
     [
@@ -127,6 +131,7 @@ def test_an_interrupted_run_goes_on_where_it_was(
     assert rows(report, [moving]) == rows(measure([moving], engines, None), [moving])
 
 
+@pytest.mark.slow
 def test_of_rungs_that_are_judged_nothing_stays(trial: Make, moving: Case, store: Store) -> None:
     engine = trial().engine
     Keys.now(store).ways(moving, engine)  # what is known of files of code lies there too
@@ -141,6 +146,7 @@ def die(step: float) -> None:
         os.kill(os.getpid(), signal.SIGKILL)
 
 
+@pytest.mark.slow
 def test_a_rung_that_died_is_run_again_alone(
     trial: Make,
     moving: Case,
@@ -160,6 +166,7 @@ def test_a_rung_that_died_is_run_again_alone(
     assert rows(report, [moving]) == rows(measure([moving], [trial().engine], None), [moving])
 
 
+@pytest.mark.slow
 def test_a_damaged_entry_is_computed_again(
     trial: Make, moving: Case, store: Store, done: Callable[[], dict[str, int]]
 ) -> None:
@@ -172,6 +179,7 @@ def test_a_damaged_entry_is_computed_again(
     assert rows(first, [moving]) == rows(second, [moving])
 
 
+@pytest.mark.slow
 def test_what_died_or_was_computed_by_changed_code_is_not_kept(
     trial: Make,
     moving: Case,

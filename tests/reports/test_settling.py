@@ -54,6 +54,7 @@ def test_a_ball_that_settles_is_seen_to_bounce_as_long_as_steps_can_tell(h: floa
     assert np.sum(high & long) <= len(found) < len(impacts)
 
 
+@pytest.mark.slow
 def test_an_engine_bounces_as_often_as_its_steps_can_tell(tmp_path: Path) -> None:
     (tmp_path / "settles.yaml").write_text(SETTLES)
     done = textmech("run", tmp_path / "settles.yaml", "--engine", "pymunk.tuned")

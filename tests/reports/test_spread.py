@@ -37,6 +37,7 @@ def said(row: Comparison) -> str:
     return f"{row.verdict} {row.because}"
 
 
+@pytest.mark.slow
 def test_a_row_beyond_says_how_to_read_it_later(at_once: dict[tuple[str, str], Comparison]) -> None:
     """MuJoCo's limit needs some steps for what a rope does at once."""
     row = at_once["native", "taut.ball.vy.after"]
@@ -51,6 +52,7 @@ def test_others_do_not(at_once: dict[tuple[str, str], Comparison]) -> None:
             assert "tube" not in said(row), key
 
 
+@pytest.mark.slow
 def test_it_is_the_cure(tmp_path: Path) -> None:
     """2.8 m/s off at once; with 20 ms for the impact 0.06."""
     found = rows(scenes.typed(tmp_path, ROPE, tail=TAIL + "tube: 20 ms\n"))

@@ -59,6 +59,7 @@ def test_space_is_refused_by_an_engine_of_the_plane(tmp_path: Path) -> None:
     }
 
 
+@pytest.mark.slow
 def test_twice_the_energy_is_beyond_fails_or_is_declared(tmp_path: Path) -> None:
     case = claimed(tmp_path, PLANE, allow={"energy.kinetic": 1e-11})
     shipped = engines.make("pymunk", "shipped")
@@ -140,6 +141,7 @@ def test_shipped_claims(name: str) -> None:
         assert engine is PYMUNK or answered == {AGREES}
 
 
+@pytest.mark.slow
 def test_friction_that_an_engine_has_not_is_refused_and_the_rest_answered() -> None:
     for engine in (MUJOCO, PYMUNK):
         found = rows(scenes.CLAIMS["sliding_points"], engine)

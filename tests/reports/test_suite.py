@@ -41,6 +41,7 @@ def verdicts(report: Report) -> dict[tuple[str, str], Any]:
     return {(r.setting, r.quantity): r for r in report.comparisons if r.quantity != "audit"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("before", "words"), [(die, "died"), (stumble, "ZeroDivisionError")])
 def test_a_lost_run_is_a_row_and_the_others_are_whole(
     trial: Make, moving: Case, before: Callable[[], None], words: str
@@ -53,6 +54,7 @@ def test_a_lost_run_is_a_row_and_the_others_are_whole(
     assert words in found[("shipped", "ball.x")].because
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("planning", "words"), [(die, "died"), (stumble, "ZeroDivisionError")])
 def test_an_engine_that_is_lost_while_it_plans_is_a_row_too(
     trial: Make, moving: Case, planning: Callable[[], None], words: str
@@ -65,6 +67,7 @@ def test_an_engine_that_is_lost_while_it_plans_is_a_row_too(
     assert words in found[("shipped", "ball.x")].because
 
 
+@pytest.mark.slow
 def test_a_diverged_run_is_a_row(trial: Make, moving: Case) -> None:
     engine = trial(setting="shipped", own_step=1e-3, stable=1e-5).engine
     report = measure([moving], [engine])
@@ -72,6 +75,7 @@ def test_a_diverged_run_is_a_row(trial: Make, moving: Case) -> None:
     assert not report.fails
 
 
+@pytest.mark.slow
 def test_all_cases_that_cannot_start_are_named_together(trial: Make, moving: Case) -> None:
     broken = [
         replace(moving, name=name, initial={}, source=replace(moving.source, file=f"{name}.yaml"))
@@ -93,6 +97,7 @@ def exits(case: Case) -> Solution:
     os._exit(0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("ends", "words"), [(overflow, "OverflowError: too stiff"), (exits, "exit code 0")]
 )
@@ -145,6 +150,7 @@ def test_a_reference_that_is_not_certified_judges_nothing(
     assert all("not certified" in row.because for row in report.comparisons)
 
 
+@pytest.mark.slow
 def test_nor_does_it_judge_events(
     trial: Make, moving: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -32,6 +32,7 @@ def known(error: float, module: Any = write) -> float:
     return float(frame["certified"].iloc[0])
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a certificate that is told smaller than it is")
 def test_a_certified_error_is_told_larger_and_by_less_than_ten_times() -> None:
     for error in ERRORS.tolist():

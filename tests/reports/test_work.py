@@ -69,6 +69,7 @@ def test_the_count_is_that_of_the_ladders(tmp_path: Path, name: str) -> None:
         assert taken <= _steps(case, engine) <= 4.1 * taken
 
 
+@pytest.mark.slow
 def test_the_shipped_cases_stay_far_below() -> None:
     from textmech.reports.selection import choose_cases
 

@@ -111,6 +111,7 @@ def test_wrong_physics_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch) ->
     assert seen(name)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("Steiner term left out of the second reading's bar")
 def test_an_inertia_about_the_wrong_point_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     """A bar about its end has m l²/3; with m l²/12 there the pendulum swings at another rate."""

@@ -72,11 +72,13 @@ def seeds(normal: range, more: range) -> list[Any]:
     return [*normal, *(pytest.param(seed, marks=pytest.mark.slow) for seed in more)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", seeds(PLANE, MORE_PLANE))
 def test_a_random_scene_in_the_plane_moves_the_same(seed: int, tmp_path: Path) -> None:
     assert compared(drawn_plane.drawn(seed), tmp_path) == {}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", seeds(SPACE, MORE_SPACE))
 def test_a_random_scene_in_space_moves_the_same(seed: int, tmp_path: Path) -> None:
     assert compared(drawn_space.drawn(seed), tmp_path) == {}

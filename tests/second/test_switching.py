@@ -66,11 +66,13 @@ def test_a_case_that_switches_moves_the_same(name: str) -> None:
         assert unlike(motion, name) == {}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in EVENTFUL if name in SMOOTH])
 def test_events_of_a_smooth_case_happen_at_the_same_times(name: str) -> None:
     assert unlike(answer.motion(both.SHIPPED[name]), name) == {}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(SMOOTHED))
 def test_the_smooth_law_moves_as_the_exact_one(name: str) -> None:
     """The second reading takes it as if `smooth` were not said, which is what the law is for."""

@@ -106,6 +106,7 @@ def test_a_new_word_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     assert unread(grammar(), literals()) == {"smooth"}
 
 
+@pytest.mark.slow
 def test_every_word_that_is_read_is_compared() -> None:
     """By a shipped case, or by one of the first random scenes."""
     used = {word for file in both.FILES for word in keys(read.text(file.read_text("utf-8")))}

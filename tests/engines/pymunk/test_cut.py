@@ -60,6 +60,7 @@ def wheel(step: float, way: Realised = "driver") -> float:
     return off(case, exact, run(case, exact, step, way), "wheel.angle")
 
 
+@pytest.mark.slow
 def test_a_wheel_on_spokes_is_of_second_order() -> None:
     """At the end of a step each strike is late by up to h: 7.8e-3 and 1.8e-3 rad."""
     assert wheel(1e-3) < 5e-5  # measured 2.6e-5
@@ -79,6 +80,7 @@ MISTAKES: Mapping[str, tuple[object, str, Callable[..., object]]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a spoke comes down: {mistake}")
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_mistake_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -107,6 +109,7 @@ def falls(tmp_path: Path) -> Falls:
 NEAR = {SLIDES: (0.25, 1.3e-5, 4e-4, 1e-8), HINGED: (0.5, 1.5e-7, 1e-9, 2e-8)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", NEAR, ids=["slides", "hinged"])
 def test_what_lands_does_so_in_time(text: str, falls: Falls) -> None:
     """A bar that slides on, and one that a pin and the floor hold."""
@@ -120,6 +123,7 @@ def test_what_lands_does_so_in_time(text: str, falls: Falls) -> None:
     assert engine_events(case.scene, every(found), event) == pytest.approx(wanted, abs=time)
 
 
+@pytest.mark.slow
 def test_two_corners_land_at_once(falls: Falls) -> None:
     case, exact = falls(FLAT, 0.25)
     found = run(case, exact, 1e-3)
@@ -185,6 +189,7 @@ allow: {ball.y: 1.0e-3}
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [ROLLS, PULLED], ids=["foreseen", "earlier than foreseen"])
 def test_what_comes_down_as_a_step_ends_is_not_overlooked(text: str, falls: Falls) -> None:
     """What is foreseen and what is found there differ by rounding, or by h² of a pull."""

@@ -50,6 +50,7 @@ MACHINES: dict[str, tuple[str, Realised, tuple[float, float]]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", MACHINES)
 def test_a_light_part_between_heavy_ones(what: str, tmp_path: Path) -> None:
     """With 30 sweeps the lift and the crane flew apart, at any step."""
@@ -60,6 +61,7 @@ def test_a_light_part_between_heavy_ones(what: str, tmp_path: Path) -> None:
         assert error < (force if name.endswith(".force") else place), name
 
 
+@pytest.mark.slow
 def test_a_share_of_the_gap_is_of_second_order_too(tmp_path: Path) -> None:
     """On a thread of 1 g whole gaps would need 12 000 sweeps: the bias follows the step."""
     text = CRANE.replace("mass: 0.1", "mass: 0.001")

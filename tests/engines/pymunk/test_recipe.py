@@ -48,6 +48,7 @@ def test_a_wheel_that_only_touches_falls_for_one_step(monkeypatch: pytest.Monkey
     assert np.abs(observe(scene, run, "touch.gap")).max() > 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("seed", "often"), [(1e-8, 1), (1e-9, 3)])
 def test_a_ladder_uses_up_a_smaller_seed(
     monkeypatch: pytest.MonkeyPatch, seed: float, often: int

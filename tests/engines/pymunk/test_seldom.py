@@ -78,6 +78,7 @@ def test_a_spin_that_is_half_too_large_is_seen(tmp_path: Path, monkeypatch: Patc
     assert off(case, motion, 1e-3, "law")[:3].max() > 1e-2
 
 
+@pytest.mark.slow
 def test_friction_about_a_pin_feels_the_weight_at_its_time(tmp_path: Path) -> None:
     case, motion = known(tmp_path, RUBS, 1.0)
     one, two = (off(case, motion, step, "law")[2] for step in (1e-3, 5e-4))
@@ -99,12 +100,14 @@ def moments(folder: Path, *, late: float = 0.0) -> tuple[Array, Array]:
     return seen, -9.80665 * 0.4 * np.cos(np.radians(-20) + 6 * asked)
 
 
+@pytest.mark.slow
 def test_the_moment_about_a_pin_is_that_of_the_time_asked(tmp_path: Path) -> None:
     """Where it stops it hardly turns: a moment half a step behind moves hardly anything there."""
     seen, known = moments(tmp_path)
     assert seen == pytest.approx(known, rel=1e-13)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("the moment about a pin half a step behind")
 def test_a_moment_about_a_pin_that_is_late_is_seen(tmp_path: Path) -> None:
     seen, known = moments(tmp_path, late=0.5)

@@ -77,10 +77,12 @@ def pressed(folder: Path) -> float:
     return float(np.abs(found.reactions["tip.normal"] - motion.reactions["tip.normal"])[5:20].max())
 
 
+@pytest.mark.slow
 def test_a_tip_that_turns_fast_stays_on_its_floor(tmp_path: Path) -> None:
     assert pressed(tmp_path) < 1e-4  # measured 1.3e-5, of 2 to 4 N
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a tip's path along its curve, (ω h)² l/2, taken for a leap")
 def test_a_tip_that_leaves_by_its_curve_is_seen(tmp_path: Path, monkeypatch: Patch) -> None:
     look = Foot.look
@@ -210,12 +212,14 @@ def let_go(folder: Path, step: float) -> tuple[float, float]:
     return leaves, float(record.times[np.argmax(record.reactions["top.normal"] <= 0.0)])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("step", [1e-3, 5e-4, 1.25e-4])
 def test_a_smooth_ladder_leaves_its_wall_once(step: float, tmp_path: Path) -> None:
     leaves, found = let_go(tmp_path, step)
     assert found == pytest.approx(leaves, abs=2 * step)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a seed that the curve of a tip's path uses up")
 def test_a_seed_that_is_used_up_is_seen(tmp_path: Path, monkeypatch: Patch) -> None:
     recipe = import_module("textmech.engines.pymunk.recipe")  # the package has a function so called

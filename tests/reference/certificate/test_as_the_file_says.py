@@ -101,6 +101,7 @@ def checks(folder: Path, text: str) -> dict[str, Any]:
     return {check.name: check for check in certified(scenes.typed(folder, text, tail=TAIL))}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [IN_PLANE, IN_SPACE], ids=["plane", "space"])
 def test_what_is_sound_holds(text: str, tmp_path: Path) -> None:
     found = checks(tmp_path, text)
@@ -192,6 +193,7 @@ WRONG: dict[str, tuple[Any, str, Any, str, str]] = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("shared by all answers: {what}")
 @pytest.mark.parametrize("what", WRONG)
 def test_what_all_answers_share_is_seen(
@@ -225,6 +227,7 @@ allow: {upper.angle: 1.0e-2}
 """
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("of two ways to assemble the farther one from `near`")
 def test_the_other_way_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert checks(tmp_path, ELBOW)[NEAR].difference < 0.2

@@ -133,6 +133,7 @@ def test_a_sloppy_integrator_is_seen() -> None:
     assert ANGLE in failing(PENDULUM, system, tolerance=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("the first integrator a millionth too fast, in a scene alone")
 @pytest.mark.parametrize("case", [PENDULUM, STOPS], ids=["smooth", "switching"])
 def test_the_second_integrator_is_no_copy_of_the_first(

@@ -73,6 +73,7 @@ def test_every_bounded_quantity_has_an_error() -> None:
             assert found[quantity] >= EPS * size, (name, quantity)
 
 
+@pytest.mark.slow
 def test_a_bound_that_cannot_be_certified_is_a_mistake_in_its_place(tmp_path: Path) -> None:
     case = pendulum(tmp_path, {"SMALL": "1.0e-15"})
     mistake = refused(case)

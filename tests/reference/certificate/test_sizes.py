@@ -79,6 +79,7 @@ def more(accelerations: Callable[..., Array], part: float) -> Callable[..., Arra
     return wrong
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("accelerations off by 1e-10 of what moves ({name})")
 @pytest.mark.parametrize("name", ["spins", "pushed", "slips, R = 0.1 m"])
 def test_what_is_wrong_by_little_is_seen(

@@ -55,6 +55,7 @@ allow: {ball.x: 1.0e-2}
 """
 
 
+@pytest.mark.slow
 def test_a_block_on_a_slope_hangs_by_its_rope(tmp_path: Path) -> None:
     """½ g sin β t² = 0.2 m; then F = m g sin β, and each corner has half of m g cos β."""
     case = scenes.typed(tmp_path, ON_A_ROPE.replace("MU", "0"), tail=CAUGHT)
@@ -69,6 +70,7 @@ def test_a_block_on_a_slope_hangs_by_its_rope(tmp_path: Path) -> None:
     np.testing.assert_allclose(found.trajectory.states["lo"][-1, 3:], 0.0, atol=1e-14)
 
 
+@pytest.mark.slow
 def test_a_block_rocks_itself_to_rest_at_a_wall(tmp_path: Path) -> None:
     """About its corner r² = 0.05, ω = 0.1 v / (r² + 0.2/12); back on its side it leaves with 0.1 ω.
 
@@ -91,6 +93,7 @@ def test_a_block_rocks_itself_to_rest_at_a_wall(tmp_path: Path) -> None:
     assert last["u.normal"] - last["t.normal"] == pytest.approx(2 * lever, abs=1e-11)
 
 
+@pytest.mark.slow
 def test_what_rope_and_friction_hold_together_rests_and_is_not_divided(tmp_path: Path) -> None:
     """It rests, but how much of its weight the rope has depends on what came before."""
     text = ON_A_ROPE.replace("MU", "0.1")

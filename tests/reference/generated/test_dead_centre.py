@@ -84,6 +84,7 @@ def until(theta: float, turn: float) -> float:
     return sum(taken(a, b)[0] for a, b in ((BEGIN, min(theta, turn)), (turn, max(theta, turn))))
 
 
+@pytest.mark.slow
 def test_a_rocker_turns_back_and_its_crank_goes_on(tmp_path: Path) -> None:
     found = solve(scenes.typed(tmp_path, FOUR_BAR, tail=END))
     assert found.holds
@@ -95,6 +96,7 @@ def test_a_rocker_turns_back_and_its_crank_goes_on(tmp_path: Path) -> None:
     assert set(np.round(friction, 14)) == {-DRY, DRY}
 
 
+@pytest.mark.slow
 def test_what_a_stop_holds_too_rests_and_leaves_open_who_holds_it(tmp_path: Path) -> None:
     """Of m g cos 30° l/2 the dry pin has 0.5 N m, or as much against it."""
     rests = f"{ON_A_STOP}rests: true\n"

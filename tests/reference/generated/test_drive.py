@@ -42,6 +42,7 @@ def unbalanced(folder: Path) -> float:
     return abs(float(work - (energy[-1] - energy[0])))
 
 
+@pytest.mark.slow
 def test_drives_hold_their_rates_and_do_the_work(tmp_path: Path) -> None:
     case = scenes.typed(tmp_path, LEG)
     motion = solve(case).trajectory
@@ -54,6 +55,7 @@ def test_drives_hold_their_rates_and_do_the_work(tmp_path: Path) -> None:
     assert unbalanced(tmp_path) < 1e-7  # Simpson's h⁴
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a drive about a pin with the wrong sign")
 def test_a_drive_with_the_wrong_sign_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -71,6 +73,7 @@ def test_a_drive_with_the_wrong_sign_is_seen(
     assert unbalanced(tmp_path) > 1e-2
 
 
+@pytest.mark.slow
 def test_a_knee_bend_returns_what_its_spring_stores() -> None:
     """After a cycle of 2π/Ω the spring has given all back, and the damper has lost ½ d A² T."""
     for variant, d in (("spring", 0.0), ("damped", 1.5)):

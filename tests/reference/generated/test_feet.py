@@ -18,6 +18,7 @@ from textmech.reference.systems import written
 CASE = SHIPPED["compass_walker"]
 
 
+@pytest.mark.slow
 def test_it_strikes_when_the_one_by_hand_does() -> None:
     own = written("compass_walker", CASE.parameters)
     found, known = follow(scenes.mechanism(CASE), CASE.times), follow(own, CASE.times)

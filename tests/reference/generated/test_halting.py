@@ -60,6 +60,7 @@ def test_alone_it_stops_and_is_refused_from_there_on(tmp_path: Path, alpha: floa
     assert solve(scenes.typed(tmp_path, stops, tail=scenes.tail(0.7 * ends, 25))).holds
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a stop of drag by a power below 1 taken for a passing")
 def test_a_stop_taken_for_a_passing_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

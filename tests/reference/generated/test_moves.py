@@ -50,11 +50,13 @@ def apart(kind: str, folder: Path) -> float:
     return float(np.max(np.abs(angles[0] - angles[1])))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", HANGS)
 def test_an_accelerated_pivot_is_another_gravity(kind: str, tmp_path: Path) -> None:
     assert apart(kind, tmp_path) < 1e-12
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("acceleration of a moving point left out of a {kind}")
 @pytest.mark.parametrize("kind", HANGS)
 def test_a_lost_acceleration_is_seen(

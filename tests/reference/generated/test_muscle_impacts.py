@@ -57,6 +57,7 @@ allow: {arm.angle: 1.0e-2, m.force: 1.0}
 """
 
 
+@pytest.mark.slow
 def test_a_load_is_lifted_and_caught_by_a_rope(tmp_path: Path) -> None:
     """At rest F₀ − F falls as exp(−c t/b): on the floor until F = m g, and from F₁ on the rope."""
     case = scenes.typed(tmp_path, LIFTED, tail=END)
@@ -73,6 +74,7 @@ def test_a_load_is_lifted_and_caught_by_a_rope(tmp_path: Path) -> None:
     np.testing.assert_allclose(found.trajectory.states["load"][held, 1], 0.1, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_a_stop_turns_the_arm_and_not_the_muscle(tmp_path: Path) -> None:
     case = scenes.typed(tmp_path, STRUCK, tail=END)
     assert solve(case).holds
@@ -84,6 +86,7 @@ def test_a_stop_turns_the_arm_and_not_the_muscle(tmp_path: Path) -> None:
     np.testing.assert_allclose(last.after[:4], last.before[:4], rtol=0, atol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a muscle whose inner state is moved by an impact")
 def test_a_muscle_that_is_struck_too_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

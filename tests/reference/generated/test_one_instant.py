@@ -58,6 +58,7 @@ def test_a_blow_through_two_contacts_at_one_instant_is_refused(
     assert "leave a gap" in mistake.what
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "words",
     [
@@ -76,6 +77,7 @@ def test_blows_one_after_the_other_are_not(words: dict[str, object], tmp_path: P
     assert motion.states["c"][-1, VX] > 0.1
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("two blows at one instant that nobody refuses")
 def test_a_check_that_is_left_out_lets_the_blow_pass(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

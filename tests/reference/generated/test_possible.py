@@ -95,6 +95,7 @@ allow: {wheel.x: 5.0e-2}
 """
 
 
+@pytest.mark.slow
 def test_a_slide_breaks_loose_on_a_sample(tmp_path: Path):
     """The ramp reaches 6 N at 0.6 s; then x⃛ = 10/3, ẍ = 1 at first."""
     case = scenes.typed(tmp_path, BROKEN_LOOSE, tail=scenes.tail(2.0, 51))
@@ -105,10 +106,12 @@ def test_a_slide_breaks_loose_on_a_sample(tmp_path: Path):
     np.testing.assert_allclose(found.trajectory.states["a"][:, 0], known, atol=1e-13)
 
 
+@pytest.mark.slow
 def test_a_wheel_comes_to_rest_in_a_corner(tmp_path: Path):
     assert solve(scenes.typed(tmp_path, CORNERED, tail=scenes.tail(6.0, 61))).holds
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("the way of a slide that breaks loose taken for the other one")
 def test_a_way_taken_for_the_other_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """The slide stops as it starts: whether that ends in a check or in a refusal, rounding says."""

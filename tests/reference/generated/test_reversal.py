@@ -22,6 +22,7 @@ TOPallow: {{bead.y: 1.0e-3}}
 TOP = "events: {top: {bead.vy: falls to zero}}\n"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("exponent", [0.5, 0.7])
 @pytest.mark.parametrize("named", [TOP, ""], ids=["the top is an event", "it is none"])
 def test_it_turns_back_where_it_should(exponent: float, named: str, tmp_path: Path) -> None:

@@ -24,6 +24,7 @@ def violated(folder: Path, scene: str) -> float:
     return max(lagrangian(mode, 0.0, q, v), balance(mode, 0.0, q, v))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", [rods.CHAIN, rods.SWING], ids=["chain", "loop"])
 def test_rods_keep_their_length(scene: str, tmp_path: Path) -> None:
     case = scenes.typed(tmp_path, scene)
@@ -35,6 +36,7 @@ def test_rods_keep_their_length(scene: str, tmp_path: Path) -> None:
         assert np.max(np.abs(gap)) < 1e-13
 
 
+@pytest.mark.slow
 def test_a_rod_is_a_bar_without_mass(tmp_path: Path) -> None:
     """The same chain with a bar of 1e-7 kg on two pins in place of the rod: 1e-6 of it is off."""
     one = solve(scenes.typed(tmp_path, rods.CHAIN)).trajectory
@@ -89,6 +91,7 @@ REFUSED = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("start", "what"), REFUSED)
 def test_starts(start: str, what: str, tmp_path: Path) -> None:
     length = "" if "y: 0}" in start else ", length: 1.0"

@@ -65,6 +65,7 @@ def test_a_hook_that_moves_takes_along_what_it_catches(tmp_path: Path) -> None:
     assert motion.states["sled"][-1, 3:] == pytest.approx(known, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_every_scene_is_certified(tmp_path: Path) -> None:
     for text in ropes.EVERY.values():
         solved(tmp_path, text)

@@ -96,6 +96,7 @@ def test_a_planted_mistake_is_seen_by_the_laws(
     assert violated(built(tmp_path)) > 1e-4
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("what goes with a velocity: {planted}")
 @pytest.mark.parametrize("planted", SHARED)
 def test_what_both_derivations_share_is_seen_by_quantities(

@@ -36,6 +36,7 @@ def test_it_is_certified(tmp_path: Path):
     assert solve(scenes.typed(tmp_path, text)).holds
 
 
+@pytest.mark.slow
 def test_a_stiff_one_is_followed(tmp_path: Path):
     """1e8 N/m on 2 kg: fifty swings, each in a thousandth of a second."""
     text = THROUGH.replace("stiffness: 50", "stiffness: 1.0e+8").replace("Y, vx: 3, vy: 1", "0")

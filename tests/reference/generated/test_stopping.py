@@ -41,6 +41,7 @@ def slide(tmp_path: Path, alpha: float, samples: int, turned: float = 0.0) -> Ca
     return case
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("alpha", [0.3, 0.5, 0.77, 0.9])
 @pytest.mark.parametrize("samples", [41, 51, 81, 101, 126])
 def test_it_stops_where_it_must(alpha: float, samples: int, tmp_path: Path) -> None:
@@ -72,6 +73,7 @@ def holds(case: Case) -> bool:
         return False
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a stop without slope: {name}")
 @pytest.mark.parametrize("name", ["by its speed alone", "with the friction of rounding"])
 def test_a_stop_that_rounding_decides_is_seen(

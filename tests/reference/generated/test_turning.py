@@ -38,6 +38,7 @@ def test_laws_and_signs(tmp_path: Path) -> None:
     assert weights[5] == pytest.approx(-about_elbow, rel=1e-14)  # of the arm
 
 
+@pytest.mark.slow
 def test_quantities_and_certificate(tmp_path: Path) -> None:
     case = scenes.typed(tmp_path, torsion.ARM)
     solution = solve(case)

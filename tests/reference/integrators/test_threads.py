@@ -24,6 +24,7 @@ def test_there_is_one_within_and_afterwards_as_many_as_before() -> None:
     assert counts() == before
 
 
+@pytest.mark.slow
 def test_a_reference_is_solved_so(monkeypatch: pytest.MonkeyPatch) -> None:
     if not _libraries():
         pytest.skip("numpy brings no OpenBLAS here")

@@ -36,6 +36,7 @@ def block(tmp_path: Path, early: float, samples: int, ramp: float = -RAMP) -> Ca
     return case
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("early", [0.0, 6.7e-16, 6e-15, 3e-14, 2e-13, -2e-13, 1e-11, 6e-10, 1e-7])
 @pytest.mark.parametrize(("samples", "ramp"), [(61, -1.0), (5, 1.0)])
 def test_a_block_that_is_set_off_at_a_sample(

@@ -72,6 +72,7 @@ initial: {PART: {angle: 0, omega: 0}}
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("samples", [7, 61])
 @pytest.mark.parametrize("start", [0, 200, -500])
 def test_a_spring_counts_its_turns_as_in_the_plane(
@@ -102,6 +103,7 @@ initial: {{q: {{angle: {start} deg, omega: 1}}}}
     np.testing.assert_allclose(angle(case), math.radians(start) + t + t**2, atol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("start", [-200, -100, -800])
 def test_an_event_on_an_angle_is_where_the_angle_is(start: int, tmp_path: Path) -> None:
     """It rises to zero where φ₀ + t + t² = 0, and never where it starts above."""
@@ -130,6 +132,7 @@ initial: {q: {angle: 0, omega: 0}}
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("samples", [4, 6, 31])
 def test_coarse_samples_lose_no_turn(samples: int, tmp_path: Path) -> None:
     """(2.44) J φ̈ = A sin wt: φ = (A/Jw) (t − sin(wt)/w), whose rate is zero at whole seconds."""
@@ -173,6 +176,7 @@ def test_what_passes_by_gimbal_lock_jumps_or_is_not_told(
         assert np.ptp(observe(case.scene, found.trajectory, "f.al")) == pytest.approx(3.06, abs=0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("whole turns of a joint in space: {name}")
 @pytest.mark.parametrize("name", ["one lost on the way", "guessed at the samples"])
 def test_a_lost_turn_is_seen(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -29,6 +29,7 @@ def elbow(folder: Path, reach: str, angle: float) -> float:
     return math.degrees(start_poses(typed(folder, text))["upper"][2])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("reach", ["6", "899", "8999"])
 def test_the_nearer_of_two_ways_is_taken_in_the_plane(reach: str, tmp_path: Path) -> None:
     """Stretched by all but a tenth of a millimetre the two ways are 3 deg apart."""
@@ -39,6 +40,7 @@ def test_the_nearer_of_two_ways_is_taken_in_the_plane(reach: str, tmp_path: Path
         assert found == pytest.approx(math.copysign(beta, share), abs=1e-5)
 
 
+@pytest.mark.slow
 def test_in_the_middle_it_decides_nothing(tmp_path: Path) -> None:
     with pytest.raises(CaseError, match="can be assembled in 2 ways"):
         elbow(tmp_path, "6", 0.0)
@@ -49,6 +51,7 @@ def test_a_turn_more_is_the_same_way_on_another_turn(tmp_path: Path) -> None:
     assert twice == pytest.approx(once + 720.0, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_what_is_far_from_all_ways_is_told(tmp_path: Path) -> None:
     with pytest.raises(CaseError) as caught:
         elbow(tmp_path, "6", 160.0)

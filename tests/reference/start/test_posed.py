@@ -107,6 +107,7 @@ REFUSED = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("scene", "start", "what"), REFUSED)
 def test_what_does_not_fit(scene: str, start: str, what: str, tmp_path: Path) -> None:
     with pytest.raises(CaseError) as caught:

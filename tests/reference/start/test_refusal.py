@@ -23,6 +23,7 @@ def line(text: str, word: str) -> int:
     return 3 + next(i for i, row in enumerate(text.splitlines()) if word in row)
 
 
+@pytest.mark.slow
 def test_two_ways_are_both_printed(tmp_path: Path) -> None:
     text = FOUR_BAR + "initial: {crank: {angle: 70 deg}}\n"
     mistake = refused(tmp_path, text)
@@ -74,6 +75,7 @@ def test_a_joint_too_many_is_named(tmp_path: Path, joint: str) -> None:
     assert "the constraints are not independent" in mistake.what
 
 
+@pytest.mark.slow
 def test_a_flat_parallelogram_is_not_independent(tmp_path: Path) -> None:
     text = FOUR_BAR.replace("0.8", "0.9").replace("0.6", "0.3")
     text += "initial: {crank: {angle: 0}, rocker: {angle: 0}}\n"

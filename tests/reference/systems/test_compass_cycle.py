@@ -41,6 +41,7 @@ def test_limit_cycle_closes_and_is_stable():
     assert np.diff([s.time for s in strikes]) == pytest.approx(strikes[0].time, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_step_loses_in_the_strike_what_the_slope_gives():
     """T + U before and after, over one step of the cycle."""
     a0, walker = float(found().state[0]), begun(WALKER, found().state)

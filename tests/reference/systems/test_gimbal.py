@@ -90,6 +90,7 @@ def test_gimbal_obeys(law: Callable[[Mode], float]) -> None:
     assert law(gimbal()) < LIMIT
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", VARIANTS)
 def test_motion_is_the_closed_form(name: str) -> None:
     assert apart(gimbal(**VARIANTS[name])) < LIMIT

@@ -43,6 +43,7 @@ def test_the_ladder_leaves_at_two_thirds_of_its_height() -> None:
     assert event.after[2] ** 2 == pytest.approx(G * 3.1 * high**3 / 9, rel=1e-12)  # ẋ² = g l s³/9
 
 
+@pytest.mark.slow
 def test_the_work_of_the_push_is_the_energy_of_the_block() -> None:
     """(2.45) T + U rises by ∫ b t ẋ_P dt, by Simpson's rule over the motion."""
     system = example("tipping_block")

@@ -69,6 +69,7 @@ def test_parts_of_energy_that_an_impact_takes():
     assert wheel.eta == pytest.approx(steps().kept, rel=1e-15)
 
 
+@pytest.mark.slow
 def test_too_slow_it_rocks_to_rest_on_two_spokes():
     """Each strike keeps η; the rocking lasts 0.6842 s and ends with a mode of its own."""
     wheel = example("rimless_wheel", w0=0.5)

@@ -30,6 +30,7 @@ def found(slope: float = SLOPE) -> Cycle:
     return cycle(lambda x: returned(walker(x, slope=slope), (0, 2))[0], np.array([0.2, -0.2]))
 
 
+@pytest.mark.slow
 def test_limit_cycle_is_the_published_one():
     assert found().error < 1e-14
     assert found().state == pytest.approx(PUBLISHED, abs=1e-12)

@@ -121,6 +121,7 @@ def _one_way(self: Any) -> tuple[float, float]:
     return -self.s[0] * self.mu1 * (self.m1 + self.m2) * G, self.mu2 * self.m2 * G
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("stacked blocks: {sliding}")
 @pytest.mark.parametrize(
     ("variant", "mode", "sliding"),

@@ -162,6 +162,7 @@ def test_no_round_finds_its_scene_built(name: str) -> None:
         assert (x, y) == pytest.approx(case.scene.gravity, rel=1e-14, abs=1e-200)
 
 
+@pytest.mark.slow
 def test_every_shipped_file_is_measured_once() -> None:
     files = [case.source.file for case in one_of_each_file()]
     assert len(files) == len(set(files))

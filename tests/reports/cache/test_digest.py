@@ -31,6 +31,7 @@ def copied(alt: Path) -> Path:
     return alt / "pymunk" / "space.py"
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("pymunk rebuilt under the same version")
 def test_an_engine_in_front_of_the_installed_one_is_that_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -107,6 +107,7 @@ def test_what_is_tried_counts_and_the_code_that_tries_it(code: Path) -> None:
     assert words()[1] == row
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("file", "reference", "outcome"),
     [
@@ -149,6 +150,7 @@ CARRYING = ("ending", "content", "lock", "passing", "cache.store", "cache.fits",
 """What they import too, and what changes no result: where results lie."""
 
 
+@pytest.mark.slow
 def test_all_code_counts_that_computes() -> None:
     """As far as imports lead from it, in reports and in what engines share."""
     modules = {module(file): file for file in FILES}

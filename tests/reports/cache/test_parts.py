@@ -162,6 +162,7 @@ class Here:
     version: str = "1"
 
 
+@pytest.mark.slow
 def test_what_it_requires_counts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """By the distribution that brings it, and whatever this requires and has loaded."""
     site = tmp_path / "site-packages"

@@ -30,6 +30,7 @@ def only(difference: Difference) -> Change:
     return change
 
 
+@pytest.mark.slow
 def test_the_committed_reports_do_not_differ_from_themselves() -> None:
     (folder,) = opened({"reports": write.HERE})
     same = difference(folder, folder, RULE)
@@ -39,6 +40,7 @@ def test_the_committed_reports_do_not_differ_from_themselves() -> None:
     assert all(compared[name] > 100 for name in FILES)
 
 
+@pytest.mark.slow
 def test_every_known_file_is_one_that_a_run_writes_with_these_columns() -> None:
     (folder,) = opened({"reports": write.HERE})
     assert set(FILES) <= set(write.NAMES)
@@ -157,6 +159,7 @@ def test_of_what_covers_only_cases_of_both_count(tmp_path: Path) -> None:
     assert not found(tmp_path / "more", {}, {"covered": more}).changes
 
 
+@pytest.mark.slow
 def test_a_partial_run_is_compared_as_far_as_it_goes(tmp_path: Path) -> None:
     other = replace(ROW, case="other", verdict="agrees")
     slow = replace(ROW, setting="shipped")
@@ -181,6 +184,7 @@ def test_folders_with_nothing_in_common_are_a_mistake(
         found(tmp_path, {}, {"rows": [replace(ROW, **{field: "another"})]})
 
 
+@pytest.mark.slow
 def test_thresholds_are_options(tmp_path: Path) -> None:
     now = {"rows": [replace(ROW, largest=2.5e-3)]}
     assert found(tmp_path, {}, now, rule=Rule(worse=1.2)).regressed

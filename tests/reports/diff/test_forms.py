@@ -147,6 +147,7 @@ def test_text_of_a_report_is_never_markup(tmp_path: Path) -> None:
     assert any("<script>" in name and "\\x00" in name for name in names)
 
 
+@pytest.mark.slow
 def test_one_folder_is_compared_with_the_committed_reports(tmp_path: Path) -> None:
     copy = tmp_path / "copy"
     copy.mkdir()

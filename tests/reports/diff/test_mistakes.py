@@ -76,6 +76,7 @@ def test_a_file_that_is_not_as_a_run_wrote_it(
     assert NAME in err
 
 
+@pytest.mark.slow
 def test_a_wrong_cell_of_each_known_file_is_seen(old: Path, tmp_path: Path) -> None:
     for name, file in FILES.items():
         for column in file.needed:
@@ -179,6 +180,7 @@ def pair(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     )
 
 
+@pytest.mark.slow
 @settings(max_examples=100, deadline=None)
 @given(data=st.data())
 def test_no_accident_ends_in_a_traceback(pair: tuple[Path, Path], data: st.DataObject) -> None:

@@ -45,6 +45,7 @@ def test_ones_own_settings_are_a_column(cart: Path, tmp_path: Path) -> None:
     assert heads == ["mujoco shipped", "mujoco mine"]
 
 
+@pytest.mark.slow
 def test_a_file_with_mistakes_is_left_out_and_told(cart: Path, tmp_path: Path) -> None:
     (tmp_path / "bad.yaml").write_text(NEW.replace("mass: 2.0", "mass: -2"), encoding="utf-8")
     words = ("page", cart, tmp_path / "bad.yaml", "--engine", "mujoco.tuned", "--out", "o")
@@ -66,6 +67,7 @@ def test_where_there_are_no_reports_it_says_which_command_writes_them(
     assert "done" not in done.stderr  # before minutes of work
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["cart.png", "CART.SVG"])
 def test_a_plot_is_what_its_name_says(cart: Path, tmp_path: Path, name: str) -> None:
     words = ("plot", cart, "--engine", "mujoco.tuned", "--quantity", "rod.angle", "-o", name)
@@ -104,6 +106,7 @@ def test_what_cannot_be_plotted_is_told(
     assert not list(tmp_path.glob("x.png"))
 
 
+@pytest.mark.slow
 def test_kept_poses_are_one_long_table_with_units(cart: Path, tmp_path: Path) -> None:
     words = ("run", cart, "--engine", "mujoco", "--keep", "k")
     done = textmech(*words, folder=tmp_path)

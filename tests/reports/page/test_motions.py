@@ -25,6 +25,7 @@ def test_samples_are_thinned_evenly_with_both_ends() -> None:
     assert thinned(26, FRAMES).tolist() == list(range(26))
 
 
+@pytest.mark.slow
 def test_curves_are_the_reference_and_what_each_engine_is_off_it(made: SimpleNamespace) -> None:
     curves = made.motions["swing"]["curves"]["quantities"]["rod.angle"]
     (case,) = [case for case in made.cases if case.name == "swing"]

@@ -53,6 +53,7 @@ def test_a_share_is_of_all_cases_whether_they_run_or_not() -> None:
     assert x[1:-1] == [100.0, 500.0]  # the law takes the larger step
 
 
+@pytest.mark.slow
 def test_the_same_rows_give_the_same_bytes() -> None:
     themes = {"a": ("pins",), "b": ("space",)}
     one, other = (work([ROW], [RUNG], themes) for _ in range(2))

@@ -58,6 +58,7 @@ def as_read(found: list[Cause]) -> dict[tuple[str, str, str, str], list[Cause]]:
     return known
 
 
+@pytest.mark.slow
 def test_what_stands_on_the_same_is_carried_over(first: list[Cause], tmp_path: Path) -> None:
     known = as_read(first)
     found, searched = causes(tmp_path, known)
@@ -67,6 +68,7 @@ def test_what_stands_on_the_same_is_carried_over(first: list[Cause], tmp_path: P
     assert carried(first, {}) == ""
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("causes are carried over {what}")
 @pytest.mark.parametrize(
     ("what", "change"),

@@ -86,6 +86,7 @@ def test_a_declared_deviation_keeps_its_words(report: Report) -> None:
     assert row.because == words + OURS["law"]
 
 
+@pytest.mark.slow
 def test_without_a_search_what_the_ladder_tells_stays() -> None:
     report = measured(causes=False, names=("bar_pendulum",))
     assert {cause.cure for cause in report.causes} == {UNSEARCHED}

@@ -69,6 +69,7 @@ def test_scripts_read_rows(new: Path, tmp_path: Path) -> None:
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "words", [(), ("bar_pendulum", "--all"), ("bar_pendulum", "--margin", "0.5")]
 )

@@ -56,6 +56,7 @@ def test_a_recipe_holds_in_some_and_one_that_does_not_help_in_none(tmp_path: Pat
     assert str(good) == f"holds in {good.tried} of {good.tried} draws of its parameters ± 10%"
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a draw that goes through other phases counts")
 def test_a_draw_that_goes_through_other_phases_is_another_case(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -36,6 +36,7 @@ def ratios(asked: Pair) -> Errors:
     return {r.quantity: (r.ratio, r.ratio) for r in native if r.ratio is not None}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ["mujoco", "pymunk"])
 @pytest.mark.parametrize("name", ["bar_pendulum", "sliding_block.braking", "bouncing_disk.plastic"])
 def test_a_candidate_without_options_is_the_shipped_row(
@@ -49,6 +50,7 @@ def test_a_candidate_without_options_is_the_shipped_row(
         assert of(found, quantity) == pytest.approx(of(rows, quantity), rel=1e-6, abs=CUT)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ["mujoco", "pymunk"])
 def test_a_candidate_with_the_tuned_options_is_the_tuned_row(engine: str, tmp_path: Path) -> None:
     asked = pair(tmp_path, "four_bar", engine, "tuned")

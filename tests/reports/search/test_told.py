@@ -46,6 +46,7 @@ def causes(pair: Pair, module: Any = told) -> list[tuple[str, float | None]]:
     return [(cause.cure, cause.cost) for cause in rows]
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a cure's {named}")
 @pytest.mark.parametrize(
     ("named", "was", "now"),

@@ -28,6 +28,7 @@ def order(place: Path, versions: tuple[str, ...], module: Any = table) -> list[s
     return module.table(found, ["swing"])["version"].tolist()
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("releases sorted as text, 3.10 before 3.9")
 def test_releases_stand_in_the_order_in_which_they_are_named(tmp_path: Path) -> None:
     assert order(tmp_path, ("3.9.0", "3.10.0")) == ["3.9.0", "3.10.0"]
@@ -77,6 +78,7 @@ def asked(place: Path, version: str, module: Any = one) -> int:
     )  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("another release than the one asked for is measured")
 def test_another_release_than_the_one_asked_for_is_not_measured(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

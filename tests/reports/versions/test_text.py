@@ -29,6 +29,7 @@ def found(tmp_path: Path) -> list[Step]:
     return steps(measured)
 
 
+@pytest.mark.slow
 def test_each_release_is_compared_with_the_one_before(found: list[Step]) -> None:
     frame = table(found, ["swing"])
     moved = frame[frame["moved"] == "yes"]
@@ -38,6 +39,7 @@ def test_each_release_is_compared_with_the_one_before(found: list[Step]) -> None
     ]
 
 
+@pytest.mark.slow
 def test_the_table_has_all_releases_where_they_fit(found: list[Step]) -> None:
     lines = text(found, 120).splitlines()
     assert lines[1:4] == [
@@ -55,12 +57,14 @@ def test_the_table_has_all_releases_where_they_fit(found: list[Step]) -> None:
     ]
 
 
+@pytest.mark.slow
 def test_where_they_do_not_it_has_those_that_moved_something(found: list[Step]) -> None:
     head, _, row = text(found, 80).splitlines()[-3:]
     assert head.split() == ["*", "moved", "1.1", "1.6"]
     assert row.split() == ["bar.angle", "rad", "0.002", "*0.001"]
 
 
+@pytest.mark.slow
 def test_a_release_that_could_not_be_run_is_passed_over(found: list[Step]) -> None:
     lost = Measured(Release("mujoco", "1.55"), None, "crashed: its process ended by signal 11")
     rest = [step.now for step in found]
@@ -71,6 +75,7 @@ def test_a_release_that_could_not_be_run_is_passed_over(found: list[Step]) -> No
     assert "1.55" not in " ".join(lines[lines.index("") :])
 
 
+@pytest.mark.slow
 def test_engines_stand_by_themselves_in_whatever_order_they_are_named(found: list[Step]) -> None:
     other = Measured(Release("pymunk", "7.0"), None, "refused: adapter: no batch")
     shown = text([Step(None, other), *found[:2], Step(None, other)], 80).splitlines()

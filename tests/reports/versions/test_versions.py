@@ -92,6 +92,7 @@ def test_another_version_than_the_one_asked_for_is_never_taken_for_it(
     assert "pymunk 92.1 is asked for, and Python finds 92.0" in capfd.readouterr().err
 
 
+@pytest.mark.slow
 def test_a_release_is_installed_once_and_again_where_it_was_damaged(
     case: Path, tmp_path: Path
 ) -> None:
@@ -108,6 +109,7 @@ def test_a_release_is_installed_once_and_again_where_it_was_damaged(
     assert [file.name for file in among.iterdir()] == [first.name]
 
 
+@pytest.mark.slow
 def test_pieces_of_the_same_release_come_with_it(case: Path, tmp_path: Path) -> None:
     """And nothing else that it needs: that is this environment's."""
     for name, needs in (("pymunk", ["pymunk-core==94.1", "numpy", 'x==1; extra == "y"']),
@@ -153,6 +155,7 @@ def test_mistakes_are_said_before_anything_is_installed(
     assert message in done.stderr
 
 
+@pytest.mark.slow
 def test_a_release_that_is_not_there_names_near_ones(case: Path, tmp_path: Path) -> None:
     for version in ("7.3.1", "7.3.2", "1.0"):
         wheel(tmp_path / "index", version, SAME)
@@ -161,6 +164,7 @@ def test_a_release_that_is_not_there_names_near_ones(case: Path, tmp_path: Path)
     assert "no such release for this Python and machine; near ones: 7.3.1, 7.3.2" in done.stderr
 
 
+@pytest.mark.slow
 def test_without_a_network_it_says_so(case: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("PIP_NO_INDEX")
     monkeypatch.delenv("PIP_FIND_LINKS")

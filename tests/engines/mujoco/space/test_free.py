@@ -140,6 +140,7 @@ def test_the_audit_reads_the_tensor_back() -> None:
     assert [found[f"gravity.{a}"] for a in "xyz"] == [0.0, 0.0, 0.0]
 
 
+@pytest.mark.slow
 def test_thin_disks_and_bars_compile_in_any_attitude() -> None:
     """MuJoCo's `fullinertia` refuses a third of these disks, and a bar below 2e-14 kg m²."""
     random = np.random.default_rng(1)

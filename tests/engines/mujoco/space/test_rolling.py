@@ -171,6 +171,7 @@ UPRIGHT = joint(
 )  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("driven", [False, True])
 def test_an_upright_wheel_rolls_in_a_circle(driven: bool) -> None:
     """Freely, or with both rates prescribed, which takes no torque.

@@ -155,6 +155,7 @@ def test_pushes_and_torques_keep_the_axes_of_the_ground() -> None:
     assert apart(found, flown(begun, times, acting)) < 1e-9
 
 
+@pytest.mark.slow
 def test_a_spring_and_a_damper_pull_along_their_line() -> None:
     """Against a driven point, which moves on as it is told. Of order 4: 1e-9 at half the step."""
     times = np.linspace(0.0, 1.0, 5)

@@ -139,6 +139,7 @@ def test_the_laws_hold_where_nothing_is_planted(law: str) -> None:
     assert worst(law) < EXACT
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("{mistake}")
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_planted_mistake_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -29,6 +29,7 @@ def test_every_machine_obeys(law: str, kind: str, seed: int, *, driven: bool) ->
     assert LAWS[law](made.mode, T, made.q, made.v()) < EXACT
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", MAKES)
 @pytest.mark.parametrize("form", [voronets, appell], ids=lambda form: form.__name__.split(".")[-1])
 @few
@@ -57,6 +58,7 @@ def test_every_force_that_can_be_asked_for_is_told(kind: str) -> None:
         assert {*wanted_reactions(scene, table(scene))} <= told.keys()
 
 
+@pytest.mark.slow
 def test_the_machines_have_everything() -> None:
     """Negative control of the generator: each kind of joint, body, row and law, and all close."""
     made = [machine(seed, kind, driven=bool(seed % 2)) for kind in MAKES for seed in range(20)]

@@ -51,6 +51,7 @@ def left_of_rates(name: str) -> float:
     return float(np.max(np.abs(rates - slopes), initial=0.0) / max(np.max(np.abs(rates)), 1.0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_rows_are_the_rates_of_places_and_gamma_of_rows(name: str) -> None:
     assert left_of_gamma(name) < 1e-12  # of the largest: algebra, only rounding differs

@@ -82,6 +82,7 @@ def test_a_hinge_turned_over_is_no_assembly(
     assert "can be assembled in 4 ways" in refused(tmp_path, LINKAGE)
 
 
+@pytest.mark.slow
 def test_near_chooses_a_way(tmp_path: Path) -> None:
     found = [
         started(tmp_path, LINKAGE + f"near: {{bearing: {{angle: {angle} deg}}}}\n")
