@@ -13,6 +13,7 @@ from pathlib import Path
 from ..cases.case import Case
 from ..cases.find import shipped
 from .row import Cause, Comparison, rank
+from .search.causes import Known
 from .write import read
 
 FILE = Path(__file__).parent / "tolerance.csv"
@@ -38,14 +39,15 @@ def key_of(row: Comparison) -> Key:
     return row.case, row.engine, row.setting, row.realised, row.quantity
 
 
-def causes() -> dict[tuple[str, str, str, str], list[Cause]]:
-    """By case, engine, setting, quantity what causes.csv tells; empty where it cannot be read."""
+def known() -> Known:
+    """The causes, and the verdicts that they belong to; nothing where they cannot be read."""
     found: dict[tuple[str, str, str, str], list[Cause]] = {}
     with suppress(OSError, ValueError):  # cut, or half of a merge: then all are searched anew
         for cause in read(CAUSES, Cause):
             key = cause.case, cause.engine, cause.setting, cause.quantity
             found.setdefault(key, []).append(cause)
-    return found
+        return Known(found, {key: row.verdict for key, row in rows().items()})
+    return Known()
 
 
 def before(case: Case, key: Key, version: str, step: float | None) -> Comparison | None:

@@ -50,7 +50,7 @@ def causes(
         engines = choose_engines([name.partition(".")[0] for name in names], [])
     if long := too_long(chosen, engines):
         raise CaseError(long)
-    used, known = (None, {}) if no_cache else (store.usable(), committed.causes())
+    used, known = (None, None) if no_cache else (store.usable(), committed.known())
     with progress.progress() as told, finished(used is not None):
         report = suite.measure(
             chosen,
@@ -62,7 +62,7 @@ def causes(
             known=known,
             store=used,
         )
-    if told := cures.carried(report.causes, known):
+    if known and (told := cures.carried(report.causes, known.causes)):
         tell(told)
     if wants_json:
         code = BAD_INPUT if report.mistakes else 0

@@ -39,7 +39,7 @@ def looked_at(
     from ..show.progress import progress
     from .done import finished
 
-    known = committed.causes() if causes and cached else {}
+    known = committed.known() if causes and cached else None
     found, mistakes = sound_cases(words, long=long)
     wanted = asked(found, names, settings, mistakes=mistakes, named=bool(words), long=long)
     if wanted.mistakes:
@@ -63,7 +63,7 @@ def looked_at(
     if used is not None:
         used.trim()
     report.mistakes[:0] = wanted.mistakes
-    if told := carried(report.causes, known):
+    if known and (told := carried(report.causes, known.causes)):
         tell(told)
     return report
 

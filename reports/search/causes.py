@@ -1,11 +1,12 @@
 """The causes of a run's rows, searched where they have to be: all pairs at once.
 
 A cause is a fact about a scene, a setting, an engine's version and our adapter: where none of these
-is another than that of a committed row, nor the error that it explains, it is that row's.
+is another than that of a committed row, nor the error that it explains, it is that row's. An engine
+that was built anew under its version may still be another one: then some verdict on the case is.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 from ...engines.engine import Tunable
 from ...reference.solve import Solution
@@ -22,8 +23,17 @@ from .told import NONE, NOTHING, Asked, by_ladder, by_ours, searched, without
 from .why import Key, Rows, key_of
 
 LETTERS = 12  # of a word: two searches never share them
-Known = Mapping[Key, Sequence[Cause]]
-"""What earlier runs have found, by the row that it explains."""
+
+
+@dataclass(frozen=True)
+class Known:
+    """What an earlier run has found: causes, by the row that they explain, and all verdicts.
+
+    verdicts: by case, engine, setting, realisation and quantity.
+    """
+
+    causes: Mapping[Key, Sequence[Cause]] = field(default_factory=dict[Key, Sequence[Cause]])
+    verdicts: Mapping[tuple[str, ...], str] = field(default_factory=dict[tuple[str, ...], str])
 
 
 def causes(
@@ -50,7 +60,9 @@ def causes(
     if search:
         found |= {key_of(cause): [cause] for cause in by_ladder(left, rungs)}
         words = _words(left, pairs, results)
-        carried = _carried(left, words, known or {})
+        moved = _moved(comparisons, known) if known else set[tuple[str, str]]()
+        same = [row for row in left if (row.case, row.engine) not in moved]
+        carried = _carried(same, words, known.causes) if known else {}
         found |= carried
         left = [row for row in left if key_of(row) not in carried]
         for asked, cured in _searched(left, rungs, pairs, results):
@@ -80,8 +92,20 @@ def _words(
     return words
 
 
+def _moved(comparisons: Sequence[Comparison], known: Known) -> set[tuple[str, str]]:
+    """Cases and engines of which some verdict is another one than it was."""
+    return {
+        (row.case, row.engine)
+        for row in comparisons
+        for key in [(*_where(row), row.realised, row.quantity)]
+        if known.verdicts.get(key) != row.verdict
+    }
+
+
 def _carried(
-    rows: Sequence[Comparison], words: Mapping[tuple[str, str, str], str], known: Known
+    rows: Sequence[Comparison],
+    words: Mapping[tuple[str, str, str], str],
+    known: Mapping[Key, Sequence[Cause]],
 ) -> dict[Key, list[Cause]]:
     """Of the rows that are as the known causes found them, all of their causes."""
     found: dict[Key, list[Cause]] = {}
@@ -116,12 +140,12 @@ def _searched(
     for name, (key, pair) in referenced.items():
         if name in broken:
             continue
-        field = between(pair)
+        levers = between(pair)
         mine = [rung for rung in rungs if (rung.case, rung.engine, rung.setting) == key]
-        known = climbed(field.base, of[key], mine)
-        asked[name] = Asked(pair, field, of[key])
-        looking = cures(field, known, [row.quantity for row in of[key]])
-        searches[name] = Search(pair, known, looking)
+        runs = climbed(levers.base, of[key], mine)
+        asked[name] = Asked(pair, levers, of[key])
+        looking = cures(levers, runs, [row.quantity for row in of[key]])
+        searches[name] = Search(pair, runs, looking)
     found = together("causes", searches, results)
     for name, one in asked.items():
         yield one, found[name]

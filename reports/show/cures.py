@@ -1,6 +1,6 @@
 """What cures a row, from the report of causes, where there is one."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +9,6 @@ import pandas as pd
 from ...cases.case import Case
 from ...cases.find import shipped
 from ..row import UNSEARCHED, Cause
-from ..search.causes import Known
 from ..search.why import Key, key_of
 from ..write import HERE
 from .amount import milliseconds
@@ -46,7 +45,7 @@ def found(causes: Iterable[Cause]) -> Cures:
     return _joined(rows)
 
 
-def carried(causes: Iterable[Cause], known: Known) -> str:
+def carried(causes: Iterable[Cause], known: Mapping[Key, Sequence[Cause]]) -> str:
     """Of how many rows the causes are those that were known, in words; nothing where none is."""
     searched: dict[Key, list[Cause]] = {}
     for cause in causes:

@@ -1,7 +1,7 @@
 """Causes that a committed table knows are not searched while what they stand on is the same."""
 
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
@@ -9,21 +9,38 @@ from given import scenes
 
 from textmech.reports import suite
 from textmech.reports.cache.store import Store
-from textmech.reports.row import Cause, as_written
+from textmech.reports.row import Cause, Comparison, as_written
 from textmech.reports.search.causes import Known
-from textmech.reports.search.why import key_of
+from textmech.reports.search.why import Key, key_of
 from textmech.reports.selection import choose_engines
 from textmech.reports.show.cures import carried
 
 
-@pytest.fixture(scope="module")
-def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Where runs of an engine are remembered, and nothing of a search."""
-    return tmp_path_factory.mktemp("store")
+@dataclass(frozen=True)
+class Told:
+    """Causes and rows of a run, and whether anything was run for the causes."""
+
+    causes: Sequence[Cause]
+    rows: Sequence[Comparison]
+    searched: bool
+
+    @property
+    def read(self) -> dict[Key, list[Cause]]:
+        """As causes.csv holds them."""
+        known: dict[Key, list[Cause]] = {}
+        for one in self.causes:
+            before, allow = as_written(one.error_before), as_written(one.allow)
+            known.setdefault(key_of(one), []).append(replace(one, error_before=before, allow=allow))
+        return known
+
+    @property
+    def verdicts(self) -> dict[tuple[str, ...], str]:
+        """As tolerance.csv holds them."""
+        return {(r.case, r.engine, r.setting, r.realised, r.quantity): r.verdict for r in self.rows}
 
 
-def causes(place: Path, known: Known) -> tuple[list[Cause], bool]:
-    """Of one case in one setting, and whether anything was run for them."""
+def run(place: Path, known: Known | None = None) -> Told:
+    """One case in one setting, of which nothing is remembered."""
     searched = False
 
     def progress(what: str, *_: object) -> None:
@@ -39,50 +56,43 @@ def causes(place: Path, known: Known) -> tuple[list[Cause], bool]:
         store=Store(place),
         book=False,
     )
-    return report.causes, searched
+    return Told(report.causes, report.comparisons, searched)
 
 
 @pytest.fixture(scope="module")
-def first(tmp_path_factory: pytest.TempPathFactory) -> list[Cause]:
-    found, searched = causes(tmp_path_factory.mktemp("first"), {})
-    assert searched
+def first(tmp_path_factory: pytest.TempPathFactory) -> Told:
+    found = run(tmp_path_factory.mktemp("first"))
+    assert found.searched
     return found
 
 
-def as_read(found: list[Cause]) -> dict[tuple[str, str, str, str], list[Cause]]:
-    """As causes.csv holds them."""
-    known: dict[tuple[str, str, str, str], list[Cause]] = {}
-    for one in found:
-        numbers = {name: as_written(getattr(one, name)) for name in ("error_before", "allow")}
-        known.setdefault(key_of(one), []).append(replace(one, **numbers))  # pyright: ignore[reportArgumentType]
-    return known
-
-
 @pytest.mark.slow
-def test_what_stands_on_the_same_is_carried_over(first: list[Cause], tmp_path: Path) -> None:
-    known = as_read(first)
-    found, searched = causes(tmp_path, known)
-    assert not searched
-    assert as_read(found) == known
-    assert carried(found, known).startswith(f"causes: those of {len(known)} rows")
-    assert carried(first, {}) == ""
+def test_what_stands_on_the_same_is_carried_over(first: Told, tmp_path: Path) -> None:
+    found = run(tmp_path, Known(first.read, first.verdicts))
+    assert not found.searched
+    assert found.read == first.read
+    assert carried(found.causes, first.read).startswith(f"causes: those of {len(first.read)} rows")
+    assert carried(first.causes, {}) == ""
+
+
+Change = Callable[[Cause], Cause]
+CHANGES: Mapping[str, Change] = {
+    "of another version or adapter": lambda c: replace(c, searched_with="4.0.0 0123456789ab"),
+    "of another error": lambda c: replace(c, error_before=1.01 * (c.error_before or 0.0)),
+    "of another tolerance": lambda c: replace(c, allow=2 * (c.allow or 0.0)),
+    "of no search": lambda c: replace(c, searched_with=""),
+}
 
 
 @pytest.mark.slow
 @pytest.mark.mutant("causes are carried over {what}")
-@pytest.mark.parametrize(
-    ("what", "change"),
-    [
-        ("of another version or adapter", lambda c: replace(c, searched_with="4.0.0 0123456789ab")),
-        ("of another error", lambda c: replace(c, error_before=1.01 * c.error_before)),
-        ("of another tolerance", lambda c: replace(c, allow=2 * c.allow)),
-        ("of no search", lambda c: replace(c, searched_with="")),
-    ],
-)
-def test_what_does_not_is_searched(
-    what: str, change: Callable[[Cause], Cause], first: list[Cause], tmp_path: Path
-) -> None:
-    known = {key: [change(one) for one in some] for key, some in as_read(first).items()}
-    found, searched = causes(tmp_path, known)
-    assert searched
-    assert found == first
+@pytest.mark.parametrize("what", [*CHANGES, "beside another verdict"])
+def test_what_does_not_is_searched(what: str, first: Told, tmp_path: Path) -> None:
+    change = CHANGES.get(what, lambda cause: cause)
+    verdicts = first.verdicts
+    if what not in CHANGES:
+        verdicts = {key: f"{verdict}?" for key, verdict in verdicts.items()}
+    known = {key: [change(one) for one in some] for key, some in first.read.items()}
+    found = run(tmp_path, Known(known, verdicts))
+    assert found.searched
+    assert found.causes == first.causes
