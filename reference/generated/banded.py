@@ -6,8 +6,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg.lapack import dpbtrf, dpbtrs
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from ..system import Array
 from .assembled import Rows
@@ -82,6 +80,8 @@ def band(rows: Rows, M: Array) -> Band | None:
     r = rows.size
     if r < MANY:
         return None
+    from scipy.sparse import csr_array
+
     pattern = csr_array((np.ones(len(row)), (row, column)), shape=(r, len(M)))
     place, width = _order(pattern @ pattern.T)
     if width > NARROW * r:
@@ -101,6 +101,8 @@ def _sums(at: Index, values: Array, count: int) -> Array:
 
 def _order(shared: Any) -> tuple[Index, int]:
     """A place for each row, and how far apart those are that share a body."""
+    from scipy.sparse.csgraph import reverse_cuthill_mckee
+
     row, column = shared.nonzero()
     found = []  # as written, or better
     for order in (np.arange(shared.shape[0]), reverse_cuthill_mckee(shared.tocsr(), True)):
