@@ -78,7 +78,7 @@ def command() -> None:
     \b
     Exit codes:
       0    all is as expected; findings (`beyond`) are no failures
-      1    a verdict FAILS; of diff: something got worse
+      1    of run and check a verdict FAILS; of diff something got worse
       2    a mistake in the command or in a file, which is left out; the other files run
       130  interrupted
     """

@@ -51,6 +51,7 @@ ROOMS = {
         "versions",
         "command interface collecting",
         "cli pytest_plugin",
+        "start",
     ],
 }
 
