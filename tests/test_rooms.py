@@ -19,6 +19,7 @@ ROOMS = {
         "load",
     ],
     "reference": [
+        "lapack",
         "system coverage integrators",
         "laws stated",
         "formalisms",

@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg.lapack import dpbtrf, dpbtrs
 
+from .. import lapack
 from ..system import Array
 from .assembled import Rows
 from .factors import Dependent
@@ -42,7 +42,8 @@ class Band:
         r, by_mass = len(self.place), f / self.M[self.column]
         diagonals = _sums(self.at, f[self.one] * by_mass[self.two], (self.width + 1) * r)
         # LAPACK counts a matrix down its columns: the diagonals of a place stand together.
-        factor, fails = dpbtrf(diagonals.reshape(r, self.width + 1).T, lower=1, overwrite_ab=1)
+        diagonals = diagonals.reshape(r, self.width + 1).T
+        factor, fails = lapack.dpbtrf(diagonals, lower=1, overwrite_ab=1)
         if fails:
             raise Dependent(int(np.flatnonzero(self.place == fails - 1)[0]))
         return Banded(self, f, gamma, by_mass, factor)
@@ -71,7 +72,7 @@ class Banded:
         """By the factor."""
         ordered = np.empty_like(right)
         ordered[self.band.place] = right
-        return dpbtrs(self.factor, ordered, lower=1)[0][self.band.place]
+        return lapack.dpbtrs(self.factor, ordered, lower=1)[0][self.band.place]
 
 
 def band(rows: Rows, M: Array) -> Band | None:

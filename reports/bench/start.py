@@ -15,8 +15,8 @@ from ...cases.find import shipped
 UNIT = "import numpy"  # what nothing here does without: a measure of the machine
 COMMAND = "from textmech.reports.start import main; main()"
 CASE = "four_bar"
-# s, where they were promised; elsewhere the ratio tells. Of check a third and more is the reference's
-# own work.
+# s, where they were promised; elsewhere the ratio tells. Of check a third and more is the
+# reference's own work.
 BOUNDS = {"--help": 0.2, "list": 0.5, "show": 0.5, "check": 0.8, "import": 0.5}
 
 

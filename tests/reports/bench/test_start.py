@@ -17,7 +17,7 @@ NEEDED = {
     "--help": set(),
     "import": {"numpy", "pydantic"},
     "list": {"numpy", "pydantic", "ruamel.yaml"},
-    "show": {"numpy", "pydantic", "ruamel.yaml", "pint", "scipy.linalg", "mujoco"},
+    "show": {"numpy", "pydantic", "ruamel.yaml", "pint", "mujoco"},
     "check": {*HEAVY} - {"pandas", "matplotlib", "jinja2", "scipy.optimize", "scipy.interpolate"},
 }
 TOLD = "import atexit, sys; atexit.register(lambda: sys.stderr.write('|'.join(sys.modules)));"
