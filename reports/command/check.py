@@ -10,7 +10,7 @@ import click
 from ...cases.mistake import CaseError, Mistake
 from ..show.say import say
 from .answer import BAD_INPUT, FAILED, as_json
-from .options import allow_long, jobs
+from .options import allow_long, processes
 
 if TYPE_CHECKING:
     from ...cases.case import Case
@@ -34,7 +34,7 @@ class Checked:
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, metavar="FILE...")
-@jobs
+@processes
 @as_json
 @allow_long
 def check(files: tuple[str, ...], jobs: int | None, wants_json: bool, allow_long: bool) -> None:
