@@ -193,6 +193,7 @@ def test_number(text: object, unit: str, value: float) -> None:
 
 
 @pytest.mark.mutant("a list of a file reads no variants")
+@pytest.mark.whole
 def test_a_list_says_what_the_cases_say() -> None:
     for file in shipped().values():
         said = [(one.name, one.title, one.origin, one.file) for one in titled(file)]

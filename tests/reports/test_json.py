@@ -158,6 +158,7 @@ cli.main()
 
 
 @pytest.mark.mutant("what an engine prints as it runs stands in the document")
+@pytest.mark.whole
 def test_what_an_engine_prints_is_not_in_it(new: Path) -> None:
     words = ["run", str(new), "--engine", "pymunk.shipped", "--json", "--no-cache"]
     done = subprocess.run(

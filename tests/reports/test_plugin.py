@@ -82,6 +82,7 @@ def test_two_files_of_one_name_do_not_share_their_rows(project: pytest.Pytester)
 
 
 @pytest.mark.mutant("pytest's own option for the time limit changes nothing")
+@pytest.mark.whole
 def test_it_takes_a_time_limit(project: pytest.Pytester) -> None:
     project.makepyfile(
         "from textmech.reports.limit import limit\ndef test_own(): assert limit() == 2.5"

@@ -33,6 +33,7 @@ def imported(words: list[str], first: str = "") -> set[str]:
 
 @pytest.mark.mutant("what starts imports pandas, which it has no use for")
 @pytest.mark.parametrize("name", NEEDED)
+@pytest.mark.whole
 def test_a_start_imports_what_it_needs(name: str) -> None:
     words = lines()[name]
     assert imported(words) <= NEEDED[name]
