@@ -3,7 +3,7 @@
 An engine's package is imported when the engine is asked for, and not before.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from functools import cache
 from importlib.metadata import Distribution, EntryPoint, entry_points
 from typing import Any, cast
@@ -59,9 +59,17 @@ def distribution(name: str) -> Distribution | None:
 
 
 class Known(Mapping[str, tuple[str, ...] | None]):
-    """Every engine's settings by its name, for which it is imported; None: it cannot be."""
+    """Every engine's settings by its name, for which it is imported; None: it cannot be.
+
+    only: those that are worth an import; of others nothing is known.
+    """
+
+    def __init__(self, only: Collection[str] = ()) -> None:
+        self._only = only
 
     def __getitem__(self, name: str) -> tuple[str, ...] | None:
+        if self._only and name not in self._only:
+            return None
         try:
             return settings(name)
         except Broken:

@@ -2,7 +2,8 @@
 
 A function stands for the equations that open its docstring: `(2.44) d/dt ∂T/∂q̇ − …`. They are
 noted while the case is solved. Watching every call would double its time, so a watch lasts for so
-many calls, and starts anew wherever something else begins: a phase, an event, a law.
+many calls, and starts anew wherever something else begins: a phase, an event, a law. What an import
+calls is none of them: whether somebody had it before would decide how far a watch sees.
 """
 
 import re
@@ -15,6 +16,7 @@ from typing import Any
 
 HERE = str(Path(__file__).parent)
 CALLS = 5000  # of one watch: the laws of a slider crank at one sample take 3300
+IMPORT = "<frozen importlib._bootstrap>"  # the file of what does one
 _OPENING = re.compile(r"\s*(?:\(2\.\d+\)(?:[-–](?:\(2\.\d+\))?)?(?:,| and)?\s*)+")
 _NUMBER = re.compile(r"2\.\d+")
 
@@ -31,14 +33,20 @@ class _Watch:
     def __init__(self) -> None:
         self.codes: set[CodeType] = set()
         self.left = 0
+        self.importing: FrameType | None = None  # what began it
         self.before: Any = sys.getprofile()
 
     def start(self) -> None:
-        self.left = CALLS
+        self.left, self.importing = CALLS, None
         sys.setprofile(self.note)
 
     def note(self, frame: FrameType, event: str, _: Any) -> None:
-        if event == "call":
+        if self.importing is not None:
+            if event == "return" and frame is self.importing:
+                self.importing = None
+        elif event == "call" and frame.f_code.co_filename == IMPORT:
+            self.importing = frame
+        elif event == "call":
             self.codes.add(frame.f_code)
             self.left -= 1
             if self.left < 0:

@@ -78,7 +78,7 @@ def command() -> None:
     \b
     Exit codes:
       0    all is as expected; findings (`beyond`) are no failures
-      1    a verdict FAILS; of diff: something got worse
+      1    of run and check a verdict FAILS; of diff something got worse
       2    a mistake in the command or in a file, which is left out; the other files run
       130  interrupted
     """
@@ -110,12 +110,14 @@ def show(case: str, name: str, allow_long: bool) -> None:
     """The scene as the engine's own file or script, with the settings and their reasons."""
     from functools import partial
 
+    from ..engines import Known
     from ..engines.probe import guarded
     from .selection import choose_cases, choose_engines
     from .show.script import script
     from .spelled import why
 
-    chosen = choose_cases([case], long=allow_long)
+    known = Known([name.partition(".")[0]])  # no other is imported
+    chosen = choose_cases([case], known=known, long=allow_long)
     if len(chosen) > 1:
         names = ", ".join(c.name for c in chosen)
         raise click.UsageError(f"{case} has variants; show one of: {names}")

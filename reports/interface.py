@@ -3,37 +3,26 @@
     from textmech.reports import advise, load, run, solve
 
 What the command would refuse raises `textmech.cases.mistake.CaseError`, with the same words and all
-mistakes at once in `mistakes`.
+mistakes at once in `mistakes`. What computes is imported by the first call, and not with this.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
-
-import pandas as pd
+from typing import TYPE_CHECKING, Any
 
 from ..cases.case import Case
 from ..cases.difference import apart
-from ..cases.language.read.document import Document
 from ..cases.mistake import CaseError, Mistake, Source
 from ..cases.observe import observe
 from ..cases.states import MASS_MATRIX
 from ..cases.trajectory import Trajectory
-from ..reference.solve import solve as solved
-from . import committed, pool, suite, write
-from .asking import asked
-from .cache.store import usable
-from .events.states import mistaken
-from .judge.instants import of_reference
-from .own_settings import made
-from .results import Progress
-from .search.advised import Asked, row
-from .search.session import advised
-from .selection import choose_cases
-from .show import progress as shown
-from .show.summary import summary
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from .results import Progress
 
 OWN = "own"  # how the column of a user's own options is called
 POSES = ("x", "y", "z", "angle")
@@ -50,10 +39,10 @@ class Reference:
     that it keeps, and of a bounded quantity what it is certified to.
     """
 
-    motion: pd.DataFrame
+    motion: "pd.DataFrame"
     units: Mapping[str, str]
-    events: pd.DataFrame
-    checks: pd.DataFrame
+    events: "pd.DataFrame"
+    checks: "pd.DataFrame"
 
 
 @dataclass(frozen=True)
@@ -65,12 +54,12 @@ class Comparisons:
     verdict is FAILS.
     """
 
-    summary: pd.DataFrame
-    tolerance: pd.DataFrame
-    convergence: pd.DataFrame
-    events: pd.DataFrame
-    reference: pd.DataFrame
-    causes: pd.DataFrame
+    summary: "pd.DataFrame"
+    tolerance: "pd.DataFrame"
+    convergence: "pd.DataFrame"
+    events: "pd.DataFrame"
+    reference: "pd.DataFrame"
+    causes: "pd.DataFrame"
     fails: bool
 
 
@@ -79,6 +68,8 @@ def load(word: Word | Sequence[Word] = ()) -> list[Case]:
 
     Raises CaseError with all mistakes of all files.
     """
+    from .selection import choose_cases
+
     words = _words(word)
     given = [case for case in words if isinstance(case, Case)]
     named = [str(name) for name in words if not isinstance(name, Case)]
@@ -90,6 +81,13 @@ def solve(word: Word) -> Reference:
 
     Raises CaseError, also for a file of several variants.
     """
+    import pandas as pd
+
+    from ..reference.solve import solve as solved
+    from .events.states import mistaken
+    from .judge.instants import of_reference
+    from .show import progress as shown
+
     cases = load(word)
     if len(cases) > 1:
         names = ", ".join(case.name for case in cases)
@@ -119,7 +117,7 @@ def run(
     causes: bool = False,
     jobs: int | None = None,
     cache: bool = True,
-    progress: Progress | None = None,
+    progress: "Progress | None" = None,
 ) -> Comparisons:
     """Compares engines with the reference of one case, of several, or of all for none.
 
@@ -131,6 +129,15 @@ def run(
 
     Raises CaseError with all mistakes, of the cases and of the rest.
     """
+    import pandas as pd
+
+    from ..cases.language.read.document import Document
+    from . import committed, pool, suite, write
+    from .asking import asked
+    from .cache.store import usable
+    from .own_settings import made
+    from .show.summary import summary
+
     found = load(word)
     own = made(Document(Source("options", (), {}), dict(options or {}), []), OWN)
     wanted = asked(found, engines, settings, own=list(own.values()))
@@ -168,13 +175,20 @@ def advise(
     margin: float = 2.0,
     jobs: int | None = None,
     cache: bool = True,
-    progress: Progress | None = None,
-) -> pd.DataFrame:
+    progress: "Progress | None" = None,
+) -> "pd.DataFrame":
     """Which setting cases need: a row for each case and engine, with the columns of advice.csv.
 
     engines: as `mujoco`; all for none. tolerance: of each quantity's own size; None: as the case
     allows. margin: how often the worst error has to fit into that. Raises CaseError.
     """
+    import pandas as pd
+
+    from .asking import asked
+    from .cache.store import usable
+    from .search.advised import Asked, row
+    from .search.session import advised
+
     wanted = asked(load(word), engines, ["shipped"])
     found = Asked(tolerance, margin)
     store = usable() if cache else None
@@ -191,8 +205,10 @@ def advise(
 
 
 @contextmanager
-def _aloud(progress: Progress | None) -> Iterator[Progress]:
+def _aloud(progress: "Progress | None") -> "Iterator[Progress]":
     """The user's own; else what takes longer than two seconds says on the error stream how far."""
+    from .show import progress as shown
+
     with shown.aloud(), shown.progress(quiet=True) as told:
         yield progress or told
 
@@ -201,7 +217,9 @@ def _words(word: Word | Sequence[Word]) -> Sequence[Word]:
     return [word] if isinstance(word, str | Path | Case) else word
 
 
-def _motion(case: Case, trajectory: Trajectory) -> tuple[pd.DataFrame, dict[str, str]]:
+def _motion(case: Case, trajectory: Trajectory) -> "tuple[pd.DataFrame, dict[str, str]]":
+    import pandas as pd
+
     known = case.quantities
     bounded = [name for name in case.allow if name in known and name != MASS_MATRIX]
     poses = [f"{body}.{pose}" for body in case.scene.bodies for pose in POSES]

@@ -11,6 +11,14 @@ FOOTER = re.compile(r"# \d{1,12} rows of run [0-9a-f]+")
 """The last line of a report."""
 TITLE = "<title>textmech: "
 """In the head of a page."""
+OURS = "textmech"
+"""What a picture says of who drew it."""
+_PICTURES = {
+    ".svg": f"<dc:title>{OURS}</dc:title>".encode(),
+    ".png": f"tEXtSoftware\0{OURS}".encode(),
+    ".xml": b'<testsuite name="textmech diff"',
+}
+"""What stands in the heads of a picture and of a list of tests."""
 _TABLES = {
     "times of events": re.compile(r"engine,setting,realised,event,k,"),
     "poses": re.compile(r"engine,setting,realised,body,field,unit,t \[s\],value"),
@@ -43,7 +51,7 @@ def _strange(file: Path) -> str | None:
     if not file.is_file():
         return None
     try:
-        return None if _ours(content(file), file.suffix) else "was not written by textmech"
+        return None if _ours(content(file), file.suffix.lower()) else "was not written by textmech"
     except OSError as error:
         return f"cannot be read ({error.strerror})"
 
@@ -52,6 +60,8 @@ def _ours(held: bytes, ending: str) -> bool:
     if ending == ".parquet":
         columns = (b"realised", b"field", b"t [s]", b"value")
         return held.startswith(_PARQUET) and all(column in held for column in columns)
+    if ending in _PICTURES:
+        return _PICTURES[ending] in held[:_HEAD]
     head = held[:_HEAD].decode(errors="replace")
     if ending == ".html":
         return TITLE in head

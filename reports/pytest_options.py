@@ -1,5 +1,9 @@
 """What pytest may be told: each of our options has a name that is nobody else's."""
 
+from argparse import ArgumentTypeError
+from contextlib import suppress
+from math import inf
+
 import pytest
 
 
@@ -34,3 +38,19 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         action="store_true",
         help="do any amount of work, and not only what takes minutes",
     )
+    group.addoption(
+        "--textmech-time-limit",
+        dest="textmech_time_limit",
+        type=_seconds,
+        metavar="S",
+        help="how long an engine may take for one run, beyond ten times what its steps are worth; "
+        "120 s by default, or $TEXTMECH_TIME_LIMIT",
+    )
+
+
+def _seconds(word: str) -> float:
+    """Raises ArgumentTypeError, which is a line of pytest's."""
+    with suppress(ValueError):
+        if 0.0 < (seconds := float(word)) < inf:
+            return seconds
+    raise ArgumentTypeError(f"should be a time in s above 0, is {word!r}")

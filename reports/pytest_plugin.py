@@ -18,6 +18,7 @@ from uuid import uuid4
 
 import pytest
 
+from .limit import choose
 from .pytest_options import pytest_addoption as pytest_addoption
 
 if TYPE_CHECKING:
@@ -29,6 +30,10 @@ _REPORT = pytest.StashKey["Report"]()
 _FOLDER = pytest.StashKey[Path]()
 _ERRORS = os.dup(2) if sys.stderr is not None else -1  # before pytest takes it
 _SHARED = "textmech_shared"  # what a worker of xdist is told: the session's own folder
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    choose(config.getoption("textmech_time_limit"))
 
 
 @pytest.hookimpl(optionalhook=True)

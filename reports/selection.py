@@ -2,10 +2,11 @@
 
 import re
 import warnings
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import fields
+from itertools import chain
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 from .. import engines
 from ..cases.case import Case
@@ -22,10 +23,26 @@ from .own_settings import read_settings
 BOOK = "book"
 NAME = re.compile(r"\w[\w-]*", re.ASCII)
 ENGINES = engines.Known()
-HANDWRITTEN = {
-    name: tuple(f.name for f in fields(cast(Any, system)))
-    for name, system in (SYSTEMS | STATED).items()
-}
+
+
+class Parameters(Mapping[str, tuple[str, ...]]):
+    """Those of every hand-written system by its name, for which it is imported."""
+
+    def __getitem__(self, name: str) -> tuple[str, ...]:
+        system: Any = STATED[name] if name in STATED else SYSTEMS[name]
+        return tuple(field.name for field in fields(system))
+
+    def __contains__(self, name: object) -> bool:
+        return name in SYSTEMS or name in STATED
+
+    def __iter__(self) -> Iterator[str]:
+        return chain(SYSTEMS, STATED)
+
+    def __len__(self) -> int:
+        return len(SYSTEMS) + len(STATED)
+
+
+HANDWRITTEN = Parameters()
 
 
 def choose_cases(

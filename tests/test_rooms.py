@@ -19,6 +19,7 @@ ROOMS = {
         "load",
     ],
     "reference": [
+        "lapack",
         "system coverage integrators",
         "laws stated",
         "formalisms",
@@ -51,6 +52,7 @@ ROOMS = {
         "versions",
         "command interface collecting",
         "cli pytest_plugin",
+        "start",
     ],
 }
 

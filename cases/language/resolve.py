@@ -12,6 +12,7 @@ from ..scene import STANDARD_GRAVITY, Scene
 from ..space.joint import SpatialJoint
 from ..space.scene import SpatialScene
 from .grammar.file import File
+from .grammar.source import Source as Book
 from .grammar.space.scene import SpatialScene as SpatialWords
 
 
@@ -64,15 +65,20 @@ def _named(elements: Mapping[str, Any]) -> dict[str, Any]:
     return {name: element.named(name) for name, element in elements.items()}
 
 
+def resolve_origin(book: Book) -> Origin:
+    """Where the case comes from."""
+    return Origin(
+        book.equations, book.example, book.exercise, book.figures, book.section, book.thread
+    )
+
+
 def resolve_case(name: str, file: File, scene: Scene, source: Source, *, long: bool) -> Case:
     """The case of a file without mistakes."""
-    book, states = file.source, None if file.states is None else file.states.states
+    states = None if file.states is None else file.states.states
     return Case(
         name=name,
         title=file.title,
-        origin=Origin(
-            book.equations, book.example, book.exercise, book.figures, book.section, book.thread
-        ),
+        origin=resolve_origin(file.source),
         system=file.system,
         parameters={name: amount.value for name, amount in file.parameters.items()},
         drops_out=file.drops_out,

@@ -5,8 +5,6 @@
 
 import math
 
-from scipy.optimize import brentq
-
 BEAT = 0.2  # h times the contact's frequency
 # 1/s: what has landed comes up within a tenth of a second, and is thrown back by 0.1 % of its
 # speed at 1e-4 s: both errors are of first order. A spring of 0.01/h² throws back 1 % at any h.
@@ -53,6 +51,8 @@ def damping_ratio(bounce: float) -> float:
 
     With ζ = sin ψ: e = exp(−(π − 2ψ) tan ψ); with ζ = cosh χ: e = exp(−2χ coth χ).
     """
+    from scipy.optimize import brentq
+
     turning = math.exp(-2.0)  # e at ζ = 1
     if bounce == 1.0:
         return 0.0

@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import qr
 
 from ..system import Array, Mode, Vector
 from .lagrange import (
@@ -175,6 +174,8 @@ def _pivots(rows: Array, size: float) -> tuple[Places, bool]:
         return np.arange(0), True
     if r > m:
         return np.arange(0), False
+    from scipy.linalg import qr
+
     triangle: Any
     order: Any
     _, triangle, order = qr(rows, mode="economic", pivoting=True)

@@ -5,10 +5,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg.lapack import dpbtrf, dpbtrs
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import reverse_cuthill_mckee
 
+from .. import lapack
 from ..system import Array
 from .assembled import Rows
 from .factors import Dependent
@@ -44,7 +42,8 @@ class Band:
         r, by_mass = len(self.place), f / self.M[self.column]
         diagonals = _sums(self.at, f[self.one] * by_mass[self.two], (self.width + 1) * r)
         # LAPACK counts a matrix down its columns: the diagonals of a place stand together.
-        factor, fails = dpbtrf(diagonals.reshape(r, self.width + 1).T, lower=1, overwrite_ab=1)
+        diagonals = diagonals.reshape(r, self.width + 1).T
+        factor, fails = lapack.dpbtrf(diagonals, lower=1, overwrite_ab=1)
         if fails:
             raise Dependent(int(np.flatnonzero(self.place == fails - 1)[0]))
         return Banded(self, f, gamma, by_mass, factor)
@@ -73,7 +72,7 @@ class Banded:
         """By the factor."""
         ordered = np.empty_like(right)
         ordered[self.band.place] = right
-        return dpbtrs(self.factor, ordered, lower=1)[0][self.band.place]
+        return lapack.dpbtrs(self.factor, ordered, lower=1)[0][self.band.place]
 
 
 def band(rows: Rows, M: Array) -> Band | None:
@@ -82,6 +81,8 @@ def band(rows: Rows, M: Array) -> Band | None:
     r = rows.size
     if r < MANY:
         return None
+    from scipy.sparse import csr_array
+
     pattern = csr_array((np.ones(len(row)), (row, column)), shape=(r, len(M)))
     place, width = _order(pattern @ pattern.T)
     if width > NARROW * r:
@@ -101,6 +102,8 @@ def _sums(at: Index, values: Array, count: int) -> Array:
 
 def _order(shared: Any) -> tuple[Index, int]:
     """A place for each row, and how far apart those are that share a body."""
+    from scipy.sparse.csgraph import reverse_cuthill_mckee
+
     row, column = shared.nonzero()
     found = []  # as written, or better
     for order in (np.arange(shared.shape[0]), reverse_cuthill_mckee(shared.tocsr(), True)):

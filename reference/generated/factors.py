@@ -3,8 +3,7 @@
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from scipy.linalg.lapack import dgetrf, dgetrs, dpotrf, dpotrs
-
+from .. import lapack
 from ..system import Array
 
 
@@ -57,7 +56,7 @@ class Full:
 
     def solve(self, right: Array) -> Array:
         """By the factors."""
-        return (dgetrs if self.leans else dpotrs)(*self.factors, right)[0]
+        return (lapack.dgetrs if self.leans else lapack.dpotrs)(*self.factors, right)[0]
 
 
 def full(rows: Array, gamma: Array, by_mass: Array, *, leans: bool) -> Full:
@@ -65,7 +64,7 @@ def full(rows: Array, gamma: Array, by_mass: Array, *, leans: bool) -> Full:
 
     Raises Dependent.
     """
-    *factors, fails = (dgetrf if leans else dpotrf)(rows.dot(by_mass.T))
+    *factors, fails = (lapack.dgetrf if leans else lapack.dpotrf)(rows.dot(by_mass.T))
     if fails:  # singular, or not positive definite
         raise Dependent(fails - 1)
     return Full(rows, gamma, by_mass, leans, tuple(factors))

@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linprog
 
 from ..system import Array
 
@@ -94,6 +93,8 @@ class Leeway:
 
 def _best(cost: Array, rows: Array, bound: Array, most: float | None = None) -> Any:
     """The x with the least cost · x and rows x ≤ bound, the last of it ≤ most; None: no end."""
+    from scipy.optimize import linprog
+
     limits = [(None, None)] * (len(cost) - 1) + [(None, most)]
     programme: Any = linprog
     found = programme(cost, A_ub=rows, b_ub=bound, bounds=limits, options=EXACT)

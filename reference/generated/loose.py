@@ -9,7 +9,6 @@ from collections.abc import Collection, Sequence
 from typing import Any
 
 import numpy as np
-from scipy.linalg import qr
 
 from ...cases.scene import Scene
 from ..system import Array, Vector
@@ -103,6 +102,8 @@ class Loose(Multibody):
         return super().g(t, q)[self._kept(super().f_a(t, q))]
 
     def _kept(self, rows: Vector) -> Any:
+        from scipy.linalg import qr
+
         pivots = qr(even(np.real(rows), self.where).T, mode="r", pivoting=True)[1]
         return np.sort(pivots[: self.rank])
 

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import roots_jacobi, roots_legendre
 
 
 @dataclass(frozen=True)
@@ -60,6 +59,8 @@ def _nodes(stages: int) -> NDArray[np.float64]:
     """Zeros of the Jacobi polynomial for the weight (1 - x), moved to [0, 1], and the end point."""
     if stages == 1:
         return np.ones(1)
+    from scipy.special import roots_jacobi
+
     return np.append((1.0 + roots_jacobi(stages - 1, 1.0, 0.0)[0]) / 2.0, 1.0)
 
 
@@ -76,6 +77,8 @@ def _stage_matrix(c: NDArray[np.float64]) -> NDArray[np.float64]:
 
     Gauss quadrature with as many points as stages is exact well beyond their degree.
     """
+    from scipy.special import roots_legendre
+
     points, weights = roots_legendre(len(c))
     return np.array([end / 2.0 * weights @ lagrange(c, end / 2.0 * (1.0 + points)) for end in c])
 

@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg.lapack import dgetrf, dgetrs, zgetrf, zgetrs
 
+from .. import lapack
 from .radau import Collocation
 
 Matrix = NDArray[np.float64]
@@ -16,7 +16,10 @@ class Factors:
     """The LU factors of a matrix; straight from LAPACK, whose wrappers cost more than the work."""
 
     def __init__(self, matrix: Any) -> None:
-        factor, self._solve = (zgetrf, zgetrs) if matrix.dtype.kind == "c" else (dgetrf, dgetrs)
+        if matrix.dtype.kind == "c":
+            factor, self._solve = lapack.zgetrf, lapack.zgetrs
+        else:
+            factor, self._solve = lapack.dgetrf, lapack.dgetrs
         self._lu, self._pivots, _ = factor(matrix)
 
     def solve(self, right: Any) -> Any:

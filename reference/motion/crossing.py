@@ -8,7 +8,6 @@ from collections.abc import Callable, Sequence
 from functools import cache
 
 import numpy as np
-from scipy.optimize import brentq, minimize_scalar
 
 from ..system import Array
 
@@ -151,6 +150,8 @@ def _near(
     It is looked for where the values come as near to zero as they differ from each other; not in
     what is zero throughout, as the force between bodies that fly on together.
     """
+    from scipy.optimize import minimize_scalar
+
     sizes = [sign * value for value in values]
     low = int(np.argmin(sizes))
     if len(points) < 2 or not any(values) or sizes[low] > max(sizes) - sizes[low]:
@@ -169,6 +170,8 @@ def _near(
 
 def _root(values: Callable[[float], float], left: float, right: float) -> float:
     """Just beyond the zero between a positive value and one that is not: g has fallen there."""
+    from scipy.optimize import brentq
+
     g = cache(values)  # an implicit step repeated differs by rounding
     if g(right) > 0.0:  # so that the zero is here
         return right

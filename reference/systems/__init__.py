@@ -4,129 +4,97 @@ Each carries its own inertias and its own g and states its own start, so that an
 the generated motion or with an engine is not an agreement of one line of code with itself.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from importlib import import_module
+from typing import Any
 
 from ..system import Mode, Only, System
-from .anisotropic_drift import AnisotropicDrift
-from .ball_on_rope import BallOnRope
-from .bar_pendulum import BarPendulum
-from .bearing import Bearing
-from .bouncing_disk import BouncingDisk
-from .charge_in_field import ChargeInField
-from .compass_walker import CompassWalker
-from .cradle import Cradle
-from .disk_on_disk import DiskOnDisk
-from .double_pendulum import DoublePendulum
-from .drag_stops import DragStops
-from .driven_edge import DrivenEdge
-from .driven_knee import DrivenKnee
-from .driven_robot import DrivenRobot
-from .driven_wheel import DrivenWheel
-from .dynamometer import Dynamometer
-from .elastic_pendulum import ElasticPendulum
-from .falling_drag import FallingDrag
-from .five_axis_robot import FiveAxisRobot
-from .four_bar import FourBar
-from .friction_cone import FrictionCone
-from .friction_of_rest import FrictionOfRest
-from .growing_force import GrowingForce
-from .heavy_top import HeavyTop
-from .knife_edge import KnifeEdge
-from .light_feet import LightFeet
-from .muscle_isometric import MuscleIsometric
-from .muscle_load import LinearMuscleLoad, MuscleLoad
-from .paired_rotors import PairedRotors
-from .particle_pendulum import ParticlePendulum
-from .rhombus import Rhombus
-from .rimless_wheel import RimlessWheel
-from .robot_knife import RobotKnife
-from .rolling_wheel import RollingWheel
-from .running_gait import RunningGait
-from .sleigh import Sleigh
-from .sliding_block import SlidingBlock
-from .sliding_disk import SlidingDisk
-from .sliding_ladder import SlidingLadder
-from .smooth_friction import SmoothDynamometer, SmoothGrowingForce
-from .spring_mass_damper import SpringMassDamper
-from .spring_mass_jump import SpringMassJump
-from .sprung_gimbal import SprungGimbal
-from .stacked_blocks import StackedBlocks
-from .stopped_pendulum import StoppedPendulum
-from .stribeck_brake import StribeckBrake
-from .stribeck_drive import StribeckDrive
-from .tilting_disk import TiltingDisk
-from .tilting_ring import TiltingRing
-from .tipping_block import TippingBlock
-from .torque_free import TorqueFree
-from .torsion_pendulum import TorsionPendulum
-from .trunk_on_legs import TrunkOnLegs
-from .turning_sled import TurningSled
-from .upright_wheel import UprightWheel
-from .viscous_guide import ViscousDrift, ViscousGrowingForce
-from .wheel_from_above import WheelFromAbove
 
-SYSTEMS: dict[str, type[Mode] | type[System]] = {
-    "anisotropic_drift": AnisotropicDrift,
-    "ball_on_rope": BallOnRope,
-    "bar_pendulum": BarPendulum,
-    "bearing": Bearing,
-    "bouncing_disk": BouncingDisk,
-    "charge_in_field": ChargeInField,
-    "compass_walker": CompassWalker,
-    "cradle": Cradle,
-    "disk_on_disk": DiskOnDisk,
-    "double_pendulum": DoublePendulum,
-    "drag_stops": DragStops,
-    "driven_robot": DrivenRobot,
-    "driven_wheel": DrivenWheel,
-    "driven_edge": DrivenEdge,
-    "driven_knee": DrivenKnee,
-    "dynamometer": Dynamometer,
-    "falling_drag": FallingDrag,
-    "elastic_pendulum": ElasticPendulum,
-    "five_axis_robot": FiveAxisRobot,
-    "four_bar": FourBar,
-    "friction_cone": FrictionCone,
-    "friction_of_rest": FrictionOfRest,
-    "growing_force": GrowingForce,
-    "heavy_top": HeavyTop,
-    "knife_edge": KnifeEdge,
-    "light_feet": LightFeet,
-    "muscle_isometric": MuscleIsometric,
-    "muscle_load": MuscleLoad,
-    "linear_muscle_load": LinearMuscleLoad,
-    "paired_rotors": PairedRotors,
-    "particle_pendulum": ParticlePendulum,
-    "rhombus": Rhombus,
-    "rimless_wheel": RimlessWheel,
-    "robot_knife": RobotKnife,
-    "rolling_wheel": RollingWheel,
-    "running_gait": RunningGait,
-    "sleigh": Sleigh,
-    "sliding_block": SlidingBlock,
-    "sliding_disk": SlidingDisk,
-    "sliding_ladder": SlidingLadder,
-    "smooth_dynamometer": SmoothDynamometer,
-    "smooth_growing_force": SmoothGrowingForce,
-    "spring_mass_damper": SpringMassDamper,
-    "stacked_blocks": StackedBlocks,
-    "stopped_pendulum": StoppedPendulum,
-    "stribeck_brake": StribeckBrake,
-    "stribeck_drive": StribeckDrive,
-    "sprung_gimbal": SprungGimbal,
-    "spring_mass_jump": SpringMassJump,
-    "tilting_disk": TiltingDisk,
-    "tilting_ring": TiltingRing,
-    "tipping_block": TippingBlock,
-    "torque_free": TorqueFree,
-    "torsion_pendulum": TorsionPendulum,
-    "trunk_on_legs": TrunkOnLegs,
-    "turning_sled": TurningSled,
-    "upright_wheel": UprightWheel,
-    "viscous_drift": ViscousDrift,
-    "viscous_growing_force": ViscousGrowingForce,
-    "wheel_from_above": WheelFromAbove,
-}
+
+class Listed(Mapping[str, Any]):
+    """Systems by name, each written as `module:Class`; imported when it is asked for."""
+
+    def __init__(self, places: Mapping[str, str]) -> None:
+        self._places = places
+
+    def __getitem__(self, name: str) -> Any:
+        module, _, system = self._places[name].partition(":")
+        return getattr(import_module(f".{module}", __name__), system)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._places
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._places)
+
+    def __len__(self) -> int:
+        return len(self._places)
+
+
+SYSTEMS: Mapping[str, type[Mode] | type[System]] = Listed(
+    {
+        "anisotropic_drift": "anisotropic_drift:AnisotropicDrift",
+        "ball_on_rope": "ball_on_rope:BallOnRope",
+        "bar_pendulum": "bar_pendulum:BarPendulum",
+        "bearing": "bearing:Bearing",
+        "bouncing_disk": "bouncing_disk:BouncingDisk",
+        "charge_in_field": "charge_in_field:ChargeInField",
+        "compass_walker": "compass_walker:CompassWalker",
+        "cradle": "cradle:Cradle",
+        "disk_on_disk": "disk_on_disk:DiskOnDisk",
+        "double_pendulum": "double_pendulum:DoublePendulum",
+        "drag_stops": "drag_stops:DragStops",
+        "driven_robot": "driven_robot:DrivenRobot",
+        "driven_wheel": "driven_wheel:DrivenWheel",
+        "driven_edge": "driven_edge:DrivenEdge",
+        "driven_knee": "driven_knee:DrivenKnee",
+        "dynamometer": "dynamometer:Dynamometer",
+        "falling_drag": "falling_drag:FallingDrag",
+        "elastic_pendulum": "elastic_pendulum:ElasticPendulum",
+        "five_axis_robot": "five_axis_robot:FiveAxisRobot",
+        "four_bar": "four_bar:FourBar",
+        "friction_cone": "friction_cone:FrictionCone",
+        "friction_of_rest": "friction_of_rest:FrictionOfRest",
+        "growing_force": "growing_force:GrowingForce",
+        "heavy_top": "heavy_top:HeavyTop",
+        "knife_edge": "knife_edge:KnifeEdge",
+        "light_feet": "light_feet:LightFeet",
+        "muscle_isometric": "muscle_isometric:MuscleIsometric",
+        "muscle_load": "muscle_load:MuscleLoad",
+        "linear_muscle_load": "muscle_load:LinearMuscleLoad",
+        "paired_rotors": "paired_rotors:PairedRotors",
+        "particle_pendulum": "particle_pendulum:ParticlePendulum",
+        "rhombus": "rhombus:Rhombus",
+        "rimless_wheel": "rimless_wheel:RimlessWheel",
+        "robot_knife": "robot_knife:RobotKnife",
+        "rolling_wheel": "rolling_wheel:RollingWheel",
+        "running_gait": "running_gait:RunningGait",
+        "sleigh": "sleigh:Sleigh",
+        "sliding_block": "sliding_block:SlidingBlock",
+        "sliding_disk": "sliding_disk:SlidingDisk",
+        "sliding_ladder": "sliding_ladder:SlidingLadder",
+        "smooth_dynamometer": "smooth_friction:SmoothDynamometer",
+        "smooth_growing_force": "smooth_friction:SmoothGrowingForce",
+        "spring_mass_damper": "spring_mass_damper:SpringMassDamper",
+        "stacked_blocks": "stacked_blocks:StackedBlocks",
+        "stopped_pendulum": "stopped_pendulum:StoppedPendulum",
+        "stribeck_brake": "stribeck_brake:StribeckBrake",
+        "stribeck_drive": "stribeck_drive:StribeckDrive",
+        "sprung_gimbal": "sprung_gimbal:SprungGimbal",
+        "spring_mass_jump": "spring_mass_jump:SpringMassJump",
+        "tilting_disk": "tilting_disk:TiltingDisk",
+        "tilting_ring": "tilting_ring:TiltingRing",
+        "tipping_block": "tipping_block:TippingBlock",
+        "torque_free": "torque_free:TorqueFree",
+        "torsion_pendulum": "torsion_pendulum:TorsionPendulum",
+        "trunk_on_legs": "trunk_on_legs:TrunkOnLegs",
+        "turning_sled": "turning_sled:TurningSled",
+        "upright_wheel": "upright_wheel:UprightWheel",
+        "viscous_drift": "viscous_guide:ViscousDrift",
+        "viscous_growing_force": "viscous_guide:ViscousGrowingForce",
+        "wheel_from_above": "wheel_from_above:WheelFromAbove",
+    }
+)
 
 
 def written(name: str, parameters: Mapping[str, float]) -> System:

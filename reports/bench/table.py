@@ -13,6 +13,7 @@ import numpy as np
 from ...engines.engine import Engine, Loop
 from .adapters import Amount, Row
 from .integrators import Compared
+from .start import UNIT, Begun
 from .turns import Ratio
 
 AIMS = {"native": 1.05, "law": 1.05, "driver": 1.05, "recorded": 1.3, "building": 1.3}
@@ -85,6 +86,14 @@ def reference(rows: Iterable[Compared]) -> Iterator[str]:
     for row in rows:
         against = f"{row.best} {row.ratio}" if row.ratio else row.best
         yield f"  {row.case:22}{row.error:8.0e}{row.ours * 1e3:9.1f} ms{against:>32}"
+
+
+def start(rows: Iterable[Begun]) -> Iterator[str]:
+    """What commands cost before their work begins."""
+    yield f"{'the start of':24}{'CPU time':>10}{'bound':>10}{f'over {UNIT}':>20}"
+    for row in rows:
+        above = "  above" if row.seconds > row.bound else ""
+        yield f"  {row.name:22}{row.seconds:8.2f} s{row.bound:8.2f} s{row.over:>20.1f}{above}"
 
 
 _RATIOS = ("samples", "recorded", "building")

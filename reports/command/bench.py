@@ -26,6 +26,7 @@ from .options import allow_long, named_cases, named_engines
     show_default=True,
     help="Steps a sample; there are 100 samples.",
 )
+@click.option("--start", "starts", is_flag=True, help="Only what commands cost to start.")
 @click.option("--csv", "as_csv", is_flag=True, help="Print the adapters' rows as CSV instead.")
 @allow_long
 def bench(
@@ -33,6 +34,7 @@ def bench(
     names: tuple[str, ...],
     rounds: int,
     steps: int,
+    starts: bool,
     as_csv: bool,
     allow_long: bool,
 ) -> None:
@@ -43,19 +45,27 @@ def bench(
     their scene within the time; the plain loop keeps nothing, a run reads states and forces. Where
     a plain loop ends elsewhere than the run, nothing is compared, and the exit code is 1.
 
-    Without CASES, one variant of each shipped file, and four systems of the reference beside
-    DOP853, LSODA and Radau of scipy, in a few minutes.
+    Without CASES, one variant of each shipped file, four systems of the reference beside DOP853,
+    LSODA and Radau of scipy, and what commands cost to start, in a few minutes.
 
     \b
       textmech bench                                   all of it
       textmech bench four_bar --engine mujoco          one scene in one engine
+      textmech bench --start                           what a command costs to start
       textmech bench my_case.yaml --csv > bench.csv    your own scene, for a spreadsheet
     """
     from ..bench import table
     from ..bench.adapters import RUNGS, Amount, one_of_each_file, rows
     from ..bench.integrators import compared
+    from ..bench.start import begun
     from ..selection import choose_cases, choose_engines
 
+    if starts:
+        if cases or names or as_csv:
+            raise click.UsageError("--start stands alone")
+        for part in table.start(begun(rounds)):
+            say(part)
+        return
     chosen = choose_cases(cases, long=allow_long) if cases else one_of_each_file()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # an engine that is broken costs nothing
@@ -78,7 +88,7 @@ def bench(
     else:
         say("\n".join(["", *table.summary(found)]))
         if not (cases or names):
-            for part in table.reference(compared(rounds)):
+            for part in (*table.reference(compared(rounds)), "", *table.start(begun(rounds))):
                 say(part)
     if any(row.differs for row in found):
         raise click.exceptions.Exit(FAILED)

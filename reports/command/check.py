@@ -10,9 +10,10 @@ import click
 from ...cases.mistake import CaseError, Mistake
 from ..show.say import say
 from .answer import BAD_INPUT, FAILED, as_json
-from .options import allow_long
+from .options import allow_long, processes
 
 if TYPE_CHECKING:
+    from ...cases.case import Case
     from ...engines.engine import Engine
     from ...reference.certificate.agreement import Check
 
@@ -33,17 +34,19 @@ class Checked:
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, metavar="FILE...")
+@processes
 @as_json
 @allow_long
-def check(files: tuple[str, ...], wants_json: bool, allow_long: bool) -> None:
+def check(files: tuple[str, ...], jobs: int | None, wants_json: bool, allow_long: bool) -> None:
     """All mistakes of case files, without running an engine."""
+    from ..pool import workers
     from ..selection import choose_engines
     from ..show.document import write
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # an engine that is broken is no mistake of a case
         engines = choose_engines([], [])
-    found = [_checked(file, engines, long=allow_long) for file in files]
+    found = _checked(files, engines, jobs or workers(), long=allow_long)
     mistakes = [mistake for one in found for mistake in one.mistakes]
     code = BAD_INPUT if mistakes else FAILED if any(one.broken for one in found) else 0
     if wants_json:
@@ -57,17 +60,48 @@ def check(files: tuple[str, ...], wants_json: bool, allow_long: bool) -> None:
     raise click.exceptions.Exit(code)
 
 
-def _checked(file: str, engines: "Sequence[Engine]", *, long: bool) -> Checked:
+def _checked(
+    files: Sequence[str], engines: "Sequence[Engine]", jobs: int, *, long: bool
+) -> list[Checked]:
+    """Each of the files; solving is spread over processes where there are several."""
+    from ..pool import Died, local, spread
+    from ..selection import choose_cases
+    from ..show.progress import progress
+    from ..trial.work import too_long
+
+    found: dict[int, Checked] = {}
+    tasks: dict[int, tuple[str, Sequence[Case]]] = {}
+    for place, file in enumerate(files):
+        try:
+            cases = choose_cases([file], long=long)
+            if wrong := too_long(cases, engines):
+                raise CaseError(wrong)
+            tasks[place] = file, cases
+        except CaseError as error:
+            found[place] = Checked(file, [], error.mistakes, [])
+    if (jobs := min(jobs, len(tasks))) <= 1:
+        found |= {place: _solved(task) for place, task in tasks.items()}
+    else:
+        places = list(tasks)
+        with progress() as told, local(jobs) as working:
+            for index, one in spread(_solved, list(tasks.values()), working):
+                file, _ = tasks[place := places[index]]
+                if isinstance(one, Died):
+                    why = Mistake(file, 0, 0, "", f"could not be checked: {one.because}")
+                    one = Checked(file, [], [why], [])
+                found[place] = one
+                told("files", len(found), len(files), file, len(found) / len(files))
+    return [found[place] for place in range(len(files))]
+
+
+def _solved(task: "tuple[str, Sequence[Case]]") -> Checked:
+    """Of a file's cases what only their references tell."""
     from ...reference.solve import solve
     from ..events.states import mistaken
     from ..judge.uncertified import otherwise
-    from ..selection import choose_cases
-    from ..trial.work import too_long
 
+    file, cases = task
     try:
-        cases = choose_cases([file], long=long)
-        if wrong := too_long(cases, engines):
-            raise CaseError(wrong)
         solved = [(case, solve(case)) for case in cases]
     except CaseError as error:
         return Checked(file, [], error.mistakes, [])

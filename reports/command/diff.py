@@ -9,6 +9,7 @@ import click
 
 from ..show.say import say
 from .answer import FAILED, as_json
+from .options import overwrite
 
 COMMITTED = Path(__file__).parents[1]
 
@@ -41,6 +42,7 @@ class Number(click.ParamType):
     metavar="FILE",
     help="Also write JUnit XML: regressions as failures, errors over allowed as properties.",
 )
+@overwrite
 @click.option(
     "--all", "every", is_flag=True, help="Every change, and not the first thirty of a kind."
 )
@@ -84,6 +86,7 @@ def diff(
     wants_json: bool,
     wants_markdown: bool,
     junit: Path | None,
+    overwrite: bool,
     every: bool,
     whole: bool,
     **thresholds: float,
@@ -116,6 +119,7 @@ def diff(
     from ..diff.markdown import markdown
     from ..diff.rule import Rule
     from ..diff.text import MOST, text
+    from ..ours import unasked
 
     if wants_json and wants_markdown:
         raise click.UsageError("--json or --markdown, please: both are one document")
@@ -125,6 +129,8 @@ def diff(
     if old.resolve() == new.resolve():
         raise click.UsageError(f"{old} and {new} are one folder: nothing can be compared")
     named = {str(old) if len(folders) == 2 else "the committed reports": old, str(new): new}
+    if junit is not None:
+        unasked(junit.parent, [junit.name], overwrite=overwrite)
     before, after = opened(named)
     found = difference(before, after, Rule(**thresholds), whole=whole)
     if wants_json:

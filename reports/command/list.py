@@ -11,7 +11,7 @@ from ..show.say import say
 from .answer import as_json
 
 if TYPE_CHECKING:
-    from ...cases.case import Case
+    from ...cases.load import Titled
 
 WIDTH = 80
 
@@ -26,11 +26,11 @@ def list_(words: tuple[str, ...], wants_json: bool) -> None:
 
     Below a file's name are its variants: `sliding_block .below` is run as sliding_block.below.
     """
-    from ...cases.find import of_the_book, questions
-    from ..selection import choose_cases
+    from ...cases.find import of_the_book, questions, shipped
+    from ...cases.load import titled
     from ..show import document
 
-    cases = [case for case in choose_cases([], known=None) if _has(case, words)]
+    cases = [case for file in shipped().values() for case in titled(file) if _has(case, words)]
     if wants_json:
         document.write(document.of_cases(cases))
         return
@@ -46,12 +46,12 @@ def list_(words: tuple[str, ...], wants_json: bool) -> None:
             say()
 
 
-def _has(case: "Case", words: Sequence[str]) -> bool:
+def _has(case: "Titled", words: Sequence[str]) -> bool:
     text = f"{case.name} {case.title} {case.origin}".lower()
     return all(word.lower() in text for word in words)
 
 
-def _lines(cases: "Sequence[Case]") -> Iterator[str]:
+def _lines(cases: "Sequence[Titled]") -> Iterator[str]:
     for file, found in groupby(cases, key=lambda case: case.name.partition(".")[0]):
         variants = [*found]
         names = [case.name.removeprefix(file) for case in variants]

@@ -13,6 +13,11 @@ Decorated = Callable[[Any], Any]
 named_cases = click.argument("cases", nargs=-1, metavar="[CASES]...")
 
 
+processes = click.option(
+    "--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default."
+)
+
+
 def jobs(command: Any) -> Any:
     """How the work is spread over processes, and how long one of them may take for a task."""
     decorated = click.option(
@@ -24,9 +29,7 @@ def jobs(command: Any) -> Any:
         help="How long an engine may take for one run, beyond ten times what its steps are worth; "
         "120 s by default, or $TEXTMECH_TIME_LIMIT.",
     )(command)
-    return click.option(
-        "--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default."
-    )(decorated)
+    return processes(decorated)
 
 
 no_cache = click.option(

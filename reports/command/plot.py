@@ -8,7 +8,7 @@ import click
 from ...cases.mistake import CaseError, nearest
 from ..show.say import say
 from .looking import looked_at
-from .options import allow_long, named_engines
+from .options import allow_long, named_engines, overwrite
 
 if TYPE_CHECKING:
     from ..suite import Report
@@ -29,9 +29,15 @@ KINDS = (".png", ".svg")
     metavar="FILE",
     help="Where to draw it: a .png, or an .svg with text that stays text.",
 )
+@overwrite
 @allow_long
 def plot(
-    case: str, quantity: str | None, names: tuple[str, ...], file: Path, allow_long: bool
+    case: str,
+    quantity: str | None,
+    names: tuple[str, ...],
+    file: Path,
+    overwrite: bool,
+    allow_long: bool,
 ) -> None:
     """One case as a picture: its mechanism, a quantity in its tube, its error, its ladder.
 
@@ -43,10 +49,12 @@ def plot(
         raise click.UsageError(f"{file.name} is no picture that can be drawn: {' or '.join(KINDS)}")
     if not file.parent.is_dir():
         raise click.UsageError(f"there is no folder {file.parent}")
+    from ..ours import unasked
     from ..page.motions import motions
     from ..page.paint import save
     from ..page.picture import picture
 
+    unasked(file.parent, [file.name], overwrite=overwrite)
     _one(case, allow_long)
     report = looked_at([case], names, long=allow_long)
     if report.mistakes:

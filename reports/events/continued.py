@@ -8,7 +8,6 @@ it stays that: it is the mean of many steps, which noise moves less.
 """
 
 import numpy as np
-from scipy.interpolate import BarycentricInterpolator
 
 from ...cases.trajectory import Array
 
@@ -37,4 +36,6 @@ def continued(times: Array, u: Array, zero: float, away: int) -> float:
 
 def _at_zero(times: Array, u: Array) -> float:
     """t where u is 0."""
+    from scipy.interpolate import BarycentricInterpolator
+
     return float(BarycentricInterpolator(u, times)(0.0))

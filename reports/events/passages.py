@@ -4,8 +4,6 @@ from collections.abc import Callable, Iterator
 from itertools import pairwise
 
 import numpy as np
-from scipy.interpolate import BarycentricInterpolator
-from scipy.optimize import brentq, minimize_scalar
 
 from ...cases.trajectory import Array
 
@@ -19,6 +17,8 @@ def passages(times: Array, u: Array, still: float) -> Iterator[float]:
     A row at zero lies between the two; what ends at zero is the boundary's. A dip below zero, or a
     hump above it, may hide between rows: the curve's extremum there is one more row.
     """
+    from scipy.optimize import brentq
+
     times, kept = np.unique(times, return_index=True)
     u = u[kept]
     rows = [*zip(times.tolist(), u.tolist(), range(len(u)), strict=True)]
@@ -31,6 +31,8 @@ def passages(times: Array, u: Array, still: float) -> Iterator[float]:
 
 def _curve(times: Array, u: Array, i: int) -> Callable[[float], float]:
     """Through the rows around i."""
+    from scipy.interpolate import BarycentricInterpolator
+
     first = min(max(0, i - AROUND // 2 + 1), max(0, len(u) - AROUND))
     rows = slice(first, first + AROUND)
     made = BarycentricInterpolator(times[rows], u[rows])
@@ -39,6 +41,8 @@ def _curve(times: Array, u: Array, i: int) -> Callable[[float], float]:
 
 def _hidden(times: Array, u: Array) -> Iterator[tuple[float, float, int]]:
     """Extrema beyond zero beside a row that is as near to zero as it differs from the others."""
+    from scipy.optimize import minimize_scalar
+
     signs = np.where(u[1:-1] > 0.0, 1.0, -1.0)
     left, here, right = signs * u[:-2], signs * u[1:-1], signs * u[2:]
     near = (here > 0.0) & (here <= np.minimum(left, right))

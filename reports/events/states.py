@@ -11,7 +11,6 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import BarycentricInterpolator
 
 from ...cases.case import Case
 from ...cases.mistake import Mistake
@@ -62,6 +61,8 @@ def engine_states(case: Case, record: Trajectory, at: AtEvent, times: Array) -> 
 
 def _curve(times: Array, u: Array, rows: Rows, t: float, most: int) -> float:
     """At t, of the polynomial through so many of the rows, the nearest; of one time the first."""
+    from scipy.interpolate import BarycentricInterpolator
+
     at, kept = np.unique(times[rows], return_index=True)
     nearest = np.argsort(np.abs(at - t), kind="stable")[:most]
     return float(BarycentricInterpolator(at[nearest], u[rows][kept][nearest])(t))

@@ -7,6 +7,7 @@ from typing import Any
 import matplotlib
 from matplotlib.figure import Figure
 
+from ..ours import OURS
 from .column import Column
 
 INK = "#010203"  # replaced by the colour of the page's text
@@ -50,7 +51,8 @@ def svg(figure: Figure, salt: str) -> str:
 
 
 def save(figure: Figure, file: Path) -> None:
-    """As a file of its own, on white. Raises OSError."""
-    dated = UNDATED if file.suffix.lower() == ".svg" else {}
+    """As a file of its own, on white, that says whose it is (`ours` reads it). Raises OSError."""
+    vector = file.suffix.lower() == ".svg"
+    dated = UNDATED | {"Creator": OURS} if vector else {"Software": OURS}
     with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": file.stem}):
         figure.savefig(file, dpi=DPI, metadata=dated)

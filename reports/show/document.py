@@ -5,15 +5,17 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ...cases.case import Case
 from ...cases.find import questions
 from ...cases.mistake import Mistake
-from ..row import Cause
-from ..suite import Report
 from .say import say
 from .summary import Cures, approximations, summary
+
+if TYPE_CHECKING:
+    from ...cases.load import Titled
+    from ..row import Cause
+    from ..suite import Report
 
 Document = Mapping[str, Any]
 
@@ -24,7 +26,7 @@ def write(document: Document) -> None:
 
 
 def of_run(
-    report: Report,
+    report: "Report",
     wrong: Sequence[Mistake],
     *,
     cures: Cures,
@@ -47,13 +49,13 @@ def of_run(
     }
 
 
-def of_causes(causes: Sequence[Cause], wrong: Sequence[Mistake], *, exit_code: int) -> Document:
+def of_causes(causes: "Sequence[Cause]", wrong: Sequence[Mistake], *, exit_code: int) -> Document:
     """Of `textmech causes`."""
     found = [asdict(cause) for cause in causes]
     return {"causes": found, "mistakes": mistakes(wrong), "exit_code": exit_code}
 
 
-def of_cases(cases: Sequence[Case]) -> Document:
+def of_cases(cases: "Sequence[Titled]") -> Document:
     """Of `textmech list`."""
     asked = questions()
     return {
@@ -64,7 +66,7 @@ def of_cases(cases: Sequence[Case]) -> Document:
                 "title": case.title,
                 "source": str(case.origin),
                 "thread": case.origin.thread,
-                "file": case.source.file,
+                "file": case.file,
             }
             for case in cases
         ]

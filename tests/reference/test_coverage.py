@@ -3,6 +3,8 @@
 import cProfile
 import sys
 from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -146,3 +148,17 @@ def test_claimed_equations_are_executed() -> None:
     for name, case in scenes.EVERY.items():
         left = sorted(set(case.origin.equations) - scenes.solved(name).equations)
         assert not left, f"{name} claims {left}, which nothing in its solution executes"
+
+
+@pytest.mark.mutant("the calls of an import count among those that a watch looks at")
+def test_an_import_is_not_looked_at(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Else a case solved first in a process would be noted as using less than later."""
+    lines = f"def f():\n    pass\nfor _ in range({CALLS + 1}):\n    f()\n"
+    (tmp_path / "calls_much.py").write_text(lines, encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+
+    def work() -> None:
+        import_module("calls_much")
+        spring(1.0, 0.5, (1.0, 0.0))
+
+    assert noted(work) == {"2.82"}

@@ -3,10 +3,13 @@
 import os
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 from given.command import NEW, process, textmech
 
+from textmech.cases.case import Case
+from textmech.reference import solve as solving
 from textmech.reports import write
 
 
@@ -247,3 +250,31 @@ def test_the_number_of_workers_does_not_change_the_rows(new: Path, tmp_path: Pat
         assert textmech("run", new, "--jobs", jobs, "--out", tmp_path / jobs).returncode == 0
     for file in (tmp_path / "1").iterdir():
         assert file.read_bytes() == (tmp_path / "2" / file.name).read_bytes()
+
+
+@pytest.mark.mutant("a file is looked for from where a worker is")
+def test_several_files_are_checked_at_once_in_their_order(tmp_path: Path) -> None:
+    for name, text in (("b", NEW), ("a", NEW), ("c", NEW.replace("title", "tittle"))):
+        (tmp_path / f"{name}.yaml").write_text(text, encoding="utf-8")
+    done = textmech("check", "b.yaml", "c.yaml", "a.yaml", "--jobs", 2, folder=tmp_path)
+    assert done.returncode == 2
+    assert done.stdout == "b.yaml: 1 case, no mistakes\na.yaml: 1 case, no mistakes\n"
+    assert "c.yaml:1:1: tittle: unknown key 'tittle'" in done.stderr
+
+
+def test_a_file_whose_check_breaks_down_costs_only_itself(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sound = solving.solve
+
+    def solve(case: Case) -> Any:
+        if case.name == "b":
+            raise RuntimeError("of ours")
+        return sound(case)
+
+    for name in "ab":
+        (tmp_path / f"{name}.yaml").write_text(NEW, encoding="utf-8")
+    monkeypatch.setattr(solving, "solve", solve)
+    done = textmech("check", "b.yaml", "a.yaml", "--jobs", 2, folder=tmp_path)
+    assert (done.returncode, done.stdout) == (2, "a.yaml: 1 case, no mistakes\n")
+    assert "b.yaml: could not be checked: RuntimeError: of ours" in done.stderr

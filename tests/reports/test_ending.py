@@ -138,3 +138,37 @@ def test_told_while_python_shuts_down_it_ends_as_it_would(ends: str, code: int) 
         timeout=60,
     )
     assert done.returncode == code, done.stderr
+
+
+EARLY = """\
+import os
+import signal
+import sys
+
+
+class Struck:
+    def find_spec(self, name, path=None, target=None):
+        if name == {name!r}:  # while that is being imported
+            os.kill(os.getpid(), signal.SIGINT)
+
+
+sys.meta_path.insert(0, Struck())
+from textmech.reports.start import main
+
+sys.argv = ["textmech", "list"]
+main()
+"""
+
+
+@pytest.mark.mutant("what is imported before the command listens prints a traceback")
+@pytest.mark.parametrize("name", ["click", "textmech.cases.load"])
+def test_told_in_its_first_moments_it_says_so(name: str) -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", EARLY.format(name=name)],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+    assert (done.returncode, done.stdout) == (130, "")
+    assert done.stderr.strip() == "interrupted: nothing was written"

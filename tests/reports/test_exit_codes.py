@@ -53,3 +53,15 @@ def test_reports_that_are_written_hide_no_verdict(tmp_path: Path) -> None:
     other = otherwise(RUN, "if report.fails else 0", "if report.fails and out is None else 0")
     assert code(FAILS, *words) == 1
     assert code(FAILS, *words, module=other) == 0
+
+
+def test_what_only_shows_ends_well(tmp_path: Path) -> None:
+    """As README.md says of page."""
+    found = Report(comparisons=[replace(row(), verdict=FAILS)])
+    page = importlib.import_module("textmech.reports.command.page")
+    written = importlib.import_module("textmech.reports.page.write")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(page, "looked_at", lambda *_, **__: found)
+        patch.setattr(written, "write_measured", lambda *_, **__: None)
+        words = ["swing", "--out", str(tmp_path / "out")]
+        assert not page.page.main(words, standalone_mode=False)

@@ -12,8 +12,11 @@ import pytest
 from given.command import NEW, textmech
 from given.report_folders import ROW, report
 from given.trees import digest
+from matplotlib.figure import Figure
 
 from textmech.reports import replace as replacing
+from textmech.reports.ours import unasked
+from textmech.reports.page.paint import save
 from textmech.reports.replace import replace
 from textmech.reports.row import Comparison
 from textmech.reports.write import NAMES, read
@@ -189,3 +192,32 @@ def test_a_table_that_leads_to_a_device_hangs_nothing(
     done = textmech("diff", folder, report(tmp_path / "other"))
     assert done.returncode == 2
     assert "tolerance.csv: " in done.stderr
+
+
+@pytest.mark.mutant("a list of tests overwrites a file that is not ours")
+def test_a_list_of_tests_overwrites_no_stranger(tmp_path: Path) -> None:
+    words = ("diff", report(tmp_path / "old"), report(tmp_path / "new"), "--junit")
+    file = tmp_path / "diff.xml"
+    file.write_text(VICTIM, encoding="utf-8")
+    refused = textmech(*words, file)
+    assert (refused.returncode, refused.stdout) == (2, "")
+    assert "diff.xml: was not written by textmech" in refused.stderr
+    assert file.read_text(encoding="utf-8") == VICTIM
+    for more in (["--overwrite"], []):  # then it is ours
+        assert textmech(*words, file, *more).returncode == 0
+        assert "textmech diff" in file.read_text(encoding="utf-8")
+
+
+@pytest.mark.mutant("a picture overwrites a file that is not ours")
+@pytest.mark.parametrize("name", ["a.svg", "a.png", "A.PNG"])
+def test_a_picture_overwrites_no_stranger(name: str, tmp_path: Path) -> None:
+    file = tmp_path / name
+    Figure().savefig(file)  # anybody's
+    before = file.read_bytes()
+    refused = textmech("plot", "four_bar", "-o", file)
+    assert (refused.returncode, refused.stdout) == (2, "")
+    assert f"{name}: was not written by textmech" in refused.stderr
+    assert file.read_bytes() == before
+    unasked(tmp_path, [name], overwrite=True)
+    save(Figure(), file)
+    unasked(tmp_path, [name], overwrite=False)

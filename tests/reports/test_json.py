@@ -2,6 +2,8 @@
 
 import json
 import os
+import subprocess
+import sys
 from math import inf, nan
 from pathlib import Path
 from typing import Any
@@ -133,3 +135,43 @@ def test_what_json_has_not_is_null(capsys: pytest.CaptureFixture[str]) -> None:
         "rows": [{"largest": None, "ratio": None}, {"largest": 1e300}],
         "title": "→ \x1b[31m",
     }
+
+
+LOUD = """\
+import os
+import subprocess
+import sys
+import sys
+
+from textmech.engines.pymunk import Pymunk
+from textmech.reports import cli
+
+quiet = Pymunk.run
+
+
+def run(*args, **kwargs):
+    print("a banner")
+    os.write(1, b"and more\\n")  # as a library in C does
+    return quiet(*args, **kwargs)
+
+
+Pymunk.run = run
+cli.main()
+"""
+
+
+@pytest.mark.mutant("what an engine prints as it runs stands in the document")
+@pytest.mark.slow
+def test_what_an_engine_prints_is_not_in_it(new: Path) -> None:
+    words = ["run", str(new), "--engine", "pymunk.shipped", "--json", "--no-cache"]
+    done = subprocess.run(
+        [sys.executable, "-c", LOUD, *words],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["tolerance"]
+    assert "a banner\n" in done.stderr
+    assert "and more\n" in done.stderr

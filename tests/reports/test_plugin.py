@@ -79,3 +79,17 @@ def test_two_files_of_one_name_do_not_share_their_rows(project: pytest.Pytester)
     done = inner(project, "strict/swing.yaml", "swing.yaml")
     assert done.ret == pytest.ExitCode.USAGE_ERROR
     done.stderr.fnmatch_lines(["*have one name*"])
+
+
+@pytest.mark.mutant("pytest's own option for the time limit changes nothing")
+@pytest.mark.slow
+def test_it_takes_a_time_limit(project: pytest.Pytester) -> None:
+    project.makepyfile(
+        "from textmech.reports.limit import limit\ndef test_own(): assert limit() == 2.5"
+    )
+    done = project.runpytest_subprocess("--textmech-time-limit", "2.5")
+    done.assert_outcomes(passed=1)
+    for word in ("0", "nan", "soon"):
+        done = project.runpytest_subprocess("--textmech-time-limit", word)
+        assert done.ret == pytest.ExitCode.USAGE_ERROR
+        done.stderr.fnmatch_lines([f"*should be a time in s above 0, is '{word}'*"])

@@ -47,7 +47,7 @@ Direction = Annotated[
 class Part(BaseModel):
     """A map with exactly these keys."""
 
-    model_config = ConfigDict(strict=True, extra="forbid", frozen=True)
+    model_config = ConfigDict(strict=True, extra="forbid", frozen=True, defer_build=True)
     elsewhere: ClassVar[Mapping[str, str]] = {}
     """What to say of keys that are none here, but stand in other places."""
 

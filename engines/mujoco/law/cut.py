@@ -9,7 +9,6 @@ from typing import Generic, TypeVar
 
 import mujoco
 import numpy as np
-from scipy.optimize import brentq
 
 Height = Callable[[], float]
 """What changes its sign where something happens; the step before it left places behind."""
@@ -47,6 +46,7 @@ class Cut(ABC, Generic[Key]):
 
     def _root(self, begins: float, height: Height, longest: float) -> float:
         """When the height is zero, from the state that is kept [s]; begins: what it was there."""
+        from scipy.optimize import brentq
 
         def after(length: float) -> float:
             if not length:

@@ -10,7 +10,6 @@ from collections.abc import Callable
 
 import mujoco
 import numpy as np
-from scipy.optimize import brentq
 
 from ....cases.scene import Contact, Pair, Scene
 from ...engine import Start
@@ -58,6 +57,7 @@ def settle(
 
 def _sink(floor: Floor, i: int, deepest: float) -> None:
     """To where the point neither falls nor rises. Depth 0 is no contact; the least above it is."""
+    from scipy.optimize import brentq
 
     def rise(depth: float) -> float:
         floor.depths[i] = depth
@@ -87,6 +87,8 @@ def _creep(floor: Floor, i: int) -> None:
 
 def _zero(slips: Callable[[float], float], before: float, now: float, h: float) -> float:
     """The creep [m/s] at which the slip does not grow; 0 where friction cannot hold it."""
+    from scipy.optimize import brentq
+
     reach = now * h
     while slips(before + reach) * now > 0:
         reach *= 2

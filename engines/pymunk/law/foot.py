@@ -7,8 +7,6 @@ about which a body turns then carries it along the floor, by a length of first o
 
 import math
 
-from scipy.optimize import brentq
-
 from ....cases.scene import Contact
 from ..contact import ABOVE, PASSES, above, is_tip, sink
 from ..world import World
@@ -65,6 +63,8 @@ class Foot:
 
     def after(self, longest: float) -> float:
         """When it has come down, from now on [s]."""
+        from scipy.optimize import brentq
+
         height = lambda ahead: self.gap(ahead, ahead) + BELOW  # noqa: E731
         if height(longest) > 0.0:
             return longest  # on the plane, to rounding

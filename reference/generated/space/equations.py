@@ -3,8 +3,8 @@
 from typing import Any
 
 import numpy as np
-from scipy.linalg.lapack import dgetrf, dgetrs, dpotrf, dpotrs
 
+from ... import lapack
 from ...system import Array
 
 TURNS = 1  # of refinement: what the factors lose of a light body beside a heavy one comes back
@@ -35,13 +35,13 @@ class Equations:
         if not len(rows):
             return a, gamma
         by_mass: Any = rows.dot(self._inverse)
-        factor, fails = dpotrf(by_mass.dot(rows.T))
+        factor, fails = lapack.dpotrf(by_mass.dot(rows.T))
         pivots = factor.diagonal().tolist()
         if fails or min(pivots) < NARROW * max(pivots):
             return self._together(rows, gamma, Q)
         multipliers = 0.0
         for _ in range(1 + TURNS):  # the nearest v̇, in M, that meets the rows
-            change = dpotrs(factor, gamma - rows.dot(a))[0]
+            change = lapack.dpotrs(factor, gamma - rows.dot(a))[0]
             a, multipliers = a + change.dot(by_mass), multipliers + change
         return a, np.asarray(multipliers)
 
@@ -50,8 +50,8 @@ class Equations:
         n, matrix = self._n, self._saddle.copy()
         matrix[n:, :n], matrix[:n, n:] = rows, rows.T
         right = np.concatenate((Q, gamma))
-        lu, pivots, _ = dgetrf(matrix.T)  # symmetric: its transpose needs no copy
-        found, _ = dgetrs(lu, pivots, right)
+        lu, pivots, _ = lapack.dgetrf(matrix.T)  # symmetric: its transpose needs no copy
+        found, _ = lapack.dgetrs(lu, pivots, right)
         for _ in range(TURNS):
-            found = found + dgetrs(lu, pivots, right - matrix @ found)[0]
+            found = found + lapack.dgetrs(lu, pivots, right - matrix @ found)[0]
         return found[:n], -found[n:]
