@@ -10,8 +10,16 @@ from typing import Any
 from .scene import Anchor, Scene
 
 
+def apart(scene: Scene, system: object, events: object) -> tuple[Scene, ...]:
+    """The scenes that are solved one by one: the islands, or one of what is looked at together.
+
+    A hand-written system is one, and events are read from the record of one motion.
+    """
+    return (scene,) if system or events else islands(scene)
+
+
 def islands(scene: Scene) -> tuple[Scene, ...]:
-    """The scenes that are solved apart, in the order of their first bodies; of one, itself."""
+    """The bodies that hang together, with all that acts on them; of one island the scene itself."""
     together = {name: {name} for name in scene.bodies}
     acting = {name: _bodies(scene, ends) for name, ends in _acting(scene)}
     for bodies in acting.values():
@@ -25,7 +33,9 @@ def _acting(scene: Scene) -> Iterator[tuple[str, tuple[Anchor, ...]]]:
     """What is between bodies, or between a body and the ground, and its points."""
     for section in (scene.joints, scene.constraints, scene.contacts, scene.pairs):
         yield from ((element.name, element.refers()) for element in section.values())
-    yield from ((force.name, scene.ends(force)) for force in scene.forces.values())
+    for force in scene.forces.values():
+        if force.about is None or force.about in scene.joints:  # of a scene with mistakes
+            yield force.name, scene.ends(force)
 
 
 def _bodies(scene: Scene, ends: tuple[Anchor, ...]) -> set[str]:
@@ -36,7 +46,7 @@ def _part(scene: Scene, acting: Mapping[str, set[str]], group: set[str]) -> Scen
     """These bodies with all that acts on them, in the scene's order; the ground stays whole."""
 
     def mine(section: Mapping[str, Any]) -> dict[str, Any]:
-        return {name: each for name, each in section.items() if acting[name] & group}
+        return {name: each for name, each in section.items() if acting.get(name, set()) & group}
 
     joints = mine(scene.joints)
     return replace(

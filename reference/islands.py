@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..cases.case import Case
-from ..cases.islands import islands
+from ..cases.islands import apart
 from ..cases.kind import RESERVED
 from ..cases.quantity import table
 from ..cases.scene import Scene
@@ -31,11 +31,8 @@ class Island:
 
 
 def parts(case: Case) -> tuple[Case, ...]:
-    """The case of each island; the case itself where all hangs together, or is looked at together.
-
-    A hand-written system is one, and events are read from the record of one motion.
-    """
-    scenes = (case.scene,) if case.system or case.events else islands(case.scene)
+    """The case of each island; the case itself where all hangs or is looked at together."""
+    scenes = apart(case.scene, case.system, case.events)
     if len(scenes) == 1:
         return (case,)
     corners = tuple(corner for law in case.scene.laws() for corner in law.corners)

@@ -77,7 +77,14 @@ scene:
   forces: {s: {spring: [box.P, ball.center], stiffness: 60.0, rest_length: 0.4}}
 initial:
   box:
-    {x: 2, y: 0, z: 0, vx: 0, vy: 0.1, vz: 0, attitude: {axis: [1, 0, 0], angle: 0.4}, omega: [1, 2, 0]}
+    attitude: {axis: [1, 0, 0], angle: 0.4}
+    omega: [1, 2, 0]
+    x: 2
+    y: 0
+    z: 0
+    vx: 0
+    vy: 0.1
+    vz: 0
   ball: {x: 2, y: 1, z: 0, vx: 0.3, vy: 0, vz: 0}
   p: {angle: 0.6, omega: 0.4}
 duration: 0.8
