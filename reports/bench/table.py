@@ -6,12 +6,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import astuple, fields
 from inspect import cleandoc
 from itertools import chain, groupby
-from textwrap import fill, shorten
+from textwrap import fill, shorten, wrap
 
 import numpy as np
 
 from ...engines.engine import Engine, Loop
 from .adapters import Amount, Row
+from .growth import Grown
 from .integrators import Compared
 from .turns import Ratio
 
@@ -85,6 +86,14 @@ def reference(rows: Iterable[Compared]) -> Iterator[str]:
     for row in rows:
         against = f"{row.best} {row.ratio}" if row.ratio else row.best
         yield f"  {row.case:22}{row.error:8.0e}{row.ours * 1e3:9.1f} ms{against:>32}"
+
+
+def growth(rows: Iterable[Grown]) -> Iterator[str]:
+    """Scenes of many bodies or samples, as they are measured, with the refusals in words."""
+    yield f"{'reading and certifying':32}{'CPU s':>8}{'bound':>8}"
+    for row in rows:
+        yield f"  {row.scene:30}{row.seconds:8.1f}{row.bound:8.0f}"
+        yield from (f"    {words}" for words in wrap(row.refusal, 76))
 
 
 _RATIOS = ("samples", "recorded", "building")

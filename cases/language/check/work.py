@@ -55,19 +55,20 @@ def work(file: File, scene: Scene) -> Iterator[Finding]:
         return
     swings = [_swings(file, piece) for piece in pieces]
     seconds = sum(swing[0] for swing in swings)
-    _, rate, path = max(swings, key=lambda swing: swing[0])
-    what = f"{'.'.join(map(str, path))} swings at {rate:.3g} rad/s, {rate * file.duration:.3g} rad"
     left = (cost.LIMIT - sampled) / seconds if seconds else 0.0
     most = f"a duration of {_down(file.duration * left):g} s" if 0.0 < left < inf else ""
-    if what := _long(sampled + seconds, f"{what} in all, which", most):
+    if what := _long(sampled + seconds, max(swings)[1], most):
         yield ("duration",), what
 
 
-def _swings(file: File, scene: Scene) -> tuple[float, float, Path]:
-    """What its swings cost [s], how fast [rad/s] the fastest is, and what that is."""
+def _swings(file: File, scene: Scene) -> tuple[float, str]:
+    """What its swings cost [s], and the fastest in words."""
     found = (each for each in (*_rates(scene), *_spins(file, scene)) if not isnan(each[0]))
     rate, path = max(found, default=(0.0, ()))  # of a spoiled number its own mistake is said
-    return cost.swung(scene, rate * file.duration), rate, path
+    swing, count = rate * file.duration, len(scene.bodies)
+    what = f"{'.'.join(map(str, path))} swings at {rate:.3g} rad/s, {swing:.3g} rad in all, which"
+    beside = f"; with {count} bodies that hang together {file.samples} samples of it"
+    return cost.swung(scene, swing), what.removesuffix(", which") + beside if count > 1 else what
 
 
 def _down(number: float) -> float:
