@@ -98,6 +98,7 @@ class Case:
     tube: float = 0.0  # s: how long what jumps may take; just after an event is so much later
     states: States | None = None  # of a claim about states; its times are their numbers
     long: bool = False  # whether its reference may take any amount of work
+    corners: tuple[float, ...] = ()  # s, of the laws of a scene of which this has a part
 
     @property
     def times(self) -> Array:
@@ -107,7 +108,8 @@ class Case:
         a double is less than 0.1, and a force that jumps there would act a sample late.
         """
         found = np.arange(self.samples, dtype=np.float64) * self.interval
-        for corner in {corner for law in self.scene.laws() for corner in law.corners}:
+        own = (corner for law in self.scene.laws() for corner in law.corners)
+        for corner in {*self.corners, *own}:
             k = min(self.samples - 1, max(0, round(corner / self.interval)))
             if abs(found[k] - corner) <= ROUNDED * self.duration:
                 found[k] = corner

@@ -52,6 +52,10 @@ class Contact:
         """The name of its plane."""
         return self.plane.name
 
+    def refers(self) -> tuple[Anchor, ...]:
+        """What touches, and what it has to be ahead of."""
+        return (self.at,) if self.ahead_of is None else (self.at, self.ahead_of)
+
     @property
     def friction(self) -> float:
         """The one coefficient that engines know."""

@@ -64,6 +64,10 @@ class Pair:
     def body(self) -> str:
         return self.at.body
 
+    def refers(self) -> tuple[Anchor, ...]:
+        """What touches, and the centre of what is touched."""
+        return self.at, Anchor(self.touched, CENTER)
+
     @property
     def on(self) -> str:
         """Where it touches, in words."""

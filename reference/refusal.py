@@ -13,6 +13,7 @@ from numpy.linalg import LinAlgError
 
 from ..cases.case import Case
 from ..cases.force import Force
+from ..cases.islands import apart
 from ..cases.language.check import cost
 from ..cases.language.check.work import GO_ON
 from ..cases.mistake import CaseError, Mistake
@@ -40,7 +41,8 @@ DEPENDENT = 1e-2  # singular values below this part of the largest: the same, fo
 @contextmanager
 def bounded(case: Case) -> Iterator[None]:
     """Turns what takes too long, or leaves the doubles, into CaseError."""
-    laws = 0.0 if case.states else case.samples * cost.laws(case.scene)
+    scenes = () if case.states else apart(case.scene, case.system, case.events)
+    laws = case.samples * sum(cost.laws(scene) for scene in scenes)
     try:
         with budget(math.inf if case.long else MOST - laws, cost.evaluation(case.scene)):
             yield

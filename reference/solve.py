@@ -9,7 +9,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..cases.case import Case
-from ..cases.mistake import CaseError
+from ..cases.language.check import cost
+from ..cases.mistake import CaseError, Mistake
 from ..cases.quantity import table, told_by
 from ..cases.trajectory import Trajectory
 from .certificate.agreement import Check
@@ -18,8 +19,10 @@ from .certificate.errors import beyond
 from .coverage import look, noting
 from .determined import check_determined
 from .generated.either import Generated
+from .integrators.budget import apart
 from .integrators.now import begun, doing
 from .integrators.threads import one_thread
+from .islands import Island, parts, together
 from .motion.bodies import Answer, Beside
 from .motion.follow import Followed, follow
 from .premises import check_premises, check_start, pressed
@@ -53,11 +56,31 @@ def solve(case: Case) -> Solution:
     """
     begun(case.name)
     with noting() as equations, bounded(case), one_thread():
-        motion, checks = _solved(case) if case.states is None else answered(case)
+        motion, checks = _moved(case) if case.states is None else answered(case)
     return Solution(motion, case.system or "generated", checks, frozenset(equations))
 
 
-def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
+def _moved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
+    found, mistakes, cases = list[Island](), list[Mistake](), parts(case)
+    for k, part in enumerate(cases, start=1):
+        if len(cases) > 1:
+            begun(f"{case.name}, island {k} of {len(cases)}")
+            apart(cost.evaluation(part.scene))
+        try:
+            found.append(_solved(part))
+        except CaseError as error:
+            mistakes += error.mistakes
+    if mistakes:
+        raise CaseError(mistakes)
+    alone = found[0].motion, found[0].checks
+    motion, checks = alone if len(cases) == 1 else together(case, found)
+    if wrong := beyond(case, checks):
+        raise CaseError(wrong)
+    return motion, checks
+
+
+def _solved(case: Case) -> Island:
+    """The motion of what hangs together, and its checks."""
     doing("its start")
     written = _written(case)
     generated = mechanism(case)
@@ -84,9 +107,7 @@ def _solved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
         marched = built.march(forces=pressed(case))  # in coordinates that see each turn
         check_premises(case, marched, [change.name for change in found.changes])
         checks = (*certify(case, answer, built, generated, motion), *opened)
-    if mistakes := beyond(case, checks):
-        raise CaseError(mistakes)
-    return motion, checks
+    return Island(case, motion, checks, generated.base)
 
 
 def _written(case: Case) -> System | None:

@@ -6,9 +6,9 @@ from given.tree import FILES, imported, module
 # Which room may know which: those of a line know all lines above it, and not each other. What is
 # joined by + is one room.
 NOUNS = (
-    "body+constraint+contact+couple+difference+drag+element+event+force+frame+friction+joint+kind"
-    "+magnetic+motion+muscle+pair+plane+point+power+quantity+rope+scene+shape+signal+space+states"
-    "+stops+trajectory+turning"
+    "body+constraint+contact+couple+difference+drag+element+event+force+frame+friction+islands+joint"
+    "+kind+magnetic+motion+muscle+pair+plane+point+power+quantity+rope+scene+shape+signal+space"
+    "+states+stops+trajectory+turning"
 )
 ROOMS = {
     "cases": [
@@ -27,7 +27,7 @@ ROOMS = {
         "start",
         "approximations certificate premises refusal",
         "determined",
-        "states",
+        "states islands",
         "solve",
     ],
     "engines": [

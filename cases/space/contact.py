@@ -45,6 +45,10 @@ class SpatialContact:
     def body(self) -> str:
         return self.at.body
 
+    def refers(self) -> tuple[Anchor, ...]:
+        """What touches."""
+        return (self.at,)
+
     def each(self) -> "tuple[SpatialContact, ...]":
         """One contact for every point that may touch: itself."""
         return (self,)

@@ -35,7 +35,15 @@ def worst(values: Iterable[float]) -> float:
 
 def gravest(checks: Sequence[Check]) -> Check:
     """Of checks of one name the one that is nearest to failing; one of NaN if there is any."""
-    return max(checks, key=lambda c: np.inf if np.isnan(c.difference) else c.difference / c.bound)
+
+    def near(check: Check) -> float:
+        if check.holds and not check.bound:
+            return 0.0
+        return (
+            check.difference / check.bound if check.difference < np.inf and check.bound else np.inf
+        )
+
+    return max(checks, key=near)
 
 
 def relative(a: Array, b: Array, *, least: float = 0.0) -> float:

@@ -31,7 +31,7 @@ def beside(written: Answer, built: Answer, generated: Generated, times: Array) -
     followed, phases = written.followed, built.followed.phases
     if len(phases) != len(followed.phases):
         return
-    moved, held, condition, steep = [], [], 1.0, [0.0, 0.0]
+    moved, held, uneven, steep = [], [], 1.0, [0.0, 0.0]
     for t, phase, y in zip(times.tolist(), followed.phase.tolist(), followed.y, strict=True):
         mode, other = written.system.modes[followed.phases[phase]], generated.modes[phases[phase]]
         q, v = mode.parted(y)
@@ -41,7 +41,7 @@ def beside(written: Answer, built: Answer, generated: Generated, times: Array) -
         moved.append(worst(np.abs(other.accelerations(t, *place) - a)) / size)
         if moved[-1] > AGREE:
             steep[0] = max(steep[0], _steep(other.accelerations, t, *place) / size)
-        condition = max(condition, _condition(other.f_a(t, place[0]), generated.base))
+        uneven = max(uneven, condition(other.f_a(t, place[0]), generated.base))
         own, theirs = mode.reactions(t, q, v), other.reactions(t, *place)
         force = worst(map(abs, theirs.values())) or 1.0
         apart = worst(abs(own[name] - theirs[name]) / force for name in own if name in theirs)
@@ -49,10 +49,10 @@ def beside(written: Answer, built: Answer, generated: Generated, times: Array) -
             forces = lambda *at, other=other: np.array([*other.reactions(*at).values()])  # noqa: E731
             steep[1] = max(steep[1], _steep(forces, t, *place) / force)
         held += [apart] if own.keys() & theirs.keys() else []
-    lost = _power(DIGITS * EPS * condition)  # rounding's are its digits
-    yield Check("generated accelerations", worst(moved), max(AGREE, lost, _power(steep[0])))
+    least = max(AGREE, lost(uneven))
+    yield Check("generated accelerations", worst(moved), max(least, _power(steep[0])))
     if held:
-        yield Check("generated reactions", worst(held), max(AGREE, lost, _power(steep[1])))
+        yield Check("generated reactions", worst(held), max(least, _power(steep[1])))
 
 
 def _power(x: float) -> float:
@@ -84,7 +84,12 @@ def _steep(of: Callable[..., Array], t: float, q: Array, v: Array) -> float:
     return found
 
 
-def _condition(rows: Array, base: Base) -> float:
+def lost(condition: float) -> float:
+    """What equations of this condition lose of their digits, in whole powers of ten."""
+    return _power(DIGITS * EPS * condition)  # their digits would be rounding's
+
+
+def condition(rows: Array, base: Base) -> float:
     """Of the equations for the multipliers, in units in which each row has the size 1."""
     if not len(rows):
         return 1.0

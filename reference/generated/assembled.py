@@ -13,9 +13,9 @@ import numpy as np
 from ...cases.scene import Signal, Vector
 from ..system import Array
 from .blades import Blades, Laws, Moves
-from .coordinates import Attached, moved
+from .coordinates import ORIGIN, Attached, moved
 from .rows import FIRST, GAMMA, SECOND, G, Line, Term, Way, opposite
-from .signal import bend
+from .signal import bend, signal
 
 NOWHERE = -1  # the target of what a particle or a point of the ground has no column for
 
@@ -139,6 +139,70 @@ class Rows:
         places[kept] = np.arange(len(kept)) + (np.arange(len(kept)) >= len(row))
         self._places = places[self._targets]
         self._kept = np.insert(self._fixed.reshape(-1)[kept], len(row), 0.0)
+
+
+class Places:
+    """What rows of points along fixed directions and of turns are the rate of, all at once.
+
+    A chain has nothing else, and one point after the other is most of what its residuals cost.
+    """
+
+    def __init__(self, rows: Sequence[Row], n: int) -> None:
+        self._fixed, self._at, self._rate = np.zeros((len(rows), n)), *np.zeros((2, len(rows)))
+        self._levers: list[Lever] = []
+        self._moves: list[tuple[int, Signal, Vector]] = []
+        for i, (ends, terms) in enumerate(rows):
+            for term in terms:
+                term.enter(i, ends, self)
+        self._rows = np.array([i for i, _, _ in self._levers], int)
+        self._phi = np.array([p.phi for _, p, _ in self._levers], int)
+        at = np.array([p.at for _, p, _ in self._levers]).reshape(-1, 2)
+        u = np.array([u for _, _, u in self._levers]).reshape(-1, 2)
+        self._along, self._across = np.sum(at * u, axis=1), at[:, 0] * u[:, 1] - at[:, 1] * u[:, 0]
+
+    def __call__(self, t: Any, q: Any) -> Any:
+        """(2.1) u·r_p = u·r_c + cos φ u·x + sin φ (x × u) [m], or the turns [rad], (r,)."""
+        found = self._fixed.dot(q[: self._fixed.shape[1]]) + self._at + self._rate * t
+        phi = q[self._phi]
+        np.add.at(found, self._rows, np.cos(phi) * self._along + np.sin(phi) * self._across)
+        for i, law, (ux, uy) in self._moves:
+            x, y = signal(law, t)
+            found[i] += ux * x + uy * y
+        return found
+
+    def along(self, i: int, p: Attached, u: Vector) -> None:
+        """u·r_p, of a point of the ground as it moves."""
+        if p.xy is None:
+            x, y = p.at or ORIGIN
+            self._at[i] += u[0] * x + u[1] * y
+            self._rate[i] += u[0] * p.velocity[0] + u[1] * p.velocity[1]
+            if p.moves is not None:
+                self._moves.append((i, p.moves, u))
+            return
+        self._fixed[i, p.xy : p.xy + 2] += u
+        if p.phi is not None and p.at is not None:
+            self._levers.append((i, p, u))
+
+    def turning(self, i: int, p: Attached, axis: float) -> None:
+        """φ times the axis."""
+        if p.phi is not None:
+            self._fixed[i, p.phi] += axis
+
+    def line(self, i: int, a: Attached, b: Attached, u: Vector) -> None:
+        """Its direction turns with a: TypeError."""
+        raise TypeError
+
+    def between(self, i: int, a: Attached, b: Attached, way: Way) -> None:
+        """Its direction turns with both: TypeError."""
+        raise TypeError
+
+    def carried(self, i: int, p: Attached, u: Vector) -> None:
+        """(2.15) The rate of nothing: TypeError."""
+        raise TypeError
+
+    def given(self, i: int, law: Signal) -> None:
+        """(2.15) The rate of nothing: TypeError."""
+        raise TypeError
 
 
 class Levers:

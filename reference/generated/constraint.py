@@ -4,13 +4,17 @@ With the rows as written, the multipliers are the force (and moment) of the firs
 second.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 from ...cases.scene import Anchor
-from .assembled import Rows
+from .assembled import Places, Rows
+from .banded import MANY
 from .coordinates import Attached, Coordinates, moved
 from .rows import Term
 
@@ -75,6 +79,20 @@ class Constraint:
     def attached(self) -> list[Attached]:
         """The points of `ends` on their bodies."""
         return [self.where.attached[end.body, end.point] for end in self.ends]
+
+
+def residuals(parts: Sequence[Constraint], where: Coordinates) -> Callable[[Any, Any], Any]:
+    """f (r,) of t and q, of all parts in their order.
+
+    All at once, where they are many and of the kind; few cost less one by one.
+    """
+    rows = [(c.attached, terms) for c in parts if c.holonomic for terms in c.rows]
+    if len(rows) >= MANY:
+        with suppress(TypeError):
+            places = Places(rows, len(where.masses))
+            held = np.array([at for c in parts for at in c.held or ()])
+            return lambda t, q: places(t, q) - held
+    return lambda t, q: np.array([entry for c in parts for entry in c.f(t, q.tolist())])
 
 
 def assembled(parts: Sequence[Constraint], where: Coordinates) -> Rows:

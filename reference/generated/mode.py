@@ -8,7 +8,7 @@ import numpy as np
 from ...cases.scene import Scene
 from ..system import Array, Mass, Mode, Pose, Vector
 from .action import act, dissipation, ends_meet, generalized_potential, inner_rate, other, potential
-from .constraint import Constraint, assembled
+from .constraint import Constraint, assembled, residuals
 from .contact import Braking, Coulomb, row
 from .coordinates import Coordinates
 from .factors import Dependent, Held
@@ -64,6 +64,7 @@ class Multibody(Mode):
         self._coulomb = [(places[self._constraints.index(law.normal)], law) for law in coulomb]
         rows = assembled(self._constraints, self.where)
         self.holding = Holding(rows, self._M, self._coulomb)
+        self._residuals = residuals(self._constraints, self.where)
         self._weight = np.zeros(len(self._M))
         for body in scene.bodies.values():
             xy, _ = self.where.columns[body.name]
@@ -224,7 +225,7 @@ class Multibody(Mode):
 
     def f(self, t: Any, q: Vector) -> Vector:
         """(2.10), (2.14) the residuals of all joints and contacts, (r,)."""
-        return np.array([entry for c in self._constraints for entry in c.f(t, q.tolist())])
+        return self._residuals(t, q)
 
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15), (2.55) the rows f_aᵇ, (r, n)."""

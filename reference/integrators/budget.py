@@ -71,6 +71,12 @@ def budget(seconds: float, price: float) -> Iterator[None]:
         _purse.reset(token)
 
 
+def apart(price: float) -> None:
+    """The motions that follow are another island's, of which an evaluation has another price."""
+    if (purse := _purse.get()) is not None:
+        purse.price, purse.motions = price, 0
+
+
 def motion(begin: float, until: float) -> None:
     """A motion begins that leads from one time to the other [s]; for whoever waits it is named."""
     before = 0

@@ -18,6 +18,8 @@ Jacobian = Callable[[float, Vector], Matrix]
 
 ITERATIONS = 15  # slower than this, a new Jacobian or a smaller step is the better bargain
 SLOW = 0.01  # contraction of the iteration beyond which the next step gets a new Jacobian
+MANY = 200  # columns: such a Jacobian costs as much as some thirty iterations
+PATIENT = 0.1  # and so does not pay before this contraction, where they are twice as many
 ROUNDING = 100.0 * EPS  # corrections this small that no longer shrink are rounding
 FAR = 3.0  # do not extrapolate the stages to a step this many times longer than the last
 
@@ -74,7 +76,8 @@ class Radau:
         """Solve for the stages, with a new Jacobian where the old one fails."""
         if y is not self._from:
             self.begin(t, y)
-        if self._jacobian is None or (self._contraction > SLOW and not self._fresh):
+        slow = SLOW if len(y) < MANY else PATIENT
+        if self._jacobian is None or (self._contraction > slow and not self._fresh):
             self._differentiate(t, y, peak)
         while True:
             z = self._solve(t, y, h, peak)

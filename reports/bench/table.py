@@ -6,12 +6,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import astuple, fields
 from inspect import cleandoc
 from itertools import chain, groupby
-from textwrap import fill, shorten
+from textwrap import fill, shorten, wrap
 
 import numpy as np
 
 from ...engines.engine import Engine, Loop
 from .adapters import Amount, Row
+from .growth import Grown
 from .integrators import Compared
 from .start import UNIT, Begun
 from .turns import Ratio
@@ -94,6 +95,14 @@ def start(rows: Iterable[Begun]) -> Iterator[str]:
     for row in rows:
         above = "  above" if row.seconds > row.bound else ""
         yield f"  {row.name:22}{row.seconds:8.2f} s{row.bound:8.2f} s{row.over:>20.1f}{above}"
+
+
+def growth(rows: Iterable[Grown]) -> Iterator[str]:
+    """Scenes of many bodies or samples, as they are measured, with the refusals in words."""
+    yield f"{'reading and certifying':32}{'CPU s':>8}{'bound':>8}"
+    for row in rows:
+        yield f"  {row.scene:30}{row.seconds:8.1f}{row.bound:8.0f}"
+        yield from (f"    {words}" for words in wrap(row.refusal, 76))
 
 
 _RATIOS = ("samples", "recorded", "building")

@@ -1,6 +1,7 @@
 """`textmech bench`."""
 
 import warnings
+from itertools import chain
 
 import click
 
@@ -46,7 +47,8 @@ def bench(
     a plain loop ends elsewhere than the run, nothing is compared, and the exit code is 1.
 
     Without CASES, one variant of each shipped file, four systems of the reference beside DOP853,
-    LSODA and Radau of scipy, and what commands cost to start, in a few minutes.
+    LSODA and Radau of scipy, scenes of up to 200 bodies, and what commands cost to start, in a few
+    minutes.
 
     \b
       textmech bench                                   all of it
@@ -56,6 +58,7 @@ def bench(
     """
     from ..bench import table
     from ..bench.adapters import RUNGS, Amount, one_of_each_file, rows
+    from ..bench.growth import grown
     from ..bench.integrators import compared
     from ..bench.start import begun
     from ..selection import choose_cases, choose_engines
@@ -88,7 +91,13 @@ def bench(
     else:
         say("\n".join(["", *table.summary(found)]))
         if not (cases or names):
-            for part in (*table.reference(compared(rounds)), "", *table.start(begun(rounds))):
+            for part in chain(
+                table.reference(compared(rounds)),
+                ("",),
+                table.growth(grown()),
+                ("",),
+                table.start(begun(rounds)),
+            ):
                 say(part)
     if any(row.differs for row in found):
         raise click.exceptions.Exit(FAILED)

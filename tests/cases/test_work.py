@@ -1,5 +1,6 @@
 """What asks for endless work is said when the file is read, with its place and what is allowed."""
 
+import re
 import time
 from pathlib import Path
 
@@ -24,6 +25,16 @@ def chain(bars: int) -> str:
     start = ", ".join(f"b{i}: {{angle: 0.1}}" for i in range(bars))
     tail = [f"initial: {{{start}}}", "duration: 1.0", "samples: 26", "allow: {b0.angle: 1.0e-2}"]
     return "\n".join([*head, *bodies, "  joints:", *joints, *tail])
+
+
+def hung(bars: int) -> str:
+    """As many pendulums, each on its own point of the ground."""
+    text = chain(bars).replace("points: {O: [0, 0]}", f"points: {{{_points(bars)}}}")
+    return re.sub(r"pin: \[[^,]*, b(\d+)", r"pin: [ground.P\1, b\1", text)
+
+
+def _points(count: int) -> str:
+    return ", ".join(f"P{i}: [{i}, 0]" for i in range(count))
 
 
 def variants(count: int) -> str:
@@ -112,7 +123,7 @@ def test_what_spins_on_a_blade_is_counted(tmp_path: Path, text: str) -> None:
     """Free it would only turn, which costs nothing; on a blade each turn is a swing."""
     assert said(tmp_path, text.replace("OMEGA", "50.0")) == []
     (mistake,) = said(tmp_path, text.replace("OMEGA", "1.0e+6"))
-    assert "swings at 1e+06 rad/s, 4e+05 rad in all, which take about 2.4 hours" in mistake[1]
+    assert "swings at 1e+06 rad/s, 4e+05 rad in all, which take about 2.5 hours" in mistake[1]
 
 
 @pytest.mark.parametrize(
@@ -127,6 +138,46 @@ def test_samples_and_states_cost_what_their_laws_cost(
     tmp_path: Path, text: str, words: str
 ) -> None:
     assert any(words in what for _, what in said(tmp_path, text))
+
+
+@pytest.mark.mutant("the bound that a refusal names is refused, or far below the limit")
+@pytest.mark.parametrize(
+    ("text", "key"),
+    [
+        (pendulum(samples=199_999), "samples"),
+        (chain(100).replace("samples: 26", "samples: 5001"), "samples"),
+        (pendulum(duration=1e4, samples=101, step=1e-2), "duration"),
+    ],
+)
+def test_what_is_said_to_be_the_bound_is_one(tmp_path: Path, text: str, key: str) -> None:
+    """Two digits of it are allowed, and a tenth more is not."""
+    (what,) = [what for _, what in said(tmp_path, text) if "limit" in what]
+    (number,) = re.findall(r"minutes, or (?:a duration of )?([\d.e+]+)", what)
+    most = float(number)
+
+    def limited(value: float) -> bool:
+        told = f"{key}: {round(value) if key == 'samples' else value}"
+        again = re.sub(rf"^{key}: .*$", told, text, flags=re.MULTILINE)
+        assert again != text
+        return any("limit" in what for _, what in said(tmp_path, again))
+
+    assert not limited(most)
+    assert limited(1.1 * most)
+
+
+@pytest.mark.mutant("bodies that nothing joins cost as much as a chain of them")
+def test_islands_cost_what_each_costs(tmp_path: Path) -> None:
+    """100 pendulums are 100 times one; what is looked at together by an event is one."""
+    many = hung(100)
+    alone = [what for _, what in said(tmp_path, many)]
+    assert alone == []
+    samples = many.replace("samples: 26", "samples: 2601")
+    (what,) = [what for _, what in said(tmp_path, samples) if "limit" in what]
+    assert "2601 samples of 100 bodies, at most 1 of which hang together" in what
+    assert "or 780 samples" in what
+    event = samples + "\nevents: {low: {b0.omega: falls to zero}}"
+    (what,) = [what for _, what in said(tmp_path, event) if "limit" in what]
+    assert "2601 samples of 100 bodies, 260100 rows" in what
 
 
 @pytest.mark.parametrize(

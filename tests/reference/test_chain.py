@@ -3,6 +3,7 @@
 from collections import Counter
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from textmech.cases.load import load
@@ -83,3 +84,34 @@ def test_the_certificate_is_of_two_answers(long: tuple[Solution, Counter[str]]):
     assert calls["difference_jacobian"] > 0
     own = {check.name: check.certified for check in solution.checks}
     assert 0.0 < (own["error of j0.force"] or 0.0) < 1e-9
+
+
+@pytest.mark.mutant("a long chain gets a new Jacobian at every other step")
+def test_a_large_jacobian_is_kept_while_it_serves(
+    long: tuple[Solution, Counter[str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """It has a column for every coordinate and rate: of 40 bars 240, which a step cannot pay."""
+    _, of_20 = long  # 120 columns, refreshed as of any mechanism
+    solution, of_40 = solved(tmp_path, 40, monkeypatch)
+    assert solution.holds
+    assert of_40["difference_jacobian"] <= 0.5 * of_20["difference_jacobian"]
+
+
+@pytest.mark.mutant(
+    "the point of a driven ground is left at its start, in the residuals of many rows"
+)
+def test_residuals_of_many_rows_are_those_of_each(tmp_path: Path):
+    """All at once, in real and in complex numbers, with points of the ground that move."""
+    text = chain(12).replace("O: [0, 0]", "O: {at: [0.2, 0.1], velocity: [0.3, -0.4]}")
+    text = text.replace("j5: {pin:", "j5: {weld:").replace("j7: {pin:", "j7: {weld:")
+    file = tmp_path / "chain.yaml"
+    file.write_text(text, encoding="utf-8")
+    scene = load(file)[0].scene
+    mode = Multibody(scene, (np.zeros(36), np.zeros(36)))
+    random = np.random.default_rng(1)
+    for _ in range(5):
+        t = float(random.uniform(0.1, 1.0))
+        q = random.uniform(-2.0, 2.0, len(mode.coordinates))
+        for place in (q, q + 1e-3j * random.uniform(-1.0, 1.0, len(q))):
+            each = [entry for part in mode._constraints for entry in part.f(t, place.tolist())]
+            assert mode.f(t, place) == pytest.approx(np.array(each), abs=1e-14)

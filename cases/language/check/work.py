@@ -5,9 +5,10 @@ The steps of engines are counted where engines are known (reports/trial/work.py)
 """
 
 from collections.abc import Iterator, Mapping
-from math import hypot, isnan, sqrt
+from math import floor, hypot, inf, isnan, log10, sqrt
 from typing import Any
 
+from ...islands import apart
 from ...mistake import Path
 from ...scene import Anchor, Body, Scene
 from ...signal import fastest
@@ -43,28 +44,47 @@ def work(file: File, scene: Scene) -> Iterator[Finding]:
         if what := _long(count * cost.state(scene), f"{count} states {of}"):
             yield ("states", "random"), what
         return
-    sampled = file.samples * cost.sample(scene)
-    rows = file.samples * len(scene.bodies)
-    if what := _long(sampled, f"{file.samples} samples {of}, {rows} rows,"):
+    pieces = apart(scene, file.system, file.events)
+    if len(pieces) > 1:
+        of += f", at most {max(len(piece.bodies) for piece in pieces)} of which hang together"
+    sampled = file.samples * sum(map(cost.sample, pieces))
+    what = f"{file.samples} samples {of}, {file.samples * len(scene.bodies)} rows,"
+    most = f"{_down(file.samples * cost.LIMIT / sampled):g} samples" if sampled else ""
+    if what := _long(sampled, what, most):
         yield ("samples",), what
         return
+    swings = [_swings(file, piece) for piece in pieces]
+    seconds = sum(swing[0] for swing in swings)
+    left = (cost.LIMIT - sampled) / seconds if seconds else 0.0
+    most = f"a duration of {_down(file.duration * left):g} s" if 0.0 < left < inf else ""
+    if what := _long(sampled + seconds, max(swings)[1], most):
+        yield ("duration",), what
+
+
+def _swings(file: File, scene: Scene) -> tuple[float, str]:
+    """What its swings cost [s], and the fastest in words."""
     found = (each for each in (*_rates(scene), *_spins(file, scene)) if not isnan(each[0]))
     rate, path = max(found, default=(0.0, ()))  # of a spoiled number its own mistake is said
-    swing = rate * file.duration
-    where = ".".join(map(str, path))
-    swings = f"{where} swings at {rate:.3g} rad/s, {swing:.3g} rad in all, which"
-    if what := _long(sampled + cost.swung(scene, swing), swings):
-        yield ("duration",), what
+    swing, count = rate * file.duration, len(scene.bodies)
+    what = f"{'.'.join(map(str, path))} swings at {rate:.3g} rad/s, {swing:.3g} rad in all, which"
+    beside = f"; with {count} bodies that hang together {file.samples} samples of it"
+    return cost.swung(scene, swing), what.removesuffix(", which") + beside if count > 1 else what
+
+
+def _down(number: float) -> float:
+    """Two digits of it, and not more than it is."""
+    digit = 10.0 ** (floor(log10(number)) - 1) if 0.0 < number < inf else 1.0
+    return floor(number / digit) * digit if number < inf else number
 
 
 def _above(number: float, limit: float, what: str) -> str | None:
     return f"{what}, and the limit is {limit:g}: {GO_ON}" if number > limit else None
 
 
-def _long(seconds: float, what: str) -> str | None:
+def _long(seconds: float, what: str, most: str = "") -> str | None:
     if not seconds > cost.LIMIT:  # nor where a number of the file is spoiled
         return None
-    limit = f"the limit is {cost.LIMIT / 60:g} minutes"
+    limit = f"the limit is {cost.LIMIT / 60:g} minutes{most and f', or {most}'}"
     return f"{what} take {cost.about(seconds)}, and {limit}: {GO_ON}"
 
 

@@ -44,6 +44,9 @@ class SpatialMultibody(Mode):
             self._start = np.append(start[0], self._begun(*start)), start[1]
         self.constraints = SpatialRows(held(scene), self.layout)
         self._actions = Actions(self.layout)
+        self._m = np.array([mass.m for mass in self.masses.values()])
+        begins = [at.r for at in self.where.columns.values()]
+        self._places = np.add.outer(begins, range(3))  # (B, 3) of r in q
         self._weight = np.zeros(self.where.size)
         for body in scene.bodies.values():
             at = self.where.columns[body.name].r_dot
@@ -170,14 +173,15 @@ class SpatialMultibody(Mode):
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ Σ m ṙ_c² + ½ Σ ω·J ω [J] of the rates q̇ (m,) or (m, K)."""
-        energy: Any = 0.0
-        for name, at in self.where.columns.items():
-            mass, r_dot = self.masses[name], v[at.r : at.r + 3]
-            energy = energy + 0.5 * mass.m * (r_dot * r_dot).sum(axis=0)
-            if at.attitude is not None:
-                span = slice(at.attitude, at.attitude + 4)
-                omega = spin(q[span], v[span])
-                energy = energy + 0.5 * (omega * np.tensordot(mass.J, omega, 1)).sum(axis=0)
+        r_dot = v[self._places]  # (B, 3, …)
+        energy = 0.5 * np.tensordot(self._m, (r_dot * r_dot).sum(axis=1), 1)
+        if len(self._J):
+            each = (..., *[None] * (np.ndim(v) - 1))  # one attitude for all of many rates
+            q_k, rates = q[self.where.attitudes].T[each], np.moveaxis(v[self.where.attitudes], 1, 0)
+            omega = spin(q_k, rates)  # (3, K, …)
+            energy = energy + 0.5 * (omega * np.einsum("kij,jk...->ik...", self._J, omega)).sum(
+                axis=(0, 1)
+            )
         return energy
 
     def U(self, t: Any, q: Vector) -> Any:

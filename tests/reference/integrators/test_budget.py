@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from textmech.reference.integrators import budget as purse
-from textmech.reference.integrators.budget import Endless, budget, motion, spend
+from textmech.reference.integrators.budget import Endless, apart, budget, motion, spend
 from textmech.reference.integrators.explicit import DormandPrince
 from textmech.reference.integrators.march import integrate
 from textmech.reference.integrators.now import NOW
@@ -72,6 +72,21 @@ def test_where_it_leads_is_asked_after_some_patience() -> None:
     )
     assert ended([0.1] * 1000, 2001.0, 100.0) is None
     assert NOW.text().startswith("the motion, at 100 of 100 s")
+
+
+@pytest.mark.mutant("an evaluation of an island is paid for as one of the island before it")
+def test_islands_share_one_budget_each_at_its_price() -> None:
+    """And each has its motion and its second answer, as a case by itself."""
+    with budget(10.0, SECOND):
+        motion(0.0, 1.0)
+        spend(6, 1.0)
+        apart(SECOND / 100)
+        motion(0.0, 1.0)
+        assert NOW.what == "the motion"
+        spend(300, 1.0)
+        apart(SECOND)
+        with pytest.raises(Endless):
+            spend(2, 0.5)
 
 
 def test_a_slow_beginning_does_not_end_a_motion_that_hurries_on() -> None:

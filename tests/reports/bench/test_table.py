@@ -12,6 +12,7 @@ from given.planning import SETTINGS, words
 
 from textmech.reports.bench import adapters, table
 from textmech.reports.bench.adapters import Row
+from textmech.reports.bench.growth import Grown
 from textmech.reports.bench.integrators import Compared
 from textmech.reports.bench.turns import Ratio
 from textmech.reports.command import bench
@@ -106,3 +107,12 @@ def test_the_reference_says_which_of_scipys_was_best() -> None:
     assert lines[1].split() == ["aim", "0.50"]
     assert lines[2].split() == ["four_bar", "1e-09", "20.0", "ms", "LSODA", "0.60", "±0.01"]
     assert lines[3].endswith("none of scipy's reaches it")
+
+
+def test_growth_stands_beside_its_bound_and_a_refusal_in_words() -> None:
+    rows = [Grown("chain of 10 bars", 1.23, 60.0), Grown("too many", 0.1, 2.0, "9 samples " * 20)]
+    lines = list(table.growth(rows))
+    assert max(map(len, lines)) <= 80
+    assert lines[1].split() == ["chain", "of", "10", "bars", "1.2", "60"]
+    assert lines[2].split() == ["too", "many", "0.1", "2"]
+    assert lines[3].startswith("    9 samples 9 samples")

@@ -12,7 +12,8 @@ from ...grammar.file import File
 def spins(file: File, scene: Any) -> Iterator[tuple[float, Path]]:
     """How fast [rad/s] bodies and joints start to turn, and how fast they are driven."""
     driven: SpatialScene = scene
-    for name, start in file.initial.items():
+    mine = [name for name in file.initial if name in {**driven.bodies, **driven.joints}]
+    for name, start in ((name, file.initial[name]) for name in mine):
         turning = [*(f"omega_{i}" for i in (1, 2, 3))]
         if name in driven.joints:
             rates = driven.joints[name].rates
