@@ -63,7 +63,12 @@ def only(shape: Circle, plane: ShapeFilter) -> None:
 
 def above(plane: Plane, point: Vector, angle: float) -> Vector:
     """The circle's centre in body axes, ABOVE m over the point in the ground's."""
-    (nx, ny), cos, sin = plane.normal, math.cos(angle), math.sin(angle)
+    return over(plane.normal, point, math.cos(angle), math.sin(angle))
+
+
+def over(normal: Vector, point: Vector, cos: float, sin: float) -> Vector:
+    """The same by the normal in ground axes, and the angle's cosine and sine."""
+    nx, ny = normal
     return (point[0] + (cos * nx + sin * ny) * ABOVE, point[1] + (cos * ny - sin * nx) * ABOVE)
 
 
