@@ -39,7 +39,12 @@ def reading(body: Body) -> Callable[[], State]:
         position, angle = lib.cpBodyGetPosition, lib.cpBodyGetAngle
         velocity, omega = lib.cpBodyGetVelocity, lib.cpBodyGetAngularVelocity
     except AttributeError:
-        return lambda: (*body.position, body.angle, *body.velocity, body.angular_velocity)
+
+        def look() -> State:
+            (x, y), (vx, vy) = body.position, body.velocity
+            return x, y, body.angle, vx, vy, body.angular_velocity
+
+        return look
 
     def read() -> State:
         p, v = position(it), velocity(it)

@@ -54,10 +54,10 @@ class Landings:
         self._look(step)
         if not self._begun:
             self._begin(step)
-        for foot in self.feet:
-            if foot.comes(step / 2, step):
-                return self._cut(step)
-        return self._take(step, step)
+        if any(foot.comes(step / 2, step) for foot in self.feet):
+            self._cut(step)
+        else:
+            self._take(step, step)
 
     def _moved(self) -> None:
         for carrier in self._carriers.values():

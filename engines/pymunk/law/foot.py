@@ -57,11 +57,8 @@ class Foot:
         self.shape = world.wheels[contact.name]
         self._is_disk = self.part.radius is not None
         self.meets, self.stands = True, not self._is_disk and self.shape.radius > ABOVE
-        self._seed, self._meeting, self._turns = (
-            seed,
-            self.shape.filter,
-            is_tip(world.scene, contact),
-        )
+        self._seed, self._meeting = seed, self.shape.filter
+        self._turns = is_tip(world.scene, contact)
         self._point = self.part.points[contact.at.point]
         self._far, self._normal = math.hypot(*self._point), contact.plane.normal
         self._place = *self._point, *self._normal, *contact.plane.at, self.part.radius or 0.0
