@@ -47,8 +47,17 @@ class Quantity:
     kind: Kind
 
 
+_MADE: list[tuple[Scene, dict[str, Quantity]]] = []  # the last: a scene is asked many times
+
+
 def table(scene: Scene) -> dict[str, Quantity]:
     """Every quantity of the scene by name, in the scene's order."""
+    if not _MADE or _MADE[0][0] is not scene:
+        _MADE[:] = [(scene, _made(scene))]
+    return dict(_MADE[0][1])
+
+
+def _made(scene: Scene) -> dict[str, Quantity]:
     parts: dict[str, Fields] = {}
     for element in scene.elements():
         parts |= element.quantities()

@@ -35,6 +35,14 @@ def in_time(signal: Signal) -> Callable[[float], tuple[float, ...]]:
     if len(amplitude) == 1:
         (one,) = amplitude
         return lambda t: (one * size(t),)
+    if len(amplitude) == 2:
+        x, y = amplitude
+
+        def in_the_plane(t: float) -> tuple[float, ...]:
+            now = size(t)
+            return x * now, y * now
+
+        return in_the_plane
 
     def along_axes(t: float) -> tuple[float, ...]:
         now = size(t)

@@ -7,7 +7,7 @@ tiny one falls through the floor at v h > r.
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from pymunk.body import Body
 from pymunk.shape_filter import ShapeFilter
@@ -18,6 +18,7 @@ from ...cases.scene import Body as Part
 from ...cases.scene import Contact, Scene, Vector
 from ..engine import Start
 from ..stride import Place, Stride
+from .direct import reading
 
 FLOOR_FRICTION = 1.0  # pymunk multiplies the frictions of two shapes: the circle carries all of µ
 FLOOR_ELASTICITY = 1.0  # likewise the restitution
@@ -63,42 +64,59 @@ def only(shape: Circle, plane: ShapeFilter) -> None:
 
 def above(plane: Plane, point: Vector, angle: float) -> Vector:
     """The circle's centre in body axes, ABOVE m over the point in the ground's."""
-    (nx, ny), cos, sin = plane.normal, math.cos(angle), math.sin(angle)
+    return over(plane.normal, point, math.cos(angle), math.sin(angle))
+
+
+def over(normal: Vector, point: Vector, cos: float, sin: float) -> Vector:
+    """The same by the normal in ground axes, and the angle's cosine and sine."""
+    nx, ny = normal
     return (point[0] + (cos * nx + sin * ny) * ABOVE, point[1] + (cos * ny - sin * nx) * ABOVE)
 
 
-def follower(
-    contact: Contact, part: Part, shape: Circle, step: float, *, reflects: bool
-) -> Follow | None:
-    """Keeps the circle above the point of a body that turns.
+class Tip:
+    """A point of a turning body that touches, with its circle, as pymunk was told of it."""
 
-    reflects: while it stays on the floor its elasticity is 1. A contact holds the velocity at the
+    def __init__(self, contact: Contact, part: Part, shape: Circle) -> None:
+        self._shape, self._impact, self._told = shape, contact.restitution, contact.restitution
+        self._place = *part.points[contact.at.point], *contact.plane.normal
+        self._level, self._depth = contact.plane.height(0.0, 0.0), shape.radius - ABOVE
+        # what already turns at the start stands on the floor; else it strikes in the first step
+        self._touched = contact.ideal == "pivot"
+
+    def reflect(self, x: float, y: float, cos: float, sin: float) -> None:
+        """By its body as it is now: whether it stays on the floor, as in the step before."""
+        a, b, nx, ny = self._place
+        low = self._level + nx * (x + cos * a - sin * b) + ny * (y + sin * a + cos * b)
+        elasticity = 1.0 if self._touched and low < self._depth else self._impact
+        self._touched = True
+        if self._told != elasticity:
+            self._shape.elasticity = self._told = elasticity
+
+    def follow(self, cos: float, sin: float) -> None:
+        """By its body's angle after the step: the circle stands over the point."""
+        a, b, nx, ny = self._place
+        self._shape.unsafe_set_offset(over((nx, ny), (a, b), cos, sin))
+
+
+def follower(body: Body, tips: Sequence[Tip], step: float, *, reflects: bool) -> Follow:
+    """Keeps the circles above the points of a body that turns.
+
+    reflects: while one stays on the floor its elasticity is 1. A contact holds the velocity at the
     new place alone, J(n+½) v(n+1) = 0, and the point's curved path then lifts it a little in each
     step, until it opens and falls back. J(n+½) (v(n+1) + v(n)) = 0 leaves it on the floor.
     """
-    body = shape.body
-    if part.radius is not None or not part.turns or body is None:
-        return None
-    a, b = part.points[contact.at.point]
-    (nx, ny), level = contact.plane.normal, contact.plane.height(0.0, 0.0)
-    impact = now = contact.restitution
-    touched = contact.ideal == "pivot"  # what already turns at the start stands on the floor
+    read = reading(body)
 
     def follow(t: float) -> None:
-        nonlocal now, touched
-        angle = body.angle
+        x, y, angle, _, _, omega = read()
         if reflects:
-            # as pymunk found it in the step before; in the first step it strikes the floor
-            cos, sin, (x, y) = math.cos(angle), math.sin(angle), body.position
-            low = level + nx * (x + cos * a - sin * b) + ny * (y + sin * a + cos * b)
-            stays = touched and low < shape.radius - ABOVE
-            touched = True
-            if now != (1.0 if stays else impact):
-                shape.elasticity = now = 1.0 if stays else impact
-        turned = angle + step * body.angular_velocity
-        sin, cos = math.sin(turned), math.cos(turned)
-        along, up = cos * nx + sin * ny, cos * ny - sin * nx  # the normal, in body axes
-        shape.unsafe_set_offset((a + along * ABOVE, b + up * ABOVE))
+            cos, sin = math.cos(angle), math.sin(angle)
+            for tip in tips:
+                tip.reflect(x, y, cos, sin)
+        turned = angle + step * omega
+        cos, sin = math.cos(turned), math.sin(turned)
+        for tip in tips:
+            tip.follow(cos, sin)
 
     return follow
 

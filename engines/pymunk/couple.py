@@ -5,7 +5,8 @@ from collections.abc import Callable, Iterator
 from pymunk.body import Body
 
 from ...cases.couple import Couple
-from ..signal import acting, value
+from ..signal import acting, in_time
+from .direct import turning
 from .law.line import Exerted
 from .wording import as_text
 from .world import World
@@ -13,13 +14,13 @@ from .world import World
 
 def couple(world: World, force: Couple, step: float, drift: float) -> Callable[[float], None]:
     """Its torque in the middle of the step, or at its start."""
-    first, second = _both(world, force)
+    first, second = (turning(body) for body in _both(world, force))
     torque = acting(force.signal, drift)
 
     def apply(t: float) -> None:
         (size,) = torque(t)
-        first.torque -= size
-        second.torque += size
+        first(-size)
+        second(size)
 
     return apply
 
@@ -27,7 +28,8 @@ def couple(world: World, force: Couple, step: float, drift: float) -> Callable[[
 def couple_load(world: World, force: Couple, name: str) -> Exerted:
     """What it exerts on the body `name`."""
     way = 1.0 if name == force.second else -1.0
-    return lambda t, drift: (0.0, 0.0, way * value(force.signal, t)[0])
+    torque = in_time(force.signal)
+    return lambda t, drift, state: (0.0, 0.0, way * torque(t)[0])
 
 
 def couple_script(

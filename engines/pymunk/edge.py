@@ -9,7 +9,8 @@ from pymunk.vec2d import Vec2d
 
 from ...cases.scene import Edge, Scene, Signal, Vector
 from ..signal import in_time
-from .pin import LENGTH, Pin, Rates, Way, laid
+from .direct import State
+from .pin import LENGTH, Pin, Way, laid
 from .wording import as_text
 from .world import World
 from .written import written
@@ -20,7 +21,12 @@ _LAID = [
     "from pymunk import PinJoint",
     "",
     f"LENGTH = {LENGTH!r}",
-    f"Way, Rates = {Way}, {Rates}",
+    f"Way, State = {Way}, {State}",
+    "",
+    "",
+    "def state(body: pymunk.Body) -> State:",
+    "    rates = (*body.velocity, body.angular_velocity)",
+    "    return (*body.position, body.angle, *rates)",
     "",
     "",
     *getsource(laid).splitlines(),
@@ -64,7 +70,7 @@ def joints_as_text(world: World, of: Callable[[Body], str]) -> Iterator[str]:
         yield f"    {of(joint.a)}, ground, {written(joint.anchor_a)}, {written(joint.anchor_b)},"
         yield ")"
         yield f"joint.distance, joint.error_bias = LENGTH, {joint.error_bias!r}"
-        yield f"before[{name!r}] = (*joint.a.velocity, joint.a.angular_velocity)"
+        yield f"before[{name!r}] = state(joint.a)"
         yield "space.add(joint)"
 
 
@@ -75,8 +81,11 @@ def lays_as_text(world: World) -> Iterator[str]:
     for edge in world.scene.constraints.values():
         for field, way, law in rows(edge):
             name = f"{edge.name}.{field}"
-            given = f"{written(way)}, {as_text(law)[0]}, h, before[{name!r}]"
-            yield f"    _, before[{name!r}] = laid(pins[{name!r}], {given})"
+            yield f"    joint = pins[{name!r}]"
+            given = f"joint.anchor_a, {written(way)}, {as_text(law)[0]}, h, before[{name!r}]"
+            yield "    now = state(joint.a)"
+            yield f"    joint.anchor_b, _ = laid(now, {given})"
+            yield f"    before[{name!r}] = now"
 
 
 def driver(world: World, step: float) -> list[Callable[[float], None]]:

@@ -33,10 +33,11 @@ from ...cases.force import (
 )
 from ...cases.scene import Scene
 from ..engine import Realised
-from ..signal import acting, value
+from ..signal import acting, in_time
 from .couple import couple, couple_load, couple_script
+from .direct import State, pushing, reading
 from .law import one_side
-from .law.line import Exerted, Load, drifting, pull, told
+from .law.line import Exerted, Load, drifted, pull, told
 from .law.told import BY_LAW
 from .law.turning import couple_as_text, motor, motor_load, twist, twisted
 from .stops import stop_numbers
@@ -119,10 +120,10 @@ def numbers(world: World) -> dict[str, float]:
     }
 
 
-def load(world: World, name: str, step: float) -> Callable[[float, float], Load]:
+def load(world: World, name: str, step: float) -> Callable[[float, float, State], Load]:
     """All that forces and gravity do to a body, at t + ahead as seen between steps at the time t.
 
-    Positions are those of the midpoint protocol, h/2 behind.
+    By the body's state at t, with positions of the midpoint protocol, h/2 behind.
     """
     body, (gx, gy) = world.bodies[name], world.space.gravity
     scene = world.scene
@@ -130,10 +131,10 @@ def load(world: World, name: str, step: float) -> Callable[[float, float], Load]
     loads = [ELEMENTS[type(force)].load(world, force, name) for force in forces]
     weight = body.mass * gx, body.mass * gy
 
-    def acting(t: float, ahead: float) -> Load:
+    def acting(t: float, ahead: float, state: State) -> Load:
         (fx, fy), torque = weight, 0.0
         for exerted in loads:
-            x, y, turn = exerted(t + ahead, ahead + step / 2)
+            x, y, turn = exerted(t + ahead, ahead + step / 2, state)
             fx, fy, torque = fx + x, fy + y, torque + turn
         return fx, fy, torque
 
@@ -153,28 +154,29 @@ def script(world: World, of: Callable[[Body], str], *, midpoint: bool) -> Iterat
 
 def _push(world: World, force: Push, step: float, drift: float) -> Apply:
     body, (a, b) = world.body(force.at), world.local(force.at)
-    pushed = acting(force.signal, drift)
+    pushed, read, push = acting(force.signal, drift), reading(body), pushing(body)
 
     def apply(t: float) -> None:
-        angle = body.angle + drift * body.angular_velocity
+        x, y, angle, _, _, omega = read()
+        angle += drift * omega
         cos, sin = math.cos(angle), math.sin(angle)
-        lever = (cos * a - sin * b, sin * a + cos * b)
         fx, fy = pushed(t)
-        body.apply_force_at_world_point((fx, fy), body.position + lever)
+        push((fx, fy), (x + (cos * a - sin * b), y + (sin * a + cos * b)))
 
     def central(t: float) -> None:  # as most are: turning does not move a centre
+        x, y, *_ = read()
         fx, fy = pushed(t)
-        body.apply_force_at_world_point((fx, fy), body.position)
+        push((fx, fy), (x, y))
 
     return apply if a or b else central
 
 
 def _push_load(world: World, force: Push, name: str) -> Exerted:
-    place = drifting(world, force.at)
+    place, pushed = drifted(*world.local(force.at)), in_time(force.signal)
 
-    def exerted(t: float, drift: float) -> Load:
-        fx, fy = value(force.signal, t)
-        (rx, ry), *_ = place(drift)
+    def exerted(t: float, drift: float, state: State) -> Load:
+        fx, fy = pushed(t)
+        (rx, ry), *_ = place(state, drift)
         return fx, fy, rx * fy - ry * fx
 
     return exerted
@@ -197,6 +199,10 @@ def _motor_script(
     world: World, force: Motor, of: Callable[[Body], str], midpoint: bool
 ) -> Iterator[str]:
     yield from couple_as_text(world, force, of, as_text(force.signal, midpoint=midpoint)[0])
+
+
+def _nothing(t: float, drift: float, state: State) -> Load:
+    return 0.0, 0.0, 0.0
 
 
 def _named(*names: str) -> dict[str, Any]:
@@ -238,6 +244,6 @@ ELEMENTS: dict[type[Force], Element] = {
     Magnetic: Element(**BY_LAW, lacks="engine: pymunk has no force of a magnetic field"),
     Muscle: Element(**BY_LAW, lacks="engine: pymunk has no muscle"),
     LinearMuscle: Element(**BY_LAW, lacks="engine: pymunk has no muscle"),
-    Rope: Element(load=lambda world, rope, name: lambda t, drift: (0.0, 0.0, 0.0)),  # a joint
-    Stops: Element(load=lambda world, stops, name: lambda t, drift: (0.0, 0.0, 0.0)),
+    Rope: Element(load=lambda world, rope, name: _nothing),  # a joint
+    Stops: Element(load=lambda world, stops, name: _nothing),
 }  # fmt: skip

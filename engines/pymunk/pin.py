@@ -9,28 +9,27 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from pymunk.body import Body
 from pymunk.constraints import PinJoint
+
+from .direct import State, forced, reading
 
 LENGTH = 1.0  # m, of the pin joint: of no effect, as it is laid anew
 
 Way = tuple[float, float]
-Rates = tuple[float, float, float]
-"""vx, vy [m/s], omega [rad/s]."""
 
 
-def laid(joint: PinJoint, way: Way, speed: float, h: float, before: Rates) -> tuple[Way, Rates]:
-    """Lays it along `way`, given in the axes of its body, in the middle of the step to come.
+def laid(state: State, at: Way, way: Way, speed: float, h: float, before: State) -> tuple[Way, Way]:
+    """Where the far end is to lie so that it acts along `way` in the middle of the step to come.
 
-    At the end of the step its point will have the velocity `speed` [m/s] along the way as it then
-    lies: what the rates would leave there, if they went on as in the step from `before`, is what
-    the joint takes away. Answers with the way in the middle, in ground axes, and the present rates.
+    The body's point `at`, and `way`, are given in the axes of the body. At the end of the step the
+    point will have the velocity `speed` [m/s] along the way as it then lies: what the rates would
+    leave there, if they went on as in the step from the state `before`, is what the joint takes
+    away. Answers with the far end and the way in the middle, in ground axes.
     """
-    body = joint.a
-    (x, y), (vx, vy), omega = body.position, body.velocity, body.angular_velocity
-    (a, b), (p, q) = joint.anchor_a, way
-    ux, uy, turning = 2 * vx - before[0], 2 * vy - before[1], 2 * omega - before[2]
-    middle = body.angle + h * omega
+    (x, y, angle, vx, vy, omega), (a, b), (p, q) = state, at, way
+    *_, was_vx, was_vy, was_omega = before
+    ux, uy, turning = 2 * vx - was_vx, 2 * vy - was_vy, 2 * omega - was_omega
+    middle = angle + h * omega
     end = middle + h / 2 * turning
     cos, sin, cos_end, sin_end = math.cos(middle), math.sin(middle), math.cos(end), math.sin(end)
     dx, dy, ex, ey = (
@@ -44,8 +43,7 @@ def laid(joint: PinJoint, way: Way, speed: float, h: float, before: Rates) -> tu
     left = fx * (ux - turning * ey) + fy * (uy + turning * ex) - speed
     goal = wx * (ux - turning * dy) + wy * (uy + turning * dx) - left / (wx * fx + wy * fy)
     far = LENGTH + h * goal
-    joint.anchor_b = x + h * vx + dx + far * wx, y + h * vy + dy + far * wy
-    return (wx, wy), (vx, vy, omega)
+    return (x + h * vx + dx + far * wx, y + h * vy + dy + far * wy), (wx, wy)
 
 
 @dataclass
@@ -55,29 +53,27 @@ class Pin:
     joint: PinJoint
     way: Way
     law: Callable[[float], tuple[float, ...]]  # of the velocity along `way` [m/s]
-    before: Rates = field(init=False)
+    before: State = field(init=False)
     along: Way = (0.0, 0.0)  # `way` in ground axes in the last step
     without: Way = (0.0, 0.0)  # N s: the body's momentum after the step, if it were not held
 
     def __post_init__(self) -> None:
-        (vx, vy), omega = self.joint.a.velocity, self.joint.a.angular_velocity
-        self.before = vx, vy, omega  # there is no step before the first
+        body = self.joint.a
+        self._read, self._forced = reading(body), forced(body)
+        self._at, self._mass = self.joint.anchor_a, body.mass
+        self.before = self._read()  # there is no step before the first
 
     def lay(self, t: float, h: float, gravity: Way) -> None:
         """For the step from t to t + h [s]; all that pymunk is told of forces has been told."""
-        speed = self.law(t + h)[0]
-        self.along, self.before = laid(self.joint, self.way, speed, h, self.before)
-        self.without = _momentum(self.joint.a, h, gravity)
+        state, speed = self._read(), self.law(t + h)[0]
+        far, self.along = laid(state, self._at, self.way, speed, h, self.before)
+        self.joint.anchor_b, self.before = far, state
+        (_, _, _, vx, vy, _), (fx, fy), m = state, self._forced(), self._mass
+        self.without = m * (vx + h * gravity[0]) + h * fx, m * (vy + h * gravity[1]) + h * fy
 
     def impulse(self) -> float:
         """[N s] on the body along `way` in the last step: pymunk knows its size, and its sign is
         that of what changed the momentum of a body without joints."""
-        x, y = _momentum(self.joint.a, 0.0, (0.0, 0.0))
-        changed = (x - self.without[0]) * self.along[0] + (y - self.without[1]) * self.along[1]
-        return math.copysign(self.joint.impulse, changed)
-
-
-def _momentum(body: Body, h: float, gravity: Way) -> Way:
-    """[N s] after h [s] of the forces that it is told."""
-    m, (vx, vy), (fx, fy) = body.mass, body.velocity, body.force
-    return m * (vx + h * gravity[0]) + h * fx, m * (vy + h * gravity[1]) + h * fy
+        (_, _, _, vx, vy, _), m = self._read(), self._mass
+        x, y = m * vx - self.without[0], m * vy - self.without[1]
+        return math.copysign(self.joint.impulse, x * self.along[0] + y * self.along[1])

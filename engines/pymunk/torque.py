@@ -5,7 +5,8 @@ from collections.abc import Callable, Iterator
 from pymunk.body import Body
 
 from ...cases.force import Torque
-from ..signal import acting, value
+from ..signal import acting, in_time
+from .direct import turning
 from .law.line import Exerted
 from .wording import as_text
 from .world import World
@@ -13,17 +14,14 @@ from .world import World
 
 def torque(world: World, force: Torque, step: float, drift: float) -> Callable[[float], None]:
     """In the middle of the step, or at its start."""
-    body, turned = world.bodies[force.body], acting(force.signal, drift)
-
-    def apply(t: float) -> None:
-        body.torque += turned(t)[0]
-
-    return apply
+    turn, turned = turning(world.bodies[force.body]), acting(force.signal, drift)
+    return lambda t: turn(turned(t)[0])
 
 
 def torque_load(world: World, force: Torque, name: str) -> Exerted:
     """What it exerts on its body."""
-    return lambda t, drift: (0.0, 0.0, value(force.signal, t)[0])
+    turned = in_time(force.signal)
+    return lambda t, drift, state: (0.0, 0.0, turned(t)[0])
 
 
 def torque_script(

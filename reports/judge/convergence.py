@@ -76,7 +76,7 @@ def study(
     before it on one rung and after it on the next.
     """
     steps = sorted(ladder)
-    errors = {h: metric.error(ladder[h], reference).largest for h in steps}
+    errors = {h: metric.largest(ladder[h] - reference) for h in steps}
     usable = _usable(errors, allow)
     if errors[steps[0]] <= floor:
         exactly = metric.told_uncertainty(0.0, floor)
@@ -85,7 +85,7 @@ def study(
     if np.count_nonzero(keep) < FEWEST:
         return Convergence(UNSETTLED, errors, usable)
     rungs, reference = [ladder[h][keep] for h in steps], reference[keep]
-    size = _Size([metric.error(rung, reference).largest for rung in rungs])
+    size = _Size([metric.largest(rung - reference) for rung in rungs])
     if size.verdict == UNSETTLED:
         size = _Size(list(errors.values()))  # what is beside events may fall all the same
     if len(steps) < len(exponents) + 1:

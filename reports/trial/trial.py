@@ -165,8 +165,14 @@ class Trial:
 
     def away(self, distance: float) -> NDArray[np.bool_]:
         """Which samples (N,) are at least `distance` [s] from where the reference switches."""
+        return self._from_switches >= distance
+
+    @cached_property
+    def _from_switches(self) -> Array:
+        """How far [s] each sample (N,) is from where the reference switches; every rung asks."""
         gaps = np.abs(self.case.times[:, None] - self.reference.switches[None, :])
-        return np.min(gaps, axis=1, initial=np.inf) >= distance
+        nearest: Array = np.min(gaps, axis=1, initial=np.inf)
+        return nearest
 
     def allowed(self, name: str) -> float | None:
         """What still counts as textbook mechanics; None: not known yet."""

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import simpson
 
-from textmech.cases import shape
+from textmech.cases import quantity, shape
 from textmech.cases.observe import observe
 from textmech.cases.quantity import table
 from textmech.cases.scene import (
@@ -230,3 +230,29 @@ def test_every_quantity_is_seen_or_refused() -> None:
     assert missing == [*given, *(f"rail.{field}" for field in fields), "touch.tangent"]
     with pytest.raises(KeyError):
         seen("bar.angel")
+
+
+def own_tables() -> bool:
+    """Whether two scenes that are asked in turn each tell their own quantities."""
+    bar, wheel = (
+        replace(SCENE, bodies={name: SCENE.bodies[name]}, joints={}, forces={}, contacts={})
+        for name in ("bar", "wheel")
+    )
+    told = [
+        {name for name in ("bar", "wheel") if f"{name}.angle" in table(scene)}
+        for scene in (bar, wheel, bar, wheel)
+    ]
+    return told == [{"bar"}, {"wheel"}] * 2
+
+
+def test_a_table_is_of_the_scene_that_is_asked() -> None:
+    table(SCENE).clear()  # whoever changes one changes his own
+    assert table(SCENE)
+    assert own_tables()
+
+
+@pytest.mark.mutant("the quantities of the scene that was asked before")
+def test_a_table_of_another_scene_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    before = table(SCENE)
+    monkeypatch.setattr(quantity, "_made", lambda scene: before)
+    assert not own_tables()

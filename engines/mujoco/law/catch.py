@@ -35,6 +35,8 @@ class Catching(Cut[int]):
         ropes = list(scene.ropes())
         self._tendons = Tendons(model, data, [model.tendon(rope.name).id for rope in ropes])
         self._most = np.array([rope.length for rope in ropes])
+        self._ends = list(zip(self._tendons.numbers, self._most.tolist(), strict=True))
+        self._lengths, self._speeds = data.ten_length, data.ten_velocity
         self.recall((self._over() > -NEAR * self._most) & (self._rates() > -NEAR * self._most))
 
     def remember(self) -> Any:
@@ -69,10 +71,13 @@ class Catching(Cut[int]):
 
         By what MuJoCo knows of the last step: what changes in one is small beside `FAR`.
         """
-        numbers = self._tendons.numbers
-        gaps = self._most - self.data.ten_length[numbers]
-        near = FAR * self._most + FAST * step * np.abs(self.data.ten_velocity[numbers])
-        return bool(np.where(self.taut, gaps < 0.0, gaps > near).all())
+        for (number, most), taut in zip(self._ends, self.taut.tolist(), strict=True):
+            gap, near = most - self._lengths.item(number), 0.0
+            if not taut:
+                near = FAR * most + FAST * step * abs(self._speeds.item(number))
+            if not (gap < 0.0 if taut else gap > near):
+                return False
+        return True
 
     def _change(self, key: int) -> None:
         """(2.60) over the instant: no rope that pulls in it keeps a velocity along it."""

@@ -26,6 +26,10 @@ class Feet(Cut[str]):
     ) -> None:
         super().__init__(model, data)
         self.stride, self.standing = stride, standing
+        self._equalities = {name: model.eq(name).id for name in stride.feet}
+        self._sites = {name: model.site(name).id for name in stride.feet}
+        ends = {end for foot in stride.feet.values() for end in (foot.at, foot.ahead_of) if end}
+        self._places = {end: data.site_xpos[model.site(str(end)).id] for end in ends}
         self._above: dict[str, float] = {}  # how high [m] the swinging feet were as a part began
 
     def remember(self) -> Standing:
@@ -36,19 +40,21 @@ class Feet(Cut[str]):
         """The feet as they stood."""
         self.standing = dict(noted)
         for name, place in noted.items():
-            self.data.eq_active[self.model.eq(name).id] = place is not None
+            self.data.eq_active[self._equalities[name]] = place is not None
             if place is not None:
-                self.model.site_pos[self.model.site(name).id] = place
+                self.model.site_pos[self._sites[name]] = place
 
     def _begin(self) -> None:
         mujoco.mj_kinematics(self.model, self.data)
         self.stride.look(self._place)
-        self._above = {name: y for name in self._swinging() if (y := self._height(name)) > 0.0}
+        heights = {name: self._height(name) for name in self._swinging()}
+        self._above = {name: y for name, y in heights.items() if y > 0.0}
 
     def _happens(self) -> Mapping[str, tuple[float, Height]]:
         """Feet that came down."""
+        mujoco.mj_kinematics(self.model, self.data)  # a step leaves places as they were
         down = [name for name in self._above if self._height(name) <= 0.0]
-        return {name: (self._above[name], lambda name=name: self._height(name)) for name in down}
+        return {name: (self._above[name], lambda name=name: self._after(name)) for name in down}
 
     def _swinging(self) -> list[str]:
         """The feet that the floor meets, and that do not stand on it."""
@@ -58,12 +64,15 @@ class Feet(Cut[str]):
         return self.standing[name] is not None
 
     def _place(self, at: Anchor) -> tuple[float, float]:
-        x, y, _ = self.data.site(str(at)).xpos
-        return float(x), float(y)
+        place = self._places[at]
+        return place.item(0), place.item(1)
 
     def _height(self, name: str) -> float:
-        mujoco.mj_kinematics(self.model, self.data)  # a step leaves places as they were
         return self._place(self.stride.feet[name].at)[1]
+
+    def _after(self, name: str) -> float:
+        mujoco.mj_kinematics(self.model, self.data)
+        return self._height(name)
 
     def _change(self, key: str) -> None:
         """The foot stands where it is, and the one behind is let go."""

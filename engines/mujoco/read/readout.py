@@ -5,7 +5,7 @@ few percent of the stepping.
 """
 
 from collections.abc import Callable, Mapping
-from functools import cache
+from functools import cache, lru_cache
 
 import mujoco
 import numpy as np
@@ -20,7 +20,7 @@ from ..tree import Tree, spanning_tree
 from .acceleration import NEEDED, acceleration
 from .friction import SlideFriction
 from .reaction import damped, felt_force, joint_force, pinned
-from .record import Record
+from .record import Counts, Record
 
 _TOUCHING = ("sensordata", "qfrc_applied")
 _JOINTS = ("cfrc_int", "subtree_com", "site_xpos", "actuator_force")
@@ -127,8 +127,15 @@ def _equalities(model: mujoco.MjModel, probe: mujoco.MjData) -> Array:
 
     A `connect` has three rows, a tendon one.
     """
-    found, ids = np.zeros((model.neq, 3)), probe.efc_id[: probe.ne]
-    begins = np.flatnonzero(np.diff(ids, prepend=-1))
-    rows = np.arange(probe.ne) - np.repeat(begins, np.diff(begins, append=probe.ne))
-    found[ids, rows] = probe.efc_force[: probe.ne]
+    found, active = np.zeros((model.neq, 3)), probe.ne
+    ids = tuple(probe.efc_id[:active].tolist())
+    found[_rows(ids)] = probe.efc_force[:active]
     return found
+
+
+@lru_cache(maxsize=16)  # equalities are seldom switched: a run has a few such lists
+def _rows(ids: tuple[int, ...]) -> tuple[Counts, Counts]:
+    """Where in `_equalities` each row of those equalities belongs."""
+    begins = np.flatnonzero(np.diff(ids, prepend=-1))
+    rows = np.arange(len(ids)) - np.repeat(begins, np.diff(begins, append=len(ids)))
+    return np.array(ids, dtype=np.int64), rows

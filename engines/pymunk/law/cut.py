@@ -16,7 +16,7 @@ from ..lacking import lacking
 from ..scene import oblique
 from ..world import World
 from .cold import NO_TIME, Lengths, drift, open_gaps
-from .foot import Foot
+from .foot import Carrier, Foot
 
 _SHORTEST = 1e-9  # of a step: what lasts no longer happens at once
 _PARTS = 3  # for each that comes down: nearly there, there, and there again
@@ -43,11 +43,14 @@ class Landings:
 
     def __init__(self, world: World, seed: float) -> None:
         self.world, self.space = world, world.space
-        self.feet = [Foot(world, contact, seed) for contact in world.scene.touching.values()]
+        touching = world.scene.touching.values()
+        self._carriers = {contact.body: Carrier(world, contact.body) for contact in touching}
+        self.feet = [Foot(world, each, seed, self._carriers[each.body]) for each in touching]
         self._lengths, self._begun = Lengths(world.space), False
 
     def step(self, step: float) -> None:
         """One step [s], in as many parts as something comes down in it; places are h/2 behind."""
+        self._moved()
         self._look(step)
         if not self._begun:
             self._begin(step)
@@ -56,16 +59,24 @@ class Landings:
         else:
             self._take(step, step)
 
+    def _moved(self) -> None:
+        for carrier in self._carriers.values():
+            carrier.look()
+
+    def _drift(self, length: float) -> None:
+        drift(self.space, length)
+        self._moved()
+
     def _begin(self, step: float) -> None:
         """What strikes at the start does so before the first step."""
         self._begun = True
         if any(foot.stands for foot in self.feet):
-            drift(self.space, step / 2)
+            self._drift(step / 2)
             self._strike([])
-            drift(self.space, -step / 2)
+            self._drift(-step / 2)
 
     def _cut(self, step: float) -> None:
-        drift(self.space, step / 2)
+        self._drift(step / 2)
         left = step
         if late := [foot for foot in self.feet if foot.is_down and not foot.is_above]:
             self._strike(late)  # as the step before ended, by a little more than it had foreseen
@@ -80,15 +91,15 @@ class Landings:
             if down := [foot for foot in self.feet if foot.is_down]:
                 self._strike(down)
         self._part(left, step)
-        drift(self.space, -step / 2)
+        self._drift(-step / 2)
 
     def _part(self, length: float, step: float) -> None:
         """A step so long [s] from where the bodies are now to where they are then."""
         if length > _SHORTEST * step:
-            drift(self.space, -length / 2)
+            self._drift(-length / 2)
             with open_gaps(self.space):
                 self._take(length, step)
-            drift(self.space, length / 2)
+            self._drift(length / 2)
 
     def _take(self, length: float, step: float) -> None:
         self._lay(length)
@@ -101,6 +112,7 @@ class Landings:
             foot.touch()
         self._lay(NO_TIME, strikes=True)
         self._lengths.impact()
+        self._moved()
         for foot in struck:
             foot.bounce()
 

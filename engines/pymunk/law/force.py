@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from ..contact import follower, steers
+from ..contact import Tip, follower, is_tip, steers
 from ..drive import tells as turned
 from ..edge import driver
 from ..force import tells
@@ -27,9 +27,12 @@ def forces(world: World, step: float, *, midpoint: bool, law: bool, reflects: bo
 
 def _followers(world: World, step: float, reflects: bool) -> list[Apply]:
     scene = world.scene
+    tips: dict[str, list[Tip]] = {}
+    for contact in scene.touching.values():
+        if is_tip(scene, contact):
+            tip = Tip(contact, scene.bodies[contact.body], world.wheels[contact.name])
+            tips.setdefault(contact.body, []).append(tip)
     found = [
-        follower(c, scene.bodies[c.body], world.wheels[c.name], step, reflects=reflects)
-        for c in scene.touching.values()
+        follower(world.bodies[body], those, step, reflects=reflects) for body, those in tips.items()
     ]
-    pairs = pair_followers(world, step, reflects=reflects)
-    return [*(follow for follow in found if follow), *pairs]
+    return [*found, *pair_followers(world, step, reflects=reflects)]

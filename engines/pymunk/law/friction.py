@@ -7,9 +7,9 @@ nothing else joins or touches.
 
 import math
 from collections.abc import Callable
-from functools import partial
 
 from ....cases.scene import GROUND, Bounds, Contact, DryFriction, Joint, Scene, Vector
+from ..direct import State, pushing, reading
 from ..force import load
 from ..world import World
 from .breakaway import bound, smooth_mean
@@ -68,20 +68,29 @@ def _joint(world: World, joint: Joint, friction: DryFriction, step: float) -> To
     brake, smooth = world.brakes[joint.name], friction.smooth
     slip = _slide(world, joint, step) if joint.shifts else turn(world, joint, step)
 
+    read, applied, told = slip.read, slip.applied, brake.max_force
+
     def exact(t: float) -> None:
-        applied = partial(slip.applied, t)
-        brake.max_force, force = bound(friction, slip.speed(), slip.mass, applied, step)
+        nonlocal told
+        state = read()
+        limit, force = bound(
+            friction, slip.speed(state), slip.mass, lambda ahead: applied(t, ahead, state), step
+        )
+        if limit != told:
+            brake.max_force = told = limit
         if force:
-            slip.push(force)
+            slip.push(force, state)
+
+    if smooth is None:
+        return exact
+    brake.max_force = 0.0  # nothing rests: a force, not a bound
 
     def blurred(t: float) -> None:
-        assert smooth is not None
-        middle, v = slip.applied(t, step / 2), slip.speed()
-        force = smooth_mean(friction, smooth, v, slip.mass, middle, step)
-        brake.max_force = 0.0  # nothing rests: a force, not a bound
-        slip.push(force)
+        state = read()
+        middle, v = applied(t, step / 2, state), slip.speed(state)
+        slip.push(smooth_mean(friction, smooth, v, slip.mass, middle, step), state)
 
-    return blurred if smooth else exact
+    return blurred
 
 
 def _slide(world: World, joint: Joint, step: float) -> Slip:
@@ -89,52 +98,57 @@ def _slide(world: World, joint: Joint, step: float) -> Slip:
     ux, uy = joint.along
     carried = world.scene.points[joint.a.point].velocity  # of a driven rail
 
-    def along(t: float, ahead: float) -> float:
-        fx, fy, _ = acting(t, ahead)
+    pushes = pushing(body)
+
+    def along(t: float, ahead: float, state: State) -> float:
+        fx, fy, _ = acting(t, ahead, state)
         return ux * fx + uy * fy
 
-    def speed() -> float:
-        vx, vy = body.velocity
+    def speed(state: State) -> float:
+        _, _, _, vx, vy, _ = state
         return ux * (vx - carried[0]) + uy * (vy - carried[1])
 
-    def push(force: float) -> None:
-        body.apply_force_at_world_point((ux * force, uy * force), body.position)
+    def push(force: float, state: State) -> None:
+        x, y, *_ = state
+        pushes((ux * force, uy * force), (x, y))
 
-    return Slip(body.mass, along, speed, push)
+    return Slip(body.mass, reading(body), along, speed, push)
 
 
 def _contact(world: World, contact: Contact, step: float) -> Told:
     """By the slip of the point that touches, and the mass that resists it there."""
     part = world.scene.bodies[contact.body]
     body, shape = world.bodies[contact.body], world.wheels[contact.name]
+    read, push = reading(body), pushing(body)
     acting, ((ux, uy), (nx, ny)) = load(world, contact.body, step), _axes(contact)
     radius = part.radius or 0.0
     turn = radius / part.inertia if part.inertia else 0.0  # slip per angular impulse
     mass = 1 / (1 / part.mass + radius * turn)
 
-    def along(t: float, normal: float, ahead: float) -> float:
+    def along(t: float, normal: float, ahead: float, state: State) -> float:
         """With what static friction has lost by then, or gained, so that its bound stays."""
-        fx, fy, torque = acting(t, ahead)
+        fx, fy, torque = acting(t, ahead, state)
         force = mass * ((ux * fx + uy * fy) / part.mass + turn * torque)
         gained = normal + nx * fx + ny * fy
         return force + math.copysign(1.0, force) * contact.static * gained
 
     def exact(t: float) -> None:
-        shape.friction = contact.kinetic
-        (vx, vy), (fx, fy, _) = body.velocity, acting(t, step / 2)
+        state = read()
+        x, y, _, vx, vy, omega = state
+        fx, fy, _ = acting(t, step / 2, state)
         normal = -(nx * fx + ny * fy)
         if abs(nx * vx + ny * vy) > RESTING or normal <= 0:
+            shape.friction = contact.kinetic
             return  # in flight, or in an impact, which is no place to rest
-        slip = ux * vx + uy * vy + radius * body.angular_velocity
+        slip = ux * vx + uy * vy + radius * omega
         both = DryFriction(
             Bounds(contact.static * normal, contact.static * normal),
             Bounds(contact.kinetic * normal, contact.kinetic * normal),
         )
-        limit, push = bound(both, slip, mass, partial(along, t, normal), step)
+        limit, force = bound(both, slip, mass, lambda ahead: along(t, normal, ahead, state), step)
         shape.friction = limit / normal
-        if push:
-            lowest = body.position - (radius * nx, radius * ny)
-            body.apply_force_at_world_point((push * ux, push * uy), lowest)
+        if force:
+            push((force * ux, force * uy), (x - radius * nx, y - radius * ny))
 
     return exact
 

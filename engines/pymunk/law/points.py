@@ -4,10 +4,9 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from pymunk.body import Body
-
 from ....cases.scene import Anchor
 from ...told import Place
+from ..direct import State, reading
 from ..world import World
 
 Seen = tuple[float, float, Place]
@@ -16,7 +15,10 @@ Seen = tuple[float, float, Place]
 
 @dataclass(frozen=True)
 class Point:
-    """begun: where it is at the start. read: where it is in the middle of the step to come."""
+    """begun: where it is at the start. read: where it is in the middle of the step to come.
+
+    With it pymunk's x and y of where a force acts: its lever from the present centre.
+    """
 
     begun: Place
     read: Callable[[], Seen]
@@ -24,37 +26,27 @@ class Point:
 
 def at_midpoint(world: World, anchor: Anchor, step: float) -> Point:
     """Read after the drift, with the velocity extrapolated to 3/2 vₙ − 1/2 vₙ₋₁."""
-    body, at = world.body(anchor), world.local(anchor)
-    before = rates(body)  # there is no step before the first
+    look, at = reading(world.body(anchor)), world.local(anchor)
+    before = look()  # there is no step before the first
 
     def read() -> Seen:
         nonlocal before
-        was, before = before, rates(body)
-        return ahead(body, at, step, 1.5, was)
+        was, before = before, look()
+        rx, ry, place = ahead(before, at, step, 1.5, was)
+        return before[0] + rx, before[1] + ry, place
 
-    return Point(ahead(body, at, step / 2, 1.0, before)[2], read)
-
-
-def rates(body: Body) -> tuple[float, float, float]:
-    """vx, vy and omega."""
-    vx, vy = body.velocity
-    return vx, vy, body.angular_velocity
+    return Point(ahead(before, at, step / 2, 1.0, before)[2], read)
 
 
-def ahead(
-    body: Body,
-    at: tuple[float, float],
-    drift: float,
-    share: float,
-    was: tuple[float, float, float],
-) -> Seen:
+def ahead(state: State, at: tuple[float, float], drift: float, share: float, was: State) -> Seen:
     """A point `drift` s ahead; of its velocity a share, and what is missing from that before."""
-    (x, y), (vx, vy), omega = body.position, body.velocity, body.angular_velocity
-    angle, rest = body.angle + drift * omega, 1.0 - share
+    x, y, angle, vx, vy, omega = state
+    *_, was_vx, was_vy, was_omega = was
+    angle, rest = angle + drift * omega, 1.0 - share
     cos, sin = math.cos(angle), math.sin(angle)
     rx, ry = cos * at[0] - sin * at[1], sin * at[0] + cos * at[1]
-    u, w, turning = share * vx + rest * was[0], share * vy + rest * was[1], share * omega
-    turning += rest * was[2]
+    u, w = share * vx + rest * was_vx, share * vy + rest * was_vy
+    turning = share * omega + rest * was_omega
     place = Place(
         x + drift * vx + rx, y + drift * vy + ry, u - turning * ry, w + turning * rx, angle
     )

@@ -5,19 +5,22 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from ....cases.scene import Joint
+from ..direct import State, reading, turning
 from ..force import load
 from ..world import World
 
 
 @dataclass(frozen=True)
 class Slip:
-    """mass: what resists the slip [kg; of a pin kg m²]. applied: all else that acts along it
-    [N or N m], at t + ahead. speed: [m/s or rad/s]. push: friction as a force of ours."""
+    """mass: what resists the slip [kg; of a pin kg m²]. read: the state of what slips, by which
+    the others know. applied: all else that acts along it [N or N m], at t + ahead. speed: [m/s or
+    rad/s]. push: friction as a force of ours."""
 
     mass: float
-    applied: Callable[[float, float], float]
-    speed: Callable[[], float]
-    push: Callable[[float], None]
+    read: Callable[[], State]
+    applied: Callable[[float, float, State], float]
+    speed: Callable[[State], float]
+    push: Callable[[float, State], None]
 
 
 def turn(world: World, joint: Joint, step: float) -> Slip:
@@ -25,13 +28,16 @@ def turn(world: World, joint: Joint, step: float) -> Slip:
     part, body = world.scene.bodies[joint.b.body], world.bodies[joint.b.body]
     acting, (a, b) = load(world, joint.b.body, step), world.local(joint.b)
 
-    def about(t: float, ahead: float) -> float:
-        fx, fy, moment = acting(t, ahead)
-        angle = body.angle + (ahead + step / 2) * body.angular_velocity  # which is h/2 behind
+    def about(t: float, ahead: float, state: State) -> float:
+        fx, fy, moment = acting(t, ahead, state)
+        _, _, angle, _, _, omega = state
+        angle += (ahead + step / 2) * omega  # which is h/2 behind
         cos, sin = math.cos(angle), math.sin(angle)
         return moment - (cos * a - sin * b) * fy + (sin * a + cos * b) * fx
 
-    def push(moment: float) -> None:
-        body.torque += moment
+    twist = turning(body)
 
-    return Slip(part.about(joint.b.point), about, lambda: body.angular_velocity, push)
+    def push(moment: float, state: State) -> None:
+        twist(moment)
+
+    return Slip(part.about(joint.b.point), reading(body), about, lambda state: state[5], push)

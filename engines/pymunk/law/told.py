@@ -5,11 +5,12 @@ from typing import Any
 
 from ....cases.scene import GROUND, Force
 from ...told import Exerted, Place, law_of, living
+from ..direct import State, pushing, reading
 from ..world import World
 from .inner import taken_along
 from .line import Exerted as Acting
 from .line import Load
-from .points import ahead, at_midpoint, rates
+from .points import ahead, at_midpoint
 
 
 def told_at_points(world: World, force: Force, step: float) -> Callable[[float], None]:
@@ -19,7 +20,7 @@ def told_at_points(world: World, force: Force, step: float) -> Callable[[float],
     """
     ends = world.scene.ends(force)
     points = [at_midpoint(world, at, step) for at in ends]
-    bodies = [None if at.body == GROUND else world.bodies[at.body] for at in ends]
+    pushed = [None if at.body == GROUND else pushing(world.bodies[at.body]) for at in ends]
     keep = taken_along(world, force, step, points) if force.inner else None
     law = _law(world, force)
 
@@ -29,10 +30,9 @@ def told_at_points(world: World, force: Force, step: float) -> Callable[[float],
         if keep:
             keep(places)
         pushes = law(t + step / 2, places)
-        for body, (rx, ry, _), push in zip(bodies, seen, pushes, strict=True):
-            if body:
-                x, y = body.position
-                body.apply_force_at_world_point(push, (x + rx, y + ry))
+        for pushing_it, (x, y, _), force in zip(pushed, seen, pushes, strict=True):
+            if pushing_it:
+                pushing_it(force, (x, y))
 
     return apply
 
@@ -40,10 +40,13 @@ def told_at_points(world: World, force: Force, step: float) -> Callable[[float],
 def exerted_at_points(world: World, force: Force, name: str) -> Acting:
     """What it exerts on the body `name`, `drift` s ahead at the present velocities."""
     law, ends = _law(world, force), world.scene.ends(force)
-    looks = [(world.body(at), world.local(at)) for at in ends]
+    looks = [(reading(world.body(at)), world.local(at)) for at in ends]
 
-    def exerted(t: float, drift: float) -> Load:
-        seen = [ahead(*look, drift, 1.0, rates(look[0])) for look in looks]
+    def exerted(t: float, drift: float, state: State) -> Load:
+        seen = []
+        for read, at in looks:
+            now = read()
+            seen.append(ahead(now, at, drift, 1.0, now))
         pushes = law(t, [place for _, _, place in seen])
         fx = fy = torque = 0.0
         for at, (rx, ry, _), (px, py) in zip(ends, seen, pushes, strict=True):

@@ -1,12 +1,15 @@
 """Torques between the two parts of a joint, ahead of the step in which they act."""
 
 from collections.abc import Callable, Iterator
+from functools import partial
 
 from pymunk.body import Body
 
 from ....cases.turning import Motor, Turning
-from ...law import turning
-from ...signal import acting, value
+from ...law import TORQUES
+from ...signal import acting, in_time
+from ..direct import State, spinning
+from ..direct import turning as twisting
 from ..world import World
 from .line import Exerted, Load
 
@@ -18,10 +21,12 @@ def twist(world: World, force: Turning, name: str) -> Exerted:
     """
     a, b = _parts(world, force)
     assert b is world.bodies[name]
+    read_a, law = spinning(a), partial(TORQUES[type(force)], force)
 
-    def exerted(t: float, drift: float) -> Load:
-        rate = b.angular_velocity - a.angular_velocity
-        return 0.0, 0.0, turning(force, b.angle - a.angle + drift * rate, rate)
+    def exerted(t: float, drift: float, state: State) -> Load:
+        (angle_a, omega_a), (_, _, angle_b, _, _, omega_b) = read_a(), state
+        rate = omega_b - omega_a
+        return 0.0, 0.0, law(angle_b - angle_a + drift * rate, rate)
 
     return exerted
 
@@ -33,12 +38,15 @@ def twisted(world: World, force: Turning, step: float) -> Callable[[float], None
     """
     a, b = _parts(world, force)
     before = b.angular_velocity - a.angular_velocity  # there is no step before the first
+    read_a, read_b, law = spinning(a), spinning(b), partial(TORQUES[type(force)], force)
+    couple = _couple(a, b)
 
     def apply(t: float) -> None:
         nonlocal before
-        rate = b.angular_velocity - a.angular_velocity
-        angle = b.angle - a.angle + step * rate
-        _couple(a, b, turning(force, angle, 1.5 * rate - 0.5 * before))
+        (angle_a, omega_a), (angle_b, omega_b) = read_a(), read_b()
+        rate = omega_b - omega_a
+        angle = angle_b - angle_a + step * rate
+        couple(law(angle, 1.5 * rate - 0.5 * before))
         before = rate
 
     return apply
@@ -46,14 +54,15 @@ def twisted(world: World, force: Turning, step: float) -> Callable[[float], None
 
 def motor(world: World, force: Motor, step: float, drift: float) -> Callable[[float], None]:
     """Its torque in the middle of the step, or at its start."""
-    (a, b), torque = _parts(world, force), acting(force.signal, drift)
-    return lambda t: _couple(a, b, torque(t)[0])
+    couple, torque = _couple(*_parts(world, force)), acting(force.signal, drift)
+    return lambda t: couple(torque(t)[0])
 
 
 def motor_load(world: World, force: Motor, name: str) -> Exerted:
     """What it exerts on the body `name`, the second part as in `twist`."""
     assert _parts(world, force)[1] is world.bodies[name]
-    return lambda t, drift: (0.0, 0.0, value(force.signal, t)[0])
+    torque = in_time(force.signal)
+    return lambda t, drift, state: (0.0, 0.0, torque(t)[0])
 
 
 def couple_as_text(
@@ -70,6 +79,12 @@ def _parts(world: World, force: Turning) -> tuple[Body, Body]:
     return a, b
 
 
-def _couple(a: Body, b: Body, torque: float) -> None:
-    a.torque -= torque  # of the ground it is nothing
-    b.torque += torque
+def _couple(a: Body, b: Body) -> Callable[[float], None]:
+    """Turns b, and a the other way; of the ground it is nothing."""
+    twist_a, twist_b = twisting(a), twisting(b)
+
+    def couple(torque: float) -> None:
+        twist_a(-torque)
+        twist_b(torque)
+
+    return couple

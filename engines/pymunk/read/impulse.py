@@ -1,7 +1,8 @@
 """The impulses of the last step, by the quantities that are wanted."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 
 from pymunk.arbiter import Arbiter
 from pymunk.body import Body
@@ -24,33 +25,51 @@ def impulses(world: World, reactions: tuple[str, ...]) -> Callable[[], list[floa
     joints = [_holding(world, name) for name, _, _ in parts]
     stops = [world.stops.get(name) for name, _, _ in parts]
     pins = [world.pins.get(quantity) for quantity in reactions]
-    ways = [_way(world, name, what) for name, _, what in parts]
     points = [_points(world.scene, name) for name, _, _ in parts]
     wanted = {name for names in points for name in names}
     bodies, pairs = _contacts(world, wanted), _pairs(world, wanted)
+    felt: Planes = {}
+    several = [
+        *((body, _one if len(names) == 1 and not pairs else _several, names)
+          for body, names in bodies.items()),
+        *((body, _paired, names) for body, names in pairs.items()),
+    ]  # fmt: skip
+    reads: list[Callable[[], float]] = []
+    for (name, _, what), joint, pin, stop, names in zip(
+        parts, joints, pins, stops, points, strict=True
+    ):
+        if pin:
+            reads.append(pin.impulse)
+        elif stop:
+            reads.append(partial(pressed, stop, what))
+        elif joint:
+            reads.append(partial(_size, joint))
+        else:
+            reads.append(partial(_along, *_way(world, name, what), names, felt))
 
     def read() -> list[float]:
-        felt: Planes = {}
-        for body, names in bodies.items():
-            body.each_arbiter(_one if len(names) == 1 and not pairs else _several, names, felt)
-        for body, names in pairs.items():
-            body.each_arbiter(_paired, names, felt)
-        row = []
-        for (x, y), joint, pin, names, stop, (_, _, side) in zip(
-            ways, joints, pins, points, stops, parts, strict=True
-        ):
-            if pin:
-                row.append(pin.impulse())
-            elif stop:
-                row.append(pressed(stop, side))
-            elif joint:
-                row.append(math.hypot(*[part.impulse for part in joint]))
-            else:
-                found = (felt[name] for name in names if name in felt)
-                row.append(sum(x * along + y * up for along, up in found))
-        return row if world.share[0] == 1.0 else [impulse / world.share[0] for impulse in row]
+        felt.clear()
+        for body, how, names in several:
+            body.each_arbiter(how, names, felt)
+        row = [each() for each in reads]
+        share = world.share[0]
+        return row if share == 1.0 else [impulse / share for impulse in row]
 
     return read
+
+
+def _size(joint: Sequence[Constraint]) -> float:
+    return math.hypot(*[part.impulse for part in joint])
+
+
+def _along(x: float, y: float, names: Sequence[str], felt: Planes) -> float:
+    """Of what touches, what is felt that way."""
+    total = 0.0
+    for name in names:
+        if name in felt:
+            along, up = felt[name]
+            total += x * along + y * up
+    return total
 
 
 def _holding(world: World, name: str) -> list[Constraint]:

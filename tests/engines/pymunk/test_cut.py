@@ -76,6 +76,7 @@ MISTAKES: Mapping[str, tuple[object, str, Callable[..., object]]] = {
     "no impact": (cold.Lengths, "impact", lambda self: None),
     "impulses of another length": (cold, "forget", lambda space: None),
     "carried along by its curve": (Foot, "_carry", lambda self, slip: None),
+    "seen where its body was": (cut.Landings, "_moved", lambda self: None),
     "lifted by its curve": (Foot, "_depth", lambda self, length: 0.0),
 }
 

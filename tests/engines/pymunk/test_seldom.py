@@ -70,8 +70,8 @@ def test_a_force_is_told_the_spin_of_its_point(tmp_path: Path) -> None:
 def test_a_spin_that_is_half_too_large_is_seen(tmp_path: Path, monkeypatch: Patch) -> None:
     ahead = points.ahead
 
-    def blind(body: Any, at: Any, drift: float, share: float, was: Any) -> Any:
-        return ahead(body, at, drift, share, (*was[:2], 0.0))
+    def blind(state: Any, at: Any, drift: float, share: float, was: Any) -> Any:
+        return ahead(state, at, drift, share, (*was[:5], 0.0))
 
     monkeypatch.setattr(points, "ahead", blind)
     case, motion = known(tmp_path, SPINS, 1.0)
@@ -96,7 +96,8 @@ def moments(folder: Path, *, late: float = 0.0) -> tuple[Array, Array]:
     world = placed(case.scene, start, step, {"time.midpoint": True}, "law")
     slip = turn(world, case.scene.joints["hinge"], step)
     asked = np.array([0.0, step / 2, step])
-    seen = np.array([slip.applied(0.0, ahead - late * step) for ahead in asked.tolist()])
+    now = slip.read()
+    seen = np.array([slip.applied(0.0, ahead - late * step, now) for ahead in asked.tolist()])
     return seen, -9.80665 * 0.4 * np.cos(np.radians(-20) + 6 * asked)
 
 

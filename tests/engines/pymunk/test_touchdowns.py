@@ -159,11 +159,11 @@ def slips(monkeypatch: Patch) -> float:
 
     def watched(self: Foot, length: float, *, strikes: bool) -> None:
         if self in before and self.stands and not strikes:
-            seen.append(abs(self._slip(before[self][0]) + before[self][1]))
+            seen.append(abs(self._slip(*before[self][0]) + before[self][1]))
         before.pop(self, None)
         if self.stands and not strikes and self._turns:
-            turned = self.body.angle + length * self.body.angular_velocity
-            before[self] = turned, self._slip(turned)
+            *_, cos, sin = self.carrier.pose(length, 0.0)
+            before[self] = (cos, sin), self._slip(cos, sin)
         lay(self, length, strikes=strikes)
 
     monkeypatch.setattr(Foot, "lay", watched)
