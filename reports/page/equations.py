@@ -35,7 +35,7 @@ class Equation:
 
 def equations(case: Case) -> list[Equation]:
     """Of its hand-written system; none where the mechanism is generated from the scene."""
-    if case.system not in SYSTEMS:  # generated, or a claim about states
+    if case.system is None or case.system not in SYSTEMS:  # generated, or a claim about states
         return []
     system: Any = SYSTEMS[case.system](**case.parameters)
     modes = dict.fromkeys(type(mode) for mode in getattr(system, "modes", {}).values())
