@@ -146,7 +146,7 @@ TOUCH = Pair("touch", Anchor("a", "center"), "b", None, 0.5, 0.5)
 
 def force(word: str) -> Any:
     """One of the kind between a and b, if it has two ends; its numbers play no part."""
-    kind = FORCES[word]
+    kind: Any = FORCES[word]
     return kind(**{field.name: GIVEN.get(field.name) for field in fields(kind)} | _about(kind))
 
 
