@@ -70,6 +70,18 @@ def test_a_sample_on_an_event_changes_nothing(name: str) -> None:
     np.testing.assert_allclose(one.y[-1], other.y[-1], atol=1e-8 * size)
 
 
+@pytest.mark.parametrize("samples", [101, 301, 1001])
+def test_what_begins_gently_goes_on_at_any_number_of_samples(samples: int) -> None:
+    """From rest, at 0 for its joint and some metres from the hook: with 301 it did not."""
+    case = scenes.SHIPPED["stribeck_drive"]
+    system = written(case.system, case.parameters) if case.system else None
+    assert system is not None
+    found = follow(mechanism(case), np.linspace(0.0, 10.0, samples))
+    own = follow(system, case.times)
+    assert found.changes[-1].name == "guide stops"
+    assert found.changes[-1].time == pytest.approx(own.changes[-1].time, abs=1e-11)
+
+
 WHEEL = """\
 title: A wheel that is pushed for a moment
 scene:
