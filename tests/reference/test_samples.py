@@ -21,23 +21,10 @@ from textmech.reference.systems import written
 from textmech.reports.bench.adapters import one_of_each_file
 
 NAMES = list(scenes.SHIPPED)
-OPEN = {
-    "trunk_on_legs.bound": "generated reactions 1.06e-12 above 1e-12 at one of 226 samples: their "
-    "size is that of the forces there alone"
-}
-"""What is known not to hold, and has to be mended: a test that then passes says so."""
 
 
 @pytest.mark.whole
-@pytest.mark.parametrize(
-    "name",
-    [
-        pytest.param(name, marks=pytest.mark.xfail(reason=OPEN[name], strict=True))
-        if name in OPEN
-        else name
-        for name in NAMES
-    ],
-)
+@pytest.mark.parametrize("name", NAMES)
 def test_other_samples_tell_the_same(name: str) -> None:
     """Three times as many of one case, a third of the next: to solve all twice is too dear."""
     case, known = scenes.SHIPPED[name], scenes.solved(name)
