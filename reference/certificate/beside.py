@@ -31,28 +31,30 @@ def beside(written: Answer, built: Answer, generated: Generated, times: Array) -
     followed, phases = written.followed, built.followed.phases
     if len(phases) != len(followed.phases):
         return
-    moved, held, uneven, steep = [], [], 1.0, [0.0, 0.0]
+    moved, held, uneven = [], [], 1.0
     for t, phase, y in zip(times.tolist(), followed.phase.tolist(), followed.y, strict=True):
         mode, other = written.system.modes[followed.phases[phase]], generated.modes[phases[phase]]
         q, v = mode.parted(y)
         place = generated.base.place(mode.poses(t, q, v))
         a = _accelerations(mode, generated.base, t, q, v)
         size = max(worst(np.abs(a)), generated.base.terms(t, *place)[0]) or 1.0
-        moved.append(worst(np.abs(other.accelerations(t, *place) - a)) / size)
-        if moved[-1] > AGREE:
-            steep[0] = max(steep[0], _steep(other.accelerations, t, *place) / size)
-        uneven = max(uneven, condition(other.f_a(t, place[0]), generated.base))
+        apart = worst(np.abs(other.accelerations(t, *place) - a)) / size
+        moved.append(_unexplained(apart, size, other.accelerations, t, *place))
+        rows = other.f_a(t, place[0])
+        uneven = max(uneven, condition(rows, generated.base))
         own, theirs = mode.reactions(t, q, v), other.reactions(t, *place)
         force = worst(map(abs, theirs.values())) or 1.0
         apart = worst(abs(own[name] - theirs[name]) / force for name in own if name in theirs)
         if apart > AGREE:
-            forces = lambda *at, other=other: np.array([*other.reactions(*at).values()])  # noqa: E731
-            steep[1] = max(steep[1], _steep(forces, t, *place) / force)
+            most = max(force, _borne(rows, generated.base, t, *place))
+            apart, force = apart * force / most, most
+        forces = lambda *at, other=other: np.array([*other.reactions(*at).values()])  # noqa: E731
+        apart = _unexplained(apart, force, forces, t, *place)
         held += [apart] if own.keys() & theirs.keys() else []
     least = max(AGREE, lost(uneven))
-    yield Check("generated accelerations", worst(moved), max(least, _power(steep[0])))
+    yield Check("generated accelerations", worst(moved), least)
     if held:
-        yield Check("generated reactions", worst(held), max(least, _power(steep[1])))
+        yield Check("generated reactions", worst(held), least)
 
 
 def _power(x: float) -> float:
@@ -71,15 +73,35 @@ def _accelerations(mode: Mode, base: Base, t: float, q: Array, v: Array) -> Arra
     return rates
 
 
+def _borne(rows: Array, base: Base, t: float, q: Array, v: Array) -> float:
+    """The largest force that one force exerts along what the rows hold.
+
+    A reaction is the sum of such, and where it goes through zero their rounding is left of it.
+    """
+    along = np.abs(rows) / np.linalg.norm(rows, axis=1, keepdims=True)
+    return worst((along * base.largest(t, q, v)).ravel())
+
+
+def _unexplained(
+    apart: float, size: float, of: Callable[..., Array], t: float, q: Array, v: Array
+) -> float:
+    """The difference; none where the state's own rounding may be all of it, in powers of ten."""
+    if not apart > AGREE:
+        return apart
+    return 0.0 if apart <= _power(_steep(of, t, q, v) / size) else apart
+
+
 def _steep(of: Callable[..., Array], t: float, q: Array, v: Array) -> float:
     """How much what follows from a state changes with it: by some ulp, one way or the other.
 
-    On the threshold of smooth friction a force that is rounded is multiplied by the law's slope.
+    On the threshold of smooth friction a force that is rounded is multiplied by the law's slope. A
+    place that is zero is rounded where it is measured from, by an ulp of the others.
     """
     random, here, found = np.random.default_rng(SEED), of(t, q, v), 0.0
     for _ in range(DRAWS):
-        ways = [1 + ULPS * EPS * random.choice((-1.0, 1.0), np.shape(x)) for x in (t, q, v)]
-        there = of(float(t * ways[0]), q * ways[1], v * ways[2])
+        ways = [ULPS * EPS * random.choice((-1.0, 1.0), np.shape(x)) for x in (t, q, v)]
+        moved = q + ways[1] * np.where(q == 0.0, worst(np.abs(q)), q)
+        there = of(float(t * (1 + ways[0])), moved, v * (1 + ways[2]))
         found = max(found, worst(np.abs(there - here)))
     return found
 

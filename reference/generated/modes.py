@@ -1,7 +1,7 @@
 """The modes of a scene: which rows and friction laws hold in each, and the forces that follow."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 
 import numpy as np
 
@@ -22,6 +22,9 @@ from .stop import stopped
 from .stopping import stopping
 
 ROUNDING = 1e-10  # of the accelerations that the forces give alone
+KEPT = (
+    200  # modes: of more those that are not entered are built again when they are met, 50 kB each
+)
 LOCATED = 1e-12  # s: how well events are located
 
 
@@ -148,6 +151,14 @@ class Modes(Mapping[str, Multibody]):
             self.scene, self.start,
             held=held, braking=braking, coulomb=coulomb, shared=shared, slack=slack,
         )  # fmt: skip
+
+    def forget(self, states: tuple[State, ...], but: Collection[str]) -> None:
+        """Drops what is built of modes with these states, where there are very many."""
+        if len(self._built) > KEPT:
+            self._whole.pop(states, None)
+            for name in list(self._built)[-2:]:  # its mode, and the one of fewer rows
+                if self.states[name] == states and name not in but:
+                    del self._built[name]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._built)

@@ -35,13 +35,37 @@ class Shared:
         return dict(zip(self.forces, [part * total for part in parts], strict=True))
 
 
-def one_slip(elements: Sequence[Element], states: Sequence[State]) -> bool:
-    """Whether what a body has closed on a plane does alike; without friction there is no choice."""
-    found: dict[tuple[str, str], State] = {}
-    for e, state in zip(elements, states, strict=True):
-        if _rubs(e, state) and found.setdefault(e.together, state) != state:
-            return False
-    return True
+def ways(
+    elements: Sequence[Element], choices: Sequence[Sequence[State]]
+) -> Iterator[tuple[State, ...]]:
+    """All that the elements may do together, the likeliest first; the last changes fastest.
+
+    What a body has closed on a plane does alike; without friction there is no choice.
+    """
+    states: list[State] = []
+    left = [iter(choices[0])] if choices else []
+    if not choices:
+        yield ()
+    while left:
+        state = next(left[-1], None)
+        if state is None:
+            left.pop()
+            del states[-1:]
+        elif _alike(elements, states, state):
+            if len(left) < len(choices):
+                states.append(state)
+                left.append(iter(choices[len(states)]))
+            else:
+                yield (*states, state)
+
+
+def _alike(elements: Sequence[Element], states: Sequence[State], state: State) -> bool:
+    """Whether the next element may do this beside what those before it do."""
+    mine = elements[len(states)]
+    if not _rubs(mine, state):
+        return True
+    before = zip(elements, states, strict=False)
+    return all(e.together != mine.together or s == state for e, s in before if _rubs(e, s))
 
 
 def beside(elements: Sequence[Element], states: Sequence[State], i: int) -> list[int]:

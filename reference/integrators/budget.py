@@ -5,30 +5,41 @@ to need ever more steps ends with a message, and the same one on every machine, 
 is asked but evaluations, each at what it takes on a common one.
 """
 
-from collections.abc import Iterator
+import math
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import islice
+from typing import TypeVar
 
 from ...cases.language.check.cost import about
-from .now import doing, reached
+from .now import NOW, doing, reached
 
 PATIENCE = 15.0  # s of a motion, before it is asked where it leads: twice what a shipped one takes
 WINDOW = 5.0  # s: where its latest part leads is asked, which after a stiff first moment is faster
 TWICE = 2.0  # the first motion of a reference has another answer beside it, which takes as long
+SHOWN = 100  # ways: of fewer nobody need be told
+MANY = 10**6  # ways: more are not counted beforehand, which takes a second
 ANSWERS = ("the motion", "its second answer", "its third answer", "a further answer")
+
+T = TypeVar("T")
 
 
 class Endless(Exception):
     """A motion that would use up more than the budget.
 
     time: how far it got [s], until: where it should lead, needs: what all would take [s], or
-    nothing where nobody knows.
+    nothing where nobody knows. ways: more than so many would have to be tried there, if that is it.
     """
 
-    def __init__(self, evaluations: int, time: float, until: float, needs: float | None) -> None:
+    def __init__(
+        self, evaluations: int, time: float, until: float, needs: float | None, ways: int = 0
+    ) -> None:
         far = f" of {until:.4g}" if until else ""
         more = f" and needs {about(needs)}" if needs else ""
+        if ways:
+            more = f", where what touches and rubs may go on in more than {ways} ways"
         super().__init__(f"reached t = {time:.4g}{far} s after {evaluations} evaluations{more}")
         self.time = time
 
@@ -46,6 +57,12 @@ class _Purse:
     until: float = 0.0
     before: float = 0.0  # spent when the motion began
     marks: tuple[tuple[float, float], ...] = ((0.0, 0.0),)  # spent and t, lately
+
+    def paid(self, evaluations: int, seconds: float) -> None:
+        """Takes what an instant costs, which says nothing of the pace."""
+        self.evaluations += evaluations
+        self.spent, self.before = self.spent + seconds, self.before + seconds
+        self.marks = tuple((spent + seconds, t) for spent, t in self.marks)
 
     def needs(self, time: float) -> float | None:
         """What all takes [s] if the motion goes on like that; None: it is too early to say."""
@@ -100,3 +117,29 @@ def spend(evaluations: int, time: float) -> None:
         needs *= TWICE
     if purse.spent > purse.given or (needs is not None and needs > purse.given):
         raise Endless(purse.evaluations, time, purse.until, needs)
+
+
+def tries(ways: Callable[[], Iterator[T]], each: int, *, first: bool = False) -> Iterator[T]:
+    """The ways in which it may go on at an instant, each tried for so many evaluations.
+
+    first: until one does. Raises Endless before the first one, if there are more than can be paid.
+    """
+    purse, before = _purse.get() or _Purse(math.inf, 0.0), replace(NOW)
+    price = each * purse.price
+    room = (purse.given - purse.spent) / price if price else math.inf
+    most = int(min(max(room, 0.0), MANY))
+    count = sum(1 for _ in islice(ways(), most + 1))
+    if count > SHOWN:
+        which = "the" if count <= most else f"more than {most}"
+        doing(f"{before.what} at {before.at:.4g} s, {which} ways to go on", end=count, unit="")
+    try:
+        for tried, way in enumerate(ways()):
+            if tried > room or (count > room and not first):
+                raise Endless(purse.evaluations, before.at, purse.until, None, most)
+            purse.paid(each, price)
+            if count > SHOWN:
+                reached(tried)
+            yield way
+    finally:
+        if count > SHOWN:
+            vars(NOW).update(vars(before))

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .budget import spend
-from .slope import EPS, POINTS, Slope, Vector, noise
+from .slope import EPS, POINTS, Slope, Vector, leaps, noise
 
 SAFETY = 0.8  # aim below the tolerance: on chaotic motion 0.9 has a quarter of the steps refused
 SHRINK, GROW = 0.2, 6.0  # one estimate is not trusted to change the step by more than this
@@ -105,6 +105,7 @@ class _Walker:
     peak: Vector
     wanted: float
     noise: Vector
+    least: Vector  # noise of what is at rest
     ahead: float  # s: in which a slope that begins at zero becomes more than its rounding
     quiet: bool = True  # nothing is known of any noise
 
@@ -138,8 +139,11 @@ class _Walker:
         """Learn the rounding of the slopes: the error did not fall as the step did."""
         with np.errstate(all="ignore"):
             try:
-                far = h if self.peak.any() else max(h, self.ahead)  # all of rest is its rounding
-                found = noise(self.method.f, self.t, self.y, far, self.peak)
+                far = h
+                if not self.peak.any():  # all of rest is its rounding
+                    far = max(h, self.ahead)
+                    self.least = leaps(self.method.f, self.t, self.y, far)
+                found = noise(self.method.f, self.t, self.y, far, self.peak, self.least)
             except (ArithmeticError, ValueError):  # too far out, as in an attempt
                 return
         self.method.evaluations += POINTS
@@ -216,7 +220,7 @@ def march(
     first = _first_step(y, slope, size, _span(samples))
     none = np.zeros_like(y)
     ahead = AT_ONCE * _span(samples)
-    walker = _Walker(method, samples[0], y, none, np.abs(y), first, none, ahead)
+    walker = _Walker(method, samples[0], y, none, np.abs(y), first, none, none, ahead)
     taken = 0
     for target in samples[1:]:
         while walker.t < target:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,13 +14,16 @@ EPS = float(np.finfo(np.float64).eps)
 DIFFERENCED = 10  # points; four differences of order 6
 APART = 1e-4  # of the step between them: then a smooth slope leaves 1e-24 of itself there
 LOUD = 1e-8  # of the slopes: rounding grows beyond that only where a mechanism is singular
+FINE, COARSE = -60, 20  # powers of two, of the way that it first takes, among which f feels it
 POINTS = DIFFERENCED + 2  # at which a slope is asked for its noise
 
 
-def noise(f: Slope, t: float, y: Vector, h: float, peak: Vector) -> Vector | None:
+def noise(
+    f: Slope, t: float, y: Vector, h: float, peak: Vector, least: Vector | float = 0.0
+) -> Vector | None:
     """The rounding in f, (n,): its standard deviation, from a table of differences.
 
-    None where it is no small part of f: there is no solution to follow then.
+    At least `least`. None where it is no small part of f: there is no solution to follow then.
 
     J. J. More, S. M. Wild, Estimating computational noise, SIAM J. Sci. Comput. 33 (2011) 1292.
     The sixth differences of a smooth function vanish; of noise they are sqrt(12!)/6! = 30 times
@@ -34,5 +38,33 @@ def noise(f: Slope, t: float, y: Vector, h: float, peak: Vector) -> Vector | Non
     found = np.sqrt(np.mean(differences**2, axis=0) / 924.0)
     late = math.ulp(t) / math.sqrt(12.0)  # of a clock that is rounded, evenly
     found = np.maximum(found, late * np.abs(values[-1] - values[0]) / (DIFFERENCED - 1) / pace)
+    found = np.maximum(found, least)
     largest = np.maximum(np.abs(along), np.abs(f(t + h, y + h * along)))
     return found if found.max() <= LOUD * largest.max() < math.inf else None
+
+
+def leaps(f: Slope, t: float, y: Vector, h: float) -> Vector:
+    """The rounding in f, (n,), of a state of rest that is zero, from the least of it that f feels.
+
+    What stands a metre from where it is measured is there for f until it has moved by an ulp of
+    that: no small step meets such a leap, and after many it comes. A state that f takes as it is
+    has none.
+    """
+    rest = f(t, y)
+    way = h * f(t + h, y + h * f(t + h, y + h * rest))  # in which what is pushed also moves
+    found = np.zeros_like(y)
+    for j in np.flatnonzero(way):
+
+        def felt(k: int, j: Any = j) -> Vector:
+            moved = y.copy()
+            moved[j] += math.ldexp(way[j], k)
+            return np.abs(f(t, moved) - rest)
+
+        if felt(FINE).any() or not felt(COARSE).any():
+            continue
+        low, high = FINE, COARSE
+        while high - low > 1:
+            k = (low + high) // 2
+            low, high = (low, k) if felt(k).any() else (k, high)
+        found = np.maximum(found, felt(high) / math.sqrt(12.0))
+    return found

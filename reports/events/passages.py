@@ -1,6 +1,6 @@
 """Where a smooth piece of the reference passes zero from above, as the top of a flight does."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -11,35 +11,47 @@ AROUND = 8  # steps in a curve: of seventh degree, as the integrator's eighth or
 LOCATED = 1e-12  # s: how well an extremum between two steps is found
 
 
-def passages(times: Array, u: Array, still: float) -> Iterator[float]:
+def passages(
+    times: Array, u: Array, still: float, corners: Sequence[float] = ()
+) -> Iterator[float]:
     """Times [s] at which u (N,) falls through zero between rows that are above and below `still`.
 
     A row at zero lies between the two; what ends at zero is the boundary's. A dip below zero, or a
-    hump above it, may hide between rows: the curve's extremum there is one more row.
+    hump above it, may hide between rows: the curve's extremum there is one more row. corners [s]:
+    rows at which u may bend, and no curve goes through both sides of one.
     """
     from scipy.optimize import brentq
 
     times, kept = np.unique(times, return_index=True)
     u = u[kept]
+    bends = bent(times, corners)
     rows = [*zip(times.tolist(), u.tolist(), range(len(u)), strict=True)]
-    rows = sorted([*rows, *_hidden(times, u)])
+    rows = sorted([*rows, *_hidden(times, u, bends)])
     clear = [row for row in rows if abs(row[1]) > still]
     for (before, above, i), (after, below, _) in pairwise(clear):
         if above > 0.0 > below:
-            yield float(brentq(_curve(times, u, i), before, after, xtol=1e-14))
+            yield float(brentq(_curve(times, u, i, bends), before, after, xtol=1e-14))
 
 
-def _curve(times: Array, u: Array, i: int) -> Callable[[float], float]:
-    """Through the rows around i."""
+def bent(times: Array, corners: Sequence[float]) -> list[int]:
+    """The rows at corners; whatever steps to them ends there."""
+    inside = [corner for corner in corners if times[0] < corner < times[-1]]
+    return sorted({int(np.argmin(np.abs(times - corner))) for corner in inside})
+
+
+def _curve(times: Array, u: Array, i: int, bends: Sequence[int]) -> Callable[[float], float]:
+    """Through the rows around i and the next, none of them beyond a bend."""
     from scipy.interpolate import BarycentricInterpolator
 
-    first = min(max(0, i - AROUND // 2 + 1), max(0, len(u) - AROUND))
-    rows = slice(first, first + AROUND)
+    begin = max((k for k in bends if k <= i), default=0)
+    end = 1 + min((k for k in bends if k > i), default=len(u) - 1)
+    first = min(max(begin, i - AROUND // 2 + 1), max(begin, end - AROUND))
+    rows = slice(first, min(first + AROUND, end))
     made = BarycentricInterpolator(times[rows], u[rows])
     return lambda t: float(made(t))
 
 
-def _hidden(times: Array, u: Array) -> Iterator[tuple[float, float, int]]:
+def _hidden(times: Array, u: Array, bends: Sequence[int]) -> Iterator[tuple[float, float, int]]:
     """Extrema beyond zero beside a row that is as near to zero as it differs from the others."""
     from scipy.optimize import minimize_scalar
 
@@ -48,12 +60,15 @@ def _hidden(times: Array, u: Array) -> Iterator[tuple[float, float, int]]:
     near = (here > 0.0) & (here <= np.minimum(left, right))
     near &= here <= np.maximum(left, right) - here
     for i in (np.flatnonzero(near) + 1).tolist():
-        sign, curve = float(signs[i - 1]), _curve(times, u, i)
-        turn = minimize_scalar(
-            lambda t, sign=sign, curve=curve: sign * curve(t),
-            bounds=(times[i - 1], times[i + 1]),
-            method="bounded",
-            options={"xatol": LOCATED},
-        )
-        if turn.fun < 0.0:
-            yield float(turn.x), float(sign * turn.fun), i
+        sides = ((i - 1, i), (i, i + 1)) if i in bends else ((i - 1, i + 1),)
+        for begin, end in sides:
+            k = begin if i in bends else i
+            sign, curve = float(signs[i - 1]), _curve(times, u, k, bends)
+            turn = minimize_scalar(
+                lambda t, sign=sign, curve=curve: sign * curve(t),
+                bounds=(times[begin], times[end]),
+                method="bounded",
+                options={"xatol": LOCATED},
+            )
+            if turn.fun < 0.0:
+                yield float(turn.x), float(sign * turn.fun), k

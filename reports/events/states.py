@@ -6,7 +6,7 @@ impact, would spoil what goes through rows of both. After the event means the ca
 for reference and engine alike: some engines spread an impact over many steps.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -17,6 +17,7 @@ from ...cases.mistake import Mistake
 from ...cases.observe import observe
 from ...cases.quantity import SIDES, AtEvent, at_event
 from ...cases.trajectory import Array, Trajectory
+from .passages import bent
 from .times import never, reference_events, still
 
 ROWS = 8  # of the reference: of seventh degree, as the integrator's eighth order
@@ -31,15 +32,23 @@ def reference_states(case: Case, record: Trajectory, at: AtEvent, times: Array) 
     u = observe(case.scene, record, at.quantity)
     late = case.tube if at.side == "after" else 0.0
     read = np.minimum(times + late, record.times[-1])
-    return np.array([_in_piece(record, u, t, at.side) for t in read.tolist()], float)
+    corners = [corner for law in case.scene.laws() for corner in law.corners]
+    return np.array([_in_piece(record, u, t, at.side, corners) for t in read.tolist()], float)
 
 
-def _in_piece(record: Trajectory, u: Array, t: float, side: str) -> float:
+def _in_piece(record: Trajectory, u: Array, t: float, side: str, corners: Sequence[float]) -> float:
     assert record.phase is not None  # the reference's record has it
     ends = np.flatnonzero(np.diff(record.phase)) + 1
     pieces = [p for p in np.split(np.arange(len(u)), ends) if np.ptp(record.times[p]) > 0.0]
     mine = [p for p in pieces if record.times[p[0]] <= t <= record.times[p[-1]]]
-    return _curve(record.times, u, mine[-1] if side == "after" else mine[0], t, ROWS)
+    rows = mine[-1] if side == "after" else mine[0]
+    times = record.times[rows]
+    bends = bent(times, corners)
+    begin = max(
+        (k for k in bends if times[k] < t or (side == "after" and times[k] == t)), default=0
+    )
+    end = min((k for k in bends if k > begin), default=len(rows) - 1)
+    return _curve(record.times, u, rows[begin : end + 1], t, ROWS)
 
 
 def engine_states(case: Case, record: Trajectory, at: AtEvent, times: Array) -> Array:

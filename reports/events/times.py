@@ -44,7 +44,9 @@ def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
         if happens(u[before], u[after], small)
     ]
     if event.crosses:
-        times += [t for piece in pieces for t in passages(record.times[piece], u[piece], small)]
+        corners = [t for law in scene.laws() for t in law.corners]
+        for piece in pieces:
+            times += passages(record.times[piece], u[piece], small, corners)
     return np.array(sorted(times), float)
 
 

@@ -86,7 +86,7 @@ def test_the_certificate_is_of_two_answers(long: tuple[Solution, Counter[str]]):
     assert 0.0 < (own["error of j0.force"] or 0.0) < 1e-9
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.mutant("a long chain gets a new Jacobian at every other step")
 def test_a_large_jacobian_is_kept_while_it_serves(
     long: tuple[Solution, Counter[str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -111,7 +111,7 @@ def checked(solution: Solution, name: str) -> Check:
     return check
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.mutant("the motions of two islands are put together under each other's names")
 @pytest.mark.parametrize(("text", "count"), [(PLANE, 4), (SPACE, 2)], ids=["plane", "space"])
 def test_islands_move_as_they_do_in_one_problem(
@@ -215,7 +215,7 @@ def test_a_joining_that_is_forgotten_is_seen(
     assert broken.difference > 0.1
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.mutant("a sum over all islands is certified as well as one of them")
 def test_the_error_of_a_sum_is_the_sum_of_errors(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -232,7 +232,7 @@ def test_the_error_of_a_sum_is_the_sum_of_errors(
     assert (found.difference, found.certified) == pytest.approx((4e-3, 4e-9), rel=1e-12)
 
 
-@pytest.mark.whole
+@pytest.mark.slow
 @pytest.mark.mutant("of one check of many islands one that holds is told")
 @pytest.mark.parametrize("wrong", range(4))
 def test_one_wrong_island_is_seen(

@@ -241,3 +241,33 @@ def test_a_jump_needs_a_side(bouncing: Callable[[str], Any]) -> None:
     assert mistake.what == (
         "jumps there, from -4.42869 to 2.21435: say lands.bob.vy.before or lands.bob.vy.after"
     )
+
+
+TURNED = """\
+title: A particle is pushed back, and then forth
+scene:
+  gravity: none
+  bodies: {bob: {particle: {mass: 1.0}}}
+  forces: {push: {push: bob.center, table: {along: [1, 0], times: [0.4, 0.5], values: [-1, 5]}}}
+initial: {bob: {x: 0, y: 0, vx: 1.0, vy: 0}}
+events: {slow: {bob.vx: {falls to: 0.605}}}
+duration: 1.0
+samples: 6
+step: {mujoco: 1.0e-3, pymunk: 1.0e-3}
+allow: {slow.time: 1.0e-2, slow.bob.x: 1.0e-2}
+"""
+
+
+@pytest.mark.mutant("a quantity at an event read from a curve through both sides of a corner")
+def test_a_state_at_an_event_beside_a_corner_is_read_from_its_side(tmp_path: Path) -> None:
+    """v = 1 − t until 0.4 s, and 0.605 at 0.395 s."""
+    path = tmp_path / "turned.yaml"
+    path.write_text(TURNED)
+    (case,) = load(path)
+    record, at = solve(case).trajectory.record, at_event("slow.bob.x", case.events)
+    assert record is not None
+    assert at is not None
+    times = reference_events(case.scene, record, case.events["slow"])
+    assert times[0] == pytest.approx(0.395, abs=1e-14)
+    found = reference_states(case, record, at, times)
+    assert found == pytest.approx([0.395 - 0.395**2 / 2], abs=1e-14)

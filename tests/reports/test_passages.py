@@ -51,3 +51,23 @@ def test_what_trembles_does_not_fall() -> None:
     times = np.linspace(0.0, 1.0, 101)
     trembling = 1e-17 * np.where(np.arange(101) % 2, 1.0, -1.0)
     assert list(passages(times, trembling, STILL)) == []
+
+
+@pytest.mark.mutant("an event's time read from a curve through both sides of a corner")
+def test_no_curve_goes_through_both_sides_of_a_corner() -> None:
+    """As the speed of what a table pushes: zero is in the step before the corner, or behind it."""
+    times = np.linspace(0.0, 1.0, 41)
+    for zero, corner in ((0.59, 0.6), (0.61, 0.6)):
+        bend = np.maximum(times - corner, 0.0) - max(zero - corner, 0.0)
+        u = np.exp(zero) - np.exp(times) - 3.0 * bend
+        assert list(passages(times, u, STILL, [corner])) == pytest.approx([zero], abs=1e-12)
+        (through,) = passages(times, u, STILL)
+        assert abs(through - zero) > 1e-4
+
+
+def test_a_dip_beside_a_corner_is_found() -> None:
+    """Of what bends at its least row: below zero on the one side, where the curve still falls."""
+    times = np.linspace(0.0, 1.0, 11)
+    before, after = (times - 0.55) ** 2 - 1e-4, 0.0024 + 2.0 * (times - 0.6)
+    found = list(passages(times, np.where(times <= 0.6, before, after), STILL, [0.6]))
+    assert found == pytest.approx([0.54], abs=1e-9)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from given import scenes
 from given.certified import certified
-from given.mutants import mutant
+from given.mutants import mutant, with_mode
 
 from textmech.cases.case import Case
 from textmech.reference.certificate import beside as at_states
@@ -18,6 +18,7 @@ from textmech.reference.generated.space.mode import SpatialMultibody
 from textmech.reference.motion.follow import TOLERANCE
 from textmech.reference.solve import solve
 from textmech.reference.system import Array, Only
+from textmech.reference.systems import written
 from textmech.reference.systems.bar_pendulum import BarPendulum
 from textmech.reference.systems.spring_mass_damper import SpringMassDamper
 
@@ -53,6 +54,62 @@ def test_reactions_are_compared_to_rounding() -> None:
 def test_a_loose_bound_of_reactions_is_seen(monkeypatch: Patch) -> None:
     monkeypatch.setattr(at_states, "AGREE", 1e-8)
     assert "generated reactions" not in broken(PENDULUM, Only(pushed(3e-12)))
+
+
+FLAT = (
+    0.36504424778761063  # s: both legs press along the slot that guides the trunk, but for 2e-5 N
+)
+TRUNK = replace(scenes.SHIPPED["trunk_on_legs.bound"], duration=FLAT * 56 / 55, samples=57)
+
+
+def reactions_of(case: Case) -> Check:
+    (found,) = [check for check in solve(case).checks if check.name == "generated reactions"]
+    return found
+
+
+def test_a_reaction_that_goes_through_zero_is_a_sum_of_what_is_large() -> None:
+    """Of legs with 300 N, sideways 0.001 N, its rounding is 5e-16 N: 3e-11 of what is left."""
+    found = reactions_of(TRUNK)
+    assert found.bound == at_states.AGREE
+    assert found.holds
+
+
+@pytest.mark.mutant("a reaction's rounding as a share of what is left of it where it is zero")
+def test_the_size_of_what_is_left_alone_is_seen(monkeypatch: Patch) -> None:
+    monkeypatch.setattr(at_states, "_borne", lambda *_: 0.0)
+    monkeypatch.setattr(at_states, "_steep", lambda *_: 0.0)
+    assert not reactions_of(TRUNK).holds
+
+
+@pytest.mark.parametrize("share", [0.0, 1e-9])
+def test_a_reaction_beside_large_forces_is_compared_to_them(share: float) -> None:
+    """The slot bears a hundredth of what the legs exert along what it holds."""
+    assert TRUNK.system is not None
+    sound = written(TRUNK.system, TRUNK.parameters)
+    assert sound is not None
+    stance = sound.modes["stance"]
+
+    def reactions(self: Any, t: float, q: Array, v: Array) -> dict[str, float]:
+        return {name: (1 + share) * F for name, F in stance.reactions(t, q, v).items()}
+
+    larger = with_mode(sound, "stance", mutant(stance, reactions=reactions))
+    assert ("generated reactions" in broken(TRUNK, larger)) == (share > 0.0)
+
+
+THRESHOLD = replace(SMOOTH, duration=3.0, samples=31)  # at 1.5 s the spring pulls with 6 N: F_s
+
+
+def test_on_the_threshold_of_smooth_friction_the_laws_slope_multiplies_rounding() -> None:
+    """Of 6 N half an ulp, times A = 1e5 and a band of 3 N: 1e-10 of the accelerations."""
+    found = {check.name: check for check in solve(THRESHOLD).checks}["generated accelerations"]
+    assert found.holds
+    assert found.bound == at_states.AGREE
+
+
+@pytest.mark.mutant("rounding on the threshold of smooth friction not multiplied by its slope")
+def test_without_the_laws_slope_the_threshold_is_refused(monkeypatch: Patch) -> None:
+    monkeypatch.setattr(at_states, "_steep", lambda *_: 0.0)
+    assert "generated accelerations" in {c.name for c in solve(THRESHOLD).checks if not c.holds}
 
 
 def off(share: float) -> Any:

@@ -1,5 +1,7 @@
 """A bar that lies on two points: they have one slip, and where they stick a sum of frictions."""
 
+import itertools
+import time
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +10,8 @@ from given import scenes
 from given.refused import refused
 
 from textmech.cases.case import Case
+from textmech.reference.generated.element import State
+from textmech.reference.generated.sharing import ways
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 
@@ -102,3 +106,47 @@ def test_while_both_slide_their_frictions_are_known(tmp_path: Path):
     forces = solve(case).trajectory.reactions
     np.testing.assert_allclose(forces["a.tangent"], -0.15 * G, atol=1e-12)
     np.testing.assert_allclose(forces["b.tangent"], -0.05 * G, atol=1e-12)
+
+
+def feet(count: int) -> str:
+    """Bars joined into a line that lies on the floor, each with a foot."""
+    ends = [f"    j{i}: {{pin: [b{i}.end, b{i + 1}.start]}}" for i in range(count - 1)]
+    rub = [
+        f"    f{i}: {{between: [b{i}.start, ground.floor], friction: 0.5}}" for i in range(count)
+    ]
+    bars = [f"    b{i}: {{bar: {{mass: 1.0, length: 1.0}}}}" for i in range(count)]
+    start = ["b0: {x: 0.5, y: 0, angle: 0}", *(f"b{i}: {{angle: 0}}" for i in range(1, count))]
+    lines = ["scene:", "  bodies:", *bars, "  joints:", *ends, "  contacts:", *rub]
+    return "\n".join([*lines, f"initial: {{{', '.join(start)}}}", "allow: {b0.x: 1.0e-2}\n"])
+
+
+@pytest.mark.mutant("very many ways of contacts to go on are tried without a word")
+def test_very_many_contacts_are_refused_at_once(tmp_path: Path):
+    """4⁹ ways to stick, slide and open, of 2 ms each: 9 minutes, and 4¹² 9 hours."""
+    for count in (9, 12):
+        case = scenes.typed(tmp_path, feet(count), tail=scenes.tail(0.2, 6))
+        began = time.process_time()
+        mistake = refused(case)
+        assert time.process_time() - began < 5  # 0.5 s
+        assert mistake.where == "duration"
+        assert "what touches and rubs may go on in more than 1" in mistake.what
+        assert "--allow-long" in mistake.what
+
+
+@pytest.mark.mutant("what a body has closed on a plane sticks here and slides there")
+def test_ways_are_those_in_which_what_a_body_has_closed_does_alike(tmp_path: Path):
+    """Two points of one bar and a foot of another: in the order in which all would be tried."""
+    tip = "    g0: {between: [b0.end, ground.floor], friction: 0.5}\n"
+    text = feet(2).replace("  contacts:\n", f"  contacts:\n{tip}")
+    elements = scenes.mechanism(scenes.typed(tmp_path, text, tail=scenes.tail(0.2, 6))).elements
+    choices: list[tuple[State, ...]] = [("sticks", "slides +", "slides -", "open")] * 3
+
+    def alike(states: tuple[State, ...]) -> bool:
+        rubbing = {e.together: s for e, s in zip(elements, states, strict=True) if s != "open"}
+        pairs = zip(elements, states, strict=True)
+        return all(s == "open" or s == rubbing[e.together] for e, s in pairs)
+
+    all_of_them = [states for states in itertools.product(*choices) if alike(states)]
+    assert [*ways(elements, choices)] == all_of_them
+    assert len(all_of_them) == 40
+    assert [*ways([], [])] == [()]

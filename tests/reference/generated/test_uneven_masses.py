@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from given import random_scenes, scenes
 
+from textmech.cases.language.grammar import number
+from textmech.cases.mistake import CaseError
 from textmech.cases.scene import Body, Scene
 from textmech.reference.formalisms.energy import power_balance
 from textmech.reference.generated import impact as impacts
@@ -15,6 +17,7 @@ from textmech.reference.generated import mode as module
 from textmech.reference.generated.mode import Multibody
 from textmech.reference.integrators.explicit import dormand_prince
 from textmech.reference.motion.follow import follow
+from textmech.reference.solve import solve
 from textmech.reference.system import Array
 
 PENDULUM = """\
@@ -135,3 +138,33 @@ def test_rows_after_an_impact(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(impacts, "TURNS", 0)
     coarse, _ = impacts.impact(masses, joints, [], v)
     assert np.abs(f @ coarse).max() > 1e-12
+
+
+FIELD = """\
+scene:
+  gravity: none
+  bodies: {electron: {particle: {mass: 9.1093837e-31}}}
+  forces: {field: {magnetic: electron, charge: 1.602176634e-19, along_z: 2.84e-11}}
+initial: {electron: {x: 0, y: 0, vx: 2.0, vy: 0}}
+allow: {electron.x: 1.0e-3, electron.vy: 1.0e-3, energy.kinetic: 1.0e-33}
+"""
+
+
+def test_an_electron_moves_by_its_own_numbers(tmp_path: Path) -> None:
+    """Exercise 2.4's particle: round in 2 π m/(e B) = 1.26 s, and its speed stays."""
+    case = scenes.typed(tmp_path, FIELD)
+    solution = solve(case)
+    assert [check for check in solution.checks if not check.holds] == []
+    turned = 1.602176634e-19 * 2.84e-11 / 9.1093837e-31 * case.times  # clockwise: v × B
+    state = solution.trajectory.states["electron"]
+    np.testing.assert_allclose(state[:, 3], 2.0 * np.cos(turned), atol=1e-12)
+    np.testing.assert_allclose(state[:, 4], -2.0 * np.sin(turned), atol=1e-12)
+
+
+@pytest.mark.mutant("an electron is too light to be computed with")
+def test_a_limit_above_an_electrons_mass_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(number, "SMALLEST", 1e-30)
+    with pytest.raises(CaseError, match=r"must be 0 or from 1e-30 to 1e\+30 in SI"):
+        scenes.typed(tmp_path, FIELD)

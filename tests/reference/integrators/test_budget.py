@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from textmech.reference.integrators import budget as purse
-from textmech.reference.integrators.budget import Endless, apart, budget, motion, spend
+from textmech.reference.integrators.budget import Endless, apart, budget, motion, spend, tries
 from textmech.reference.integrators.explicit import DormandPrince
 from textmech.reference.integrators.march import integrate
 from textmech.reference.integrators.now import NOW
@@ -102,3 +102,42 @@ def test_what_gets_nowhere_is_ended_with_no_number_too_large_for_words() -> None
     endless = ended([0.0] * 100, 300.0, 50.0)
     assert endless is not None
     assert "years" in str(endless)
+
+
+@pytest.mark.mutant("what may go on in very many ways is tried until the budget is used up")
+def test_too_many_ways_end_before_the_first_is_tried() -> None:
+    tried = []
+    with budget(1000, SECOND):
+        motion(0.0, 5.0)
+        spend(1, 2.0)
+        with pytest.raises(Endless, match=r"t = 2 of 5 s .* in more than 99 ways"):
+            tried += tries(lambda: iter(range(100)), 10)
+        tried += tries(lambda: iter(range(99)), 10)
+    assert tried == [*range(99)]
+
+
+def test_of_ways_of_which_the_first_will_do_only_those_tried_are_paid() -> None:
+    with budget(1000, SECOND):
+        for tried in tries(lambda: iter(range(10**5)), 10, first=True):
+            if tried == 50:
+                break
+        with pytest.raises(Endless):
+            spend(1000 - 510 + 1, 0.0)
+
+
+@pytest.mark.mutant("what the ways of an instant cost is taken for the pace of the motion")
+def test_the_ways_of_an_instant_say_nothing_of_the_pace() -> None:
+    with budget(300, SECOND):
+        motion(0.0, 5.0)
+        assert len([*tries(lambda: iter(range(20)), 1)]) > purse.PATIENCE
+        spend(1, 0.5)
+
+
+@pytest.mark.mutant("while very many ways are tried the line of progress stands")
+def test_the_line_moves_while_ways_are_tried() -> None:
+    with budget(1000, SECOND):
+        motion(0.0, 5.0)
+        spend(1, 2.0)
+        said = [NOW.text() for _ in tries(lambda: iter(range(101)), 1)]
+        assert said[100].startswith("the motion at 2 s, the ways to go on, at 100 of 101")
+        assert NOW.text().startswith("the motion, at 2 of 5 s")

@@ -6,10 +6,11 @@ from given.problems import BOTH
 
 from textmech.reference.integrators import march
 from textmech.reference.integrators.explicit import dormand_prince
-from textmech.reference.integrators.slope import Vector, noise
+from textmech.reference.integrators.slope import Vector, leaps, noise
 
 ONSET = 0.3 * 9.80665  # no number that stages hit without rounding
 TIMES = [ONSET, 4.0, 8.0]
+TIGHT = 1e-15  # what a motion is followed with
 PEAK = np.array([1.0, 1.0])
 
 
@@ -33,6 +34,39 @@ def test_in_any_unit(method, unit: float):
     found = method(lambda t, y: np.array([y[1], unit * (t - ONSET)]), TIMES, [0.0, 0.0])
     one = method(breaks_loose, TIMES, [0.0, 0.0])
     np.testing.assert_allclose(found.y, unit * one.y, rtol=1e-13)
+
+
+def drawn(t: float, y: Vector) -> Vector:
+    """A cart of 1 kg a metre from the wall that its spring hangs on, drawn ever more."""
+    x, v = y
+    return np.array([v, 2.0 * t - 40.0 * ((1.0 + x) - 1.0)])
+
+
+@BOTH
+def test_what_stands_a_metre_from_where_it_is_measured_starts_from_rest(method):
+    """x = (t − sin(ω t)/ω)/20, ω² = 40: for its spring it moves by leaps of 2e-16 m at first."""
+    times = np.array([0.0, 0.5, 2.0])
+    found = method(drawn, times, [0.0, 0.0], tolerance=TIGHT)
+    omega = np.sqrt(40.0)
+    np.testing.assert_allclose(found.y[:, 0], (times - np.sin(omega * times) / omega) / 20, 1e-12)
+    assert found.steps < 500  # 110 of the explicit method
+
+
+@pytest.mark.mutant("of a state that is zero the leaps by which its slope feels it are not heard")
+def test_without_its_leaps_it_creeps(monkeypatch: pytest.MonkeyPatch):
+    """In 46,000 steps to 0.5 s, or to where they shrink to nothing."""
+    monkeypatch.setattr(march, "leaps", lambda f, t, y, h: np.zeros_like(y))
+    with pytest.raises(march.IntegrationError, match="more than 2000 steps"):
+        dormand_prince(drawn, [0.0, 0.5], [0.0, 0.0], tolerance=TIGHT, most=2000)
+
+
+def test_leaps_are_those_of_the_sum_and_not_of_what_is_felt_at_once():
+    """40 ulp of 1 m; the damper, which takes the speed as it is, adds none."""
+    found = leaps(lambda t, y: drawn(t, y) - [0.0, 3.0 * y[1]], 0.0, np.zeros(2), 1e-4)
+    ulp = 2.0**-52
+    assert found[1] == pytest.approx(40 * ulp / np.sqrt(12), rel=0.5)
+    assert found[0] == 0.0
+    assert not leaps(breaks_loose, ONSET, np.zeros(2), 1e-4).any()
 
 
 @pytest.mark.parametrize("size", [1e-14, 1e-10])
