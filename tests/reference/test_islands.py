@@ -134,7 +134,7 @@ def test_islands_move_as_they_do_in_one_problem(
 
 
 # What acts on one body. Of a new kind that is not named here, two bodies have to be one island.
-ON_ONE = {"push", "torque", "drag", "magnetic"}
+ON_ONE = ("push", "torque", "drag", "magnetic")
 A, B = Anchor("a", "end"), Anchor("b", "start")
 GIVEN = {"name": "f", "a": A, "b": B, "at": A, "body": "a", "first": "a", "second": "b"}
 RODS = [bar(name=name, mass=1.0, length=1.0, points={}) for name in "ab"]
