@@ -18,7 +18,6 @@ from uuid import uuid4
 
 import pytest
 
-from .limit import choose
 from .pytest_options import pytest_addoption as pytest_addoption
 
 if TYPE_CHECKING:
@@ -33,7 +32,11 @@ _SHARED = "textmech_shared"  # what a worker of xdist is told: the session's own
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    choose(config.getoption("textmech_time_limit"))
+    seconds = config.getoption("textmech_time_limit")
+    if seconds is not None:
+        from .limit import choose
+
+        choose(seconds)
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -1,7 +1,9 @@
-"""Chipmunk's own calls, where a loop makes them in every step; nothing else here reaches inside.
+"""A body's state by Chipmunk's own calls, where a loop reads it in every step.
 
-pymunk wraps each in a Vec2d, in checks and in what callbacks need, which together cost more than a
-step. Should pymunk's inside be another one day, its public names serve: with the same numbers.
+pymunk wraps each in a Vec2d, which together cost more than a step. Nothing else here reaches
+inside: steps are taken, and forces told, by the calls that a user makes, for what pymunk does in
+them is measured. Should its inside be another one day, its public names serve: with the same
+numbers.
 """
 
 from collections.abc import Callable
@@ -17,19 +19,6 @@ State = tuple[float, float, float, float, float, float]
 Pair = tuple[float, float]
 Push = Callable[[Pair, Pair], None]
 """Adds a force [N] that acts at a place [m], both in ground axes, until the next step."""
-
-
-def stepping(space: Space) -> Callable[[float], None]:
-    """`space.step`, for a space to which nothing is added any more, and from which none is taken.
-
-    Of what pymunk does beside it only the look at new bodies matters: in a step of no time, which
-    Chipmunk does not take.
-    """
-    space.step(0.0)
-    try:
-        return partial(batch.lib.cpSpaceStep, space._space)
-    except AttributeError:
-        return space.step
 
 
 def reading(body: Body) -> Callable[[], State]:
@@ -79,23 +68,16 @@ def forced(body: Body) -> Callable[[], Pair]:
 
 def pushing(body: Body) -> Push:
     """`body.apply_force_at_world_point`."""
-    try:
-        return partial(batch.lib.cpBodyApplyForceAtWorldPoint, body._body)
-    except AttributeError:
-        return body.apply_force_at_world_point
+    return body.apply_force_at_world_point
 
 
 def turning(body: Body) -> Callable[[float], None]:
     """A function that adds a torque [N m] until the next step."""
-    try:
-        it, read, write = body._body, batch.lib.cpBodyGetTorque, batch.lib.cpBodySetTorque
-    except AttributeError:
 
-        def turn(torque: float) -> None:
-            body.torque += torque
+    def turn(torque: float) -> None:
+        body.torque += torque
 
-        return turn
-    return lambda torque: write(it, read(it) + torque)
+    return turn
 
 
 def copier(space: Space, fields: BodyFields, buffer: Buffer) -> Callable[[], None]:

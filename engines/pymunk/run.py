@@ -13,7 +13,6 @@ from typing import Any
 from ...cases.scene import Scene
 from ..engine import Realised, Start
 from .contact import closed, sink
-from .direct import stepping
 from .law.cut import Landings, cuts
 from .law.force import forces
 from .pair import closed_pairs, press
@@ -79,7 +78,7 @@ def _between(
     """A function that takes the steps from one number up to another."""
     if realised == "driver" and cuts(world.scene):
         return _cutting(Landings(world, numbers.get("start.seed", 0.0)), step, keep)
-    one, midpoint = stepping(world.space), bool(numbers.get("time.midpoint"))
+    one, midpoint = world.space.step, bool(numbers.get("time.midpoint"))
     reflects = bool(numbers.get("contact.reflects"))
     applied = forces(world, step, midpoint=midpoint, law=realised != "native", reflects=reflects)
 

@@ -11,8 +11,6 @@ from contextlib import contextmanager
 from pymunk.space import Space
 from pymunk.vec2d import Vec2d
 
-from ..direct import stepping
-
 NO_TIME = 1e-12  # s: forces and speeds do nothing in it, impulses all
 
 Places = list[tuple[Vec2d, float]]
@@ -52,15 +50,13 @@ class Lengths:
 
     def __init__(self, space: Space) -> None:
         self._space, self._last = space, 0.0
-        self._step = stepping(space)
 
     def take(self, length: float) -> None:
         """One step so long [s]."""
         if length != self._last:
             forget(self._space)
-            self._step = stepping(self._space)
         self._last = length
-        self._step(length)
+        self._space.step(length)
 
     def impact(self) -> None:
         """The impulses of what touches, and of joints, in no time."""

@@ -75,7 +75,7 @@ def as_printed(patch: pytest.MonkeyPatch) -> None:
 
 def long_energies(patch: pytest.MonkeyPatch) -> None:
     """ω of a quaternion that has not the length 1, as if it had."""
-    patch.setattr(mode, "spin", lambda q, q_dot: attitude.spin(q, q_dot) * np.sum(q * q))
+    patch.setattr(mode, "spin", lambda q, q_dot: attitude.spin(q, q_dot) * np.sum(q * q, axis=0))
 
 
 def long_places(patch: pytest.MonkeyPatch) -> None:
