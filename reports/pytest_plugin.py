@@ -125,7 +125,8 @@ class CaseItem(pytest.Item):
         return max(self.case.mistake(path, "").line, 1)
 
     def repr_failure(self, excinfo: Any, style: Any = None) -> str:
-        if isinstance(excinfo.value, RowError):
+        # A traceback of a finding tells nothing, and costs pytest more than the row does us.
+        if isinstance(excinfo.value, RowError | pytest.xfail.Exception):
             return str(excinfo.value)
         return str(super().repr_failure(excinfo, style))
 
