@@ -47,10 +47,11 @@ class Meeting:
 
 @dataclass(frozen=True)
 class Blow:
-    """q̇⁺ (n,); loose: it is one of several, between which only open impulses decide."""
+    """q̇⁺ (n,); shared: its impulses are open; loose: so is which of several velocities it is."""
 
     v: Array
-    loose: bool
+    shared: bool = False
+    loose: bool = False
 
 
 @dataclass(frozen=True)
@@ -156,7 +157,7 @@ def _allowed(
 
     one = left(v_after, impulse)
     if not len(ways):
-        return Blow(v_after, loose=False) if np.all(one >= -ROUNDING) else None
+        return Blow(v_after) if np.all(one >= -ROUNDING) else None
     ways = ways * size / np.max(np.abs(ways), axis=1, keepdims=True)
     others = [(v_after + way @ rows.columns / M, impulse + way) for way in ways]
     slope = np.array([left(*other) - one for other in others]).T
@@ -169,10 +170,10 @@ def _allowed(
         return None
     moved = [place for place in places if leeway.open(place)]
     if not moved:
-        return Blow(v_after, loose=False)
+        return Blow(v_after, shared=True)
     inmost = np.array([leeway.inmost.forces[place] for place in places])
     spans = [leeway.span(place) for place in moved]
-    return Blow(inmost, loose=any(high - low > SAME * fast for low, high in spans))
+    return Blow(inmost, shared=True, loose=any(high - low > SAME * fast for low, high in spans))
 
 
 def _pushes(rows: _Rows, meetings: Sequence[Meeting], impulse: Array) -> Iterator[float]:

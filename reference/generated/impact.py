@@ -50,8 +50,15 @@ def impact(
             gains = True
             continue
         # Of the ways to one velocity the first holds the most: what takes no part may also be open.
-        if way.loose or all(np.max(np.abs(known.v - way.v)) > small for known, _ in found):
+        same = [
+            k
+            for k, (known, _) in enumerate(found)
+            if not (way.loose or known.loose) and np.max(np.abs(known.v - way.v)) <= small
+        ]
+        if not same:
             found.append((way, states))
+        elif found[same[0]][0].shared and _lets_go(found[same[0]][1], states):
+            found[same[0]] = way, states
     if not found:
         what = (
             "the impact would create energy" if gains else "no impulse satisfies the friction law"
@@ -73,6 +80,12 @@ def _choices(meetings: Sequence[Meeting]) -> Sequence[tuple[State, ...]]:
     sliding: tuple[State, ...] = ("slides +",)
     rests = [sliding if m.element.frictionless else m.element.rest for m in meetings]
     return [rest if m.strikes else (*rest, "open") for m, rest in zip(meetings, rests, strict=True)]
+
+
+def _lets_go(known: Sequence[State], states: Sequence[State]) -> bool:
+    """Whether only ropes and stops take no part here that could have one: they are not pulled."""
+    pairs = [(a, b) for a, b in zip(known, states, strict=True) if a != b]
+    return all(pair == ("acts", "open") for pair in pairs)
 
 
 def _several(meetings: Sequence[Meeting], found: Sequence[Sequence[State]]) -> str:
