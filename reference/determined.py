@@ -18,7 +18,6 @@ from ..cases.trajectory import Trajectory
 from .certificate.agreement import Check, worst
 from .generated.either import Generated
 from .generated.leeway import LEANS, Leeway
-from .generated.mechanism import Mechanism
 from .motion.bodies import Answer
 from .system import Pose
 
@@ -42,7 +41,7 @@ def check_determined(case: Case, built: Answer, generated: Generated) -> tuple[C
     """
     asked = dict(_asked(case))
     forces = [name for name in dict.fromkeys(asked.values()) if _felt(case, name)]
-    if not forces or not isinstance(generated, Mechanism):
+    if not forces:
         return ()
     found: dict[str, tuple[float, str]] = {}
     widest = [0.0]
@@ -77,14 +76,14 @@ def _felt(case: Case, name: str) -> bool:
 
 
 def _samples(
-    case: Case, built: Answer, generated: Mechanism
+    case: Case, built: Answer, generated: Generated
 ) -> Iterator[tuple[float, Mapping[str, Pose], Leeway]]:
     """The samples at which equilibrium leaves forces open, and those."""
     followed = built.followed
     for t, name, y in zip(case.times.tolist(), followed.modes, followed.y, strict=True):
         mode = generated.modes[name]
         q, v = mode.parted(y)
-        if (leeway := generated.built.leeway(name, t, q, v)) is not None:
+        if (leeway := generated.leeway(name, t, q, v)) is not None:
             yield t, mode.poses(t, q, v), leeway
 
 

@@ -3,22 +3,23 @@
 (2.60) integrated over the instant: M (q̇⁺ − q̇⁻) = Λ_b f_aᵇ. Joints and sticking contacts hold, the
 floor gives back the part `restitution` of the normal velocity, and friction is an impulse of
 Coulomb's law (2.87): within the cone it stops the slip, else it is μ times the normal impulse.
+
+All ways are asked in which the contacts may do that (`blow`), so that nothing depends on their
+order. Most often one velocity keeps the laws and creates no energy. Several do where a disk may as
+well stay wedged in a groove as roll out of it: then rigid bodies do not say which.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 import numpy as np
 
 from ..integrators.budget import tries
 from ..system import Array
-from .element import Element, State, sign
+from .blow import SAME, Blow, Condition, Meeting, blow
+from .element import State
 from .sharing import ways
 
-CONE = 1e-12  # of the impulse: an impulse that needs all of the cone sticks
 BLOW = 5  # evaluations: of solving for the impulses of a blow (measured 3–6)
-ROUNDING = 1e-12  # of the velocities
-TURNS = 2  # of refinement, as in a mode: light bodies beside heavy ones
 GAIN = 1e-9  # of the kinetic energy: more is no rounding
 
 
@@ -26,27 +27,8 @@ class NoImpact(ArithmeticError):
     """Where Coulomb's law and the restitution have no answer, or one that creates energy."""
 
 
-@dataclass(frozen=True)
-class Condition:
-    """f_a (n,) and g of (2.15)."""
-
-    f: Array
-    g: float
-
-    def rate(self, v: Array) -> float:
-        """f_a q̇ᵃ − g [m/s]."""
-        return float(self.f @ v) - self.g
-
-
-@dataclass(frozen=True)
-class Meeting:
-    """A closed contact in the instant: its rows, and the normal velocity after it."""
-
-    element: Element
-    normal: Condition
-    tangent: Condition
-    after: float
-    strikes: bool
+class Several(NoImpact):
+    """Where they have several."""
 
 
 def impact(
@@ -57,13 +39,35 @@ def impact(
     Raises NoImpact.
     """
     elements, choices = [meeting.element for meeting in meetings], _choices(meetings)
-    for states in tries(lambda: ways(elements, choices), BLOW, first=True):
-        found = _tried(M, joints, meetings, v, states)
-        if found is not None:
-            if M @ found**2 > (1 + GAIN) * (M @ v**2) and not _driven(joints, meetings):
-                raise NoImpact("the impact would create energy")
-            return found, states
-    raise NoImpact("no impulse satisfies the friction law")
+    driven, small = _driven(joints, meetings), SAME * float(np.max(np.abs(v)))
+    found: list[tuple[Blow, tuple[State, ...]]] = []
+    gains = False
+    for states in tries(lambda: ways(elements, choices), BLOW):
+        way = blow(M, joints, meetings, v, states)
+        if way is None:
+            continue
+        if M @ way.v**2 > (1 + GAIN) * (M @ v**2) and not driven:
+            gains = True
+            continue
+        # Of the ways to one velocity the first holds the most: what takes no part may also be open.
+        same = [
+            k
+            for k, (known, _) in enumerate(found)
+            if not (way.loose or known.loose) and np.max(np.abs(known.v - way.v)) <= small
+        ]
+        if not same:
+            found.append((way, states))
+        elif found[same[0]][0].shared and _lets_go(found[same[0]][1], states):
+            found[same[0]] = way, states
+    if not found:
+        what = (
+            "the impact would create energy" if gains else "no impulse satisfies the friction law"
+        )
+        raise NoImpact(what)
+    (first, states), *others = found
+    if others or first.loose:
+        raise Several(_several(meetings, [states for _, states in found]))
+    return first.v, states
 
 
 def _driven(joints: Sequence[Condition], meetings: Sequence[Meeting]) -> bool:
@@ -73,77 +77,26 @@ def _driven(joints: Sequence[Condition], meetings: Sequence[Meeting]) -> bool:
 
 def _choices(meetings: Sequence[Meeting]) -> Sequence[tuple[State, ...]]:
     """Sticking first; what only rests on the floor may also leave it."""
-    rests = ((m.element.rest, m.strikes) for m in meetings)
-    return [rest if strikes else (*rest, "open") for rest, strikes in rests]
+    sliding: tuple[State, ...] = ("slides +",)
+    rests = [sliding if m.element.frictionless else m.element.rest for m in meetings]
+    return [rest if m.strikes else (*rest, "open") for m, rest in zip(meetings, rests, strict=True)]
 
 
-def _tried(
-    M: Array,
-    joints: Sequence[Condition],
-    meetings: Sequence[Meeting],
-    v: Array,
-    states: tuple[State, ...],
-) -> Array | None:
-    """q̇⁺ if the contacts do this, or None where that contradicts Coulomb's law."""
-    rows: list[Array] = []
-    columns: list[Array] = []
-    after: list[float] = []
-    normals: list[int | None] = []  # where each contact's normal row stands
-    stuck: dict[tuple[str, str], int] = {}  # and the row of no slip of what sticks
-    for joint in joints:
-        rows.append(joint.f)
-        columns.append(joint.f)
-        after.append(joint.g)
-    for meeting, state in zip(meetings, states, strict=True):
-        if state == "open":
-            normals.append(None)
-            continue
-        normals.append(len(rows))
-        lean = -meeting.element.kinetic * sign(state)
-        rows.append(meeting.normal.f)
-        columns.append(meeting.normal.f + lean * meeting.tangent.f)
-        after.append(meeting.after)
-        mine = meeting.element.together
-        if state == "sticks" and mine not in stuck:  # its other points do not slip either
-            stuck[mine] = len(rows)
-            rows.append(meeting.tangent.f)
-            columns.append(meeting.tangent.f)
-            after.append(0.0)
-    f, by_mass = np.array(rows), np.array(columns) / M
-    v_after, impulse = v, np.zeros(len(f))
-    try:
-        for _ in range(1 + TURNS):
-            more = np.linalg.solve(f @ by_mass.T, np.array(after) - f @ v_after)
-            v_after, impulse = v_after + more @ by_mass, impulse + more
-    except np.linalg.LinAlgError:
-        return None
-    small = ROUNDING * float(np.max(np.abs(v)))
-    nothing = ROUNDING * float(np.max(np.abs(impulse), initial=0.0))
-    for meeting, state, at in zip(meetings, states, normals, strict=True):
-        if at is None:
-            if meeting.normal.f @ v_after - meeting.normal.g < -small:
-                return None
-        elif impulse[at] < -nothing or sign(state) * (meeting.tangent.f @ v_after) < -small:
-            return None
-    return v_after if _held(meetings, normals, stuck, impulse, nothing) else None
+def _lets_go(known: Sequence[State], states: Sequence[State]) -> bool:
+    """Whether only ropes and stops take no part here that could have one: they are not pulled."""
+    pairs = [(a, b) for a, b in zip(known, states, strict=True) if a != b]
+    return all(pair == ("acts", "open") for pair in pairs)
 
 
-def _held(
-    meetings: Sequence[Meeting],
-    normals: Sequence[int | None],
-    stuck: Mapping[tuple[str, str], int],
-    impulse: Array,
-    nothing: float,
-) -> bool:
-    """(2.87) for impulses: what sticks is within the cone, the points of one body together.
-
-    A contact that the impact does not concern gets an impulse of rounding, of either sign.
-    """
-    for mine, row in stuck.items():
-        pairs = [(m.element, at) for m, at in zip(meetings, normals, strict=True)]
-        cone = sum(
-            e.kinetic * impulse[at] for e, at in pairs if at is not None and e.together == mine
-        )
-        if abs(impulse[row]) > (1 + CONE) * cone + nothing:
-            return False
-    return True
+def _several(meetings: Sequence[Meeting], found: Sequence[Sequence[State]]) -> str:
+    """`…: left sticks, right sticks as well as left sticks, right open`."""
+    names = [m.element.name for m in meetings]
+    each = (
+        ", ".join(f"{name} {state}" for name, state in zip(names, states, strict=True))
+        for states in found[:2]
+    )
+    many = ", with any of many velocities" if len(found) == 1 else ""
+    return (
+        "rigid bodies do not say what the blow does, the law of friction is kept by "
+        f"{' as well as '.join(each)}{many}"
+    )

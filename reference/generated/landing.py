@@ -6,11 +6,12 @@ from dataclasses import replace
 import numpy as np
 
 from ..system import Array
+from .blow import Condition, Meeting
 from .choosing import After, Options, Undetermined, closed, settled, staying
 from .constraint import Constraint
 from .contact import row
 from .element import State
-from .impact import Condition, Meeting, NoImpact, impact
+from .impact import NoImpact, Several, impact
 from .modes import Modes, rate
 from .together import check_alone
 
@@ -65,6 +66,8 @@ def _struck(
     check_alone(modes, mode, i, met, held, t, q, v, near)
     try:
         return impact(modes.M, held, met, v)
+    except Several as error:
+        raise Undetermined(modes.elements[i].name, f"at t = {t:.4g} s {error}", t) from error
     except NoImpact as error:
         what = _needed(modes, held, met, v, t) or str(error)
         raise Undetermined(modes.elements[i].name, what, t) from error

@@ -116,5 +116,6 @@ def leeway(
 ) -> Leeway:
     """What is left open between forces that all give the same motion."""
     left = np.array(margins(one), dtype=float)
-    slope = np.array([margins(other) for other in others], dtype=float).reshape(-1, len(left)).T
+    slope = np.array([margins(other) for other in others], dtype=float)
+    slope = slope.reshape(len(others), len(left)).T  # a bar between two hinges has no margins
     return Leeway(one, others, left / size, (slope - left[:, None]) / size, size)

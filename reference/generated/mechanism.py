@@ -17,6 +17,7 @@ from .drag import blurred
 from .element import REST, Element, State, sign
 from .halting import halting
 from .landing import STILL, landed
+from .leeway import Leeway
 from .modes import Modes, rate
 from .one_side import HAPPENS, OTHER, OneSided
 from .sharing import beside
@@ -162,6 +163,10 @@ class Mechanism(System):
             return after
 
         return then
+
+    def leeway(self, mode: str, t: float, q: Array, v: Array) -> Leeway | None:
+        """All forces that the laws allow in a mode here; None where there is one of each."""
+        return self.built.leeway(mode, t, q, v)
 
     def driven_point(self, name: str, t: float) -> tuple[float, ...]:
         """x, y, vx, vy of a point of the ground that moves."""

@@ -7,9 +7,10 @@ balls take is decided by how they give way. A gap, however small, puts one after
 import numpy as np
 
 from ..system import Array
+from .blow import ROUNDING, Condition, Meeting
 from .choosing import Undetermined
 from .element import Element, State
-from .impact import ROUNDING, Condition, Meeting, NoImpact, impact
+from .impact import NoImpact, impact
 from .modes import Modes, rate
 
 

@@ -119,10 +119,10 @@ def spend(evaluations: int, time: float) -> None:
         raise Endless(purse.evaluations, time, purse.until, needs)
 
 
-def tries(ways: Callable[[], Iterator[T]], each: int, *, first: bool = False) -> Iterator[T]:
+def tries(ways: Callable[[], Iterator[T]], each: int) -> Iterator[T]:
     """The ways in which it may go on at an instant, each tried for so many evaluations.
 
-    first: until one does. Raises Endless before the first one, if there are more than can be paid.
+    Raises Endless before the first one, if there are more than can be paid.
     """
     purse, before = _purse.get() or _Purse(math.inf, 0.0), replace(NOW)
     price = each * purse.price
@@ -134,7 +134,7 @@ def tries(ways: Callable[[], Iterator[T]], each: int, *, first: bool = False) ->
         doing(f"{before.what} at {before.at:.4g} s, {which} ways to go on", end=count, unit="")
     try:
         for tried, way in enumerate(ways()):
-            if tried > room or (count > room and not first):
+            if tried > room or count > room:
                 raise Endless(purse.evaluations, before.at, purse.until, None, most)
             purse.paid(each, price)
             if count > SHOWN:

@@ -5,6 +5,7 @@ import numpy as np
 from ....cases.scene import GROUND, Anchor
 from ....cases.space.scene import SpatialScene
 from ...system import MOVING, Array, System
+from ..leeway import Leeway
 from .mode import SpatialMultibody
 
 
@@ -19,6 +20,10 @@ class SpatialMechanism(System):
     def start(self) -> tuple[str, Array, Array]:
         """The assembled start."""
         return MOVING, *self.base.start()
+
+    def leeway(self, mode: str, t: float, q: Array, v: Array) -> Leeway | None:
+        """All forces that the laws allow in a mode here; None where there is one of each."""
+        return self.base.leeway(t, q, v)
 
     def driven_point(self, name: str, t: float) -> tuple[float, ...]:
         """x, y, z, vx, vy, vz of a point of the ground that moves."""

@@ -8,6 +8,7 @@ import numpy as np
 
 from ....cases.space.scene import SpatialScene
 from ...system import Array, Mass, Mode, Pose, Vector
+from ..leeway import Leeway, leeway
 from .action import Actions
 from .assembled import SpatialRows
 from .attitude import cross, spin
@@ -15,6 +16,7 @@ from .coordinates import SpatialCoordinates
 from .equations import Equations
 from .held import held
 from .kinematics import Layout, carried
+from .loose import rank, solved, unit_sizes
 from .turning import Turn, wound
 
 
@@ -54,6 +56,7 @@ class SpatialMultibody(Mode):
         turning = [(self.where.columns[b.name].omega, b.tensor) for b in scene.bodies.values()]
         tensors = [J for at, J in turning if at is not None]
         self._J = np.array(tensors).reshape(-1, 3, 3)
+        self._sizes = unit_sizes(self.where)
         self._equations = Equations(self.where.M, self._J, self.constraints.size)
 
     def start(self) -> tuple[Array, Array]:
@@ -104,8 +107,25 @@ class SpatialMultibody(Mode):
 
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) R_a = λ_b f_aᵇ: the forces and moments of first parts on second, by quantity."""
+        return self._told(t, self.layout.bodies(q, v), self.solve(t, q, v)[1])
+
+    def leeway(self, t: float, q: Array, v: Array) -> Leeway | None:
+        """All forces that the rows leave open, and floors that only push; None: one of each."""
         bodies = self.layout.bodies(q, v)
-        found = self.constraints.reactions(t, bodies, self.solve(t, q, v)[1])
+        rows, _, gamma = self.constraints.at(t, bodies)
+        if not len(rows) or rank(rows, self._sizes) == len(rows):
+            return None
+        Q = self._applied(t, v, bodies)
+        _, multipliers, ways = solved(self.where.M, rows, gamma, Q, self._sizes)
+        one = self._told(t, bodies, multipliers)
+        size = max(map(abs, one.values()), default=0.0) or 1.0
+        ways *= size / np.max(np.abs(ways), axis=1, keepdims=True)
+        others = [self._told(t, bodies, multipliers + way) for way in ways]
+        floors = [f"{name}.normal" for name in self.scene.contacts]
+        return leeway(one, others, lambda forces: [forces[name] for name in floors], size)
+
+    def _told(self, t: float, bodies: Any, multipliers: Array) -> dict[str, float]:
+        found = self.constraints.reactions(t, bodies, multipliers)
         for joint, M in self._actions.moments(t, bodies):
             for name, x in zip(("mx", "my", "mz"), M.tolist(), strict=True):
                 found[f"{joint}.{name}"] = found.get(f"{joint}.{name}", 0.0) + x

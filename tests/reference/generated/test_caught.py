@@ -2,6 +2,7 @@
 
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -120,6 +121,15 @@ def test_what_is_not_thrown_up_taken_for_it_is_seen(
 ) -> None:
     """The corner b would lift off and land in the instant in which the rope tightens."""
     case = scenes.typed(tmp_path, ON_A_ROPE.replace("MU", "0"), tail=CAUGHT)
+    sound = landing.impact
+
+    def without_b(M: Any, joints: Any, met: Any, v: Any) -> Any:
+        """The same velocities, by a way in which b takes no part."""
+        after, states = sound(M, joints, met, v)
+        pairs = zip(met, states, strict=True)
+        return after, tuple("open" if m.element.name == "b" else s for m, s in pairs)
+
+    monkeypatch.setattr(landing, "impact", without_b)
     assert [e.name for e in follow(scenes.mechanism(case), case.times).events] == ["r tightens"]
     monkeypatch.setattr(landing, "STILL", -1e-9)
     assert len(follow(scenes.mechanism(case), case.times).events) > 1

@@ -7,8 +7,8 @@ import pytest
 from given import written_scenes
 
 from textmech.cases.mistake import CaseError
+from textmech.reference.generated import blow, landing, mechanism
 from textmech.reference.generated import element as contact_modes
-from textmech.reference.generated import impact, landing, mechanism
 from textmech.reference.generated.contact import Coulomb
 from textmech.reference.generated.element import State, Touching, sign
 from textmech.reference.solve import solve
@@ -58,7 +58,7 @@ def test_mutant_without_sticking(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 @pytest.mark.mutant("restitution of an impact left out")
 @pytest.mark.slow
 def test_mutant_restitution_ignored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    class Dead(impact.Meeting):
+    class Dead(blow.Meeting):
         def __init__(self, element, normal, tangent, after, strikes) -> None:  # type: ignore[no-untyped-def]
             super().__init__(element, normal, tangent, 0.0, strikes)
 

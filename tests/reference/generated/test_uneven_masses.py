@@ -12,6 +12,7 @@ from textmech.cases.language.grammar import number
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene import Body, Scene
 from textmech.reference.formalisms.energy import power_balance
+from textmech.reference.generated import blow
 from textmech.reference.generated import impact as impacts
 from textmech.reference.generated import mode as module
 from textmech.reference.generated.mode import Multibody
@@ -131,11 +132,11 @@ def test_rows_after_an_impact(monkeypatch: pytest.MonkeyPatch):
     random = np.random.default_rng(seed=2)
     f = random.standard_normal((4, 6))
     masses = np.array([1e-6, 1e-6, 1e-7, 1.0, 1.0, 1.0])
-    joints = [impacts.Condition(row, 0.0) for row in f]
+    joints = [blow.Condition(row, 0.0) for row in f]
     v = random.standard_normal(6)
     after, _ = impacts.impact(masses, joints, [], v)
     assert np.abs(f @ after).max() < 1e-15 * 10
-    monkeypatch.setattr(impacts, "TURNS", 0)
+    monkeypatch.setattr(blow, "TURNS", 0)
     coarse, _ = impacts.impact(masses, joints, [], v)
     assert np.abs(f @ coarse).max() > 1e-12
 

@@ -116,9 +116,9 @@ def test_too_many_ways_end_before_the_first_is_tried() -> None:
     assert tried == [*range(99)]
 
 
-def test_of_ways_of_which_the_first_will_do_only_those_tried_are_paid() -> None:
+def test_of_ways_that_are_not_all_asked_for_only_those_tried_are_paid() -> None:
     with budget(1000, SECOND):
-        for tried in tries(lambda: iter(range(10**5)), 10, first=True):
+        for tried in tries(lambda: iter(range(99)), 10):
             if tried == 50:
                 break
         with pytest.raises(Endless):
