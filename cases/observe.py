@@ -7,6 +7,7 @@ itself (tests/cases/test_observe.py), because a mistake here would cancel in eve
 import numpy as np
 
 from .frame import SPACE
+from .islands import islands
 from .motion import Motion
 from .power import done
 from .quantity import table
@@ -30,11 +31,22 @@ def observe(scene: Scene, trajectory: Trajectory, name: str) -> Array:
     owner, _, point = quantity.part.partition(".")
     owns = [s[owner] for s in (scene.joints, scene.forces) if owner in s]
     if quantity.field == "work" and owns:
-        return done(trajectory.times, owns[0].power(motion_of(scene, trajectory)))
+        return done(
+            trajectory,
+            corners(scene, owner),
+            lambda rows: owns[0].power(motion_of(scene, rows)),
+        )
     for section in (scene.joints, scene.constraints, scene.contacts, scene.pairs, scene.forces):
         if owner in section:
             return section[owner].observe(motion_of(scene, trajectory), quantity.field)
     return scene.bodies[owner].observe(trajectory.states[owner], point, quantity.field)
+
+
+def corners(scene: Scene, owner: str) -> set[float]:
+    """The times [s] of the laws that move what an element acts on."""
+    parts = islands(scene)
+    mine = next((p for p in parts if owner in p.forces or owner in p.joints), scene)
+    return {corner for law in mine.laws() for corner in law.corners}
 
 
 def motion_of(scene: Scene, trajectory: Trajectory) -> Motion:

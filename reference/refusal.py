@@ -5,7 +5,7 @@ asked only after the integrators have failed, to say why.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 import numpy as np
@@ -35,6 +35,7 @@ MOST = cost.LIMIT  # s: the largest shipped case takes 8
 SHORT = 1e-3  # of the mechanism's size: steps give up well before the length is zero
 UNEVEN = 1e4  # of two masses: the lighter one's equations then have lost four digits of sixteen
 FAST = 1e3  # swings in the duration: an integrator of order 8 takes a dozen steps for each
+NAMED = 6  # of the elements in a message: the others are like these
 DEPENDENT = 1e-2  # singular values below this part of the largest: the same, for constraints
 
 
@@ -47,8 +48,11 @@ def bounded(case: Case) -> Iterator[None]:
         with budget(math.inf if case.long else MOST - laws, cost.evaluation(case.scene)):
             yield
     except Endless as endless:
-        what = f"the reference {endless}, and the limit is {MOST / 60:g} minutes: {GO_ON}"
-        raise CaseError([case.mistake(("duration",), what)]) from endless
+        what = f"the reference {endless}, and the limit is {MOST / 60:g} minutes: "
+        found = case.mistake(("duration",), what + GO_ON)
+        if endless.ways:
+            found = case.mistake(_where(case, endless.among), what + _fewer(endless.among))
+        raise CaseError([found]) from endless
     except (ArithmeticError, LinAlgError) as error:
         what = f"the numbers of this scene cannot be computed with ({error}); are the units right?"
         raise CaseError([case.mistake(("scene",), what)]) from error
@@ -61,6 +65,30 @@ def refusals(case: Case, generated: Generated) -> Iterator[None]:
         yield
     except (BadStart, Undetermined, ZenoError, Stuck) as failure:
         raise CaseError([_mistake(case, generated, failure)]) from failure
+
+
+def _where(case: Case, among: Sequence[str]) -> tuple[str, ...]:
+    """Where the file has most of what may go on in very many ways."""
+    sections = ("contacts", "joints", "forces")
+    contacts = {*case.scene.contacts, *case.scene.pairs, *case.scene.touching}
+    counts = {
+        section: sum(name.partition(".")[0] in known for name in among)
+        for section, known in zip(
+            sections, (contacts, case.scene.joints, case.scene.forces), strict=True
+        )
+    }
+    return "scene", max(sections, key=counts.__getitem__)
+
+
+def _fewer(among: Sequence[str]) -> str:
+    """What a person can do about very many ways, as the end of a sentence."""
+    left = len(among) - NAMED
+    names = ", ".join(among[:NAMED]) + (f" and {left} more" if left > 0 else "")
+    return (
+        f"{len(among)} elements of bodies that hang together may each stick, slide or open there "
+        f"({names}), and each multiplies the ways; give fewer, some of them `friction: 0`, or take "
+        f"apart what need not be joined; {GO_ON}"
+    )
 
 
 def _mistake(case: Case, generated: Generated, failure: Exception) -> Mistake:

@@ -7,8 +7,8 @@ from given.tree import FILES, imported, module
 # joined by + is one room.
 NOUNS = (
     "body+constraint+contact+couple+difference+drag+element+event+force+frame+friction+islands+joint"
-    "+kind+magnetic+motion+muscle+pair+plane+point+power+quantity+rope+scene+shape+signal+space"
-    "+states+stops+trajectory+turning"
+    "+kind+magnetic+motion+muscle+pair+pieces+plane+point+power+quantity+rope+scene+shape+signal"
+    "+space+states+stops+trajectory+turning"
 )
 ROOMS = {
     "cases": [

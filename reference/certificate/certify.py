@@ -6,7 +6,7 @@ one answer may be little farther from the others than two integrators of one sys
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise
 
@@ -43,6 +43,7 @@ LOOSER = 100  # times what two integrators differ by: two samples of one error m
 COARSER = 1e-13  # tolerance of the second answer where there is only one stiff integrator
 UNROLLED = 0.5  # rad: a turn lost is 6.3; the integral over the march's steps is 0.01 off at most
 STAGES = 7  # Radau IIA of order 13: five stages need twice the time at this tolerance
+APART = 1e-9  # of two samples: a corner nearer to one is none between them
 QUARTERS = 4  # steps a sample at least: longer ones, of order 13, lose up to two digits here
 
 
@@ -62,7 +63,10 @@ def certify(
     times, system, followed = case.times, written.system, written.followed
     inner = case.scene.inner()
     stiff = any(system.modes[mode].stiff for mode in followed.phases)
-    name, second = _second(system, times, stiff=stiff)
+    finer = finely(times, system.corners, whole=stiff)
+    name, closer = _second(system, finer, stiff=stiff)
+    own = np.searchsorted(finer, times)
+    second = replace(closer, y=closer.y[own], phase=closer.phase[own])
     others = {name: replace(written, followed=second).trajectory(times)}
     apart = difference(motion, others[name], inner)
     checks, found = [], {f"{name}: events": second}
@@ -87,7 +91,8 @@ def certify(
     if len(system.modes) > 1 or any(system.guards(mode) for mode in followed.phases):
         checks.append(Check("modes possible", _impossible(system, followed), 0.0))
     late = worst([late, system.blurred, *(_apart(followed, other) for other in found.values())])
-    return (*checks, *errors(case, motion, others, late))
+    between = replace(written, followed=closer)
+    return (*checks, *errors(case, motion, others, late, lambda: between.trajectory(finer)))
 
 
 def as_the_file_says(
@@ -111,14 +116,26 @@ def _own(followed: Followed) -> float:
     return SWITCHED if followed.changes else max(OWN_ERROR, ROUNDING * followed.steps)
 
 
+def finely(times: Array, corners: Iterable[float], *, whole: bool) -> Array:
+    """The samples with others between them, and on the corners and between these.
+
+    whole: an interval without a corner stays whole.
+    """
+    least = APART * float(times[1] - times[0])
+    edges = times
+    for corner in corners:
+        if times[0] < corner < times[-1] and np.min(np.abs(edges - corner)) > least:
+            edges = np.union1d(edges, corner)
+    sampled = np.isin(edges, times)
+    counts = np.where(sampled[1:] & sampled[:-1] & whole, 1, QUARTERS)
+    gaps = [np.linspace(a, b, n, endpoint=False) for (a, b), n in zip(pairwise(edges), counts)]  # noqa: B905
+    return np.append(np.concatenate(gaps), times[-1])
+
+
 def _second(system: System, times: Array, *, stiff: bool) -> tuple[str, Followed]:
     """The motion by another integrator, or where it is stiff, by another tolerance."""
-    if stiff:
-        return "another tolerance", follow(system, times, by=_other)
-    finer = np.linspace(times[0], times[-1], (len(times) - 1) * QUARTERS + 1)
-    found = follow(system, finer, by=_other)
-    other = replace(found, y=found.y[::QUARTERS], phase=found.phase[::QUARTERS])
-    return "implicit integrator", other
+    name = "another tolerance" if stiff else "implicit integrator"
+    return name, follow(system, times, by=_other)
 
 
 def _other(mode: Mode, f: Slope, n: int) -> Method:

@@ -1,18 +1,19 @@
 """What the reference knows of each observed quantity, against what the case asks of it."""
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...cases.case import Case
 from ...cases.difference import apart
 from ...cases.kind import WORK
 from ...cases.mistake import Mistake
-from ...cases.observe import observe
+from ...cases.observe import corners, observe
 from ...cases.quantity import at_event, event_quantities
-from ...cases.trajectory import Trajectory
+from ...cases.trajectory import Array, Trajectory
 from .agreement import Check, worst
 
 SHARE = 0.01  # of the smallest tolerance: what the reference's own error may take
@@ -20,22 +21,32 @@ EPS = float(np.finfo(np.float64).eps)
 ERROR = "error of "
 FALLS = 2**4  # at twice the distance, where a sum over samples has at least the fourth order
 SAFE = 4  # of 15 by that order: random scenes have errors of up to 1.5 fifteenths of what differs
+LEFT = 4 / 3  # a sum over four times as many samples leaves at most a fourth
 
 
 def errors(
-    case: Case, motion: Trajectory, others: Mapping[str, Trajectory], late: float
+    case: Case,
+    motion: Trajectory,
+    others: Mapping[str, Trajectory],
+    late: float,
+    finely: Callable[[], Trajectory] | None = None,
 ) -> Iterator[Check]:
     """The share of the smallest `allow` or `reach` that each quantity's own error takes.
 
     The error is the largest difference to any other answer, and at least the rounding of a double.
-    late: how well the times of events are known [s].
+    late: how well the times of events are known [s]. finely: another answer at more samples, from
+    which sums are told better; None: what is asked for has none.
     """
     known = case.quantities
+    sums = [name for name in case.allow if name in known and known[name].field in WORK]
+    closer = finely() if sums and finely else None
     times = {name: q for name, q in event_quantities(case.events).items() if q.field == "time"}
     for name in case.allow:
         least, at = _least(case, name), at_event(name, case.events)
         if name in known:
             error, unit = _apart(case, motion, others, name), known[name].unit
+            if name in sums:
+                error = max(error, _summed(case, motion, closer, name))
         elif name in times:
             error, unit = max(EPS * float(motion.times[-1]), late), times[name].unit
         elif at is not None:  # known as everywhere in the motion, but the event is `late`
@@ -49,24 +60,42 @@ def errors(
             yield Check(f"{ERROR}{name}", error / least, SHARE, error, unit)
 
 
-def _summed(case: Case, motion: Trajectory, name: str) -> float:
-    """How far a sum over the samples may be from the integral: by what every second one gives.
+def _summed(case: Case, motion: Trajectory, closer: Trajectory | None, name: str) -> float:
+    """How far a sum over the samples may be from the integral, by fewer samples and by more.
 
-    Where they show that it falls with the fourth power of their distance or faster, a fourth part.
-    Elsewhere the power may jump between two samples: then it falls with their distance alone, and
-    what every fourth gives tells what the other two leave out by chance.
+    By every second one: where they show that it falls with the fourth power of their distance or
+    faster, a fourth part. Elsewhere the power may jump between two samples, where no law says so:
+    then it falls with their distance alone, and what every fourth gives tells what the other two
+    leave out by chance. Others between them tell what all of these leave out, as what jumps twice
+    between two samples: at least three parts in four of it.
     """
-    every = [observe(case.scene, _thinned(motion, k), name) for k in (1, 2, 4)]
-    near, far = (worst(np.abs(a[::2] - b)) for a, b in pairwise(every))
-    return near / SAFE if FALLS * near <= far else max(near, far / 2)
+    jumps = corners(case.scene, name.rpartition(".")[0])
+    kept = [_kept(motion.times, jumps, k) for k in (1, 2, 4)]
+    every = [observe(case.scene, _thinned(motion, rows), name) for rows in kept]
+    near, far = (
+        worst(np.abs(one[np.isin(rows, fewer)] - other))
+        for (one, rows), (other, fewer) in pairwise(zip(every, kept, strict=True))
+    )
+    coarse = near / SAFE if FALLS * near <= far else max(near, far / 2)
+    if closer is None:
+        return coarse
+    fine = observe(case.scene, closer, name)[np.searchsorted(closer.times, motion.times)]
+    return max(coarse, LEFT * worst(np.abs(every[0] - fine)))
 
 
-def _thinned(motion: Trajectory, k: int) -> Trajectory:
-    """Every k-th sample."""
+def _kept(times: Array, jumps: Iterable[float], k: int) -> NDArray[np.int64]:
+    """Every k-th sample, and those on corners, where a side begins."""
+    on = np.flatnonzero(np.isin(times, list(jumps)))
+    return np.union1d(np.arange(0, len(times), k), on)
+
+
+def _thinned(motion: Trajectory, rows: NDArray[np.int64]) -> Trajectory:
+    """Some of the samples."""
     return Trajectory(
-        motion.times[::k],
-        {name: rows[::k] for name, rows in motion.states.items()},
-        {name: rows[::k] for name, rows in motion.reactions.items()},
+        motion.times[rows],
+        {name: each[rows] for name, each in motion.states.items()},
+        {name: each[rows] for name, each in motion.reactions.items()},
+        near={name: each[rows] for name, each in motion.near.items()},
     )
 
 
@@ -74,8 +103,6 @@ def _apart(case: Case, motion: Trajectory, others: Mapping[str, Trajectory], nam
     """How far a quantity's samples are from those of any other answer."""
     own = observe(case.scene, motion, name)
     found = [apart(own, observe(case.scene, other, name)) for other in others.values()]
-    if case.quantities[name].field in WORK:
-        found.append(np.array([_summed(case, motion, name)]))
     return worst([EPS * worst(np.abs(own).ravel()), *map(worst, found)])
 
 

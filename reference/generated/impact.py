@@ -17,7 +17,7 @@ from ..integrators.budget import tries
 from ..system import Array
 from .blow import SAME, Blow, Condition, Meeting, blow
 from .element import State
-from .sharing import ways
+from .sharing import several, ways
 
 BLOW = 5  # evaluations: of solving for the impulses of a blow (measured 3–6)
 GAIN = 1e-9  # of the kinetic energy: more is no rounding
@@ -42,7 +42,7 @@ def impact(
     driven, small = _driven(joints, meetings), SAME * float(np.max(np.abs(v)))
     found: list[tuple[Blow, tuple[State, ...]]] = []
     gains = False
-    for states in tries(lambda: ways(elements, choices), BLOW):
+    for states in tries(lambda: ways(elements, choices), BLOW, several(elements, choices)):
         way = blow(M, joints, meetings, v, states)
         if way is None:
             continue

@@ -6,7 +6,7 @@ is asked but evaluations, each at what it takes on a common one.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
@@ -30,18 +30,25 @@ class Endless(Exception):
     """A motion that would use up more than the budget.
 
     time: how far it got [s], until: where it should lead, needs: what all would take [s], or
-    nothing where nobody knows. ways: more than so many would have to be tried there, if that is it.
+    nothing where nobody knows. ways: more than so many would have to be tried there, if that is it,
+    and among what.
     """
 
     def __init__(
-        self, evaluations: int, time: float, until: float, needs: float | None, ways: int = 0
+        self,
+        evaluations: int,
+        time: float,
+        until: float,
+        needs: float | None,
+        ways: int = 0,
+        among: Sequence[str] = (),
     ) -> None:
         far = f" of {until:.4g}" if until else ""
         more = f" and needs {about(needs)}" if needs else ""
         if ways:
             more = f", where what touches and rubs may go on in more than {ways} ways"
         super().__init__(f"reached t = {time:.4g}{far} s after {evaluations} evaluations{more}")
-        self.time = time
+        self.time, self.ways, self.among = time, ways, among
 
 
 @dataclass
@@ -119,10 +126,11 @@ def spend(evaluations: int, time: float) -> None:
         raise Endless(purse.evaluations, time, purse.until, needs)
 
 
-def tries(ways: Callable[[], Iterator[T]], each: int) -> Iterator[T]:
+def tries(ways: Callable[[], Iterator[T]], each: int, among: Sequence[str]) -> Iterator[T]:
     """The ways in which it may go on at an instant, each tried for so many evaluations.
 
-    Raises Endless before the first one, if there are more than can be paid.
+    among: what may do one thing or another. Raises Endless before the first one, if there are more
+    than can be paid.
     """
     purse, before = _purse.get() or _Purse(math.inf, 0.0), replace(NOW)
     price = each * purse.price
@@ -135,7 +143,7 @@ def tries(ways: Callable[[], Iterator[T]], each: int) -> Iterator[T]:
     try:
         for tried, way in enumerate(ways()):
             if tried > room or count > room:
-                raise Endless(purse.evaluations, before.at, purse.until, None, most)
+                raise Endless(purse.evaluations, before.at, purse.until, None, most, among)
             purse.paid(each, price)
             if count > SHOWN:
                 reached(tried)

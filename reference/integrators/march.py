@@ -107,6 +107,7 @@ class _Walker:
     noise: Vector
     least: Vector  # noise of what is at rest
     ahead: float  # s: in which a slope that begins at zero becomes more than its rounding
+    until: float  # s: when it ends, where what begins gently is largest
     quiet: bool = True  # nothing is known of any noise
 
     def step(self, target: float) -> Step:
@@ -139,11 +140,12 @@ class _Walker:
         """Learn the rounding of the slopes: the error did not fall as the step did."""
         with np.errstate(all="ignore"):
             try:
-                far = h
+                far, later = h, np.zeros_like(self.y)
                 if not self.peak.any():  # all of rest is its rounding
                     far = max(h, self.ahead)
                     self.least = leaps(self.method.f, self.t, self.y, far)
-                found = noise(self.method.f, self.t, self.y, far, self.peak, self.least)
+                    later = np.abs(self.method.f(self.until, self.y))
+                found = noise(self.method.f, self.t, self.y, far, self.peak, self.least, later)
             except (ArithmeticError, ValueError):  # too far out, as in an attempt
                 return
         self.method.evaluations += POINTS
@@ -220,7 +222,7 @@ def march(
     first = _first_step(y, slope, size, _span(samples))
     none = np.zeros_like(y)
     ahead = AT_ONCE * _span(samples)
-    walker = _Walker(method, samples[0], y, none, np.abs(y), first, none, none, ahead)
+    walker = _Walker(method, samples[0], y, none, np.abs(y), first, none, none, ahead, samples[-1])
     taken = 0
     for target in samples[1:]:
         while walker.t < target:

@@ -19,11 +19,18 @@ POINTS = DIFFERENCED + 2  # at which a slope is asked for its noise
 
 
 def noise(
-    f: Slope, t: float, y: Vector, h: float, peak: Vector, least: Vector | float = 0.0
+    f: Slope,
+    t: float,
+    y: Vector,
+    h: float,
+    peak: Vector,
+    least: Vector | float = 0.0,
+    later: Vector | float = 0.0,
 ) -> Vector | None:
     """The rounding in f, (n,): its standard deviation, from a table of differences.
 
-    At least `least`. None where it is no small part of f: there is no solution to follow then.
+    At least `least`. None where it is no small part of f, or of what f is `later`: there is no
+    solution to follow then.
 
     J. J. More, S. M. Wild, Estimating computational noise, SIAM J. Sci. Comput. 33 (2011) 1292.
     The sixth differences of a smooth function vanish; of noise they are sqrt(12!)/6! = 30 times
@@ -39,7 +46,7 @@ def noise(
     late = math.ulp(t) / math.sqrt(12.0)  # of a clock that is rounded, evenly
     found = np.maximum(found, late * np.abs(values[-1] - values[0]) / (DIFFERENCED - 1) / pace)
     found = np.maximum(found, least)
-    largest = np.maximum(np.abs(along), np.abs(f(t + h, y + h * along)))
+    largest = np.maximum(np.maximum(np.abs(along), np.abs(f(t + h, y + h * along))), later)
     return found if found.max() <= LOUD * largest.max() < math.inf else None
 
 
@@ -48,23 +55,28 @@ def leaps(f: Slope, t: float, y: Vector, h: float) -> Vector:
 
     What stands a metre from where it is measured is there for f until it has moved by an ulp of
     that: no small step meets such a leap, and after many it comes. A state that f takes as it is
-    has none.
+    has none. So leaps a small force that grows beside a large one: in time, by an ulp of that.
     """
     rest = f(t, y)
     way = h * f(t + h, y + h * f(t + h, y + h * rest))  # in which what is pushed also moves
-    found = np.zeros_like(y)
+    found = _leap(lambda part: np.abs(f(t + part * h, y) - rest), 0)
     for j in np.flatnonzero(way):
 
-        def felt(k: int, j: Any = j) -> Vector:
+        def felt(part: float, j: Any = j) -> Vector:
             moved = y.copy()
-            moved[j] += math.ldexp(way[j], k)
+            moved[j] += part * way[j]
             return np.abs(f(t, moved) - rest)
 
-        if felt(FINE).any() or not felt(COARSE).any():
-            continue
-        low, high = FINE, COARSE
-        while high - low > 1:
-            k = (low + high) // 2
-            low, high = (low, k) if felt(k).any() else (k, high)
-        found = np.maximum(found, felt(high) / math.sqrt(12.0))
+        found = np.maximum(found, _leap(felt, COARSE))
     return found
+
+
+def _leap(felt: Callable[[float], Vector], coarse: int) -> Vector:
+    """What is felt of the least power of two, up to 2^coarse, of which anything is; 0 if any is."""
+    low, high = FINE, coarse
+    if felt(math.ldexp(1.0, low)).any() or not felt(math.ldexp(1.0, high)).any():
+        return 0.0 * felt(0.0)
+    while high - low > 1:
+        k = (low + high) // 2
+        low, high = (low, k) if felt(math.ldexp(1.0, k)).any() else (k, high)
+    return felt(math.ldexp(1.0, high)) / math.sqrt(12.0)

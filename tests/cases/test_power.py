@@ -1,5 +1,6 @@
 """Work: the quadrature against known integrals, and the powers of all forces against the energy."""
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -17,12 +18,13 @@ from textmech.cases.mistake import CaseError
 from textmech.cases.motion import Motion
 from textmech.cases.muscle import LinearMuscle, Muscle
 from textmech.cases.observe import observe
+from textmech.cases.pieces import pieces
 from textmech.cases.power import done
 from textmech.cases.scene import Scene
 from textmech.cases.space.joint import SpatialJoint
 from textmech.cases.trajectory import Trajectory
 from textmech.cases.turning import Motor, Torsion, TorsionDamper
-from textmech.reference.solve import solve
+from textmech.reference.solve import Solution, solve
 
 # Nothing slips, strikes or is carried by the ground: forces and drives do all the work. Beside each
 # what a sum over its samples leaves, measured within a factor of 3: the least are smooth.
@@ -37,17 +39,22 @@ MOVING = {
 WRONG = 0.1  # of what is done, at least: where a sign is turned
 
 
+def summed(times: Any, power: Callable[[Any], Any], *corners: float) -> Any:
+    """Work of a power in time alone."""
+    return done(Trajectory(times, {}, {}), corners, lambda rows: power(rows.times))
+
+
 def test_polynomials_of_the_fifth_degree_are_summed_exactly() -> None:
     times = np.linspace(0.3, 2.3, 21)
     for degree in range(6):
         known = (times ** (degree + 1) - 0.3 ** (degree + 1)) / (degree + 1)
-        assert np.max(np.abs(done(times, times**degree) - known)) < 1e-12 * known[-1]
+        assert np.max(np.abs(summed(times, lambda t, n=degree: t**n) - known)) < 1e-12 * known[-1]
 
 
 @pytest.mark.parametrize("samples", [1, 2, 3, 4, 5])
 def test_few_samples_have_a_polynomial_of_their_own(samples: int) -> None:
     times = np.linspace(0.0, 1.0, samples)
-    assert done(times, times ** (samples - 1))[-1] == pytest.approx(
+    assert summed(times, lambda t: t ** (samples - 1))[-1] == pytest.approx(
         1.0 / samples if samples > 1 else 0.0, abs=1e-14
     )
 
@@ -57,8 +64,36 @@ def test_it_falls_with_the_sixth_order() -> None:
     for samples in (41, 81):
         times = np.linspace(0.0, 2.0, samples)
         known = (1 - np.cos(5.0 * times)) / 5.0
-        errors.append(np.max(np.abs(done(times, np.sin(5.0 * times)) - known)))
+        errors.append(np.max(np.abs(summed(times, lambda t: np.sin(5.0 * t)) - known)))
     assert 2**5.5 < errors[0] / errors[1] < 2**7.5
+
+
+@pytest.mark.parametrize("begin", [0.0, 0.31, 0.4, 0.401, 0.449, 0.3 + 1e-13, 0.1 + 0.2])
+@pytest.mark.parametrize("length", [1e-3, 0.02, 0.05, 0.3, 0.6 - 1e-13])
+def test_a_power_that_jumps_is_summed_to_the_jump(begin: float, length: float) -> None:
+    """Of t in a pulse alone, which two rows tell: samples in it and its ends, wherever they are."""
+    times, end = np.linspace(0.0, 1.0, 21), begin + length
+
+    def power(t: Any) -> Any:
+        return np.where((t >= begin) & (t < end), t, 0.0)
+
+    known = (np.clip(times, begin, end) ** 2 - begin**2) / 2
+    assert np.max(np.abs(summed(times, power, begin, end, 0.3) - known)) < 1e-14
+
+
+def test_what_jumps_in_a_motion_is_told_from_both_sides() -> None:
+    """A place goes on through a corner, between samples or on one; a reaction need not."""
+    times, corners = np.linspace(0.0, 1.0, 21), (0.26, 0.5)
+    force = np.where(times < 0.26, times, np.where(times < 0.5, 2.0, times**3))
+    place = np.abs(times - 0.26)
+    motion = Trajectory(times, {"body": np.stack([place, -place], axis=1)}, {"push": force})
+    first, second, third = (piece.motion for piece in pieces(motion, corners))
+    assert first.times[-1] == np.nextafter(0.26, 0)
+    assert [len(each.times) for each in (first, second, third)] == [7, 6, 11]
+    np.testing.assert_allclose([first.states["body"][-1], second.states["body"][0]], 0, atol=1e-14)
+    assert first.reactions["push"][-1] == pytest.approx(0.26)
+    ends = [second.reactions["push"][-1], third.reactions["push"][0]]
+    np.testing.assert_allclose(ends, [2.0, 0.125], rtol=1e-14)
 
 
 def balance(scene: Scene, motion: Trajectory) -> float:
@@ -163,20 +198,97 @@ allow: {hand.work: ALLOWED}
 """
 
 
-@pytest.mark.slow
-def test_a_jump_between_samples_is_a_mistake_with_its_number(tmp_path: Path) -> None:
+def stated(motion: Solution, name: str) -> float:
+    """What the reference says of its own error."""
+    return next(c.certified or 0.0 for c in motion.checks if c.name == f"error of {name}")
+
+
+def test_the_samples_do_not_have_to_lie_on_jumps(tmp_path: Path) -> None:
+    """F = m v̇: 5 N for 0.42 s from 1 m/s on, between 26 samples in a second."""
     case = scenes.typed(tmp_path, FLAT.replace("ALLOWED", "1.0e-2"))
-    with pytest.raises(CaseError) as told:
-        solve(case)
-    (mistake,) = told.value.mistakes
-    assert mistake.where == "allow.hand.work"
-    assert mistake.what.endswith("or take more samples")
-    generous = scenes.typed(tmp_path, FLAT.replace("ALLOWED", "100.0"))
-    (found,) = (check for check in solve(generous).checks if check.name == "error of hand.work")
-    # F = m v̇: 5 N for 0.42 s from 1 m/s on
+    motion = solve(case)
+    work = observe(case.scene, motion.trajectory, "hand.work")[-1]
     known = ((1 + 5 * 0.42) ** 2 - 1) / 2
-    work = observe(generous.scene, solve(generous).trajectory, "hand.work")[-1]
-    assert abs(work - known) < (found.certified or 0.0)
+    assert abs(work - known) <= stated(motion, "hand.work") < 1e-9
+
+
+SWUNG = """\
+scene:
+  gravity: none
+  points: {O: [0, 0]}
+  bodies: {cart: {particle: {mass: 1.0}}}
+  joints: {rail: {slide: [ground.O, cart.center], along: [1, 0]}}
+  forces:
+    hand: {push: cart.center, pulse: {amplitude: [5.0, 0], from: BEGIN, until: END}}
+    coil: {spring: [ground.O, cart.center], stiffness: STIFF, rest_length: 0}
+initial: {cart: {x: 2.0, y: 0, vx: 1, vy: 0}}
+allow: {hand.work: 1.0e+9, coil.work: 1.0e+9}
+"""
+
+
+def swung(begin: float, end: float, stiffness: float, times: Any) -> dict[str, Any]:
+    """Work by known functions: F times the way in the pulse, and what the spring lost."""
+    w = math.sqrt(stiffness)
+
+    def after(x: float, v: float, force: float, t: Any) -> tuple[Any, Any]:
+        at, c, s = force / stiffness, np.cos(w * t), np.sin(w * t)
+        return at + (x - at) * c + v / w * s, (at - x) * w * s + v * c
+
+    one = after(2.0, 1.0, 0.0, begin)
+    two = after(*one, 5.0, end - begin)
+    pulse, beyond = after(*one, 5.0, times - begin)[0], after(*two, 0.0, times - end)[0]
+    x = np.where(times < begin, after(2.0, 1.0, 0.0, times)[0], pulse)
+    x = np.where(times < end, x, beyond)
+    hand = np.where(times < begin, 0.0, 5 * (np.where(times < end, x, two[0]) - one[0]))
+    return {"hand": hand, "coil": stiffness / 2 * (4.0 - x**2)}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("samples", [9, 26, 76])
+@pytest.mark.parametrize(
+    ("begin", "end", "stiffness"),
+    [(0.56, 0.76, 1.0), (0.015, 0.019, 400.0), (0.546, 0.855, 400.0), (0.772, 0.858, 1.0),
+     (0.112, 0.115, 400.0), (0.368, 0.370, 1.0), (0.158, 0.161, 400.0), (0.554, 0.953, 30.0),
+     (0.84, 1.04, 400.0)],
+)  # fmt: skip
+def test_the_stated_error_of_work_is_true_at_any_samples(
+    begin: float, end: float, stiffness: float, samples: int, tmp_path: Path
+) -> None:
+    """Pulses shorter and longer than a sample, on samples and between them."""
+    text = SWUNG.replace("BEGIN", repr(begin)).replace("END", repr(end))
+    text = text.replace("STIFF", repr(stiffness))
+    case = scenes.typed(tmp_path, text, tail=scenes.tail(1.0, samples))
+    motion = solve(case)
+    for name, known in swung(begin, end, stiffness, case.times).items():
+        work = observe(case.scene, motion.trajectory, f"{name}.work")
+        assert np.max(np.abs(work - known)) <= stated(motion, f"{name}.work"), name
+
+
+HELD = """\
+scene:
+  gravity: none
+  points: {O: [0, 0]}
+  bodies: {cart: {particle: {mass: 1.0}}}
+  joints: {rail: {slide: [ground.O, cart.center], along: [1, 0]}}
+  drive: {rail.speed: {constant: 1.0}}
+  forces: {hand: {push: cart.center, pulse: {amplitude: [5.0, 0], from: 0.11, until: END}}}
+initial: {rail: {shift: 0}}
+allow: {rail.work: 1.0}
+"""
+
+
+@pytest.mark.slow
+def test_a_drive_beside_a_pulse_that_no_sample_sees_is_a_mistake(tmp_path: Path) -> None:
+    """Its effort jumps twice between two samples; seen there, it gives what the hand takes."""
+    with pytest.raises(CaseError) as told:
+        solve(scenes.typed(tmp_path, HELD.replace("END", "0.115")))
+    (mistake,) = told.value.mistakes
+    assert mistake.where == "allow.rail.work"
+    assert mistake.what.endswith("take more samples")
+    case = scenes.typed(tmp_path, HELD.replace("END", "0.53"))
+    motion = solve(case)
+    work = observe(case.scene, motion.trajectory, "rail.work")[-1]
+    assert abs(work + 5 * 0.42) <= stated(motion, "rail.work") < 1e-9
 
 
 def test_it_is_none_at_an_event(tmp_path: Path) -> None:

@@ -124,7 +124,9 @@ def test_very_many_contacts_are_refused_at_once(tmp_path: Path):
     for count in (9, 12):
         case = scenes.typed(tmp_path, feet(count), tail=scenes.tail(0.2, 6))
         mistake = refused(case)
-        assert mistake.where == "duration"
+        assert mistake.where == "scene.contacts"
+        assert f"{count} elements of bodies that hang together" in mistake.what
+        assert f"(f0, f1, f2, f3, f4, f5 and {count - 6} more)" in mistake.what
         assert "what touches and rubs may go on in more than 1" in mistake.what
         assert "--allow-long" in mistake.what
 

@@ -111,14 +111,14 @@ def test_too_many_ways_end_before_the_first_is_tried() -> None:
         motion(0.0, 5.0)
         spend(1, 2.0)
         with pytest.raises(Endless, match=r"t = 2 of 5 s .* in more than 99 ways"):
-            tried += tries(lambda: iter(range(100)), 10)
-        tried += tries(lambda: iter(range(99)), 10)
+            tried += tries(lambda: iter(range(100)), 10, ())
+        tried += tries(lambda: iter(range(99)), 10, ())
     assert tried == [*range(99)]
 
 
 def test_of_ways_that_are_not_all_asked_for_only_those_tried_are_paid() -> None:
     with budget(1000, SECOND):
-        for tried in tries(lambda: iter(range(99)), 10):
+        for tried in tries(lambda: iter(range(99)), 10, ()):
             if tried == 50:
                 break
         with pytest.raises(Endless):
@@ -129,7 +129,7 @@ def test_of_ways_that_are_not_all_asked_for_only_those_tried_are_paid() -> None:
 def test_the_ways_of_an_instant_say_nothing_of_the_pace() -> None:
     with budget(300, SECOND):
         motion(0.0, 5.0)
-        assert len([*tries(lambda: iter(range(20)), 1)]) > purse.PATIENCE
+        assert len([*tries(lambda: iter(range(20)), 1, ())]) > purse.PATIENCE
         spend(1, 0.5)
 
 
@@ -138,6 +138,6 @@ def test_the_line_moves_while_ways_are_tried() -> None:
     with budget(1000, SECOND):
         motion(0.0, 5.0)
         spend(1, 2.0)
-        said = [NOW.text() for _ in tries(lambda: iter(range(101)), 1)]
+        said = [NOW.text() for _ in tries(lambda: iter(range(101)), 1, ())]
         assert said[100].startswith("the motion at 2 s, the ways to go on, at 100 of 101")
         assert NOW.text().startswith("the motion, at 2 of 5 s")

@@ -52,6 +52,30 @@ def test_what_stands_a_metre_from_where_it_is_measured_starts_from_rest(method):
     assert found.steps < 500  # 110 of the explicit method
 
 
+BOUND = 6.0  # N, beside which a force that grows slowly moves by leaps of 9e-16 N
+
+
+@BOTH
+@pytest.mark.parametrize("begins", [0.0, 0.31])
+@pytest.mark.parametrize("rate", [0.1, 1e-2, 1e-4, 1e-5, 1e-7])
+def test_a_weak_ramp_breaks_it_loose(method, rate: float, begins: float):
+    """x = rate τ³/6, to what rounding of 6 N is beside the force that moves it; in few steps.
+
+    At these rates ten looks at even distances happen to see no rounding, or all of it at first.
+    """
+    times = begins + np.linspace(0.0, 1.0, 26)
+    before = BOUND - rate * begins
+
+    def f(t: float, y: Vector) -> Vector:
+        return np.array([y[1], (before + rate * t) - BOUND])
+
+    found = method(f, times, [0.0, 0.0], tolerance=TIGHT)
+    tau = times - begins
+    late = np.spacing(BOUND)  # N: at most by so much is the force another all the time
+    assert np.max(np.abs(found.y[:, 0] - rate * tau**3 / 6)) < late
+    assert found.steps < 1000
+
+
 @pytest.mark.mutant("of a state that is zero the leaps by which its slope feels it are not heard")
 def test_without_its_leaps_it_creeps(monkeypatch: pytest.MonkeyPatch):
     """In 46,000 steps to 0.5 s, or to where they shrink to nothing."""
@@ -66,7 +90,8 @@ def test_leaps_are_those_of_the_sum_and_not_of_what_is_felt_at_once():
     ulp = 2.0**-52
     assert found[1] == pytest.approx(40 * ulp / np.sqrt(12), rel=0.5)
     assert found[0] == 0.0
-    assert not leaps(breaks_loose, ONSET, np.zeros(2), 1e-4).any()
+    clock = np.spacing(ONSET) / np.sqrt(12)  # a force that grows with the time leaps as that does
+    np.testing.assert_allclose(leaps(breaks_loose, ONSET, np.zeros(2), 1e-4), [0.0, clock])
 
 
 @pytest.mark.parametrize("size", [1e-14, 1e-10])

@@ -64,6 +64,27 @@ def test_from_anywhere_it_is_the_same_motion(tmp_path: Path, name: str, start: f
     assert len(found.changes) == 1
 
 
+WEAK = "tow: {push: block.center, constant: [MOST, 0]}, pull: {push: block.center, ramp: [RATE, 0]}"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["slide", "floor"])
+@pytest.mark.parametrize("rate", [0.1, 1e-3, 1e-5])
+def test_a_weak_ramp_breaks_it_loose_when_it_should(tmp_path: Path, name: str, rate: float):
+    """x = rate τ³/6 from 0.31 s on, where the force is the bound but for its rounding."""
+    text, friction, _ = SCENES[name]
+    bound = 3.0 if name == "slide" else 0.3 * 9.80665
+    pull = WEAK.replace("MOST", repr(bound - rate * 0.31)).replace("RATE", f"{rate:.1e}")
+    text = text.replace("FRICTION", friction).replace("PULL", pull).replace("START", "0.0")
+    times = np.linspace(0.0, 1.0, 26)
+    found = follow(scenes.mechanism(scenes.typed(tmp_path, text)), times)
+    rounding = 4 * np.spacing(bound)  # N: of the force, the bound, and both of their sums
+    known = rate * np.maximum(times - 0.31, 0.0) ** 3 / 6
+    np.testing.assert_allclose(found.y[:, 0], known, rtol=0, atol=rounding)
+    (slips,) = found.changes
+    assert slips.time == pytest.approx(0.31, abs=1e-12 + rounding / rate)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("start", [0.0, 0.1])
 def test_a_spring_pulls_it_loose(tmp_path: Path, start: float):
