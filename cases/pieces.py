@@ -15,9 +15,7 @@ import numpy as np
 from .trajectory import Array, Trajectory
 
 AROUND = 6  # samples in a polynomial: of fifth degree
-NEAR = (
-    0.1  # of the distance of two samples, or of a piece: a corner closer to a sample tells little
-)
+NEAR = 0.1  # of two samples' distance, or a piece's: a corner nearer to a sample tells little
 ROUNDED = 1e-14  # of the motion: two times nearer than this are one instant
 GENTLE = 10.0  # distances of two samples in which what moves may change much: it is well sampled
 

@@ -128,7 +128,10 @@ def finely(times: Array, corners: Iterable[float], *, whole: bool) -> Array:
             edges = np.union1d(edges, corner)
     sampled = np.isin(edges, times)
     counts = np.where(sampled[1:] & sampled[:-1] & whole, 1, QUARTERS)
-    gaps = [np.linspace(a, b, n, endpoint=False) for (a, b), n in zip(pairwise(edges), counts)]  # noqa: B905
+    gaps = [
+        np.linspace(a, b, n, endpoint=False)
+        for (a, b), n in zip(pairwise(edges), counts, strict=True)
+    ]
     return np.append(np.concatenate(gaps), times[-1])
 
 

@@ -12,8 +12,8 @@ import numpy as np
 
 from ..system import Array
 from .element import Element, State, sign
-from .leeway import FITS, Leeway
-from .loose import NONE, rank
+from .leeway import FITS, Leeway, sized
+from .loose import NONE, rank, unit
 
 CONE = 1e-12  # of the impulses: one that needs all of the cone sticks
 ROUNDING = 1e-12  # of the velocities
@@ -121,9 +121,8 @@ def _rows(
 def _solved(M: Array, rows: _Rows, v: Array) -> tuple[Array, Array, Array]:
     """q̇⁺ (n,), the least impulses (r,) that give it, and those (k, r) that change no row's rate."""
     root = np.sqrt(M)
-    sizes = np.linalg.norm(rows.f / root, axis=1)
-    sizes = np.where(sizes > 0.0, sizes, 1.0)
-    f, columns = (part / root / sizes[:, None] for part in (rows.f, rows.columns))
+    f, sizes = unit(rows.f / root)
+    columns = rows.columns / root / sizes[:, None]
     across, s, along = np.linalg.svd(f @ columns.T)
     k = min(rank(f), int(np.sum(s > NONE * s[0])))
     v_after, impulse = v, np.zeros(len(f))
@@ -158,8 +157,7 @@ def _allowed(
     one = left(v_after, impulse)
     if not len(ways):
         return Blow(v_after) if np.all(one >= -ROUNDING) else None
-    ways = ways * size / np.max(np.abs(ways), axis=1, keepdims=True)
-    others = [(v_after + way @ rows.columns / M, impulse + way) for way in ways]
+    others = [(v_after + way @ rows.columns / M, impulse + way) for way in sized(ways, size)]
     slope = np.array([left(*other) - one for other in others]).T
     places = [str(i) for i in range(len(v))]
     own, *told = (

@@ -12,7 +12,7 @@ from .leeway import FITS
 from .loose import DEPENDENT, rank
 from .mode import SingularPose
 from .modes import Modes
-from .sharing import several, ways
+from .sharing import undecided, ways
 
 MODE = 50  # evaluations: of building a mode and asking it, of one to eight bodies (measured 25–45)
 YIELDS = 1e-8  # of the forces: where events are located a margin is 0 to some 1e-10 of them
@@ -99,7 +99,7 @@ def settled(
     found: list[After] = []
     singular: SingularPose | None = None
     hopeless, known = False, {*modes}
-    free = several(modes.elements, choices)
+    free = undecided(modes.elements, choices)
     for states in tries(lambda: ways(modes.elements, choices), MODE, free):
         after = _projected(modes, states, t, q, v)
         try:

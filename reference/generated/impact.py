@@ -17,7 +17,7 @@ from ..integrators.budget import tries
 from ..system import Array
 from .blow import SAME, Blow, Condition, Meeting, blow
 from .element import State
-from .sharing import several, ways
+from .sharing import undecided, ways
 
 BLOW = 5  # evaluations: of solving for the impulses of a blow (measured 3–6)
 GAIN = 1e-9  # of the kinetic energy: more is no rounding
@@ -36,13 +36,13 @@ def impact(
 ) -> tuple[Array, tuple[State, ...]]:
     """q̇⁺ (n,) and what each of the contacts does after it.
 
-    Raises NoImpact.
+    Raises NoImpact, and Several of them.
     """
     elements, choices = [meeting.element for meeting in meetings], _choices(meetings)
     driven, small = _driven(joints, meetings), SAME * float(np.max(np.abs(v)))
     found: list[tuple[Blow, tuple[State, ...]]] = []
     gains = False
-    for states in tries(lambda: ways(elements, choices), BLOW, several(elements, choices)):
+    for states in tries(lambda: ways(elements, choices), BLOW, undecided(elements, choices)):
         way = blow(M, joints, meetings, v, states)
         if way is None:
             continue
@@ -66,7 +66,7 @@ def impact(
         raise NoImpact(what)
     (first, states), *others = found
     if others or first.loose:
-        raise Several(_several(meetings, [states for _, states in found]))
+        raise Several(_ambiguous(meetings, [states for _, states in found]))
     return first.v, states
 
 
@@ -88,7 +88,7 @@ def _lets_go(known: Sequence[State], states: Sequence[State]) -> bool:
     return all(pair == ("acts", "open") for pair in pairs)
 
 
-def _several(meetings: Sequence[Meeting], found: Sequence[Sequence[State]]) -> str:
+def _ambiguous(meetings: Sequence[Meeting], found: Sequence[Sequence[State]]) -> str:
     """`…: left sticks, right sticks as well as left sticks, right open`."""
     names = [m.element.name for m in meetings]
     each = (

@@ -105,16 +105,21 @@ def _best(cost: Array, rows: Array, bound: Array, most: float | None = None) -> 
     return found.x
 
 
+def sized(ways: Array, size: float) -> Array:
+    """Ways (k, r), the largest part of each of this size, so that margins can be seen in them."""
+    return ways * (size / np.max(np.abs(ways), axis=1, keepdims=True))
+
+
 EXACT = {"primal_feasibility_tolerance": FITS, "dual_feasibility_tolerance": FITS}
 
 
 def leeway(
-    one: Mapping[str, float],
-    others: Sequence[Mapping[str, float]],
-    margins: Margins,
-    size: float,
+    told: Callable[[Array], Mapping[str, float]], multipliers: Array, ways: Array, margins: Margins
 ) -> Leeway:
-    """What is left open between forces that all give the same motion."""
+    """What ways (k, r) that move nothing leave open of the forces told of multipliers (r,)."""
+    one = told(multipliers)
+    size = max(map(abs, one.values()), default=0.0) or 1.0
+    others = [told(multipliers + way) for way in sized(ways, size)]
     left = np.array(margins(one), dtype=float)
     slope = np.array([margins(other) for other in others], dtype=float)
     slope = slope.reshape(len(others), len(left)).T  # a bar between two hinges has no margins

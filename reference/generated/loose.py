@@ -32,9 +32,14 @@ def even(rows: Array, where: Coordinates) -> Array:
             body = where.scene.bodies[name]
             assert body.inertia is not None
             units[phi] = np.sqrt(body.mass / body.inertia)
-    found: Array = np.asarray(rows, dtype=np.float64) * units
-    sizes = np.linalg.norm(found, axis=1, keepdims=True)
-    return found / np.where(sizes > 0.0, sizes, 1.0)
+    return unit(np.asarray(rows, dtype=np.float64) * units)[0]
+
+
+def unit(rows: Array) -> tuple[Array, Array]:
+    """The rows (r, n), each of the size 1, and what they are divided by for that (r,)."""
+    sizes = np.linalg.norm(rows, axis=1)
+    sizes = np.where(sizes > 0.0, sizes, 1.0)
+    return rows / sizes[:, None], sizes
 
 
 def rank(rows: Array) -> int:
@@ -130,23 +135,18 @@ class Loose(Multibody):
 
     def leeway(self, t: float, q: Array, v: Array) -> Leeway:
         """All forces that there may be."""
-        multipliers = self.solve(t, q, v)[1]
-        ways = self.idle(t, q, v)
-        one = self.told(t, q, v, multipliers.tolist())
-        size = max(map(abs, one.values()), default=0.0) or 1.0
-        ways *= size / np.max(np.abs(ways), axis=1, keepdims=True)
-        others = [self.told(t, q, v, (multipliers + way).tolist()) for way in ways]
-        return leeway(one, others, self.margins, size)
+        multipliers, ways = self.solve(t, q, v)[1], self.idle(t, q, v)
+        return leeway(
+            lambda each: self.told(t, q, v, each.tolist()), multipliers, ways, self.margins
+        )
 
     def _scaled(self, t: float, q: Array, v: Array) -> tuple[Array, Array, Array, Array]:
         """f_a M^(−½), γ and what a unit of each multiplier exerts; and the rows' sizes (r,)."""
         rows, _, gamma = self.rows(t, q, v)
         columns: Any = self.holding.columns(t, q, v, rows)
         root = np.sqrt(self._M)
-        sizes = np.linalg.norm(rows / root, axis=1)
-        sizes = np.where(sizes > 0.0, sizes, 1.0)
-        each = sizes[:, None]
-        return rows / root / each, gamma / sizes, columns / root / each, sizes
+        each, sizes = unit(rows / root)
+        return each, gamma / sizes, columns / root / sizes[:, None], sizes
 
 
 def independent(mode: Multibody, t: float, q: Vector, v: Vector) -> int:

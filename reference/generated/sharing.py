@@ -92,7 +92,7 @@ def _rubs(e: Element, state: State) -> bool:
     return e.normal is not None and not e.only and not e.frictionless and state != "open"
 
 
-def several(elements: Sequence[Element], choices: Sequence[Sequence[State]]) -> list[str]:
+def undecided(elements: Sequence[Element], choices: Sequence[Sequence[State]]) -> list[str]:
     """The elements that may do one thing or another."""
     both = zip(elements, choices, strict=True)
     return [element.name for element, choice in both if len(choice) > 1]

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from given import scenes
 
+from textmech.cases import observe as looking
 from textmech.cases.couple import Couple
 from textmech.cases.drag import Drag, Viscous
 from textmech.cases.force import Damper, Force, Push, Spring, Torque
@@ -24,6 +25,7 @@ from textmech.cases.scene import Scene
 from textmech.cases.space.joint import SpatialJoint
 from textmech.cases.trajectory import Trajectory
 from textmech.cases.turning import Motor, Torsion, TorsionDamper
+from textmech.reference.certificate import errors
 from textmech.reference.solve import Solution, solve
 
 # Nothing slips, strikes or is carried by the ground: forces and drives do all the work. Beside each
@@ -210,6 +212,20 @@ def test_the_samples_do_not_have_to_lie_on_jumps(tmp_path: Path) -> None:
     work = observe(case.scene, motion.trajectory, "hand.work")[-1]
     known = ((1 + 5 * 0.42) ** 2 - 1) / 2
     assert abs(work - known) <= stated(motion, "hand.work") < 1e-9
+
+
+@pytest.mark.mutant("corners of laws left out of a work")
+def test_a_work_that_takes_no_heed_of_corners_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The reference says of itself that it knows the work no better than a part of a sample."""
+    case = scenes.typed(tmp_path, FLAT.replace("ALLOWED", "100.0"))
+    monkeypatch.setattr(looking, "corners", lambda *_: set[float]())
+    monkeypatch.setattr(errors, "corners", lambda *_: set[float]())
+    motion = solve(case)
+    work = observe(case.scene, motion.trajectory, "hand.work")[-1]
+    off = abs(work - ((1 + 5 * 0.42) ** 2 - 1) / 2)
+    assert 1e-3 < off <= stated(motion, "hand.work")
 
 
 SWUNG = """\

@@ -62,6 +62,15 @@ def test_given(body: Body, turns: bool) -> None:
     assert body.inertia == (0.2 if turns else None)
 
 
+def test_about_a_point_it_resists_by_the_pieces_that_it_has() -> None:
+    """Σ d² dm of a bar about its end and about a point off its line: J of its centre + m d²."""
+    rod = shape.bar(name="rod", mass=1.3, length=2.0, points={"off": (0.3, 0.8)})
+    x, dm = midpoints(2.0), 1.3 / N
+    assert rod.about("start") == pytest.approx(float(np.sum((x + 1.0) ** 2) * dm), rel=1e-6)
+    off = float(np.sum((x - 0.3) ** 2 + 0.8**2) * dm)
+    assert rod.about("off") == pytest.approx(off, rel=1e-6)
+
+
 def test_corners_of_a_block() -> None:
     """Its mass lies between them, and they are where their names say."""
     box = shape.block(name="box", mass=1.0, width=0.4, height=0.6, points={})

@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Callable
+from typing import get_args
 from xml.etree import ElementTree as ET
 
 import mujoco
@@ -20,11 +21,14 @@ from given.scenes import SHIPPED
 from textmech.cases.frame import SPACE
 from textmech.cases.scene import Scene
 from textmech.cases.shape import bar
+from textmech.cases.signal import Law, Signal
 from textmech.cases.space.rotation import matrix
 from textmech.cases.space.scene import SpatialScene
 from textmech.engines.engine import Engine, Start
 from textmech.engines.mujoco.drive import controls
+from textmech.engines.mujoco.force import BY_ITSELF
 from textmech.engines.mujoco.law.signal import Corners, following, installed, together
+from textmech.engines.mujoco.script import controls as callback
 from textmech.engines.mujoco.space.scene import signals as controls_in_space
 from textmech.reports.trial.start import assembled
 
@@ -156,6 +160,42 @@ def test_a_script_in_space_says_its_sines(name: str) -> None:
 @pytest.mark.parametrize("name", SINES)
 def test_a_sine_that_is_not_pasted_is_seen(name: str) -> None:
     assert turned(name, lambda text: text.replace("= math.sin", "= 0 * math.sin")) > 1e-3
+
+
+LAWS = {
+    "sine": Signal("sine", (1.0,), angular_frequency=3.0, phase=0.4),
+    "step": Signal("step", (1.0,), times=(0.7,)),
+    "pulse": Signal("pulse", (1.0,), times=(0.2, 0.7)),
+    "polynomial": Signal("polynomial", (1.0,), values=(0.3, -2.0, 0.0, 1.5)),
+    "table": Signal("table", (1.0,), times=(0.1, 0.4, 0.8), values=(1.0, -2.0, 0.5)),
+}
+MOTOR = """<mujoco><worldbody><body><joint name="j"/><geom size="1"/></body></worldbody>
+<actuator><motor name="m" joint="j"/></actuator></mujoco>"""
+
+
+def pasted(law: Signal, times: list[float]) -> list[float]:
+    """The control that the printed callback sets at these times."""
+    model = mujoco.MjModel.from_xml_string(MOTOR)
+    data, space = mujoco.MjData(model), {}
+    text = callback(model, [law]).split("<!--")[-1].split("-->")[0]
+    exec(text.replace("mujoco.set_mjcb_control(control)", ""), space)
+    found = []
+    for data.time in times:
+        space["control"](model, data)
+        found.append(float(data.ctrl[0]))
+    return found
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_a_script_says_each_law_in_time(name: str) -> None:
+    """Before and after each corner and on it, and outside of all."""
+    times = [0.0, 0.1, 0.15, 0.2, 0.3, 0.4, 0.69, 0.7, 0.75, 0.8, 2.0]
+    known = LAWS[name].at(np.array(times))[:, 0]
+    np.testing.assert_allclose(pasted(LAWS[name], times), known, rtol=0, atol=1e-14)
+
+
+def test_each_law_that_a_callback_follows_is_asked() -> None:
+    assert {*LAWS, *BY_ITSELF} == {*get_args(Law)}
 
 
 HOSTILE = 'a\nimport os\r--> <b/> <!-- --- \x00 \x1b[31m  \x85 \'""" end -'

@@ -7,14 +7,13 @@ say (`leeway`), as in the plane.
 import numpy as np
 
 from ...system import Array
-from ..loose import DEPENDENT
+from ..loose import DEPENDENT, rank, unit
 from .coordinates import SpatialCoordinates
 
 
-def rank(rows: Array, sizes: Array) -> int:
-    """How many of the rows (r, n) are independent, each of the size 1, along velocities / sizes."""
-    s = np.linalg.svd(_even(rows, sizes)[0], compute_uv=False)
-    return int(np.sum(s > DEPENDENT * s[0])) if len(s) else 0
+def independent(rows: Array, sizes: Array) -> int:
+    """How many of the rows (r, n) are independent, of velocities / sizes."""
+    return rank(unit(rows * sizes)[0])
 
 
 def unit_sizes(where: SpatialCoordinates) -> Array:
@@ -28,7 +27,7 @@ def solved(
     M: Array, rows: Array, gamma: Array, Q: Array, sizes: Array
 ) -> tuple[Array, Array, Array]:
     """v̇ (n,), the least λ (r,) that give it, and those (k, r) that together exert nothing."""
-    even, each = _even(rows, sizes)
+    even, each = unit(rows * sizes)
     across, s, along = np.linalg.svd(even)
     k = int(np.sum(s > DEPENDENT * s[0]))
     free = along[k:] * sizes  # (n − k, n), the ways that the rows leave
@@ -37,11 +36,3 @@ def solved(
         a = a + np.linalg.solve(free @ M @ free.T, free @ (Q - M @ a)) @ free
     multipliers = across[:, :k] @ ((along @ (sizes * (M @ a - Q)))[:k] / s[:k])
     return a, multipliers / each, across[:, k:].T / each
-
-
-def _even(rows: Array, sizes: Array) -> tuple[Array, Array]:
-    """The rows without units, each of the size 1, and their sizes (r,)."""
-    found = rows * sizes
-    each = np.linalg.norm(found, axis=1)
-    each = np.where(each > 0.0, each, 1.0)
-    return found / each[:, None], each

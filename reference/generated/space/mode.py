@@ -16,7 +16,7 @@ from .coordinates import SpatialCoordinates
 from .equations import Equations
 from .held import held
 from .kinematics import Layout, carried
-from .loose import rank, solved, unit_sizes
+from .loose import independent, solved, unit_sizes
 from .turning import Turn, wound
 
 
@@ -113,16 +113,17 @@ class SpatialMultibody(Mode):
         """All forces that the rows leave open, and floors that only push; None: one of each."""
         bodies = self.layout.bodies(q, v)
         rows, _, gamma = self.constraints.at(t, bodies)
-        if not len(rows) or rank(rows, self._sizes) == len(rows):
+        if not len(rows) or independent(rows, self._sizes) == len(rows):
             return None
         Q = self._applied(t, v, bodies)
         _, multipliers, ways = solved(self.where.M, rows, gamma, Q, self._sizes)
-        one = self._told(t, bodies, multipliers)
-        size = max(map(abs, one.values()), default=0.0) or 1.0
-        ways *= size / np.max(np.abs(ways), axis=1, keepdims=True)
-        others = [self._told(t, bodies, multipliers + way) for way in ways]
         floors = [f"{name}.normal" for name in self.scene.contacts]
-        return leeway(one, others, lambda forces: [forces[name] for name in floors], size)
+        return leeway(
+            lambda each: self._told(t, bodies, each),
+            multipliers,
+            ways,
+            lambda forces: [forces[name] for name in floors],
+        )
 
     def _told(self, t: float, bodies: Any, multipliers: Array) -> dict[str, float]:
         found = self.constraints.reactions(t, bodies, multipliers)

@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from textmech.cases.mistake import CaseError
 from textmech.reference import determined
+from textmech.reference.generated.space import mode as spatial
 from textmech.reference.generated.space.loose import solved, unit_sizes
 from textmech.reference.generated.space.mode import SpatialMultibody
 from textmech.reference.solve import solve
@@ -214,6 +215,19 @@ def test_a_case_that_asks_for_an_open_force_is_refused_as_in_the_plane(
     with pytest.raises(CaseError, match=rf"{force}: anything, in N") as refused:
         solve(case)
     assert [mistake.where for mistake in refused.value.mistakes] == [f"allow.{force}"]
+
+
+@pytest.mark.mutant("rows in space that repeat each other counted as independent")
+def test_an_open_force_taken_for_determined_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is not told as what it is, and its motion has equations that are singular."""
+    held_anyhow(monkeypatch)
+    monkeypatch.setattr(spatial, "independent", lambda rows, _: len(rows))
+    text = HELD.format(**HINGES, more=", h.fz: 1.0")
+    with pytest.raises(CaseError) as refused:
+        solve(scenes.typed(tmp_path, text, tail=scenes.tail(0.1, 3)))
+    assert "anything" not in str(refused.value)
 
 
 ONE = """\
