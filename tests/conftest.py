@@ -1,5 +1,6 @@
-"""The tests write nothing in the checkout."""
+"""The tests write nothing in the checkout, and strike what they start by Ctrl-C."""
 
+import signal
 from pathlib import Path
 
 import pytest
@@ -8,5 +9,7 @@ from given.checkout import Unchanged
 
 def pytest_configure(config: pytest.Config) -> None:
     """Of the session itself: its workers would see each other's moment."""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # begun by `&`; it is inherited
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     if not hasattr(config, "workerinput"):
         config.pluginmanager.register(Unchanged(Path(__file__).parents[1]))
