@@ -109,6 +109,7 @@ class _Walker:
     ahead: float  # s: in which a slope that begins at zero becomes more than its rounding
     until: float  # s: when it ends, where what begins gently is largest
     quiet: bool = True  # nothing is known of any noise
+    begun: bool = False  # a step was accepted
 
     def step(self, target: float) -> Step:
         """Take one step towards `target`, landing on it exactly with the last."""
@@ -141,7 +142,7 @@ class _Walker:
         with np.errstate(all="ignore"):
             try:
                 far, later = h, np.zeros_like(self.y)
-                if not self.peak.any():  # all of rest is its rounding
+                if not self.begun:  # a step this short may see no rounding at all
                     far = max(h, self.ahead)
                     self.least = leaps(self.method.f, self.t, self.y, far)
                     later = np.abs(self.method.f(self.until, self.y))
@@ -182,6 +183,7 @@ class _Walker:
         # A step cut short by a sample says little about how far the method could have gone.
         self.wanted = max(h * factor, self.wanted) if factor == GROW else h * factor
         self.t, self.y, self.low, self.peak = t, y, low, peak
+        self.begun = True
         return done
 
 

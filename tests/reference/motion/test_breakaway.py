@@ -5,9 +5,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from given import scenes
+from scipy.optimize import brentq
 
 from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.integrators import march
 from textmech.reference.motion.follow import Followed, follow
+from textmech.reference.motion.stuck import Stuck
 from textmech.reference.system import System
 from textmech.reference.systems.anisotropic_drift import AnisotropicDrift
 from textmech.reference.systems.dynamometer import Dynamometer
@@ -83,6 +86,54 @@ def test_a_weak_ramp_breaks_it_loose_when_it_should(tmp_path: Path, name: str, r
     np.testing.assert_allclose(found.y[:, 0], known, rtol=0, atol=rounding)
     (slips,) = found.changes
     assert slips.time == pytest.approx(0.31, abs=1e-12 + rounding / rate)
+
+
+def slips(omega: float, excess: float, end: float) -> list[float]:
+    """When a force of 3 (1 + excess) sin ω t slips against 3 N, and when it rests again [s].
+
+    It slips from a time d before each peak; v = 3 (1 + excess) (sin ω τ + sin ω d)/ω − 3 (τ + d)
+    is zero again at about 2 d behind it.
+    """
+    d = np.arccos(1.0 / (1.0 + excess)) / omega
+
+    def v(tau: float) -> float:
+        both = np.sin(omega * tau) + np.sin(omega * d)
+        return 3.0 * (1.0 + excess) / omega * both - 3.0 * (tau + d)
+
+    peaks = np.arange(np.pi / 2, omega * end, np.pi) / omega
+    return np.ravel([peaks - d, peaks + brentq(v, d, 3 * d)], order="F").tolist()
+
+
+@pytest.mark.parametrize("excess", [1e-6, 1e-8, 1e-10])
+@pytest.mark.parametrize(("omega", "samples", "start"), [(3, 6, 0), (5, 101, 0.1), (5, 3, 0)])
+def test_slips_are_counted_however_short(
+    tmp_path: Path, omega: float, samples: int, start: float, excess: float
+):
+    """The later slips begin where an earlier one ended: a place of 1e-17 m is not rest at zero."""
+    most = 3 * (1 + excess)
+    push = f"push: {{push: block.center, sine: {{amplitude: [{most!r}, 0], "
+    text = SLIDE.replace("FRICTION", "kinetic: 3").replace("START", str(start))
+    text = text.replace("PULL", push + f"angular_frequency: {omega}}}}}")
+    times = np.linspace(0.0, 2.0, samples)
+    found = [c.time for c in follow(scenes.mechanism(scenes.typed(tmp_path, text)), times).changes]
+    # Some rounding of 3 N, over how fast the push passes them: m ω √(2 excess) 3 N.
+    late = 8 * np.spacing(3.0) / (3 * omega * np.sqrt(2 * excess))
+    assert found == pytest.approx(slips(omega, excess, 2.0), rel=0, abs=1e-12 + late)
+
+
+@pytest.mark.mutant("the rounding of a slope is heard beyond the first step only of rest at zero")
+def test_short_slips_are_missed_within_a_first_step(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    sound = march._Walker._listen
+
+    def within(walker: march._Walker, h: float) -> None:
+        walker.begun = walker.begun or bool(walker.peak.any())
+        sound(walker, h)
+
+    monkeypatch.setattr(march._Walker, "_listen", within)
+    with pytest.raises((AssertionError, Stuck)):
+        test_slips_are_counted_however_short(tmp_path, 3.0, 6, 0.0, 1e-8)
 
 
 @pytest.mark.slow
