@@ -2,6 +2,8 @@
 VENV := .venv
 PYTHON ?= python3
 READY := $(VENV)/.ready
+# What is compiled is kept: else every worker compiles all modules and all tests anew.
+unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: reports advice test test-slow test-all processors quick lint mutants speed bench install clean
 

@@ -1,7 +1,8 @@
 """What pytest collects of a case file: its cases, and in which ways each engine runs them."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,8 @@ from ..cases.case import Case
 from ..cases.load import load
 from ..cases.mistake import CaseError
 from ..engines.engine import Engine, Plan, Refusal, Start
+from .cache.key import Keys
+from .cache.store import Store
 from .coverage import countable
 from .pool import Died, local, spread
 from .selection import ENGINES, HANDWRITTEN, choose_book, choose_engines
@@ -23,6 +26,9 @@ from .trial.work import too_long
 Key = tuple[str, str, str, str, str]
 """Case, engine, setting, realisation, quantity."""
 
+Ways = tuple[tuple[str, bool], ...]
+"""How an engine runs a case: in which realisations, and whether it does or refuses."""
+
 
 @dataclass(frozen=True)
 class _Asked:
@@ -35,10 +41,44 @@ class _Asked:
         return f"{self.case.name} in {self.engine.name}.{self.engine.setting}"
 
 
+@dataclass(frozen=True)
+class Earlier:
+    """What earlier sessions have asked of the engines, in a store; of none each is asked anew."""
+
+    store: Store | None
+    keys: Keys
+    new: dict[str, Ways] = field(default_factory=dict)
+
+    @staticmethod
+    def of(store: Store | None) -> "Earlier":
+        """What lies in a store, for the code and the engines as they are now."""
+        return Earlier(store, Keys.now(store))
+
+    def ways(self, asked: Callable[[], _Asked], case: Case, engine: Engine) -> Ways:
+        """How the engine runs the case; `asked` is called where nobody has asked before."""
+        key = self.keys.collected(case, engine) if self.store else ""
+        found = self.store.get(key, Ways) if self.store else None
+        if found is not None:
+            return found
+        told = (_apart if installed.foreign(engine.name) else _ways)(asked())
+        if isinstance(told, Died):  # it may not do so again
+            return (("native", False),)
+        self.new[key] = tuple((way.realised, isinstance(way, Plan)) for way in told)
+        return self.new[key]
+
+    def keep(self) -> None:
+        """What was asked now, for the next session."""
+        if self.store and self.new and self.keys.hold():
+            for key, ways in self.new.items():
+                self.store.put(key, ways)
+        self.new.clear()
+
+
 def collected(
     path: Path,
     names: Sequence[str],
     wanted: Sequence[str],
+    earlier: Earlier,
     *,
     long: bool,
     write: Callable[[str], Any],
@@ -55,25 +95,30 @@ def collected(
         if mistakes := too_long(cases, engines):
             raise CaseError(mistakes)
         book = choose_book(names, [])
-        return [(case, [*_keys(case, producers(case, engines, book=book))]) for case in cases]
+        rows = [[*_keys(case, producers(case, engines, book=book), earlier)] for case in cases]
+        earlier.keep()
+        return list(zip(cases, rows, strict=True))
 
 
-def _keys(case: Case, engines: Sequence[Engine]) -> Iterator[Key]:
-    start = assembled(case)
+def _keys(case: Case, engines: Sequence[Engine], earlier: Earlier) -> Iterator[Key]:
+    start = cache(partial(assembled, case))
     for engine in engines:
-        asked = _Asked(engine, case, start)
-        for way in _apart(asked) if installed.foreign(engine.name) else _ways(asked):
-            audit = () if isinstance(way, Refusal) else ("audit",)
+
+        def asked(engine: Engine = engine) -> _Asked:
+            return _Asked(engine, case, start())
+
+        for realised, runs in earlier.ways(asked, case, engine):
+            audit = ("audit",) if runs else ()
             for quantity in (*audit, *judged_names(case)):
-                yield case.name, engine.name, engine.setting, way.realised, quantity
+                yield case.name, engine.name, engine.setting, realised, quantity
 
 
 def _ways(asked: _Asked) -> tuple[Plan | Refusal, ...]:
     return ways_of(asked.engine, asked.case, asked.start)
 
 
-def _apart(asked: _Asked) -> tuple[Plan | Refusal, ...]:
+def _apart(asked: _Asked) -> tuple[Plan | Refusal, ...] | Died:
     """In a process of their own: what somebody else's engine does is not this session's end."""
     with local(1) as executor:
         ((_, found),) = spread(_ways, [asked], executor)
-    return (Refusal("native", found.because),) if isinstance(found, Died) else found
+    return found

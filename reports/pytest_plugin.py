@@ -22,10 +22,13 @@ from .pytest_options import pytest_addoption as pytest_addoption
 
 if TYPE_CHECKING:
     from ..cases.case import Case
+    from .collecting import Earlier
     from .row import Comparison
     from .suite import Report
 
 _REPORT = pytest.StashKey["Report"]()
+_ROWS = pytest.StashKey[dict[tuple[str, ...], "Comparison"]]()
+_EARLIER = pytest.StashKey["Earlier"]()
 _FOLDER = pytest.StashKey[Path]()
 _ERRORS = os.dup(2) if sys.stderr is not None else -1  # before pytest takes it
 _SHARED = "textmech_shared"  # what a worker of xdist is told: the session's own folder
@@ -87,11 +90,11 @@ class CaseFile(pytest.File):
         from ..cases.mistake import CaseError
         from .collecting import collected
 
-        option = self.config.getoption
+        option, earlier = self.config.getoption, _earlier(self.session)
         long, names = bool(option("textmech_allow_long")), option("textmech_engine") or []
         wanted = option("textmech_case") or []
         try:
-            found = collected(self.path, names, wanted, long=long, write=_tell)
+            found = collected(self.path, names, wanted, earlier, long=long, write=_tell)
         except CaseError as error:
             raise self.CollectError(str(error)) from None
         for case, keys in found:
@@ -101,6 +104,17 @@ class CaseFile(pytest.File):
                 how = "" if realised == "native" else f".{realised}"
                 name = f"{case.name}-{engine}.{setting}{how}-{quantity}"
                 yield ComparisonItem.from_parent(self, name=name, case=case, key=key)
+
+
+def _earlier(session: pytest.Session) -> "Earlier":
+    """What the engines need not be asked again, the same for all files of the session."""
+    from .cache.store import usable
+    from .collecting import Earlier
+
+    if _EARLIER not in session.stash:
+        cached = not session.config.getoption("textmech_no_cache")
+        session.stash[_EARLIER] = Earlier.of(usable() if cached else None)
+    return session.stash[_EARLIER]
 
 
 class CaseItem(pytest.Item):
@@ -168,7 +182,7 @@ class ComparisonItem(CaseItem):
         from .show.terminal import line
         from .show.text import row_text
 
-        row = _row(self.report(), self.key)
+        row = self.row()
         if row.verdict == FAILS:
             place = f"{self.path}:{self.place('allow', row.quantity)}"
             raise RowError(f"{place}: {row.quantity}\n{row_text(row)}")
@@ -181,18 +195,20 @@ class ComparisonItem(CaseItem):
         if row.verdict not in (AGREES, DEVIATES):
             pytest.xfail(line(row))
 
+    def row(self) -> "Comparison":
+        """Its row. Raises RowError where the case has no reference, and so not all rows."""
+        from .committed import key_of
+
+        report, stash = self.report(), self.session.stash
+        if _ROWS not in stash:
+            stash[_ROWS] = {key_of(row): row for row in report.comparisons}
+        if self.key not in stash[_ROWS]:
+            name = self.case.name
+            raise RowError(f"{name}: there is no reference: {report.lost[name]}")
+        return stash[_ROWS][self.key]
+
     def reportinfo(self) -> tuple[Path, int, str]:
         return self.path, self.place("allow", self.key[-1]) - 1, f"case {self.name}"
-
-
-def _row(report: "Report", key: tuple[str, ...]) -> "Comparison":
-    """The row of that key. Raises RowError where the case has no reference, and so not all rows."""
-    from .committed import key_of
-
-    for row in report.comparisons:
-        if key_of(row) == key:
-            return row
-    raise RowError(f"{key[0]}: there is no reference: {report.lost[key[0]]}")
 
 
 def measured(session: pytest.Session) -> "Report":

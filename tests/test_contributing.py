@@ -2,18 +2,24 @@
 
 import ast
 import re
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 TEXT = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-TREES = {
-    str(file.relative_to(ROOT)): ast.parse(file.read_text(encoding="utf-8"))
-    for room in ("cases", "reference", "engines", "reports")
-    for file in sorted((ROOT / room).rglob("*.py"))
-}
 # The dataclasses of reports/row.py.
 ROWS = {"Comparison", "Rungs", "Certificate", "Instant", "Cause", "Advice"}
 BOUNDS = {"forward", "backward"}  # the numbers of a law of dry friction
+
+
+@cache
+def trees() -> dict[str, ast.AST]:
+    """The programs of the four rooms."""
+    return {
+        str(file.relative_to(ROOT)): ast.parse(file.read_text(encoding="utf-8"))
+        for room in ("cases", "reference", "engines", "reports")
+        for file in sorted((ROOT / room).rglob("*.py"))
+    }
 
 
 def listed(what: str) -> set[str]:
@@ -41,12 +47,12 @@ def test_every_path_exists() -> None:
 
 
 def test_rows_are_filled_where_it_says() -> None:
-    filled = {file for file, tree in TREES.items() if makes(tree)}
+    filled = {file for file, tree in trees().items() if makes(tree)}
     assert filled | {"reports/row.py"} == listed("a column of a report")
 
 
 def test_a_law_of_friction_is_where_it_says() -> None:
     """But for the engines' own folders: what an engine knows of friction is its own."""
-    told = {file for file, tree in TREES.items() if reads(tree) and file.count("/") < 2}
-    told |= {f for f, tree in TREES.items() if f.startswith("reference/") and reads(tree)}
+    told = {file for file, tree in trees().items() if reads(tree) and file.count("/") < 2}
+    told |= {f for f, tree in trees().items() if f.startswith("reference/") and reads(tree)}
     assert told | {"cases/friction.py", "reference/laws/friction.py"} == listed("a law of friction")

@@ -29,6 +29,7 @@ ROWS = tuple(f"reports/{name}.py" for name in ("row", "unit", "pins", "limit", "
 JUDGING = ("engines/*.py", "reports/trial", "reports/judge", "reports/events", *ROWS)
 SEARCHING = ("reports/search", *JUDGING)
 TRYING = ("reports/search/candidate.py", "reports/search/errors.py")
+COLLECTING = ("reports/collecting.py",)
 ROUNDING = ("NPY_", "OPENBLAS_", "OMP_", "MKL_", "BLIS_", "GLIBC_TUNABLES", "LD_", "DYLD_")
 """Variables that choose other kernels, or other libraries."""
 
@@ -68,6 +69,10 @@ class Keys:
         """Of how an engine would run it."""
         of = self._once(engine, self._engine)
         return _word("ways", self.solution(case), of, self._code(JUDGING))
+
+    def collected(self, case: Case, engine: Engine) -> str:
+        """Of which ways pytest collects."""
+        return _word("collected", self.ways(case, engine), self._code(COLLECTING))
 
     def _once(self, thing: Any, describe: Callable[[Any], str]) -> str:
         """A case meets every engine, and an engine every case: each is described once in a run."""

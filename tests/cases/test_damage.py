@@ -87,6 +87,7 @@ def test_a_number_is_finite_and_of_a_size_to_compute_with_or_refused(value: obje
     assert found.value == 0 or SMALLEST <= abs(found.value) <= LARGEST
 
 
+@pytest.mark.slow
 @often
 @given(st.text())
 def test_nothing_that_is_shown_steers_a_terminal(text: str) -> None:

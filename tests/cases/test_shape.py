@@ -43,6 +43,7 @@ def test_disk() -> None:
     assert body.radius == 0.25
 
 
+@pytest.mark.slow
 def test_block() -> None:
     body = shape.block(name="b", mass=2.0, width=0.3, height=0.1, points={})
     x, y = np.meshgrid(midpoints(0.3), midpoints(0.1))

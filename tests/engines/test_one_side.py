@@ -78,6 +78,7 @@ def test_engines_follow_the_reference(engine: str, way: Realised, both: Moving) 
     assert off(both, engine, way) < REACHED[engine, way]
 
 
+@pytest.mark.slow
 def test_cut_at_the_corners_runge_and_kutta_keep_their_order(both: Moving) -> None:
     """Of which the steps that cross a corner know nothing."""
     errors = [off(both, "mujoco", "driver", step) for step in (1e-3, 2e-3)]

@@ -75,6 +75,7 @@ def test_sides_and_rims_that_turn_are_met(engine: str, what: str) -> None:
         assert distance <= NEAR[engine][key], key
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("friction of a pair 5 % off in {engine} alone")
 @pytest.mark.parametrize("engine", NEAR)
 def test_another_friction_is_seen(engine: str) -> None:

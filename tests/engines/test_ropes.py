@@ -109,6 +109,7 @@ allow: {a.x: 1.0e-3, r.force: 0.1}
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("engine", "way"), [("mujoco", "native"), ("mujoco", "driver"), ("pymunk", "native")]
 )

@@ -109,6 +109,7 @@ def test_a_rope_that_would_have_to_push_is_let_go(tmp_path: Path) -> None:
     assert errors[3:].max() < 3e-3
 
 
+@pytest.mark.slow
 def test_two_ropes_come_taut_in_one_step(tmp_path: Path) -> None:
     """Measured 1e-4 m and 1e-3 m/s: ropes that swing, of which each starts its circle late."""
     case, motion = known(tmp_path, TWO_CATCHES, 0.2)
@@ -118,6 +119,7 @@ def test_two_ropes_come_taut_in_one_step(tmp_path: Path) -> None:
     assert errors[3:5].max() < 3e-3
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("of two ropes that come taut in one step the later one first")
 def test_the_later_of_two_first_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What came taut before is too long by then, and its impact is missed."""

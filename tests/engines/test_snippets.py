@@ -44,6 +44,7 @@ MUJOCO: list[tuple[str, Options]] = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "options"), MUJOCO, ids=str)
 def test_elements_for_mujoco(name: str, options: Options) -> None:
     """Pasted into the scene's file without any setting."""

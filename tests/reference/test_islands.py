@@ -194,6 +194,7 @@ def test_what_acts_about_a_joint_goes_with_it() -> None:
     assert (one.forces, two.forces) == ({}, scene.forces)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant(
     "a spring is forgotten in the graph: its two bodies are solved apart, without it"
 )
@@ -254,6 +255,7 @@ def test_one_wrong_island_is_seen(
     assert broken.name == "power balance (2.51)"
 
 
+@pytest.mark.slow
 def test_the_mistakes_of_all_islands_are_told_at_once(tmp_path: Path) -> None:
     text = PLANE.replace("  ball: {x: 9, y: 0, vx: 1.0}\n", "").replace(
         "  rod: {angle: 0.9", "  rod: {"
@@ -300,6 +302,7 @@ def balls(count: int) -> str:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("all islands are one dense problem")
 def test_work_grows_with_the_number_of_islands(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -30,11 +30,9 @@ def ended(module: Any, kind: str, item: Any) -> str:
 
 def of_row(found: Comparison, module: Any = pytest_plugin) -> str:
     """A row's own test."""
-    report = SimpleNamespace(comparisons=[found])
     item = SimpleNamespace(
-        report=lambda: report, key=committed.key_of(found), case=SimpleNamespace(),
-        path=Path("swing.yaml"), place=lambda *_: 1,
-    )  # fmt: skip
+        row=lambda: found, case=SimpleNamespace(), path=Path("swing.yaml"), place=lambda *_: 1
+    )
     return ended(module, "ComparisonItem", item)
 
 

@@ -18,7 +18,7 @@ def changed(told: Any, path: tuple[str, ...], by: Any) -> Any:
 
 def seen(name: str, case: dict[str, Any] | None = None) -> bool:
     """Whether the comparison sees that something is wrong."""
-    mine = case or both.SHIPPED[name]
+    mine = case or both.reread(name)
     return disagree(answer.motion(mine), both.stored(name), at_samples(mine)) != {}
 
 
@@ -63,7 +63,7 @@ INPUT: dict[str, tuple[str, tuple[str, ...], Any]] = {
 @pytest.mark.parametrize("mistake", INPUT)
 def test_a_file_that_is_misread_is_seen(mistake: str) -> None:
     name, path, by = INPUT[mistake]
-    assert seen(name, changed(both.SHIPPED[name], path, by))
+    assert seen(name, changed(both.reread(name), path, by))
 
 
 def weighed(now: Any) -> Any:
@@ -115,7 +115,7 @@ def test_wrong_physics_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch) ->
 @pytest.mark.mutant("Steiner term left out of the second reading's bar")
 def test_an_inertia_about_the_wrong_point_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     """A bar about its end has m l²/3; with m l²/12 there the pendulum swings at another rate."""
-    case = both.SHIPPED["bar_pendulum"]
+    case = both.reread("bar_pendulum")
     m, l = (case["scene"]["bodies"]["bar"]["bar"][key] for key in ("mass", "length"))
 
     def misplaced(now: Any) -> Any:

@@ -16,9 +16,9 @@ MOVES = 1e-3  # of its size, and 1e-6 in SI: a quantity that moves less is left 
 EARLY = 2e-8  # s, 1e-7 of what a scene lasts: by so much may the time of an event differ
 READ = ("x", "y", "z", "vx", "vy", "vz", "speed", "angle", "omega", "shift")
 EVERY = 1e3  # what is allowed: nothing is claimed of an engine here
-PLANE, SPACE, SWITCHING = range(20), range(14), range(10)
+PLANE, SPACE, SWITCHING = range(20), range(14), range(4)
 CORNER = 158  # an event in the step before a table's corner
-MORE_PLANE, MORE_SPACE, MORE_SWITCHING = range(20, 60), range(14, 40), range(10, 40)
+MORE_PLANE, MORE_SPACE, MORE_SWITCHING = range(20, 60), range(14, 40), range(4, 40)
 
 
 def moving(motion: Motion, case: dict[str, Any]) -> list[str]:

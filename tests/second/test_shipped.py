@@ -19,20 +19,16 @@ SWITCHES = {
     "trunk_on_legs",
 }  # fmt: skip
 """Files whose motion is not smooth: `test_switching.py` has them."""
-LONG = {
-    "opening_loop", "viscous_drift", "bar_pendulum", "five_axis_robot.from_rest", "paired_rotors",
-    "driven_wheel.circle", "spatial_four_bar", "sprung_gimbal.free", "sprung_gimbal.driven",
-    "universal_shaft", "leaking_pendulum", "top_on_floor", "upright_wheel.level",
-    "crossed_pendulum",
-    "slider_crank", "driven_robot", "five_axis_robot.swinging", "robot_knife", "skew_chain",
-    "gyroscope", "heavy_top.cusp", "heavy_top.loops", "heavy_top.waves", "double_pendulum",
-    "rhombus", "driven_wheel.weave", "driven_wheel.clothoid", "four_bar",
+SHORT = {
+    "charge_in_field", "elastic_pendulum", "falling_drag", "falling_too_far",
+    "growing_force_viscous", "pushed_cart", "rolling_sphere", "rolling_wheel", "shaken_pendulum",
+    "spinning_body", "torque_free", "turning_sled", "wheel_from_above",
 }  # fmt: skip
-"""Those that take more than a second and a half."""
+"""Files that take a fifth of a second a case: the others are slow tests."""
 SMOOTH = [
     name
-    for name, case in both.SHIPPED.items()
-    if "states" not in case and name.split(".")[0] not in SWITCHES and name != "drag_stops.root"
+    for name, case in both.EVERY.items()
+    if case.states is None and name.split(".")[0] not in SWITCHES and name != "drag_stops.root"
 ]
 
 
@@ -56,9 +52,14 @@ def at_samples(case: dict[str, Any]) -> list[str]:
     return [name for name in case["allow"] if name.split(".")[0] not in (case.get("events") or {})]
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(n, marks=[pytest.mark.slow] if n in LONG else []) for n in SMOOTH]
-)
+def unhurried(names: list[str], short: set[str]) -> list[Any]:
+    """The names, all but those of short files as slow tests."""
+    return [
+        n if n.split(".")[0] in short else pytest.param(n, marks=pytest.mark.slow) for n in names
+    ]
+
+
+@pytest.mark.parametrize("name", unhurried(SMOOTH, SHORT))
 def test_a_smooth_case_moves_the_same(name: str) -> None:
-    case = both.SHIPPED[name]
+    case = both.reread(name)
     assert disagree(answer.motion(case), both.stored(name), at_samples(case)) == {}

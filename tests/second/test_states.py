@@ -17,7 +17,7 @@ from second.moving import Array
 from second.quantities import asked
 
 BAR = 1e-10  # of the largest value: algebra alone, at some numbers of 1e4 beside ones of 1
-CLAIMS = [name for name, case in both.SHIPPED.items() if "states" in case]
+CLAIMS = [name for name, case in both.EVERY.items() if case.states is not None]
 ACCELERATIONS = {"ax", "ay", "az", "alpha_x", "alpha_y", "alpha_z"}
 GIVEN = {"planar_bodies": {"box.P.ax", "box.P.ay"}}
 """Accelerations that only they tell of: nothing is left to compare."""
@@ -116,7 +116,7 @@ def value(now: Now, solved: Solved, name: str) -> Any:
 
 @pytest.mark.parametrize("name", CLAIMS)
 def test_what_follows_from_a_state_is_the_same(name: str) -> None:
-    case, told = both.SHIPPED[name], both.stored(name)
+    case, told = both.reread(name), both.stored(name)
     model = Model(case["scene"])
     reactions = told.solution.trajectory.reactions
     known = {q: v for q, v in reactions.items() if q.split(".")[-1] in ACCELERATIONS}

@@ -117,3 +117,10 @@ def test_every_word_that_is_read_is_compared() -> None:
     for seed in range(27):
         used |= set(keys(drawn_space.drawn(seed)))
     assert grammar() - used - set(words.UNREAD) == set()
+
+
+@pytest.mark.slow
+def test_a_file_has_the_cases_that_the_suite_reads() -> None:
+    """Which the other tests here go by, so that none is left out."""
+    twice = {n: "states" in case for file in both.FILES for n, case in read.file(file).items()}
+    assert twice == {name: case.states is not None for name, case in both.EVERY.items()}

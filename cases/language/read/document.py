@@ -2,6 +2,7 @@
 
 from collections.abc import Collection
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -13,12 +14,13 @@ from ...mistake import CaseError, Mistake, Source, plain
 from .tree import Tree
 
 LARGEST = 200_000  # bytes, read in 1.5 s; a case has 2000
+AT_HAND = 128  # files whose text is not parsed again: all that are shipped
 MARK = "\ufeff"  # with which some editors begin a file
 
 
 @dataclass
 class Document:
-    """The data of one file. `mistakes` are those that leave the rest readable."""
+    """The data of one file, which nobody changes. `mistakes` leave the rest readable."""
 
     source: Source
     data: dict[str, Any]
@@ -30,16 +32,21 @@ def read(path: FilePath, *, only: Collection[str] = ()) -> Document:
 
     only: the keys at its margin to read, where not all are asked for, in a quarter of the time.
     """
-    text = _only(_text(path), only) if only else _text(path)
+    return _parsed(str(path), _only(_text(path), only) if only else _text(path))
+
+
+@lru_cache(AT_HAND)
+def _parsed(file: str, text: str) -> Document:
+    """What the text says. Parsing is most of what reading costs, and a test session reads twice."""
     lines = tuple(text.splitlines())
-    tree = Tree(str(path), lines)
+    tree = Tree(file, lines)
     try:
         data = tree.document(YAML(typ="safe", pure=True).parse(text))
     except ReaderError as error:
         line, column = _end(text[: error.position])
         what = f"the character {plain(text[error.position])} cannot stand in YAML"
         shown = lines[line - 1] if line <= len(lines) else ""
-        raise CaseError([Mistake(str(path), line, column, "", what, shown)]) from None
+        raise CaseError([Mistake(file, line, column, "", what, shown)]) from None
     except YAMLError as error:
         raise CaseError([tree.unreadable(error)]) from None
     except (ValueError, OverflowError) as error:  # ruamel on an escape such as "\U99999999"
@@ -47,7 +54,7 @@ def read(path: FilePath, *, only: Collection[str] = ()) -> Document:
     if tree.fatal:
         raise CaseError(tree.fatal)
     assert isinstance(data, dict)  # anything else is fatal
-    return Document(Source(str(path), lines, tree.places), data, tree.mistakes)
+    return Document(Source(file, lines, tree.places), data, tree.mistakes)
 
 
 def _only(text: str, keys: Collection[str]) -> str:

@@ -67,6 +67,7 @@ def reactions_of(case: Case) -> Check:
     return found
 
 
+@pytest.mark.slow
 def test_a_reaction_that_goes_through_zero_is_a_sum_of_what_is_large() -> None:
     """Of legs with 300 N, sideways 0.001 N, its rounding is 5e-16 N: 3e-11 of what is left."""
     found = reactions_of(TRUNK)
@@ -74,6 +75,7 @@ def test_a_reaction_that_goes_through_zero_is_a_sum_of_what_is_large() -> None:
     assert found.holds
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a reaction's rounding as a share of what is left of it where it is zero")
 def test_the_size_of_what_is_left_alone_is_seen(monkeypatch: Patch) -> None:
     monkeypatch.setattr(at_states, "_borne", lambda *_: 0.0)
@@ -99,6 +101,7 @@ def test_a_reaction_beside_large_forces_is_compared_to_them(share: float) -> Non
 THRESHOLD = replace(SMOOTH, duration=3.0, samples=31)  # at 1.5 s the spring pulls with 6 N: F_s
 
 
+@pytest.mark.slow
 def test_on_the_threshold_of_smooth_friction_the_laws_slope_multiplies_rounding() -> None:
     """Of 6 N half an ulp, times A = 1e5 and a band of 3 N: 1e-10 of the accelerations."""
     found = {check.name: check for check in solve(THRESHOLD).checks}["generated accelerations"]
@@ -106,6 +109,7 @@ def test_on_the_threshold_of_smooth_friction_the_laws_slope_multiplies_rounding(
     assert found.bound == at_states.AGREE
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("rounding on the threshold of smooth friction not multiplied by its slope")
 def test_without_the_laws_slope_the_threshold_is_refused(monkeypatch: Patch) -> None:
     monkeypatch.setattr(at_states, "_steep", lambda *_: 0.0)

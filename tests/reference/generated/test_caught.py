@@ -135,6 +135,7 @@ def test_what_is_not_thrown_up_taken_for_it_is_seen(
     assert len(follow(scenes.mechanism(case), case.times).events) > 1
 
 
+@pytest.mark.slow
 def test_a_rope_that_is_not_pulled_pulls_nothing(tmp_path: Path) -> None:
     """Swung over to the floor: the rope is then just taut along it, and the ball rests."""
     case = scenes.typed(tmp_path, LAID_DOWN, tail=CAUGHT)

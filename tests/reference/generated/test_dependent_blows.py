@@ -142,6 +142,7 @@ CONTACTS = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("order", [[0, 1, 2], [1, 0, 2], [2, 1, 0]])
 def test_a_disk_in_a_groove_throws_a_ball_back(tmp_path: Path, order: list[int]) -> None:
     """It stays: v² = 2 · 0.5 m · g, v⁺ = e v, and the ball, which turns, sticks to it."""

@@ -27,6 +27,7 @@ def text(vx: float, vy: float, alpha: float, *, d: float = 0.8, gravity: str = "
     return BALL.format(vx=vx, vy=vy, alpha=alpha, d=d, gravity=gravity)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("alpha", [0.3, 0.5, 0.9])
 @pytest.mark.parametrize(("vx", "vy"), [(0.0, 0.0), (0.0, 4.0), (2.0, 4.0)])
 def test_under_its_weight_it_never_stops(

@@ -34,6 +34,7 @@ def _coulomb(
     return coulomb
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("static friction in the place of kinetic")
 def test_mutant_static_for_kinetic(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Touching, "coulomb", _coulomb(lambda touch: -touch.static))

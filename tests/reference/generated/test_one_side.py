@@ -164,6 +164,7 @@ allow: {ball.x: 1.0e-3, ball.angle: 1.0e-2, band.force: 1.0e-2}
 """
 
 
+@pytest.mark.slow
 def test_beside_a_contact(tmp_path: Path) -> None:
     """It lands and rolls, pulled by the band until that is slack: all is certified."""
     case = scenes.typed(tmp_path, BESIDE, tail=scenes.tail(1.5, 31))

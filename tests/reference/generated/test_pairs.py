@@ -128,6 +128,7 @@ def rolls(tmp_path: Path, one: float, two: float) -> Case:
     return scenes.typed(tmp_path, text)
 
 
+@pytest.mark.slow
 def test_two_disks_roll_around_each_other_and_lose_nothing(tmp_path: Path) -> None:
     """R ω₁ + R' ω₂ = 0 at the start: no slip. All that free bodies keep, they keep."""
     case = rolls(tmp_path, 6.0, -4.0)
@@ -141,6 +142,7 @@ def test_two_disks_roll_around_each_other_and_lose_nothing(tmp_path: Path) -> No
     assert np.ptp(motion.states["two"][:, X]) > 0.1
 
 
+@pytest.mark.slow
 def test_two_disks_that_slip_lose_energy_and_no_momentum(tmp_path: Path) -> None:
     """Friction acts on both: the angular momentum about any point stays."""
     case = rolls(tmp_path, 9.0, 2.0)

@@ -124,6 +124,7 @@ def test_what_cannot_pivot_is_said(tmp_path: Path, scene: str, words: str) -> No
     assert words in str(caught.value)
 
 
+@pytest.mark.slow
 def test_friction_that_an_impact_needs_is_enough(tmp_path: Path) -> None:
     """The number in the message, rounded up, and not 1 % less."""
     with pytest.raises(CaseError) as caught:

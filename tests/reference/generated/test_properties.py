@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+import pytest
 from given.drawn_machines import MACHINES, UNITS, Units, in_units, turned, turned_scene
 from given.multibody_laws import EXACT, balance, lagrangian
 from given.random_machines import Build, mechanism
@@ -105,6 +106,7 @@ def _point(scene: Scene, m: Multibody, anchor: Anchor, q: Array, v: Array) -> Ar
     return np.array([x + dx, y + dy, vx - omega * dy, vy + omega * dx])
 
 
+@pytest.mark.slow
 @few
 @given(MACHINES, st.floats(-3.0, 3.0))
 def test_a_turned_machine_moves_alike(build: Build, turn: float) -> None:

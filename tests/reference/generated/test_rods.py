@@ -56,6 +56,7 @@ def test_a_rod_is_a_bar_without_mass(tmp_path: Path) -> None:
         assert other.states[body] == pytest.approx(one.states[body], abs=1e-5)
 
 
+@pytest.mark.slow
 def test_tension_is_positive_where_it_pulls(tmp_path: Path) -> None:
     """Hanging m g, standing on its rod −m g."""
     for y, sign in ((-0.5, 1.0), (0.5, -1.0)):

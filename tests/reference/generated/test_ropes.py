@@ -40,6 +40,7 @@ def test_two_balls_thrown_apart_go_on_about_their_centre(tmp_path: Path) -> None
     assert end[3:5] == pytest.approx(centre, abs=1e-13)
 
 
+@pytest.mark.slow
 def test_a_bar_is_stopped_at_once(tmp_path: Path) -> None:
     """Pin and rope leave it nothing; the rope's moment about the pin is the weight's."""
     case = scenes.typed(tmp_path, ropes.HELD, tail=END)

@@ -119,6 +119,7 @@ def feet(count: int) -> str:
     return "\n".join([*lines, f"initial: {{{', '.join(start)}}}", "allow: {b0.x: 1.0e-2}\n"])
 
 
+@pytest.mark.slow
 def test_very_many_contacts_are_refused_at_once(tmp_path: Path):
     """4⁹ ways to stick, slide and open, of 2 ms each: 9 minutes, and 4¹² 9 hours."""
     for count in (9, 12):

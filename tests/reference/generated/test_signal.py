@@ -61,6 +61,7 @@ def off(variant: str) -> float:
     return float(np.max(np.abs(x - free - PUSHED[variant](case.times))))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("variant", PUSHED)
 def test_closed_form(variant: str) -> None:
     assert off(variant) < 1e-14  # of 0.2 m: its rounding
@@ -90,6 +91,7 @@ WRONG: dict[str, dict[Law, Callable[[Signal, Any], Any]]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a law in time: {mistake}")
 @pytest.mark.parametrize("mistake", WRONG)
 def test_a_wrong_law_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -125,6 +127,7 @@ def block(folder: Path, law: str, rests: str = "") -> Any:
     return solve(scenes.typed(folder, STUCK.replace("LAW", law).replace("RESTS", rests)))
 
 
+@pytest.mark.slow
 def test_a_force_that_jumps_beyond_stiction_breaks_loose_at_once(tmp_path: Path) -> None:
     """(2.89) At rest until the corner, then ẍ = (F − F_k)/m; after the pulse it brakes to rest."""
     moved = block(tmp_path, "pulse: {amplitude: [6.0, 0], from: 0.3, until: 0.5}").trajectory

@@ -37,6 +37,7 @@ def test_laws_and_typed_forces(tmp_path: Path) -> None:
     assert mode.applied(0.0, q, v)[-2:] == pytest.approx(expected, rel=1e-14)
 
 
+@pytest.mark.slow
 def test_quantities_and_certificate(tmp_path: Path) -> None:
     case = scenes.typed(tmp_path, slowed.SLOWED)
     solution = solve(case)

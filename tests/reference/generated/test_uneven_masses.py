@@ -82,11 +82,13 @@ def errors(count: int) -> list[float]:
     return found
 
 
+@pytest.mark.slow
 def test_accelerations_of_uneven_mechanisms():
     assert len(found := errors(40)) > 15
     assert max(found) < 1e-12
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("accelerations of uneven masses without refinement")
 def test_without_refinement_digits_are_lost(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(module, "TURNS", 0)

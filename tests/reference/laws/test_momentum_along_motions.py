@@ -60,6 +60,7 @@ def test_a_pair_of_bars_obeys(law: Callable[[System], float], in_the_plane: Syst
     assert law(in_the_plane) <= momenta.LIMIT
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", momenta.LAWS)
 def test_two_bodies_in_space_obey(law: Callable[[System], float]):
     assert law(in_space()) <= momenta.LIMIT

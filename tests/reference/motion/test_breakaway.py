@@ -105,7 +105,14 @@ def slips(omega: float, excess: float, end: float) -> list[float]:
 
 
 @pytest.mark.parametrize("excess", [1e-6, 1e-8, 1e-10])
-@pytest.mark.parametrize(("omega", "samples", "start"), [(3, 6, 0), (5, 101, 0.1), (5, 3, 0)])
+@pytest.mark.parametrize(
+    ("omega", "samples", "start"),
+    [
+        (3, 6, 0),
+        pytest.param(5, 101, 0.1, marks=pytest.mark.slow),
+        pytest.param(5, 3, 0, marks=pytest.mark.slow),
+    ],
+)
 def test_slips_are_counted_however_short(
     tmp_path: Path, omega: float, samples: int, start: float, excess: float
 ):

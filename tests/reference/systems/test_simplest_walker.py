@@ -39,6 +39,7 @@ def test_limit_cycle_is_the_published_one():
     assert lasts == pytest.approx(LASTS, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_it_is_stable_and_a_disturbance_dies_away_by_its_multipliers():
     """Three states d of a small one: d₂ = (μ₁ + μ₂) d₁ − μ₁ μ₂ d₀."""
     assert found().stable

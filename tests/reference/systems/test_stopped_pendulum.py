@@ -92,6 +92,7 @@ def test_a_stop_elsewhere_in_the_hand_written_system_is_seen(
     assert {"generated events", "closed events"} <= broken()
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("Steiner term left out of the stopped bar")
 def test_a_lost_steiner_term_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     def lonely(self: Any, t: float, q: Any, v: Any) -> Any:

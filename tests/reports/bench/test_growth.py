@@ -30,6 +30,7 @@ def test_a_scene_is_read_or_refused_with_what_is_too_large(tmp_path: Path, scene
     assert "the limit is 5 minutes, or " in mistake.what
 
 
+@pytest.mark.slow
 def test_each_kind_is_solved_and_certified(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of each kind a small one, in the same words."""
     small = {

@@ -44,6 +44,7 @@ def test_every_start_has_a_bound() -> None:
     assert lines().keys() == BOUNDS.keys() == NEEDED.keys()
 
 
+@pytest.mark.slow
 def test_what_takes_longer_costs_more() -> None:
     assert least(["-c", "sum(range(10**7))"], 1) > least(["-c", ""], 1) > 0.0
 

@@ -3,6 +3,8 @@
 import unicodedata
 from xml.etree.ElementTree import fromstring
 
+import pytest
+
 from textmech.cases.case import Case
 from textmech.reports.page.equations import equations
 from textmech.reports.page.mathml import mathml
@@ -33,6 +35,7 @@ def test_what_would_be_markup_is_a_sign() -> None:
     assert "<b>" not in mathml('a <b> & "c')
 
 
+@pytest.mark.slow
 def test_every_hand_written_motion_shows_its_equations(shipped: list[Case]) -> None:
     cases = [case for case in shipped if case.system and case.states is None]
     for case in cases:

@@ -40,6 +40,7 @@ def test_curves_are_the_reference_and_what_each_engine_is_off_it(made: SimpleNam
         assert found == pytest.approx(off, rel=0.006, abs=1e-9 * np.max(np.abs(off)))
 
 
+@pytest.mark.slow
 def test_what_cannot_be_told_apart_is_no_ghost(made: SimpleNamespace) -> None:
     swing = made.motions["swing"]
     assert "mujoco.tuned.native" in swing["covered"]

@@ -83,6 +83,7 @@ def costs(found: Advised, module: Any = advised) -> tuple[float | None, float | 
     return told.cost, told.shipped_cost
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("the cost of shipped told as the recipe's")
 def test_a_recipe_costs_what_it_costs_and_not_what_shipped_does(found: Advised) -> None:
     assert costs(found) == (8 / OWN, 1 / OWN)

@@ -19,6 +19,7 @@ few = examples(15)
 SEEDS = st.integers(0, 10_000)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", MAKES)
 @pytest.mark.parametrize("law", LAWS)
 @few

@@ -79,6 +79,7 @@ def test_a_driven_freedom_goes_as_its_law_beside_a_skew_one(
     assert off(tmp_path, freedoms, driven) < KNOWN
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("the dual of a driven shift beside a skew one is its own axis")
 @pytest.mark.parametrize("driven", ["s", "u"])
 def test_a_shift_by_its_own_axis_is_seen(
