@@ -2,6 +2,9 @@
 VENV := .venv
 PYTHON ?= python3
 READY := $(VENV)/.ready
+LINTING := $(VENV)/.linting
+INSTALL := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-compile \
+	--constraint reports/environment.txt --editable
 # What is compiled is kept: else every worker compiles all modules and all tests anew.
 unexport PYTHONDONTWRITEBYTECODE
 
@@ -31,14 +34,14 @@ processors: $(READY)
 	$(VENV)/bin/python tests/processors.py -n auto --dist worksteal $(WHAT)
 
 # What a change of one file needs: its style and types, and the quick tests of its room.
-quick: $(READY)
+quick: $(LINTING)
 	$(VENV)/bin/ruff check .
 	$(VENV)/bin/ruff format --check .
 	mkdir -p $(VENV)/typing && ln -sfn ../.. $(VENV)/typing/textmech
 	$(VENV)/bin/pyright $$($(VENV)/bin/python tests/touched.py --files)
 	$(VENV)/bin/pytest -q -n auto -m "not slow" $$($(VENV)/bin/python tests/touched.py)
 
-lint: $(READY)
+lint: $(LINTING)
 	$(VENV)/bin/ruff check .
 	$(VENV)/bin/ruff format --check .
 	mkdir -p $(VENV)/typing && ln -sfn ../.. $(VENV)/typing/textmech
@@ -48,8 +51,7 @@ lint: $(READY)
 COUNT ?= 150
 SEED ?= 1
 mutants: $(READY)
-	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check \
-		--constraint reports/environment.txt --editable '.[mutants]'
+	$(INSTALL) '.[mutants]'
 	$(VENV)/bin/python tests/mutants.py --count $(COUNT) --seed $(SEED)
 
 # What a person waits for, in a fresh clone of the last commit: half an hour of an idle machine.
@@ -66,6 +68,10 @@ clean:
 
 $(READY): pyproject.toml reports/environment.txt
 	$(PYTHON) -m venv --clear $(VENV)
-	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check \
-		--constraint reports/environment.txt --editable '.[test]'
+	$(INSTALL) '.[test]'
+	touch $@
+
+# What only lint needs is a third of all.
+$(LINTING): $(READY)
+	$(INSTALL) '.[lint]'
 	touch $@

@@ -5,6 +5,8 @@ import re
 from functools import cache
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[1]
 TEXT = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
 # The dataclasses of reports/row.py.
@@ -46,11 +48,13 @@ def test_every_path_exists() -> None:
     assert not missing
 
 
+@pytest.mark.slow
 def test_rows_are_filled_where_it_says() -> None:
     filled = {file for file, tree in trees().items() if makes(tree)}
     assert filled | {"reports/row.py"} == listed("a column of a report")
 
 
+@pytest.mark.slow
 def test_a_law_of_friction_is_where_it_says() -> None:
     """But for the engines' own folders: what an engine knows of friction is its own."""
     told = {file for file, tree in trees().items() if reads(tree) and file.count("/") < 2}

@@ -27,6 +27,7 @@ def test_a_program_has_the_tests_of_the_nearest_folder(file: str, folder: str) -
     assert mirrored(file)
 
 
+@pytest.mark.slow
 def test_every_program_has_some() -> None:
     for file in FILES:
         found = touched.mirror(file.relative_to(touched.ROOT))

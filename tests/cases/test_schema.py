@@ -19,6 +19,7 @@ def test_current() -> None:
     )
 
 
+@pytest.mark.slow
 def test_says_every_key() -> None:
     schema = json.loads(text())
     assert set(schema["properties"]) == set(File.model_fields)

@@ -64,6 +64,7 @@ def test_every_unit_is_that_of_pint() -> None:
     assert {word: by for word, by in far.items() if not by < ROUNDING} == {}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("word", OURS[: len(UNITS)])
 def test_its_dimension_is_that_of_pint(word: str) -> None:
     """But for the angle, which has one of its own here."""

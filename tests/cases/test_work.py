@@ -140,6 +140,7 @@ def test_samples_and_states_cost_what_their_laws_cost(
     assert any(words in what for _, what in said(tmp_path, text))
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("the bound that a refusal names is refused, or far below the limit")
 @pytest.mark.parametrize(
     ("text", "key"),
@@ -165,6 +166,7 @@ def test_what_is_said_to_be_the_bound_is_one(tmp_path: Path, text: str, key: str
     assert limited(1.1 * most)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("bodies that nothing joins cost as much as a chain of them")
 def test_islands_cost_what_each_costs(tmp_path: Path) -> None:
     """100 pendulums are 100 times one; what is looked at together by an event is one."""

@@ -72,10 +72,12 @@ def apart(folder: Path) -> float:
     )
 
 
+@pytest.mark.slow
 def test_mujoco_s_are_the_reference_s(tmp_path: Path) -> None:
     assert apart(tmp_path) < 1e-5  # measured 2e-7, of 40 m/s²
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("ax read for ay")
 def test_mujoco_s_weight_is_no_acceleration(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -86,6 +86,7 @@ def test_alone_it_can_be_told_from_outside(name: str, tmp_path: Path) -> None:
     assert ways(tmp_path, "mujoco", SWITCHES[name]) > {"native"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("other", BESIDE)
 @pytest.mark.parametrize("name", SWITCHES)
 def test_beside_another_it_cannot(name: str, other: str, tmp_path: Path) -> None:
@@ -95,6 +96,7 @@ def test_beside_another_it_cannot(name: str, other: str, tmp_path: Path) -> None
     assert ways(tmp_path, "mujoco", SWITCHES[name], BESIDE[other]) == {"native"}
 
 
+@pytest.mark.slow
 def test_pymunks_law_of_friction_needs_a_body_that_nothing_else_holds(tmp_path: Path) -> None:
     cord = {"forces": "cord: {rope: [ground.Q, block.center], length: 9}"}
     cord["initial"] = SWITCHES["slide"]["initial"]

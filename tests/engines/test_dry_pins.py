@@ -70,6 +70,7 @@ def test_mutant_that_forgets_which_part_is_counted(
 COUPLED = {"mujoco": 5e-6, "pymunk": 1e-12}  # 1.7e-6, 4e-13
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("parts", ["a.center, b.center", "b.center, a.center"])
 @pytest.mark.parametrize("engine", COUPLED)
 def test_a_clutch_couples(engine: str, parts: str, tmp_path: Path) -> None:
@@ -96,6 +97,7 @@ def test_a_loop_that_rubs_is_refused(tmp_path: Path) -> None:
     assert said.endswith("closes a loop, and MuJoCo rubs in the tree's joints only")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", TUNED)
 def test_what_an_engine_holds_is_the_scene_s(engine: str, tmp_path: Path) -> None:
     case, start = typed(tmp_path, rubbing.CLUTCH.replace("PARTS", "a.center, b.center"))

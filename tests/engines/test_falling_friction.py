@@ -58,12 +58,14 @@ def test_the_driver_cuts_at_the_events(monkeypatch: pytest.MonkeyPatch) -> None:
         assert min(abs(t - event.time) for t in seen) < 1e-9
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("falling friction held over the driver's steps")
 def test_mutant_force_held_over_the_driver_s_steps(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(stepping, "falling", lambda slides: [])
     assert far("mujoco", "driver") > 1e3 * DRAWN["mujoco", "driver"]
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("falling friction by the speed of the step's start")
 def test_mutant_speed_of_the_step_s_start(monkeypatch: pytest.MonkeyPatch) -> None:
     def first(self: Any, sense: int, speed: float) -> float:
@@ -97,6 +99,7 @@ def spun_down(times: Array) -> Array:
 SPUN = {("mujoco", "law"): 1e-6, ("mujoco", "driver"): 1e-13, ("pymunk", "law"): 1e-6}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("engine", "way"), WAYS)
 def test_a_rotor_spins_down(engine: str, way: Realised, tmp_path: Path) -> None:
     case = scenes.typed(tmp_path, ROTOR, tail=scenes.tail(3.0, 31))

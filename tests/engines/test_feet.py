@@ -57,6 +57,7 @@ def test_a_walker_takes_six_steps(k: int, name: str) -> None:
     assert found[1] < NEAR[name][k][1]
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a floor that meets the swinging foot in {name}")
 @pytest.mark.parametrize("name", TUNED)
 def test_a_floor_that_meets_every_foot_is_seen(name: str, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -147,6 +147,7 @@ def test_a_bar_on_a_hinge_lands_with_its_tip(step: float, name: str) -> None:
     assert run.reactions[wanted[0]][-1] == pytest.approx(G / 2, abs=LANDED[name].normal * step)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", LANDED)
 @pytest.mark.parametrize("points", [2, 4, 6])
 def test_a_block_lands_flat_on_several_points_and_lies(points: int, name: str) -> None:

@@ -86,6 +86,7 @@ def test_cut_at_the_corners_runge_and_kutta_keep_their_order(both: Moving) -> No
     assert off(both, "mujoco", "native", 1e-3) > 100 * errors[0]
 
 
+@pytest.mark.slow
 def test_every_step_of_the_driver_is_recorded(both: Moving) -> None:
     begin, times = both.start, both.case.times
     run = moved(TUNED["mujoco"], both.scene, begin, times, STEP, realised="driver", record=True)

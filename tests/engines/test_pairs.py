@@ -88,6 +88,7 @@ def test_another_friction_is_seen(engine: str) -> None:
     assert found["tangent"] > 10 * NEAR[engine]["tangent"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", SCENES)
 def test_pymunks_script_makes_the_same_steps(what: str) -> None:
     """Bit for bit, over 200 steps: points over rims and over sides that turn."""

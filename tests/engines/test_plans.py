@@ -69,6 +69,7 @@ def test_tied_numbers_that_are_said_to_make_no_difference_make_none(name: str) -
         assert softened(name, plan) < ROUNDING
 
 
+@pytest.mark.slow
 def test_a_difference_of_tied_numbers_would_be_seen() -> None:
     plan = planned(TUNED["mujoco"], *begun("four_bar"))
     assert not plan.alike

@@ -70,6 +70,7 @@ REPEATED = ("towed_pendulum", "slider_crank", "rolling_wheel.pushed")
 IN_SPACE = ("spatial_four_bar", "rolling_sphere", "robot_knife")  # by points, a floor, our law
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "engine"),
     [(name, engine) for name, engine in [*NATIVE, *HELD] if name in (*REPEATED, *IN_SPACE)],

@@ -107,6 +107,7 @@ def test_a_script_holds_the_rod(tmp_path: Path) -> None:
         assert data.body(body).xipos[:2] == pytest.approx(rows[-1, :2], abs=1e-9)
 
 
+@pytest.mark.slow
 def test_pymunk_s_loops(tmp_path: Path) -> None:
     assert off("pymunk", rods.SWING, tmp_path) < REACHED["pymunk"]
 

@@ -62,6 +62,7 @@ def test_engines_move_as_the_reference(
         assert pulls < REACHED[engine, realised][1]
 
 
+@pytest.mark.slow
 def test_the_driver_takes_the_impact_exactly(tmp_path: Path) -> None:
     """What it catches is free afterwards: nothing of a limit is left in the motion."""
     case, motion, start = known(tmp_path, "towed")
@@ -72,6 +73,7 @@ def test_the_driver_takes_the_impact_exactly(tmp_path: Path) -> None:
     assert np.max(np.abs(found.states["sled"] - motion.states["sled"])) < 1e-11
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a rope that catches without its lever")
 def test_a_driver_that_forgets_the_lever_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -85,6 +87,7 @@ def test_a_driver_that_forgets_the_lever_is_seen(
     assert np.max(np.abs(found.states["sled"] - motion.states["sled"])) > 1e-2
 
 
+@pytest.mark.slow
 def test_a_rope_that_swings_pulls_rightly_from_the_start() -> None:
     """Without the stretch with which it begins, MuJoCo's limit would not pull at all at t = 0."""
     case = scenes.SHIPPED["ball_on_rope.let_go"]
@@ -127,6 +130,7 @@ def test_what_hangs_at_rest_is_held_from_the_first_sample_on(
     assert found.reactions["r.force"] == pytest.approx(motion.reactions["r.force"], abs=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("engine", "found"), [("mujoco", ("native", "driver")), ("pymunk", ("native",))]
 )

@@ -69,6 +69,7 @@ def off(name: str, what: str, tmp_path: Path) -> dict[str, float]:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NEAR)
 @pytest.mark.parametrize("what", SCENES)
 def test_engines_read_the_force_of_the_book(name: str, what: str, tmp_path: Path) -> None:
@@ -77,6 +78,7 @@ def test_engines_read_the_force_of_the_book(name: str, what: str, tmp_path: Path
     assert max(found.values()) < NEAR[name]
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a joint's damping read as its force")
 @pytest.mark.parametrize("what", ["viscous", "carried"])
 def test_damping_that_is_read_as_its_force_is_seen(

@@ -220,6 +220,7 @@ def test_a_rocking_block_that_sinks_is_seen(
     assert off(case, motion, 1e-3, way="native")[:3].max() > 3e-2
 
 
+@pytest.mark.slow
 def test_a_bar_that_comes_down_flat_is_no_block_that_rocks(tmp_path: Path) -> None:
     bar = ROCKS.replace("block: {mass: 1.0, width: 0.2, height: 0.6}", "bar: {mass: 1, length: 1}")
     bar = bar.replace("lower_left", "end").replace("lower_right", "start")

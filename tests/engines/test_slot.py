@@ -94,6 +94,7 @@ def test_a_record_of_every_step_reads_the_slot_too(name: str, tmp_path: Path) ->
     np.testing.assert_allclose(rows, motion.states["rod"], atol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", LOOP)
 def test_two_slots_hold_one_rod(name: str, tmp_path: Path) -> None:
     """The elliptic trammel: each groove felt the other's error, 0.05 rad at any step."""

@@ -68,6 +68,7 @@ def test_elements_for_mujoco(name: str, options: Options) -> None:
     assert differing(mujoco.MjModel.from_xml_string(bare), wanted)
 
 
+@pytest.mark.slow
 def test_what_one_default_cannot_say_of_two_groups_is_a_comment(tmp_path: Path) -> None:
     """Loops closed by a pin and by a rod are both equalities, with numbers of their own."""
     case = scenes.typed(tmp_path, rods.BOTH, tail=scenes.tail(0.2, 5))

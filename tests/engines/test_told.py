@@ -34,6 +34,7 @@ def known(tmp_path_factory: pytest.TempPathFactory) -> tuple[Case, Trajectory, S
     return case, motion, start
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("row", TABLE["told"], ids=str)
 def test_typed_values(row: dict[str, Any], known: tuple[Case, Trajectory, Start]) -> None:
     """The viscous ones along [1, 0.3] of a rail whose first part is turned by 0.3 rad."""
@@ -120,6 +121,7 @@ def test_natively_there_is_a_reason(engine: str, known: tuple[Case, Trajectory, 
     assert because.startswith("engine: ")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("exponent", [1, 2, 3])
 def test_mujoco_damps_a_slide_by_itself(exponent: int, tmp_path: Path) -> None:
     """Alike both ways: and that is what the audit reads back."""

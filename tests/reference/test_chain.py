@@ -71,6 +71,7 @@ def test_a_long_chain_costs_no_more_evaluations(
     assert many["stage_factors"] <= many["difference_jacobian"] + 10
 
 
+@pytest.mark.slow
 def test_no_matrix_of_a_long_chain_is_full(long: tuple[Solution, Counter[str]]):
     _, calls = long
     assert calls["full"] == 0

@@ -111,6 +111,7 @@ def found(test: str) -> list[ast.FunctionDef]:
     return [each for each in functions if name in ("", each.name)]
 
 
+@pytest.mark.slow
 def test_every_check_is_listed() -> None:
     """And nothing is that there is no more."""
     assert checks() == CHECKS.keys()
@@ -133,6 +134,7 @@ def test_a_case_is_refused_by_it(premise: str) -> None:
     assert any(word in ast.unparse(test) for test in tests for word in TOLD)
 
 
+@pytest.mark.slow
 def test_a_new_check_would_be_seen() -> None:
     """Names are found whatever they are made of, and in whichever file."""
     tree = ast.parse("yield Check(f'a {b}', 1.0, LAW)\nfound.append(Check('c', *d))")

@@ -26,6 +26,7 @@ def rocks(mu: float = 0.9, ideal: str = ", ideal: pivot") -> str:
     return ROCKS.format(mu=mu, ideal=ideal)
 
 
+@pytest.mark.slow
 def test_the_corner_in_the_air_has_nothing_to_pull(tmp_path: Path) -> None:
     found = solve(scenes.typed(tmp_path, rocks(), tail=TAIL))
     assert found.holds

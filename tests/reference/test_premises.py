@@ -35,6 +35,7 @@ def test_rolling_is_possible_just_above_what_it_needs(
         assert "rolling is not possible" in refused(case).what
 
 
+@pytest.mark.slow
 def test_rolling_needs_enough_friction(tmp_path: Path) -> None:
     """A disk needs tan β / 3: Example 2.1."""
     text = WHEEL.replace("BETA", "30 deg").replace("MU", "0.1").replace("UP", "0")
@@ -73,6 +74,7 @@ def test_a_place_that_is_held_only_trembles(tmp_path: Path) -> None:
     assert [mistake.where for mistake in caught.value.mistakes] == ["allow.cart.y", "allow.cart.vy"]
 
 
+@pytest.mark.slow
 def test_a_contact_above_the_floor_has_to_say_so(tmp_path: Path) -> None:
     mistake = refused(rod(tmp_path, y=0.01, unsaid=True))
     assert mistake.where == "scene.contacts.tip"

@@ -56,6 +56,7 @@ def test_a_sample_on_an_event_changes_nothing(name: str) -> None:
     np.testing.assert_allclose(one.y[-1], other.y[-1], atol=1e-8 * size)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("samples", [101, 301, 1001])
 def test_what_begins_gently_goes_on_at_any_number_of_samples(samples: int) -> None:
     """From rest, at 0 for its joint and some metres from the hook: with 301 it did not."""

@@ -24,6 +24,7 @@ allow: {rod.end.x: 1.0e-6, rod.end.y: 1.0e-3}
 """
 
 
+@pytest.mark.slow
 def test_a_straight_line_that_a_linkage_keeps_is_a_claim(tmp_path: Path) -> None:
     with pytest.raises(CaseError, match=r"say what is claimed: `stays: \[rod.end.x\]`"):
         solve(typed(tmp_path, SCOTT_RUSSELL))

@@ -252,6 +252,7 @@ def test_the_number_of_workers_does_not_change_the_rows(new: Path, tmp_path: Pat
         assert file.read_bytes() == (tmp_path / "2" / file.name).read_bytes()
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a file is looked for from where a worker is")
 def test_several_files_are_checked_at_once_in_their_order(tmp_path: Path) -> None:
     for name, text in (("b", NEW), ("a", NEW), ("c", NEW.replace("title", "tittle"))):
@@ -262,6 +263,7 @@ def test_several_files_are_checked_at_once_in_their_order(tmp_path: Path) -> Non
     assert "c.yaml:1:1: tittle: unknown key 'tittle'" in done.stderr
 
 
+@pytest.mark.slow
 def test_a_file_whose_check_breaks_down_costs_only_itself(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

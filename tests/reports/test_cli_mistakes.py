@@ -52,6 +52,7 @@ def test_check_says_what_would_take_for_ever_and_allow_long_goes_on(files: Path)
     assert textmech("check", "--allow-long", "long.yaml", folder=files).returncode == 0
 
 
+@pytest.mark.slow
 def test_check_says_no_mistakes_only_where_nothing_fails(
     files: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

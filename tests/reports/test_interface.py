@@ -39,6 +39,7 @@ def test_load_of_nothing_is_all() -> None:
     assert load([]) == load()
 
 
+@pytest.mark.slow
 def test_solve_gives_the_motion_with_its_units() -> None:
     """A block brakes as v0 - mu g t, and stops at v0/(mu g)."""
     found = solve("sliding_block.braking")

@@ -65,6 +65,7 @@ def test_the_other_machine_is_another_one() -> None:
     assert len(sums) == 2
 
 
+@pytest.mark.slow
 def test_an_angle_that_stays_zero_has_no_digits() -> None:
     """Two processors tell it as 1.6e-17 and 4.9e-17 rad."""
     done = textmech("run", "heavy_on_light", "--engine", "mujoco.tuned", "--json")

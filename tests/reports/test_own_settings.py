@@ -95,6 +95,7 @@ def test_a_games_step_is_judged_as_it_is(moving: Case, trial: Make) -> None:
     assert row.protocol == "31 samples at whole steps of its own"
 
 
+@pytest.mark.slow
 def test_its_own_samples_need_a_certified_reference(
     moving: Case, trial: Make, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -114,11 +115,13 @@ def test_its_own_samples_need_a_certified_reference(
     assert all("the reference is not certified" in row.because for row in rows)
 
 
+@pytest.mark.slow
 def test_a_step_that_leaves_no_room_is_refused(moving: Case, trial: Make) -> None:
     (row,) = measured(moving, own(trial, 0.6))
     assert row.verdict == "refused: adapter: 1 s are less than two of its steps of 0.6 s"
 
 
+@pytest.mark.slow
 def test_options_without_effect_are_told(moving: Case, trial: Make) -> None:
     shipped = trial(setting="shipped", own_step=1e-3).engine
     same, other = own(trial, 1e-3), replace(own(trial, 1e-3), setting="faster", rate=2.0)

@@ -14,6 +14,7 @@ def labels(svg: str) -> list[str]:
     return re.findall(r">(\w+ \w+: \d+% of \d+)<", svg)
 
 
+@pytest.mark.slow
 def test_the_committed_one_is_drawn_from_the_committed_reports() -> None:
     assert readme.PICTURE.read_text(encoding="utf-8") == readme.drawn()
 
@@ -38,6 +39,7 @@ def test_a_case_counts_by_its_worst_quantity() -> None:
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", [0.4, 2.0])
 def test_another_row_is_another_picture(ratio: float) -> None:
     assert picture([row(ratio=ratio)]) == picture([row(ratio=ratio)])

@@ -61,6 +61,7 @@ def thrown(times: Array, back: float, late: float = 0.0) -> Trajectory:
     return Trajectory(times, {"ball": states}, {})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("back", "late"), [(0.5, 0.0), (0.7, 2e-3), (0.0, 0.0)])
 def test_restitution(tmp_path: Path, back: float, late: float) -> None:
     file = tmp_path / "ball.yaml"

@@ -110,6 +110,7 @@ time.sleep(60)
 """
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a worker of pytest goes on measuring when the session was killed")
 def test_a_worker_whose_session_was_killed_ends_soon() -> None:
     with subprocess.Popen(

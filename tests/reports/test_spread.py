@@ -45,6 +45,7 @@ def test_a_row_beyond_says_how_to_read_it_later(at_once: dict[tuple[str, str], C
     assert "say so by `tube`, as `tube: 2 ms`" in said(row)
 
 
+@pytest.mark.slow
 def test_others_do_not(at_once: dict[tuple[str, str], Comparison]) -> None:
     for key, row in at_once.items():
         if key != ("native", "taut.ball.vy.after"):

@@ -35,6 +35,7 @@ def rows(case: Case, engine: Any) -> dict[str, Comparison]:
     return {row.quantity: row for row in report.comparisons}
 
 
+@pytest.mark.slow
 def test_rows(tmp_path: Path) -> None:
     case = claimed(tmp_path, PLANE)
     found = rows(case, MUJOCO)
@@ -45,6 +46,7 @@ def test_rows(tmp_path: Path) -> None:
     assert found["wheel.inertia"].unit == "kg m²"
 
 
+@pytest.mark.slow
 def test_what_is_not_told_is_refused(tmp_path: Path) -> None:
     case = claimed(tmp_path, PLANE, allow={"wheel.P.ax": 1e-11, "wheel.P.x": 1e-12})
     found = rows(case, PYMUNK)
@@ -52,6 +54,7 @@ def test_what_is_not_told_is_refused(tmp_path: Path) -> None:
     assert found["wheel.P.x"].verdict == AGREES
 
 
+@pytest.mark.slow
 def test_space_is_refused_by_an_engine_of_the_plane(tmp_path: Path) -> None:
     found = rows(claimed(tmp_path, CHAIN), PYMUNK)
     assert {row.verdict for row in found.values()} == {
@@ -149,6 +152,7 @@ def test_friction_that_an_engine_has_not_is_refused_and_the_rest_answered() -> N
         assert found["pad.fx"].verdict.startswith("refused: engine: ")
 
 
+@pytest.mark.slow
 def test_its_rows_can_be_written_and_read(tmp_path: Path) -> None:
     case = claimed(tmp_path, PLANE)
     report = suite.measure([case], [MUJOCO], progress=lambda *_: None, book=False)
@@ -159,6 +163,7 @@ def test_its_rows_can_be_written_and_read(tmp_path: Path) -> None:
     }
 
 
+@pytest.mark.slow
 def test_what_is_kept_has_a_row_for_each_state(tmp_path: Path) -> None:
     case = claimed(tmp_path, PLANE)
     report = suite.measure([case], [MUJOCO], progress=lambda *_: None, book=False)

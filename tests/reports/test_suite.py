@@ -125,6 +125,7 @@ def test_a_lost_reference_costs_its_own_case(
     assert words in read["lost"].because
 
 
+@pytest.mark.slow
 def test_there_are_no_more_processes_than_tasks(
     trial: Make, moving: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -140,6 +141,7 @@ def test_there_are_no_more_processes_than_tasks(
     assert asked[0] <= suite.RUNS
 
 
+@pytest.mark.slow
 def test_a_reference_that_is_not_certified_judges_nothing(
     trial: Make, moving: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -59,6 +59,7 @@ INPUT: dict[str, tuple[str, tuple[str, ...], Any]] = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("{mistake}, read a second time")
 @pytest.mark.parametrize("mistake", INPUT)
 def test_a_file_that_is_misread_is_seen(mistake: str) -> None:

@@ -85,6 +85,7 @@ def test_a_random_scene_in_space_moves_the_same(seed: int, tmp_path: Path) -> No
     assert compared(drawn_space.drawn(seed), tmp_path) == {}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", seeds(SWITCHING, MORE_SWITCHING))
 def test_a_random_scene_that_switches_moves_the_same(seed: int, tmp_path: Path) -> None:
     assert compared(drawn_switching.drawn(seed), tmp_path) == {}

@@ -141,6 +141,7 @@ def test_what_falls_freely_bounces_at_the_right_instant(name: str) -> None:
     assert off(case, exact, run(case, exact, 1e-3), f"{body}.y") < 1e-10  # 4e-12
 
 
+@pytest.mark.slow
 def test_a_part_tells_the_force_of_a_whole_step(
     falls: Falls,
 ) -> None:

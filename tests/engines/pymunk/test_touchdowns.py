@@ -96,6 +96,7 @@ def test_a_tip_that_leaves_by_its_curve_is_seen(tmp_path: Path, monkeypatch: Pat
     assert pressed(tmp_path) > 0.1
 
 
+@pytest.mark.slow
 def test_two_that_land_in_one_step_each_do_so_in_time(tmp_path: Path) -> None:
     case, motion = known(tmp_path, TWO_LANDINGS, 0.2)
     assert len({int(t / 1e-3) for t in motion.switches}) == 1
@@ -103,6 +104,7 @@ def test_two_that_land_in_one_step_each_do_so_in_time(tmp_path: Path) -> None:
         assert off(case, motion, 1e-3, "driver", body).max() < 1e-10
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("of two that land in one step the later one first")
 def test_the_later_of_two_landings_first_is_seen(tmp_path: Path, monkeypatch: Patch) -> None:
     monkeypatch.setattr(cut, "min", max, raising=False)
@@ -110,6 +112,7 @@ def test_the_later_of_two_landings_first_is_seen(tmp_path: Path, monkeypatch: Pa
     assert max(off(case, motion, 1e-3, "driver", body).max() for body in ("one", "two")) > 1e-4
 
 
+@pytest.mark.slow
 def test_no_step_is_cut_beside_a_force_given_in_time(tmp_path: Path) -> None:
     """It is told before each step, for all of it."""
     case, motion = known(tmp_path, PUSHED, 0.2)

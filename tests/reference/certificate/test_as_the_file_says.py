@@ -204,6 +204,7 @@ def test_what_all_answers_share_is_seen(
     assert not checks(tmp_path, text)[row].holds
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a start on another turn than the file's")
 def test_a_start_on_another_turn_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Sines and cosines are the same, and all answers are, too."""

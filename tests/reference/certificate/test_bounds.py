@@ -83,6 +83,7 @@ def test_the_size_of_what_is_left_alone_is_seen(monkeypatch: Patch) -> None:
     assert not reactions_of(TRUNK).holds
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("share", [0.0, 1e-9])
 def test_a_reaction_beside_large_forces_is_compared_to_them(share: float) -> None:
     """The slot bears a hundredth of what the legs exert along what it holds."""

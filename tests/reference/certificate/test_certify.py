@@ -127,6 +127,7 @@ def test_a_broken_system_is_seen(kind: type[Mode]) -> None:
     assert seen <= failing(case, kind(**case.parameters))
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("an integrator with a tolerance of 1e-6")
 def test_a_sloppy_integrator_is_seen() -> None:
     system = BarPendulum(**PENDULUM.parameters)
@@ -180,6 +181,7 @@ def test_nan_never_holds() -> None:
     assert np.isnan(difference(one, replace(one, states=states)))
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("NaN in the power balance of a part of the motion")
 def test_nan_in_a_law_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     terms: Callable[..., Array] = laws.energy.power_terms
@@ -191,6 +193,7 @@ def test_nan_in_a_law_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     assert failing(PENDULUM, BarPendulum(**PENDULUM.parameters)) == {POWER}
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("J of a bar 1e-6 too large in all that the system says")
 def test_a_millionth_is_seen_however_loose_the_tolerances_are() -> None:
     """J 1e-6 too large in all that the system says, so that it agrees with itself."""
@@ -206,6 +209,7 @@ def test_a_millionth_is_seen_however_loose_the_tolerances_are() -> None:
     assert not broken & {LAGRANGE, ANGLE}
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("1e-10 of a bar's weight left out")
 def test_a_residual_is_told_in_its_size() -> None:
     """A hundred times the bound: a ten thousand millionth of the weight that is not there."""

@@ -85,6 +85,7 @@ def test_a_bound_that_cannot_be_certified_is_a_mistake_in_its_place(tmp_path: Pa
         solve(replace(case, allow={"bar.angle": least / 3}))
 
 
+@pytest.mark.slow
 def test_a_reach_that_cannot_be_certified_is_told_by_itself(tmp_path: Path) -> None:
     case = pendulum(tmp_path, {})
     case = replace(case, reach={"mujoco": {"bar.angle": 1e-15}, "pymunk": {"bar.angle": 1e-6}})

@@ -96,6 +96,7 @@ def test_a_potential_that_is_wrong_is_seen_at_rest_too(
     assert any(law.startswith("accelerations by Lagrange") for law in broken)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("NaN in the power balance of one mode")
 @pytest.mark.parametrize("part", [(0.0, 0.5), (0.9, 1.02), (1.5, 2.0)])
 def test_nan_is_not_lost_in_whichever_mode(

@@ -80,6 +80,7 @@ def test_a_generated_answer_is_not_compared_with_itself(tmp_path: Path) -> None:
     assert checks["modes possible"].difference == 0
 
 
+@pytest.mark.slow
 def test_modes_are_asked_where_there_are_others_or_what_ends_them(tmp_path: Path) -> None:
     """A disk that rolls from rest, which nothing ends; a pendulum with a guard that never falls."""
     scene, end = written_scenes.text("too steep")

@@ -63,6 +63,7 @@ def broken(found: Solution) -> set[str]:
     return {check.name for check in found.checks if not check.holds}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SOUND)
 def test_what_is_right_holds(tmp_path: Path, name: str) -> None:
     assert broken(solve(scenes.typed(tmp_path, SOUND[name], tail=TAIL))) == set()
@@ -91,6 +92,7 @@ def test_what_is_wrong_by_little_is_seen(
     assert any(law.startswith("accelerations by") for law in found)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("kinetic energy of a turn off by 1e-9 (R = {R} m)")
 @pytest.mark.parametrize("R", [1e-1, 1e-7])
 def test_power_that_is_lost_is_seen(

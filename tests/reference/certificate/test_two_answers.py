@@ -250,6 +250,7 @@ def test_a_mistake_in_either_answer_is_seen(
     assert not found(tmp_path, two, getattr(two, side), monkeypatch)[name].holds
 
 
+@pytest.mark.slow
 @pytest.mark.mutant(
     "explicit integrator 1e-4 off where modes switch",
     "implicit integrator 1e-4 off where modes switch",

@@ -73,6 +73,7 @@ def test_rates_from_a_spin_in_ground_axes_are_seen(name: str, law: Any) -> None:
     assert law(mutant(sound, rates=rates), name) > EXACT
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("{name}: gyroscopic term left out")
 @pytest.mark.parametrize("name", ["free body", "top"])
 def test_a_lost_gyroscopic_term_is_seen_by_the_equations(name: str) -> None:
@@ -88,6 +89,7 @@ def test_a_lost_gyroscopic_term_is_seen_by_the_equations(name: str) -> None:
     assert powers(lost, name) < EXACT
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("(2.33) as printed, erratum 1")
 def test_the_printed_equations_of_euler_are_seen() -> None:
     """Erratum 1: as printed, the second component has the wrong sign before J₁ⱼ ωⱼ ω₃."""

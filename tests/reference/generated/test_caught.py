@@ -115,6 +115,7 @@ def test_a_rope_is_no_joint(tmp_path: Path) -> None:
     assert mistake.where == "scene.forces.r"
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("what a blow leaves at no speed taken for thrown up")
 def test_what_is_not_thrown_up_taken_for_it_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -47,6 +47,7 @@ def test_no_order_in_the_file_decides(tmp_path: Path, make: Any, seed: int) -> N
     np.testing.assert_allclose(mirror.told(told(mirror)[0], mirrored=True), known, atol=ROUNDED)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", DECIDED[groove])
 def test_it_is_the_one_velocity_of_all_that_the_laws_allow(tmp_path: Path, seed: int) -> None:
     found = blow(tmp_path, groove, seed)
@@ -76,6 +77,7 @@ def test_what_the_laws_leave_open_is_said(tmp_path: Path, seed: int, order: int)
         told(found)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("of several velocities after a blow the first is taken")
 def test_one_of_several_taken_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It is one of those that the laws allow, and another is as good."""
@@ -97,6 +99,7 @@ def test_a_blow_on_dependent_rows_without_their_rank_is_seen(
         np.testing.assert_allclose(told(blow(tmp_path, groove, 0))[0], sound, atol=ROUNDED)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("order", [0, 1])
 def test_two_walls_that_may_press_as_they_like_leave_a_slip_open(
     tmp_path: Path, order: int

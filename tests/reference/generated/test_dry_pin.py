@@ -24,6 +24,7 @@ def followed(tmp_path: Path, text: str) -> tuple[Case, Followed]:
     return case, follow(scenes.mechanism(case), case.times)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ends", [HUNG, HELD])
 def test_a_bar_swings_to_rest(tmp_path: Path, ends: str) -> None:
     case, found = followed(tmp_path, rubbing.swinging(ends, 1.0, 1.4))
@@ -55,6 +56,7 @@ def test_mutant_pin_that_brakes_the_sum_of_both_turns(
     assert np.max(np.abs(found.y[:, 5] - rubbing.coupled(case.times)[1])) > 0.1
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("dry friction of a pin, forward and backward exchanged")
 def test_mutant_friction_of_the_other_way(tmp_path: Path) -> None:
     case, found = followed(tmp_path, rubbing.swinging(HUNG, 1.4, 1.0))

@@ -86,6 +86,7 @@ def test_edges_obey(name: str, tmp_path: Path) -> None:
         assert force_of(found) < EXACT
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["free", "sine", "train"])
 def test_the_certificate_holds(name: str, tmp_path: Path) -> None:
     solution = solve(scenes.typed(tmp_path, SCENES[name]))

@@ -39,6 +39,7 @@ def test_a_foot_that_does_not_pass_is_seen(monkeypatch: pytest.MonkeyPatch) -> N
     assert [round(change.time, 2) for change in changes] != [0.89, 1.79]
 
 
+@pytest.mark.slow
 def test_a_foot_is_not_in_the_floor_where_it_passes() -> None:
     mechanism = scenes.mechanism(CASE)
     found = follow(mechanism, np.linspace(0.0, 0.85, 41))
@@ -49,6 +50,7 @@ def test_a_foot_is_not_in_the_floor_where_it_passes() -> None:
         assert mechanism.possible(found.phases[0], t, *np.split(y, 2)) is None
 
 
+@pytest.mark.slow
 def test_both_feet_in_the_air_are_no_walk() -> None:
     """The standing leg so fast that it leaves the floor at once."""
     left = CASE.initial["left"]
@@ -58,6 +60,7 @@ def test_both_feet_in_the_air_are_no_walk() -> None:
         solve(flying)
 
 
+@pytest.mark.slow
 def test_a_walker_slips_where_friction_is_little() -> None:
     contacts = CASE.scene.contacts.items()
     feet = {name: replace(foot, static=0.01, kinetic=0.01) for name, foot in contacts}

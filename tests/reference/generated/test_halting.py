@@ -47,6 +47,7 @@ def test_under_its_weight_it_never_stops(
     assert b[[0, 1, 3, 4]] == pytest.approx(known.y[:, -1], abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("alpha", [0.3, 0.5, 0.9])
 def test_alone_it_stops_and_is_refused_from_there_on(tmp_path: Path, alpha: float) -> None:
     """v^{1−α} = v₀^{1−α} − (1 − α) (d/m) t."""

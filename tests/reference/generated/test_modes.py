@@ -49,6 +49,7 @@ def with_slides(count: int, *, held: bool) -> list[tuple[Multibody, np.random.Ge
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("held", [True, False])
 def test_slides_at_rest_and_rubbing(held: bool) -> None:
     for mechanism, random in with_slides(25, held=held):

@@ -41,6 +41,7 @@ def test_mutant_static_for_kinetic(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert {"generated motion", "generated events"} <= failing(tmp_path, "braking")
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("kinetic friction that drives")
 def test_mutant_sign_of_kinetic_friction(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Touching, "coulomb", _coulomb(lambda touch: touch.kinetic))
@@ -67,6 +68,7 @@ def test_mutant_restitution_ignored(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert {"generated motion", "generated events"} <= failing(tmp_path, "elastic")
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("friction cone left out: a disk rolls on any slope")
 def test_mutant_cone_ignored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A disk on a slope too steep for rolling would roll."""

@@ -48,6 +48,7 @@ def stance(v: float) -> float:
     return 2 * (math.pi - math.atan(v * w / G)) / w
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("drop", [0.02, 0.3])
 def test_hopping_by_its_closed_form(tmp_path: Path, drop: float) -> None:
     """(2.44) a fall, then ÿ = −ω² (y − y_∞) until λ = λ₀ again, and so on: nothing is lost."""
@@ -134,6 +135,7 @@ def test_impossible_states_are_said(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.slow
 def test_a_scene_without_any_reaction_is_certified(tmp_path: Path) -> None:
     """Nothing holds the mass: there is no force to be small beside."""
     free = HOP.replace("  joints: {guide: {slide: [ground.O, bob.center], along: [0, 1]}}\n", "")
@@ -143,6 +145,7 @@ def test_a_scene_without_any_reaction_is_certified(tmp_path: Path) -> None:
     assert solve(scenes.typed(tmp_path, free)).holds
 
 
+@pytest.mark.slow
 def test_energy_is_kept_through_every_event(tmp_path: Path) -> None:
     system = mechanism(tmp_path, 0.8, 0.0)
     times = np.linspace(0.0, 3.0, 61)
@@ -180,6 +183,7 @@ def test_beside_a_contact(tmp_path: Path) -> None:
     assert slack == 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.mutant(
     "a leg that only presses on the other side of its rest length", "a leg that never lets go"
 )

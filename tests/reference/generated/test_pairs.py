@@ -57,6 +57,7 @@ def tray(tmp_path: Path) -> Case:
     return scenes.typed(tmp_path, TRAY, tail=scenes.tail(0.3, 16))
 
 
+@pytest.mark.slow
 def test_a_disk_rolls_on_a_side_that_turns_as_derived_by_hand(tmp_path: Path) -> None:
     case = tray(tmp_path)
     solution = solve(case)

@@ -43,6 +43,7 @@ def strikes(tmp_path: Path, w0: float, until: float = 1.0) -> list[float]:
     return [change.time for change in found.changes]
 
 
+@pytest.mark.slow
 def test_strikes_are_those_of_the_energy(tmp_path: Path) -> None:
     known = SpokeSteps(8, L, J / (M * L**2), GAMMA).strikes(3.3, 1.0)
     assert strikes(tmp_path, 3.3) == pytest.approx(known, abs=1e-12)
@@ -62,6 +63,7 @@ def test_an_impact_in_which_the_old_tip_stays_is_seen(
     assert len(strikes(tmp_path, 3.3)) == 1
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("half of J in the impact of spokes")
 def test_another_inertia_in_the_impact_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -90,6 +92,7 @@ def test_it_rocks_to_rest_as_the_hand_written_one(tmp_path: Path) -> None:
     assert forces["feet.tip1.normal"] > forces["feet.tip0.normal"] > 0.0  # it leans down the slope
 
 
+@pytest.mark.slow
 def test_a_rod_that_pivots_on_its_end(tmp_path: Path) -> None:
     """½ (m l²/3) ω² + m g (l/2) sin φ stays what it was; F_N by (2.23)."""
     case = typed(tmp_path, ROD.format(mu=9.0, w0=-0.4), tail=tail(0.3, 16))
@@ -103,6 +106,7 @@ def test_a_rod_that_pivots_on_its_end(tmp_path: Path) -> None:
     assert observe(case.scene, motion, "foot.normal") == pytest.approx(normal, rel=1e-11)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("scene", "words"),
     [

@@ -31,6 +31,7 @@ def begun(build: Build) -> tuple[Multibody, Array, Array]:
     return found, q, v - np.linalg.lstsq(rows, rows @ v - g, rcond=None)[0] if len(rows) else v
 
 
+@pytest.mark.slow
 @few
 @given(MACHINES)
 def test_accelerations_follow_from_the_energies(build: Build) -> None:
@@ -40,6 +41,7 @@ def test_accelerations_follow_from_the_energies(build: Build) -> None:
     assert balance(found, T, q, v) < EXACT
 
 
+@pytest.mark.slow
 @few
 @given(MACHINES)
 def test_every_body_obeys_newton_and_euler(build: Build) -> None:
@@ -128,6 +130,7 @@ def _turned(m: Multibody, v: Array, turn: float) -> Array:
     return v
 
 
+@pytest.mark.slow
 @few
 @given(MACHINES, UNITS)
 def test_units_do_not_matter(build: Build, units: Units) -> None:

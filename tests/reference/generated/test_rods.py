@@ -70,6 +70,7 @@ def test_tension_is_positive_where_it_pulls(tmp_path: Path) -> None:
         assert force[0] == pytest.approx(sign * 2.0 * 9.80665, rel=1e-14)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("γ of a massless rod without a part of its turn")
 def test_a_lost_term_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """γ without the turn of the rod: (|Δ̇|² − λ̇²)/λ."""

@@ -21,6 +21,7 @@ def solved(tmp_path: Path, text: str) -> Solution:
     return found
 
 
+@pytest.mark.slow
 def test_two_balls_thrown_apart_go_on_about_their_centre(tmp_path: Path) -> None:
     """What is left along the rope is the centre's velocity; across it each keeps its own."""
     case = scenes.typed(tmp_path, ropes.PAIR, tail=END)
@@ -54,6 +55,7 @@ def test_a_bar_is_stopped_at_once(tmp_path: Path) -> None:
     assert np.linalg.norm(end - (0.0, 0.5)) == pytest.approx(1.1, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_a_hook_that_moves_takes_along_what_it_catches(tmp_path: Path) -> None:
     """Along the rope its end then has the hook's velocity; the rope slackens, and it drifts on."""
     case = scenes.typed(tmp_path, ropes.TOWED, tail=END)
@@ -87,6 +89,7 @@ def test_starts_that_no_rope_allows(tmp_path: Path, old: str, new: str, what: st
     assert mistake.what == what
 
 
+@pytest.mark.slow
 def test_a_taut_rope_that_need_not_pull_begins_slack(tmp_path: Path) -> None:
     """Its ends neither part nor near: what pushes them together leaves it slack."""
     pushed = ropes.PAIR.replace("vx: -1.0, vy: 0.5", "vx: 0, vy: 0").replace("vx: 1.0", "vx: 0")
@@ -99,6 +102,7 @@ def test_a_taut_rope_that_need_not_pull_begins_slack(tmp_path: Path) -> None:
     assert np.all(found.trajectory.reactions["rope.force"] == 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a rope that throws back what it catches")
 def test_an_impact_that_throws_back_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -58,6 +58,7 @@ def test_both_stop_at_once(tmp_path: Path, a: float, b: float, vx: float):
     assert mode == "a sticks, b sticks"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", [1, -1])
 @pytest.mark.parametrize(("a", "b"), [(0.1, 0.1), (0.17, 0.03)])
 def test_both_break_loose_at_the_sum(tmp_path: Path, a: float, b: float, way: int):

@@ -141,12 +141,14 @@ def test_a_force_that_jumps_beyond_stiction_breaks_loose_at_once(tmp_path: Path)
     assert held[(t > 0.3) & (t < 0.7)] == pytest.approx(-3.0, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_a_force_that_jumps_within_stiction_moves_nothing(tmp_path: Path) -> None:
     moved = block(tmp_path, "step: {amplitude: [3.9, 0], at: 0.3}", "rests: true").trajectory
     assert not moved.states["block"][:, 3].any()
     assert moved.reactions["rail.friction"][-1] == pytest.approx(-3.9, rel=1e-14)
 
 
+@pytest.mark.slow
 def test_a_corner_on_a_sample_belongs_to_what_follows(tmp_path: Path) -> None:
     """Sample 7 is 0.28000000000000003 s, and the corner 0.28 s."""
     moved = block(tmp_path, "step: {amplitude: [6.0, 0], at: 0.28}").trajectory

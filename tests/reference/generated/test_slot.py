@@ -45,6 +45,7 @@ def by_hand(t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return phi, omega, F
 
 
+@pytest.mark.slow
 def test_a_rod_in_a_slot_moves_as_derived_by_hand(tmp_path: Path) -> None:
     case = scenes.typed(tmp_path, SCENE)
     solution = solve(case)

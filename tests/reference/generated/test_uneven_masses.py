@@ -153,6 +153,7 @@ allow: {electron.x: 1.0e-3, electron.vy: 1.0e-3, energy.kinetic: 1.0e-33}
 """
 
 
+@pytest.mark.slow
 def test_an_electron_moves_by_its_own_numbers(tmp_path: Path) -> None:
     """Exercise 2.4's particle: round in 2 π m/(e B) = 1.26 s, and its speed stays."""
     case = scenes.typed(tmp_path, FIELD)

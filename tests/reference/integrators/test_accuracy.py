@@ -65,11 +65,13 @@ def summed(tolerance: float = 1e-13) -> float:
     return float(np.abs(y[:, 0] - (1000.0 + times / 3.0)).max() / np.spacing(1000.0))
 
 
+@pytest.mark.slow
 def test_what_rounding_cuts_off_a_step_is_kept():
     """A step adds 3e-5, of which 1000 has eight digits."""
     assert summed() <= 1.0
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("what rounding cuts off a step is lost")
 def test_a_sum_that_is_not_compensated_is_seen(monkeypatch: pytest.MonkeyPatch):
     accept = march._Walker._accept

@@ -76,6 +76,7 @@ def test_a_weak_ramp_breaks_it_loose(method, rate: float, begins: float):
     assert found.steps < 1000
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("of a state that is zero the leaps by which its slope feels it are not heard")
 def test_without_its_leaps_it_creeps(monkeypatch: pytest.MonkeyPatch):
     """In 46,000 steps to 0.5 s, or to where they shrink to nothing."""

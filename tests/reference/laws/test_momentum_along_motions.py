@@ -66,6 +66,7 @@ def test_two_bodies_in_space_obey(law: Callable[[System], float]):
     assert law(in_space()) <= momenta.LIMIT
 
 
+@pytest.mark.slow
 def test_each_body_changes_by_the_force_between_them():
     """What the laws leave out inside: alone, one of the pair obeys none of them."""
     s = in_space()

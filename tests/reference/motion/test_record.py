@@ -134,6 +134,7 @@ def test_a_smooth_case_may_have_an_event(name: str) -> None:
     assert found.tolist() == pytest.approx(known, abs=LOCATED, rel=0)
 
 
+@pytest.mark.slow
 def test_a_pendulum_turns_when_its_period_says(tmp_path: Path) -> None:
     """Small swings of a bar: T = 2π √(2 l / 3 g); ω falls through zero at T/2, 3 T/2, …"""
     text = """\

@@ -151,6 +151,7 @@ THREE = (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("start", [60, 120, -100, 300])
 @pytest.mark.parametrize("samples", [3, 11])
 def test_the_middle_one_of_three_turns_goes_on(start: int, samples: int, tmp_path: Path) -> None:
@@ -163,6 +164,7 @@ def test_the_middle_one_of_three_turns_goes_on(start: int, samples: int, tmp_pat
     np.testing.assert_allclose(observe(case.scene, found, "f.al"), 0.2, atol=1e-7)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("aside", "told"), [(0.1, True), (1e-6, False)])
 def test_what_passes_by_gimbal_lock_jumps_or_is_not_told(
     aside: float, told: bool, tmp_path: Path
@@ -205,6 +207,7 @@ def test_a_lost_turn_is_seen(name: str, tmp_path: Path, monkeypatch: pytest.Monk
     assert "turns by their rates" in failed
 
 
+@pytest.mark.slow
 def test_nothing_is_counted_in_the_plane(tmp_path: Path) -> None:
     case = typed(tmp_path, PLANE + WOUND.replace("PART", "b"), 1.8, 7, "q.angle: 1")
     assert solve(case).trajectory.near == {}

@@ -82,6 +82,7 @@ def test_the_place_does_not_matter(tmp_path: Path) -> None:
     assert math.degrees(q[-1]) == pytest.approx(95.93, abs=0.01)
 
 
+@pytest.mark.slow
 def test_points_are_placed(tmp_path: Path) -> None:
     q, v = start(tmp_path, BAR + "initial: {bar: {end: [3, 4]}}\n")
     assert q["bar.angle"] == pytest.approx(math.atan2(4, 3), abs=1e-14)
@@ -106,6 +107,7 @@ def test_given_angles_stay_as_they_are(tmp_path: Path, angle: int) -> None:
     assert q["bar.angle"] == math.radians(angle)
 
 
+@pytest.mark.slow
 def test_half_a_turn_is_one_way_and_not_two(tmp_path: Path) -> None:
     """180° and −180° are the same place: Newton's method ends on either side by rounding."""
     text = SLIDER_CRANK.replace("allow", "initial: {crank: {angle: 180 deg}}\nallow")

@@ -122,6 +122,7 @@ def test_a_scene_of_another_mass_is_seen(name: str) -> None:
     assert apart(replace(case, scene=replace(case.scene, bodies=bodies))) > 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [CHAIN, "robot_states"])
 def test_a_chain_is_the_mechanism_with_driven_joints(text: str, tmp_path: Path) -> None:
     """In maximal coordinates with multipliers (2.60), started by Newton's method, every freedom

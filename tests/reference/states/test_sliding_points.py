@@ -22,6 +22,7 @@ def apart() -> float:
     return max(check.difference for check in checks if check.name == "generated states")
 
 
+@pytest.mark.slow
 def test_by_hand_from_its_dissipation_and_as_observed() -> None:
     assert apart() < LAW
     found, _ = answered(CASE)

@@ -71,6 +71,7 @@ def stopped(self: BallOnRope, t: float, q: Any, v: Any) -> Any:
     return "swings", self.L * n, 0.99 * (v - (v @ n) * n)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a ball {wrong} by 1 % too much where its rope tightens")
 @pytest.mark.parametrize("wrong", [thrown_back, stopped])
 def test_a_wrong_impact_is_seen(wrong: Any, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -79,6 +80,7 @@ def test_a_wrong_impact_is_seen(wrong: Any, monkeypatch: pytest.MonkeyPatch) -> 
     assert "generated motion" in broken
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a ball that flies only once its rope pushes")
 def test_a_flight_that_begins_too_late_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     """It lets go where it already pushes a little."""

@@ -52,6 +52,7 @@ def test_system_imports_nothing_of_the_other_answers(path: Path):
 LAWS = {"laws.inertia", "laws.momentum", "laws.energy"}
 
 
+@pytest.mark.slow
 def test_no_law_of_one_body_is_shared_with_the_generated_answers():
     root = Path(next(iter(systems.__path__))).parent
     for room in ("generated", "states", "formalisms", "start"):

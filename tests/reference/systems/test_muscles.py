@@ -71,6 +71,7 @@ def test_another_muscle_is_seen(name: str, wrong: str) -> None:
         assert np.abs(end[0] - end[1]).max() > 1e-5
 
 
+@pytest.mark.slow
 @pytest.mark.mutant(
     "{name}: energy of the spring beside left out",
     "{name}: energy of the spring in series left out",

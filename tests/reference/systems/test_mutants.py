@@ -106,6 +106,7 @@ def test_sign_of_gravity(name: str):
         assert_seen(law, name, mutant(system, accelerations=accelerations))
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("Steiner term left out of the bar's accelerations")
 def test_missing_steiner_term_in_the_explicit_accelerations():
     system = only("bar_pendulum")

@@ -74,6 +74,7 @@ def test_height_is_that_of_the_rows() -> None:
         assert abs(mode.f(t, q)[0] - height) < LIMIT
 
 
+@pytest.mark.slow
 def test_motion_stays_on_its_plane_and_keeps_its_energy() -> None:
     mode = robot("robot_knife")
     times = np.linspace(0.0, 0.3, 4)

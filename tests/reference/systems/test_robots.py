@@ -36,6 +36,7 @@ def test_angular_velocities_are_those_of_the_frames() -> None:
         assert difference(omega, posed) < LIMIT
 
 
+@pytest.mark.slow
 def test_falling_keeps_its_energy_and_its_momentum_about_the_vertical_axis() -> None:
     """(2.24) Neither weights nor the first hinge turn the arm about the z axis of the ground."""
     mode = robot("five_axis_robot")

@@ -70,6 +70,7 @@ def slopes(t: float, y: Array) -> Array:
     return np.concatenate([f, (jacobian @ y[4:].reshape(4, 4)).ravel()])
 
 
+@pytest.mark.slow
 def test_multipliers_are_those_of_the_variational_equations():
     """Φ along the step, then what a later or earlier strike makes of it, then the impact."""
     theta, theta_dot = found().state

@@ -66,6 +66,7 @@ def broken() -> set[str]:
     return {check.name for check in solve(case).checks if not check.holds}
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("restitution 0.71 for 0.7 in the generated stop")
 def test_another_restitution_in_the_generated_mechanism_is_seen(
     monkeypatch: pytest.MonkeyPatch,
@@ -79,6 +80,7 @@ def test_another_restitution_in_the_generated_mechanism_is_seen(
     assert {"generated motion", "generated events"} <= broken()
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a stop 1e-6 rad elsewhere in the hand-written system")
 def test_a_stop_elsewhere_in_the_hand_written_system_is_seen(
     monkeypatch: pytest.MonkeyPatch,

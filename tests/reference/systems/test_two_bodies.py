@@ -150,6 +150,7 @@ def _straight(self: Any, q: Array, v: Array) -> float:
     return self.m * G * math.sin(q[1])
 
 
+@pytest.mark.slow
 @pytest.mark.mutant(
     "disk on disk: a drum that does not give way",
     "disk on disk: normal force without the path's curvature",

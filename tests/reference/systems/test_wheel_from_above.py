@@ -122,6 +122,7 @@ def test_the_case_is_that_of_the_upright_wheel() -> None:
 LAWS: list[Callable[[Mode], float]] = [formalisms, free_cut, power, apart, of_the_wheel]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS, ids=lambda law: law.__name__)
 def test_it_obeys(law: Callable[[Mode], float]) -> None:
     assert law(above()) < LIMIT
@@ -152,6 +153,7 @@ MISTAKES: dict[str, tuple[dict[str, Any], Callable[[Mode], float]]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("wheel from above: {mistake}")
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_planted_mistake_is_seen(mistake: str) -> None:
@@ -159,6 +161,7 @@ def test_a_planted_mistake_is_seen(mistake: str) -> None:
     assert law(mutant(above(), **methods)) > 1e3 * LIMIT
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("wheel from above: mass and gravity of a disk that glides, everywhere")
 def test_nothing_turns_it() -> None:
     """J drops out; with the mass of the disk alone the path would be another one everywhere."""

@@ -42,6 +42,7 @@ LAWS = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "engine", "ways"), LAWS)
 def test_the_force_of_the_present_instant_is_of_first_order(
     name: str, engine: str, ways: set[str]

@@ -16,6 +16,7 @@ TOO_LARGE = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", scenes())
 def test_a_scene_is_read_or_refused_with_what_is_too_large(tmp_path: Path, scene: str) -> None:
     file = tmp_path / "grown.yaml"

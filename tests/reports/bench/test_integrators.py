@@ -38,6 +38,7 @@ def test_what_never_comes_there_is_not_compared() -> None:
     assert bracket(off, TRUTH, 1e-8, patience=-1.0) is None
 
 
+@pytest.mark.slow
 def test_a_case_is_compared(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(integrators, "ERRORS", {"bar_pendulum": 1e-6})
     monkeypatch.setattr(integrators, "TOLERANCES", (1e-6, 1e-7, 1e-9))
@@ -47,6 +48,7 @@ def test_a_case_is_compared(monkeypatch: pytest.MonkeyPatch) -> None:
     assert row.best in integrators.SCIPYS
 
 
+@pytest.mark.slow
 def test_the_fastest_of_scipys_counts(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of made-up seconds: ours takes one, scipy's first two, and each next one more."""
 

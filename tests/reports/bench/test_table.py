@@ -37,6 +37,7 @@ def measure(*words: object) -> Result:
     return CliRunner().invoke(bench.bench, [str(word) for word in words])
 
 
+@pytest.mark.slow
 def test_a_case_of_ones_own_is_measured(cart: Path) -> None:
     done = measure(cart, "--rounds", 1, "--steps", 2)
     assert done.exit_code == 0, done.output

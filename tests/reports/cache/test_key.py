@@ -93,6 +93,7 @@ def test_a_rungs_ladder_and_step_count() -> None:
     assert len({keys.rung("o", *rung) for rung in rungs}) == 3
 
 
+@pytest.mark.slow
 def test_what_is_tried_counts_and_the_code_that_tries_it(code: Path) -> None:
     def word(options: str = "{}", step: float = 1e-3) -> str:
         return replace(Keys.now(None), salt="").tried(CASE, ENGINE, options, step)
@@ -165,6 +166,7 @@ def test_all_code_counts_that_computes() -> None:
     assert {name for name in needed - known - packages if modules[name] not in told} == set()
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("{file}: what a search of causes stands on is another set of files")
 @pytest.mark.parametrize(
     ("file", "stands"),
@@ -223,6 +225,7 @@ def test_another_machine_has_other_keys(monkeypatch: pytest.MonkeyPatch) -> None
     assert not set(words()) & set(before)
 
 
+@pytest.mark.slow
 def test_code_newer_than_the_process_gives_keys_of_its_own(
     code: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -236,6 +239,7 @@ def test_code_newer_than_the_process_gives_keys_of_its_own(
     assert Keys.now(None).salt != Keys.now(None).salt != ""
 
 
+@pytest.mark.slow
 def test_code_that_changes_meanwhile_is_noticed(code: Path) -> None:
     keys = Keys.now(None)
     assert keys.hold()

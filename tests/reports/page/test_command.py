@@ -85,6 +85,7 @@ def test_a_plot_is_what_its_name_says(cart: Path, tmp_path: Path, name: str) -> 
         assert (tmp_path / name).read_bytes() == found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "told"),
     [

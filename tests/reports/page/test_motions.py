@@ -73,6 +73,7 @@ def test_drawn_bodies_hang_together_as_their_joints_hold_them(name: str) -> None
             assert found == pytest.approx(right, abs=2e-3 * drawn["size"])
 
 
+@pytest.mark.slow
 def test_every_shipped_scene_can_be_drawn(shipped: list[Case]) -> None:
     """No element is of a kind that the drawing does not know."""
     for case in shipped:

@@ -4,6 +4,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import pandas as pd
+import pytest
 
 from textmech.reports.page.mutants import COLUMNS, mutants
 from textmech.reports.page.page import page
@@ -37,6 +38,7 @@ def test_they_are_counted_by_room_and_by_test() -> None:
     assert test == {"seen_by": LAW, "planted": ["gravity upside down", "Steiner term left out"]}
 
 
+@pytest.mark.slow
 def test_each_is_on_the_page_with_its_test_and_is_no_markup(made: SimpleNamespace) -> None:
     text = shown(made, {MUTANTS: FRAME})
     assert "<summary>All 3 mistakes</summary>" in text
@@ -44,6 +46,7 @@ def test_each_is_on_the_page_with_its_test_and_is_no_markup(made: SimpleNamespac
     assert "&lt;b&gt;5 % on J&lt;/b&gt;" in text
 
 
+@pytest.mark.slow
 def test_beside_a_users_own_reports_there_is_none_and_no_word_of_it(made: SimpleNamespace) -> None:
     assert mutants(None) is None
     text = shown(made, {})

@@ -51,6 +51,7 @@ def parsed(made: SimpleNamespace) -> Parsed:
     return Parsed(made.text)
 
 
+@pytest.mark.slow
 def test_its_rows_and_its_own_motions_give_the_same_bytes(made: SimpleNamespace) -> None:
     """So that the committed page can be checked without running an engine."""
     kept = motions_of(made.text)
@@ -94,6 +95,7 @@ def test_tables_beside_the_reports_are_shown(made: SimpleNamespace) -> None:
     assert "The row that moved" in shares
 
 
+@pytest.mark.slow
 def test_what_is_not_there_is_said_in_a_sentence(made: SimpleNamespace) -> None:
     bare = SimpleNamespace(**{**vars(made.folder), "beside": {}})
     text = page(bare, made.cases, made.motions)  # type: ignore[arg-type]

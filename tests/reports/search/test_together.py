@@ -76,6 +76,7 @@ def test_each_finds_what_it_asked_for_and_progress_ends_once(
     assert told[-1] == ("causes", 3, 3)
 
 
+@pytest.mark.slow
 def test_a_run_that_dies_has_no_errors(results: Results) -> None:
     other = Candidate.of({}, 2.0)
     found = together("causes", {"a": search(results, "four_bar", [FATAL, other])}, results)

@@ -100,6 +100,7 @@ def printed(found: Advised, module: Any = advice) -> str:
     return line
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("the printed cost upside down")
 def test_the_printed_cost_is_the_recipes_over_shippeds(
     found: Advised, monkeypatch: pytest.MonkeyPatch

@@ -68,6 +68,7 @@ def begun() -> Start:
     return {"ball": state((0.0, 0.0, 0.3), FIRST, velocity, spin)}
 
 
+@pytest.mark.slow
 def test_a_ball_that_turns_evenly_is_led_by_its_blade() -> None:
     """A blade at the centre exerts no moment and does no work: m u ψ̇ to its left, m g upward.
 

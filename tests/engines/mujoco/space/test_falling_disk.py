@@ -1,6 +1,7 @@
 """A disk that rolls too slowly falls: the contact that carries it must not flutter."""
 
 import numpy as np
+import pytest
 from given.engine_space import STILL, simulated, spatial, state
 
 from textmech.cases.scene import Anchor
@@ -16,6 +17,7 @@ DISK = SpatialBody(
 SCENE = spatial([DISK], contacts=[SpatialContact("touch", Anchor("disk", "center"), 1.0, rim=True)])
 
 
+@pytest.mark.slow
 def test_a_disk_that_falls_keeps_its_normal_force() -> None:
     """It rises to 24 N and more as the disk falls, alike at two steps, to 0.015 N.
 

@@ -83,6 +83,7 @@ def test_a_machine_moves_and_is_held_as_the_reference_says(what: str, seed: int)
         assert off(exact, told) < forces, quantity
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", ["spheres", "rims"])
 def test_what_rolls_is_pressed_and_does_not_slip(what: str) -> None:
     """Negative control: the reference assumes it."""

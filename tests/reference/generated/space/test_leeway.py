@@ -201,6 +201,7 @@ def held_anyhow(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(SpatialMultibody, "solve", by_rank)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kinds", "force"), [(HINGES, "h.fz"), (HINGES, "k.my"), (BALLS, "h.fx")])
 def test_a_case_that_asks_for_an_open_force_is_refused_as_in_the_plane(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kinds: dict[str, str], force: str
@@ -217,6 +218,7 @@ def test_a_case_that_asks_for_an_open_force_is_refused_as_in_the_plane(
     assert [mistake.where for mistake in refused.value.mistakes] == [f"allow.{force}"]
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("rows in space that repeat each other counted as independent")
 def test_an_open_force_taken_for_determined_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -241,6 +243,7 @@ allow: {b.z: 1.0e-3, h.fz: 1.0e-1}
 """
 
 
+@pytest.mark.slow
 def test_forces_that_have_one_value_are_certified(tmp_path: Path) -> None:
     case = scenes.typed(tmp_path, ONE, tail=scenes.tail(0.2, 5))
     (row,) = [check for check in solve(case).checks if check.name == determined.NAME]

@@ -134,6 +134,7 @@ MISTAKES: dict[str, tuple[Patch, tuple[str, ...], str]] = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS)
 def test_the_laws_hold_where_nothing_is_planted(law: str) -> None:
     assert worst(law) < EXACT
@@ -151,6 +152,7 @@ def test_a_planted_mistake_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch
     assert worst(blind) < EXACT
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("sign of β in (2.65), in what rolls and in what has a blade")
 @pytest.mark.parametrize("kind", MAKES)
 def test_the_sign_of_beta_is_seen(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:

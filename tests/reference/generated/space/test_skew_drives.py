@@ -72,6 +72,7 @@ def off(folder: Path, freedoms: str, driven: str) -> float:
     return float(np.max(np.abs(read - 0.3 - moved(case.times))))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("freedoms", "driven"), CASES)
 def test_a_driven_freedom_goes_as_its_law_beside_a_skew_one(
     freedoms: str, driven: str, tmp_path: Path

@@ -29,6 +29,7 @@ def violated(mode: SpatialMultibody) -> float:
     return max(check(mode, t, q, v) for t in times for check in law)
 
 
+@pytest.mark.slow
 def test_laws(tmp_path: Path) -> None:
     assert violated(built(tmp_path)) < EXACT
 
@@ -100,6 +101,7 @@ def unsigned(turn: Any) -> Any:
 ANGLE: Any = turning.Turned.angle.fget  # type: ignore[attr-defined]
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("{name} of a turn in space: {wrong}")
 @pytest.mark.parametrize(
     ("name", "wrong"), [("m", along_its_axis), ("gradient", along_its_axis), ("angle", unsigned)]

@@ -91,6 +91,7 @@ def test_near_chooses_a_way(tmp_path: Path) -> None:
     assert np.max(np.abs(found[0] - found[1])) > 0.1
 
 
+@pytest.mark.slow
 def test_a_loop_that_hangs_on_nothing_has_several_ways_too(tmp_path: Path) -> None:
     assert "ways" in refused(tmp_path, FREE_LOOP)
 
@@ -99,6 +100,7 @@ def test_coordinates_at_gimbal_lock_are_named(tmp_path: Path) -> None:
     assert "at s.q = 90 deg 'p' and 'r' turn about one axis" in refused(tmp_path, LOCKED)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("q", ["89 deg", "0"])
 def test_away_from_it_they_start(q: str, tmp_path: Path) -> None:
     started(tmp_path, LOCKED.replace("90 deg", q))

@@ -118,11 +118,13 @@ def test_what_is_wrong_is_said(what: str, tmp_path: Path) -> None:
     assert mistake.what.startswith(words)
 
 
+@pytest.mark.slow
 def test_beside_a_dead_centre_it_starts(tmp_path: Path) -> None:
     near = "near: {motor: {angle: 10 deg}}\n"
     started(tmp_path, f"{SLIDER}initial: {{rail: {{shift: 0.79}}}}\n{near}")
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a start at a dead centre that nobody refuses")
 def test_a_dead_centre_is_not_missed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Without the question Newton's method stops where the crank is 1e-5 rad off."""
@@ -170,6 +172,7 @@ scene:
 LYING = "initial: {a: {attitude: {axis: [1, 0, 0], angle: 90 deg}}}\n"
 
 
+@pytest.mark.slow
 def test_an_attitude_that_three_turns_cannot_make(tmp_path: Path) -> None:
     mistake = refused(tmp_path, f"{SKEW}{LYING}")
     assert mistake.where == "initial"
