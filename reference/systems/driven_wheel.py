@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.special import fresnel
 
 from ..system import Array, Cut, Vector
 from .wheel_on_plane import WheelOnPlane
@@ -43,6 +42,8 @@ class DrivenWheel(WheelOnPlane):
             return None
         speed, phi = self.R * self.w, self.w * t
         if self.k:
+            from scipy.special import fresnel
+
             theta, theta_dot = self.k * t**2 / 2, self.k * t
             scale = math.sqrt(math.pi / abs(self.k))
             S, C = fresnel(t / scale)

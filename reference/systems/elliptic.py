@@ -1,14 +1,13 @@
 """Elliptic functions and integrals for the closed forms: mathematics, and no mechanics.
 
 All take the modulus k and its complement k1 = √(1 − k²) apart, or k1 alone: 1 − k² would lose its
-digits near the separatrix, where k1 is small.
+digits near the separatrix, where k1 is small. scipy's are imported where they are asked for: who
+only reads a file does not wait for them.
 """
 
 import math
 from collections.abc import Callable
 from typing import NamedTuple
-
-from scipy.special import elliprf, elliprj
 
 
 class Amplitude(NamedTuple):
@@ -63,6 +62,7 @@ def first(am: Amplitude, k1: float) -> float:
 
     By Carlson's form (DLMF 19.25.5), F = s R_F(c², Δ², 1).
     """
+    from scipy.special import elliprf
 
     def quarter(s: float, c: float) -> float:
         return s * float(elliprf(c * c, c * c + k1 * k1 * s * s, 1.0))
@@ -75,6 +75,7 @@ def third(am: Amplitude, k1: float, p: float) -> float:
 
     By Carlson's form (DLMF 19.25.14), s³/3 R_J(c², Δ², 1, c² + p s²).
     """
+    from scipy.special import elliprj
 
     def quarter(s: float, c: float) -> float:
         c2, s2 = c * c, s * s

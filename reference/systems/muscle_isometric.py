@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.special import lambertw
 
 from ..system import Array, Cut, Vector
 from .muscle_load import MuscleLoad
@@ -46,6 +45,8 @@ class MuscleIsometric(MuscleLoad):
         """
         A, w0 = self.F0 + self.a, self.F0 - self.cs * (self.l - self.u0)
         x = -w0 / A * math.exp(-(w0 + self.cs * self.b * t) / A)
+        from scipy.special import lambertw
+
         w = -A * float(lambertw(x).real)
         return np.array([-self.l, self.l - (self.F0 - w) / self.cs]), np.zeros(1)
 

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.special import ellipkinc
 
 from ..system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 
@@ -133,6 +132,8 @@ class StoppedPendulum(System):
         Ω² = 3 g/(2 l), and θ̇ = 2 Ω k cos ψ. With e of it k² is s² + e² (k² − s²), s = sin(θ/2) at
         the stop, and it comes back after twice as long as it takes from the top.
         """
+        from scipy.special import ellipkinc
+
         Omega = math.sqrt(1.5 * G / self.l)
         s, square = (math.sin((phi + math.pi / 2) / 2) for phi in (self.low, self.phi0))
         square, t, ways = square**2, 0.0, 1
