@@ -11,8 +11,7 @@ unexport PYTHONDONTWRITEBYTECODE
 .PHONY: reports advice test test-slow test-all processors quick lint mutants speed bench install clean
 
 reports: $(READY)
-	$(VENV)/bin/textmech run --causes
-	$(VENV)/bin/textmech page
+	$(VENV)/bin/textmech run --causes --page
 
 # Which settings every case needs: minutes of search, which `reports` does not take.
 advice: $(READY)

@@ -48,6 +48,12 @@ if TYPE_CHECKING:
     help="Write the trajectories too, one CSV a case, reference and engines side by side, one "
     "with the times of its events, and one long table of all poses (Parquet where pyarrow is).",
 )
+@click.option(
+    "--page",
+    is_flag=True,
+    help="Write their page beside the CSV files too, as `textmech page` does, which would read all "
+    "of this again.",
+)
 @overwrite
 @no_cache
 @click.option(
@@ -65,6 +71,7 @@ def run(
     jobs: int | None,
     out: Path | None,
     keep: Path | None,
+    page: bool,
     overwrite: bool,
     no_cache: bool,
     cluster: str | None,
@@ -86,8 +93,10 @@ def run(
         out = Folder().convert(str(write.by_default()), None, None)
     if out is not None and keep is not None and out.resolve() == keep.resolve():
         raise click.UsageError("--out and --keep are one folder: a case may be called as a report")
+    if page and out is None:
+        raise click.UsageError("--page stands beside the CSV files, and needs --out DIRECTORY")
     if out is not None:
-        unasked(out, write.NAMES, overwrite=overwrite)
+        unasked(out, [*write.NAMES, *(["index.html"] if page else [])], overwrite=overwrite)
 
     def before(found: "Sequence[Case]") -> None:
         if keep is not None:
@@ -110,6 +119,11 @@ def run(
         out = None  # what is left is no full run
     if out is not None:
         written(write.tables(report, report.cases), out, overwrite=overwrite)
+        if page:
+            from ..page.write import write_committed
+
+            write_committed(report, report.cases, out, out, overwrite=overwrite)
+            DONE.append(f"their page is in {out}")
     if keep is not None:
         kept.keep(report, keep, overwrite=overwrite)
         DONE.append(f"the trajectories are in {keep}")

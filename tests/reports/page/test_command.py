@@ -35,6 +35,25 @@ def test_a_page_of_ones_own_case_comes_with_its_reports(cart: Path, tmp_path: Pa
 
 
 @pytest.mark.slow
+def test_a_run_writes_the_page_of_its_reports(cart: Path, tmp_path: Path) -> None:
+    """It is the one that `textmech page` makes of them."""
+    one = ("--engine", "mujoco.tuned")
+    done = textmech("run", cart, *one, "--out", "o", "--page", folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    again = textmech("page", cart, *one, "--out", "p", folder=tmp_path)
+    assert again.returncode == 0, again.stderr
+    assert {file.name for file in (tmp_path / "o").iterdir()} == {*write.NAMES, "index.html"}
+    for file in (tmp_path / "o").iterdir():
+        assert file.read_bytes() == (tmp_path / "p" / file.name).read_bytes()
+
+
+def test_a_run_that_writes_nothing_has_no_page(cart: Path, tmp_path: Path) -> None:
+    done = textmech("run", cart, "--page", folder=tmp_path)
+    assert done.returncode == 2
+    assert "--page stands beside the CSV files, and needs --out" in done.stderr
+
+
+@pytest.mark.slow
 def test_ones_own_settings_are_a_column(cart: Path, tmp_path: Path) -> None:
     (tmp_path / "mine.yaml").write_text("mujoco: {integrator: RK4}\n", encoding="utf-8")
     words = ("page", cart, "--settings", "mine.yaml", "--settings", "shipped", "--out", "o")
