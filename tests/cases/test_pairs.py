@@ -70,7 +70,7 @@ def seen(scene: Scene, motion: Trajectory, *quantities: str) -> list[float]:
 def test_rims_are_observed(tmp_path: Path) -> None:
     """Centres 5 apart along (3, 4)/5; along is (4, −3)/5: 2·0.8 + 0.2·3 + 0.5·4 and a push of 5."""
     scene = scene_of(tmp_path)
-    motion = moved(disk=[0, 0, 1.0, 0, 0, 4.0], other=[3, 4, 0, 2.0, 0, 3.0])
+    motion = moved(disk=[1, -2, 1.0, 0, 0, 4.0], other=[4, 2, 0, 2.0, 0, 3.0])
     gap, slip = seen(scene, motion, "rims.gap", "rims.slip")
     assert gap == pytest.approx(5 - 0.7)
     # where both are nearest, 4.8 from the first centre, which turns with 4 rad/s

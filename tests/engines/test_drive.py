@@ -52,6 +52,32 @@ def test_engines_move_as_the_reference(engine: str, tmp_path: Path) -> None:
     assert forces < 1e-4
 
 
+ARM = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {arm: {bar: {mass: 1.2, length: 0.8}}}
+  joints: {hinge: {pin: ENDS}}
+  forces: {help: {motor: hinge, constant: 1.5}}
+  drive: {hinge.omega: 2.0}
+initial: {hinge: {angle: 0}}
+allow: {hinge.angle: 1.0e-2, hinge.torque: 1.0}
+"""
+
+
+@pytest.mark.parametrize(
+    ("ends", "way"), [("[ground.O, arm.start]", 1.0), ("[arm.start, ground.O]", -1.0)]
+)
+def test_a_motor_helps_the_drive(ends: str, way: float, tmp_path: Path) -> None:
+    """At an even rate both carry the weight alone: M_drive + M_motor = m g (l/2) cos φ."""
+    scene = scenes.typed(tmp_path, ARM.replace("ENDS", ends)).scene
+    start = {"arm": (0.4, 0.0, 0.0, 0.0, way * 2.0 * 0.4, way * 2.0)}
+    times = np.linspace(0.0, 0.1, 6)
+    found = moved(TUNED["mujoco"], scene, start, times, 5e-4, reactions=("hinge.torque",))
+    weight = 1.2 * 9.80665 * 0.4 * np.cos(2.0 * times)
+    # measured 2e-15 N m: rounding of some 5 N m
+    np.testing.assert_allclose(found.reactions["hinge.torque"], way * weight - 1.5, atol=1e-13)
+
+
 @pytest.mark.slow
 @pytest.mark.mutant("torques about a joint counted as the drive's")
 def test_what_else_acts_about_the_joint_is_not_the_drive_s(

@@ -167,6 +167,31 @@ def test_own_options_stand_on_top_of_the_shipped_ones(name: str) -> None:
     assert own == shipped | changed
 
 
+ALONE = {
+    "solref": [0.03, 0.9],
+    "solimp": [0.8, 0.9, 0.01],
+    "solreffriction": [0.04, 0.9],
+    "solreflimit": [0.05, 0.9],
+    "solimplimit": [0.7, 0.9, 0.01],
+}
+"""All that one contact or one joint's stops may have of its own."""
+
+
+@pytest.mark.parametrize(
+    ("case", "element", "taken"),
+    [
+        ("friction_cone.forward", "touch", ["solref", "solimp", "solreffriction"]),
+        ("stopped_pendulum.rests", "stop", ["solreflimit", "solimplimit"]),
+    ],
+)
+def test_an_element_takes_what_is_of_its_kind(case: str, element: str, taken: list[str]) -> None:
+    """A contact has no limit, and what stops a joint no friction: MJCF knows no such attribute."""
+    own = engines.make("mujoco", "own", {"each": {element: ALONE}})
+    values = {c.name: c.value for c in planned(own, *begun(case)).choices(1e-3)}
+    found = {name: value for name, value in values.items() if name.startswith("each.")}
+    assert found == {f"each.{element}.{name}": ALONE[name] for name in taken}
+
+
 def known(name: str, **option: Any) -> list[str]:
     """What a wrong option's message says that there is."""
     with pytest.raises(ValueError, match="known: ") as caught:

@@ -10,7 +10,9 @@ from given.spatial_motions import Array, Moving, T, rate, states, turn
 from textmech.cases.motion import Motion
 from textmech.cases.scene import Anchor, GroundPoint
 from textmech.cases.space.body import SpatialBody
+from textmech.cases.space.chain import Turns
 from textmech.cases.space.contact import SpatialContact
+from textmech.cases.space.counting import far
 from textmech.cases.space.joint import Freedom, SpatialJoint
 from textmech.cases.trajectory import Trajectory
 
@@ -107,6 +109,14 @@ def test_coordinates(freedoms: list[Freedom], values: list[Coordinate]) -> None:
         rates = [rate(value, t) for t in T]
         np.testing.assert_allclose(joint.observe(moved, name), rates, atol=1e-9)
     np.testing.assert_allclose(joint.observe(moved, "gap"), 0, atol=1e-12)
+
+
+@pytest.mark.parametrize("turns", [0, 1, 2])
+def test_only_the_middle_of_three_turns_can_pass_gimbal_lock(turns: int) -> None:
+    """0.2 rad in a step whose ends are 0.1 from it: the first and the last do not change that."""
+    rates = np.tile(np.eye(3)[turns], (2, 1))
+    found = Turns(rates * [[0.0], [0.2]], rates, np.full(2, 0.1))
+    assert far(found, np.array([0.0, 0.2])).tolist() == [turns == 1]
 
 
 def test_gap() -> None:

@@ -1,19 +1,24 @@
 """A contact with two coefficients by the driver: steps end where it sticks and where it slips."""
 
+# MuJoCo's bindings are compiled and have no stubs.
+# pyright: reportAttributeAccessIssue=false
+
 import math
 from typing import Any
 
+import mujoco
 import numpy as np
 import pytest
 from given.closed_motions import sliding_then_rolling
 from given.engine_scenes import BLOCK, RADIUS, WHEEL, G, incline, launched, thrown, touching
-from given.planning import CASES, TUNED, begun, moved, ways
+from given.planning import CASES, TUNED, begun, moved, planned, ways
 from given.scenes import solved
 
 from textmech.cases.scene import Bounds, DryFriction
 from textmech.cases.trajectory import OMEGA, VX, X
+from textmech.engines.mujoco.compilation import compiled
 from textmech.engines.mujoco.law import stepping
-from textmech.engines.mujoco.law.touch import Touch
+from textmech.engines.mujoco.law.touch import Touch, touches
 
 MUJOCO, STEP = TUNED["mujoco"], 1e-3  # s
 CONES = [name for name in CASES if name.startswith("friction_cone")]
@@ -84,6 +89,25 @@ def test_a_disk_slides_then_rolls() -> None:
     rows = run.states["wheel"]
     assert np.abs(rows[:, X] - sliding_then_rolling(times, v, omega, mu)).max() < ROLLED
     assert abs(rows[-1, VX] + RADIUS * rows[-1, OMEGA]) < ROLLED
+
+
+@pytest.mark.parametrize("slip", [0.37, -0.37])
+def test_what_stops_slipping_is_turned_about_where_it_touches(slip: float) -> None:
+    """An impulse there has no moment about that point: J ω − m R v stays, and v + R ω is zero."""
+    scene, start = incline(WHEEL, touching("wheel", 0.2, static=0.4)), launched(slip - 0.6, 2.0)
+    model, data = compiled(scene, start, STEP, planned(MUJOCO, scene, start, "driver"))
+    mujoco.mj_forward(model, data)
+    (touch,) = touches(scene, model, data)
+    assert touch.speed == pytest.approx(slip, abs=1e-15)
+    x, turn = (model.joint(f"wheel.{way}").dofadr[0] for way in ("x", "angle"))
+
+    def moment() -> float:
+        return float(WHEEL.inertia * data.qvel[turn] - WHEEL.mass * RADIUS * data.qvel[x])
+
+    before = moment()
+    touch.halt()
+    assert abs(touch.speed) < 1e-15  # rounding, as the moment's
+    assert moment() == pytest.approx(before, rel=1e-14)
 
 
 @pytest.mark.mutant("a wheel's slip put to zero by its turn alone")

@@ -4,8 +4,9 @@ from functools import partial
 
 import pytest
 
-from textmech.cases.friction import Bounds, DryFriction
-from textmech.engines.pymunk.law.breakaway import bound, mean_friction
+from textmech.cases.friction import Bounds, DryFriction, Smooth
+from textmech.engines.law import smooth_under
+from textmech.engines.pymunk.law.breakaway import bound, mean_friction, smooth_mean
 
 LAW = DryFriction(Bounds(6.0, 2.0), Bounds(3.0, 1.0))  # forward, backward [N]
 H, M = 0.5, 2.0  # s, kg
@@ -60,3 +61,27 @@ def test_what_pymunk_may_use_of_it() -> None:
     assert told(1.5, applied=partial(line, 2.0, 2.0)) == (3.0, 0.0)
     limit, push = told(1.2, applied=partial(line, -3.0, -3.0))  # after 4/5 of the step
     assert (limit, push) == (0.0, pytest.approx(-0.8 * 3.0 + 0.2 * 1.0, abs=1e-13))
+
+
+SMOOTH = Smooth(1e-3, 1e4)  # m/s, s/m: A F h / m is 150, far beyond what explicit steps bear
+
+
+@pytest.mark.parametrize(
+    ("speed", "applied"),
+    [
+        (0.0, 4.0),  # it creeps
+        (1e-4, -1.5),
+        (-1e-3, 3.0),  # at the edge of the band
+        (5e-4, -4.0),
+        (0.0, 7.0),  # it breaks loose
+        (0.1, 2.0),  # it slides
+    ],
+)
+def test_the_smooth_law_is_that_of_the_middle_of_the_step(speed: float, applied: float) -> None:
+    """F = F_fr((v₀ + v)/2) with m (v − v₀) = h (F_a + F), which is no law of the engine's."""
+    step = 0.01
+    force = smooth_mean(LAW, SMOOTH, speed, M, applied, step)
+    after = speed + step * (applied + force) / M
+    law = smooth_under(LAW, SMOOTH, applied)
+    # a speed is known to 1e-9 of the band, and the law's slope is at most A (7 N + 3 N)/2
+    assert force == pytest.approx(law((speed + after) / 2), abs=5e-8)
