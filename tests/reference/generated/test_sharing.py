@@ -67,6 +67,17 @@ def test_both_break_loose_at_the_sum(tmp_path: Path, a: float, b: float, way: in
     assert (mode, t) == (f"a slides {sign}, b slides {sign}", pytest.approx(0.01 * G, abs=1e-12))
 
 
+def test_what_is_not_at_its_bound_stays(tmp_path: Path):
+    """Of a block beside the bar friction takes the 1 N that it is pushed with, of 0.5 m g."""
+    text = LIES.format(pull="ramp: [10, 0]", a=0.1, b=0.1, vx=0, more="")
+    text = text.replace("length: 1}}}", "length: 1}}, dot: {particle: {mass: 1}}}")
+    text = text.replace("  forces: {", "    c: {between: [dot, ground.floor], friction: 0.5}\n"
+                        "  forces: {push: {push: dot.center, constant: [1, 0]}, ")  # fmt: skip
+    text = text.replace("vx: 0}}", "vx: 0}, dot: {x: 3, y: 0, vx: 0}}")
+    case = scenes.typed(tmp_path, text, tail=scenes.tail(0.12, 3))
+    assert [mode for _, mode in changes(case)] == ["a slides +, b slides +, c sticks"]
+
+
 def test_a_force_to_and_fro_below_the_sum_moves_nothing(tmp_path: Path):
     shake = "sine: {amplitude: [2.9, 0], angular_frequency: 20}"
     assert changes(lying(tmp_path, shake, a=0.5, b=0.1)) == []
