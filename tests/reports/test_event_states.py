@@ -263,7 +263,7 @@ BEHIND = 0.596, 0.4 + S, 0.32 + 0.6 * S - S**2 / 2 + 10 * S**3
 
 
 @pytest.mark.mutant("a quantity at an event read from a curve through both sides of a corner")
-@pytest.mark.parametrize(("slow", "t", "x"), [BEFORE, BEHIND])
+@pytest.mark.parametrize(("slow", "t", "x"), [BEFORE, BEHIND], ids=["before", "behind"])
 def test_a_state_at_an_event_beside_a_corner_is_read_from_its_side(
     slow: float, t: float, x: float, tmp_path: Path
 ) -> None:

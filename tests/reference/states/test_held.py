@@ -70,9 +70,8 @@ def test_what_is_read_back_is_each_coordinate(coordinate: str, tmp_path: Path) -
     assert case.states is not None
     found, drawn = answered(case)[0], case.states.drawn(case.scene)
     drawn[coordinate] = drawn[coordinate] + [1e-4, 0.0, 0.0]
-    assert misread(case.scene, found, drawn) == pytest.approx(
-        1e-4, rel=1e-3
-    )  # of places up to 1.0001
+    told = misread(case.scene, found, drawn)
+    assert told == pytest.approx(1e-4, rel=1e-3)  # of places up to 1.0001
 
 
 def test_a_sound_chain(tmp_path: Path) -> None:
