@@ -14,7 +14,7 @@ from textmech.reference.solve import Solution, solve
 from textmech.reports import suite, unit
 from textmech.reports.cache.store import Store
 from textmech.reports.row import BEYOND, FAILS, Comparison
-from textmech.reports.selection import choose_engines
+from textmech.reports.selection import BOOK, choose_book, choose_engines
 from textmech.reports.show.notes import without_effect
 from textmech.reports.trial.ladder import judged_step, sampled
 from textmech.reports.trial.rung import climbed
@@ -38,6 +38,22 @@ def test_each_file_is_a_column_of_its_name(tmp_path: Path) -> None:
         "shipped",
         "coarse",
     ]
+
+
+@pytest.mark.parametrize(
+    ("names", "settings", "wanted"),
+    [
+        ([], [], True),
+        ([BOOK], [], True),
+        (["mujoco", BOOK], ["tuned"], True),
+        (["mujoco"], [], False),
+        ([], ["tuned"], False),
+    ],
+)
+def test_the_book_is_asked_by_name_or_where_nothing_is_named(
+    names: list[str], settings: list[str], wanted: bool
+) -> None:
+    assert choose_book(names, settings) == wanted
 
 
 @pytest.mark.parametrize(

@@ -57,7 +57,7 @@ def test_what_trembles_does_not_fall() -> None:
 def test_no_curve_goes_through_both_sides_of_a_corner() -> None:
     """As the speed of what a table pushes: zero is in the step before the corner, or behind it."""
     times = np.linspace(0.0, 1.0, 41)
-    for zero, corner in ((0.59, 0.6), (0.61, 0.6)):
+    for zero, corner in ((0.59, 0.6), (0.61, 0.6), (0.03, 0.025), (0.97, 0.975)):
         bend = np.maximum(times - corner, 0.0) - max(zero - corner, 0.0)
         u = np.exp(zero) - np.exp(times) - 3.0 * bend
         assert list(passages(times, u, STILL, [corner])) == pytest.approx([zero], abs=1e-12)

@@ -7,19 +7,24 @@ from concurrent.futures import Executor
 from contextlib import AbstractContextManager
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pytest
+from given.lines import row
 
 from textmech.cases.case import Case
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
-from textmech.engines.engine import Engine
+from textmech.engines.engine import Engine, Realised
 from textmech.reference.solve import Solution
 from textmech.reports import suite, write
-from textmech.reports.row import AGREES, DIVERGED, FAILS, Comparison
+from textmech.reports.judge.compare import Outcome
+from textmech.reports.row import AGREES, DIVERGED, FAILS, Cause, Comparison
+from textmech.reports.search.told import NOTHING
 from textmech.reports.suite import Report
 from textmech.reports.trial.trial import Trial
+from textmech.reports.trials import Tried
 
 Make = Callable[..., Trial]
 
@@ -35,6 +40,21 @@ def stumble() -> None:
 
 def measure(cases: list[Case], engines: list[Engine]) -> Report:
     return suite.measure(cases, engines, jobs=2, progress=lambda *_: None)
+
+
+def test_an_instant_is_that_of_the_engines_own_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Rows of its own are told what is off in it, whatever our law's run is off by."""
+    cause = Cause(
+        "swing", "mujoco", "shipped", "rod.angle", 9.0, 1.0, NOTHING, "{}", None, None, None, ""
+    )
+    monkeypatch.setattr(suite, "found_causes", lambda *_, **__: [cause])
+    engine = SimpleNamespace(name="mujoco", setting="shipped")
+    pair: Any = SimpleNamespace(case=SimpleNamespace(name="swing"), engine=engine)
+    ways: tuple[tuple[Realised, str], ...] = (("native", "at a corner"), ("law", "at a stop"))
+    tried = [Tried(pair, way, Outcome([], moments={"rod.angle": told})) for way, told in ways]
+    report, results = Report(comparisons=[row(ratio=9.0)], tried=tried), cast("Any", None)
+    suite._explain([], results, report, search=False, known=None)
+    assert report.comparisons[0].because == f"at a corner; {NOTHING}"
 
 
 def verdicts(report: Report) -> dict[tuple[str, str], Any]:

@@ -24,6 +24,7 @@ def line(*rows: Comparison, rungs: tuple = (), **cures: str) -> Line:
     [
         ([row()], "agrees"),
         ([row(), row(ratio=12.0, quantity="rod.omega")], "rod.omega ×12"),
+        ([row(), row(ratio=12.0, quantity="arm.omega")], "arm.omega ×12"),
         ([row(ratio=3.0), row(ratio=340.0, quantity="b.x")], "b.x ×340"),
         ([row(ratio=1.04)], "rod.angle ×1.04"),
         ([row(ratio=13456.0)], "rod.angle ×1.3e4"),

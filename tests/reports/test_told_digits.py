@@ -75,6 +75,7 @@ def times(case: Case, own: Case, module: Any = poses) -> list[float]:
         tried=[run], solutions={case.name: SimpleNamespace(trajectory=trajectory)}
     )
     frame = module.poses(report, case)
+    assert frame.index.tolist() == [*range(len(frame))]  # else Parquet has a column more
     told = frame[(frame["engine"] == "mujoco") & (frame["field"] == "x")]
     return told["t [s]"].tolist()
 

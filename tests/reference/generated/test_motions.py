@@ -36,6 +36,24 @@ def test_hand_written_and_generated_answers_agree(tmp_path: Path, name: str) -> 
     assert ("generated events" in names) == (name not in WITHOUT_CHANGES)
 
 
+LIFTED = """\
+scene:
+  bodies: {block: {particle: {mass: 1}}}
+  contacts: {floor: {between: [block, ground.floor], friction: 0.3}}
+  forces: {rope: {push: block.center, ramp: [0, 20]}}
+initial: {block: {x: 0, y: 0, vx: 0}}
+allow: {block.y: 1.0e-3}
+"""
+
+
+def test_what_is_lifted_opens_its_contact(tmp_path: Path) -> None:
+    """(2.87) The floor no longer pushes at 20 t = m g."""
+    case = scenes.typed(tmp_path, LIFTED, tail=scenes.tail(0.6, 3))
+    (opens,) = follow(scenes.mechanism(case), case.times).changes
+    assert opens.name == "floor opens"
+    assert opens.time == pytest.approx(G / 20, abs=1e-12)
+
+
 @pytest.mark.slow
 def test_braking_by_its_closed_form(tmp_path: Path) -> None:
     """(2.87) v₀/(μ g) and v₀²/(2 μ g); stiction above friction changes nothing."""

@@ -107,6 +107,27 @@ def test_an_elastic_rope_catches(tmp_path: Path) -> None:
     assert times == pytest.approx([reached, reached + held], abs=1e-12)
 
 
+BETWEEN = """\
+scene:
+  points: {L: [-1, 0], R: [1, 0]}
+  gravity: none
+  bodies: {bob: {particle: {mass: 2}}}
+  joints: {guide: {slide: [ground.L, bob.center], along: [1, 0]}}
+  forces:
+    left: {spring: [ground.L, bob.center], stiffness: 800, rest_length: 1, only: compression}
+    right: {spring: [ground.R, bob.center], stiffness: 800, rest_length: 1, only: compression}
+initial: {bob: {x: -0.2, vx: 0}}
+allow: {bob.x: 1.0e-3}
+"""
+
+
+def test_what_happens_in_one_instant_is_told_in_the_scenes_order(tmp_path: Path) -> None:
+    """The one lets go where the other catches, a quarter of a period on: w = 20 rad/s."""
+    found = follow(scenes.mechanism(scenes.typed(tmp_path, BETWEEN)), np.linspace(0.0, 0.15, 4))
+    assert named(found) == ["left slackens", "right tightens"]
+    assert [change.time for change in found.changes] == pytest.approx([math.pi / 40] * 2, abs=1e-12)
+
+
 @pytest.mark.parametrize("side", ["compression", "tension"])
 def test_both_modes_obey_their_laws(tmp_path: Path, side: str) -> None:
     """(2.60) from the energies of the mode, (2.51), and of a slack leg neither force nor U."""

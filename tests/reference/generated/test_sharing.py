@@ -108,6 +108,9 @@ def test_while_both_slide_their_frictions_are_known(tmp_path: Path):
     np.testing.assert_allclose(forces["b.tangent"], -0.05 * G, atol=1e-12)
 
 
+TIP = "    g0: {between: [b0.end, ground.floor], friction: 0.5}\n"
+
+
 def feet(count: int) -> str:
     """Bars joined into a line that lies on the floor, each with a foot."""
     ends = [f"    j{i}: {{pin: [b{i}.end, b{i + 1}.start]}}" for i in range(count - 1)]
@@ -121,6 +124,19 @@ def feet(count: int) -> str:
 
 
 @pytest.mark.slow
+def test_what_is_not_at_its_bound_stays(tmp_path: Path):
+    """Two bars in a line break loose where 100 t = μ 2 m g; a block beside them bears its 1 N."""
+    rub = "    c: {between: [dot, ground.floor], friction: 0.5}\n"
+    text = feet(2).replace("  joints:", "    dot: {particle: {mass: 1.0}}\n  joints:")
+    text = text.replace("  contacts:\n", f"  contacts:\n{TIP.replace('b0', 'b1')}{rub}")
+    pushes = "pull: {push: b0.center, ramp: [100, 0]}, push: {push: dot.center, constant: [1, 0]}"
+    text = text.replace("initial: {", f"  forces: {{{pushes}}}\ninitial: {{dot: {{x: 3, y: 0}}, ")
+    case = scenes.typed(tmp_path, text, tail=scenes.tail(0.12, 3))
+    assert scenes.mechanism(case).start()[0].endswith("8 rows hold all")  # of two frictions a sum
+    mode = "g0 slides +, c sticks, f0 slides +, f1 slides +"
+    assert changes(case) == [(pytest.approx(G / 100, abs=1e-12), mode)]
+
+
 def test_very_many_contacts_are_refused_at_once(tmp_path: Path):
     """4⁹ ways to stick, slide and open, of 2 ms each: 9 minutes, and 4¹² 9 hours."""
     for count in (9, 12):
@@ -136,8 +152,7 @@ def test_very_many_contacts_are_refused_at_once(tmp_path: Path):
 @pytest.mark.mutant("what a body has closed on a plane sticks here and slides there")
 def test_ways_are_those_in_which_what_a_body_has_closed_does_alike(tmp_path: Path):
     """Two points of one bar and a foot of another: in the order in which all would be tried."""
-    tip = "    g0: {between: [b0.end, ground.floor], friction: 0.5}\n"
-    text = feet(2).replace("  contacts:\n", f"  contacts:\n{tip}")
+    text = feet(2).replace("  contacts:\n", f"  contacts:\n{TIP}")
     elements = scenes.mechanism(scenes.typed(tmp_path, text, tail=scenes.tail(0.2, 6))).elements
     choices: list[tuple[State, ...]] = [("sticks", "slides +", "slides -", "open")] * 3
 

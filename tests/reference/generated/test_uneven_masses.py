@@ -113,6 +113,16 @@ def test_a_pendulum_of_a_rod_and_a_bob(tmp_path: Path, light: float, heavy: floa
     assert abs(power_balance(mode, 1.0, q, v)) < 1e-12 * max(light, heavy)
 
 
+@pytest.mark.parametrize("angle", [30, 77, -140])
+def test_ten_digits_are_found_again(angle: int, tmp_path: Path):
+    """A rod of 1e-10 of its bob's mass: one turn of refinement leaves 2e-12 and more."""
+    text = PENDULUM.replace("LIGHT", "1.0e-10").replace("HEAVY", "1").replace("30", str(angle))
+    mode = scenes.mechanism(scenes.typed(tmp_path, text)).base
+    found = mode.accelerations(0.0, *mode.start())[mode.coordinates.index("rod.angle")]
+    pull = 9.80665 * (1 + 1e-10 / 2) / (1 + 1e-10 / 3)
+    assert found == pytest.approx(-pull * np.cos(np.radians(angle)), rel=1e-14)  # 45 roundings
+
+
 def energies(tmp_path: Path) -> Array:
     case = scenes.typed(tmp_path, THROWN)
     mechanism = scenes.mechanism(case)

@@ -28,6 +28,16 @@ def test_steps_land_on_the_samples():
     assert np.abs(again - steps[-1].y_next).max() < 1e-15
 
 
+def test_a_step_cut_short_does_not_shorten_those_behind_it():
+    """By two samples that are next to each other: from 1e-9 s a step has to grow twelvefold."""
+
+    def steps(times: list[float]) -> int:
+        method = DormandPrince(oscillator, 2, 1e-12)
+        return sum(step.t >= 5.0 for step in march(method, np.array(times), [1.0, 0.0]))
+
+    assert steps([0.0, 5.0, 5.0 + 1e-9, 10.0]) <= steps([0.0, 5.0, 10.0]) + 1
+
+
 @BOTH
 def test_a_sample_shared_by_two_grids_has_the_same_state(method):
     coarse = method(pendulum, [0.0, 5.0, 10.0], [2.0, 0.0], tolerance=1e-14)

@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 from given.claims import CHAIN, claimed
 
+from textmech.cases.space.scene import SpatialScene
 from textmech.reference.generated.space import chain
 from textmech.reference.generated.space.chain import Moving, SpatialChain
 from textmech.reference.states.answer import answered
+from textmech.reference.states.held import misread
 
 CHECKS = ("joints hold (2.10), (2.15)", "coordinates read back")
 AT, SHIFTED, TURNED = Moving.at, Moving.shifted, Moving.turned
@@ -58,6 +60,18 @@ MISTAKES: dict[str, tuple[Any, str, Callable[..., Any]]] = {
     ),
 }  # fmt: skip
 PRODUCT, POINT = chain._product, SpatialChain._point
+
+
+@pytest.mark.parametrize("coordinate", ["q1.angle", "rail.s", "rail.a"])
+def test_what_is_read_back_is_each_coordinate(coordinate: str, tmp_path: Path) -> None:
+    """Of the drawn ones, which are 1 at most, one is told 1e-4 m or rad beside where it is."""
+    case = claimed(tmp_path, CHAIN)
+    assert isinstance(case.scene, SpatialScene)
+    assert case.states is not None
+    found, drawn = answered(case)[0], case.states.drawn(case.scene)
+    drawn[coordinate] = drawn[coordinate] + [1e-4, 0.0, 0.0]
+    told = misread(case.scene, found, drawn)
+    assert told == pytest.approx(1e-4, rel=1e-3)  # of places up to 1.0001
 
 
 def test_a_sound_chain(tmp_path: Path) -> None:

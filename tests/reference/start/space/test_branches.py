@@ -1,5 +1,6 @@
 """Starts in space: ways to assemble, joints turned over, coordinates that tell nothing."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -8,11 +9,12 @@ from given.linkages import LINKAGE
 from given.scenes import typed
 
 from textmech.cases.mistake import CaseError
+from textmech.cases.scene import GROUND, Anchor
 from textmech.cases.space.rotation import about
 from textmech.cases.space.scene import SpatialScene
 from textmech.reference.start.space import positions
 from textmech.reference.start.space.assembly import assemble_in_space
-from textmech.reference.start.space.branches import faithful
+from textmech.reference.start.space.branches import closes, faithful
 from textmech.reference.start.space.closure import SpatialClosure
 
 BODY = (
@@ -63,6 +65,16 @@ def started(folder: Path, scene: str) -> np.ndarray:
     case = typed(folder, scene + f"allow: {{{body}.x: 1.0e-3}}\n")
     assert isinstance(case.scene, SpatialScene)
     return assemble_in_space(case, case.scene)[0]
+
+
+def test_only_a_loop_closes(tmp_path: Path) -> None:
+    """Three bodies in a row, and with the joint that leads back to the first; two islands."""
+    loop = typed(tmp_path, FREE_LOOP + "allow: {a.x: 1.0e-3}\n").scene
+    assert isinstance(loop, SpatialScene)
+    row = replace(loop, joints={name: loop.joints[name] for name in ("j1", "j2")})
+    held = replace(loop.joints["j3"], b=Anchor(GROUND, "O"))
+    apart = replace(loop, joints={"j1": loop.joints["j1"], "held": held})
+    assert [closes(scene) for scene in (loop, row, apart)] == [True, False, False]
 
 
 @pytest.mark.slow
