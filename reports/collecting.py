@@ -78,13 +78,14 @@ def collected(
     path: Path,
     names: Sequence[str],
     wanted: Sequence[str],
-    earlier: Earlier,
+    earlier: Callable[[], Earlier],
     *,
     long: bool,
     write: Callable[[str], Any],
 ) -> list[tuple[Case, list[Key]]]:
     """The wanted cases of a file, or all, each with the rows of the named engines, or of all.
 
+    earlier: called only for a file without mistakes.
     write: takes a line where it takes long. Raises CaseError.
     """
     with aloud(write):
@@ -95,8 +96,9 @@ def collected(
         if mistakes := too_long(cases, engines):
             raise CaseError(mistakes)
         book = choose_book(names, [])
-        rows = [[*_keys(case, producers(case, engines, book=book), earlier)] for case in cases]
-        earlier.keep()
+        asked = earlier()
+        rows = [[*_keys(case, producers(case, engines, book=book), asked)] for case in cases]
+        asked.keep()
         return list(zip(cases, rows, strict=True))
 
 

@@ -90,7 +90,7 @@ class CaseFile(pytest.File):
         from ..cases.mistake import CaseError
         from .collecting import collected
 
-        option, earlier = self.config.getoption, _earlier(self.session)
+        option, earlier = self.config.getoption, partial(_earlier, self.session)
         long, names = bool(option("textmech_allow_long")), option("textmech_engine") or []
         wanted = option("textmech_case") or []
         try:
