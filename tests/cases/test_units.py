@@ -1,5 +1,6 @@
 """Every unit of the language with every prefix, against the table of pint's own."""
 
+import math
 import re
 from functools import cache
 from itertools import product
@@ -7,9 +8,10 @@ from typing import Any
 
 import pint
 import pytest
+from given.otherwise import otherwise
 
 from textmech.cases.language.grammar import number
-from textmech.cases.language.grammar.number import amount
+from textmech.cases.language.grammar.number import Names, NumberMistake, amount
 
 ROUNDING = 1e-15  # a few products in a double each
 LINES = [line.partition("=") for line in number._UNITS.strip().splitlines()]
@@ -103,3 +105,45 @@ def _alike(word: str) -> bool:
     except AssertionError:
         return False
     return True
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "said"),
+    [
+        ("45", "rad", "is 45 rad, which is 7.2 turns: write 45 deg, or 45 rad"),
+        ("-90", "rad", "is -90 rad, which is -14 turns: write -90 deg, or -90 rad"),
+        ("8 Nm", "N m", "unknown unit 'Nm'; did you mean 'N m'?"),
+        ("8 Nms", "N m s/rad", "unknown unit 'Nms'; did you mean 'N m s'?"),
+        ("pi/6", "rad", "'pi/6' is not computed: write 0.5235987756, or 30 deg"),
+        ("2*0.5", "m", "'2*0.5' is not computed: write 1"),
+        ("1/0", "m", "'1/0' is not computed: write the number"),
+        ("2 Hz", "rad/s", "is '2 Hz', but rad/s was expected"),
+    ],
+)
+def test_what_to_write_is_said(text: str, unit: str, said: str) -> None:
+    value: object = float(text) if text.lstrip("-").isdigit() else text
+    with pytest.raises(NumberMistake) as caught:
+        number.number(value, unit, Names())
+    assert str(caught.value) == said
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "size"),
+    [
+        ("45 rad", "rad", 45.0),
+        (6.28, "rad", 6.28),
+        ("0.5 N m s", "N m s/rad", 0.5),
+        ("0.5 N m", "N m/rad", 0.5),
+        ("2 N m/deg", "N m/rad", 2 * 180 / math.pi),
+    ],
+)
+def test_a_radian_is_one_beside_a_mass(value: object, unit: str, size: float) -> None:
+    found = number.number(value, unit, Names())
+    assert found is not None
+    assert found.value == pytest.approx(size)
+
+
+@pytest.mark.mutant("an angle of many turns is taken for what it says")
+def test_degrees_that_are_meant_are_asked_for() -> None:
+    blind = otherwise(number, "abs(found.value) > TURN", "abs(found.value) > 1e9")
+    assert blind.number(45.0, "rad", Names()).value == 45.0

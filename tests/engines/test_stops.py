@@ -113,7 +113,7 @@ def test_refusals(tmp_path: Path) -> None:
     assert refused(TUNED["pymunk"], scene) == (
         "engine: pymunk's rotary limit throws nothing back, and ends has the restitution 0.5"
     )
-    again = FORWARD.replace("    hand:", "    more: {stops: elbow, low: -9}\n    hand:")
+    again = FORWARD.replace("    hand:", "    more: {stops: elbow, low: -9 rad}\n    hand:")
     assert refused(TUNED["mujoco"], scenes.typed(tmp_path, again, tail=END).scene) == (
         "adapter: more is not the only stops of elbow"
     )

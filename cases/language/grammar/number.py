@@ -11,6 +11,7 @@ from ...mistake import nearest
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _LITERAL = r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?"
+_ARITHMETIC = re.compile(rf"({_LITERAL}|pi)\s*([*/])\s*({_LITERAL}|pi)")
 _TERM = r"(?:[A-Za-zµμ°]{1,12}(?:(?:\^|\*\*)-?[1-4]|[²³⁴])?)"
 _QUANTITY = re.compile(rf"({_LITERAL})\s*({_TERM}(?:\s*[ */·]\s*{_TERM}){{0,5}})")
 
@@ -47,6 +48,7 @@ tesla = kilogram / ampere / second**2 = T
 # In SI: an electron has 9e-31 kg, a molecule 1e-46 kg m². Beyond them squares of products of two
 # leave the doubles, or nearly.
 SMALLEST, LARGEST = 1e-60, 1e30
+TURN = 2 * math.pi
 _KNOWN = ("m", "mm", "cm", "kg", "g", "s", "ms", "rad", "deg", "rpm", "N", "kN", "J", "W")
 
 
@@ -101,13 +103,25 @@ def amount(value: object) -> Amount:
         return _measured(float(match[1]), match[2], str(value))
     if isinstance(value, str) and re.fullmatch(_LITERAL, value):
         raise NumberMistake(f"should be a number, is {shown(value)}; remove the quotes")
+    if short and (match := _ARITHMETIC.fullmatch(str(value).strip())):
+        raise NumberMistake(f"{value!r} is not computed: {_computed(*match.groups())}")
     raise NumberMistake(f"should be a number, is {shown(value)}")
+
+
+def _computed(a: str, sign: str, b: str) -> str:
+    """What a product or quotient is, for a person to write."""
+    x, y = (math.pi if word == "pi" else float(word) for word in (a, b))
+    if sign == "/" and not y:
+        return "write the number"
+    found = x / y if sign == "/" else x * y
+    angle = f", or {math.degrees(found):g} deg" if "pi" in (a, b) else ""
+    return f"write {found:.10g}{angle}"
 
 
 def number(value: object, unit: str | None, known: Names) -> Amount | None:
     """Any number of the language, in SI; None where it names a mistaken parameter."""
     if not isinstance(value, str) or not _NAME.fullmatch(name := value.removeprefix("-")):
-        return fitting(amount(value), unit)
+        return turned(fitting(amount(value), unit), unit)
     if not known.amounts:
         raise NumberMistake(f"should be a number, is {shown(value)}")
     if name not in known.amounts:
@@ -117,12 +131,24 @@ def number(value: object, unit: str | None, known: Names) -> Amount | None:
         return None
     sign = -1.0 if value.startswith("-") else 1.0
     text = f"{value} = {found.text or f'{sign * found.value:g}'}"
-    return fitting(Amount(sign * found.value, found.dimension, text), unit)
+    return turned(fitting(Amount(sign * found.value, found.dimension, text), unit), unit)
+
+
+def turned(found: Amount, unit: str | None) -> Amount:
+    """The amount; of an angle above one turn it is asked whether it is one in degrees."""
+    if unit == "rad" and found.dimension is None and abs(found.value) > TURN:
+        raise NumberMistake(
+            f"is {found.text or f'{found.value:g}'} rad, which is {found.value / TURN:.2g} turns: "
+            f"write {found.value:g} deg, or {found.value:g} rad"
+        )
+    return found
 
 
 def fitting(found: Amount, unit: str | None) -> Amount:
     """The amount, if it can be measured in `unit` (None: in anything)."""
     if unit is None or found.dimension is None or found.dimension == _dimension(unit):
+        return found
+    if found.dimension == _without_angle(_dimension(unit)):  # a radian is 1: N m for N m/rad
         return found
     if unit == "1":
         raise NumberMistake(f"is {found.text!r}, but a plain number was expected")
@@ -156,6 +182,11 @@ def _sized(value: float, said: object) -> float:
     return value
 
 
+def _without_angle(dimension: str) -> str:
+    """Of what has a mass: 1/s is no rad/s, as it might be turns."""
+    return re.sub(r" [*/] \[angle\]", "", dimension) if "[mass]" in dimension else ""
+
+
 @cache
 def _dimension(unit: str) -> str:
     return str(_quantity(1.0, unit).dimensionality) if unit != "1" else "dimensionless"
@@ -167,8 +198,21 @@ def _quantity(value: float, unit: str) -> Any:
         return registry.Quantity(value, registry.parse_units(unit)).to_base_units()
     except AttributeError:  # pint's UndefinedUnitError, without importing pint for its name
         words = re.findall(r"[A-Za-zµμ°]+", unit)
-        hint = nearest(words[0], _KNOWN) if len(words) == 1 else ""
+        apart = _apart(words[0]) if len(words) == 1 else ()
+        # grams come first: kgg is a slip
+        hint = f"; did you mean {' '.join(apart)!r}?" if apart and "g" not in apart[1:] else ""
+        hint = hint or (nearest(words[0], _KNOWN) if len(words) == 1 else "")
         raise NumberMistake(f"unknown unit {unit!r}{hint}") from None
+
+
+def _apart(word: str) -> tuple[str, ...]:
+    """Units that were written together, as Nm; none where it is no such word."""
+    for known in sorted(_KNOWN, key=len):
+        if word == known:
+            return (known,)
+        if word.startswith(known) and (rest := _apart(word.removeprefix(known))):
+            return known, *rest
+    return ()
 
 
 @cache

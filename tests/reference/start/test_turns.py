@@ -17,7 +17,7 @@ scene:
 initial: {GIVEN}
 allow: {b.angle: 1.0e-2}
 """
-TURN_MORE = "b: {angle: 6.783185307179586}, q: {angle: 0.5}"
+TURN_MORE = "b: {angle: 6.783185307179586 rad}, q: {angle: 0.5}"
 
 
 def started(folder: Path, given: str) -> float:
