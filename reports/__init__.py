@@ -9,6 +9,7 @@ from typing import Any
 
 BEGUN = time.time()  # s: a file of code that is newer than this is not the code that runs
 PUBLIC = {
+    "CaseError": "..cases.mistake",
     "advise": ".interface",
     "load": ".interface",
     "run": ".interface",

@@ -77,6 +77,7 @@ class Earlier:
 def collected(
     path: Path,
     names: Sequence[str],
+    settings: Sequence[str],
     wanted: Sequence[str],
     earlier: Callable[[], Earlier],
     *,
@@ -85,13 +86,14 @@ def collected(
 ) -> list[tuple[Case, list[Key]]]:
     """The wanted cases of a file, or all, each with the rows of the named engines, or of all.
 
+    settings: files of the user's own options, further columns.
     earlier: called only for a file without mistakes.
     write: takes a line where it takes long. Raises CaseError.
     """
     with aloud(write):
         countable()
         cases = load(path, systems=HANDWRITTEN, engines=ENGINES, long=long)
-        engines = choose_engines(names, [])
+        engines = choose_engines(names, settings)
         cases = [case for case in cases if not wanted or {case.name, path.stem} & {*wanted}]
         if mistakes := too_long(cases, engines):
             raise CaseError(mistakes)

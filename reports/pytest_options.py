@@ -9,6 +9,9 @@ import pytest
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addini("textmech_cases", "case files to compare engines on, as patterns", "args", [])
+    parser.addini(
+        "textmech_settings", "a file of your own engine options, which have to agree", None, ""
+    )
     group = parser.getgroup("textmech", "comparing physics engines with textbook mechanics")
     group.addoption(
         "--textmech-engine",
@@ -25,6 +28,13 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         default=[],
         metavar="CASE",
         help="only this case or variant (may be repeated)",
+    )
+    group.addoption(
+        "--textmech-settings",
+        dest="textmech_settings",
+        metavar="FILE",
+        help="your own engine options, as of `textmech run --settings`: what has to agree; "
+        "else the ini key textmech_settings names the file",
     )
     group.addoption(
         "--textmech-no-cache",

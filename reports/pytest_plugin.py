@@ -31,6 +31,9 @@ _ROWS = pytest.StashKey[dict[tuple[str, ...], "Comparison"]]()
 _EARLIER = pytest.StashKey["Earlier"]()
 _FOLDER = pytest.StashKey[Path]()
 _ERRORS = os.dup(2) if sys.stderr is not None else -1  # before pytest takes it
+TOLD = ("case", "engine", "version", "setting", "realised", "quantity", "unit", "step", "largest",
+        "allowed", "verdict", "because")  # fmt: skip
+"""What junit's XML holds of a row, as properties."""
 _SHARED = "textmech_shared"  # what a worker of xdist is told: the session's own folder
 
 
@@ -92,10 +95,13 @@ class CaseFile(pytest.File):
 
         option, earlier = self.config.getoption, partial(_earlier, self.session)
         long, names = bool(option("textmech_allow_long")), option("textmech_engine") or []
-        wanted = option("textmech_case") or []
+        wanted, own = option("textmech_case") or [], _settings(self.config)
         try:
-            found = collected(self.path, names, wanted, earlier, long=long, write=_tell)
+            found = collected(self.path, names, own, wanted, earlier, long=long, write=_tell)
         except CaseError as error:
+            if {mistake.file for mistake in error.mistakes} == {str(self.path)}:
+                yield MistakeItem.from_parent(self, name="mistakes", text=str(error))
+                return
             raise self.CollectError(str(error)) from None
         for case, keys in found:
             yield CertificateItem.from_parent(self, name=f"{case.name}-reference", case=case)
@@ -104,6 +110,14 @@ class CaseFile(pytest.File):
                 how = "" if realised == "native" else f".{realised}"
                 name = f"{case.name}-{engine}.{setting}{how}-{quantity}"
                 yield ComparisonItem.from_parent(self, name=name, case=case, key=key)
+
+
+def _settings(config: pytest.Config) -> list[str]:
+    """The file of the user's own options, if there is one: named by a word, or by pytest's ini."""
+    if word := config.getoption("textmech_settings"):
+        return [word]
+    named = config.getini("textmech_settings")
+    return [str(config.rootpath / named)] if named else []
 
 
 def _earlier(session: pytest.Session) -> "Earlier":
@@ -115,6 +129,23 @@ def _earlier(session: pytest.Session) -> "Earlier":
         cached = not session.config.getoption("textmech_no_cache")
         session.stash[_EARLIER] = Earlier.of(usable() if cached else None)
     return session.stash[_EARLIER]
+
+
+class MistakeItem(pytest.Item):
+    """A file with mistakes: it fails, and the other files run."""
+
+    def __init__(self, *, text: str, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.text = text
+
+    def runtest(self) -> None:
+        raise RowError(self.text)
+
+    def repr_failure(self, excinfo: Any, style: Any = None) -> str:
+        return str(excinfo.value)
+
+    def reportinfo(self) -> tuple[Path, int, str]:
+        return self.path, 0, f"file {self.path.name}"
 
 
 class CaseItem(pytest.Item):
@@ -183,6 +214,7 @@ class ComparisonItem(CaseItem):
         from .show.text import row_text
 
         row = self.row()
+        self.user_properties += [(name, getattr(row, name)) for name in TOLD]
         if row.verdict == FAILS:
             place = f"{self.path}:{self.place('allow', row.quantity)}"
             raise RowError(f"{place}: {row.quantity}\n{row_text(row)}")
@@ -193,7 +225,15 @@ class ComparisonItem(CaseItem):
         if lost:
             raise RowError(f"{lost}\n{row_text(row)}")
         if row.verdict not in (AGREES, DEVIATES):
-            pytest.xfail(line(row))
+            if self.promised and not row.verdict.startswith("refused"):
+                place = f"{self.path}:{self.place('allow', row.quantity)}"
+                raise RowError(f"{place}: {row.quantity}, by your own settings\n{row_text(row)}")
+            pytest.xfail(" ".join(line(row).split()))
+
+    @property
+    def promised(self) -> bool:
+        """Whether it is of the user's own options, which have to agree wherever they run."""
+        return self.key[2] in [Path(word).stem for word in _settings(self.config)]
 
     def row(self) -> "Comparison":
         """Its row. Raises RowError where the case has no reference, and so not all rows."""
@@ -237,7 +277,8 @@ def _measure(session: pytest.Session) -> "Report":
     shared = getattr(session.config, "workerinput", {}).get(_SHARED)
     cached = not session.config.getoption("textmech_no_cache")
     with aloud(_tell), progress(quiet=True) as told:
-        return rows(list(cases.values()), sorted(used), shared, told, cached=cached)
+        own = _settings(session.config)
+        return rows(list(cases.values()), sorted(used), own, shared, told, cached=cached)
 
 
 def _tell(line: str) -> None:

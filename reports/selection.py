@@ -18,7 +18,7 @@ from ..cases.mistake import CaseError, Mistake, nearest
 from ..engines.engine import Engine
 from ..reference.systems import SYSTEMS
 from ..reference.systems.stated import STATED
-from .own_settings import read_settings
+from .own_settings import SUFFIXES, read_settings
 
 BOOK = "book"
 NAME = re.compile(r"\w[\w-]*", re.ASCII)
@@ -132,15 +132,16 @@ def choose_engines(
     """Engines × settings, by name; none means all. A name may carry its setting (`mujoco.tuned`).
 
     A setting that no engine offers is a file of the user's own options, a further column. long:
-    whether these may ask for any number of iterations. Raises CaseError; an engine that nobody
-    named and that cannot be imported is a warning.
+    whether these may ask for any number of iterations. Raises CaseError, also where none of the
+    named engines has any of a file's options; an engine that nobody named and that cannot be
+    imported is a warning.
     """
     for word in names:
         _known(word)
     offers = _offers({word.partition(".")[0] for word in names if word != BOOK})
-    for word in names:
-        _offered(word, offers)
     every = {setting for offered in offers.values() for setting in offered}
+    for word in names:
+        _offered(word, offers, [Path(word).stem for word in settings if word not in every])
     named = [word for word in settings if word in every] or every
     found = [
         engine
@@ -151,7 +152,16 @@ def choose_engines(
     ]
     for file in _files([word for word in settings if word not in every], every):
         own = read_settings(file, sorted(every), long=long)
-        found += [e for name, e in own.items() if not names or name in names]
+        used = [
+            engine
+            for name, engine in own.items()
+            if not names or name in names or f"{name}.{file.stem}" in names
+        ]
+        if not used:
+            of = ", ".join(f"{name}.{file.stem}" for name in own) or "no engine"
+            what = f"no chosen engine uses it, which is for {of}"
+            raise CaseError([Mistake("--settings", 0, 0, str(file), what)])
+        found += used
     if not found and not choose_book(names, settings):
         what = f"with --settings {', '.join(settings)} no engine is left"
         raise CaseError([Mistake("--engine", 0, 0, ", ".join(names), what)])
@@ -223,8 +233,13 @@ def _offers(asked: Set[str]) -> dict[str, tuple[str, ...]]:
     return offers
 
 
-def _offered(word: str, offers: Mapping[str, Sequence[str]]) -> None:
+def _offered(word: str, offers: Mapping[str, Sequence[str]], own: Sequence[str]) -> None:
+    """Raises CaseError for a setting that neither the engine nor a file of the user's has."""
     name, dot, setting = word.partition(".")
-    if dot and setting not in offers[name]:
-        hint = nearest(word, [f"{name}.{offered}" for offered in offers[name]])
-        raise CaseError([Mistake("--engine", 0, 0, word, f"no such engine{hint}")])
+    if not dot or setting in offers[name] or setting in own:
+        return
+    hint = nearest(word, [f"{name}.{offered}" for offered in (*offers[name], *own)])
+    files = [file for suffix in SUFFIXES if (file := Path(f"{setting}{suffix}")).is_file()]
+    if files and not own:
+        hint = f"; of your own options say --settings {files[0]} too"
+    raise CaseError([Mistake("--engine", 0, 0, word, f"no such engine{hint}")])

@@ -14,6 +14,7 @@ from .selection import BOOK, choose_engines
 def rows(
     cases: Sequence[Case],
     used: Sequence[str],
+    settings: Sequence[str],
     shared: str | None,
     progress: Progress,
     *,
@@ -22,13 +23,14 @@ def rows(
     """Runs the cases on all cores, or takes them from the store: another worker of xdist asks for
     the same, waits, and finds it there. A mistake that solving finds costs its own file.
 
-    used: `engine.setting`. shared: a folder for the workers where the user has no store. cached:
-    whether anything is taken from the user's store, or kept there.
+    used: `engine.setting`. settings: files of the user's own options. shared: a folder for the
+    workers where the user has no store. cached: whether anything is taken from the user's store, or
+    kept there.
     """
     if shared is not None:
         ending.with_parent()
     names = [name for name in used if not name.startswith(f"{BOOK}.")]
-    engines = choose_engines(names, []) if names else []
+    engines = choose_engines(names, settings) if names else []
     try:
         return suite.measure(
             cases,

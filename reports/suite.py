@@ -20,6 +20,7 @@ from .judge.instants import of_reference
 from .judge.metric import told
 from .judge.uncertified import failing, uncertified
 from .pool import Died, local
+from .promised import answered
 from .results import Progress, Results
 from .row import FAILS, Cause, Certificate, Comparison, Instant, Rungs
 from .search.because import with_causes
@@ -137,6 +138,7 @@ def _take(one: Tried, report: Report) -> None:
     outcome = one.outcome
     if not solution.holds:
         outcome = failing(outcome, uncertified(solution))
+    outcome = replace(outcome, rows=answered(one.pair.case, outcome.rows))
     report.comparisons += outcome.rows
     report.rungs += outcome.rungs
     report.instants += outcome.instants

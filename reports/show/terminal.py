@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from itertools import groupby
 from pathlib import Path
 
+from ..promised import unkept
 from ..row import AGREES, FAILS, Comparison
 from ..suite import Report
 from .notes import without_effect
@@ -27,6 +28,9 @@ def show(
             numbers = f"{check.difference:.2e} is above {check.bound:.1e}"
             say(f"FAILS: {check.case}: the reference's {check.check}: {numbers}")
     _fails([row for row in report.comparisons if row.verdict == FAILS])
+    for case in report.cases:
+        for note in unkept(case, report.comparisons):
+            say(note)
     for note in without_effect(report.comparisons):
         say(note)
     counts = Counter(row.verdict.partition(":")[0] for row in report.comparisons)

@@ -30,7 +30,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 
 def keys(earlier: Earlier, *engines: str) -> list[Key]:
-    found = collected(FILE, engines, [], lambda: earlier, long=False, write=print)
+    found = collected(FILE, engines, [], [], lambda: earlier, long=False, write=print)
     return [key for _, keys in found for key in keys]
 
 

@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from given.otherwise import otherwise
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
 from textmech.reference.solve import Solution, solve
-from textmech.reports import suite, unit
+from textmech.reports import selection, suite, unit
 from textmech.reports.cache.store import Store
 from textmech.reports.row import BEYOND, FAILS, Comparison
 from textmech.reports.selection import BOOK, choose_book, choose_engines
@@ -145,3 +146,30 @@ def test_options_without_effect_are_told(moving: Case, trial: Make) -> None:
     assert list(without_effect(rows)) == [
         "moving: mujoco.mine changes nothing: every number is shipped's"
     ]
+
+
+@pytest.mark.mutant("a file of settings that nobody uses is taken in silence")
+def test_a_file_that_no_chosen_engine_uses_is_a_mistake(tmp_path: Path) -> None:
+    file = tmp_path / "mine.yaml"
+    file.write_text("pymunk: {midpoint: true}\n", encoding="utf-8")
+    for names in (["mujoco"], ["pymunk.shipped"]):
+        with pytest.raises(CaseError, match=r"no chosen engine uses it, which is for pymunk\.mine"):
+            choose_engines(names, [str(file)])
+    (one,) = choose_engines(["pymunk.mine"], [str(file)])
+    assert (one.name, one.setting) == ("pymunk", "mine")
+    assert "mine" in {one.setting for one in choose_engines(["pymunk"], [str(file)])}
+    blind = otherwise(selection, "        if not used:\n", "        if False:\n")
+    assert [one.setting for one in blind.choose_engines(["pymunk.shipped"], [str(file)])] == [
+        "shipped"
+    ]
+
+
+def test_a_setting_whose_file_is_not_named_is_asked_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(CaseError, match="no such engine; did you mean"):
+        choose_engines(["pymunk.mine"], [])
+    Path("mine.yaml").write_text("pymunk: {midpoint: true}\n", encoding="utf-8")
+    with pytest.raises(CaseError, match=r"say --settings mine\.yaml too"):
+        choose_engines(["pymunk.mine"], [])

@@ -1,5 +1,7 @@
 """The pytest plug-in, as it behaves in somebody else's project."""
 
+from xml.etree import ElementTree as ET
+
 import pytest
 from given.inner import inner
 from given.swing import SWING, swing
@@ -40,7 +42,8 @@ def test_configured_files_are_compared(project: pytest.Pytester) -> None:
 
 @pytest.mark.slow
 def test_a_failure_prints_the_row_and_the_files_line(project: pytest.Pytester) -> None:
-    project.makefile(".yaml", swing=swing("1.0e-12"))
+    promised = "reach: {mujoco: {rod.angle: 1.0e-12}}\n"
+    project.makefile(".yaml", swing=swing("1.0e-6") + promised)
     done = inner(project, "swing.yaml", "--textmech-engine", "mujoco.tuned")
     done.assert_outcomes(passed=2, failed=1)
     done.stdout.fnmatch_lines(["*swing.yaml:10: rod.angle", "*verdict*FAILS*"])
@@ -61,8 +64,51 @@ def test_a_finding_is_an_expected_failure_with_the_row_as_its_reason(
 def test_mistakes_of_a_file_are_shown_as_they_are(project: pytest.Pytester) -> None:
     project.makefile(".yaml", swing=SWING.replace("mass: 0.5", "mas: 0.5"))
     done = inner(project, "swing.yaml")
-    done.assert_outcomes(errors=1)
+    done.assert_outcomes(failed=1)
     done.stdout.fnmatch_lines(["*swing.yaml:4:*did you mean 'mass'?*"])
+    assert "Traceback" not in done.stdout.str()
+
+
+MINE = "pymunk: {midpoint: true, error_bias: 0.0, step: 0.005}\n"
+
+
+@pytest.mark.slow
+def test_ones_own_settings_are_what_has_to_agree(project: pytest.Pytester) -> None:
+    """By a word, and by pytest's ini; what the engine has by itself is a finding."""
+    project.makefile(".yaml", swing=swing("1.0e-2"), mine=MINE)
+    words = ("swing.yaml", "--textmech-engine", "pymunk.mine", "--textmech-settings", "mine.yaml")
+    inner(project, *words).assert_outcomes(passed=3)
+    project.makefile(".yaml", swing=swing("1.0e-6"))
+    done = inner(project, *words)
+    done.assert_outcomes(passed=2, failed=1)
+    done.stdout.fnmatch_lines(["*rod.angle, by your own settings", "*verdict*beyond"])
+    project.makeini("[pytest]\ntextmech_settings = mine.yaml\n")
+    inner(project, *words[:3]).assert_outcomes(passed=2, failed=1)
+    shipped = inner(project, "swing.yaml", "--textmech-engine", "pymunk")
+    assert shipped.parseoutcomes()["failed"] == 1
+
+
+@pytest.mark.slow
+def test_junit_has_a_rows_numbers_as_properties(project: pytest.Pytester) -> None:
+    project.makefile(".yaml", swing=swing("1.0e-6"))
+    inner(project, "swing.yaml", "--textmech-engine", "mujoco.shipped", "--junitxml", "j.xml")
+    root = ET.parse(project.path / "j.xml").getroot()
+    told = {
+        case.get("name"): {p.get("name"): p.get("value") for p in case.iter("property")}
+        for case in root.iter("testcase")
+    }
+    row = told["swing-mujoco.shipped-rod.angle"]
+    assert row["verdict"] == "beyond"
+    assert float(row["largest"] or "nan") > float(row["allowed"] or "nan") == 1e-6
+    (skipped,) = root.iter("skipped")
+    assert "  " not in (skipped.get("message") or "  ")
+
+
+@pytest.mark.slow
+def test_a_broken_file_costs_itself_alone(project: pytest.Pytester) -> None:
+    project.makefile(".yaml", swing=swing("1.0e-2"), bad="title: [\n")
+    done = inner(project, "bad.yaml", "swing.yaml", "--textmech-engine", "mujoco.tuned")
+    done.assert_outcomes(passed=3, failed=1)
 
 
 @pytest.mark.slow

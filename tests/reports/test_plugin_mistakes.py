@@ -21,7 +21,7 @@ def test_a_mistake_that_solving_finds_costs_its_own_file(pytester: pytest.Pytest
 def test_endless_work_is_said_and_allow_long_goes_on(pytester: pytest.Pytester) -> None:
     pytester.makefile(".yaml", slow=pendulum(step=1e-9))
     done = inner(pytester, "slow.yaml", *ONLY)
-    done.assert_outcomes(errors=1)
+    done.assert_outcomes(failed=1)
     done.stdout.fnmatch_lines(["*slow.yaml:10:1: step: *--textmech-allow-long*"])
     done = inner(pytester, "slow.yaml", "--textmech-allow-long", "--collect-only", "-q", *ONLY)
     done.stdout.fnmatch_lines(["slow.yaml::slow-mujoco.tuned-rod.angle"])

@@ -28,10 +28,15 @@ def ended(module: Any, kind: str, item: Any) -> str:
     return PASSED
 
 
-def of_row(found: Comparison, module: Any = pytest_plugin) -> str:
+def of_row(found: Comparison, module: Any = pytest_plugin, *, promised: bool = False) -> str:
     """A row's own test."""
     item = SimpleNamespace(
-        row=lambda: found, case=SimpleNamespace(), path=Path("swing.yaml"), place=lambda *_: 1
+        row=lambda: found,
+        case=SimpleNamespace(),
+        path=Path("swing.yaml"),
+        place=lambda *_: 1,
+        user_properties=[],
+        promised=promised,
     )
     return ended(module, "ComparisonItem", item)
 
@@ -74,6 +79,19 @@ def test_a_finding_is_no_pass() -> None:
         pytest_plugin, "not in (AGREES, DEVIATES)", "not in (AGREES, DEVIATES, 'beyond')"
     )
     assert (of_row(found), of_row(found, passes)) == (EXPECTED, PASSED)
+
+
+@pytest.mark.mutant("what a user's own settings have to keep is an expected failure")
+def test_ones_own_settings_have_to_agree() -> None:
+    """But what an engine cannot do, no setting can."""
+    found = replace(row(), verdict=BEYOND)
+    was = 'if self.promised and not row.verdict.startswith("refused"):'
+    blind = otherwise(pytest_plugin, was, "if False:")
+    assert of_row(found, promised=True) == FAILED
+    assert of_row(found, blind, promised=True) == EXPECTED
+    assert of_row(replace(found, verdict=DIVERGED), promised=True) == FAILED
+    assert of_row(replace(found, verdict="refused: engine: it cannot"), promised=True) == EXPECTED
+    assert of_row(row(), promised=True) == PASSED
 
 
 @pytest.mark.mutant("a failed audit is an expected failure in pytest")
