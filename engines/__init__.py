@@ -12,7 +12,7 @@ from .engine import Engine, Maker
 from .probe import guarded, said, unsound, why_not
 
 GROUP = "textmech.engines"
-SETTINGS = ("shipped", "tuned")  # what an engine may offer
+SETTINGS = ("shipped", "recommended", "tuned")  # what an engine may offer
 TAKEN = ("book", "reference")  # words that stand for something else in the reports
 
 
@@ -33,6 +33,11 @@ def foreign(name: str) -> bool:
 def settings(name: str) -> tuple[str, ...]:
     """What the engine offers, in its order. Raises KeyError, Broken."""
     return _maker(name).offers
+
+
+def place(setting: str) -> float:
+    """Where a setting stands among others: the user's own, and any, before the tuned one."""
+    return SETTINGS.index(setting) if setting in SETTINGS else SETTINGS.index("tuned") - 0.5
 
 
 def make(name: str, setting: str, options: Mapping[str, Any] | None = None) -> Engine:

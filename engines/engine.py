@@ -146,11 +146,19 @@ class Engine(Protocol):
         ...
 
     def script(
-        self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""
+        self,
+        scene: Scene,
+        start: Start,
+        step: float,
+        plan: Plan,
+        *,
+        title: str = "",
+        duration: float = 1.0,
     ) -> str:
         """The scene as the engine's own file or script, ready to paste, headed by comments.
 
         title: what it shows, in words of the user's: they are text there, and never code.
+        duration: how long it runs [s], where it runs by itself.
         """
         ...
 
@@ -236,7 +244,7 @@ class Maker(Protocol):
     """What an entry point names, usually the engine's class."""
 
     offers: tuple[str, ...]
-    """Its settings: of `shipped` and `tuned` those it has."""
+    """Its settings: of `shipped`, `recommended` and `tuned` those it has."""
 
     def __call__(self, setting: str, options: Mapping[str, Any]) -> Engine:
         """The engine with a setting it offers, or with the user's options under another name.

@@ -22,14 +22,15 @@ class Knob:
 
     values: what is worth trying beside the shipped one, the mildest first; none where it is of use
     beside others alone. tuned: the tuned setting's; None: it leaves the shipped one.
-    kind: a `protocol` is what is done to start and readout; a `bundle` is a whole recipe, which
+    kind: a `protocol` is what is done to start and readout; `ours` is what nobody can do who has
+    not our adapter: it explains, and is advised to no one; a `bundle` is a whole recipe, which
     turns several knobs at once.
     """
 
     name: str
     values: tuple[Value, ...]
     tuned: Value | None = None
-    kind: Literal["option", "protocol", "bundle"] = "option"
+    kind: Literal["option", "protocol", "ours", "bundle"] = "option"
 
 
 def merged(*options: Options) -> dict[str, Any]:

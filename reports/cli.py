@@ -1,6 +1,7 @@
 """The command `textmech`: run, causes, advise, check, list, show, and what compares and shows."""
 
 import sys
+from pathlib import Path
 
 import click
 
@@ -103,11 +104,21 @@ command.add_command(plot)
     "name",
     required=True,
     metavar="E",
-    help="An engine, or engine.setting.",
+    help="An engine's setting, as mujoco.shipped; of an engine alone its tuned one.",
+)
+@click.option(
+    "--settings",
+    metavar="FILE",
+    help="Your own options in place of that, as `textmech advise` prints them.",
 )
 @allow_long
-def show(case: str, name: str, allow_long: bool) -> None:
-    """The scene as the engine's own file or script, with the settings and their reasons."""
+def show(case: str, name: str, settings: str | None, allow_long: bool) -> None:
+    """The scene as the engine's own file or script, with the settings and their reasons.
+
+    \b
+      textmech show four_bar --engine pymunk > four_bar.py
+      textmech show four_bar --engine mujoco --settings mine.yaml > four_bar.xml
+    """
     from functools import partial
 
     from ..engines import Known
@@ -121,11 +132,14 @@ def show(case: str, name: str, allow_long: bool) -> None:
     if len(chosen) > 1:
         names = ", ".join(c.name for c in chosen)
         raise click.UsageError(f"{case} has variants; show one of: {names}")
-    engines = choose_engines([name], [])
+    engines = choose_engines([name], [settings] if settings else [])
     if not engines:
         raise click.UsageError(f"{name} is no engine, and has no file of its own")
     # Of a bare name the tuned setting, or what else the engine offers.
-    engine = next((e for e in engines if e.setting == "tuned"), engines[0])
+    wanted = Path(settings).stem if settings else "tuned"
+    engine = next((e for e in engines if e.setting == wanted), None if settings else engines[0])
+    if engine is None:
+        raise click.UsageError(f"{settings} holds no options of {name}")
     text, error = guarded(partial(script, chosen[0], engine))
     if isinstance(error, CaseError | click.ClickException):
         raise error

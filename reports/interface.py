@@ -177,7 +177,7 @@ def advise(
     cache: bool = True,
     progress: "Progress | None" = None,
 ) -> "pd.DataFrame":
-    """Which setting cases need: a row for each case and engine, with the columns of advice.csv.
+    """Which settings cases need: for each case and engine a recipe or two, as rows of advice.csv.
 
     engines: as `mujoco`; all for none. tolerance: of each quantity's own size; None: as the case
     allows. margin: how often the worst error has to fit into that. Raises CaseError.
@@ -186,22 +186,20 @@ def advise(
 
     from .asking import asked
     from .cache.store import usable
-    from .search.advised import Asked, row
+    from .search.advised import Asked, rows
     from .search.session import advised
 
     wanted = asked(load(word), engines, ["shipped"])
-    found = Asked(tolerance, margin)
+    bar = Asked(tolerance, margin)
     store = usable() if cache else None
     with (
         _aloud(progress) as told,
-        advised(
-            wanted.cases, wanted.engines, found, jobs=jobs, progress=told, store=store
-        ) as advice,
+        advised(wanted.cases, wanted.engines, bar, jobs=jobs, progress=told, store=store) as advice,
     ):
-        rows = [row(one) for one in advice]
+        found = [row for one in advice for row in rows(one)]
     if wanted.mistakes:
         raise CaseError(wanted.mistakes)
-    return pd.DataFrame(map(vars, rows))
+    return pd.DataFrame(map(vars, found))
 
 
 @contextmanager

@@ -131,7 +131,7 @@ class Cause:
 
 @dataclass(frozen=True)
 class Advice:
-    """A row of advice.csv: the minimal recipe for a case in an engine, natively; or what remains.
+    """A row of advice.csv: a recipe for a case in an engine, natively; or what remains.
 
     The recipe in words, `none` where nothing keeps the bar; `worst` is an error over its tolerance.
     """
@@ -140,8 +140,9 @@ class Advice:
     engine: str
     tolerance: float | None  # of each quantity's size; None: as the case allows
     margin: float
+    want: str  # `fewest changes`, `cheapest`, or `both`: which of the two recipes it is
     recipe: str
-    options: str  # YAML, as in a file of settings
+    settings: str  # YAML: a file of settings, whole
     step: float | None
     cost: float | None  # of a simulated second, as the engine counts it
     shipped_cost: float | None

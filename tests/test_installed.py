@@ -85,7 +85,8 @@ def test_the_wheel_holds_one_package_and_its_data(wheel: Path) -> None:
     names = zipfile.ZipFile(wheel).namelist()
     assert {name.split("/")[0].split("-")[0] for name in names} == {"textmech"}
     data = ("cases", "*.yaml"), ("cases", "*.json"), ("cases/questions", "*.yaml")
-    for folder, pattern in (*data, ("reports", "*.csv"), ("reports", "*.svg")):
+    told = [(name, "*.md") for name in (*OURS, "cases/questions")]
+    for folder, pattern in (*data, *told, ("reports", "*.csv"), ("reports", "*.svg")):
         files = [file.name for file in (ROOT / folder).glob(pattern)]
         assert files
         assert {f"textmech/{folder}/{file}" for file in files} <= set(names)

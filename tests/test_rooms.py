@@ -36,10 +36,10 @@ ROOMS = {
         "mujoco pymunk",
     ],
     "reports": [
-        "own_settings spelled limit",
+        "own_settings spelled limit amount",
         "row pins selection coverage events content lock ending cluster pytest_short"
         " pytest_options",
-        "processes child trial replace passing ours",
+        "processes child trial replace passing ours promised",
         "diff",
         "pool judge asking",
         "cache",

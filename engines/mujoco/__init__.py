@@ -15,6 +15,7 @@ from ..knobs import Knob, Options
 from . import options, settings
 from .claims import answered
 from .compilation import NOMINAL, timestep
+from .drawn import drawn
 from .knobs import STEPS, cost, knobs
 from .own import as_options, unfit
 from .plane import PLANE
@@ -31,16 +32,18 @@ _WORLDS: Mapping[int, World] = {2: PLANE, 3: SPACE}
 
 @dataclass(frozen=True)
 class MuJoCo:
-    """MuJoCo with one setting: shipped, tuned, or own (`options`: the user's)."""
+    """MuJoCo with one setting: shipped, recommended, tuned, or own (`options`: the user's)."""
 
     setting: str
     options: Mapping[str, Any] = field(default_factory=dict)
     name: str = "mujoco"
     version: str = mujoco.__version__
-    offers: ClassVar[tuple[str, ...]] = ("shipped", "tuned")
+    offers: ClassVar[tuple[str, ...]] = ("shipped", "recommended", "tuned")
     steps: ClassVar[tuple[float, ...]] = STEPS
 
     def __post_init__(self) -> None:
+        if self._recommended:
+            object.__setattr__(self, "options", settings.RECOMMENDED)
         options.check(self.options)
 
     @property
@@ -51,6 +54,10 @@ class MuJoCo:
     @property
     def _tuned(self) -> bool:
         return self.setting == "tuned"
+
+    @property
+    def _recommended(self) -> bool:
+        return self.setting == "recommended"
 
     @property
     def _settles(self) -> bool:
@@ -82,7 +89,8 @@ class MuJoCo:
         if self._tuned:
             numbers = partial(world.tuned, scene, start=start)
         else:
-            numbers = partial(world.with_own, self.options, scene, start)
+            why = {"because": settings.GUIDE} if self._recommended else {}
+            numbers = partial(world.with_own, self.options, scene, start, **why)
         return world.plan(scene, start, realised, numbers, settles=self._settles, tuned=self._tuned)
 
     def knobs(self, scene: Scene, start: Start) -> list[Knob]:
@@ -105,12 +113,13 @@ class MuJoCo:
         return cost(options, step)
 
     def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
-        """Elements of the MJCF file."""
+        """Elements of an MJCF file in which geoms touch, as users write them."""
         world = _world(scene)
         scene, start = world.built(scene, start)
         with_own = partial(world.with_own, scene=scene, start=start, tied_to=step)
         notes = said(options, contacts=bool(world.worth(scene)), plane=world is PLANE)
-        return snippet(with_own(options), with_own({}), step, notes)
+        rubs = max((contact.friction for contact in world.met(scene)), default=None)
+        return snippet(with_own(options), with_own({}), step, notes, friction=rubs)
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as the compiled model holds it."""
@@ -129,9 +138,25 @@ class MuJoCo:
         return answered(scene, bare, states, wanted)
 
     def script(
-        self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""
+        self,
+        scene: Scene,
+        start: Start,
+        step: float,
+        plan: Plan,
+        *,
+        title: str = "",
+        duration: float = 1.0,
     ) -> str:
-        """The MJCF file with its start as a keyframe, headed by comments."""
+        """The MJCF file with its start as a keyframe, headed by comments, and shapes to be seen."""
+        runs = f"{round(duration / step)} steps are {duration:g} s"
+        begins = f"the start is its keyframe: mj_resetDataKeyframe(model, data, 0); {runs}"
+        head, model = self._script(scene, start, step, plan, title=title)
+        return head + commented([begins]) + drawn(model, *_world(scene).built(scene, start))
+
+    def _script(
+        self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""
+    ) -> tuple[str, str]:
+        """The comments, and the file without anything that is only seen."""
         world, choices = _world(scene), [timestep(step), *plan.choices(step)]
         options = self.recipe(scene, start) if self._tuned and plan.realised == "native" else {}
         scene, start = world.built(scene, start)
@@ -140,7 +165,7 @@ class MuJoCo:
         head = commented(heading(self, title, step, plan, options)) + controls(
             model, world.signals(scene)
         )
-        return head + world.mjcf(scene, start, choices, begun)
+        return head, world.mjcf(scene, start, choices, begun)
 
     def run(
         self,
@@ -166,7 +191,7 @@ class MuJoCo:
         self, scene: Scene, start: Start, step: float, plan: Plan
     ) -> Callable[[float], Plain] | None:
         """`mj_step(model, data, n)` on the file of `show`, or our law's force before each step."""
-        text = self.script(scene, start, step, plan)
+        _, text = self._script(scene, start, step, plan)
         world = _world(scene)
         return world.plain(*world.built(scene, start), plan, text)
 

@@ -12,8 +12,11 @@ from .contact import HARDEST, SOFTEST
 from .own import ELEMENTS, as_options, key, suffix
 from .written import EACH
 
-STEPS = (8e-3, 4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4)  # s
+STEPS = (1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2.5e-4, 1e-4)  # s
 STAGES = {"RK4": 4}  # evaluations of the dynamics in a step; every other integrator takes one
+INTEGRATORS = ("implicitfast", "implicit", "discrete", "RK4")
+# What only touches would fall freely for one step: MuJoCo knows a contact from below its margin on.
+MARGIN = Value("a margin of 1e-9 m", {"pair": {"margin": 1e-9}})
 _HARD, _MIDDLE, _SOFT = ([d, d, 0.001] for d in (HARDEST, 0.99, SOFTEST))
 _STIFF = ("2h", "4h", "10h")  # time constants
 
@@ -35,7 +38,7 @@ def knobs(
     found = [
         Knob(
             "integrator",
-            tuple(_of("integrator", word) for word in ("implicitfast", "implicit", "RK4")),
+            tuple(_of("integrator", word) for word in INTEGRATORS),
             _of("integrator", tuned["integrator"]),
         ),
         *(_softness(group, tuned) for group in soft),
@@ -48,10 +51,11 @@ def knobs(
         found.append(_knob("diagexact", [True], tuned))
     if lies:
         start = Value("a settled start", {"settled": True})
-        found.append(Knob("start", (start,), start, "protocol"))
+        found.append(Knob("start", (start,), start, "ours"))
+        found.append(Knob("margin", (MARGIN,)))
     if bundles:
         recipes = tuple(
-            Value(f"contacts: {word}", as_options(choices, settled=lies))
+            Value(f"the recipe for contacts that {word}", as_options(choices, settled=False))
             for word, choices in bundles.items()
         )
         found.append(Knob("contacts", recipes, kind="bundle"))

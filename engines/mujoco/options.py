@@ -28,7 +28,7 @@ PROTOCOL = ("step", "contacts", "settled")  # what stands nowhere in the file
 GROUPS: Mapping[str, Mapping[str, tuple[int, ...]]] = {
     "connect": SOFT,
     "rod": SOFT,
-    "pair": {**SOFT, "solreffriction": (2,)},
+    "pair": {**SOFT, "solreffriction": (2,), "margin": (1,)},
     "joint": {
         "solreffriction": (2,), "solimpfriction": (3, 5), "solreflimit": (2,), "solimplimit": (3, 5)
     },
@@ -105,7 +105,9 @@ def _nearest(name: Any, names: Sequence[str]) -> str:
 
 
 def _listed(name: str, value: Any, sizes: tuple[int, ...]) -> tuple[bool, str]:
-    """Whether a list of numbers is right, and what it should be. What pushes may follow h."""
+    """Whether a number, or a list, is right, and what it should be. What pushes may follow h."""
+    if sizes == (1,):
+        return _number(name, value)
     follows = name.startswith("solref")
     count = " or ".join(map(str, sizes))
     what = f"a list of {count} finite numbers" + (f", or texts {FORMS}" if follows else "")

@@ -7,7 +7,7 @@ from ..engine import Choice
 from .options import FLAGS, GROUPS, PROTOCOL, SOFT, as_written
 from .written import EACH, of_one
 
-_BECAUSE = "your own option"
+OWN = "your own option"
 
 
 def key(group: str, name: str) -> str:
@@ -30,49 +30,53 @@ def overlaid(
     contacts: Sequence[Choice],
     *,
     alone: Mapping[str, str],
+    because: str,
 ) -> list[Choice]:
-    """Choices with the user's own options on top.
+    """Choices with other options on top.
 
     contacts: the recipe that they name, which stands between what is for all groups and the rest.
-    alone: what may have numbers of its own, by its name: of which group it is.
+    alone: what may have numbers of its own, by its name: of which group it is. because: why they
+    are on top.
     """
     choices = {choice.name: choice for choice in under}
     for name in SOFT:
         for group in soft if name in options else ():
             named = key(group, name)
-            choices[named] = Choice(named, as_written(name, options[name]), _BECAUSE)
+            choices[named] = Choice(named, as_written(name, options[name]), because)
     choices |= {choice.name: choice for choice in contacts}
-    choices |= {choice.name: choice for choice in _written(options, soft)}
-    choices |= {choice.name: choice for choice in _alone(options.get(EACH, {}), alone)}
+    choices |= {choice.name: choice for choice in _written(options, soft, because)}
+    choices |= {choice.name: choice for choice in _alone(options.get(EACH, {}), alone, because)}
     return list(choices.values())
 
 
-def _alone(given: Mapping[str, Mapping[str, Any]], alone: Mapping[str, str]) -> Iterator[Choice]:
+def _alone(
+    given: Mapping[str, Mapping[str, Any]], alone: Mapping[str, str], because: str
+) -> Iterator[Choice]:
     """Of one contact or one joint's stops, as far as the scene has it."""
     for element, numbers in given.items():
         if group := alone.get(element):
             yield from (
-                Choice(f"{of_one(element)}.{attribute}", value, _BECAUSE)
+                Choice(f"{of_one(element)}.{attribute}", value, because)
                 for attribute, value in numbers.items()
                 if attribute in GROUPS[ELEMENTS[group]] and attribute.endswith(suffix(group))
             )
 
 
-def _written(options: Mapping[str, Any], soft: Sequence[str]) -> Iterator[Choice]:
+def _written(options: Mapping[str, Any], soft: Sequence[str], because: str) -> Iterator[Choice]:
     """What stands in one place only."""
     for name, value in options.items():
         if name in GROUPS:
             yield from (
-                Choice(f"{group}.{attribute}", given, _BECAUSE)
+                Choice(f"{group}.{attribute}", given, because)
                 for attribute, given in value.items()
                 for group, element in ELEMENTS.items()
                 if group in soft and element == name
                 if attribute.endswith(suffix(group))
             )
         elif name in FLAGS:
-            yield Choice(f"flag.{name}", "enable" if value else "disable", _BECAUSE)
+            yield Choice(f"flag.{name}", "enable" if value else "disable", because)
         elif name not in (*SOFT, *PROTOCOL, EACH):
-            yield Choice(f"option.{name}", as_written(name, value), _BECAUSE)
+            yield Choice(f"option.{name}", as_written(name, value), because)
 
 
 ELEMENTS = {

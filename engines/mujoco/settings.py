@@ -13,7 +13,7 @@ from ..stride import strides
 from ..tied import at
 from .contact import HARDEST, RECIPES, chosen, recipe
 from .loops import recipe as rods
-from .own import key, overlaid
+from .own import OWN, key, overlaid
 from .planes import met
 from .rope import recipe as ropes
 from .stops import recipe as stops
@@ -21,6 +21,15 @@ from .tree import driven, spanning_tree
 
 SHIPPED_STEP = 2e-3  # s, the default of <option timestep>
 _DEFAULT = "MuJoCo's default"
+RECOMMENDED: Mapping[str, Any] = {
+    "integrator": "implicitfast",
+    "cone": "elliptic",
+    "impratio": 10.0,
+    "solref": [0.005, 1.0],
+}
+"""What MuJoCo's own documentation advises for new models, as a user writes it: of solref[0] it says
+0.004 to 0.01 s, and of solimp to keep it."""
+GUIDE = "the recommended initial value: MuJoCo 4.0.0's documentation, Modeling, Model tuning"
 TO_THE_END = Choice(
     "option.tolerance", 0.0, "MuJoCo scales it by the mass, and a driven point's is 1e15"
 )
@@ -128,14 +137,15 @@ def soft(scene: Scene) -> list[str]:
 
 
 def with_own(
-    options: Mapping[str, Any], scene: Scene, start: Start, tied_to: float
+    options: Mapping[str, Any], scene: Scene, start: Start, tied_to: float, because: str = OWN
 ) -> list[Choice]:
-    """The shipped setting with the user's own options on top."""
+    """The shipped setting with other options on top: the user's own, or what `because` says."""
     word = options.get("contacts")
     chosen_one = chosen(scene, start) if word == "scene" else word
     contacts = RECIPES[chosen_one](scene) if met(scene) and chosen_one else []
     under = shipped(scene, tied_to)
-    return at_step(overlaid(under, options, soft(scene), contacts, alone=alone(scene)), tied_to)
+    on_top = overlaid(under, options, soft(scene), contacts, alone=alone(scene), because=because)
+    return at_step(on_top, tied_to)
 
 
 def alone(scene: Scene) -> dict[str, str]:

@@ -9,32 +9,59 @@ from .script import commented
 from .written import EACH, attributes, written
 
 _ELEMENTS = {
-    "connect": "equality", "pair": "pair", "slide": "joint", "rope": "tendon", "stop": "joint",
+    "connect": "equality", "pair": "geom", "slide": "joint", "rope": "tendon", "stop": "joint",
     "rod": "equality",
 }  # fmt: skip
-"""What stands in <default> for a group of soft constraints."""
+"""What stands in <default> for a group of soft constraints, in a model as a user writes it."""
+_ALONE = "solreffriction"  # which a geom has not
+_KEPT = {
+    "geom": "of two geoms that touch the one of higher priority tells, or both by solmix",
+    "equality": "a <connect> or <weld> with numbers of its own keeps them: write these there",
+    "joint": "a <joint> with numbers of its own keeps them: write these there",
+    "tendon": "a tendon with numbers of its own keeps them: write these there",
+}
+"""What else decides, of an element of <default>."""
+_PAIRS = (
+    "a <pair> has no number of its geoms, nor their friction and condim: it takes these; and only "
+    "a pair has a solreffriction. Of the geoms that touch: <contact>"
+    '<pair geom1="…" geom2="…" condim="3" friction="{friction} {friction}" /></contact>'
+)
 
 
 def snippet(
-    choices: Sequence[Choice], shipped: Sequence[Choice], step: float, notes: Sequence[str]
+    choices: Sequence[Choice],
+    shipped: Sequence[Choice],
+    step: float,
+    notes: Sequence[str],
+    *,
+    friction: float | None = None,
 ) -> str:
-    """What is not as MuJoCo has it by itself; notes: what no element says."""
+    """What is not as MuJoCo has it by itself, for a model in which geoms touch.
+
+    notes: what no element says. friction: of the scene's contacts, where it has any.
+    """
     before = {choice.name: choice.value for choice in shipped}
     changed = {c.name: c.value for c in choices if before.get(c.name) != c.value}
     option = ET.Element("option", {"timestep": written(step)} | attributes(changed, "option"))
     if flags := attributes(changed, "flag"):
         ET.SubElement(option, "flag", flags)
-    default = ET.Element("default")
-    beside: list[str] = []
+    default, beside = ET.Element("default"), list[str]()
     for group, element in _ELEMENTS.items():
-        if given := attributes(changed, group):
+        given = attributes(changed, group)
+        mine = {name: value for name, value in given.items() if (group, name) != ("pair", _ALONE)}
+        if mine:
             found = default.find(element)
             place = ET.SubElement(default, element) if found is None else found
-            if any(place.get(name, value) != value for name, value in given.items()):
-                numbers = ", ".join(f"{name}={value!r}" for name, value in given.items())
+            if any(place.get(name, value) != value for name, value in mine.items()):
+                numbers = ", ".join(f"{name}={value!r}" for name, value in mine.items())
                 beside.append(f"each {element} of a {group} has {numbers} instead")
             else:
-                place.attrib.update(given)
+                place.attrib.update(mine)
+        if group == "pair" and given:
+            ET.SubElement(default, "pair", given)
+    beside += [_KEPT[element.tag] for element in default if element.tag in _KEPT]
+    if default.find("pair") is not None:
+        beside.append(_PAIRS.format(friction=written(friction or 0.0)))
     for name, value in changed.items():
         where, _, attribute = name.rpartition(".")
         if where.startswith(f"{EACH}."):

@@ -93,9 +93,8 @@ class Pymunk:
         return 1 / step
 
     def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
-        """Lines of Python."""
-        world = build(scene, start, {}, "native")
-        return snippet(world, start, own(options, scene, start)(step), step)
+        """Lines of Python for a script with a `space`, as users write it."""
+        return snippet(own(options, scene, start)(step), step)
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as pymunk's objects hold it, with which no number of a setting has to do."""
@@ -108,13 +107,20 @@ class Pymunk:
         return answered(build(scene, start, {}, "native"), states, wanted)
 
     def script(
-        self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""
+        self,
+        scene: Scene,
+        start: Start,
+        step: float,
+        plan: Plan,
+        *,
+        title: str = "",
+        duration: float = 1.0,
     ) -> str:
         """A Python script that needs only pymunk."""
         numbers = named(plan.choices(step))
         options = self.recipe(scene, start) if self._tuned and plan.realised == "native" else {}
         head = heading(self, title, step, plan, options)
-        return text(scene, start, step, numbers, head)
+        return text(scene, start, step, numbers, head, duration)
 
     def run(
         self,

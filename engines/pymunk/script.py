@@ -65,9 +65,14 @@ for body in bodies.values():
 
 
 def text(
-    scene: Scene, start: Start, step: float, numbers: Mapping[str, Any], head: Iterable[str]
+    scene: Scene,
+    start: Start,
+    step: float,
+    numbers: Mapping[str, Any],
+    head: Iterable[str],
+    duration: float,
 ) -> str:
-    """The script: builds the scene, runs one second, prints name x y angle vx vy omega.
+    """The script: builds the scene, runs its duration [s], prints name x y angle vx vy omega.
 
     head: what the scene is, as comments.
     """
@@ -81,7 +86,7 @@ def text(
         "import pymunk",
         "",
         f"h = {step!r}  # s",
-        f"steps = {max(1, round(1 / step))}",
+        f"steps = {max(1, round(duration / step))}  # {duration:g} s",
         *building(world, start, numbers),
         "\nfor n in range(steps):",
         *_sweeps(world, numbers),

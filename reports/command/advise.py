@@ -13,6 +13,8 @@ from .done import finished
 from .folder import Folder
 from .options import allow_long, jobs, named_engines, no_cache, overwrite
 
+PART = 1e-3  # of a quantity's own size: asked for of all cases, beside what each allows
+
 
 @click.command()
 @click.argument("cases", nargs=-1, metavar="CASE...")
@@ -38,7 +40,11 @@ from .options import allow_long, jobs, named_engines, no_cache, overwrite
     "those with a unit of their own, such as angles in degrees, stay as they are.",
 )
 @click.option(
-    "--all", "every", is_flag=True, help="All shipped cases, and no fronts: what advice.csv holds."
+    "--all",
+    "every",
+    is_flag=True,
+    help="All shipped cases, as they allow and at a thousandth of each quantity's size, and no "
+    "fronts: what advice.csv holds.",
 )
 @click.option(
     "--out",
@@ -67,10 +73,12 @@ def advise(
 ) -> None:
     """Which setting does a CASE need?
 
-    For each engine the minimal recipe: the fewest changed options, and with them the largest step,
-    that keep every quantity within its tolerance with a margin, at that step and at the next finer
-    one. With it what it costs beside the shipped setting, what to paste, and how cost falls with
-    error over all that was tried. Where nothing does it, what remains.
+    First what a person sees: energy lost, gaps, creep. Then for each engine two recipes, which may
+    be one: the fewest changed options, and the cheapest. Both keep every quantity within its
+    tolerance with a margin, at their step and at the next finer one, and wherever a loop is cut.
+    With each what it costs beside the shipped setting, and what to paste: into a model or script of
+    your own, and as a file of --settings. Then how cost falls with error over all that was tried.
+    Where nothing does it, what remains.
 
     \b
       textmech advise my_case.yaml                      your own mechanism, every engine
@@ -80,7 +88,8 @@ def advise(
     from .. import write
     from ..cache import store
     from ..ours import unasked
-    from ..search.advised import Asked, row
+    from ..row import Advice
+    from ..search.advised import Asked, rows
     from ..search.session import advised
     from ..selection import choose_cases, choose_engines
     from ..show import document, progress
@@ -100,21 +109,19 @@ def advise(
     if long := too_long(chosen, engines):
         raise CaseError(long)
     used = None if no_cache else store.usable()
-    asked = Asked(tolerance, margin, front=not (every or wants_json), robust=robust)
-    with (
-        progress.progress() as shown,
-        finished(used is not None),
-        advised(chosen, engines, asked, jobs=jobs, progress=shown, store=used) as found,
-    ):
-        rows = [row(one) for one in found]
+    front, table, draws = not (every or wants_json), list[Advice](), list[dict[str, int]]()
+    with progress.progress() as shown, finished(used is not None):
+        for each in [None, PART] if every and tolerance is None else [tolerance]:
+            asked = Asked(each, margin, front=front, robust=robust)
+            with advised(chosen, engines, asked, jobs=jobs, progress=shown, store=used) as found:
+                for one in found:
+                    table += (mine := rows(one))
+                    draws += [asdict(held) for held in one.draws] or [{} for _ in mine]
+                    for line in told(one) if front else ():
+                        say(line)
         if wants_json:
-            draws = [{} if one.draws is None else asdict(one.draws) for one in found]
-            told_rows = [asdict(one) | more for one, more in zip(rows, draws, strict=True)]
+            told_rows = [asdict(one) | more for one, more in zip(table, draws, strict=True)]
             document.write({"advice": told_rows, "exit_code": 0})
-        elif not every:
-            for one in found:
-                for line in told(one):
-                    say(line)
     if out is not None:
-        write.advice(rows, out, overwrite=overwrite)
-        tell(f"{len(rows)} rows written to {out / write.ADVICE}")
+        write.advice(table, out, overwrite=overwrite)
+        tell(f"{len(table)} rows written to {out / write.ADVICE}")

@@ -6,14 +6,17 @@ from typing import Any
 
 import pandas as pd
 
+from ..amount import factor, milliseconds
 from .beside import records
 from .theme import THEMES
 
 COLUMNS = (
-    "case", "engine", "tolerance", "margin", "recipe", "options", "step", "cost", "shipped_cost",
+    "case", "engine", "tolerance", "margin", "want", "recipe", "settings", "step", "cost",
+    "shipped_cost",
     "worst", "quantity", "remains",
 )  # fmt: skip
 AS_ALLOWED = "as the case allows"  # where no tolerance is written
+FEWEST = "fewest changes"  # which is not the cheapest
 NONE = "none"  # the recipe, where nothing keeps the bar
 
 Themes = Mapping[str, tuple[str, ...]]
@@ -29,6 +32,8 @@ def advice(frame: pd.DataFrame | None, themes: Themes) -> dict[str, Any] | None:
             "tolerance": row["tolerance"] or AS_ALLOWED,
             "themes": " ".join(themes.get(row["case"], ())),
             "linked": row["case"] in themes,
+            "step": _step(row["step"]),
+            "times": _times(row),
         }
         for row in records(frame, COLUMNS)
     ]
@@ -40,11 +45,21 @@ def advice(frame: pd.DataFrame | None, themes: Themes) -> dict[str, Any] | None:
     }
 
 
+def _step(seconds: str) -> str:
+    return milliseconds(float(seconds)) if seconds else ""
+
+
+def _times(row: Mapping[str, str]) -> str:
+    """The cost over shipped's."""
+    cost, shipped = row["cost"], row["shipped_cost"]
+    return factor(float(cost) / float(shipped)) if cost and shipped else ""
+
+
 def _by_theme(rows: Sequence[Mapping[str, Any]], themes: Themes) -> Any:
-    """For each theme, engine and tolerance: the recipe of most cases, and the smallest step."""
+    """For each theme, engine and tolerance: the cheapest recipe of most cases, and its dearest."""
     groups: dict[tuple[str, str, str], list[Mapping[str, Any]]] = {}
     for row in rows:
-        if not row["worst"] and row["recipe"] == NONE:
+        if (not row["worst"] and row["recipe"] == NONE) or row["want"] == FEWEST:
             continue  # refused, or a claim about states: no setting plays a part
         for theme in themes.get(row["case"], ()):
             groups.setdefault((theme, row["engine"], row["tolerance"]), []).append(row)
@@ -60,7 +75,7 @@ def _by_theme(rows: Sequence[Mapping[str, Any]], themes: Themes) -> Any:
         recipes = Counter(row["recipe"] for row in cured).most_common()
         first = recipes[0][0] if recipes else ""
         usual = [row for row in cured if row["recipe"] == first]
-        hardest = min(usual, key=lambda row: float(row["step"]), default=None)
+        hardest = max(usual, key=lambda row: float(row["cost"]), default=None)
         yield {
             "theme": theme,
             "engine": engine,
@@ -71,7 +86,7 @@ def _by_theme(rows: Sequence[Mapping[str, Any]], themes: Themes) -> Any:
             "usual": len(usual),
             "others": recipes[1:],
             "step": "" if hardest is None else hardest["step"],
-            "cost": "" if hardest is None else hardest["cost"],
+            "times": "" if hardest is None else hardest["times"],
             "hardest": "" if hardest is None else hardest["case"],
-            "options": "" if hardest is None else hardest["options"],
+            "settings": "" if hardest is None else hardest["settings"],
         }

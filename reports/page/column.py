@@ -3,9 +3,9 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from ...engines import place
 from ..row import Comparison, Instant, Rungs
 
-SETTINGS = {"shipped": 0, "tuned": 2}  # the user's own stand between them
 WAYS = {"native": 0, "driver": 1, "law": 2}
 
 
@@ -39,6 +39,6 @@ def columns(rows: Iterable[Comparison]) -> list[Column]:
     return sorted({column(row) for row in rows}, key=_place)
 
 
-def _place(one: Column) -> tuple[bool, str, int, str, int]:
-    setting = SETTINGS.get(one.setting, 1)
+def _place(one: Column) -> tuple[bool, str, float, str, int]:
+    setting = place(one.setting)
     return one.engine == "book", one.engine, setting, one.setting, WAYS.get(one.realised, 0)

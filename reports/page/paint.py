@@ -18,7 +18,7 @@ THEIRS = [(code.lower(), f"var(--{name})") for name, code in ENGINES.items()]
 """As the page's style has them, lighter in the dark."""
 OTHERS = ("#CC79A7", "#E69F00", "#56B4E9")
 MARKERS = {"mujoco": "o", "pymunk": "^", "book": "D"}
-DASHES = {"shipped": (0, (4, 2)), "tuned": "-"}
+DASHES = {"shipped": (0, (4, 2)), "recommended": (0, (7, 2, 1, 2)), "tuned": "-"}
 WAYS = {"law": (0, (1, 1.5)), "driver": (0, (5, 1.5, 1, 1.5)), "any way": (0, (1, 1.5))}
 
 

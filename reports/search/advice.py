@@ -14,12 +14,14 @@ from .advised import Advised, Asked
 from .asked import lost
 from .bar import Bar
 from .candidate import Candidate
+from .cuts import elsewhere
 from .draws import held
 from .menu import NOTHING, Choice, Menu, fitting
-from .recipe import Kitchen, Recipe, recipe, rungs_of
+from .recipe import Kitchen, Recipes, recipes, rungs_of
 from .solving import solved
 from .together import Asking, Known, Search, together
 
+ROUNDS = 12  # of what keeps the bar here, and not where a loop is cut elsewhere
 NO_KNOBS = "adapter: it says of nothing how it can be turned"
 NO_STEPS = "a claim about states: no step and no option plays a part"
 
@@ -32,26 +34,56 @@ def advise(pairs: Sequence[Pair], asked: Asked, results: Results) -> list[Advise
     sampled = _sampled(pairs, results)
     broken = lost({pair.name: pair for pair, why in sampled if not why}, results)
     ready = [_prepared(pair, asked, why, broken.get(pair.name, "")) for pair, why in sampled]
-    searches = {
-        f"{one.pair.case.name} {one.pair.engine.name}": Search(
-            one.pair, one.kitchen.bar.known, _search(one.kitchen, front=asked.front)
-        )
-        for one in ready
-        if one.kitchen is not None
-    }
-    found = together("advice", searches, results)
-    advised = [
-        replace(one, recipe=found.get(f"{one.pair.case.name} {one.pair.engine.name}"))
-        for one in ready
-    ]
+    advised = _searched(ready, asked, results)
     return [_drawn(one, results) for one in advised] if asked.robust else advised
 
 
+def _searched(ready: Sequence[Advised], asked: Asked, results: Results) -> list[Advised]:
+    """Each with its recipes: such as hold wherever a loop is cut, though there without a margin.
+
+    What does not is left out, and the rest searched once more.
+    """
+    found = {f"{one.pair.case.name} {one.pair.engine.name}": one for one in ready}
+    left = {key: one for key, one in found.items() if one.kitchen is not None}
+    for _ in range(ROUNDS):
+        searches = {
+            key: Search(one.pair, one.kitchen.bar.known, _search(one.kitchen, front=asked.front))
+            for key, one in left.items()
+            if one.kitchen is not None
+        }
+        answers = together("advice", searches, results)
+        left = {key: replace(one, recipes=answers[key]) for key, one in left.items()}
+        found |= left
+        worst = elsewhere({key: _asked_elsewhere(one) for key, one in left.items()}, results)
+        left = {key: one for key, one in left.items() if _rejected(one, worst[key])}
+    return [replace(one, recipes=None) if key in left else one for key, one in found.items()]
+
+
+def _asked_elsewhere(one: Advised) -> tuple[Pair, list[Candidate], Mapping[str, float]]:
+    """The recipes at their steps, and at all finer ones."""
+    assert one.kitchen is not None
+    candidates = [
+        recipe.choice.at(step)
+        for _, recipe in one.wanted
+        for step in one.kitchen.menu.steps
+        if step <= recipe.step
+    ]
+    return one.pair, list(dict.fromkeys(candidates)), one.kitchen.bar.scale
+
+
+def _rejected(one: Advised, worst: Mapping[Candidate, float]) -> bool:
+    """Whether one of the recipes does not hold elsewhere; what does not is not taken again."""
+    assert one.kitchen is not None
+    one.kitchen.bar.elsewhere.update(worst)
+    return not all(one.kitchen.bar.holds(recipe.candidate) for _, recipe in one.wanted)
+
+
 def _drawn(one: Advised, results: Results) -> Advised:
-    if one.kitchen is None or one.recipe is None:
+    if one.kitchen is None:
         return one
-    tried = held(one.pair, one.recipe.candidate, one.kitchen.bar.scale, results)
-    return replace(one, draws=tried)
+    scale = one.kitchen.bar.scale
+    tried = (held(one.pair, recipe.candidate, scale, results) for _, recipe in one.wanted)
+    return replace(one, draws=tuple(tried))
 
 
 _FAR = "at samples as far apart as its own step asks for"
@@ -93,8 +125,12 @@ def _prepared(pair: Pair, asked: Asked, unsolved: str, broken: str) -> Advised:
     assert own is not None  # as shipped
     steps = fitting(engine.steps, own, case.interval)
     start = first(reference)
-    knobs, tuned = engine.knobs(case.scene, start), engine.recipe(case.scene, start)
-    menu = Menu(knobs, steps, own, tuned)
+    knobs = engine.knobs(case.scene, start)
+    ours = {
+        name for knob in knobs if knob.kind == "ours" for v in knob.values for name in v.options
+    }
+    tuned = {k: v for k, v in engine.recipe(case.scene, start).items() if k not in ours}
+    menu = Menu([knob for knob in knobs if knob.kind != "ours"], steps, own, tuned)
     bar = Bar(Known(), asked.margin, _scale(Trial(case, reference, engine, way), asked.tolerance))
 
     def cost(candidate: Candidate) -> float:
@@ -118,10 +154,11 @@ def _scale(trial: Trial, tolerance: float | None) -> Mapping[str, float]:
     }
 
 
-def _search(kitchen: Kitchen, *, front: bool) -> Asking[Recipe | None]:
+def _search(kitchen: Kitchen, *, front: bool) -> Asking[Recipes | None]:
     yield [NOTHING.at(kitchen.menu.own)]
-    found = yield from recipe(kitchen)
+    found = yield from recipes(kitchen)
     if front:
         tuned = Choice(("tuned",), kitchen.menu.tuned)
-        yield rungs_of(kitchen, tuned, *([found.choice] if found else []))
+        both = [found.fewest.choice, found.cheapest.choice] if found else []
+        yield rungs_of(kitchen, tuned, *both)
     return found

@@ -9,7 +9,7 @@ from ..unit import Pair
 from .candidate import Candidate
 from .draws import Held
 from .menu import NOTHING, Choice
-from .recipe import Kitchen, Recipe, best
+from .recipe import Kitchen, Recipe, Recipes, best
 
 
 @dataclass(frozen=True)
@@ -30,40 +30,63 @@ class Advised:
     asked: Asked
     way: Plan | Refusal
     kitchen: Kitchen | None
-    recipe: Recipe | None
-    draws: Held | None = None
+    recipes: Recipes | None
+    draws: tuple[Held, ...] = ()  # of each of the two
 
     @property
     def shipped(self) -> Candidate:
         assert self.kitchen is not None
         return NOTHING.at(self.kitchen.menu.own)
 
+    @property
+    def wanted(self) -> list[tuple[str, Recipe]]:
+        """The recipes by what they are, one that is both once; none where nothing keeps the bar."""
+        if self.recipes is None:
+            return []
+        fewest, cheapest = self.recipes.fewest, self.recipes.cheapest
+        if fewest.candidate == cheapest.candidate:
+            return [(BOTH, fewest)]
+        return [(FEWEST, fewest), (CHEAPEST, cheapest)]
 
-def row(one: Advised) -> Advice:
-    """A row of advice.csv."""
+
+FEWEST, CHEAPEST, BOTH = "fewest changes", "cheapest", "both"
+
+
+def rows(one: Advised) -> list[Advice]:
+    """Those of advice.csv: one, or one for each of two recipes."""
     empty = Advice(
         one.pair.case.name,
         one.pair.engine.name,
         one.asked.tolerance,
         one.asked.margin,
-        *("none", "", None, None, None, None, "", ""),
+        *("", "none", "", None, None, None, None, "", ""),
     )
     if one.kitchen is None:
         assert isinstance(one.way, Refusal)
-        return replace(empty, remains=one.way.because)
+        return [replace(empty, remains=one.way.because)]
     empty = replace(empty, shipped_cost=one.kitchen.cost(one.shipped))
-    if one.recipe is None:
-        return replace(empty, **_remains(one))
-    worst, quantity = one.kitchen.bar.worst(one.recipe.candidate)
+    if one.recipes is None:
+        return [replace(empty, **_remains(one))]
+    return [_of(one.kitchen, want, recipe, empty) for want, recipe in one.wanted]
+
+
+def _of(kitchen: Kitchen, want: str, recipe: Recipe, empty: Advice) -> Advice:
+    worst, quantity = kitchen.bar.worst(recipe.candidate)
     return replace(
         empty,
-        recipe=words(one.recipe.choice),
-        options=as_text(one.recipe.choice.options),
-        step=one.recipe.step,
-        cost=one.kitchen.cost(one.recipe.candidate),
+        want=want,
+        recipe=words(recipe.choice),
+        settings=settings(empty.engine, recipe.candidate),
+        step=recipe.step,
+        cost=kitchen.cost(recipe.candidate),
         worst=worst,
         quantity=quantity,
     )
+
+
+def settings(engine: str, candidate: Candidate) -> str:
+    """A file of settings, whole, on one line."""
+    return f"{engine}: {as_text({**candidate.options, 'step': candidate.step})}"
 
 
 def words(choice: Choice) -> str:
@@ -81,6 +104,8 @@ def _remains(one: Advised) -> dict[str, str | float]:
     candidate, worst, quantity = found
     best_of = f"{as_text(candidate.options)} at {candidate.step:.3g} s"
     what = f"{quantity} stays ×{worst:.2g} with {best_of}, the best of all that was tried"
+    if not one.kitchen.bar.elsewhere.get(candidate, 0.0) <= 1.0:
+        what = f"{quantity} is ×{worst:.2g} with {best_of}, and not where a loop is cut elsewhere"
     if one.kitchen.bar.holds(candidate):
         but = "and the next finer step does not confirm it"
         what = f"{quantity} is ×{worst:.2g} with {best_of}, {but}"

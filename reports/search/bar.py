@@ -14,12 +14,14 @@ class Bar:
     """margin: how often the worst error has to fit into what is allowed.
 
     known: all runs; scale: by quantity what its error over the case's own tolerance is multiplied
-    by, where another tolerance is asked for.
+    by, where another tolerance is asked for. elsewhere: the worst where a loop is cut otherwise, as
+    far as that was asked; there no margin has to be left.
     """
 
     known: Known
     margin: float
     scale: Mapping[str, float] = field(default_factory=dict[str, float])
+    elsewhere: dict[Candidate, float] = field(default_factory=dict[Candidate, float])
 
     def worst(self, candidate: Candidate) -> tuple[float, str]:
         """The largest error over what is allowed, and whose; inf where the run came to nothing.
@@ -33,4 +35,5 @@ class Bar:
 
     def holds(self, candidate: Candidate) -> bool:
         """At this step alone."""
-        return self.worst(candidate)[0] <= 1 / self.margin
+        here = self.worst(candidate)[0] <= 1 / self.margin
+        return here and self.elsewhere.get(candidate, 0.0) <= 1.0

@@ -32,13 +32,18 @@ class Choice:
         """How many are changed."""
         return len(self.words)
 
+    def milder(self, before: Value, after: Value) -> "Choice":
+        """With another value of the same knob."""
+        words = tuple(after.words if word == before.words else word for word in self.words)
+        return Choice(words, merged(self.options, after.options), self.protocol)
+
 
 NOTHING = Choice((), {})
 
 
 @dataclass(frozen=True)
 class Menu:
-    """knobs: those that matter for a scene. steps: large to small, each about half of the last.
+    """knobs: those that matter for a scene. steps: large to small.
 
     own: the step [s] of who changes nothing; it is one of them, and a smaller one is a change.
     tuned: the tuned setting's options.
@@ -79,6 +84,14 @@ class Menu:
         """Steps that are one."""
         return self.steps[len(self.coarse) :]
 
+    def told(self, options: Options) -> Iterator[tuple[Knob, Value]]:
+        """The knobs of one number with the values that the options are."""
+        for knob in self._knobs(bundle=False):
+            for value in knob.values:
+                whole = any(isinstance(each, Mapping) for each in value.options.values())
+                if not whole and merged(options, value.options) == dict(options):
+                    yield knob, value
+
     def _knobs(self, *, bundle: bool) -> list[Knob]:
         return [knob for knob in self.knobs if (knob.kind == "bundle") == bundle and knob.values]
 
@@ -97,11 +110,7 @@ def parts(options: Options) -> Iterator[tuple[str, ...]]:
 
 
 def fitting(steps: Sequence[float], own: float, interval: float) -> list[float]:
-    """The steps of a list that meet every sample: the own by halves, larger ones shortened."""
-    larger = [step for step in steps if step > own * (1 + WHOLE) and step <= interval * (1 + WHOLE)]
-    shortened = {interval / -int(-(interval / step - WHOLE) // 1) for step in larger}
-    smaller = [step for step in steps if step <= own * (1 + WHOLE)]
-    count = len(smaller) or 1
-    return sorted({s for s in shortened if s > own * (1 + WHOLE)}, reverse=True) + [
-        own / 2**k for k in range(count)
-    ]
+    """Of a list, and the own one, those that meet every sample: as round as they stand there."""
+    met = [step for step in steps if abs(interval / step - round(interval / step)) <= WHOLE]
+    others = [step for step in met if abs(step - own) > WHOLE * own and step <= interval]
+    return sorted([own, *others], reverse=True)

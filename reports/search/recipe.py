@@ -1,4 +1,4 @@
-"""The minimal recipe: the fewest changed options, and with them the largest step, that keep a bar.
+"""Two recipes that keep a bar: the one with the fewest changed options, and the cheapest.
 
 Forward: none, one, two options, all sets of a size; then whole recipes. Taking options out of the
 tuned setting ends elsewhere with every order.
@@ -10,9 +10,10 @@ from itertools import takewhile
 from math import inf
 from typing import Any
 
+from ...engines.knobs import said
 from .bar import Bar
 from .candidate import Candidate
-from .menu import MOST, NOTHING, Choice, Menu, parts
+from .menu import MOST, NOTHING, WHOLE, Choice, Menu, parts
 from .together import Asking
 
 Cost = Callable[[Candidate], float]
@@ -38,16 +39,35 @@ class Kitchen:
     bar: Bar
     cost: Cost
 
-    def rank(self, recipe: Recipe) -> tuple[float, int, float]:
-        """The cheapest first; of those the engine's own options, then the smallest error.
+    def rank(self, recipe: Recipe) -> tuple[float, int, int, float]:
+        """The cheapest first; of those the fewest options, the engine's own, the smallest error.
 
         In digits that no rounding decides: of those that are alike the first, which changes least.
         """
         candidate = recipe.candidate
-        return self.cost(candidate), recipe.choice.protocol, _told(self.bar.worst(candidate)[0])
+        error = _told(self.bar.worst(candidate)[0])
+        return self.cost(candidate), recipe.choice.size, recipe.choice.protocol, error
 
 
-def recipe(kitchen: Kitchen) -> Asking[Recipe | None]:
+@dataclass(frozen=True)
+class Recipes:
+    """Which may be the same."""
+
+    fewest: Recipe
+    cheapest: Recipe
+
+
+def recipes(kitchen: Kitchen) -> Asking[Recipes | None]:
+    """Both, with the mildest numbers that do; None where nothing keeps the bar."""
+    found = yield from _fewest(kitchen)
+    if found is None:
+        return None
+    fewest = yield from _mild(kitchen, found)
+    cheapest = yield from _cheapest(kitchen, fewest)
+    return Recipes(fewest, cheapest)
+
+
+def _fewest(kitchen: Kitchen) -> Asking[Recipe | None]:
     """The first size that has an answer; a step below its own counts as an option."""
     menu = kitchen.menu
     finer: list[Choice] = []
@@ -88,6 +108,43 @@ def _largest(kitchen: Kitchen, choice: Choice, rungs: Sequence[float]) -> Recipe
     return Recipe(choice, held[-1]) if held else None
 
 
+def _cheapest(kitchen: Kitchen, fewest: Recipe) -> Asking[Recipe]:
+    """Whatever it changes: what keeps the bar at the largest step at which it costs less."""
+    menu, dear = kitchen.menu, kitchen.cost(fewest.candidate) * (1 - WHOLE)
+    choices = [c for size in range(MOST + 1) for c in menu.choices(size)] + menu.bundles(0)
+    steps = {
+        choice: [step for step in menu.steps if kitchen.cost(choice.at(step)) < dear]
+        for choice in choices
+    }
+    left = [choice for choice in choices if steps[choice]]
+    yield [choice.at(steps[choice][-1]) for choice in left]
+    left = [choice for choice in left if kitchen.bar.holds(choice.at(steps[choice][-1]))]
+    all_steps = [*menu.steps, menu.steps[-1] / 2]
+    rungs = {choice: all_steps[: len(steps[choice]) + 1] for choice in left}
+    yield [choice.at(step) for choice in left for step in rungs[choice]]
+    found = [one for choice in left if (one := _largest(kitchen, choice, rungs[choice]))]
+    found = [one for one in found if one.step in steps[one.choice]]
+    best = min([fewest, *found], key=kitchen.rank)
+    if best is fewest:
+        return fewest
+    lean = yield from _lean(kitchen, best)
+    return (yield from _mild(kitchen, lean if lean.choice.options != best.choice.options else best))
+
+
+def _mild(kitchen: Kitchen, found: Recipe) -> Asking[Recipe]:
+    """With each number as far from extremes as does: knobs have their values in that order."""
+    for knob, value in list(kitchen.menu.told(found.choice.options)):
+        for milder in takewhile(lambda v, value=value: v is not value, knob.values):
+            less = Recipe(found.choice.milder(value, milder), found.step)
+            confirmed = [less.candidate, less.choice.at(less.step / 2)]
+            yield confirmed
+            cheaper = kitchen.cost(less.candidate) <= kitchen.cost(found.candidate)
+            if cheaper and all(kitchen.bar.holds(candidate) for candidate in confirmed):
+                found = less
+                break
+    return found
+
+
 def _lean(kitchen: Kitchen, whole: Recipe) -> Asking[Recipe]:
     """Without what is not needed at its step, taken out one after the other."""
     kept = whole
@@ -102,8 +159,18 @@ def _lean(kitchen: Kitchen, whole: Recipe) -> Asking[Recipe]:
 
 
 def _left(options: Mapping[str, Any]) -> tuple[str, ...]:
-    """What is left of a recipe, as the options are called."""
-    return tuple(".".join(part) for part in parts(options))
+    """What is left of a recipe, as the options are called, with what is one number or word."""
+    return tuple(_called(part, options) for part in parts(options))
+
+
+def _called(part: tuple[str, ...], options: Mapping[str, Any]) -> str:
+    value: Any = options
+    for name in part:
+        value = value[name]
+    if part == ("integrator",):
+        return str(value)
+    alone = isinstance(value, int | float | str) and not isinstance(value, bool)
+    return f"{'.'.join(part)} {said(value)}" if alone else ".".join(part)
 
 
 def _without(options: Mapping[str, Any], part: tuple[str, ...]) -> dict[str, Any]:

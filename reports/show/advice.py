@@ -1,63 +1,82 @@
-"""What `textmech advise` prints: the recipe, its price, what to paste, and plain numbers."""
+"""What `textmech advise` prints: plain numbers, two recipes, their price, and what to paste."""
 
 from collections.abc import Iterator, Sequence
 
 from ...engines.engine import Diverged, Tunable
 from ...engines.knobs import as_text
+from ..amount import factor, milliseconds
 from ..judge.plain import plain
-from ..search.advised import Advised, row, words
+from ..search.advised import BOTH, Advised, rows, settings, words
 from ..search.candidate import Candidate
 from ..search.errors import trial_of
 from ..search.price import ratio
-from ..search.recipe import front
+from ..search.recipe import Recipe, front
 from ..trial.start import first
+
+HEADS = {BOTH: "fewest changes, and cheapest"}
 
 
 def told(one: Advised) -> Iterator[str]:
     """Of one case in one engine, line by line."""
-    case, engine, advice = one.pair.case, one.pair.engine, row(one)
+    case, engine = one.pair.case, one.pair.engine
     tolerance, margin = one.asked.tolerance, one.asked.margin
     within = "its tolerances" if tolerance is None else f"{tolerance:g} of its size"
     yield ""
     yield f"{case.name} in {engine.name} {engine.version}: all within {within} / {margin:g}"
     if one.kitchen is None:
-        yield f"  refused: {advice.remains}"
+        yield f"  refused: {rows(one)[0].remains}"
         return
-    yield f"  as shipped    h = {one.shipped.step:g} s: {_worst(one, one.shipped)}"
-    if one.recipe is None:
-        yield f"  no recipe     {advice.remains}"
-    else:
-        yield from _recipe(one, one.recipe.candidate, words(one.recipe.choice))
+    yield f"  as shipped, {milliseconds(one.shipped.step)}"
+    yield from _found(one, one.shipped)
+    if one.recipes is None:
+        yield f"  no recipe: {rows(one)[0].remains}"
+    for place, (want, recipe) in enumerate(one.wanted):
+        step = milliseconds(recipe.step)
+        yield f"  {HEADS.get(want, want)}: {words(recipe.choice)}, {step}"
+        yield from _recipe(one, recipe, place)
     if one.asked.front:
-        yield "  cost against error, each point a fifth better at least than what costs less:"
+        yield "  cost against error, each point a fifth better at least than what costs less"
         yield from (f"    {line}" for line in _front(one))
-    yield from _plain(one)
 
 
-def _recipe(one: Advised, candidate: Candidate, changed: str) -> Iterator[str]:
+def _recipe(one: Advised, recipe: Recipe, place: int) -> Iterator[str]:
     assert one.kitchen is not None
-    engine, scene = one.pair.engine, one.pair.case.scene
+    engine, scene, candidate = one.pair.engine, one.pair.case.scene, recipe.candidate
     assert isinstance(engine, Tunable)
+    yield from _found(one, candidate)
+    if candidate in (cut := one.kitchen.bar.elsewhere):
+        yield f"    with the loop cut at other joints at most {factor(cut[candidate])}"
     cost = one.kitchen.cost(candidate) / one.kitchen.cost(one.shipped)
     measured = ratio(one.pair, candidate, one.shipped)
     beside = "" if measured is None else f", measured here ×{measured:.2g}"
-    yield f"  recipe        {changed}, h = {candidate.step:g} s: {_worst(one, candidate)}"
-    yield f"  its cost      ×{cost:.2g} of shipped's{beside}"
-    if one.draws is not None:
-        yield f"  robust        {one.draws}"
-    yield "  to paste"
+    yield f"    costs ×{cost:.2g} of shipped{beside}"
+    if one.draws:
+        yield f"    {one.draws[place]}"
+    yield "    to paste"
     start = first(one.pair.reference())
     lines = engine.snippet(scene, start, candidate.options, candidate.step).rstrip().splitlines()
-    yield from (f"    {line}" for line in lines)
-    yield "  as a file of --settings"
-    own = as_text({**candidate.options, "step": candidate.step})
-    yield f"    {engine.name}: {own}"
+    yield from (f"      {line}" for line in lines)
+    yield "    as a file of --settings"
+    yield f"      {settings(engine.name, candidate)}"
 
 
-def _worst(one: Advised, candidate: Candidate) -> str:
+def _found(one: Advised, candidate: Candidate) -> Iterator[str]:
+    """What a person asks for, in words, and the worst of what is judged."""
     assert one.kitchen is not None
+    trial = trial_of(one.pair, candidate)
+    try:
+        numbers = plain(trial) if trial else []
+    except Diverged as gone:
+        yield f"    {gone}"
+        return
+    if numbers:
+        yield f"    {'; '.join(map(str, numbers))}"
     worst, quantity = one.kitchen.bar.worst(candidate)
-    return f"{quantity} ×{worst:.2g}" if quantity else "every quantity is lost"
+    yield (
+        f"    worst: {quantity} {factor(worst)} of what is allowed"
+        if quantity
+        else ("    every quantity is lost")
+    )
 
 
 def _front(one: Advised) -> Sequence[str]:
@@ -67,19 +86,3 @@ def _front(one: Advised) -> Sequence[str]:
         f"h = {candidate.step:.3g} s  {as_text(candidate.options)}"
         for candidate, worst, quantity in front(one.kitchen)
     ]
-
-
-def _plain(one: Advised) -> Iterator[str]:
-    """Of shipped, and of the recipe: what a person asks for."""
-    both = {"as shipped": one.shipped}
-    if one.recipe is not None:
-        both |= {"with the recipe": one.recipe.candidate}
-    for who, candidate in both.items():
-        trial = trial_of(one.pair, candidate)
-        try:
-            numbers = plain(trial) if trial else []
-        except Diverged as gone:
-            yield f"  {who}: {gone}"
-            continue
-        if numbers:
-            yield f"  {who}: {'; '.join(map(str, numbers))}"

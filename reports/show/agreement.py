@@ -2,19 +2,19 @@
 
 from collections.abc import Mapping, Sequence
 
+from ... import engines
+from ..amount import milliseconds
 from ..row import FAILS, Comparison, Rungs
-from .amount import milliseconds
 
 Way = tuple[str, str]
 """A setting, and how it is realised."""
 NATIVE = "native"
-PLACES = {"shipped": 0, "tuned": 2}  # a user's own settings stand between
 
 
-def place(way: Way) -> tuple[int, str, str]:
+def place(way: Way) -> tuple[float, str, str]:
     """Where a way stands among others: the fewer changes, the earlier."""
     setting, realised = way
-    return PLACES.get(setting, 1), setting, realised
+    return engines.place(setting), setting, realised
 
 
 def judged(rows: Sequence[Comparison]) -> list[Comparison]:
@@ -27,13 +27,14 @@ def agreement(
 ) -> str:
     """What agrees at the largest step, the engine's own elements before a law or a driver of ours.
 
-    What fails is named beside it.
+    What fails is named beside it. Where nothing agrees and the best recipe was not asked for,
+    nothing is said.
     """
     failing = sorted({way[0] for way, found in rows.items() if _fails(found)})
     fails = [f"{' and '.join(failing)} FAILS"] if failing else []
     able = [way for way, found in rows.items() if within(found) or _step(found, ladders.get(way))]
     if not able:
-        return "; ".join([*fails, "none"])
+        return "; ".join([*fails, "none"] if any(way[0] == "tuned" for way in rows) else fails)
     steps = {way: _step(rows[way], ladders.get(way)) or 0.0 for way in able}
     best = min(able, key=lambda way: (way[1] != NATIVE, -steps[way], place(way)))
     name = best[0] if best[1] == NATIVE else best[1]

@@ -9,5 +9,5 @@ def catalogue() -> list[list[str]]:
     lines = [["case", "what it claims", "in the book"]]
     for name, path in sorted(of_the_book().items()):
         first = load(path)[0]
-        lines.append([f"`{name}`", first.title, str(first.origin)])
+        lines.append([f"[`{name}`]({path.name})", first.title, str(first.origin)])
     return lines

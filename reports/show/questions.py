@@ -7,7 +7,7 @@ from typing import Any
 
 from ruamel.yaml import YAML
 
-from ...cases.find import QUESTIONS
+from ...engines.knobs import as_text
 
 LISTED = Path(__file__).parents[1] / "questions.yaml"
 WORDS = {
@@ -36,23 +36,14 @@ def questions() -> list[list[str]]:
     """Lines of cells, the head first."""
     lines = [["question", "case", "answer", "setting"]]
     for name, question in listed().items():
-        settings = (f"{e}: {_setting(s)}" for e, s in question.settings.items())
-        case = f"[`{name}`](cases/{QUESTIONS}/{name}.yaml)"
+        settings = (_setting(e, s) for e, s in question.settings.items())
+        case = f"[`{name}`]({name}.yaml)"
         lines.append([question.asks, case, question.answer, "<br>".join(settings)])
     return lines
 
 
-def _setting(setting: Mapping[str, Any] | str) -> str:
+def _setting(engine: str, setting: Mapping[str, Any] | str) -> str:
+    """A file of settings, whole, or in words."""
     if isinstance(setting, str):
-        return WORDS[setting]
-    return f"`{', '.join(f'{key}: {_number(value)}' for key, value in setting.items())}`"
-
-
-def _number(value: Any) -> str:
-    if isinstance(value, dict):
-        return f"{{{', '.join(f'{key}: {_number(inner)}' for key, inner in value.items())}}}"
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, list):
-        return f"[{', '.join(map(_number, value))}]"
-    return f"{value:g}" if isinstance(value, float) else str(value)
+        return f"{engine}: {WORDS[setting]}"
+    return f"`{engine}: {as_text(setting)}`"

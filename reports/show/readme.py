@@ -1,10 +1,12 @@
-"""The README's tables and its picture, of all cases and of the committed reports.
+"""What is generated in the READMEs: tables of cases and of the committed reports, and a picture.
 
-`python -m textmech.reports.show.readme` writes them.
+`python -m textmech.reports.show.readme` writes all of it anew.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Sequence
+from functools import cache
 from pathlib import Path
+from typing import NamedTuple
 
 from ..row import Comparison, Rungs
 from ..write import HERE, read
@@ -12,48 +14,89 @@ from . import picture
 from .catalogue import catalogue
 from .cures import cures
 from .questions import questions
-from .summary import approximations, summary
+from .releases import listed, releases
+from .shares import shares
+from .speed import speed
+from .summary import Line, approximations, summary
 from .table import markdown, narrow, page
 
-README = Path(__file__).parents[2] / "README.md"
+ROOT = Path(__file__).parents[2]
 PICTURE = HERE / picture.NAME
 FIRST = "four_bar"  # the case that the README begins with
 
 
-def current() -> str:
-    """The README as it should be."""
-    text = README.read_text(encoding="utf-8")
-    for name, block in blocks().items():
-        text = _filled(text, name, block)
+class Part(NamedTuple):
+    """A text of a file: it stands between `<!-- name: … -->` and `<!-- /name -->`."""
+
+    file: str
+    name: str
+    text: Callable[[], str]
+
+
+def _first() -> str:
+    return f"```\n{narrow([line for line in _lines() if line.case == FIRST])}\n```\n"
+
+
+@cache
+def _lines() -> Sequence[Line]:
+    return summary(_rows(), _rungs(), cures(HERE))
+
+
+@cache
+def _rows() -> Sequence[Comparison]:
+    return read(HERE / "tolerance.csv", Comparison)
+
+
+@cache
+def _rungs() -> Sequence[Rungs]:
+    return read(HERE / "convergence.csv", Rungs)
+
+
+PARTS = (
+    Part("README.md", "shares", lambda: markdown(shares(_rows()))),
+    Part("README.md", "first", _first),
+    Part("README.md", "speed", speed),
+    Part("reports/README.md", "summary", lambda: markdown(page(_lines()))),
+    Part(
+        "reports/README.md",
+        "approximations",
+        lambda: markdown(page(approximations(_rows(), _rungs()))),
+    ),
+    Part("reports/README.md", "releases", lambda: releases(listed())),
+    Part("cases/CATALOGUE.md", "cases", lambda: markdown(catalogue())),
+    Part("cases/questions/README.md", "questions", lambda: markdown(questions())),
+)
+FILES = (*dict.fromkeys(part.file for part in PARTS),)
+
+
+def current(file: str) -> str:
+    """One of FILES as it should be. Raises ValueError where a part has no place in it."""
+    text = (ROOT / file).read_text(encoding="utf-8")
+    for part in PARTS:
+        if part.file == file:
+            text = filled(text, part)
     return text
 
 
-def blocks() -> Mapping[str, str]:
-    """Each by the name that stands in the comments which open and close it."""
-    rows = read(HERE / "tolerance.csv", Comparison)
-    lines = summary(rows, rungs := read(HERE / "convergence.csv", Rungs), cures(HERE))
-    first = narrow([line for line in lines if line.case == FIRST])
-    return {
-        "first": f"```\n{first}\n```\n",
-        "questions": markdown(questions()),
-        "summary": markdown(page(lines)),
-        "approximations": markdown(page(approximations(rows, rungs))),
-        "cases": markdown(catalogue()),
-    }
+def filled(text: str, part: Part) -> str:
+    """The text with the part in its place."""
+    opens, closes = f"<!-- {part.name}: ", f"<!-- /{part.name} -->"
+    if (text.count(opens), text.count(closes)) != (1, 1):
+        raise ValueError(f"{part.file} should have one {opens}… --> and one {closes}")
+    before, _, rest = text.partition(opens)
+    said, _, old = rest.partition("\n")
+    if closes not in old:
+        raise ValueError(f"{part.file}: {closes} should stand below {opens}… -->")
+    return f"{before}{opens}{said}\n\n{part.text()}\n{closes}{old.partition(closes)[2]}"
 
 
 def drawn() -> str:
     """The picture as it should be."""
-    return picture.picture(read(HERE / "tolerance.csv", Comparison))
-
-
-def _filled(text: str, name: str, block: str) -> str:
-    opens, closes = f"<!-- {name}: ", f"<!-- /{name} -->"
-    before, _, rest = text.partition(opens)
-    said, _, old = rest.partition("\n")
-    return f"{before}{opens}{said}\n\n{block}\n{closes}{old.partition(closes)[2]}"
+    return picture.picture(_rows())
 
 
 if __name__ == "__main__":
-    README.write_text(current(), encoding="utf-8")
+    written = {file: current(file) for file in FILES}
+    for file, text in written.items():
+        (ROOT / file).write_text(text, encoding="utf-8")
     PICTURE.write_text(drawn(), encoding="utf-8")

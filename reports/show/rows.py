@@ -4,8 +4,8 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 from textwrap import wrap
 
+from ..amount import milliseconds
 from ..row import AGREES, FAILS, Certificate, Comparison
-from .amount import milliseconds
 from .table import WIDTH
 
 REASON = " " * 6

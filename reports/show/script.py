@@ -19,4 +19,5 @@ def script(case: Case, engine: Engine) -> str:
     if isinstance(native, Refusal):
         raise CaseError([case.mistake(("scene",), f"is refused: {native.because}")])
     title = f"{case.name}: {case.title}"
-    return engine.script(case.scene, start, judged_step(case, engine), native, title=title)
+    step, duration = judged_step(case, engine), case.duration
+    return engine.script(case.scene, start, step, native, title=title, duration=duration)

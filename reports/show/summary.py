@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from math import inf
 from typing import TypeVar
 
+from ..amount import factor
 from ..row import CHANGED, Comparison, Rungs
 from ..selection import BOOK
 from .agreement import NATIVE, Way, agreement, judged, place
-from .amount import factor
 
 Row = TypeVar("Row", Comparison, Rungs)
 Cures = Mapping[tuple[str, str, str, str], str]

@@ -80,7 +80,14 @@ class Book:
         return found if record else replace(found, record=None)
 
     def script(
-        self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""
+        self,
+        scene: Scene,
+        start: Start,
+        step: float,
+        plan: Plan,
+        *,
+        title: str = "",
+        duration: float = 1.0,
     ) -> str:
         """There is no engine to paste it into."""
         return ""

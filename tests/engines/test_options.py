@@ -91,7 +91,7 @@ IN_GROUPS: list[tuple[dict[str, Any], str]] = [
     ),
     (
         {"each": {"wall": [0.02, 1.0]}},
-        "mujoco.each.wall: should be a map of solref, solimp, solreffriction, solreflimit, "
+        "mujoco.each.wall: should be a map of solref, solimp, solreffriction, margin, solreflimit, "
         "solimplimit, is [0.02, 1.0]",
     ),
     (
@@ -100,7 +100,7 @@ IN_GROUPS: list[tuple[dict[str, Any], str]] = [
     ),
     (
         {"pair": {1: 2}},
-        "mujoco.pair.1: unknown option; known: solref, solimp, solreffriction",
+        "mujoco.pair.1: unknown option; known: solref, solimp, solreffriction, margin",
     ),
 ]
 

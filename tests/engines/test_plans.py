@@ -233,6 +233,6 @@ def test_friction_is_measured_where_the_engine_has_the_number(name: str) -> None
 
 def test_engines_are_found_sorted_and_know_their_settings() -> None:
     assert list(engines.names()) == sorted(engines.names())
-    assert engines.Known()["mujoco"] == ("shipped", "tuned")
+    assert engines.Known()["mujoco"] == ("shipped", "recommended", "tuned")
     with pytest.raises(KeyError):
         engines.make("nobody", "tuned")

@@ -85,7 +85,14 @@ class Fake:
         return [replace(bare, realised=way, simplified=self.simplified) for way in self.ways]
 
     def script(
-        self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""
+        self,
+        scene: Scene,
+        start: Start,
+        step: float,
+        plan: Plan,
+        *,
+        title: str = "",
+        duration: float = 1.0,
     ) -> str:
         return "pass\n"
 

@@ -74,15 +74,25 @@ def test_out_and_keep_write_where_they_are_told(new: Path, tmp_path: Path) -> No
 
 @pytest.mark.slow
 def test_a_verdict_that_fails_is_exit_code_1_and_is_named(new: Path) -> None:
-    new.write_text(NEW.replace("rod.angle: 1.0e-2", "rod.angle: 1.0e-12"), encoding="utf-8")
+    new.write_text(f"{NEW}reach: {{mujoco: {{rod.angle: 1.0e-13}}}}\n", encoding="utf-8")
     done = textmech("run", new, "--engine", "mujoco.tuned")
     assert done.returncode == 1
     assert "FAILS: cart: mujoco.tuned rod.angle" in done.stdout
 
 
 @pytest.mark.slow
+def test_a_question_is_answered_and_does_not_fail(new: Path) -> None:
+    """That our recipe keeps a user's own tolerance nobody has promised."""
+    new.write_text(NEW.replace("rod.angle: 1.0e-2", "rod.angle: 1.0e-12"), encoding="utf-8")
+    done = textmech("run", new, "--engine", "mujoco.tuned")
+    assert done.returncode == 0
+    assert "cart in mujoco: no recipe of ours keeps it; nearest: mujoco.tuned, rod." in done.stdout
+    assert "FAILS" not in done.stdout
+
+
+@pytest.mark.slow
 def test_a_verdict_that_fails_is_exit_code_1_though_it_is_written(new: Path) -> None:
-    new.write_text(NEW.replace("cart.x: 1.0e-2", "cart.x: 1.0e-8"), encoding="utf-8")
+    new.write_text(f"{NEW}reach: {{pymunk: {{cart.x: 1.0e-12}}}}\n", encoding="utf-8")
     done = textmech("run", new, "--engine", "pymunk.tuned", "--out", "o", folder=new.parent)
     assert done.returncode == 1
     assert (new.parent / "o" / "tolerance.csv").is_file()
@@ -162,6 +172,7 @@ def test_own_settings_are_a_line_below_shipped(new: Path) -> None:
     assert done.returncode == 0, done.stderr
     assert [w for w in done.stdout.split() if w.startswith("mujoco.")] == [
         "mujoco.shipped",
+        "mujoco.recommended",
         "mujoco.mine",
     ]
     assert "cart in mujoco 4.0.0 tuned" in done.stdout

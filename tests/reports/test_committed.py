@@ -1,4 +1,4 @@
-"""The committed reports are what the suite measures now, and the README shows them."""
+"""The committed reports are what the suite measures now, and the READMEs show them."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -17,7 +17,7 @@ from textmech.reports.page.write import NAME
 from textmech.reports.pytest_plugin import CaseItem, measured
 from textmech.reports.row import Advice, Cause, Certificate, Comparison, Instant, Rungs
 from textmech.reports.search.advised import Asked
-from textmech.reports.search.advised import row as row_of
+from textmech.reports.search.advised import rows as rows_of
 from textmech.reports.search.session import advised
 from textmech.reports.selection import choose_cases, choose_engines
 from textmech.reports.show import readme
@@ -87,14 +87,15 @@ def test_advice_is_current() -> None:
     cases = choose_cases(["bar_pendulum", "four_bar", "sliding_block.below"])
     asked, engines = Asked(None, 2.0), choose_engines([], ["shipped"])
     with advised(cases, engines, asked, progress=lambda *_: None, store=usable()) as found:
-        rows = {(one.case, one.engine): one for one in map(row_of, found)}
-    committed = {(a.case, a.engine): a for a in write.read(write.HERE / write.ADVICE, Advice)}
-    assert {case.name for case in choose_cases([])} == {case for case, _ in committed}
+        rows = {(one.case, one.engine, one.want): one for each in found for one in rows_of(each)}
+    read = write.read(write.HERE / write.ADVICE, Advice)
+    committed = {(a.case, a.engine, a.want): a for a in read if a.tolerance is None}
+    assert {case.name for case in choose_cases([])} == {case for case, *_ in committed}
     for key, now in rows.items():
         before = committed[key]
-        assert (now.recipe, now.options, now.quantity) == (
+        assert (now.recipe, now.settings, now.quantity) == (
             before.recipe,
-            before.options,
+            before.settings,
             before.quantity,
         )
         assert near(now.step, before.step, 0.0, DIGITS)
@@ -180,8 +181,9 @@ def test_every_equation_that_a_case_names_is_executed_by_it(report: Report) -> N
 
 
 @pytest.mark.slow
-def test_the_readme_shows_the_reports() -> None:
-    assert readme.README.read_text(encoding="utf-8") == readme.current()
+@pytest.mark.parametrize("file", readme.FILES)
+def test_what_is_generated_in_a_readme_is_current(file: str) -> None:
+    assert (readme.ROOT / file).read_text(encoding="utf-8") == readme.current(file)
 
 
 @pytest.mark.slow

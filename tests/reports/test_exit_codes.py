@@ -1,4 +1,4 @@
-"""What `textmech run` ends with: README.md promises a code for each, and for two at once."""
+"""What `textmech run` ends with: a README promises a code for each, and for two at once."""
 
 import importlib
 from dataclasses import replace
@@ -56,7 +56,7 @@ def test_reports_that_are_written_hide_no_verdict(tmp_path: Path) -> None:
 
 
 def test_what_only_shows_ends_well(tmp_path: Path) -> None:
-    """As README.md says of page."""
+    """As reports/README.md says of page."""
     found = Report(comparisons=[replace(row(), verdict=FAILS)])
     page = importlib.import_module("textmech.reports.command.page")
     written = importlib.import_module("textmech.reports.page.write")

@@ -66,11 +66,11 @@ def test_solve_of_an_attitude_gives_its_angle() -> None:
 def test_run_gives_the_reports_as_frames(swing: Path) -> None:
     own = {"mujoco": {"integrator": "RK4"}}
     found = run(swing, engines=["mujoco"], options=own)
-    assert list(found.summary.setting) == ["mujoco.shipped", "mujoco.own"]
+    assert list(found.summary.setting) == ["mujoco.shipped", "mujoco.recommended", "mujoco.own"]
     rows = found.tolerance.set_index(["setting", "quantity"])
     assert set(rows.index) == {
         (setting, quantity)
-        for setting in ("shipped", "own", "tuned")
+        for setting in ("shipped", "recommended", "own", "tuned")
         for quantity in ("audit", "rod.angle")
     }
     fourth, first = (rows.largest[setting, "rod.angle"] for setting in ("own", "shipped"))

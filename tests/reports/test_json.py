@@ -69,7 +69,7 @@ def test_a_run_tells_all_its_rows(new: Path, tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_a_verdict_that_fails_is_in_it(new: Path) -> None:
-    new.write_text(NEW.replace("rod.angle: 1.0e-2", "rod.angle: 1.0e-12"), encoding="utf-8")
+    new.write_text(f"{NEW}reach: {{mujoco: {{rod.angle: 1.0e-13}}}}\n", encoding="utf-8")
     found = document("run", new, "--engine", "mujoco.tuned")
     assert found["exit_code"] == 1
     assert "FAILS" in {row["verdict"] for row in found["tolerance"]}

@@ -139,8 +139,12 @@ def shown(trial: Trial, module: Any = showing) -> str:
 @pytest.mark.mutant("the shown file has twice the step")
 def test_a_shown_file_has_the_judged_step(trial: Make, monkeypatch: pytest.MonkeyPatch) -> None:
     made = trial()
-    told = lambda self, scene, start, step, plan, title="": f"{step:g} s of {title}"  # noqa: E731
+
+    def told(*given: Any, title: str, duration: float) -> str:
+        return f"{duration:g} s by {given[3]:g} s of {title}"
+
     monkeypatch.setattr(type(made.engine), "script", told)
-    assert shown(made) == f"0.001 s of moving: {made.case.title}"
-    was = "judged_step(case, engine), native"
-    assert shown(made, otherwise(showing, was, f"2 * {was}")).startswith("0.002 s")
+    assert shown(made) == f"{made.case.duration:g} s by 0.001 s of moving: {made.case.title}"
+    was = "step, duration = judged_step(case, engine)"
+    twice = otherwise(showing, was, was.replace("judged", "2 * judged"))
+    assert " by 0.002 s" in shown(made, twice)

@@ -89,7 +89,7 @@ def test_each_engine_has_its_own_setting(tmp_path: Path, monkeypatch: pytest.Mon
         encoding="utf-8",
     )
     monkeypatch.setattr(asking, "LISTED", listed)
-    wanted = "mujoco: `integrator: RK4`<br>pymunk: `error_bias: 0`"
+    wanted = "`mujoco: {integrator: RK4}`<br>`pymunk: {error_bias: 0.0}`"
     assert asking.questions()[1][-1] == wanted
     was = "for e, s in question.settings.items())"
     now = "for e, s in zip(question.settings, reversed(question.settings.values())))"

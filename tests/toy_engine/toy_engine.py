@@ -67,7 +67,14 @@ class Toy:
         return Trajectory(times, states, {}, record=Trajectory(every, kept, {}) if record else None)
 
     def script(
-        self, scene: Scene, start: Start, step: float, plan: Plan, *, title: str = ""
+        self,
+        scene: Scene,
+        start: Start,
+        step: float,
+        plan: Plan,
+        *,
+        title: str = "",
+        duration: float = 1.0,
     ) -> str:
         """It has no files; what would head one."""
         return "".join(f"# {line}\n" for line in heading(self, title, step, plan))

@@ -6,7 +6,7 @@ from typing import Any
 from ....cases.space.scene import SpatialScene
 from ...engine import Choice, Start
 from ..contact import HARDEST
-from ..own import overlaid
+from ..own import OWN, overlaid
 from ..settings import TO_THE_END, at_step, defaults
 from ..tree import driven
 from .contact import RECIPES, chosen, recipe
@@ -40,14 +40,19 @@ def best(scene: SpatialScene, start: Start | None = None) -> list[Choice]:
 
 
 def with_own(
-    options: Mapping[str, Any], scene: SpatialScene, start: Start, tied_to: float
+    options: Mapping[str, Any],
+    scene: SpatialScene,
+    start: Start,
+    tied_to: float,
+    because: str = OWN,
 ) -> list[Choice]:
-    """The shipped setting, which follows no step, with the user's own options on top."""
+    """The shipped setting, which follows no step, with other options on top: see the plane's."""
     groups, word = soft(scene), options.get("contacts")
     chosen_one = chosen(scene) if word == "scene" else word
     contacts = RECIPES[chosen_one](scene) if scene.contacts and chosen_one else []
     under, alone = defaults(groups, _solver(scene)), dict.fromkeys(scene.contacts, "pair")
-    return at_step(overlaid(under, options, groups, contacts, alone=alone), tied_to)
+    on_top = overlaid(under, options, groups, contacts, alone=alone, because=because)
+    return at_step(on_top, tied_to)
 
 
 def soft(scene: SpatialScene) -> list[str]:

@@ -5,6 +5,7 @@
 
 from dataclasses import replace
 from typing import Any
+from xml.etree import ElementTree as ET
 
 import mujoco
 import numpy as np
@@ -20,6 +21,7 @@ from textmech.engines.engine import Plan, Realised, Start
 from textmech.engines.mujoco import MuJoCo, compilation
 from textmech.engines.mujoco.rods import with_rods
 from textmech.engines.mujoco.space import compilation as space
+from textmech.engines.mujoco.tree import called
 from textmech.reports.judge.compare import compare
 from textmech.reports.trial.start import assembled, first
 from textmech.reports.trial.trial import Trial
@@ -37,12 +39,37 @@ def test_it_equals_the_compiled_script_field_by_field(name: str) -> None:
         for step in (1.25e-4, compilation.NOMINAL, 8e-3):
             for used in (plan, plan.held_at(2e-3)):
                 model, data = placed(engine, scene, start, step, used)
-                text = engine.script(scene, start, step, used)
+                text = unseen(engine.script(scene, start, step, used))
                 wanted = mujoco.MjModel.from_xml_string(text)
                 assert not differing(model, wanted)
                 began = mujoco.MjData(wanted)
                 mujoco.mj_resetDataKeyframe(wanted, began, 0)
                 assert np.array_equal(data.qpos, began.qpos)
+
+
+def unseen(text: str) -> str:
+    """The file without what is only there to be seen."""
+    root = ET.fromstring(text)
+    for body in root.iter("body"):
+        for geom in body.findall("geom[@mass='0']"):
+            body.remove(geom)
+    return ET.tostring(root, encoding="unicode")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", dict(NATIVE))
+def test_what_is_seen_weighs_and_touches_nothing(name: str) -> None:
+    """Every body has a shape; with them the model has the same masses, inertias and contacts."""
+    scene, start = begun(name)
+    text = TUNED.script(scene, start, 1e-3, planned(TUNED, scene, start))
+    seen, bare = (mujoco.MjModel.from_xml_string(t) for t in (text, unseen(text)))
+    assert all(seen.body(called(body)).geomnum[0] for body in scene.bodies)
+    for field in ("body_mass", "body_inertia", "body_ipos", "body_iquat", "npair", "nq"):
+        assert np.array_equal(getattr(seen, field), getattr(bare, field)), field
+    shapes = [i for i in range(seen.ngeom) if seen.geom_group[i] == 1]
+    assert not seen.geom_contype[shapes].any()
+    assert not seen.geom_conaffinity[shapes].any()
+    assert np.all(seen.geom_size[shapes, 0] > 0)
 
 
 def placed(

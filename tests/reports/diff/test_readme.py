@@ -1,4 +1,4 @@
-"""What the README says of comparing versions runs as it stands there."""
+"""What reports/README.md says of comparing versions runs as it stands there."""
 
 import re
 import shlex
@@ -12,7 +12,7 @@ from textmech.reports import write
 from textmech.reports.cli import command
 from textmech.reports.diff.rule import Rule
 
-README = (write.HERE.parent / "README.md").read_text(encoding="utf-8")
+README = (write.HERE / "README.md").read_text(encoding="utf-8")
 TEXT = README.partition("## Compare two versions\n")[2].partition("\n## ")[0]
 
 

@@ -13,17 +13,19 @@ from textmech.reports.page.beside import causes, versions
 
 def rows(text: str) -> pd.DataFrame:
     head, *lines = [line.split() for line in text.strip().splitlines()]
-    return pd.DataFrame([[cell.strip("-") for cell in line] for line in lines], columns=head)
+    cells = [[cell.strip("-").replace("_", " ") for cell in line] for line in lines]
+    return pd.DataFrame(cells, columns=head)
 
 
 ADVICE = rows("""
-case engine tolerance margin recipe options step cost worst
-a    mujoco -         2      RK4    o1      0.008  500  0.1
-b    mujoco -         2      RK4    o2      0.001  4000 0.2
-c    mujoco -         2      bundle o3      0.0001 9    0.3
-d    mujoco -         2      none   -       -      -    12
-e    mujoco -         2      none   -       -      -    -
-a    mujoco 1e-3      2      RK4    o4      0.008  500  0.1
+case engine tolerance margin want     recipe settings step   cost shipped_cost worst
+a    mujoco -         2      both     RK4    o1       0.008  500  500          0.1
+b    mujoco -         2      cheapest RK4    o2       0.001  4000 500          0.2
+b    mujoco -         2      fewest_changes many o5   0.0001 9000 500          0.2
+c    mujoco -         2      both     bundle o3       0.0001 9    500          0.3
+d    mujoco -         2      -        none   -        -      -    500          12
+e    mujoco -         2      -        none   -        -      -    -            -
+a    mujoco 1e-3      2      both     RK4    o4       0.008  500  500          0.1
 """)  # what is refused, as e, was never off by anything, and needs no setting
 ABOUT = dict.fromkeys("abce", ("pins",)) | {"d": ("pins", "space")}
 
@@ -34,7 +36,8 @@ def test_a_theme_needs_what_most_of_its_cases_need_at_the_smallest_of_their_step
     pins, fine, space = found["themes"]
     assert (pins["theme"], pins["tolerance"]) == ("pins", "as the case allows")
     assert (pins["recipe"], pins["usual"], pins["cured"], pins["cases"]) == ("RK4", 2, 3, 4)
-    assert (pins["step"], pins["hardest"], pins["options"]) == ("0.001", "b", "o2")
+    assert (pins["step"], pins["hardest"], pins["settings"]) == ("1 ms", "b", "o2")
+    assert pins["times"] == "×8"
     assert pins["others"] == [("bundle", 1)]
     assert (fine["tolerance"], fine["cases"]) == ("1e-3", 1)
     assert (space["recipe"], space["cured"], space["cases"]) == ("", 0, 1)

@@ -137,6 +137,6 @@ def test_kept_poses_are_one_long_table_with_units(cart: Path, tmp_path: Path) ->
     assert set(frame["engine"]) == {"reference", "mujoco"}
     units = dict(zip(frame["field"], frame["unit"], strict=True))
     assert units == {"x": "m", "y": "m", "angle": "rad"}
-    assert len(frame) == 3 * 2 * 3 * 6  # runs, bodies, fields, samples
+    assert len(frame) == 4 * 2 * 3 * 6  # runs, bodies, fields, samples
     begins = frame[(frame["t [s]"] == 0) & (frame["body"] == "rod") & (frame["field"] == "angle")]
     assert begins["value"].tolist() == pytest.approx([-0.6981317] * 3)

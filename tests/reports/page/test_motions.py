@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from given import scenes
 
+from textmech import engines
 from textmech.cases.case import Case
 from textmech.cases.motion import Motion as Looked
 from textmech.cases.observe import observe
@@ -46,8 +47,8 @@ def test_what_cannot_be_told_apart_is_no_ghost(made: SimpleNamespace) -> None:
     assert "mujoco.tuned.native" in swing["covered"]
     assert set(swing["ghosts"]) | set(swing["covered"]) == {
         f"{engine}.{setting}.native"
-        for engine in ("mujoco", "pymunk")
-        for setting in ("shipped", "tuned")
+        for engine in engines.names()
+        for setting in engines.settings(engine)
     }
     assert set(swing["ghosts"]).isdisjoint(swing["covered"])
 

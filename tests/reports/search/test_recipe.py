@@ -12,7 +12,7 @@ from textmech.reports.search import recipe as searching
 from textmech.reports.search.bar import Bar
 from textmech.reports.search.candidate import Candidate
 from textmech.reports.search.menu import Menu, fitting
-from textmech.reports.search.recipe import Kitchen, Recipe, best, front, recipe
+from textmech.reports.search.recipe import Kitchen, Recipe, Recipes, best, front, recipes
 from textmech.reports.search.together import Known
 
 Error = Callable[[Mapping[str, Any], float], float]
@@ -29,10 +29,10 @@ WHOLE = Knob("whole", (Value("whole", {"a": {"b": 1, "c": 1}, "d": 1}),), kind="
 TUNED = {"one": 1, "two": 2, "three": 3, "inert": 1}
 
 
-def cooked(error: Error, *knobs: Knob, margin: float = 2.0) -> tuple[Recipe | None, Kitchen]:
+def cooked(error: Error, *knobs: Knob, margin: float = 2.0) -> tuple[Recipes | None, Kitchen]:
     menu = Menu(knobs or (ONE, TWO), STEPS, OWN, TUNED)
     kitchen = Kitchen(menu, Bar(Known(), margin), lambda c: 1 / c.step)
-    asking = recipe(kitchen)
+    asking = recipes(kitchen)
     while True:
         try:
             wanted = next(asking)
@@ -45,7 +45,7 @@ def cooked(error: Error, *knobs: Knob, margin: float = 2.0) -> tuple[Recipe | No
 
 def of(error: Error, *knobs: Knob, margin: float = 2.0) -> tuple[dict[str, Any], float] | None:
     found, _ = cooked(error, *knobs, margin=margin)
-    return None if found is None else (dict(found.choice.options), found.step)
+    return None if found is None else (dict(found.fewest.choice.options), found.fewest.step)
 
 
 def test_nothing_is_changed_where_nothing_has_to_be() -> None:
@@ -138,16 +138,64 @@ def test_what_one_setting_tells_the_others_must_tell_too() -> None:
 @pytest.mark.parametrize(
     ("interval", "steps"),
     [
-        (0.04, [8e-3, 4e-3, 2e-3, 1e-3]),
-        (0.02, [0.02 / 3, 4e-3, 2e-3, 1e-3]),  # 8 ms does not divide it: shortened
-        (0.006, [3e-3, 2e-3, 1e-3]),  # 8 ms is longer
+        (0.04, [1e-2, 5e-3, 2e-3, 1e-3]),
+        (0.02, [1e-2, 5e-3, 2e-3, 1e-3]),
+        (0.012, [2e-3, 1e-3]),  # nothing is shortened
         (0.002, [2e-3, 1e-3]),
     ],
 )
 def test_steps_meet_every_sample(interval: float, steps: list[float]) -> None:
-    found = fitting([8e-3, 4e-3, 2e-3, 1e-3], 2e-3, interval)
-    assert found == pytest.approx(steps)
-    assert all(abs(interval / h - round(interval / h)) < 1e-9 for h in found)
+    assert fitting([1e-2, 5e-3, 2e-3, 1e-3], 2e-3, interval) == steps
+    assert fitting([1e-2, 5e-3], 2e-3, 2e-2) == [1e-2, 5e-3, 2e-3]
+
+
+def cheapest(error: Error, *knobs: Knob) -> tuple[dict[str, Any], float]:
+    found, _ = cooked(error, *knobs)
+    assert found
+    return dict(found.cheapest.choice.options), found.cheapest.step
+
+
+def test_the_cheapest_may_change_more() -> None:
+    """One option needs 0.25 ms; both do with 8 ms, and cost a thirty-second."""
+
+    def error(o: Mapping[str, Any], h: float) -> float:
+        return 0.1 if {"one", "two"} <= set(o) else 1000 * h if "one" not in o else 9.0
+
+    assert of(error) == ({}, 5e-4)
+    assert cheapest(error) == ({"one": 1, "two": 1}, 8e-3)
+
+
+def test_the_cheapest_is_confirmed_at_the_next_finer_step() -> None:
+    """With both it is within at 8 ms alone, by luck."""
+
+    def error(o: Mapping[str, Any], h: float) -> float:
+        both = {"one", "two"} <= set(o)
+        return 0.1 if both and h == 8e-3 else 9.0 if o else 1000 * h
+
+    assert cheapest(error) == ({}, 5e-4)
+
+
+def test_what_costs_the_same_changes_less() -> None:
+    found, _ = cooked(lambda o, h: 0.1 / (1 + len(o)) if "one" in o else 9.0)
+    assert found
+    assert found.cheapest is found.fewest
+
+
+MANY = knob("many", 10.0, 100.0, 1e4, 1e6)
+
+
+def test_a_number_is_the_mildest_that_does() -> None:
+    """Any from 100 on is within, the more the better: 100 is enough."""
+
+    def error(o: Mapping[str, Any], h: float) -> float:
+        return 10.0 / o["many"] if "many" in o else 9.0
+
+    assert of(error, MANY) == ({"many": 100.0}, 8e-3)
+    whole = Knob("whole", (Value("whole", {"many": 1e6, "d": 1}),), kind="bundle")
+    assert of(lambda o, h: error(o, h) if "d" in o else 9.0, MANY, whole) == (
+        {"many": 100.0, "d": 1},
+        8e-3,
+    )
 
 
 def smallest_error(kitchen: Kitchen, recipe: Recipe) -> tuple[float]:

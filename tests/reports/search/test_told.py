@@ -1,5 +1,6 @@
 """What is told of a cure and of a recipe: its price, and of cures the cheapest first."""
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -17,7 +18,7 @@ from textmech.reports.search.candidate import Candidate
 from textmech.reports.search.cures import Cure, Cured
 from textmech.reports.search.lever import STEP, Field, Lever
 from textmech.reports.search.menu import Choice, Menu
-from textmech.reports.search.recipe import Kitchen, Recipe
+from textmech.reports.search.recipe import Kitchen, Recipe, Recipes
 from textmech.reports.show import advice
 from textmech.reports.trial.start import first
 from textmech.reports.trial.trial import planned
@@ -75,11 +76,11 @@ def found(pair: Pair) -> Advised:
     known = {SHIPPED: {"x": (9.0, 9.0)}, half.candidate: {"x": (0.25, 0.25)}}
     kitchen = Kitchen(Menu([], [OWN, OWN / 2], OWN, {}), Bar(known, 2.0), cost)  # type: ignore[arg-type]
     way = planned(pair.engine, pair.case.scene, first(pair.reference()))[0]
-    return Advised(pair, Asked(None, 2.0), way, kitchen, half)
+    return Advised(pair, Asked(None, 2.0), way, kitchen, Recipes(half, half))
 
 
 def costs(found: Advised, module: Any = advised) -> tuple[float | None, float | None]:
-    told = module.row(found)
+    (told,) = module.rows(found)
     return told.cost, told.shipped_cost
 
 
@@ -87,16 +88,28 @@ def costs(found: Advised, module: Any = advised) -> tuple[float | None, float | 
 @pytest.mark.mutant("the cost of shipped told as the recipe's")
 def test_a_recipe_costs_what_it_costs_and_not_what_shipped_does(found: Advised) -> None:
     assert costs(found) == (8 / OWN, 1 / OWN)
-    was = "cost=one.kitchen.cost(one.recipe.candidate)"
-    assert costs(found, otherwise(advised, was, "cost=one.kitchen.cost(one.shipped)")) != costs(
-        found
-    )
+    was = "cost=kitchen.cost(recipe.candidate)"
+    assert costs(found, otherwise(advised, was, "cost=empty.shipped_cost")) != costs(found)
+
+
+@pytest.mark.slow
+def test_what_holds_at_one_step_alone_is_said_to(found: Advised) -> None:
+    """The least step that is tried is within; nothing finer says that it is no accident."""
+    (told,) = advised.rows(replace(found, recipes=None))
+    assert (told.recipe, told.worst) == ("none", 0.25)
+    assert told.remains.endswith("and the next finer step does not confirm it")
+    assert found.kitchen
+    candidate = Candidate.of({"integrator": "RK4"}, OWN / 2)
+    found.kitchen.bar.elsewhere[candidate] = 3.0
+    (told,) = advised.rows(replace(found, recipes=None))
+    assert told.remains.endswith("and not where a loop is cut elsewhere")
+    found.kitchen.bar.elsewhere.clear()
 
 
 def printed(found: Advised, module: Any = advice) -> str:
     """The line of the price."""
     patched: Any = module
-    (line,) = [line for line in patched.told(found) if "its cost" in line]
+    (line,) = [line for line in patched.told(found) if "costs ×" in line]
     return line
 
 
@@ -107,12 +120,12 @@ def test_the_printed_cost_is_the_recipes_over_shippeds(
 ) -> None:
     monkeypatch.setattr(advice, "ratio", lambda *_: 7.5)
     monkeypatch.setattr(advice, "plain", lambda _: [])
-    assert printed(found) == "  its cost      ×8 of shipped's, measured here ×7.5"
+    assert printed(found) == "    costs ×8 of shipped, measured here ×7.5"
     was = "one.kitchen.cost(candidate) / one.kitchen.cost(one.shipped)"
     now = "one.kitchen.cost(one.shipped) / one.kitchen.cost(candidate)"
     wrong = otherwise(advice, was, now)
     wrong.ratio, wrong.plain = (lambda *_: 7.5), lambda _: []
-    assert "×0.12 of shipped's" in printed(found, wrong)
+    assert "×0.12 of shipped" in printed(found, wrong)
 
 
 def seconds(pair: Pair, module: Any = price) -> float:

@@ -1,0 +1,65 @@
+"""A recipe holds wherever a loop is cut, or it is none."""
+
+from dataclasses import replace
+
+import pytest
+from given import scenes
+from given.otherwise import otherwise
+
+from textmech.reports.cache.key import Keys
+from textmech.reports.cache.store import passing
+from textmech.reports.search import bar as bars
+from textmech.reports.search import cuts
+from textmech.reports.search.bar import Bar
+from textmech.reports.search.candidate import Candidate
+from textmech.reports.search.errors import Run, errors
+from textmech.reports.selection import choose_engines
+from textmech.reports.unit import Pair
+
+HARD = {"integrator": "RK4", "connect": {"solimp": [0.9999, 0.9999, 0.001]}}
+
+
+def test_each_joint_is_once_the_last() -> None:
+    (engine,) = choose_engines(["mujoco.shipped"], [])
+    with passing() as store:
+        key = Keys.now(store)
+
+        def orders(name: str) -> list[str]:
+            case = scenes.EVERY[name]
+            pair = Pair(case, engine, store, key.solution(case))
+            return ["".join(other.case.scene.joints) for other in cuts._others(pair)]
+
+        assert orders("four_bar") == ["BCDA", "CDAB", "DABC"]
+        assert orders("double_pendulum") == []
+
+
+@pytest.mark.slow
+def test_what_keeps_the_bar_here_may_not_elsewhere() -> None:
+    """The closing pin as soft as shipped: within by far cut at D, and twice too far off at A."""
+    (engine,) = choose_engines(["mujoco.shipped"], [])
+    case, candidate = scenes.EVERY["four_bar"], Candidate.of(HARD, 2e-3)
+    with passing() as store:
+        pair = Pair(case, engine, store, Keys.now(store).solution(case))
+        here, *others = [
+            Bar({candidate: errors(Run(each, candidate))}, 1.0).worst(candidate)[0]
+            for each in [pair, *cuts._others(pair)]
+        ]
+    assert here < 0.1
+    assert 1 < max(others) < 3
+
+
+@pytest.mark.mutant("a recipe that does not hold where a loop is cut elsewhere")
+def test_it_is_not_taken_then() -> None:
+    candidate = Candidate.of({}, 1e-3)
+
+    def holds(module: object, elsewhere: float) -> bool:
+        bar = module.Bar({candidate: {"x": (0.1, 0.1)}}, 2.0)  # type: ignore[attr-defined]
+        return replace(bar, elsewhere={candidate: elsewhere}).holds(candidate)
+
+    assert holds(bars, 0.9)
+    assert not holds(bars, 1.1)
+    assert not holds(bars, float("nan"))
+    blind = otherwise(
+        bars, "return here and self.elsewhere.get(candidate, 0.0) <= 1.0", "return here"
+    )
+    assert holds(blind, 1.1)
