@@ -31,7 +31,7 @@ def _answered(case: Case, row: Comparison) -> Comparison:
     if row.verdict != FAILS or row.setting != OURS or _promised(case, row):
         return row
     broken, _, why = row.because.partition("; ")
-    if row.because.startswith(f"{DIVERGED}: "):
+    if case.states is None and row.because.startswith(f"{DIVERGED}: "):  # of states none diverges
         return replace(row, verdict=DIVERGED, because=row.because.removeprefix(f"{DIVERGED}: "))
     if (
         row.largest is None
