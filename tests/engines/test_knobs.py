@@ -9,7 +9,7 @@ from given.scenes import SHIPPED
 
 from textmech import engines
 from textmech.engines.engine import Engine, Tunable
-from textmech.engines.knobs import Knob, Options, as_text, merged, said
+from textmech.engines.knobs import Knob, as_text, merged, said
 from textmech.reports.own_settings import read_settings
 
 TUNED = [
@@ -93,17 +93,12 @@ def test_a_bundle_is_the_recipe_of_its_word(name: str) -> None:
     (bundle,) = [knob for knob in knobs(name, shipped) if knob.kind == "bundle"]
     assert bundle.values
     for value in bundle.values:
-        word = value.words.removeprefix("contacts: ")
+        word = value.words.removeprefix("the recipe for contacts that ")
         spelled, called = (
             decided(engines.make("mujoco", "mine", options), name)
-            for options in (value.options, called_by(word, value.options))
+            for options in (value.options, {"contacts": word})
         )
         assert spelled == called
-
-
-def called_by(word: str, spelled: Options) -> Options:
-    """The start is no part of the recipe; it comes with it where something lies on the floor."""
-    return {"contacts": word, **{k: v for k, v in spelled.items() if k == "settled"}}
 
 
 @pytest.mark.parametrize("name", ["mujoco", "pymunk"])
