@@ -66,6 +66,7 @@ def compare(trial: Trial, runs: Runs | None = None) -> Outcome:
     ]
     climbed = [rungs(trial, ladder, name, found) for ladder, name, found in studies]
     told, ladders = instants.judge(trial, events, runs, runs.judged)
+    moments |= {name: words for name in events if (words := instants.spread(trial, name))}
     listed = instants.listed(trial, runs.judged)
     wanted = {name: trial.wanted(name) for name in motion} if trial.sampled else {}
     return Outcome(rows + told, climbed + ladders, runs.judged, listed, moments, wanted)

@@ -66,16 +66,17 @@ def _each(trial: Trial, name: str, found: Array, runs: Runs) -> Comparison:
     sure = _first(trial, name, list(runs.ladders.values())[-1]) if climbs else both
     if error.at >= sure:
         why = f"number {error.at + 1}, of which the largest step cannot be sure; before it: {why}"
-    reached = verdict(trial, name, error.largest, held, f"{why}{_spread(trial, name)}")
+    words = "; ".join(filter(None, (why, spread(trial, name))))
+    reached = verdict(trial, name, error.largest, held, words)
     return judged(trial, name, reached, error, float(times[error.at]))
 
 
-def _spread(trial: Trial, name: str) -> str:
-    """What else may be wrong with a state just after an event, and what cures it."""
+def spread(trial: Trial, name: str) -> str:
+    """Tells what else may be wrong with a state just after an event, and what cures it."""
     at = at_event(name, trial.case.events)
     if at is None or at.side != "after" or trial.case.tube:
         return ""
-    return f"; if an impact lasts some steps here, {LATER}"
+    return f"if an impact lasts some steps here, {LATER}"
 
 
 def _climbed(trial: Trial, name: str, runs: Runs) -> Iterator[tuple[Ladder, str, Convergence]]:

@@ -16,6 +16,7 @@ from textmech.reports import ending
 pytest_plugins = ["pytester"]
 ONE = "pymunk.tuned"
 STEP = "cpSpaceStep(self._space, dt)"
+PROMISED = "reach: {pymunk: {rod.angle: 9.0e-3}}\n"  # that a row beyond is red
 
 
 @pytest.fixture
@@ -52,7 +53,7 @@ def started(
 def test_a_rebuilt_engine_is_another_one_for_run_and_for_pytest(
     rebuilt: Path, tmp_path: Path
 ) -> None:
-    (tmp_path / "swing.yaml").write_text(SWING, encoding="utf-8")
+    (tmp_path / "swing.yaml").write_text(SWING + PROMISED, encoding="utf-8")
     run = ("textmech.reports.cli", "run", "swing.yaml", "--engine", ONE)
     test = ("pytest", "-p", "no:cacheprovider", "swing.yaml", "--textmech-engine", ONE)
     for words in (run, test):
