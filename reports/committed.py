@@ -70,10 +70,10 @@ def worse(case: Case, row: Comparison) -> str:
         return ""
     if rank(row.verdict) > rank(found.verdict):
         return f"the committed report says: {found.verdict}"
-    if found.largest is None or row.largest is None:
+    if found.error is None or row.error is None:
         return ""
     least = ROUNDING if row.setting == "tuned" else USELESS
-    bar = WORSE * max(found.largest, least * (row.allowed or 0.0))
-    if not row.largest <= bar:
-        return f"{row.largest:.3g} is above {WORSE} × the committed {found.largest:.3g}"
+    bar = WORSE * max(found.error, least * (row.allowed or 0.0))
+    if not row.error <= bar:
+        return f"{row.error:.3g} is above {WORSE} × the committed {found.error:.3g}"
     return ""

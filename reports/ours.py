@@ -3,12 +3,13 @@
 import errno
 import re
 from collections.abc import Iterable
+from dataclasses import fields
 from pathlib import Path
 
+from . import runs
 from .content import content
+from .row import Advice, Cause, Certificate, Comparison, Instant, Rungs
 
-FOOTER = re.compile(r"# \d{1,12} rows of run [0-9a-f]+")
-"""The last line of a report."""
 TITLE = "<title>textmech: "
 """In the head of a page."""
 OURS = "textmech"
@@ -19,12 +20,18 @@ _PICTURES = {
     ".xml": b'<testsuite name="textmech diff"',
 }
 """What stands in the heads of a picture and of a list of tests."""
+_REPORTS = {
+    ",".join(column.name for column in fields(kind))
+    for kind in (Comparison, Rungs, Certificate, Instant, Cause, Advice)
+} | {",".join(runs.HEAD), "kind,number,cases,otherwise", "room,planted,seen_by,loop"}
+"""The first lines of reports."""
 _TABLES = {
+    "releases": re.compile(r"case,theme,engine,version,setting,realised,quantity,"),
     "times of events": re.compile(r"engine,setting,realised,event,k,"),
     "poses": re.compile(r"engine,setting,realised,body,field,unit,t \[s\],value"),
     "motions": re.compile(r"(t \[s\]|state)(,[^\r\n]* reference|$)"),
 }
-"""The first lines of what `--keep` writes, in which no comment may stand."""
+"""How the first lines begin of what `--keep` and `versions` write."""
 _PARQUET = b"PAR1"
 _HEAD = 4000  # bytes
 HERE = Path(__file__).parent
@@ -65,8 +72,5 @@ def _ours(held: bytes, ending: str) -> bool:
     head = held[:_HEAD].decode(errors="replace")
     if ending == ".html":
         return TITLE in head
-    last = held.rstrip(b"\r\n").rpartition(b"\n")[2]
-    if FOOTER.fullmatch(last.decode(errors="replace").strip()):
-        return True
     first = held.partition(b"\n")[0].decode(errors="replace").rstrip("\r").removeprefix("\ufeff")
-    return any(table.match(first) for table in _TABLES.values())
+    return first in _REPORTS or any(table.match(first) for table in _TABLES.values())

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from ..cases.case import Case
 from ..cases.find import shipped
-from .row import AGREES, BEYOND, DEVIATES, DIVERGED, FAILS, Comparison
+from .row import AGREES, BEYOND, DEVIATES, DIVERGED, FAILS, REFUSED, Comparison
 
 OURS = "tuned"
 
@@ -33,12 +33,7 @@ def _answered(case: Case, row: Comparison) -> Comparison:
     broken, _, why = row.because.partition("; ")
     if case.states is None and row.because.startswith(f"{DIVERGED}: "):  # of states none diverges
         return replace(row, verdict=DIVERGED, because=row.because.removeprefix(f"{DIVERGED}: "))
-    if (
-        row.largest is None
-        or row.ratio is None
-        or row.ratio <= 1
-        or " is above allow " not in broken
-    ):
+    if row.error is None or row.ratio is None or row.ratio <= 1 or " is above allow " not in broken:
         return row
     return replace(row, verdict=BEYOND, because=why)
 
@@ -76,7 +71,7 @@ def unkept(case: Case, rows: Iterable[Comparison]) -> Iterator[str]:
 
 
 def _judged(rows: Iterable[Comparison]) -> list[Comparison]:
-    return [row for row in rows if not row.verdict.startswith("refused")]
+    return [row for row in rows if row.verdict != REFUSED]
 
 
 def _kept(rows: Iterable[Comparison]) -> bool:

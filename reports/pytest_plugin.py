@@ -31,7 +31,7 @@ _ROWS = pytest.StashKey[dict[tuple[str, ...], "Comparison"]]()
 _EARLIER = pytest.StashKey["Earlier"]()
 _FOLDER = pytest.StashKey[Path]()
 _ERRORS = os.dup(2) if sys.stderr is not None else -1  # before pytest takes it
-TOLD = ("case", "engine", "version", "setting", "realised", "quantity", "unit", "step", "largest",
+TOLD = ("case", "engine", "version", "setting", "realised", "quantity", "unit", "step", "error",
         "allowed", "verdict", "because")  # fmt: skip
 """What junit's XML holds of a row, as properties."""
 _SHARED = "textmech_shared"  # what a worker of xdist is told: the session's own folder
@@ -209,7 +209,7 @@ class ComparisonItem(CaseItem):
 
     def runtest(self) -> None:
         from .committed import worse
-        from .row import AGREES, DEVIATES, FAILS
+        from .row import AGREES, DEVIATES, FAILS, REFUSED
         from .show.terminal import line
         from .show.text import row_text
 
@@ -225,7 +225,7 @@ class ComparisonItem(CaseItem):
         if lost:
             raise RowError(f"{lost}\n{row_text(row)}")
         if row.verdict not in (AGREES, DEVIATES):
-            if self.promised and not row.verdict.startswith("refused"):
+            if self.promised and row.verdict != REFUSED:
                 place = f"{self.path}:{self.place('allow', row.quantity)}"
                 raise RowError(f"{place}: {row.quantity}, by your own settings\n{row_text(row)}")
             pytest.xfail(" ".join(line(row).split()))

@@ -14,7 +14,7 @@ import os
 import re
 import stat
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from pathlib import Path
 
@@ -23,27 +23,30 @@ from .lock import locked
 
 MAKING, DECIDED = ".writing-", ".written-"
 NEW, OLD, NAMES = "new", "old", "names"
+Texts = Mapping[str, str | bytes]
+"""What is written, by the files' names."""
 _ENDING = re.compile(r"[a-z0-9_]+")
 
 
-def replace(folder: Path, texts: Mapping[str, str | bytes]) -> None:
+def replace(folder: Path, texts: Texts | Callable[[], Texts]) -> None:
     """Writes the texts, or bytes, under their names; waits while another process writes there.
 
+    texts: also as a function, which is asked when no other process can write there any more.
     Raises OSError if the folder cannot take them: then it holds what it held.
     """
-    for name in texts:
-        if not _plain(name):
-            raise OSError(errno.EINVAL, "is no file's name", name)
     folder.mkdir(parents=True, exist_ok=True)
     with locked(folder):
         _settled(folder)
         try:
-            _decide(folder, texts)
+            _decide(folder, texts() if callable(texts) else texts)
         finally:
             _settled(folder)
 
 
-def _decide(folder: Path, texts: Mapping[str, str | bytes]) -> None:
+def _decide(folder: Path, texts: Texts) -> None:
+    for name in texts:
+        if not _plain(name):
+            raise OSError(errno.EINVAL, "is no file's name", name)
     made = Path(tempfile.mkdtemp(prefix=MAKING, dir=folder))
     (made / NAMES).write_text("\n".join([_mark(made), *texts]), encoding="utf-8")
     (made / NEW).mkdir()

@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
-AGREES, BEYOND, DEVIATES, FAILS = "agrees", "beyond", "deviates as declared", "FAILS"
-DIVERGED, CRASHED, CHANGED = "diverged", "crashed", "changed since"
-LADDER = (AGREES, DEVIATES, BEYOND, CHANGED, "refused", DIVERGED, CRASHED, FAILS)
-"""Verdicts from good to bad, by their first words."""
+AGREES, BEYOND, DEVIATES, FAILS = "agrees", "beyond", "deviates", "FAILS"
+REFUSED, DIVERGED, CRASHED, CHANGED = "refused", "diverged", "crashed", "changed"
+LADDER = (AGREES, DEVIATES, BEYOND, CHANGED, REFUSED, DIVERGED, CRASHED, FAILS)
+"""Verdicts from good to bad, each one word: its reason is another column's."""
 UNSEARCHED = "not searched"
 """Of causes.csv: nobody has looked for a cure."""
 MUTANTS, MUTATION, SPEED = OF_NO_RUN = "mutants.csv", "mutation.csv", "speed.csv"
@@ -23,7 +23,7 @@ def as_written(number: float | None) -> float | None:
 
 def rank(verdict: str) -> int:
     """How bad it is, from 0; what is no verdict is worse than all of them."""
-    return next((i for i, word in enumerate(LADDER) if verdict.startswith(word)), len(LADDER))
+    return LADDER.index(verdict) if verdict in LADDER else len(LADDER)
 
 
 @dataclass(frozen=True)
@@ -31,6 +31,7 @@ class Comparison:
     """A row of tolerance.csv. A quantity's row, or the engine's `audit`."""
 
     case: str
+    theme: str  # what the case is about; of several themes all, with blanks between
     source: str
     engine: str
     version: str
@@ -40,7 +41,7 @@ class Comparison:
     quantity: str
     unit: str
     step: float | None
-    largest: float | None
+    error: float | None  # the largest
     when: float | None  # s: where the error is largest
     rms: float | None
     final: float | None
@@ -118,8 +119,8 @@ class Cause:
     engine: str
     setting: str
     quantity: str
-    error_before: float | None
-    allow: float | None
+    error: float | None  # of the row that is explained
+    allowed: float | None
     cure: str
     options: str  # YAML, as in a file of settings
     step: float | None
@@ -133,10 +134,12 @@ class Cause:
 class Advice:
     """A row of advice.csv: a recipe for a case in an engine, natively; or what remains.
 
-    The recipe in words, `none` where nothing keeps the bar; `worst` is an error over its tolerance.
+    The recipe in words, `none` where nothing keeps the bar. ratio: of the worst quantity, its error
+    over its tolerance.
     """
 
     case: str
+    theme: str
     engine: str
     tolerance: float | None  # of each quantity's size; None: as the case allows
     margin: float
@@ -146,6 +149,6 @@ class Advice:
     step: float | None
     cost: float | None  # of a simulated second, as the engine counts it
     shipped_cost: float | None
-    worst: float | None
+    ratio: float | None
     quantity: str
     remains: str

@@ -1,10 +1,9 @@
-"""The reports as tables and as CSV files: sorted, counted, each named after its run."""
+"""The reports as tables and as CSV files: sorted, rounded, and all files of a run together."""
 
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from dataclasses import replace as changed
-from hashlib import sha256
 from io import StringIO
 from pathlib import Path
 from typing import Any, TypeVar
@@ -14,6 +13,7 @@ import pandas as pd
 
 from ..cases.case import Case
 from ..reference.certificate.errors import ERROR
+from . import runs
 from .content import text as content
 from .coverage import coverage
 from .ours import unasked
@@ -26,10 +26,11 @@ ELSEWHERE = Path("textmech-reports")
 NAMES = (
     "tolerance.csv", "convergence.csv", "events.csv", "causes.csv", "reference.csv", "coverage.csv",
 )  # fmt: skip
+FILES = (*NAMES, runs.NAME)
+"""What a run writes."""
 ADVICE = "advice.csv"
 KEYS = ("case", "engine", "setting", "realised", "ladder", "quantity", "check", "event", "k")
 KNOWN = 1e-6  # of `allow`: the least certified error that is written
-RUN = 12  # letters of a run's name: two runs never share them
 TIMES = ".9g"  # of an event's time: its difference is a thousandth of a step
 
 Row = TypeVar("Row", Comparison, Rungs, Certificate, Instant, Cause, Advice)
@@ -89,41 +90,35 @@ def write(frames: Mapping[str, pd.DataFrame], folder: Path, *, overwrite: bool =
 
     overwrite: also what is no report; else that is a FileExistsError.
 
-    The last line of each counts its rows, so that a cut file can be told, and names the run by its
-    content, so that files of two runs can.
+    Beside them runs.csv counts their rows and names the run by its content, so that a cut file can
+    be told, and files of two runs.
     """
-    unasked(folder, frames, overwrite=overwrite)
-    replace(folder, texts(frames))
+    unasked(folder, [*frames, runs.NAME], overwrite=overwrite)
+    replace(folder, lambda: texts(frames, folder))
 
 
 def advice(rows: Sequence[Advice], folder: Path, *, overwrite: bool = False) -> None:
     """Writes advice.csv, a run of its own: its search asks nothing of the other reports."""
-    unasked(folder, [ADVICE], overwrite=overwrite)
-    replace(folder, texts({ADVICE: _table(rows, Advice)}))
+    write({ADVICE: _table(rows, Advice)}, folder, overwrite=overwrite)
 
 
-def texts(frames: Mapping[str, pd.DataFrame]) -> dict[str, str]:
-    """What is written, by file name."""
+def texts(frames: Mapping[str, pd.DataFrame], folder: Path | None = None) -> dict[str, str]:
+    """What is written, by file name; what else the folder's runs.csv names stays in it."""
     bodies = {
         name: _rounded(frame).to_csv(index=False, lineterminator="\n")
         for name, frame in frames.items()
     }
-    run = sha256("\0".join([*bodies, *bodies.values()]).encode()).hexdigest()[:RUN]
-    return {name: f"{body}{footer(len(frames[name]), run)}\n" for name, body in bodies.items()}
+    tables = {name: (len(frames[name]), body) for name, body in bodies.items()}
+    return bodies | {runs.NAME: runs.listed(tables, folder)}
 
 
 def holds(frames: Mapping[str, pd.DataFrame], folder: Path) -> bool:
     """Whether the folder's reports are these."""
-    wanted = texts(frames)
+    wanted = texts(frames, folder)
     return all(
         (folder / name).is_file() and content(folder / name) == text
         for name, text in wanted.items()
     )
-
-
-def footer(rows: int, run: str) -> str:
-    """The last line of a report."""
-    return f"# {rows} rows of run {run}"
 
 
 def read(path: Path, kind: type[Row]) -> list[Row]:
@@ -131,15 +126,14 @@ def read(path: Path, kind: type[Row]) -> list[Row]:
 
     Raises ValueError if the file was cut, or stands beside reports of another run.
     """
-    body, ending = _parted(path)
-    frame = pd.read_csv(StringIO(body), dtype=str, keep_default_na=False)
-    run = _run(ending)
-    if ending != footer(len(frame), run):
-        raise ValueError(f"{path}: cut, or changed by hand: it ends in {ending!r}")
+    text, written = content(path), runs.read(path.parent)
+    frame = pd.read_csv(StringIO(text), dtype=str, keep_default_na=False)
+    if doubt := runs.doubt(path.name, len(frame), text, written):
+        raise ValueError(f"{path}: {doubt}")
     for name in NAMES if path.name in NAMES else ():  # advice and versions are runs of their own
-        other = path.with_name(name)
-        if other.exists() and _run(_parted(other)[1]) != run:
-            raise ValueError(f"{path}: of another run than {other.name} beside it: run both again")
+        other = written.get(name)
+        if other is not None and other.run != written[path.name].run:
+            raise ValueError(f"{path}: of another run than {name} beside it: run both again")
     numbers = {column.name for column in fields(kind) if "float" in str(column.type)}
     counts = {column.name for column in fields(kind) if column.type is int}
     if lacking := [column.name for column in fields(kind) if column.name not in frame.columns]:
@@ -151,16 +145,6 @@ def read(path: Path, kind: type[Row]) -> list[Row]:
         values |= {name: int(values[name]) for name in counts}
         rows.append(kind(**values))
     return rows
-
-
-def _parted(path: Path) -> tuple[str, str]:
-    """The table, and the line that ends it."""
-    body, _, ending = content(path).rstrip("\n").rpartition("\n")
-    return f"{body}\n", ending
-
-
-def _run(ending: str) -> str:
-    return ending.rpartition(" of run ")[2]
 
 
 def _number(text: str) -> Any:

@@ -131,7 +131,7 @@ def main(*words: str) -> None:
     if "--print" in words:
         sys.stdout.buffer.write(texts[MUTANTS].encode())  # the same bytes in any terminal
         return
-    replace(write.HERE, texts)
+    write.write({MUTANTS: found}, write.HERE)
     if PAGE.is_file():
         text = PAGE.read_text(encoding="utf-8")  # its motions stay: nothing is run for a list
         replace(write.HERE, {NAME: page(folder(write.HERE), choose_cases([]), motions_of(text))})

@@ -29,7 +29,7 @@ SOUND = {"test_every_parameter_has_a_mutant", "test_the_laws_hold_where_nothing_
 
 
 def rows() -> pd.DataFrame:
-    return pd.read_csv(COMMITTED, comment="#", dtype=str, keep_default_na=False)
+    return pd.read_csv(COMMITTED, dtype=str, keep_default_na=False)
 
 
 @pytest.mark.slow

@@ -82,8 +82,8 @@ def _print(causes: "Sequence[Cause]") -> None:
         say(f"\n{case} in {engine}.{setting}")
         for quantity, cures in groupby(found, key=lambda cause: cause.quantity):
             first, *others = cures
-            before = "diverged" if first.error_before is None else f"{first.error_before:.2g}"
-            allowed = f"(allowed {first.allow or 0:.1g})"
+            before = "diverged" if first.error is None else f"{first.error:.2g}"
+            allowed = f"(allowed {first.allowed or 0:.1g})"
             say(f"  {quantity:20} {before:>8} {allowed}  {_line(first)}")
             for other in others:
                 say(f"  {'':20} {'':8} {'or':>{len(allowed)}}  {_line(other)}")

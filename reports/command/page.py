@@ -65,7 +65,7 @@ def page(
     rows = write.by_default()
     folder = out or Folder().convert(str(OWN if named else rows), None, None)
     try:
-        unasked(folder, [*(write.NAMES if named else ()), NAME], overwrite=overwrite)
+        unasked(folder, [*(write.FILES if named else ()), NAME], overwrite=overwrite)
         if not named:
             _there(rows)
         report = looked_at(cases, names, settings, jobs=jobs, cached=not no_cache, long=allow_long)

@@ -96,7 +96,7 @@ def run(
     if page and out is None:
         raise click.UsageError("--page stands beside the CSV files, and needs --out DIRECTORY")
     if out is not None:
-        unasked(out, [*write.NAMES, *(["index.html"] if page else [])], overwrite=overwrite)
+        unasked(out, [*write.FILES, *(["index.html"] if page else [])], overwrite=overwrite)
 
     def before(found: "Sequence[Case]") -> None:
         if keep is not None:

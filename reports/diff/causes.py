@@ -11,7 +11,7 @@ from .table import Row
 ROW = ("case", "engine", "setting", "quantity")
 KEYS = (*ROW, "cure")
 _NAMED = ROW[:3]
-_REST = ("error_before", "allow", "options", "step", "error_after", "cost", "law")
+_REST = ("error", "allowed", "options", "step", "error_after", "cost", "law")
 
 
 def both_searched(old: Sequence[Row], new: Sequence[Row]) -> tuple[list[Row], list[Row]]:

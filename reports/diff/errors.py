@@ -17,7 +17,7 @@ def place(row: Row) -> Place:
 
 def seen(row: Row) -> Seen:
     """The verdict and the largest error."""
-    return Seen(row["verdict"], number(row, "largest"))
+    return Seen(row["verdict"], number(row, "error"))
 
 
 def compared(old: Row, new: Row, rule: Rule, allowed: float | None) -> Change | None:
@@ -57,7 +57,7 @@ def _kind(was: Seen, now: Seen, rule: Rule, allowed: float | None) -> str:
 ERRORS = File(
     name="tolerance.csv",
     keys=("case", "engine", "setting", "realised", "quantity"),
-    numbers=("step", "largest", "allowed"),
+    numbers=("step", "error", "allowed"),
     words=("version", "unit", "verdict"),
     compare=compared,
     place=place,

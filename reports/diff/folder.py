@@ -5,7 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...cases.mistake import CaseError, Mistake
+from .. import runs
 from ..row import OF_NO_RUN
+from ..runs import Written
 from .errors import ERRORS
 from .file import File
 from .files import FILES
@@ -15,20 +17,16 @@ from .table import Table, read
 
 @dataclass(frozen=True)
 class Folder:
-    """Tables by their files' names. name: what a person calls it."""
+    """Tables by their files' names. name: what a person calls it; run: what its content does."""
 
     name: str
     tables: Mapping[str, Table]
+    run: str
 
     @property
     def errors(self) -> Table:
         """The one that every report has."""
         return self.tables[ERRORS.name]
-
-    @property
-    def run(self) -> str:
-        """The run's name."""
-        return self.errors.run
 
     @property
     def scope(self) -> Scope:
@@ -61,7 +59,8 @@ def _opened(name: str, path: Path) -> Folder:
     if not path.is_dir():
         what = "is no folder" if path.exists() else "no such folder"
         raise CaseError([Mistake(str(path), 0, 0, "", f"{what}; a report is one, with its *.csv")])
-    files = sorted(file for file in path.glob("*.csv") if file.name not in OF_NO_RUN)
+    others = (*OF_NO_RUN, runs.NAME)
+    files = sorted(file for file in path.glob("*.csv") if file.name not in others)
     if not (path / ERRORS.name).exists():
         what = f"is no report: it has no {ERRORS.name}; `textmech run --out FOLDER` writes one"
         raise CaseError([Mistake(str(path), 0, 0, "", what)])
@@ -72,24 +71,43 @@ def _opened(name: str, path: Path) -> Folder:
             tables[file.name] = read(file)
         except CaseError as error:
             mistakes += error.mistakes
-    known = {name: table for name, table in tables.items() if name in FILES}
-    for file, table in ((FILES[name], table) for name, table in known.items()):
-        mistakes += [*_mistaken(file, table)]
-    mistakes += _mixed(known)
+    written = _written(path)
+    for name_of, table in tables.items():
+        wrong = [*_mistaken(FILES[name_of], table)] if name_of in FILES else []
+        mistakes += wrong or [*_doubted(table, written)]
+    mistakes += _mixed(tables, written)
     if mistakes:
         raise CaseError(mistakes)
-    return Folder(name, tables)
+    return Folder(name, tables, written[ERRORS.name].run)
 
 
-def _mixed(known: Mapping[str, Table]) -> Iterator[Mistake]:
+def _written(path: Path) -> Mapping[str, Written]:
+    """What the folder's own list says. Raises CaseError where it cannot be read."""
+    try:
+        if found := runs.read(path):
+            return found
+        what = "is not there, or names no table: it is what tells whether the others are whole"
+    except ValueError as error:
+        what = str(error).removeprefix(f"{path / runs.NAME}: ")
+    except OSError as error:
+        what = error.strerror or "cannot be read"
+    raise CaseError([Mistake(str(path / runs.NAME), 0, 0, "", what)])
+
+
+def _doubted(table: Table, written: Mapping[str, Written]) -> Iterator[Mistake]:
+    if doubt := runs.doubt(table.path.name, len(table.rows), table.text, written):
+        yield table.mistake(doubt)
+
+
+def _mixed(tables: Mapping[str, Table], written: Mapping[str, Written]) -> Iterator[Mistake]:
     """The known files are written together; others may be another command's."""
-    runs = {table.run for table in known.values()}
-    if len(runs) > 1 and ERRORS.name in known:
-        ours = known[ERRORS.name].run
-        for table in known.values():
-            if table.run != ours:
-                what = f"of run {table.run}, and {ERRORS.name} beside it of run {ours}"
-                yield table.mistake(f"{what}: run both again")
+    known = [name for name in tables if name in FILES and name in written]
+    if ERRORS.name in known:
+        ours = written[ERRORS.name].run
+        for name in known:
+            if (other := written[name].run) != ours:
+                what = f"of run {other}, and {ERRORS.name} beside it of run {ours}"
+                yield tables[name].mistake(f"{what}: run both again")
 
 
 def _mistaken(file: File, table: Table) -> Iterator[Mistake]:

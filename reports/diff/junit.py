@@ -76,7 +76,7 @@ def _fill(test: ET.Element, rows: list[Row], changes: list[Change]) -> None:
     measured = {
         f"{row['quantity']} error/allowed": f"{error / allowed:.3g}"
         for row in rows
-        if (error := number(row, "largest")) is not None and (allowed := number(row, "allowed"))
+        if (error := number(row, "error")) is not None and (allowed := number(row, "allowed"))
     }
     _properties(test, measured)
     worse = _lines(change for change in changes if change.kind == WORSE)

@@ -1,8 +1,7 @@
-"""A CSV file of a report as text: its head, its rows with their lines, and the run it names."""
+"""A CSV file of a report as text: its head, and its rows with their lines."""
 
 import csv
 import errno
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from io import StringIO
@@ -11,7 +10,6 @@ from pathlib import Path
 from ...cases.mistake import CaseError, Mistake
 from ..content import LARGEST, content
 
-FOOTER = re.compile(r"# (\d{1,12}) rows of run ([0-9a-f]{1,100})", re.ASCII)
 Row = Mapping[str, str]
 
 
@@ -23,7 +21,7 @@ class Table:
     columns: tuple[str, ...]
     rows: tuple[Row, ...]
     lines: tuple[int, ...]
-    run: str
+    text: str
 
     def mistake(self, what: str, line: int = 0, column: str = "") -> Mistake:
         """A mistake in the file, at a line of it, in one of its columns."""
@@ -31,13 +29,9 @@ class Table:
 
 
 def read(path: Path) -> Table:
-    """Raises CaseError if the file is no table, was cut, or does not say of which run it is."""
+    """Raises CaseError if the file is no table."""
     text = _text(path)
-    body, _, ending = text.rstrip("\r\n").rpartition("\n")
-    footer = FOOTER.fullmatch(ending.strip())
-    if not footer:
-        raise _wrong(path, "cut, or no report: its last line should say '# N rows of run …'")
-    head, *records = _records(path, body)
+    head, *records = _records(path, text)
     columns = tuple(head[1])
     if twice := {name for name in columns if columns.count(name) > 1}:
         raise _wrong(path, f"two columns are called {min(twice)!r}")
@@ -45,10 +39,8 @@ def read(path: Path) -> Table:
         if len(cells) != len(columns):
             what = f"has {len(cells)} cells, and the head has {len(columns)}"
             raise _wrong(path, what, line)
-    if len(records) != int(footer[1]):
-        raise _wrong(path, f"cut, or changed by hand: {len(records)} rows, '{ending.strip()}'")
     rows = tuple(dict(zip(columns, cells, strict=True)) for _, cells in records)
-    return Table(path, columns, rows, tuple(line for line, _ in records), footer[2])
+    return Table(path, columns, rows, tuple(line for line, _ in records), text)
 
 
 def _text(path: Path) -> str:

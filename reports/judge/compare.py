@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ...cases.trajectory import Array
 from ...engines import SETTINGS
 from ...engines.engine import Refusal
-from ..row import AGREES, CRASHED, DIVERGED, FAILS, Comparison, Instant, Rungs
+from ..row import AGREES, CRASHED, DIVERGED, FAILS, REFUSED, Comparison, Instant, Rungs
 from ..spelled import why
 from ..trial.audit import EQUAL, audit
 from ..trial.ladder import Ladder
@@ -47,10 +47,10 @@ class Outcome:
 def compare(trial: Trial, runs: Runs | None = None) -> Outcome:
     """Judges every observed quantity of the runs; without them it runs the engine."""
     if isinstance(trial.way, Refusal):
-        why = f"refused: {trial.way.because}"
-        return Outcome([row(trial, name, why) for name in judged_names(trial.case)])
+        names, because = judged_names(trial.case), trial.way.because
+        return Outcome([row(trial, name, REFUSED, because=because) for name in names])
     rows = [_audit(trial)]
-    rows += [row(trial, name, f"refused: {why}") for name, why in trial.withheld.items()]
+    rows += [row(trial, name, REFUSED, because=why) for name, why in trial.withheld.items()]
     motion, events = trial.motion, trial.instants
     runs = runs or simulate(trial)
     if runs.judged is None:
@@ -75,7 +75,7 @@ def compare(trial: Trial, runs: Runs | None = None) -> Outcome:
 def answered(trial: Trial, found: Climbed) -> Outcome:
     """Judges every quantity of a claim about states."""
     rows = [_audit(trial)]
-    rows += [row(trial, name, f"refused: {why}") for name, why in trial.withheld.items()]
+    rows += [row(trial, name, REFUSED, because=why) for name, why in trial.withheld.items()]
     if isinstance(found, str):
         return Outcome(rows + _diverged(trial, trial.motion, found))
     told = {name: trial.read(name, samples) for name, samples in found.items()}
@@ -107,7 +107,7 @@ def _audit(trial: Trial) -> Comparison:
         "audit",
         AGREES if worst <= EQUAL else FAILS,
         protocol=trial.protocol if trial.case.states is None else "",
-        largest=worst,
+        error=worst,
         allowed=EQUAL,
         ratio=worst / EQUAL,
         because=because,

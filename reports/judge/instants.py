@@ -8,7 +8,7 @@ from ...cases.case import Case
 from ...cases.quantity import at_event
 from ...cases.trajectory import Array, Trajectory
 from ..events.times import reference_events
-from ..row import Comparison, Instant, Rungs
+from ..row import REFUSED, Comparison, Instant, Rungs
 from ..trial.ladder import Ladder
 from ..trial.rung import Samples
 from ..trial.simulate import Runs
@@ -32,8 +32,8 @@ def judge(
     for name in names:
         event, field = trial.quantity(name).part, trial.quantity(name).field
         if (f"{event}.time" if field == "count" else name) not in samples:
-            why = "refused: adapter: its quantity is not kept for every step"
-            rows.append(row(trial, name, why))
+            why = "adapter: its quantity is not kept for every step"
+            rows.append(row(trial, name, REFUSED, because=why))
         elif field == "count":
             rows.append(_count(trial, event, samples[f"{event}.time"]))
         else:
@@ -58,7 +58,8 @@ def _each(trial: Trial, name: str, found: Array, runs: Runs) -> Comparison:
     wanted, times = trial.wanted(name), trial.events[trial.quantity(name).part]
     both = min(len(wanted), len(found))
     if not both:
-        return row(trial, name, "refused: engine: the event never happens in its motion")
+        why = "engine: the event never happens in its motion"
+        return row(trial, name, REFUSED, because=why)
     error = metric.error(found[:both], wanted[:both])
     climbs = list(_climbed(trial, name, runs))
     held = climbs[-1][2] if climbs else Convergence(UNSETTLED, {}, None)

@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from ...cases.theme import themes
 from ..row import Comparison, Rungs
 from ..trial.ladder import Ladder
 from ..trial.trial import Trial
@@ -12,12 +13,13 @@ from .rounding import floor
 
 def row(trial: Trial, name: str, word: str, **values: Any) -> Comparison:
     """A row of tolerance.csv for the quantity `name` with the verdict `word`."""
-    columns: dict[str, Any] = dict.fromkeys(("step", "largest", "when", "rms", "final", "ratio"))
+    columns: dict[str, Any] = dict.fromkeys(("step", "error", "when", "rms", "final", "ratio"))
     columns |= {"protocol": "", "because": "", "allowed": None} | values
     if name != "audit":
         columns["allowed"] = trial.allowed(name)
     return Comparison(
         case=trial.case.name,
+        theme=" ".join(themes(trial.case)),
         source=str(trial.case.origin),
         engine=trial.engine.name,
         version=trial.engine.version,
@@ -43,7 +45,7 @@ def judged(
         word,
         protocol=trial.protocol,
         step=trial.step,
-        largest=largest,
+        error=largest,
         when=when if largest else None,
         rms=told(error.rms, least),
         final=told(error.final, least),

@@ -22,7 +22,7 @@ def judged(trial: Trial, name: str, samples: Samples) -> Comparison:
         trial,
         name,
         word,
-        largest=largest,
+        error=largest,
         rms=told(error.rms, least),
         ratio=None if allowed is None else largest / allowed,
         because=because,

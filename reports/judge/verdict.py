@@ -82,5 +82,5 @@ def _declared(
         return DEVIATES, declared.because
     judged = pins.version(engine.name)
     if judged not in (None, engine.version):
-        return f"{CHANGED} {judged}", f"declared otherwise, now {measured:.3g}"
+        return CHANGED, f"since {judged}: declared otherwise, now {measured:.3g}"
     return FAILS, f"the declared deviation is gone or another: {measured:.3g} ({declared.because})"

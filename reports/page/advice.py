@@ -6,14 +6,14 @@ from typing import Any
 
 import pandas as pd
 
+from ...cases.theme import THEMES
 from ..amount import factor, milliseconds
 from .beside import records
-from .theme import THEMES
 
 COLUMNS = (
     "case", "engine", "tolerance", "margin", "want", "recipe", "settings", "step", "cost",
     "shipped_cost",
-    "worst", "quantity", "remains",
+    "ratio", "quantity", "remains",
 )  # fmt: skip
 AS_ALLOWED = "as the case allows"  # where no tolerance is written
 FEWEST = "fewest changes"  # which is not the cheapest
@@ -59,7 +59,7 @@ def _by_theme(rows: Sequence[Mapping[str, Any]], themes: Themes) -> Any:
     """For each theme, engine and tolerance: the cheapest recipe of most cases, and its dearest."""
     groups: dict[tuple[str, str, str], list[Mapping[str, Any]]] = {}
     for row in rows:
-        if (not row["worst"] and row["recipe"] == NONE) or row["want"] == FEWEST:
+        if (not row["ratio"] and row["recipe"] == NONE) or row["want"] == FEWEST:
             continue  # refused, or a claim about states: no setting plays a part
         for theme in themes.get(row["case"], ()):
             groups.setdefault((theme, row["engine"], row["tolerance"]), []).append(row)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from .. import runs
 from ..content import text as content
 from ..row import MUTANTS, Certificate, Comparison, Instant, Rungs
 from ..write import NAMES, read
@@ -32,7 +33,7 @@ class Folder:
     certificates: list[Certificate]
     coverage: pd.DataFrame
     beside: dict[str, pd.DataFrame]
-    run: str  # the run's name, as its files end
+    run: str  # the run's name
 
 
 def folder(path: Path, beside: Path | None = None) -> Folder:
@@ -58,12 +59,10 @@ def folder(path: Path, beside: Path | None = None) -> Folder:
             for name in (*BESIDE, MUTANTS)
             if (place / name).is_file()
         },
-        run=content(path / NAMES[0]).rstrip().rpartition(" of run ")[2],
+        run=runs.read(path)[NAMES[0]].run,
     )
 
 
 def _text(path: Path) -> pd.DataFrame:
     """A table as it is written: no number is read, so that none is written otherwise."""
-    lines = content(path).splitlines(keepends=True)
-    body = [line for line in lines if not line.startswith("# ")]
-    return pd.read_csv(StringIO("".join(body)), dtype=str, keep_default_na=False)
+    return pd.read_csv(StringIO(content(path)), dtype=str, keep_default_na=False)

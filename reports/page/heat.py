@@ -4,13 +4,24 @@ from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..row import AGREES, BEYOND, CHANGED, CRASHED, DEVIATES, DIVERGED, FAILS, Comparison, Rungs
+from ..row import (
+    AGREES,
+    BEYOND,
+    CHANGED,
+    CRASHED,
+    DEVIATES,
+    DIVERGED,
+    FAILS,
+    REFUSED,
+    Comparison,
+    Rungs,
+)  # fmt: skip
 from .column import Column, column
 
 SHADES = (1e-3, 1e-2, 1e-1, 1.0, 10.0, 100.0, 1000.0)
 """Up to where each shade goes, of error over allowed: the fourth is the last within."""
-REFUSED, ABSENT = "refused", "absent"
-WORD = {CHANGED: "changed", DEVIATES: "declared"}
+ABSENT = "absent"
+WORD = {DEVIATES: "declared"}
 
 
 @dataclass(frozen=True)
@@ -67,9 +78,9 @@ def cells(rows: Sequence[Comparison], rungs: Sequence[Rungs]) -> dict[tuple[str,
 
 
 def _cell(rows: Sequence[Comparison], ladders: Sequence[Rungs]) -> Cell:
-    judged = [row for row in rows if not row.verdict.startswith(REFUSED)]
+    judged = [row for row in rows if row.verdict != REFUSED]
     if not judged:
-        return Cell(REFUSED, "–", why=rows[0].verdict)
+        return Cell(REFUSED, "–", why=f"{REFUSED}: {rows[0].because}")
     sizes = [(row.ratio, row) for row in judged if row.ratio is not None]
     beyond = sum(not ratio <= 1.0 for ratio, _ in sizes)
     kind = _kind(judged, beyond)
@@ -93,7 +104,7 @@ def _kind(rows: Sequence[Comparison], beyond: int) -> str:
     """The gravest of the verdicts; what is declared counts where nothing else is beyond."""
     verdicts = [row.verdict for row in rows]
     for word in (FAILS, CRASHED, DIVERGED, CHANGED, BEYOND, DEVIATES):
-        if any(verdict.startswith(word) for verdict in verdicts):
+        if word in verdicts:
             return WORD.get(word, word.lower())
     return BEYOND if beyond else AGREES
 

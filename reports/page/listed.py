@@ -5,10 +5,11 @@ from itertools import groupby
 from typing import Any
 
 from ...cases.case import Case
+from ...cases.theme import THEMES
+from ..row import REFUSED
 from .column import Column
 from .equations import equations
-from .heat import REFUSED, Cell
-from .theme import THEMES
+from .heat import Cell
 
 
 def listed(

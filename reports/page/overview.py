@@ -3,9 +3,10 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from ..row import AGREES, REFUSED
 from .column import Column
 from .folder import Folder
-from .heat import AGREES, REFUSED, Cell
+from .heat import Cell
 
 Cells = Mapping[tuple[str, Column], Cell]
 

@@ -10,6 +10,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from ...cases.case import Case
+from ...cases.theme import THEMES, themes
 from ..row import MUTANTS
 from . import beside
 from .advice import advice
@@ -22,7 +23,6 @@ from .mutants import mutants
 from .overview import overview
 from .rows import rows
 from .stick_slip import stick_slip
-from .theme import THEMES, themes
 from .trust import trust
 from .work import work
 

@@ -33,7 +33,7 @@ def picture(
     figure = Figure(figsize=(10, 7.2), layout="constrained")
     axes = figure.subplots(2, 2)
     figure.suptitle(f"{name}: {quantity}", fontsize=12, x=0.01, ha="left")
-    shown = list(dict.fromkeys(column(row) for row in own if row.largest is not None))
+    shown = list(dict.fromkeys(column(row) for row in own if row.error is not None))
     ghosts = [(one.key, one.title) for one in shown if one.key in motion["ghosts"]]
     strobe(axes[0, 0], motion, ghosts)
     curves = motion["curves"]["quantities"].get(quantity)

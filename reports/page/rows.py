@@ -10,7 +10,7 @@ from .column import Column, column
 from .folder import Folder
 
 CURES = (
-    "case", "engine", "setting", "quantity", "error_before", "cure", "options", "step",
+    "case", "engine", "setting", "quantity", "error", "cure", "options", "step",
     "error_after", "cost", "law",
 )  # fmt: skip
 EMPTY = pd.DataFrame(columns=["case"])
@@ -41,7 +41,7 @@ def rows(folder: Folder, columns: Sequence[Column]) -> dict[str, Any]:
     for row in folder.comparisons:
         of(row.case)["rows"].append([
             place[column(row)], words.number(row.quantity), words.number(row.unit),
-            _few(row.step), _few(row.allowed), _few(row.largest), _few(row.when, TIME),
+            _few(row.step), _few(row.allowed), _few(row.error), _few(row.when, TIME),
             _few(row.ratio), words.number(row.verdict), words.number(row.because),
         ])  # fmt: skip
     for rung in folder.rungs:

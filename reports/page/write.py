@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ...cases.case import Case
-from .. import write
+from .. import runs, write
 from ..ours import unasked
 from ..passing import passing
 from ..replace import replace
@@ -31,8 +31,9 @@ def write_committed(
 def write_measured(report: Report, out: Path, *, overwrite: bool = False) -> None:
     """The reports of a run and their page. Raises OSError: then the folder holds what it held."""
     frames = write.tables(report, report.cases)
-    unasked(out, [*frames, NAME], overwrite=overwrite)
+    unasked(out, [*frames, runs.NAME, NAME], overwrite=overwrite)
     with passing("textmech-page-") as made:
         write.write(frames, made)
         found = folder(made, beside=out)
-    replace(out, write.texts(frames) | {NAME: page(found, report.cases, motions(report))})
+    made_of = page(found, report.cases, motions(report))
+    replace(out, lambda: write.texts(frames, out) | {NAME: made_of})

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 
+from ...cases.theme import themes
 from ...engines.engine import Plan, Refusal
 from ...engines.knobs import as_text
 from ..row import Advice
@@ -56,6 +57,7 @@ def rows(one: Advised) -> list[Advice]:
     """Those of advice.csv: one, or one for each of two recipes."""
     empty = Advice(
         one.pair.case.name,
+        " ".join(themes(one.pair.case)),
         one.pair.engine.name,
         one.asked.tolerance,
         one.asked.margin,
@@ -79,7 +81,7 @@ def _of(kitchen: Kitchen, want: str, recipe: Recipe, empty: Advice) -> Advice:
         settings=settings(empty.engine, recipe.candidate),
         step=recipe.step,
         cost=kitchen.cost(recipe.candidate),
-        worst=worst,
+        ratio=worst,
         quantity=quantity,
     )
 
@@ -110,7 +112,7 @@ def _remains(one: Advised) -> dict[str, str | float]:
         but = "and the next finer step does not confirm it"
         what = f"{quantity} is ×{worst:.2g} with {best_of}, {but}"
     return {
-        "worst": worst,
+        "ratio": worst,
         "quantity": quantity,
         "remains": "; ".join(filter(None, (what, left_out))),
     }

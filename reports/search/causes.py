@@ -111,14 +111,14 @@ def _carried(
     found: dict[Key, list[Cause]] = {}
     for row in rows:
         word, before = words[_where(row)], known.get(key_of(row), ())
-        asked = (word, as_written(row.largest), as_written(row.allowed))
+        asked = (word, as_written(row.error), as_written(row.allowed))
         if word and before and all(_asked(cause) == asked for cause in before):
             found[key_of(row)] = list(before)
     return found
 
 
 def _asked(cause: Cause) -> tuple[str, float | None, float | None]:
-    return cause.searched_with, as_written(cause.error_before), as_written(cause.allow)
+    return cause.searched_with, as_written(cause.error), as_written(cause.allowed)
 
 
 def _searched(

@@ -57,7 +57,7 @@ def _cause(asked: Asked, row: Comparison, cure: Cure, elsewhere: bool) -> Cause:
 def by_ours(row: Comparison, agreeing: Sequence[Comparison]) -> list[Cause]:
     """Where only a law or driver of ours agrees."""
     return [
-        replace(without(row, OURS[one.realised]), step=one.step, error_after=one.largest)
+        replace(without(row, OURS[one.realised]), step=one.step, error_after=one.error)
         for one in agreeing
     ]
 
@@ -75,7 +75,7 @@ def without(row: Comparison, words: str) -> Cause:
         row.engine,
         row.setting,
         row.quantity,
-        row.largest,
+        row.error,
         row.allowed,
         words,
         *("", None, None, None, ""),

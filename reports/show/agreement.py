@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from ... import engines
 from ..amount import milliseconds
-from ..row import FAILS, Comparison, Rungs
+from ..row import FAILS, REFUSED, Comparison, Rungs
 
 Way = tuple[str, str]
 """A setting, and how it is realised."""
@@ -19,7 +19,7 @@ def place(way: Way) -> tuple[float, str, str]:
 
 def judged(rows: Sequence[Comparison]) -> list[Comparison]:
     """Those that the engine answers."""
-    return [row for row in rows if not row.verdict.startswith("refused")]
+    return [row for row in rows if row.verdict != REFUSED]
 
 
 def agreement(

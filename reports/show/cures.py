@@ -35,7 +35,7 @@ def cures(folder: Path) -> Cures:
     file = folder / NAME
     if not file.is_file():
         return {}
-    rows = pd.read_csv(file, dtype=str, keep_default_na=False, comment="#")
+    rows = pd.read_csv(file, dtype=str, keep_default_na=False)
     return _joined(rows[[*KEY, "cure", "step"]].itertuples(index=False))
 
 

@@ -16,7 +16,7 @@ def without_effect(rows: Sequence[Comparison]) -> Iterator[str]:
     for row in rows:
         if row.engine != BOOK and row.setting != "tuned":
             numbers = found[row.case, row.engine].setdefault(row.setting, {})
-            numbers[row.quantity] = (row.step, row.largest, row.rms, row.final)
+            numbers[row.quantity] = (row.step, row.error, row.rms, row.final)
     for (case, engine), settings in found.items():
         shipped = settings.get("shipped")
         for setting in settings:

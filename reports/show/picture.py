@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, PercentFormatter
 
-from ..row import Comparison
+from ..row import REFUSED, Comparison
 from ..selection import BOOK
 
 NAME = "shares.svg"
@@ -52,7 +52,7 @@ def worst(rows: Sequence[Comparison]) -> Mapping[tuple[str, str], list[float]]:
     cases: dict[tuple[str, str], dict[str, float]] = {}
     for row in rows:
         native = row.realised == "native" and row.engine != BOOK and row.quantity != "audit"
-        if native and not row.verdict.startswith("refused"):
+        if native and row.verdict != REFUSED:
             worst = cases.setdefault((row.engine, row.setting), {})
             ratio = inf if row.ratio is None else row.ratio
             worst[row.case] = max(worst.get(row.case, 0.0), ratio)

@@ -16,9 +16,9 @@ PLACE = ("case", "engine", "setting", "realised", "quantity")
 
 
 def listed() -> list[Row]:
-    """The rows of the committed table; its last line only names the run."""
+    """The rows of the committed table."""
     with (HERE / "versions.csv").open(encoding="utf-8", newline="") as lines:
-        return [row for row in csv.DictReader(lines) if not row["case"].startswith("#")]
+        return [*csv.DictReader(lines)]
 
 
 def releases(rows: Sequence[Row]) -> str:

@@ -24,11 +24,11 @@ def rows(comparisons: Sequence[Comparison]) -> Iterator[str]:
             told = [*same]
             if silent:
                 yield from _wrapped(", ".join(row.quantity for row in told), "  ")
-                yield from _wrapped(f"{told[0].verdict}; {because}".strip("; "), REASON)
+                yield from _wrapped(f"{told[0].verdict}: {because}".strip(": "), REASON)
                 continue
             for row in told:
                 allowed = "" if row.allowed is None else f"of {row.allowed:.1e}"
-                number = f"{row.largest:8.2e} {row.unit:{units}}"
+                number = f"{row.error:8.2e} {row.unit:{units}}"
                 yield f"  {row.quantity:{names}}  {number}  {allowed:11}  {row.verdict}"
             yield from _wrapped(because, REASON)
 
@@ -61,7 +61,7 @@ def known(certificates: Sequence[Certificate]) -> Iterator[str]:
 def _reason(row: Comparison) -> tuple[str, bool, str]:
     """What rows share, one below another, that are told one reason; each that agrees has none."""
     because = "" if row.verdict == AGREES else row.because
-    return (row.verdict if because or row.largest is None else ""), row.largest is None, because
+    return (row.verdict if because or row.error is None else ""), row.error is None, because
 
 
 def _wrapped(text: str, indent: str) -> list[str]:

@@ -6,7 +6,7 @@ from math import inf
 from typing import TypeVar
 
 from ..amount import factor
-from ..row import CHANGED, Comparison, Rungs
+from ..row import CHANGED, REFUSED, Comparison, Rungs
 from ..selection import BOOK
 from .agreement import NATIVE, Way, agreement, judged, place
 
@@ -93,12 +93,12 @@ def _shown(rows: Iterable[Way]) -> list[Way]:
 def _worst(rows: Sequence[Comparison]) -> str:
     answered = judged(rows)
     if not answered:
-        return "refused"
+        return REFUSED
     told = [row for row in answered if row.ratio is not None]
     if not told:
         return answered[0].verdict
     words = []
-    if any(row.verdict.startswith(CHANGED) for row in answered):
+    if any(row.verdict == CHANGED for row in answered):
         words.append("changed")
     worst = max(told, key=_size)
     words.append("agrees" if _size(worst) <= 1 else f"{worst.quantity} {factor(_size(worst))}")

@@ -33,7 +33,7 @@ def show(
             say(note)
     for note in without_effect(report.comparisons):
         say(note)
-    counts = Counter(row.verdict.partition(":")[0] for row in report.comparisons)
+    counts = Counter(row.verdict for row in report.comparisons)
     say(", ".join(f"{count} {word}" for word, count in counts.most_common()))
     if written is not None:
         say(f"written to {written}")
@@ -59,9 +59,9 @@ def _fails(rows: Sequence[Comparison]) -> None:
 def line(row: Comparison) -> str:
     """A row in one line: how far off, at which step, what is allowed, and the verdict."""
     reason = f" ({row.because})" if row.because and row.verdict != AGREES else ""
-    if row.largest is None:
+    if row.error is None:
         return f"{row.quantity:20} {row.verdict}{reason}"
     step = "" if row.step is None else f"at h = {row.step:g} s"
     allowed = "" if row.allowed is None else f"allowed {row.allowed:.1e}"
-    number = f"{row.largest:9.2e} {row.unit:6} {step:18}"
+    number = f"{row.error:9.2e} {row.unit:6} {step:18}"
     return f"{row.quantity:20} {number} {allowed:16} {row.verdict}{reason}"

@@ -13,6 +13,7 @@ from .. import child
 from ..cache.store import FOLDER, by_default, usable
 from ..diff.folder import Folder, opened
 from ..passing import passing
+from ..row import CRASHED, REFUSED
 from .install import place
 from .one import BROKEN
 from .wanted import Release
@@ -22,10 +23,11 @@ ENVIRONMENTS = "versions"  # in the user's cache
 
 @dataclass(frozen=True)
 class Measured:
-    """A release and its report; or, where there is none, why."""
+    """A release and its report; or, where there is none, a verdict and why."""
 
     release: Release
     folder: Folder | None
+    verdict: str = ""
     because: str = ""
 
 
@@ -85,9 +87,9 @@ def _measured(release: Release, code: int, out: Path) -> Measured:
         what = "was not run: what is wrong is said above"
         raise CaseError([Mistake("versions", 0, 0, str(release), what)])
     if code < 0:
-        return Measured(release, None, f"crashed: its process ended by signal {-code}")
+        return Measured(release, None, CRASHED, f"its process ended by signal {-code}")
     if (out / BROKEN).exists():
         why = (out / BROKEN).read_text(encoding="utf-8")
-        return Measured(release, None, f"refused: adapter: {why}")
+        return Measured(release, None, REFUSED, f"adapter: {why}")
     (folder,) = opened({str(release): out})
     return Measured(release, folder)

@@ -10,14 +10,17 @@ from ..diff.compare import difference
 from ..diff.errors import ERRORS, place
 from ..diff.rule import Rule
 from ..diff.table import Row
+from ..row import NUMBERS
 from .measure import Measured
 from .wanted import Release
 
 NAME = "versions.csv"
-COLUMNS = ("case", "engine", "version", "setting", "realised", "quantity", "unit")
-NUMBERS = {"error": "largest", "allow": "allowed"}
-"""By the column here the column of tolerance.csv."""
-FURTHER = ("verdict", "moved", "change")
+COLUMNS = (
+    "case", "theme", "engine", "version", "setting", "realised", "quantity", "unit", "error",
+    "allowed", "verdict", "because",
+)  # fmt: skip
+"""Those of tolerance.csv."""
+FURTHER = ("release", "moved", "change", "ratio")
 
 
 @dataclass(frozen=True)
@@ -52,31 +55,32 @@ def steps(measured: Sequence[Measured]) -> list[Step]:
 
 
 def table(steps: Sequence[Step], cases: Sequence[str]) -> pd.DataFrame:
-    """A row for each number. moved: `yes` where it is not as one release before; change: how.
+    """A row for each number. release: the how manieth of its engine, from 1, the oldest first.
+
+    moved: `yes` where it is not as one release before; change: how; ratio: the error over that of
+    the release before.
 
     Of a release that cannot be run a row for each of the cases says why.
     """
     rows: list[Mapping[str, str]] = []
+    number: dict[Release, str] = {}
     for step in steps:
-        moved: dict[Place, str] = {change.place: change.kind for change in step.changes}
+        engine = step.now.release.engine
+        number[step.now.release] = str(1 + sum(one.engine == engine for one in number))
+        moved: dict[Place, Change] = {change.place: change for change in step.changes}
         for row in step.rows:
-            told = {name: row[name] for name in COLUMNS}
-            told |= {name: row[column] for name, column in NUMBERS.items()}
-            change = moved.get(place(row), "")
-            told |= {"verdict": verdict(row), "moved": "yes" if change else "", "change": change}
+            change = moved.get(place(row))
+            told = {name: row[name] for name in COLUMNS} | {"release": number[step.now.release]}
+            if change is not None:
+                times = "" if change.times is None else format(change.times, NUMBERS)
+                told |= {"moved": "yes", "change": change.kind, "ratio": times}
             rows.append(told)
         if not step.now.folder:
-            release = step.now.release
-            head = {"engine": release.engine, "version": release.version}
-            rows += [head | {"case": case, "verdict": step.now.because} for case in cases]
-    columns = [*COLUMNS, *NUMBERS, *FURTHER]
+            release, verdict, because = step.now.release, step.now.verdict, step.now.because
+            head = {"engine": release.engine, "version": release.version, "verdict": verdict}
+            head |= {"release": number[release], "because": because}
+            rows += [head | {"case": case} for case in cases]
+    columns = [*COLUMNS, *FURTHER]
     whole = [{name: row.get(name, "") for name in columns} for row in rows]
     frame = pd.DataFrame(whole, columns=columns)
     return frame.sort_values(["engine", "case"], kind="stable", ignore_index=True)
-
-
-def verdict(row: Row) -> str:
-    """With its reason, where no number says more."""
-    if row["largest"] or not row["because"]:
-        return row["verdict"]
-    return f"{row['verdict']}: {row['because']}"

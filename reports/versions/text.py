@@ -9,7 +9,7 @@ from ..diff.errors import place
 from ..diff.file import number
 from ..diff.table import Row
 from ..diff.text import fitted
-from .table import Step, verdict
+from .table import Step
 from .wanted import Release
 
 MOST = 40  # rows of a table; the CSV has them all
@@ -35,9 +35,9 @@ def _told(step: Step, before: Sequence[Step]) -> Iterator[str]:
     """How many numbers a release gave, how many moved, and what the one before did not lack."""
     version = step.now.release.version
     if not step.now.folder:
-        yield f"  {version}: {step.now.because}"
+        yield f"  {version}: {step.now.verdict}: {step.now.because}"
         return
-    measured = sum(row["largest"] != "" for row in step.rows)
+    measured = sum(row["error"] != "" for row in step.rows)
     moved = f", {len(_numbers(step))} moved since {step.before.version}" if step.before else ""
     yield f"  {version}: {measured} number{'' if measured == 1 else 's'}{moved}"
     known = {why for one in before for why in _lacking(one)}
@@ -48,7 +48,8 @@ def _told(step: Step, before: Sequence[Step]) -> Iterator[str]:
 
 def _lacking(step: Step) -> Mapping[str, int]:
     """Why it has no number, and of how many rows."""
-    return Counter(verdict(row) for row in step.rows if not row["largest"])
+    lacking = (row for row in step.rows if not row["error"])
+    return Counter(": ".join(filter(None, (row["verdict"], row["because"]))) for row in lacking)
 
 
 def _numbers(step: Step) -> list[Change]:
@@ -104,7 +105,7 @@ def _line(name: str, cells: Sequence[str], widths: Sequence[int]) -> str:
 
 def _cell(step: Step, where: Place, moved: bool) -> str:
     row = _row(step, where)
-    error = None if row is None else number(row, "largest")
+    error = None if row is None else number(row, "error")
     return NONE if error is None else f"{'*' if moved else ''}{error:.2g}"
 
 

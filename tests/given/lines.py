@@ -7,6 +7,7 @@ from textmech.reports.row import AGREES, BEYOND, Comparison, Rungs
 
 ROW = Comparison(
     case="swing",
+    theme="pins",
     source="",
     engine="mujoco",
     version="4.0.0",
@@ -16,7 +17,7 @@ ROW = Comparison(
     quantity="rod.angle",
     unit="rad",
     step=2e-3,
-    largest=1e-3,
+    error=1e-3,
     when=None,
     rms=None,
     final=None,
@@ -53,11 +54,17 @@ def row(setting: str = "shipped", ratio: float | None = 0.1, **other: Any) -> Co
     return replace(ROW, **({"setting": setting, "ratio": ratio, "verdict": verdict} | other))
 
 
+def said(row: Comparison) -> str:
+    """Its verdict and its reason, as a person reads them."""
+    return f"{row.verdict}: {row.because}"
+
+
 def refused(setting: str = "shipped", **other: Any) -> Comparison:
     """One that the engine does not answer."""
     given: dict[str, Any] = {
-        "verdict": "refused: engine: no",
-        "largest": None,
+        "verdict": "refused",
+        "because": "engine: no",
+        "error": None,
         "allowed": None,
         "step": None,
     }

@@ -83,7 +83,7 @@ def struck(number: signal.Signals, delay: float, start: Callable[[], None], fold
     between = [file for file in (folder / "out").iterdir() if file.name.startswith(DECIDED)]
     why = unread(folder / "out")  # killed between two files: said, and the next writer's to end
     assert not why or (number == signal.SIGKILL and between and "of another run" in why), why
-    names = {file.name for file in (folder / "out").iterdir()} - set(write.NAMES)
+    names = {file.name for file in (folder / "out").iterdir()} - set(write.FILES)
     assert number == signal.SIGKILL or not names
     (folder / "began").unlink()
 
@@ -98,7 +98,7 @@ def test_struck_at_random_moments(
         struck(number, LONGEST * moments.random(), lambda: runs(moving, trial, tmp_path), tmp_path)
     report = suite.measure([moving], [], jobs=1, progress=lambda *_: None, book=False)
     write.write(write.tables(report, [moving]), tmp_path / "out")
-    assert {file.name for file in (tmp_path / "out").iterdir()} == set(write.NAMES)
+    assert {file.name for file in (tmp_path / "out").iterdir()} == set(write.FILES)
     assert not unread(tmp_path / "out")
 
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from given.lines import said
 
 from textmech.cases.case import Case, Deviation
 from textmech.reports.judge.compare import Outcome, compare, crashed
@@ -21,7 +22,7 @@ def row(outcome: Outcome, quantity: str = "ball.x") -> Any:
 def test_within_the_tolerance_agrees(trial: Make) -> None:
     found = row(compare(trial(rate=1.0)))
     assert found.verdict == AGREES
-    assert found.largest == pytest.approx(1e-3)
+    assert found.error == pytest.approx(1e-3)
     assert found.ratio == pytest.approx(0.1)
 
 
@@ -85,7 +86,8 @@ def test_another_version_may_change_a_deviation(trial: Make, moving: Case) -> No
     made = trial(
         case=replace(moving, deviates=declared), setting="shipped", own_step=1e-3, version="9.0"
     )
-    assert row(compare(made)).verdict.startswith(CHANGED)
+    changed = row(compare(made))
+    assert (changed.verdict, changed.because[:6]) == (CHANGED, "since ")
 
 
 def test_an_unknown_tolerance_fails_and_says_what_was_measured(trial: Make, moving: Case) -> None:
@@ -97,13 +99,13 @@ def test_an_unknown_tolerance_fails_and_says_what_was_measured(trial: Make, movi
 
 def test_a_refusal_is_a_row_for_each_quantity(trial: Make) -> None:
     outcome = compare(trial(refusal="engine: it has no such thing"))
-    assert [r.verdict for r in outcome.rows] == ["refused: engine: it has no such thing"]
+    assert [said(r) for r in outcome.rows] == ["refused: engine: it has no such thing"]
 
 
 def test_a_withheld_quantity_says_why_and_the_others_are_judged(trial: Make, moving: Case) -> None:
     case = replace(moving, allow={"ball.x": 1e-2, "ball.vy": 1e-2})
     outcome = compare(trial(case=case))
-    assert row(outcome, "ball.vy").verdict == "refused: engine: it is blind"
+    assert said(row(outcome, "ball.vy")) == "refused: engine: it is blind"
     assert row(outcome).verdict == AGREES
 
 
@@ -170,7 +172,7 @@ def test_both_ladders_only_where_a_number_follows_the_step(trial: Make) -> None:
 def test_a_held_limit_that_is_further_off_than_the_run_is_no_cause(trial: Make) -> None:
     """The model of the coarsest step's numbers is 0.096 off, and the run is 0.013."""
     found = row(compare(trial(follows=True, model=1.2e-2)))
-    assert found.largest == pytest.approx(1.3e-2, rel=1e-9)
+    assert found.error == pytest.approx(1.3e-2, rel=1e-9)
     assert "the step: it falls with order 1.0" in found.because
     held = row(compare(trial(model=1.2e-2)))
     assert "the model: 0.012 remains" in held.because
@@ -204,5 +206,5 @@ def test_beside_a_law_stands_a_native_row_or_its_refusal(trial: Make, moving: Ca
     law = trial(ways=("law",))
     assert [w.realised for w in ways(law.engine, moving.scene, law.start)] == ["native", "law"]
     native = row(compare(trial(ways=("law",))))
-    assert native.verdict.startswith("refused: engine: it has nothing of its own")
+    assert said(native).startswith("refused: engine: it has nothing of its own")
     assert row(compare(trial(ways=("law",), realised="law"))).verdict == AGREES

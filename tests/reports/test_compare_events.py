@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from given.lines import said
 from given.otherwise import otherwise
 
 from textmech.cases.case import Case, Deviation, Event
@@ -33,8 +34,8 @@ def test_times_of_events_are_compared_in_their_order(trial: Make, stopping: Case
     outcome = stopped(trial, stopping, delay=0.5)
     found = row(outcome, "stops.time")
     assert (found.verdict, found.unit, found.step) == (AGREES, "s", 1e-3)
-    assert found.largest == pytest.approx(0.5e-3, rel=1e-3)
-    assert row(outcome, "stops.count").largest == 0
+    assert found.error == pytest.approx(0.5e-3, rel=1e-3)
+    assert row(outcome, "stops.count").error == 0
     assert [i.k for i in outcome.instants] == [1, 2]
     assert [i.time for i in outcome.instants] == pytest.approx([0.3005, 0.7005])
     assert [i.difference for i in outcome.instants] == pytest.approx([0.5e-3, 0.5e-3])
@@ -65,7 +66,7 @@ def test_a_late_event_that_the_ladder_does_not_look_at_is_named(
     monkeypatch.setattr(Trial, "surely", lambda self, event, step: 1)  # the second is too short
     late = {"stops": (STOPS[0], STOPS[1] + 0.05), "setting": "shipped", "own_step": 1e-3}
     found = row(stopped(trial, stopping, **late), "stops.time")
-    assert (found.verdict, found.largest) == (BEYOND, pytest.approx(0.05, rel=1e-3))
+    assert (found.verdict, found.error) == (BEYOND, pytest.approx(0.05, rel=1e-3))
     assert found.because == (
         "number 2, of which the largest step cannot be sure; before it: "
         "instants of events: within from h = 0.001 s on"
@@ -77,7 +78,7 @@ def test_another_count_is_its_own_row(trial: Make, stopping: Case, setting: str,
     own = None if setting == "tuned" else 1e-3
     more = stopped(trial, stopping, stops=(*STOPS, 0.95), setting=setting, own_step=own)
     found = row(more, "stops.count")
-    assert (found.verdict, found.largest) == (word, 1)
+    assert (found.verdict, found.error) == (word, 1)
     assert "reference 2, engine 3" in found.because
     assert row(more, "stops.time").verdict == AGREES  # the two that both have
     assert [i.difference is None for i in more.instants] == [False, False, True]
@@ -88,7 +89,7 @@ def test_an_event_that_the_engine_never_has(trial: Make, stopping: Case) -> None
     outcome = stopped(trial, stopping, stops=(9.0,))
     assert row(outcome, "stops.count").verdict == FAILS
     never = "refused: engine: the event never happens in its motion"
-    assert row(outcome, "stops.time").verdict == never
+    assert said(row(outcome, "stops.time")) == never
 
 
 def test_a_declared_count_deviates_natively_and_is_not_a_laws(trial: Make, stopping: Case) -> None:
@@ -101,8 +102,8 @@ def test_a_declared_count_deviates_natively_and_is_not_a_laws(trial: Make, stopp
 
 def test_without_a_record_events_are_refused(trial: Make, stopping: Case) -> None:
     outcome = stopped(trial, stopping, stops=())
-    assert row(outcome, "stops.time").verdict.startswith("refused: adapter")
-    assert row(outcome, "stops.count").verdict.startswith("refused: adapter")
+    assert said(row(outcome, "stops.time")).startswith("refused: adapter")
+    assert said(row(outcome, "stops.count")).startswith("refused: adapter")
     assert row(outcome).verdict == AGREES
 
 

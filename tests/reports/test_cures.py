@@ -11,7 +11,7 @@ from textmech.reports.row import Cause
 from textmech.reports.selection import choose_cases
 from textmech.reports.show import cures
 
-HEAD = "case,engine,setting,quantity,error_before,allow,cure,options,step,error_after,cost,law\n"
+HEAD = "case,engine,setting,quantity,error,allowed,cure,options,step,error_after,cost,law\n"
 ROWS = """\
 bar_pendulum,mujoco,shipped,energy.total,2.4,0.01,RK4,{integrator: RK4},0.002,1e-7,4,
 bar_pendulum,mujoco,shipped,energy.total,2.4,0.01,step,{},0.0005,0.6,4,h^1
@@ -19,7 +19,6 @@ bar_pendulum,mujoco,shipped,energy.total,2.4,0.01,implicit + midpoint,{},0.002,0
 bar_pendulum,pymunk,shipped,bar.angle,340,0.01,error_bias 0 + step,{error_bias: 0},0.00125,,20,
 bar_pendulum,pymunk,shipped,b.x,340,0.01,our force law in place of its own,,,,,
 bar_pendulum,pymunk,shipped,hinge.gap,340,0.01,not searched,,,,,
-# 6 rows of run 0123456789ab
 """
 
 

@@ -73,7 +73,7 @@ def test_run_gives_the_reports_as_frames(swing: Path) -> None:
         for setting in ("shipped", "recommended", "own", "tuned")
         for quantity in ("audit", "rod.angle")
     }
-    fourth, first = (rows.largest[setting, "rod.angle"] for setting in ("own", "shipped"))
+    fourth, first = (rows.error[setting, "rod.angle"] for setting in ("own", "shipped"))
     assert fourth < 1e-6 < first
     assert not found.fails
     assert set(found.convergence.ladder) <= {"held", "following"}
@@ -86,8 +86,8 @@ def test_run_tells_why_where_it_is_asked(swing: Path) -> None:
     found = run(swing, engines=["pymunk.shipped"], causes=True).causes
     rows = found[found.quantity == "rod.angle"]
     assert len(rows)
-    assert (rows.error_after <= rows.allow).all()
-    assert (rows.error_before > rows.allow).all()
+    assert (rows.error_after <= rows.allowed).all()
+    assert (rows.error > rows.allowed).all()
 
 
 @pytest.mark.parametrize(

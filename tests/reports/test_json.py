@@ -128,11 +128,11 @@ def test_list_tells_every_case_and_its_group() -> None:
 
 
 def test_what_json_has_not_is_null(capsys: pytest.CaptureFixture[str]) -> None:
-    write({"rows": [{"largest": inf, "ratio": nan}, {"largest": 1e300}], "title": "→ \x1b[31m"})
+    write({"rows": [{"error": inf, "ratio": nan}, {"error": 1e300}], "title": "→ \x1b[31m"})
     out = capsys.readouterr().out
     assert out.isascii()
     assert json.loads(out) == {
-        "rows": [{"largest": None, "ratio": None}, {"largest": 1e300}],
+        "rows": [{"error": None, "ratio": None}, {"error": 1e300}],
         "title": "→ \x1b[31m",
     }
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from given.lines import said
 from given.otherwise import otherwise
 
 from textmech.cases.case import Case
@@ -106,7 +107,7 @@ def test_a_games_step_is_judged_as_it_is(moving: Case, trial: Make) -> None:
     """x is off by h t: the step shows in the error, and the reference is solved for its times."""
     (row,) = measured(moving, own(trial, 1 / 60))
     assert row.step == 1 / 60
-    assert row.largest == pytest.approx(1 / 60 * row.when if row.when else 0, rel=1e-12)
+    assert row.error == pytest.approx(1 / 60 * row.when if row.when else 0, rel=1e-12)
     assert row.when == pytest.approx(1.0)
     assert row.verdict == BEYOND
     assert row.protocol == "31 samples at whole steps of its own"
@@ -135,7 +136,7 @@ def test_its_own_samples_need_a_certified_reference(
 @pytest.mark.slow
 def test_a_step_that_leaves_no_room_is_refused(moving: Case, trial: Make) -> None:
     (row,) = measured(moving, own(trial, 0.6))
-    assert row.verdict == "refused: adapter: 1 s are less than two of its steps of 0.6 s"
+    assert said(row) == "refused: adapter: 1 s are less than two of its steps of 0.6 s"
 
 
 @pytest.mark.slow

@@ -15,7 +15,7 @@ from textmech.reports import committed
 from textmech.reports.row import Comparison
 key = ("swing", "mujoco", "shipped", "native", "rod.angle")
 said = dict.fromkeys(field.name for field in fields(Comparison))
-said |= dict(version={version!r}, step=0.002, largest={largest}, verdict={verdict!r})
+said |= dict(version={version!r}, step=0.002, error={largest}, verdict={verdict!r})
 committed.rows = lambda: {{key: Comparison(**said)}}
 committed.shipped = lambda: {{"swing": Path("swing.yaml")}}
 """

@@ -46,7 +46,7 @@ def test_a_recipe_of_ours_that_misses_is_no_failure_of_the_users(asked: Case) ->
 
 
 def test_what_diverges_is_told_as_it_is(asked: Case) -> None:
-    gone = replace(BROKEN, largest=None, ratio=None, because=f"{DIVERGED}: Nan in QACC")
+    gone = replace(BROKEN, error=None, ratio=None, because=f"{DIVERGED}: Nan in QACC")
     (told,) = answered(asked, [gone])
     assert (told.verdict, told.because) == (DIVERGED, "Nan in QACC")
 
@@ -58,7 +58,7 @@ def test_what_diverges_is_told_as_it_is(asked: Case) -> None:
         replace(BROKEN, because="2e-3 is above reach 1e-6; the step"),
         replace(BROKEN, because="the reference is not certified"),
         replace(BROKEN, quantity="audit", because="mass: 2 in place of 1"),
-        replace(BROKEN, largest=None, because="crashed: it ended by signal 11"),
+        replace(BROKEN, error=None, because="crashed: it ended by signal 11"),
     ],
     ids=lambda one: one.because[:20] or one.setting,
 )

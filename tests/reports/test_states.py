@@ -10,6 +10,7 @@ import pandas as pd
 import pytest
 from given import scenes
 from given.claims import CHAIN, PLANE, claimed
+from given.lines import said
 
 from textmech import engines
 from textmech.cases.case import Case, Deviation
@@ -50,14 +51,14 @@ def test_rows(tmp_path: Path) -> None:
 def test_what_is_not_told_is_refused(tmp_path: Path) -> None:
     case = claimed(tmp_path, PLANE, allow={"wheel.P.ax": 1e-11, "wheel.P.x": 1e-12})
     found = rows(case, PYMUNK)
-    assert found["wheel.P.ax"].verdict.startswith("refused: engine: pymunk has velocities")
+    assert found["wheel.P.ax"].because.startswith("engine: pymunk has velocities")
     assert found["wheel.P.x"].verdict == AGREES
 
 
 @pytest.mark.slow
 def test_space_is_refused_by_an_engine_of_the_plane(tmp_path: Path) -> None:
     found = rows(claimed(tmp_path, CHAIN), PYMUNK)
-    assert {row.verdict for row in found.values()} == {
+    assert {said(row) for row in found.values()} == {
         "refused: engine: pymunk moves bodies in a plane, and this scene is in space"
     }
 
@@ -72,11 +73,11 @@ def test_twice_the_energy_is_beyond_fails_or_is_declared(tmp_path: Path) -> None
     assert rows(case, PYMUNK)["energy.kinetic"].verdict == BEYOND
     promised = replace(case, reach={"pymunk": {"energy.kinetic": 1e-12}})
     assert rows(promised, PYMUNK)["energy.kinetic"].verdict == FAILS
-    assert row.largest is not None
-    near = Deviation("it is m v² + J ω²", by=(0.9 * row.largest, 1.1 * row.largest))
+    assert row.error is not None
+    near = Deviation("it is m v² + J ω²", by=(0.9 * row.error, 1.1 * row.error))
     declared = replace(case, deviates={"pymunk.shipped": {"energy.kinetic": near}})
     assert rows(declared, shipped)["energy.kinetic"].verdict == DEVIATES
-    gone = Deviation("it is m v² + J ω²", by=(1.1 * row.largest, 1.2 * row.largest))
+    gone = Deviation("it is m v² + J ω²", by=(1.1 * row.error, 1.2 * row.error))
     declared = replace(case, deviates={"pymunk.shipped": {"energy.kinetic": gone}})
     assert rows(declared, shipped)["energy.kinetic"].verdict == FAILS
 
@@ -151,7 +152,7 @@ def test_friction_that_an_engine_has_not_is_refused_and_the_rest_answered() -> N
     for engine in (MUJOCO, PYMUNK):
         found = rows(scenes.CLAIMS["sliding_points"], engine)
         assert found["momentum.x"].verdict == AGREES
-        assert found["pad.fx"].verdict.startswith("refused: engine: ")
+        assert found["pad.fx"].because.startswith("engine: ")
 
 
 @pytest.mark.slow

@@ -1,19 +1,21 @@
 """Reports are whole or old: never half, never unsorted, never uncounted."""
 
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
 import pytest
+from given.otherwise import otherwise
 
-from textmech.reports import write
+from textmech.reports import runs, write
 from textmech.reports.row import Comparison, Instant
 from textmech.reports.suite import Report
 
 ROW = Comparison(
-    case="b", source="(2.1)", engine="mujoco", version="4.0.0", setting="tuned",
+    case="b", theme="pins", source="(2.1)", engine="mujoco", version="4.0.0", setting="tuned",
     realised="native", protocol="", quantity="bar.angle", unit="rad", step=1e-3,
-    largest=1.23456e-9, when=0.4515, rms=None, final=0.0, allowed=1e-2, ratio=1.23456e-7,
+    error=1.23456e-9, when=0.4515, rms=None, final=0.0, allowed=1e-2, ratio=1.23456e-7,
     verdict="agrees", because="a, b \"c\"",
 )  # fmt: skip
 
@@ -25,9 +27,9 @@ def frames(*rows: Comparison) -> dict[str, pd.DataFrame]:
 def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     write.write(frames(ROW), tmp_path)
     (row,) = write.read(tmp_path / "tolerance.csv", Comparison)
-    assert (row.largest, row.rms, row.because) == (1.23e-9, None, ROW.because)
+    assert (row.error, row.rms, row.because) == (1.23e-9, None, ROW.because)
     assert sorted(p.name for p in tmp_path.iterdir()) == [
-        "causes.csv", "convergence.csv", "coverage.csv", "events.csv", "reference.csv",
+        "causes.csv", "convergence.csv", "coverage.csv", "events.csv", "reference.csv", "runs.csv",
         "tolerance.csv",
     ]  # fmt: skip
 
@@ -43,24 +45,51 @@ def test_a_cut_file_is_told(tmp_path: Path) -> None:
     write.write(frames(ROW, ROW), tmp_path)
     file = tmp_path / "tolerance.csv"
     lines = file.read_text().splitlines(keepends=True)
-    file.write_text("".join([*lines[:2], lines[-1]]))
+    file.write_text("".join(lines[:2]))
     with pytest.raises(ValueError, match="cut"):
         write.read(file, Comparison)
 
 
 def test_files_of_two_runs_are_told(tmp_path: Path) -> None:
     write.write(frames(ROW), tmp_path)
-    events = (tmp_path / "events.csv").read_bytes()
-    write.write(frames(ROW, ROW), tmp_path)
-    (tmp_path / "events.csv").write_bytes(events)
+    write.write({"events.csv": frames()["events.csv"]}, tmp_path)
     with pytest.raises(ValueError, match=r"another run than events\.csv"):
         write.read(tmp_path / "tolerance.csv", Comparison)
+
+
+@pytest.mark.mutant("a table that another run wrote, or a hand, is believed")
+def test_a_table_in_anothers_place_is_told(tmp_path: Path) -> None:
+    write.write(frames(ROW), tmp_path / "one")
+    write.write(frames(replace(ROW, case="a")), tmp_path / "other")
+    file = tmp_path / "other" / "tolerance.csv"
+    shutil.copy(tmp_path / "one" / "tolerance.csv", file)
+    with pytest.raises(ValueError, match="changed by hand, or of another run"):
+        write.read(file, Comparison)
+    text = file.read_text(encoding="utf-8")
+    blind = otherwise(runs, "if digest(text) != known.content:", "if False:")
+    assert blind.doubt(file.name, 1, text, runs.read(file.parent)) == ""
+
+
+def test_other_runs_stay_in_the_list_of_a_folder(tmp_path: Path) -> None:
+    write.write(frames(ROW), tmp_path)
+    write.write({"more.csv": pd.DataFrame({"a": [1]})}, tmp_path)
+    assert set(runs.read(tmp_path)) == {*write.NAMES, "more.csv"}
+    assert runs.read(tmp_path)["more.csv"].run != runs.read(tmp_path)["events.csv"].run
+    assert write.read(tmp_path / "tolerance.csv", Comparison)
+
+
+def test_any_program_reads_the_tables_as_they_are(tmp_path: Path) -> None:
+    write.write(frames(ROW, replace(ROW, case="c")), tmp_path)
+    frame = pd.read_csv(tmp_path / "tolerance.csv")
+    assert frame["case"].tolist() == ["b", "c"]
+    assert frame["error"].dtype == frame["allowed"].dtype == float
 
 
 def test_the_same_run_has_the_same_name(tmp_path: Path) -> None:
     one, same, other = (write.texts(frames(*rows)) for rows in ([ROW], [ROW], [ROW, ROW]))
     assert one == same
-    assert one["events.csv"] != other["events.csv"]  # though it holds the same rows, none
+    assert one["runs.csv"] != other["runs.csv"]
+    assert one["events.csv"] == other["events.csv"]  # it holds the same rows, none
 
 
 def test_a_name_may_begin_like_a_comment(tmp_path: Path) -> None:
@@ -91,7 +120,7 @@ def test_instants_are_sorted_counted_and_read_back(tmp_path: Path) -> None:
     ]
     rows.append(Instant("a", "mujoco", "4.0.0", "tuned", "law", "slips", 1, 1.23456789e-3, 1e-9))
     write.write(write.tables(Report(instants=rows), []), tmp_path)
-    assert (tmp_path / "events.csv").read_text().splitlines()[-1].startswith("# 3 rows of run ")
+    assert runs.read(tmp_path)["events.csv"].rows == 3
     found = write.read(tmp_path / "events.csv", Instant)
     assert [(i.realised, i.k) for i in found] == [("law", 1), ("native", 9), ("native", 10)]
     assert [i.difference for i in found] == [1e-9, 0.0, None]

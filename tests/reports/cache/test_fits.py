@@ -50,7 +50,7 @@ def test_what_it_holds_is_looked_at_too(kept: Store) -> None:
     ):
         kept.put(KEY, wrong)
         assert kept.get(KEY, Solution) is None
-    for row, sound in ((ROW, True), (replace(ROW, largest="much"), False)):
+    for row, sound in ((ROW, True), (replace(ROW, error="much"), False)):
         kept.put(KEY, Outcome([row]))
         assert (kept.get(KEY, Outcome) is not None) == sound
 

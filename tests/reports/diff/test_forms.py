@@ -14,7 +14,7 @@ from given.report_folders import ROW, report
 
 from textmech.reports import write
 
-WORSE = replace(ROW, largest=9e-3)
+WORSE = replace(ROW, error=9e-3)
 FAILING = replace(ROW, quantity="bar.omega", unit="rad/s", verdict="FAILS")
 SLOW = replace(ROW, setting="shipped")
 
@@ -41,9 +41,9 @@ def test_the_terminal_names_each_regression_and_what_was_not_looked_at(
 
 
 def test_of_many_changes_the_first_are_shown_and_all_on_request(tmp_path: Path) -> None:
-    rows = [replace(ROW, quantity=f"q{i}.angle", largest=1e-3 * (1 + i / 100)) for i in range(40)]
+    rows = [replace(ROW, quantity=f"q{i}.angle", error=1e-3 * (1 + i / 100)) for i in range(40)]
     old = report(tmp_path / "old", rows=rows)
-    new = report(tmp_path / "new", rows=[replace(row, largest=9e-3) for row in rows])
+    new = report(tmp_path / "new", rows=[replace(row, error=9e-3) for row in rows])
     first, every = (textmech("diff", old, new, *words).stdout for words in ([], ["--all"]))
     assert "and 10 more: --all shows them" in first
     assert (first.count("×"), every.count("×")) == (30, 40)
@@ -82,8 +82,8 @@ def test_one_document_at_a_time(two: tuple[Path, Path]) -> None:
 
 
 def test_numbers_that_json_does_not_have_are_null(tmp_path: Path) -> None:
-    old = report(tmp_path / "old", rows=[replace(ROW, largest=0.0)])
-    new = report(tmp_path / "new", rows=[replace(ROW, largest=float("inf"), verdict="beyond")])
+    old = report(tmp_path / "old", rows=[replace(ROW, error=0.0)])
+    new = report(tmp_path / "new", rows=[replace(ROW, error=float("inf"), verdict="beyond")])
     told = json.loads(textmech("diff", old, new, "--json").stdout, parse_constant=pytest.fail)
     assert told["changes"][0]["new"] == {"words": "beyond", "number": None}
 
@@ -132,7 +132,7 @@ HOSTILE = "</td><script>|`x`\n\0\ufffe\033[0m ![i](http://e)"
 
 
 def test_text_of_a_report_is_never_markup(tmp_path: Path) -> None:
-    rows = [replace(ROW, quantity=HOSTILE, largest=x) for x in (1e-3, 9e-3)]
+    rows = [replace(ROW, quantity=HOSTILE, error=x) for x in (1e-3, 9e-3)]
     folders = [report(tmp_path / str(i), rows=[row]) for i, row in enumerate(rows)]
     xml = tmp_path / "diff.xml"
     done = textmech("diff", *folders, "--markdown", "--junit", xml)

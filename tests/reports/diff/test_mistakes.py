@@ -14,6 +14,7 @@ from given.report_folders import COVERED, ROW, damaged, report
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from textmech.reports import runs
 from textmech.reports.diff.files import FILES
 
 NAME = "tolerance.csv"
@@ -38,34 +39,33 @@ def said(old: Path, new: Path) -> str:
 def swapped(text: str) -> str:
     """Two names of the head, and not what stands below them."""
     head, _, rest = text.partition("\n")
-    names = head.replace("largest", "?").replace("verdict", "largest").replace("?", "verdict")
+    names = head.replace("error", "?").replace("verdict", "error").replace("?", "verdict")
     return f"{names}\n{rest}"
 
 
 def doubled(text: str) -> str:
-    head, first, second, footer = text.splitlines()
-    return "\n".join([head, first, first, second, footer.replace("2 rows", "3 rows")]) + "\n"
+    head, first, second = text.splitlines()
+    return "\n".join([head, first, first, second]) + "\n"
 
 
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (lambda text: text[: len(text) // 2], "cut, or no report"),
-        (lambda text: "", "cut, or no report"),
-        (lambda text: text.replace("# 2 rows", "# 3 rows"), "changed by hand: 2 rows"),
-        (lambda text: text.rsplit("#")[0], "its last line should say '# N rows of run"),
-        (lambda text: text.rsplit("\n", 3)[0] + "\n" + text.splitlines()[-1], "1 rows, '# 2 rows"),
-        (lambda text: text.splitlines()[-1].replace("2 rows", "0 rows"), "its first line should"),
+        (lambda text: "", "its first line should name the columns"),
+        (
+            lambda text: text.rsplit("\n", 2)[0] + "\n",
+            "cut, or changed by hand: 1 rows, and",
+        ),
+        (lambda text: text.replace("swing", "swims"), "changed by hand, or of another run"),
         (lambda text: text.replace("allowed", "allow", 1), "no column 'allowed'"),
-        (lambda text: text.replace("rms", "largest", 1), "two columns are called 'largest'"),
+        (lambda text: text.replace("rms", "error", 1), "two columns are called 'error'"),
         (swapped, "should be a number or nothing, is 'agrees'"),
         (doubled, f"{NAME}:3:1: the same case, engine, setting, realised, quantity as line 2"),
-        (lambda text: text.replace("0.002", "two", 1), f"{NAME}:2:1: largest: should be a number"),
+        (lambda text: text.replace("0.002", "two", 1), f"{NAME}:2:1: error: should be a number"),
         (lambda text: text.replace("agrees", "agreed"), "'agreed' is no verdict"),
-        (lambda text: text.replace("swing,", "swing,x,"), "has 19 cells, and the head has 18"),
+        (lambda text: text.replace("swing,", "swing,x,"), "has 20 cells, and the head has 19"),
         (lambda text: text.replace("swing,", '"swing,'), "is no CSV"),
         (lambda text: text.replace("(2.44)", "x" * 200_000), "field larger than"),
-        (lambda text: text.replace("of run ", "of run f"), "convergence.csv: of run"),
     ],
 )
 def test_a_file_that_is_not_as_a_run_wrote_it(
@@ -98,8 +98,34 @@ def test_all_mistakes_of_both_folders_are_told_at_once(old: Path, new: Path) -> 
 
 
 def test_files_of_two_runs_are_not_compared(old: Path, new: Path) -> None:
-    (new / "events.csv").write_bytes((old / "events.csv").read_bytes())
-    assert "events.csv: of run" in said(old, new)
+    run = runs.read(new)["events.csv"].run
+    damaged(new, runs.NAME, lambda text: text.replace(f"events.csv,1,{run}", "events.csv,1,abc"))
+    assert "events.csv: of run abc, and tolerance.csv beside it" in said(old, new)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda text: "", "should be"),
+        (lambda text: text.replace("rows", "row", 1), "its first line should be file,rows,run"),
+        (lambda text: text.replace(",1,", ",one,"), "runs.csv: line 3: should be a file"),
+        (lambda text: text.replace(",1,", f",{'9' * 5000},"), "should be a file, a count"),
+        (lambda text: text.replace("tolerance", "t"), "tolerance.csv: no run has written it"),
+        (lambda text: text.replace("events.csv", '"events'), "is no CSV"),
+        (lambda text: text + "\xff" * 3, "should be a file"),
+    ],
+)
+def test_a_list_that_is_none(
+    old: Path, new: Path, change: Callable[[str], str], message: str
+) -> None:
+    assert message in said(old, damaged(new, runs.NAME, change))
+
+
+def test_a_folder_without_the_list_cannot_be_told_to_be_whole(old: Path, new: Path) -> None:
+    (new / runs.NAME).unlink()
+    assert "tells whether the others are whole" in said(old, new)
+    os.mkfifo(new / runs.NAME)
+    assert "is no file" in said(old, new)
 
 
 @pytest.mark.parametrize(
@@ -163,7 +189,7 @@ def test_a_table_that_an_editor_saved_is_read(old: Path, tmp_path: Path) -> None
 def test_names_of_any_letters_are_compared_and_steer_no_terminal(tmp_path: Path) -> None:
     name = 'Ωmega\u2028\u0085 | `<b>` \033[31m"x",\ny'
     for folder, largest in (("old", 1e-3), ("new", 9e-3)):
-        report(tmp_path / folder, rows=[replace(ROW, quantity=name, largest=largest)])
+        report(tmp_path / folder, rows=[replace(ROW, quantity=name, error=largest)])
     done = textmech("diff", tmp_path / "old", tmp_path / "new")
     assert done.returncode == 1
     assert "1 regression" in done.stdout
@@ -184,18 +210,22 @@ def pair(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
 @settings(max_examples=100, deadline=None)
 @given(data=st.data())
 def test_no_accident_ends_in_a_traceback(pair: tuple[Path, Path], data: st.DataObject) -> None:
-    """With a footer that counts right again, so that what lies behind it is met too."""
-    file = pair[1] / data.draw(st.sampled_from(sorted(FILES)))
+    """With a list that names it so again, so that what lies behind it is met too."""
+    name = data.draw(st.sampled_from([*sorted(FILES), runs.NAME]))
+    file, known = pair[1] / name, (pair[1] / runs.NAME).read_text(encoding="utf-8")
     sound = file.read_text(encoding="utf-8")
     content = data.draw(accidents([sound]))
-    if data.draw(st.booleans()):
-        body = content.rpartition(b"#")[0]
-        lines = max(0, body.count(b"\n") - 1)
-        content = body + b"# %d rows of run " % lines + sound.rpartition(" of run ")[2].encode()
     try:
         file.write_bytes(content)
+        if name != runs.NAME and data.draw(st.booleans()):
+            text = content.decode("utf-8-sig", errors="replace")
+            lines, was = max(0, text.count("\n") - 1), runs.read(pair[1])[name]
+            old = f"{name},{was.rows},{was.run},{was.content}"
+            now = f"{name},{lines},{was.run},{runs.digest(text)}"
+            (pair[1] / runs.NAME).write_text(known.replace(old, now), encoding="utf-8")
         done = textmech("diff", *data.draw(st.permutations(pair)), "--json")
     finally:
+        (pair[1] / runs.NAME).write_text(known, encoding="utf-8")
         file.write_text(sound, encoding="utf-8")
     assert done.returncode in (0, 1, 2)
     told = json.loads(done.stdout)

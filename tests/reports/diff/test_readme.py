@@ -11,6 +11,7 @@ from ruamel.yaml import YAML
 from textmech.reports import write
 from textmech.reports.cli import command
 from textmech.reports.diff.rule import Rule
+from textmech.reports.diff.table import read
 
 README = (write.HERE / "README.md").read_text(encoding="utf-8")
 TEXT = README.partition("## Compare two versions\n")[2].partition("\n## ")[0]
@@ -61,15 +62,15 @@ def test_its_numbers_are_the_rules() -> None:
 
 
 def test_what_it_says_of_releases_is_in_the_table() -> None:
-    rows = [line.split(",") for line in (write.HERE / "versions.csv").read_text().splitlines()]
-    head = rows[0]
+    rows = read(write.HERE / "versions.csv").rows
     crank = {
-        (row[head.index("version")], row[head.index("setting")]): row[head.index("error")]
+        (row["version"], row["setting"]): row["error"]
         for row in rows
-        if row[:2] == ["four_bar", "mujoco"] and "crank.angle" in row
+        if (row["case"], row["engine"]) == ("four_bar", "mujoco")
+        and row["quantity"] == "crank.angle"
     }
     assert (crank["3.6.0", "shipped"], crank["3.7.0", "shipped"]) == ("4.19", "2.08")
     assert float(crank["3.6.0", "tuned"]) == pytest.approx(0.017, rel=0.05)
     assert float(crank["3.7.0", "tuned"]) == pytest.approx(2e-8, rel=0.2)
-    told = {(row[1], row[2]) for row in rows[1:-1]}
+    told = {(row["engine"], row["version"]) for row in rows}
     assert len(told) == 10

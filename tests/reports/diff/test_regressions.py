@@ -49,7 +49,7 @@ def test_the_document_says_the_exit_code_of_the_command(tmp_path: Path) -> None:
 @pytest.mark.mutant("rows judged by what the old run allowed")
 def test_a_row_is_judged_by_what_the_new_run_allows(tmp_path: Path) -> None:
     """Twice as large, and of no use to anyone where 10 rad are allowed: no regression."""
-    now = {"rows": [replace(ROW, largest=4e-3, allowed=10.0)]}
+    now = {"rows": [replace(ROW, error=4e-3, allowed=10.0)]}
     (change,) = found(tmp_path / "new", {}, now).changes
     assert (change.kind == WORSE, change.allowed) == (False, 10.0)
     was = "{**_bars(old.errors), **_bars(new.errors)}"
@@ -67,7 +67,7 @@ def test_a_cure_with_other_options_is_another(
     assert (change.file, change.was.words, change.now.words) == (
         "causes.csv", "options {d: 0.9}", "options {d: 0.99}"
     )  # fmt: skip
-    blind = otherwise(causes, '"allow", "options", "step"', '"allow", "step"')
+    blind = otherwise(causes, '"allowed", "options", "step"', '"allowed", "step"')
     monkeypatch.setitem(compare.FILES, "causes.csv", blind.CAUSES)  # type: ignore[arg-type]
     assert found(tmp_path / "blind", *rows).changes == ()
 

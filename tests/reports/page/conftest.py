@@ -27,7 +27,7 @@ ADVICE = {
     "step": ["0.008", "0.00063", ""],
     "cost": ["500", "1600", ""],
     "shipped_cost": ["500", "100", "500"],
-    "worst": ["0.1", "0.3", ""],
+    "ratio": ["0.1", "0.3", ""],
     "quantity": ["rod.angle", "rod.angle", ""],
     "remains": ["", "", "<i>nothing cures it</i>"],
 }
@@ -36,8 +36,8 @@ CAUSES = {
     "engine": ["pymunk", "pymunk", "pymunk"],
     "setting": ["shipped"] * 3,
     "quantity": ["rod.angle"] * 3,
-    "error_before": ["0.1"] * 3,
-    "allow": ["0.01"] * 3,
+    "error": ["0.1"] * 3,
+    "allowed": ["0.01"] * 3,
     "cure": ["bias + step", "midpoint", "bias + step"],
     "options": ["", "", ""],
     "step": ["1e-3", "0.01", "1e-3"],
@@ -52,7 +52,7 @@ VERSIONS = {
     "setting": ["shipped"] * 3,
     "quantity": ["rod.angle"] * 3,
     "error": ["0.1", "0.1", "0.001"],
-    "allow": ["0.01"] * 3,
+    "allowed": ["0.01"] * 3,
     "verdict": ["beyond", "beyond", "agrees"],
     "moved": ["", "", "yes"],
 }

@@ -27,7 +27,7 @@ def test_a_page_of_ones_own_case_comes_with_its_reports(cart: Path, tmp_path: Pa
     assert done.returncode == 0, done.stderr
     assert done.stdout == "written to textmech-page/index.html\n"
     out = tmp_path / "textmech-page"
-    assert {file.name for file in out.iterdir()} == {*write.NAMES, "index.html"}
+    assert {file.name for file in out.iterdir()} == {*write.FILES, "index.html"}
     text = (out / "index.html").read_text(encoding="utf-8")
     assert set(motions_of(text)) == {"cart"}
     assert "A bar that hangs on a cart" in text
@@ -42,7 +42,7 @@ def test_a_run_writes_the_page_of_its_reports(cart: Path, tmp_path: Path) -> Non
     assert done.returncode == 0, done.stderr
     again = textmech("page", cart, *one, "--out", "p", folder=tmp_path)
     assert again.returncode == 0, again.stderr
-    assert {file.name for file in (tmp_path / "o").iterdir()} == {*write.NAMES, "index.html"}
+    assert {file.name for file in (tmp_path / "o").iterdir()} == {*write.FILES, "index.html"}
     for file in (tmp_path / "o").iterdir():
         assert file.read_bytes() == (tmp_path / "p" / file.name).read_bytes()
 

@@ -12,8 +12,8 @@ from textmech.reports.page.column import Column, column, columns
 from textmech.reports.page.heat import Cell, cells, short
 from textmech.reports.row import AGREES, BEYOND, DEVIATES, DIVERGED, FAILS, Comparison
 
-ROW = Comparison("c", "", "mujoco", "4", "tuned", "native", "", "x", "m", 0.1, 1.0, 0.5, 1.0, 1.0,
-                 2.0, 0.5, AGREES, "why")  # fmt: skip
+ROW = Comparison("c", "", "", "mujoco", "4", "tuned", "native", "", "x", "m", 0.1, 1.0, 0.5, 1.0,
+                 1.0, 2.0, 0.5, AGREES, "why")  # fmt: skip
 
 
 def cell(*changes: dict[str, Any]) -> Cell:
@@ -35,10 +35,10 @@ def test_the_worst_error_is_told_with_its_quantity() -> None:
         ([AGREES, AGREES], "agrees"),
         ([AGREES, DEVIATES], "declared"),
         ([DEVIATES, BEYOND], "beyond"),
-        ([BEYOND, "changed since 3.9"], "changed"),
+        ([BEYOND, "changed"], "changed"),
         ([BEYOND, DIVERGED], "diverged"),
         ([DIVERGED, FAILS], "fails"),
-        ([AGREES, "refused: engine: no"], "agrees"),
+        ([AGREES, "refused"], "agrees"),
     ],
 )
 def test_the_gravest_verdict_counts(verdicts: list[str], kind: str) -> None:
@@ -47,7 +47,7 @@ def test_the_gravest_verdict_counts(verdicts: list[str], kind: str) -> None:
 
 def test_what_is_refused_as_a_whole_says_why_and_has_no_size() -> None:
     why = "refused: engine: it cannot"
-    found = cell({"verdict": why, "ratio": None})
+    found = cell({"verdict": "refused", "because": "engine: it cannot", "ratio": None})
     assert (found.kind, found.words, found.shade, found.judged) == ("refused", why, 0, 0)
 
 

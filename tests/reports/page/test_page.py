@@ -10,7 +10,7 @@ import pytest
 
 from textmech.reports.page.folder import BESIDE, Missing, folder
 from textmech.reports.page.page import embedded, motions_of, page
-from textmech.reports.write import NAMES
+from textmech.reports.write import FILES
 
 VOID = {"meta", "link", "input", "br", "img", "hr"}
 
@@ -109,13 +109,13 @@ def test_a_folder_without_reports_says_so(tmp_path: Path) -> None:
 
 
 def test_tables_beside_are_read_as_they_are_written(made: SimpleNamespace, tmp_path: Path) -> None:
-    """Without their last line, and with no digit changed; those of the run itself come first."""
+    """With no digit changed; those of the run itself come first."""
     here, there = tmp_path / "here", tmp_path / "there"
     for place in (here, there):
         place.mkdir()
-        (place / "advice.csv").write_text(f"case,step\n{place.name},1.0e-3\n# 1 rows of run x\n")
+        (place / "advice.csv").write_text(f"case,step\n{place.name},1.0e-3\n")
     (there / "versions.csv").write_text("case\na\n")
-    for name in NAMES:
+    for name in FILES:
         (here / name).write_bytes((made.place / name).read_bytes())
     found = folder(here, beside=there).beside
     assert found["advice.csv"].to_numpy().tolist() == [["here", "1.0e-3"]]

@@ -16,7 +16,7 @@ from textmech.reports.row import FAILS
 
 # No two numbers of a row are the same: one in the place of another is seen.
 COMPARED = replace(
-    ROW, step=1e-3, largest=2e-3, when=0.4, rms=3e-3, final=4e-3, allowed=1e-2, ratio=0.2,
+    ROW, step=1e-3, error=2e-3, when=0.4, rms=3e-3, final=4e-3, allowed=1e-2, ratio=0.2,
     because="for a reason",
 )  # fmt: skip
 LADDER = replace(RUNGS, order=1.0, order_low=0.9, order_high=1.1, limit=5e-9, uncertainty=1e-6)
@@ -57,7 +57,7 @@ def test_every_number_stands_in_its_column() -> None:
 @pytest.mark.parametrize(
     ("named", "was", "now"),
     [
-        ("rms told as the largest error", "_few(row.largest)", "_few(row.rms)"),
+        ("rms told as the largest error", "_few(row.error)", "_few(row.rms)"),
         ("bound told as what is certified", "_few(check.certified)", "_few(check.bound)"),
         ("units lost", "words.number(row.unit)", "words.number('')"),
         ("units of certificates lost", "words.number(check.unit)", "words.number('')"),

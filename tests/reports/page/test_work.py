@@ -8,8 +8,8 @@ from textmech.reports.page.column import Column
 from textmech.reports.page.work import enough, profile, work, worst
 from textmech.reports.row import AGREES, Comparison, Rungs
 
-ROW = Comparison("a", "", "mujoco", "4", "tuned", "native", "", "x", "m", 0.1, 1.0, 0.5, 1.0, 1.0,
-                 2.0, 0.5, AGREES, "")  # fmt: skip
+ROW = Comparison("a", "", "", "mujoco", "4", "tuned", "native", "", "x", "m", 0.1, 1.0, 0.5, 1.0,
+                 1.0, 2.0, 0.5, AGREES, "")  # fmt: skip
 RUNG = Rungs("a", "mujoco", "4", "tuned", "native", "held", "x", "m", "0.001 0.002 0.004",
              "0.2 1 4", 1.0, 1.0, 1.0, None, None, None, "")  # fmt: skip
 TUNED = Column("mujoco", "tuned", "native")

@@ -63,7 +63,7 @@ def test_a_loop_needs_both_and_a_creeping_block_only_its_impratio(
 def test_the_margin_is_kept(found: Mapping[str, Advice]) -> None:
     kept = [one for one in found.values() if one.recipe != "none"]
     assert len(kept) >= 7
-    assert all(one.worst is not None and one.worst <= 0.5 for one in kept)
+    assert all(one.ratio is not None and one.ratio <= 0.5 for one in kept)
 
 
 @pytest.mark.slow

@@ -9,8 +9,9 @@ from textmech.reports.search.because import with_causes
 from textmech.reports.search.told import NONE, NOTHING
 
 ROW = Comparison(
-    case="b", source="", engine="mujoco", version="4.0.0", setting="shipped", realised="native",
-    protocol="", quantity="x", unit="m", step=2e-3, largest=9.0, when=0.0, rms=1.0, final=1.0,
+    case="b", theme="pins", source="", engine="mujoco", version="4.0.0", setting="shipped",
+    realised="native",
+    protocol="", quantity="x", unit="m", step=2e-3, error=9.0, when=0.0, rms=1.0, final=1.0,
     allowed=1.0, ratio=9.0, verdict=BEYOND, because="the ladder's words",
 )  # fmt: skip
 CAUSE = Cause("b", "mujoco", "shipped", "x", 9.0, 1.0, "RK4", "{}", 2e-3, 0.5, 4.0, "")

@@ -29,8 +29,8 @@ class Told:
         """As causes.csv holds them."""
         known: dict[Key, list[Cause]] = {}
         for one in self.causes:
-            before, allow = as_written(one.error_before), as_written(one.allow)
-            known.setdefault(key_of(one), []).append(replace(one, error_before=before, allow=allow))
+            before, allow = as_written(one.error), as_written(one.allowed)
+            known.setdefault(key_of(one), []).append(replace(one, error=before, allow=allow))
         return known
 
     @property
@@ -78,8 +78,8 @@ def test_what_stands_on_the_same_is_carried_over(first: Told, tmp_path: Path) ->
 Change = Callable[[Cause], Cause]
 CHANGES: Mapping[str, Change] = {
     "of another version or adapter": lambda c: replace(c, searched_with="4.0.0 0123456789ab"),
-    "of another error": lambda c: replace(c, error_before=1.01 * (c.error_before or 0.0)),
-    "of another tolerance": lambda c: replace(c, allow=2 * (c.allow or 0.0)),
+    "of another error": lambda c: replace(c, error=1.01 * (c.error or 0.0)),
+    "of another tolerance": lambda c: replace(c, allow=2 * (c.allowed or 0.0)),
     "of no search": lambda c: replace(c, searched_with=""),
 }
 

@@ -58,8 +58,8 @@ def test_causes_that_are_known(
 def test_a_cure_brings_the_error_within_and_says_at_what_cost(report: Report) -> None:
     cured = [cause for cause in report.causes if cause.error_after is not None]
     assert len(cured) > 20
-    assert all(c.error_after <= (c.allow or 0.0) for c in cured if c.error_after is not None)
-    assert all((c.error_before or 0.0) > (c.allow or 0.0) for c in cured)
+    assert all(c.error_after <= (c.allowed or 0.0) for c in cured if c.error_after is not None)
+    assert all((c.error or 0.0) > (c.allowed or 0.0) for c in cured)
     (rk4, finer) = of(report, "bar_pendulum", "mujoco", "energy.total")
     assert (rk4.options, rk4.step, rk4.cost) == ("{integrator: RK4}", 2e-3, 4.0)
     assert (finer.options, finer.step, finer.cost, finer.law) == ("{}", 5e-4, 4.0, "h^1")

@@ -10,8 +10,9 @@ from textmech.reports.search.ladder import climbed, usable
 
 BASE = Candidate.of({}, 2e-3)
 ROW = Comparison(
-    case="b", source="", engine="mujoco", version="4.0.0", setting="shipped", realised="native",
-    protocol="", quantity="x", unit="m", step=2e-3, largest=4.0, when=0.0, rms=1.0, final=1.0,
+    case="b", theme="pins", source="", engine="mujoco", version="4.0.0", setting="shipped",
+    realised="native",
+    protocol="", quantity="x", unit="m", step=2e-3, error=4.0, when=0.0, rms=1.0, final=1.0,
     allowed=2.0, ratio=2.0, verdict=BEYOND, because="",
 )  # fmt: skip
 RUNGS = Rungs(

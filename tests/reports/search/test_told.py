@@ -96,7 +96,7 @@ def test_a_recipe_costs_what_it_costs_and_not_what_shipped_does(found: Advised) 
 def test_what_holds_at_one_step_alone_is_said_to(found: Advised) -> None:
     """The least step that is tried is within; nothing finer says that it is no accident."""
     (told,) = advised.rows(replace(found, recipes=None))
-    assert (told.recipe, told.worst) == ("none", 0.25)
+    assert (told.recipe, told.ratio) == ("none", 0.25)
     assert told.remains.endswith("and the next finer step does not confirm it")
     assert found.kitchen
     candidate = Candidate.of({"integrator": "RK4"}, OWN / 2)

@@ -59,12 +59,12 @@ def test_a_release_that_was_not_run_is_not_measured(tmp_path: Path) -> None:
         with pytest.raises(CaseError, match="was not run"):
             measure._measured(release, code, out)
     crashed = measure._measured(release, -9, out)
-    assert (crashed.folder, crashed.because) == (None, "crashed: its process ended by signal 9")
+    assert (crashed.verdict, crashed.because) == ("crashed", "its process ended by signal 9")
     counts = otherwise(measure, "if code > 0:", "if code > 2:")
     assert counts._measured(release, one.MISTAKEN, out).folder is not None
     (out / one.BROKEN).write_text("no such module", encoding="utf-8")
     broken = measure._measured(release, 0, out)
-    assert (broken.folder, broken.because) == (None, "refused: adapter: no such module")
+    assert (broken.verdict, broken.because) == ("refused", "adapter: no such module")
 
 
 def asked(place: Path, version: str, module: Any = one) -> int:

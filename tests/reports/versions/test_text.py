@@ -12,7 +12,8 @@ from textmech.reports.versions.table import Step, steps, table
 from textmech.reports.versions.text import text
 from textmech.reports.versions.wanted import Release
 
-REFUSED = replace(ROW, quantity="touch.force", verdict="refused: engine: no sensor", largest=None)
+NONE = replace(ROW, quantity="touch.force", error=None)
+REFUSED = replace(NONE, verdict="refused", because="engine: no sensor")
 
 
 @pytest.fixture
@@ -20,10 +21,10 @@ def found(tmp_path: Path) -> list[Step]:
     """Nine releases, the sixth of which moved the angle, the seventh has a sensor."""
     measured = []
     for i in range(1, 10):
-        angle = replace(ROW, version=f"1.{i}", largest=2e-3 if i < 6 else 1e-3)
+        angle = replace(ROW, version=f"1.{i}", error=2e-3 if i < 6 else 1e-3)
         force = replace(REFUSED, version=f"1.{i}")
         if i > 6:
-            force = replace(force, verdict="agrees", largest=1e-4)
+            force = replace(force, verdict="agrees", error=1e-4)
         (folder,) = opened({str(i): report(tmp_path / str(i), rows=[angle, force])})
         measured.append(Measured(Release("mujoco", f"1.{i}"), folder))
     return steps(measured)
@@ -66,7 +67,7 @@ def test_where_they_do_not_it_has_those_that_moved_something(found: list[Step]) 
 
 @pytest.mark.slow
 def test_a_release_that_could_not_be_run_is_passed_over(found: list[Step]) -> None:
-    lost = Measured(Release("mujoco", "1.55"), None, "crashed: its process ended by signal 11")
+    lost = Measured(Release("mujoco", "1.55"), None, "crashed", "its process ended by signal 11")
     rest = [step.now for step in found]
     shown = steps([*rest[:5], lost, *rest[5:]])
     lines = text(shown, 120).splitlines()
@@ -77,6 +78,6 @@ def test_a_release_that_could_not_be_run_is_passed_over(found: list[Step]) -> No
 
 @pytest.mark.slow
 def test_engines_stand_by_themselves_in_whatever_order_they_are_named(found: list[Step]) -> None:
-    other = Measured(Release("pymunk", "7.0"), None, "refused: adapter: no batch")
+    other = Measured(Release("pymunk", "7.0"), None, "refused", "adapter: no batch")
     shown = text([Step(None, other), *found[:2], Step(None, other)], 80).splitlines()
     assert [line for line in shown if line and line[0] != " "] == ["mujoco", "pymunk"]

@@ -186,9 +186,9 @@ def test_the_committed_example_says_what_the_committed_reports_say() -> None:
         key = tuple(row[key] for key in keys)
         if key in told:
             shared += 1
-            error, largest = (float(text or "nan") for text in (row["error"], told[key]["largest"]))
-            assert row["allow"] == told[key]["allowed"], key
-            assert not Rule().differ(error, largest, float(row["allow"])), key
+            error, largest = (float(text or "nan") for text in (row["error"], told[key]["error"]))
+            assert row["allowed"] == told[key]["allowed"], key
+            assert not Rule().differ(error, largest, float(row["allowed"])), key
     assert shared > 200
     assert all(len(found) >= 4 for found in versions.values())
 

@@ -1,8 +1,8 @@
 """What a case is about, told from its scene: the themes by which a person looks for an answer."""
 
-from ...cases.case import Case
-from ...cases.point import GROUND
-from ...cases.scene import Scene
+from .case import Case
+from .point import GROUND
+from .scene import Scene
 
 THEMES = {
     "pins": "joints of open chains",

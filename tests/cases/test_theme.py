@@ -5,9 +5,9 @@ from dataclasses import replace
 import pytest
 from given.otherwise import otherwise
 
+from textmech.cases import theme
 from textmech.cases.case import Case
-from textmech.reports.page import theme
-from textmech.reports.page.theme import THEMES, themes
+from textmech.cases.theme import THEMES, themes
 
 
 @pytest.mark.parametrize(
