@@ -104,13 +104,14 @@ def _remains(one: Advised) -> dict[str, str | float]:
     if found is None:
         return {"remains": "; ".join(filter(None, ("every run diverges", left_out)))}
     candidate, worst, quantity = found
-    best_of = f"{as_text(candidate.options)} at {candidate.step:.3g} s"
-    what = f"{quantity} stays ×{worst:.2g} with {best_of}, the best of all that was tried"
+    told = f"with {as_text(candidate.options)}" if candidate.options else "as shipped"
+    best_of = f"{told} at {candidate.step:.3g} s"
+    what = f"{quantity} stays ×{worst:.2g} {best_of}, the best of all that was tried"
     if not one.kitchen.bar.elsewhere.get(candidate, 0.0) <= 1.0:
-        what = f"{quantity} is ×{worst:.2g} with {best_of}, and not where a loop is cut elsewhere"
+        what = f"{quantity} is ×{worst:.2g} {best_of}, and not where a loop is cut elsewhere"
     if one.kitchen.bar.holds(candidate):
         but = "and the next finer step does not confirm it"
-        what = f"{quantity} is ×{worst:.2g} with {best_of}, {but}"
+        what = f"{quantity} is ×{worst:.2g} {best_of}, {but}"
     return {
         "ratio": worst,
         "quantity": quantity,
