@@ -1,7 +1,8 @@
 """The page as one text: the same bytes from the same rows and motions."""
 
+import gzip
 import json
-import re
+from base64 import b64encode
 from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from itertools import groupby
@@ -28,7 +29,6 @@ from .work import work
 
 SCRIPTS = ("read", "plot", "mechanism", "case", "section", "filter", "start")
 STYLES = ("style", "heat", "print")
-MOTIONS = re.compile(r'<script type="application/json" id="motions">(.*?)</script>', re.DOTALL)
 
 
 def page(folder: Folder, cases: Sequence[Case], motions: Mapping[str, Motion]) -> str:
@@ -67,12 +67,6 @@ def page(folder: Folder, cases: Sequence[Case], motions: Mapping[str, Motion]) -
     )
 
 
-def motions_of(text: str) -> dict[str, Motion]:
-    """Of a page that was made: what it was made of beside the rows."""
-    found = MOTIONS.search(text)
-    return json.loads(found[1]) if found else {}
-
-
 def _environment() -> Environment:
     return Environment(
         loader=PackageLoader(__package__ or "", "templates"),
@@ -91,9 +85,12 @@ def _text(names: Any) -> str:
 
 
 def embedded(value: Any) -> str:
-    """As it may stand within a script element: no letter there can close it."""
+    """JSON, packed by gzip and written in 64 letters, none of which can close a script element.
+
+    No time stands in it: the same value gives the same letters.
+    """
     text = json.dumps(value, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
-    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+    return b64encode(gzip.compress(text.encode(), compresslevel=9, mtime=0)).decode()
 
 
 def _shades() -> list[str]:

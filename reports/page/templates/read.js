@@ -2,15 +2,23 @@
 // The data of the page, and what everything below is built with. Text is only ever set as text.
 const LETTERS = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_';
 const LEVEL = new Map([...LETTERS].map((letter, k) => [letter, k]));
-const MOTIONS = JSON.parse(document.getElementById('motions').textContent);
-const ROWS = JSON.parse(document.getElementById('rows').textContent);
-const COLUMNS = ROWS.columns.map((key) => {
-  const [engine, setting, realised] = key.split('.');
-  const own = ['mujoco', 'pymunk', 'book'].includes(engine) ? engine : 'own';
-  return {key, engine, setting, realised, look: `${own} ${setting} ${realised}`,
-    title: `${engine} ${setting}` + (realised === 'native' ? '' : ` + ${realised}`)};
-});
-const COLUMN = new Map(COLUMNS.map((one) => [one.key, one]));
+let MOTIONS, ROWS, COLUMNS, COLUMN;
+
+async function data(id) {
+  const packed = Uint8Array.from(atob(document.getElementById(id).textContent), (letter) => letter.charCodeAt(0));
+  return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'))).json();
+}
+
+async function read() {
+  [MOTIONS, ROWS] = await Promise.all([data('motions'), data('rows')]);
+  COLUMNS = ROWS.columns.map((key) => {
+    const [engine, setting, realised] = key.split('.');
+    const own = ['mujoco', 'pymunk', 'book'].includes(engine) ? engine : 'own';
+    return {key, engine, setting, realised, look: `${own} ${setting} ${realised}`,
+      title: `${engine} ${setting}` + (realised === 'native' ? '' : ` + ${realised}`)};
+  });
+  COLUMN = new Map(COLUMNS.map((one) => [one.key, one]));
+}
 
 function levels(letters) {
   const found = new Float64Array(letters.length / 2);

@@ -38,12 +38,21 @@ function stickSlip() {
   }
 }
 
-filters();
-for (const section of document.querySelectorAll('details.case')) section.addEventListener('toggle', () => {
-  if (!section.open) return;
-  fill(section);
-  if (!location.hash.startsWith(addressOf(section.id))) history.replaceState(null, '', addressOf(section.id));
-});
-stickSlip();
-addEventListener('hashchange', follow);
-follow();
+async function begin() {
+  filters();
+  if (!globalThis.DecompressionStream) {
+    document.getElementById('old').hidden = false;
+    return;
+  }
+  await read();
+  for (const section of document.querySelectorAll('details.case')) section.addEventListener('toggle', () => {
+    if (!section.open) return;
+    fill(section);
+    if (!location.hash.startsWith(addressOf(section.id))) history.replaceState(null, '', addressOf(section.id));
+  });
+  stickSlip();
+  addEventListener('hashchange', follow);
+  follow();
+  document.documentElement.dataset.ready = 'yes';
+}
+begin();

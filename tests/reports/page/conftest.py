@@ -1,6 +1,7 @@
 """A small run with its page: two cases, one of them with a title that would be markup."""
 
 from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import pandas as pd
@@ -12,7 +13,9 @@ from textmech.reports import suite, write
 from textmech.reports.page.folder import folder
 from textmech.reports.page.motions import motions
 from textmech.reports.page.page import page
+from textmech.reports.page.write import NAME
 from textmech.reports.selection import choose_cases, choose_engines
+from textmech.reports.suite import Report
 
 ODD = "hostile? & <b>"  # a file may have any name
 HOSTILE = "<script>window.struck = 1</script></script><b onload=x>& A bar that swings"
@@ -58,7 +61,7 @@ VERSIONS = {
 }
 
 
-@pytest.fixture(scope="package")
+@pytest.fixture(scope="session")
 def shipped() -> list[Case]:
     """All shipped cases."""
     return choose_cases([])
@@ -82,3 +85,12 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
     return SimpleNamespace(
         odd=ODD, place=place, cases=cases, report=report, folder=found, motions=moved, text=text
     )
+
+
+@pytest.fixture(scope="session")
+def whole(report: Report, shipped: list[Case], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The page of the committed rows and of this session's motions, in a file."""
+    file = tmp_path_factory.mktemp("whole") / NAME
+    text = page(folder(write.HERE), shipped, motions(report))
+    file.write_text(text, encoding="utf-8")
+    return file

@@ -4,19 +4,17 @@ import json
 from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 from given.browser import Tab, browser, found
 
 from textmech.cases.space.rotation import turned
-from textmech.reports import write
 from textmech.reports.page.pack import packed_by_size
-from textmech.reports.page.write import NAME
 
 WIDTHS = (390, 900, 1500)
 SHEET = 794  # px: the width of A4
-COMMITTED = write.HERE / NAME
 
 pytestmark = [
     pytest.mark.skipif(found() is None, reason="there is no Chromium on this machine to look with"),
@@ -42,6 +40,12 @@ def page(tab: Tab, made: SimpleNamespace) -> Iterator[str]:
     assert {url.partition("#")[0] for url in asked} <= {address}
 
 
+def look(tab: Tab, address: str, **how: Any) -> None:
+    """Opens the page, and waits until its data are unpacked."""
+    tab.open(address, **how)
+    tab.until("document.documentElement.dataset.ready")
+
+
 def each(selector: str, field: str) -> str:
     """A script: the field of every element that the selector finds."""
     return f"[...document.querySelectorAll('{selector}')].map((one) => one.{field})"
@@ -60,7 +64,7 @@ def test_an_error_and_a_request_would_be_seen(tab: Tab, tmp_path: Path) -> None:
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("width", WIDTHS)
 def test_nothing_is_wider_than_the_window(tab: Tab, page: str, width: int, scheme: str) -> None:
-    tab.open(f"{page}#swing", width=width, prefers_color_scheme=scheme)
+    look(tab, f"{page}#swing", width=width, prefers_color_scheme=scheme)
     tab.until("document.querySelector('#swing svg.mechanism')")
     assert tab.ask("document.documentElement.scrollWidth") <= width
     dark = tab.ask("getComputedStyle(document.body).backgroundColor") != "rgb(255, 255, 255)"
@@ -69,7 +73,7 @@ def test_nothing_is_wider_than_the_window(tab: Tab, page: str, width: int, schem
 
 def test_text_of_a_case_is_never_markup(tab: Tab, page: str, made: SimpleNamespace) -> None:
     """Its title, and the name of its file, by which it is also found."""
-    tab.open(page)
+    look(tab, page)
     tab.ask("document.querySelector('#heat-map tbody a').click()")
     tab.until("document.querySelector('details.case[open] svg.mechanism')")
     assert tab.ask("document.querySelector('details.case[open]').id") == made.odd
@@ -79,7 +83,7 @@ def test_text_of_a_case_is_never_markup(tab: Tab, page: str, made: SimpleNamespa
 
 
 def test_every_link_leads_somewhere(tab: Tab, page: str) -> None:
-    tab.open(page)
+    look(tab, page)
     lost = tab.ask(
         """[...document.querySelectorAll('a[href]')].map((a) => a.getAttribute('href')).filter(
         (h) => !h.startsWith('#') || !document.getElementById(
@@ -89,7 +93,7 @@ def test_every_link_leads_somewhere(tab: Tab, page: str) -> None:
 
 
 def test_a_case_opens_by_its_address_and_moves(tab: Tab, page: str) -> None:
-    tab.open(f"{page}#swing/rod.angle")
+    look(tab, f"{page}#swing/rod.angle")
     tab.until("document.querySelector('#swing svg.mechanism')")
     assert tab.ask("document.getElementById('swing').open")
     assert tab.ask("document.querySelector('#swing select').value") == "rod.angle"
@@ -104,7 +108,7 @@ def test_a_case_opens_by_its_address_and_moves(tab: Tab, page: str) -> None:
 
 
 def test_who_wants_no_motion_gets_a_picture(tab: Tab, page: str) -> None:
-    tab.open(f"{page}#swing", prefers_reduced_motion="reduce")
+    look(tab, f"{page}#swing", prefers_reduced_motion="reduce")
     tab.until("document.querySelector('#swing .play')")
     assert tab.ask("document.querySelector('#swing .play').textContent") == "Play"
 
@@ -113,7 +117,7 @@ def test_the_drawn_bar_is_where_the_reference_is(
     tab: Tab, page: str, made: SimpleNamespace
 ) -> None:
     """The script's places, against the trajectory itself: hinge at O, the bar at its angle."""
-    tab.open(f"{page}#swing", prefers_reduced_motion="reduce")
+    look(tab, f"{page}#swing", prefers_reduced_motion="reduce")
     tab.until("document.querySelector('#swing .play')")
     told = tab.ask(
         """(() => { const m = MOTIONS.swing, pose = poser(m.times, m.poses, m.axes);
@@ -127,7 +131,7 @@ def test_the_drawn_bar_is_where_the_reference_is(
 
 
 def test_the_script_reads_the_errors_that_were_packed(tab: Tab, page: str) -> None:
-    tab.open(page)
+    look(tab, page)
     errors = np.array([0.0, 1e-7, -3.3, 2.0, -1e-3, 1e-12])
     found = tab.ask(f"Array.from(unpackBySize({json.dumps(packed_by_size(errors))}))")
     assert found == pytest.approx([*errors[:5], 0.0], rel=0.006)
@@ -136,7 +140,7 @@ def test_the_script_reads_the_errors_that_were_packed(tab: Tab, page: str) -> No
 def test_places_turn_with_their_part(tab: Tab, page: str) -> None:
     """The script's rotations, in the plane and in space, against those of the cases."""
     random = np.random.default_rng(3)
-    tab.open(page)
+    look(tab, page)
 
     def told(pose: np.ndarray, place: np.ndarray) -> list[float]:
         return tab.ask(f"placed({json.dumps(pose.tolist())}, {json.dumps(place.tolist())})")
@@ -153,9 +157,9 @@ def test_places_turn_with_their_part(tab: Tab, page: str) -> None:
         assert found == pytest.approx(centre + turned(q, place))
 
 
-def test_every_committed_case_opens(tab: Tab) -> None:
+def test_every_shipped_case_opens(tab: Tab, whole: Path) -> None:
     tab.errors.clear()
-    tab.open(COMMITTED.as_uri(), width=390, prefers_reduced_motion="reduce")
+    look(tab, whole.as_uri(), width=390, prefers_reduced_motion="reduce")
     assert tab.ask("document.documentElement.scrollWidth") <= 390
     count = tab.ask(
         """(() => { const all = [...document.querySelectorAll('details.case')];
@@ -170,7 +174,7 @@ def test_every_committed_case_opens(tab: Tab) -> None:
 def test_filters_choose_rows_and_stand_in_the_address(
     tab: Tab, page: str, made: SimpleNamespace
 ) -> None:
-    tab.open(page)
+    look(tab, page)
     shown = each("#heat-map tbody tr:not([hidden]) th", "textContent")
     assert tab.ask(shown) == [made.odd, "swing"]
     tab.ask(
@@ -182,15 +186,15 @@ def test_filters_choose_rows_and_stand_in_the_address(
     assert tab.ask("document.querySelector('#heat .count').textContent") == "1 of 2"
     address = tab.ask("location.href")
     assert "heat?words=swing" in address
-    tab.open(address)
+    look(tab, address)
     assert tab.ask(shown) == [made.odd]
-    tab.open(f"{page}#heat?column=pymunk&kind=beyond")
+    look(tab, f"{page}#heat?column=pymunk&kind=beyond")
     heads = each("#heat-map thead th[data-column]:not([hidden])", "dataset.column")
     assert set(tab.ask(heads)) == {"pymunk"}
 
 
 def test_advice_is_chosen_and_copied(tab: Tab, page: str) -> None:
-    tab.open(f"{page}#need?engine=pymunk")
+    look(tab, f"{page}#need?engine=pymunk")
     row = "#advice-themes tbody tr:not([hidden])"
     assert tab.ask(each(row, "dataset.engine")) == ["pymunk"]
     button = f"document.querySelector('{row} .copy')"
@@ -199,7 +203,7 @@ def test_advice_is_chosen_and_copied(tab: Tab, page: str) -> None:
 
 
 def test_a_case_is_opened_by_keyboard(tab: Tab, page: str) -> None:
-    tab.open(page)
+    look(tab, page)
     tab.ask("document.querySelector('#swing summary').focus()")
     tab.press("Enter")
     tab.until("document.querySelector('#swing svg.mechanism')")
@@ -208,7 +212,7 @@ def test_a_case_is_opened_by_keyboard(tab: Tab, page: str) -> None:
 
 
 def test_on_paper_nothing_is_cut_off(tab: Tab, page: str) -> None:
-    tab.open(f"{page}#swing", width=SHEET)
+    look(tab, f"{page}#swing", width=SHEET)
     tab.call("Emulation.setEmulatedMedia", media="print")
     try:
         assert tab.ask("document.documentElement.scrollWidth") <= SHEET
@@ -217,3 +221,17 @@ def test_on_paper_nothing_is_cut_off(tab: Tab, page: str) -> None:
         assert tab.ask("getComputedStyle(document.querySelector('nav')).display") == "none"
     finally:
         tab.call("Emulation.setEmulatedMedia", media="")
+
+
+def test_a_browser_that_cannot_unpack_says_so_and_shows_the_tables(tab: Tab, page: str) -> None:
+    without = "delete globalThis.DecompressionStream"
+    script = tab.call("Page.addScriptToEvaluateOnNewDocument", source=without)
+    try:
+        tab.open(f"{page}#heat?words=swing")
+        said = "document.querySelector('#old')"
+        tab.until(f"{said}.checkVisibility() && {said}.textContent.includes('cannot unpack')")
+        tab.until("document.querySelector('#heat .count').textContent")
+    finally:
+        tab.call("Page.removeScriptToEvaluateOnNewDocument", **script)
+    look(tab, page)
+    assert not tab.ask("document.querySelector('#old').checkVisibility()")
