@@ -1,5 +1,6 @@
 """What do I need? The advice of each case, and by theme what most of its cases need."""
 
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -18,6 +19,7 @@ COLUMNS = (
 AS_ALLOWED = "as the case allows"  # where no tolerance is written
 FEWEST = "fewest changes"  # which is not the cheapest
 NONE = "none"  # the recipe, where nothing keeps the bar
+BEST = re.compile(r"with (\{.*?\}) at (\S+) s\b")  # in the words about what remains
 
 Themes = Mapping[str, tuple[str, ...]]
 
@@ -34,15 +36,23 @@ def advice(frame: pd.DataFrame | None, themes: Themes) -> dict[str, Any] | None:
             "linked": row["case"] in themes,
             "step": _step(row["step"]),
             "times": _times(row),
+            "remains": BEST.sub(_best, row["remains"]),
         }
         for row in records(frame, COLUMNS)
     ]
+    by_theme = list(_by_theme(rows, themes))
     return {
         "rows": rows,
+        "about": {row["theme"] for row in by_theme},
         "engines": sorted({row["engine"] for row in rows}),
         "tolerances": list(dict.fromkeys(row["tolerance"] for row in rows)),
-        "themes": list(_by_theme(rows, themes)),
+        "themes": by_theme,
     }
+
+
+def _best(found: re.Match[str]) -> str:
+    options = "as shipped" if found[1] == "{}" else f"with {found[1]}"
+    return f"{options} at {_step(found[2])}"
 
 
 def _step(seconds: str) -> str:
@@ -76,7 +86,9 @@ def _by_theme(rows: Sequence[Mapping[str, Any]], themes: Themes) -> Any:
         first = recipes[0][0] if recipes else ""
         usual = [row for row in cured if row["recipe"] == first]
         hardest = max(usual, key=lambda row: float(row["cost"]), default=None)
+        cases = "case" if len(found) == 1 else "cases"
         yield {
+            "says": f"keeps {len(usual)} of {len(found)} {cases} about {theme}" if first else "",
             "theme": theme,
             "engine": engine,
             "tolerance": tolerance,

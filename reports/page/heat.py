@@ -4,6 +4,7 @@ from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from ..amount import milliseconds
 from ..row import AGREES, BEYOND, CHANGED, CRASHED, DEVIATES, DIVERGED, FAILS, Comparison, Rungs
 from .column import Column, column
 
@@ -46,11 +47,11 @@ class Cell:
         most = f"{self.beyond} of {self.judged} beyond" if self.beyond else "all within"
         parts = [most]
         if self.worst and self.ratio is not None:
-            parts.append(f"worst {self.worst} at {self.ratio:.2g} of what is allowed")
+            parts.append(f"worst {self.worst} at {short(self.ratio)} of what is allowed")
         if self.kind == "declared":
             parts.append("as declared in the case")
         if self.step is not None:
-            parts.append(f"all within from h = {self.step:g} s on")
+            parts.append(f"all within from h = {milliseconds(self.step)} on")
         return "; ".join(parts)
 
 

@@ -20,7 +20,8 @@ from ..selection import BOOK
 NAME = "shares.svg"
 SIZE = (7.2, 3.4)  # inches
 LEAST, MOST = 1e-6, 1e4  # × allowed
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")  # told apart by the colour-blind, too
+COLOURS = ("#0072B2", "#D55E00", "#009E73")  # told apart by the colour-blind, too
+OWN = ("#CC79A7", "#E69F00", "#56B4E9")  # of a person's own settings
 LINES = {"shipped": (0, (3, 1.5)), "recommended": (0, (6, 1.5, 1, 1.5)), "tuned": "solid"}
 TICKS = {1e-6: "1e-6", 1e-4: "1e-4", 1e-2: "0.01", 1.0: "1", 1e2: "100", 1e4: "1e4"}
 STYLE: dict[Any, Any] = {
@@ -35,16 +36,24 @@ STYLE: dict[Any, Any] = {
 def picture(rows: Sequence[Comparison]) -> str:
     """The picture as the text of an SVG file."""
     with rc_context(STYLE):
+        out = StringIO()
+        drawn(rows).savefig(out, format="svg", metadata={"Date": None, "Creator": None})
+    return "".join(f"{line.rstrip()}\n" for line in out.getvalue().splitlines())
+
+
+def drawn(rows: Sequence[Comparison]) -> Figure:
+    """A curve for each engine's setting; a person's own have colours of their own."""
+    with rc_context(STYLE):
         figure = Figure(figsize=SIZE, layout="constrained")
         axes = figure.add_subplot()
         shares = worst(rows)
         engines = sorted({engine for engine, _ in shares})
-        for (engine, setting), ratios in shares.items():
-            _curve(axes, ratios, COLOURS[engines.index(engine) % len(COLOURS)], engine, setting)
+        own = [key for key in shares if key[1] not in LINES]
+        for key, ratios in shares.items():
+            codes, k = (OWN, own.index(key)) if key in own else (COLOURS, engines.index(key[0]))
+            _curve(axes, ratios, codes[k % len(codes)], *key)
         _frame(axes)
-        out = StringIO()
-        figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
-    return "".join(f"{line.rstrip()}\n" for line in out.getvalue().splitlines())
+    return figure
 
 
 def worst(rows: Sequence[Comparison]) -> Mapping[tuple[str, str], list[float]]:

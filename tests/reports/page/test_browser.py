@@ -1,6 +1,8 @@
 """The page as a person meets it, in a real browser: it works, and asks nobody for anything."""
 
 import json
+import re
+from base64 import b64decode
 from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
@@ -13,8 +15,11 @@ from given.browser import Tab, browser, found
 from textmech.cases.space.rotation import turned
 from textmech.reports.page.pack import packed_by_size
 
-WIDTHS = (390, 900, 1500)
+WIDTHS = (390, 900, 1440)
 SHEET = 794  # px: the width of A4
+STOPS = 60  # of the tab key: ten sections, their links, three motions, one choice
+SHEETS = {"": 2, "#swing": 2, "#overview": 1, "#heat": 6, "#four_bar": 2}
+"""What is printed at most of a choice: with nothing open, the first screen."""
 
 pytestmark = [
     pytest.mark.skipif(found() is None, reason="there is no Chromium on this machine to look with"),
@@ -160,9 +165,9 @@ def test_places_turn_with_their_part(tab: Tab, page: str) -> None:
 def test_every_shipped_case_opens(tab: Tab, whole: Path) -> None:
     tab.errors.clear()
     look(tab, whole.as_uri(), width=390, prefers_reduced_motion="reduce")
-    assert tab.ask("document.documentElement.scrollWidth") <= 390
     count = tab.ask(
         """(() => { const all = [...document.querySelectorAll('details.case')];
+        document.getElementById('cases').open = true;
         for (const one of all) { one.open = true; fill(one); }
         return all.filter((one) => one.querySelector('table, svg, select')).length; })()"""
     )
@@ -203,7 +208,7 @@ def test_advice_is_chosen_and_copied(tab: Tab, page: str) -> None:
 
 
 def test_a_case_is_opened_by_keyboard(tab: Tab, page: str) -> None:
-    look(tab, page)
+    look(tab, f"{page}#cases")
     tab.ask("document.querySelector('#swing summary').focus()")
     tab.press("Enter")
     tab.until("document.querySelector('#swing svg.mechanism')")
@@ -235,3 +240,177 @@ def test_a_browser_that_cannot_unpack_says_so_and_shows_the_tables(tab: Tab, pag
         tab.call("Page.removeScriptToEvaluateOnNewDocument", **script)
     look(tab, page)
     assert not tab.ask("document.querySelector('#old').checkVisibility()")
+
+
+def test_the_first_screen_says_the_result_moves_and_answers(tab: Tab, whole: Path) -> None:
+    """On a usual screen: a sentence with its picture, three motions, and a setting to copy."""
+    look(tab, whole.as_uri(), width=1440, height=900)
+    sentence = tab.ask("document.getElementById('result').textContent")
+    assert re.match(
+        r"mujoco keeps every quantity within .* in \d+ of \d+ cases as shipped", sentence
+    )
+    assert sentence.count(".") == 1
+    parts = {
+        "#result": 1,
+        "#first .picture svg": 1,
+        "#in-motion svg.mechanism": 3,
+        "#answer code": 1,
+    }
+    for part, count in parts.items():
+        bottoms = (
+            f"[...document.querySelectorAll('{part}')].map((e) => e.getBoundingClientRect().bottom)"
+        )
+        found = tab.ask(bottoms)
+        assert len(found) == count, part
+        assert 0 < max(found) <= 900, part
+    moving = "document.querySelector('#in-motion .reference .body').getAttribute('points')"
+    tab.until(f"{moving} !== {tab.ask(moving)!r}")
+
+
+def test_all_else_is_folded_and_few_stops_of_the_tab_key_are_left(tab: Tab, whole: Path) -> None:
+    look(tab, whole.as_uri())
+    assert tab.ask("document.querySelectorAll('details[open]').length") == 0
+    stops = "a[href], button, input, select, summary, [tabindex]"
+    reached = f"""[...document.querySelectorAll('{stops}')].filter((one) =>
+        one.tabIndex >= 0 && one.checkVisibility()).length"""
+    assert 20 < tab.ask(reached) <= STOPS
+    tab.ask("document.getElementById('heat').open = true")
+    assert tab.ask(reached) <= STOPS + 10  # its filters, and the map as one
+
+
+@pytest.mark.parametrize(
+    ("address", "opened"),
+    [
+        ("#heat?theme=pins", ["heat"]),
+        ("#need?engine=pymunk", ["need"]),
+        ("#each", ["need", "each"]),
+        ("#swing/rod.angle", ["cases", "swing"]),
+    ],
+)
+def test_an_address_opens_what_is_folded(
+    tab: Tab, page: str, address: str, opened: list[str]
+) -> None:
+    look(tab, page + address)
+    assert tab.ask(each("details[open]", "id")) == opened
+    look(tab, page)
+    tab.ask(f"location.hash = '{address}'")  # as a link does
+    tab.until(f"document.querySelectorAll('details[open]').length === {len(opened)}")
+
+
+def test_what_is_opened_stands_in_the_address(tab: Tab, page: str) -> None:
+    look(tab, page)
+    tab.ask("document.querySelector('#trust > summary').click()")
+    assert tab.ask("location.hash") == "#trust"
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+def test_no_figure_and_no_section_hangs_out(tab: Tab, whole: Path, width: int) -> None:
+    """With all sections open, and the fullest of the cases."""
+    look(tab, f"{whole.as_uri()}#dynamometer", width=width, prefers_reduced_motion="reduce")
+    tab.ask("for (const one of document.querySelectorAll('details.fold, #each')) one.open = true")
+    tab.until("document.querySelector('#work-figures svg')")
+    assert tab.ask("document.documentElement.scrollWidth") <= width
+    wide = f"""[...document.querySelectorAll('figure, svg')].filter((one) => one.checkVisibility()
+        && one.getBoundingClientRect().right > {width}).length"""
+    assert tab.ask(wide) == 0
+    right = "getBoundingClientRect().right"
+    over = f"""[...document.querySelectorAll('#heat-map tbody th')].filter((th) =>
+        th.firstChild.{right} > th.{right} + 1).length"""
+    assert tab.ask(over) == 0  # no name lies on a number
+
+
+@pytest.mark.parametrize("address", SHEETS)
+def test_what_is_printed_is_what_is_open(
+    tab: Tab, whole: Path, made: SimpleNamespace, address: str
+) -> None:
+    text = whole if address != "#swing" else made.place / "index.html"
+    look(tab, text.as_uri() + address, width=SHEET)
+    paper = tab.call("Page.printToPDF", preferCSSPageSize=True)["data"]
+    sheets = len(re.findall(rb"/Type ?/Page\b", b64decode(paper)))
+    assert 1 <= sheets <= SHEETS[address]
+
+
+def test_every_table_has_a_caption_and_every_picture_a_name(tab: Tab, page: str) -> None:
+    look(tab, f"{page}#swing")
+    tab.ask("for (const one of document.querySelectorAll('details')) one.open = true")
+    tab.until("document.querySelectorAll('#swing table').length > 2")
+    assert tab.ask("[...document.querySelectorAll('table')].filter((t) => !t.caption).length") == 0
+    bare = """[...document.querySelectorAll('svg')].filter((one) => !one.closest('[aria-hidden]')
+        && !(one.getAttribute('role') === 'img' && one.getAttribute('aria-label'))).length"""
+    assert tab.ask(bare) == 0
+    assert tab.ask("document.querySelectorAll('svg[role=img]').length") > 5
+
+
+def test_the_words_of_the_heat_map_come_by_key_and_by_finger(tab: Tab, page: str) -> None:
+    look(tab, f"{page}#heat")
+    words = "document.getElementById('heat-words').textContent"
+    tab.ask("document.querySelector('#heat-map [tabindex=\"0\"]').focus()")
+    tab.press("ArrowRight")
+    first = tab.ask(words)
+    assert "mujoco shipped: " in first
+    assert "of what is allowed" in first
+    tab.press("ArrowDown")
+    assert tab.ask(words).startswith("swing, mujoco shipped: ")
+    tab.ask("document.querySelector('#heat-map tbody td').click()")  # as a finger does
+    assert tab.ask(words) == first
+    tab.press("Enter")
+    tab.until("document.querySelector('#cases details.case[open] svg.mechanism')")
+
+
+def test_the_heat_map_goes_by_the_worst(tab: Tab, whole: Path) -> None:
+    look(tab, f"{whole.as_uri()}#heat?order=worst&column=pymunk")
+    rows = "#heat-map tbody tr"
+    cells = f"[...document.querySelectorAll('{rows}')].map(badness)"
+    worst = [float("inf") if w is None else w for w in tab.ask(cells)]  # JSON has no infinity
+    assert worst == sorted(worst, reverse=True)
+    assert worst[0] > worst[-1]
+    tab.ask("location.hash = '#heat?column=pymunk'")
+    names = f"[...document.querySelectorAll('{rows} th')].map((one) => one.textContent)"
+    tab.until(f"String({names}) === String({names}.sort())")
+
+
+def test_a_setting_is_chosen_on_the_first_screen(tab: Tab, page: str) -> None:
+    look(tab, page)
+    assert tab.ask("document.querySelector('#answer code').textContent") == (
+        "mujoco: {integrator: RK4}"
+    )
+    look(tab, f"{page}#choose?engine=pymunk&tolerance=1e-3")
+    answer = "document.getElementById('answer')"
+    assert "pymunk: {error_bias: 0.0}" in tab.ask(f"{answer}.textContent")
+    assert "at 0.63 ms keeps 1 of 1 case about pins" in tab.ask(f"{answer}.textContent")
+    tab.ask(f"{answer}.querySelector('.copy').click()")
+    tab.until(f"['copied', 'marked'].includes({answer}.querySelector('.copy').textContent)")
+    assert "engine=pymunk" in tab.ask(f"{answer}.querySelector('a').getAttribute('href')")
+    none = "#choose?engine=pymunk&tolerance=as the case allows"
+    tab.ask(f"location.hash = '{none}'")
+    tab.until(f"{answer}.textContent.startsWith('No case about pins was asked in pymunk')")
+
+
+def test_settings_are_told_apart_in_every_plot(tab: Tab, page: str) -> None:
+    """By colour, dash and marker: a person's own from all that an engine offers."""
+    look(tab, f"{page}#swing")
+    script = """((setting) => { const own = ['mujoco.hers', 'mujoco.mine'];
+        const drawn = swatch(columnOf(`mujoco.${setting}.native`, own).look);
+        document.getElementById('swing').append(drawn);
+        const line = getComputedStyle(drawn.querySelector('.curve'));
+        return [line.stroke, line.strokeDasharray, drawn.lastChild.outerHTML]; })"""
+    names = ("shipped", "recommended", "tuned", "mine", "hers")
+    looks = {name: tab.ask(f"{script}('{name}')") for name in names}
+    assert len({str(look[1:]) for look in looks.values()}) == len(names)
+    assert len({look[1] for look in looks.values()}) == len(names)
+    colours = {name: look[0] for name, look in looks.items()}
+    assert colours["shipped"] == colours["recommended"] == colours["tuned"]
+    assert len({colours[name] for name in ("tuned", "mine", "hers")}) == 3
+
+
+def test_numbers_are_written_in_one_style_and_on_one_line(tab: Tab, page: str) -> None:
+    look(tab, page)
+    told = [0.00000179, 1e-8, 2.05e-7, 0.5, 1234.5, 3e7, 0]
+    found = [tab.ask(f"few({number!r})") for number in told]
+    assert found == ["1.79e-6", "1e-8", "2.05e-7", "0.5", "1230", "3e7", "0"]
+    tab.ask("location.hash = '#swing'")
+    tab.ask("for (const one of document.querySelectorAll('#swing details')) one.open = true")
+    tab.until("document.querySelector('#swing td.num')")
+    spaces = "[...document.querySelectorAll('td.num')].map((c) => getComputedStyle(c).whiteSpace)"
+    assert set(tab.ask(spaces)) == {"nowrap"}
+    assert tab.ask("document.querySelectorAll('#swing td .chip').length") > 0  # verdicts

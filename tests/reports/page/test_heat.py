@@ -26,7 +26,7 @@ def test_the_worst_error_is_told_with_its_quantity() -> None:
     found = cell({"ratio": 0.5}, {"ratio": 470.0, "verdict": BEYOND}, {"ratio": 3.0})
     assert (found.kind, found.text, found.worst, found.shade) == ("beyond", "470", "x1", 6)
     assert (found.beyond, found.judged, found.within) == (2, 3, 1)
-    assert found.words == "2 of 3 beyond; worst x1 at 4.7e+02 of what is allowed"
+    assert found.words == "2 of 3 beyond; worst x1 at 470 of what is allowed"
 
 
 @pytest.mark.parametrize(

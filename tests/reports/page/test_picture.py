@@ -28,7 +28,7 @@ def drawn(module: Any = picture) -> tuple[list[float], list[float]]:
 @pytest.mark.mutant("a ladder of errors that are not over what is allowed")
 def test_a_ladder_is_of_errors_over_what_is_allowed() -> None:
     steps, errors = drawn()
-    assert steps == [1e-3, 2e-3]
+    assert steps == [1.0, 2.0]  # ms
     assert errors == pytest.approx([0.1, 5.0])  # beyond from 1 on, as the line says
     bare = otherwise(picture, "dtype=float) / allowed\n", "dtype=float)\n")
     assert drawn(bare)[1] == pytest.approx([1e-3, 5e-2])
