@@ -87,7 +87,8 @@ function curvesOf(motion, quantity, wanted = () => true) {
     const values = found.values ? unpack(found.values) : error.map((e, k) => right[k] + e);
     return {...COLUMN.get(key), x: own, error, y: values};
   });
-  return {times, right, engines};
+  const place = (one) => COLUMNS.findIndex(({key}) => key === one.key);
+  return {times, right, engines: engines.sort((a, b) => place(a) - place(b))};
 }
 
 // From where to where a tube's plot goes: not all the way with an engine that is lost.

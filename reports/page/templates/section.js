@@ -14,7 +14,7 @@ const folded = (title, content) => {
 };
 
 function orders(ladders) {
-  const told = ladders.map(([column, , ladder, , , order, limit, usable, verdict]) =>
+  const told = [...ladders].sort((a, b) => a[0] - b[0]).map(([column, , ladder, , , order, limit, usable, verdict]) =>
     [COLUMNS[column].title, word(ladder), short(order), short(limit), usable === null ? '–' : `h ≤ ${milliseconds(usable)}`, word(verdict)]);
   return told.length ? table('Order of the error in the step, and what is left of it', ['setting', 'ladder', 'order', 'left for h → 0', 'usable step [ms]', 'says'], told) : null;
 }
@@ -77,7 +77,7 @@ function numbers(data) {
 
 const causes = (data) => table('The smallest changes that bring a row within', ['engine and setting', 'quantity', 'error', 'cured by', 'options', 'step [ms]', 'error then', 'cost, × its own', 'law'],
   data.causes.map((row) => row.map(word)).map(([engine, setting, quantity, before, cure, options, step, after, cost, law]) =>
-    [`${engine} ${setting}`, quantity, few(before), cure, options, milliseconds(step), few(after), few(cost), law]));
+    [`${engine} ${setting}`, quantity, few(before), cure, options === '{}' ? '' : options, milliseconds(step), few(after), few(cost), law]));
 const checks = (data) => table('What holds the reference', ['check', 'difference', 'bound', 'certified to', 'verdict'],
   data.checks.map(([check, difference, bound, certified, unit, verdict]) => [word(check), short(difference), short(bound), certified === null ? '' : `${short(certified)} ${word(unit)}`, word(verdict)]));
 
