@@ -105,4 +105,4 @@ def short(ratio: float) -> str:
         return "0"
     if ratio >= 1e4 or ratio < 1e-3:
         return f"{ratio:.0e}".replace("e-0", "e-").replace("e+0", "e").replace("e+", "e")
-    return f"{ratio:.2g}" if ratio < 100 else f"{ratio:.0f}"
+    return f"{ratio:.2g}" if ratio < 99.5 else f"{ratio:.0f}"

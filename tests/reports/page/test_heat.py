@@ -67,7 +67,15 @@ def test_the_audit_is_no_quantity() -> None:
 
 @pytest.mark.parametrize(
     ("ratio", "text"),
-    [(0.0, "0"), (2.34, "2.3"), (0.021, "0.021"), (473.0, "473"), (3.2e-7, "3e-7"), (1.3e5, "1e5")],
+    [
+        (0.0, "0"),
+        (2.34, "2.3"),
+        (0.021, "0.021"),
+        (473.0, "473"),
+        (99.7, "100"),
+        (3.2e-7, "3e-7"),
+        (1.3e5, "1e5"),
+    ],
 )
 def test_a_ratio_is_short(ratio: float, text: str) -> None:
     assert short(ratio) == text
