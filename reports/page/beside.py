@@ -68,7 +68,7 @@ def versions(frame: pd.DataFrame | None) -> dict[str, Any] | None:
 
 
 def _before(frame: pd.DataFrame) -> list[str]:
-    """For each row the error of the same quantity in the release before, where there is one."""
+    """Returns for each row the error of its quantity in the release before, or nothing."""
     rows = records(frame, (*SAME, "version", "error"))
     order = sorted(range(len(rows)), key=lambda k: _release(rows[k]["version"]))
     last: dict[tuple[str, ...], str] = {}
@@ -90,7 +90,7 @@ def _by_release(one: tuple[tuple[str, str, str], Any]) -> tuple[str, str, list[t
 
 
 def _release(version: str) -> list[tuple[bool, Any]]:
-    """Its numbers, by which releases are sorted: 3.10 after 3.9."""
+    """Returns its numbers, by which releases are sorted: 3.10 after 3.9."""
     return [
         (not part.isdigit(), int(part) if part.isdigit() else part) for part in version.split(".")
     ]

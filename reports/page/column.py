@@ -25,7 +25,7 @@ class Column:
 
     @property
     def own(self) -> bool:
-        """Whether the setting is a person's own: no engine offers one of that name."""
+        """Says whether the setting is a person's own: no engine offers one of that name."""
         return self.engine != BOOK and self.setting not in SETTINGS
 
     @property

@@ -68,7 +68,7 @@ def thinned(count: int, most: int) -> Any:
 
 
 def _trail(case: Case, reference: Trajectory) -> list[Packed] | None:
-    """In space the way of the first place that the case observes; None where there is none."""
+    """Returns in space the way of the first place that is observed; None where there is none."""
     n, scene = case.scene.frame.dimension, case.scene
     observed = [name.rpartition(".")[0] for name in case.allow if name.endswith((".x", ".z"))]
     joints = {name: joint.refers()[-1] for name, joint in scene.joints.items()}
@@ -84,7 +84,7 @@ def _trail(case: Case, reference: Trajectory) -> list[Packed] | None:
 
 
 def between(times: Array, places: Array, velocities: Array, count: int) -> Array:
-    """(count, n) evenly in time, by the cubic through places and velocities (N, n) of two samples.
+    """Returns (count, n) places evenly in time, by cubics through samples (N, n) and velocities.
 
     Few samples of a loop would be a polygon.
     """

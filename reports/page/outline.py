@@ -58,7 +58,7 @@ def _round(body: Any) -> list[Line]:
 
 
 def _solid(body: Any) -> bool:
-    """Whether it is a body of space of which only mass, tensor and points are known."""
+    """Says whether it is a body of space of which only mass, tensor and points are known."""
     bare = body.radius is None and body.size is None and body.shape == "rigid"
     return bare and len(body.points[CENTER]) == 3 and bool(np.any(body.tensor))
 
@@ -68,7 +68,7 @@ def _farthest(body: Any) -> float:
 
 
 def _as_heavy(body: Any) -> list[Line]:
-    """A disk, a sphere or a box that is as hard to turn, and rays to its points.
+    """Returns the lines of a disk, sphere or box that is as hard to turn, and rays to its points.
 
     It is a picture: where the body has points, it is no larger than they reach.
     """
@@ -93,7 +93,7 @@ def _as_heavy(body: Any) -> list[Line]:
 
 
 def _on(axle: Array, place: Any) -> bool:
-    """Whether a place lies on the axis, away from the centre: then the body is a top."""
+    """Says whether a place lies on the axis, off the centre: then the body is a top."""
     length = float(np.linalg.norm(place))
     return length > 0.0 and abs(float(axle @ np.asarray(place))) >= (1 - ALIKE) * length
 

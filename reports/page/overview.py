@@ -37,7 +37,7 @@ def overview(folder: Folder, cells: Cells, columns: Sequence[Column]) -> dict[st
 
 
 def result(rows: Sequence[Comparison]) -> str:
-    """One sentence: in how many cases each engine keeps every quantity, setting by setting."""
+    """Says in one sentence in how many cases each engine keeps every quantity, by setting."""
     found = worst(rows)
     order = sorted(found, key=lambda key: (key[0], place(key[1])))
     engines = []
@@ -63,7 +63,7 @@ def _listed(words: Sequence[str]) -> str:
 def moving(
     motions: Mapping[str, Motion], about: Mapping[str, Sequence[str]], cells: Cells
 ) -> list[dict[str, Any]]:
-    """Three cases to begin with, each of another theme, with how far off an engine is as shipped.
+    """Chooses three cases to begin with, of different themes, and says how far off engines are.
 
     Where a theme has none that an engine moves otherwise than the textbook, another case stands in.
     """
@@ -82,7 +82,7 @@ def moving(
 
 
 def _shipped(ghosts: Iterable[str]) -> list[str]:
-    """Those of engines as shipped, by themselves."""
+    """Returns those of engines as shipped, without a law or driver of ours."""
     return [key for key in ghosts if key.split(".")[1:] == ["shipped", "native"]]
 
 

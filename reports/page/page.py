@@ -89,7 +89,7 @@ def _environment() -> Environment:
 
 
 def _breakable(name: str) -> Markup:
-    """A case's name that may go on in another line behind its dots and underscores."""
+    """Returns a case's name that may go on in another line behind its dots and underscores."""
     return Markup(re.sub(r"([._])", r"\1<wbr>", str(escape(name))))
 
 
@@ -100,7 +100,7 @@ def _text(names: Any) -> str:
 
 
 def embedded(value: Any) -> str:
-    """JSON, packed by gzip and written in 64 letters, none of which can close a script element.
+    """Returns JSON packed by gzip, in 64 letters, none of which can close a script element.
 
     No time stands in it: the same value gives the same letters.
     """

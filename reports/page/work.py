@@ -18,7 +18,7 @@ Steps = Mapping[tuple[str, Column], Mapping[float, float]]
 def work(
     rows: Sequence[Comparison], rungs: Sequence[Rungs], themes: Mapping[str, tuple[str, ...]]
 ) -> list[dict[str, Any]]:
-    """A panel for each theme that has a ladder of steps: by column the curve of each precision."""
+    """Returns a panel for each theme that has a ladder: by column the curve of each precision."""
     ladders = worst(rows, rungs)
     moving = {case: about for case, about in themes.items() if "states" not in about}
     panels = [(theme, [case for case in moving if theme in moving[case]]) for theme in SHOWN]

@@ -43,7 +43,7 @@ def picture(rows: Sequence[Comparison]) -> str:
 
 
 def drawn(rows: Sequence[Comparison]) -> Figure:
-    """A curve for each engine's setting; a person's own have colours of their own."""
+    """Draws a curve for each engine's setting; a person's own have colours of their own."""
     with rc_context(STYLE):
         figure = Figure(figsize=SIZE, layout="constrained")
         axes = figure.add_subplot()

@@ -89,7 +89,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
 
 @pytest.fixture(scope="session")
 def whole(report: Report, shipped: list[Case], tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The page of the committed rows and of this session's motions, in a file."""
+    """Returns the file of a page of the committed rows and this session's motions."""
     file = tmp_path_factory.mktemp("whole") / NAME
     text = page(folder(write.HERE), shipped, motions(report))
     file.write_text(text, encoding="utf-8")

@@ -6,6 +6,7 @@ import pandas as pd
 import pytest
 from given.otherwise import otherwise
 
+from textmech.reports.page import advice as advices
 from textmech.reports.page import beside
 from textmech.reports.page.advice import advice
 from textmech.reports.page.beside import causes, versions
@@ -41,6 +42,25 @@ def test_a_theme_needs_what_most_of_its_cases_need_at_the_smallest_of_their_step
     assert pins["others"] == [("bundle", 1)]
     assert (fine["tolerance"], fine["cases"]) == ("1e-3", 1)
     assert (space["recipe"], space["cured"], space["cases"]) == ("", 0, 1)
+
+
+@pytest.mark.mutant("the best of a case that no recipe cures is told with empty braces")
+def test_what_remains_is_told_in_words_and_milliseconds() -> None:
+    words = [
+        "x stays ×470 with {} at 0.0001 s, the best",
+        "x is ×2 with {a: [1, 2]} at 0.002 s, and",
+    ]
+    frame = pd.DataFrame({"case": ["a", "b"], "remains": words})
+
+    def told(module: Any = advices) -> list[str]:
+        found = module.advice(frame, {})
+        return [row["remains"] for row in found["rows"]]
+
+    assert told() == [
+        "x stays ×470 as shipped at 0.1 ms, the best", "x is ×2 with {a: [1, 2]} at 2 ms, and",
+    ]  # fmt: skip
+    bare = otherwise(advices, '"as shipped" if found[1] == "{}" else ', "")
+    assert told(bare)[0] == "x stays ×470 with {} at 0.1 ms, the best"
 
 
 def test_a_case_that_is_not_shown_has_no_link() -> None:

@@ -109,6 +109,13 @@ def test_words_in_the_data_close_no_script(made: SimpleNamespace) -> None:
     assert data(made.text, "rows")["cases"].keys() == {"swing", made.odd}
 
 
+def test_powers_of_ten_are_written_in_one_style(made: SimpleNamespace) -> None:
+    """As the page's script writes them: 2e-7 and 2e3, in all that is read."""
+    shown = re.sub(r"<(style|script|svg).*?</\1>", "", made.text, flags=re.DOTALL)
+    assert re.search(r"\de-?\d", shown)
+    assert not re.search(r"\de(\+|-0)\d", shown)
+
+
 def test_tables_beside_the_reports_are_shown(made: SimpleNamespace) -> None:
     assert "pymunk: {error_bias: 0.0}" in made.text
     assert "bias + step" in made.text
