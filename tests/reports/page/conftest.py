@@ -30,7 +30,7 @@ ADVICE = {
     "step": ["0.008", "0.00063", ""],
     "cost": ["500", "1600", ""],
     "shipped_cost": ["500", "100", "500"],
-    "worst": ["0.1", "0.3", ""],
+    "worst": ["1.2e-05", "0.3", ""],
     "quantity": ["rod.angle", "rod.angle", ""],
     "remains": ["", "", "<i>nothing cures it</i>"],
 }
