@@ -26,7 +26,7 @@ MARKERS = {"mujoco": "o", "pymunk": "^", "book": "D"}
 DASHES = {"shipped": (0, (4, 2)), "recommended": (0, (7, 2, 1, 2)), "tuned": "-"}
 OWN = tuple(zip(OTHERS, ("P", "X", "*"), ((0, (2, 1)), (0, (1, 2)), (0, (8, 2))), strict=True))
 """Of a person's own settings, in their order: colour, marker, dash."""
-WAYS = {"law": (0, (1, 1.5)), "driver": (0, (5, 1.5, 1, 1.5)), "any way": (0, (1, 1.5))}
+WAYS = {"law": (0, (1, 1.5)), "driver": (0, (5, 1.5, 1, 1.5))}
 
 
 def colour(engine: str) -> str:
