@@ -46,7 +46,8 @@ def result(rows: Sequence[Comparison]) -> str:
         for _, setting in keys:
             ratios = found[engine, setting]
             within = f"{sum(ratio <= 1 for ratio in ratios)} of {len(ratios)}"
-            told.append(f"{within}{' cases' if not told and not k else ''} {_said(setting)}")
+            noun = "" if k or told else " case" if len(ratios) == 1 else " cases"
+            told.append(f"{within}{noun} {_said(setting)}")
         keeps = "" if k else " keeps every quantity within the textbook’s tolerance"
         engines.append(f"{engine}{keeps} in {_listed(told)}")
     return f"{'; '.join(engines)}." if engines else "No case ran in any engine."

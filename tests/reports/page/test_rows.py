@@ -105,7 +105,7 @@ def test_the_result_is_one_sentence() -> None:
         return module.result(rows)
 
     assert told() == (
-        "mujoco keeps every quantity within the textbook’s tolerance in 0 of 1 cases as shipped, "
+        "mujoco keeps every quantity within the textbook’s tolerance in 0 of 1 case as shipped, "
         "1 of 1 as its documentation recommends, 1 of 1 with mine and 0 of 2 tuned; "
         "pymunk in 1 of 1 tuned."
     )
