@@ -2,8 +2,7 @@
 
 A test that plants one says so, in words: `@pytest.mark.mutant("Steiner term left out")`; in them
 stands `{name}` for the test's parameter of that name. `python tests/planted.py` writes the list,
-reports/mutants.csv, and the page with it; with `--print` it only says the list. No run writes it:
-the package has no tests.
+reports/mutants.csv; with `--print` it only says the list. No run writes it: no test is installed.
 """
 
 import sys
@@ -17,15 +16,9 @@ import pandas as pd
 import pytest
 
 from textmech.reports import write
-from textmech.reports.page.folder import folder
-from textmech.reports.page.page import motions_of, page
-from textmech.reports.page.write import NAME
-from textmech.reports.replace import replace
 from textmech.reports.row import MUTANTS
-from textmech.reports.selection import choose_cases
 
 ROOT = Path(__file__).parents[1]
-PAGE = write.HERE / NAME
 MARK = "mutant"
 SLOW = "slow"
 COLUMNS = ["room", "planted", "seen_by", "loop"]
@@ -125,16 +118,13 @@ def _opening(text: str) -> str:
 
 
 def main(*words: str) -> None:
-    """Writes the list beside the reports, and the page that shows it."""
+    """Writes the list beside the reports."""
     found = listed(collected())
     texts = write.texts({MUTANTS: found})
     if "--print" in words:
         sys.stdout.buffer.write(texts[MUTANTS].encode())  # the same bytes in any terminal
         return
     write.write({MUTANTS: found}, write.HERE)
-    if PAGE.is_file():
-        text = PAGE.read_text(encoding="utf-8")  # its motions stay: nothing is run for a list
-        replace(write.HERE, {NAME: page(folder(write.HERE), choose_cases([]), motions_of(text))})
     print(f"{len(found)} planted mistakes in {len(set(found['seen_by']))} tests")
 
 

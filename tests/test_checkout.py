@@ -10,14 +10,14 @@ from given.checkout import Unchanged
 def pytest_configure(config):
     config.pluginmanager.register(Unchanged(Path(__file__).parent))
 """
-PAGE = "reports/index.html"
+TABLE = "reports/tolerance.csv"
 
 
 def ended(pytester: pytest.Pytester, line: str) -> tuple[int, list[str]]:
     """The exit code, and what is told, where a test does this and passes."""
     for part in ("cases", "reports"):
         pytester.mkdir(part)
-    (pytester.path / PAGE).write_text("page", encoding="utf-8")
+    (pytester.path / TABLE).write_text("table", encoding="utf-8")
     pytester.makeconftest(LOOKS)
     pytester.makepyfile(f"from pathlib import Path\ndef test_it(): {line}")
     done = pytester.runpytest_inprocess()
@@ -29,9 +29,9 @@ def ended(pytester: pytest.Pytester, line: str) -> tuple[int, list[str]]:
 @pytest.mark.parametrize(
     ("does", "line", "changed"),
     [
-        ("writes the page anew", f"Path({PAGE!r}).write_text('other')", PAGE),
+        ("writes a table anew", f"Path({TABLE!r}).write_text('other')", TABLE),
         ("leaves a new file", "Path('cases/new.yaml').write_text('')", "cases/new.yaml"),
-        ("deletes a file", f"Path({PAGE!r}).unlink()", PAGE),
+        ("deletes a file", f"Path({TABLE!r}).unlink()", TABLE),
     ],
 )
 def test_what_is_another_file_afterwards_is_told(
@@ -41,7 +41,7 @@ def test_what_is_another_file_afterwards_is_told(
 
 
 @pytest.mark.parametrize(
-    "line", [f"Path({PAGE!r}).write_text('page')", "Path('reports/.writing-x').write_text('')"]
+    "line", [f"Path({TABLE!r}).write_text('table')", "Path('reports/.writing-x').write_text('')"]
 )
 def test_what_is_the_same_afterwards_is_not(pytester: pytest.Pytester, line: str) -> None:
     assert ended(pytester, line) == (0, [])

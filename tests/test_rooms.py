@@ -15,7 +15,7 @@ ROOMS = {
         "mistake",
         f"{NOUNS}+language.grammar",  # nouns declare their numbers in the words of the grammar
         "case find language.read language.parse",
-        "observe language.check language.resolve",
+        "observe language.check language.resolve theme",
         "load",
     ],
     "reference": [
@@ -48,7 +48,8 @@ ROOMS = {
         "suite",
         "poses",
         "write keep session",
-        "show committed bench page",
+        "show",
+        "committed bench page",
         "versions",
         "command interface collecting",
         "cli pytest_plugin",

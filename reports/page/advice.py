@@ -37,11 +37,13 @@ def advice(frame: pd.DataFrame | None, themes: Themes) -> dict[str, Any] | None:
         }
         for row in records(frame, COLUMNS)
     ]
+    by_theme = list(_by_theme(rows, themes))
     return {
         "rows": rows,
+        "about": {row["theme"] for row in by_theme},
         "engines": sorted({row["engine"] for row in rows}),
         "tolerances": list(dict.fromkeys(row["tolerance"] for row in rows)),
-        "themes": list(_by_theme(rows, themes)),
+        "themes": by_theme,
     }
 
 
@@ -76,7 +78,9 @@ def _by_theme(rows: Sequence[Mapping[str, Any]], themes: Themes) -> Any:
         first = recipes[0][0] if recipes else ""
         usual = [row for row in cured if row["recipe"] == first]
         hardest = max(usual, key=lambda row: float(row["cost"]), default=None)
+        cases = "case" if len(found) == 1 else "cases"
         yield {
+            "says": f"keeps {len(usual)} of {len(found)} {cases} about {theme}" if first else "",
             "theme": theme,
             "engine": engine,
             "tolerance": tolerance,

@@ -8,6 +8,7 @@ from .folder import BESIDE
 
 YES = ("yes", "true", "1", "moved")
 WITHIN = "agrees"
+SAME = ("case", "engine", "setting", "realised", "quantity")  # of releases that are compared
 
 
 def absent(name: str) -> str:
@@ -57,12 +58,26 @@ def versions(frame: pd.DataFrame | None) -> dict[str, Any] | None:
         }
         for (engine, version, setting), rows in sorted(found.items(), key=_by_release)
     ]
+    before = _before(frame)
     moved = [
-        row
-        for row, text in zip(frame.to_numpy().tolist(), frame["moved"], strict=True)
+        [*row, before[k]]
+        for k, (row, text) in enumerate(zip(frame.to_numpy().tolist(), frame["moved"], strict=True))
         if _moved(text)
     ]
-    return {"shares": shares, "names": list(frame.columns), "moved": moved}
+    return {"shares": shares, "names": [*frame.columns, "error before"], "moved": moved}
+
+
+def _before(frame: pd.DataFrame) -> list[str]:
+    """Returns for each row the error of its quantity in the release before, or nothing."""
+    rows = records(frame, (*SAME, "version", "error"))
+    order = sorted(range(len(rows)), key=lambda k: _release(rows[k]["version"]))
+    last: dict[tuple[str, ...], str] = {}
+    found = [""] * len(rows)
+    for k in order:
+        of = tuple(rows[k][name] for name in SAME)
+        found[k] = last.get(of, "")
+        last[of] = rows[k]["error"]
+    return found
 
 
 def _moved(text: str) -> bool:
@@ -70,12 +85,15 @@ def _moved(text: str) -> bool:
 
 
 def _by_release(one: tuple[tuple[str, str, str], Any]) -> tuple[str, str, list[tuple[bool, Any]]]:
-    """3.10 after 3.9."""
     engine, version, setting = one[0]
-    parts = [
+    return engine, setting, _release(version)
+
+
+def _release(version: str) -> list[tuple[bool, Any]]:
+    """Returns its numbers, by which releases are sorted: 3.10 after 3.9."""
+    return [
         (not part.isdigit(), int(part) if part.isdigit() else part) for part in version.split(".")
     ]
-    return engine, setting, parts
 
 
 def records(frame: pd.DataFrame, columns: tuple[str, ...]) -> list[dict[str, str]]:

@@ -3,8 +3,9 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from ...engines import place
+from ...engines import SETTINGS, place
 from ..row import Comparison, Instant, Rungs
+from ..selection import BOOK
 
 WAYS = {"native": 0, "driver": 1, "law": 2}
 
@@ -21,6 +22,11 @@ class Column:
     def key(self) -> str:
         """Its name in the data."""
         return f"{self.engine}.{self.setting}.{self.realised}"
+
+    @property
+    def own(self) -> bool:
+        """Says whether the setting is a person's own: no engine offers one of that name."""
+        return self.engine != BOOK and self.setting not in SETTINGS
 
     @property
     def title(self) -> str:
@@ -41,4 +47,4 @@ def columns(rows: Iterable[Comparison]) -> list[Column]:
 
 def _place(one: Column) -> tuple[bool, str, float, str, int]:
     setting = place(one.setting)
-    return one.engine == "book", one.engine, setting, one.setting, WAYS.get(one.realised, 0)
+    return one.engine == BOOK, one.engine, setting, one.setting, WAYS.get(one.realised, 0)

@@ -4,6 +4,7 @@ from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from ..amount import milliseconds
 from ..row import (
     AGREES,
     BEYOND,
@@ -57,11 +58,11 @@ class Cell:
         most = f"{self.beyond} of {self.judged} beyond" if self.beyond else "all within"
         parts = [most]
         if self.worst and self.ratio is not None:
-            parts.append(f"worst {self.worst} at {self.ratio:.2g} of what is allowed")
+            parts.append(f"worst {self.worst} at {short(self.ratio)} of what is allowed")
         if self.kind == "declared":
             parts.append("as declared in the case")
         if self.step is not None:
-            parts.append(f"all within from h = {self.step:g} s on")
+            parts.append(f"all within from h = {milliseconds(self.step)} on")
         return "; ".join(parts)
 
 
@@ -115,4 +116,4 @@ def short(ratio: float) -> str:
         return "0"
     if ratio >= 1e4 or ratio < 1e-3:
         return f"{ratio:.0e}".replace("e-0", "e-").replace("e+0", "e").replace("e+", "e")
-    return f"{ratio:.2g}" if ratio < 100 else f"{ratio:.0f}"
+    return f"{ratio:.2g}" if ratio < 99.5 else f"{ratio:.0f}"

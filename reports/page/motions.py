@@ -8,7 +8,7 @@ import numpy as np
 from ...cases.case import Case
 from ...cases.frame import SPACE
 from ...cases.observe import observe
-from ...cases.point import GROUND
+from ...cases.point import CENTER, GROUND
 from ...cases.states import MASS_MATRIX
 from ...cases.trajectory import Array, Trajectory
 from ..suite import Report
@@ -19,6 +19,7 @@ from .sketch import extent, sketch
 
 FRAMES = 61  # of an animation at most
 POINTS = 128  # of a curve at most
+TRAIL = 400  # points of what a body has drawn behind it: twenty loops of twenty points
 SEEN = 1 / 400  # of what the motion reaches: nearer than that, two drawings are one
 
 Motion = dict[str, Any]
@@ -54,6 +55,7 @@ def motion(case: Case, reference: Trajectory, tried: Sequence[Tried]) -> Motion:
         "sketch": sketch(case.scene, size),
         "times": packed(case.times[frames]),
         "poses": _columns(poses, frames) | _driven(case, frames),
+        "trail": _trail(case, reference),
         "ghosts": {name: ghost for name, ghost in ghosts.items() if ghost},
         "covered": sorted(name for name, ghost in ghosts.items() if ghost is None),
         "curves": _curves(case, reference, ran),
@@ -63,6 +65,35 @@ def motion(case: Case, reference: Trajectory, tried: Sequence[Tried]) -> Motion:
 def thinned(count: int, most: int) -> Any:
     """Which of so many samples are drawn: evenly, the first and the last among them."""
     return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
+
+
+def _trail(case: Case, reference: Trajectory) -> list[Packed] | None:
+    """Returns in space the way of the first place that is observed; None where there is none."""
+    n, scene = case.scene.frame.dimension, case.scene
+    observed = [name.rpartition(".")[0] for name in case.allow if name.endswith((".x", ".z"))]
+    joints = {name: joint.refers()[-1] for name, joint in scene.joints.items()}
+    ends = {name: (end.body, "", end.point) for name, end in joints.items()}
+    places = [ends.get(of, of.partition(".")) for of in observed]
+    of_bodies = [place for place in places if place[0] in scene.bodies]
+    if n == 2 or not of_bodies:
+        return None
+    body, _, point = of_bodies[0]
+    states = scene.bodies[body].point(reference.states[body], point or CENTER)
+    way = between(case.times, states[:, :n], states[:, n:], TRAIL)
+    return [packed(column) for column in np.ascontiguousarray(way.T)]
+
+
+def between(times: Array, places: Array, velocities: Array, count: int) -> Array:
+    """Returns (count, n) places evenly in time, by cubics through samples (N, n) and velocities.
+
+    Few samples of a loop would be a polygon.
+    """
+    fine = np.linspace(times[0], times[-1], count)
+    k = np.clip(np.searchsorted(times, fine, side="right") - 1, 0, len(times) - 2)
+    h = (times[k + 1] - times[k])[:, None]
+    s = (fine - times[k])[:, None] / h
+    ends = places[k] * (1 + 2 * s) * (1 - s) ** 2 + places[k + 1] * s**2 * (3 - 2 * s)
+    return ends + h * (velocities[k] * s * (1 - s) ** 2 - velocities[k + 1] * s**2 * (1 - s))
 
 
 def _ghost(one: Tried, poses: Mapping[str, Array], case: Case, size: float) -> Any:

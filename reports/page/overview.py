@@ -1,14 +1,27 @@
-"""The head of the page: versions, and what share of the rows is within its tolerance."""
+"""The first screen: the result in a sentence and a picture, three motions, and all settings."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import groupby
 from typing import Any
 
-from ..row import AGREES, REFUSED
+from ...engines import place
+from ..row import AGREES, REFUSED, Comparison
+from ..show.picture import drawn, worst
 from .column import Column
 from .folder import Folder
 from .heat import Cell
+from .motions import Motion
+from .paint import svg
 
 Cells = Mapping[tuple[str, Column], Cell]
+SHIPPED = {"shipped": "as shipped", "recommended": "as its documentation recommends"}
+PICTURE = "share of the cases that are at worst so far off, by engine and setting"
+FIRST = (
+    (("loops",), "four_bar"),
+    (("impacts", "friction"), "bouncing_disk.elastic"),
+    (("space",), "top_on_floor"),
+)
+"""The motions of the first screen: a theme, and the case that stands for it where it is there."""
 
 
 def overview(folder: Folder, cells: Cells, columns: Sequence[Column]) -> dict[str, Any]:
@@ -18,7 +31,67 @@ def overview(folder: Folder, cells: Cells, columns: Sequence[Column]) -> dict[st
         "cases": len({row.case for row in folder.comparisons}),
         "versions": sorted(versions),
         "shares": [_share(one, cells) for one in columns],
+        "result": result(folder.comparisons),
+        "picture": svg(drawn(folder.comparisons), PICTURE) if worst(folder.comparisons) else "",
     }
+
+
+def result(rows: Sequence[Comparison]) -> str:
+    """Says in one sentence in how many cases each engine keeps every quantity, by setting."""
+    found = worst(rows)
+    order = sorted(found, key=lambda key: (key[0], place(key[1])))
+    engines = []
+    for k, (engine, keys) in enumerate(groupby(order, key=lambda key: key[0])):
+        told = []
+        for _, setting in keys:
+            ratios = found[engine, setting]
+            within = f"{sum(ratio <= 1 for ratio in ratios)} of {len(ratios)}"
+            noun = "" if k or told else " case" if len(ratios) == 1 else " cases"
+            told.append(f"{within}{noun} {_said(setting)}")
+        keeps = "" if k else " keeps every quantity within the textbook’s tolerance"
+        engines.append(f"{engine}{keeps} in {_listed(told)}")
+    return f"{'; '.join(engines)}." if engines else "No case ran in any engine."
+
+
+def _said(setting: str) -> str:
+    return SHIPPED.get(setting, setting if setting == "tuned" else f"with {setting}")
+
+
+def _listed(words: Sequence[str]) -> str:
+    return " and ".join(filter(None, [", ".join(words[:-1]), words[-1]]))
+
+
+def moving(
+    motions: Mapping[str, Motion], about: Mapping[str, Sequence[str]], cells: Cells
+) -> list[dict[str, Any]]:
+    """Chooses three cases to begin with, of different themes, and says how far off engines are.
+
+    Where a theme has none that an engine moves otherwise than the textbook, another case stands in.
+    """
+    seen = [name for name in motions if _shipped(motions[name]["ghosts"])]
+    chosen: list[str] = []
+    for themes, name in FIRST:
+        of = [n for n in seen if set(themes) & set(about[n]) and n not in chosen]
+        chosen += [name] if name in of else of[:1]
+    others = [*seen, *motions]
+    chosen += [name for name in dict.fromkeys(others) if name not in chosen]
+    return [
+        {"case": name, "ghosts": [_off(key, name, cells) for key in _shipped(ghosts)]}
+        for name in chosen[: len(FIRST)]
+        for ghosts in [motions[name]["ghosts"]]
+    ]
+
+
+def _shipped(ghosts: Iterable[str]) -> list[str]:
+    """Returns those of engines as shipped, without a law or driver of ours."""
+    return [key for key in ghosts if key.split(".")[1:] == ["shipped", "native"]]
+
+
+def _off(key: str, case: str, cells: Cells) -> dict[str, str]:
+    column = Column(*key.split("."))
+    cell = cells.get((case, column))
+    far = f"×{cell.text} the tolerance in {cell.worst}" if cell and cell.worst else ""
+    return {"key": key, "title": column.title, "far": far}
 
 
 def _share(column: Column, cells: Cells) -> dict[str, Any]:

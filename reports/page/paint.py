@@ -1,5 +1,10 @@
-"""Colours that colour-blind people tell apart (Okabe and Ito), each with a shape and a dash."""
+"""Colours that colour-blind people tell apart (Okabe and Ito), each with a shape and a dash.
 
+The page's style and script have the same: `heat.css`, `plot.js`.
+"""
+
+from collections.abc import Iterable
+from html import escape
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -19,7 +24,9 @@ THEIRS = [(code.lower(), f"var(--{name})") for name, code in ENGINES.items()]
 OTHERS = ("#CC79A7", "#E69F00", "#56B4E9")
 MARKERS = {"mujoco": "o", "pymunk": "^", "book": "D"}
 DASHES = {"shipped": (0, (4, 2)), "recommended": (0, (7, 2, 1, 2)), "tuned": "-"}
-WAYS = {"law": (0, (1, 1.5)), "driver": (0, (5, 1.5, 1, 1.5)), "any way": (0, (1, 1.5))}
+OWN = tuple(zip(OTHERS, ("P", "X", "*"), ((0, (2, 1)), (0, (1, 2)), (0, (8, 2))), strict=True))
+"""Of a person's own settings, in their order: colour, marker, dash."""
+WAYS = {"law": (0, (1, 1.5)), "driver": (0, (5, 1.5, 1, 1.5))}
 
 
 def colour(engine: str) -> str:
@@ -27,24 +34,34 @@ def colour(engine: str) -> str:
     return ENGINES.get(engine) or OTHERS[sum(map(ord, engine)) % len(OTHERS)]
 
 
-def style(column: Column) -> dict[str, Any]:
-    """How its line is drawn: colour and marker by engine, hollow as shipped, dashed by its way."""
-    shipped = column.setting == "shipped"
+def style(column: Column, among: Iterable[Column]) -> dict[str, Any]:
+    """How its line is drawn beside those of all others: by engine, setting and way.
+
+    As shipped its markers are hollow, as recommended half filled, tuned they are full.
+    """
+    own = sorted({(one.engine, one.setting) for one in among if one.own})
+    way = WAYS.get(column.realised)
+    if column.own:
+        code, marker, dash = OWN[own.index((column.engine, column.setting)) % len(OWN)]
+        return {"color": code, "marker": marker, "linestyle": way or dash, "markerfacecolor": code}
+    code = colour(column.engine)
     return {
-        "color": colour(column.engine),
+        "color": code,
         "marker": MARKERS.get(column.engine, "s"),
-        "linestyle": WAYS.get(column.realised) or DASHES.get(column.setting, (0, (2, 1))),
-        "markerfacecolor": "none" if shipped else colour(column.engine),
+        "linestyle": way or DASHES.get(column.setting, "-"),
+        "fillstyle": {"shipped": "none", "recommended": "left"}.get(column.setting, "full"),
     }
 
 
-def svg(figure: Figure, salt: str) -> str:
-    """To stand in a page: in the ink of its text, and with the same bytes every time."""
-    with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": salt}):
+def svg(figure: Figure, name: str) -> str:
+    """To stand in a page: in the ink of its text, with a name, and the same bytes every time."""
+    with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": name}):
         out = StringIO()
         figure.savefig(out, format="svg", transparent=True, metadata=UNDATED)
     drawing = out.getvalue()
-    drawing = drawing[drawing.index("<svg") :]
+    drawing = drawing[drawing.index("<svg") :].replace(
+        "<svg", f'<svg role="img" aria-label="{escape(name)}"', 1
+    )
     for code, name in ((INK, "currentColor"), ("#000000", "currentColor"), *THEIRS):
         drawing = drawing.replace(code, name)
     return drawing

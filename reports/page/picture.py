@@ -34,8 +34,7 @@ def picture(
     axes = figure.subplots(2, 2)
     figure.suptitle(f"{name}: {quantity}", fontsize=12, x=0.01, ha="left")
     shown = list(dict.fromkeys(column(row) for row in own if row.error is not None))
-    ghosts = [(one.key, one.title) for one in shown if one.key in motion["ghosts"]]
-    strobe(axes[0, 0], motion, ghosts)
+    strobe(axes[0, 0], motion, [one for one in shown if one.key in motion["ghosts"]])
     curves = motion["curves"]["quantities"].get(quantity)
     if curves is None:
         for one in (axes[0, 1], axes[1, 0]):
@@ -60,14 +59,20 @@ def _tube(
     reference = unpacked(curves["reference"])
     axes.fill_between(times, reference - allowed, reference + allowed, color=INK, alpha=0.12, lw=0)
     axes.plot(times, reference, color=INK, lw=2, label="reference")
+    low, high = np.min(reference) - allowed, np.max(reference) + allowed
+    bottom, top, away = low - ROOM * (high - low), high + ROOM * (high - low), []
     for one, off in _off(curves, shown):
         if "values" in off:  # at its own samples
-            _curve(axes, unpacked(off["times"]), unpacked(off["values"]), one)
+            x, y = unpacked(off["times"]), unpacked(off["values"])
         else:
-            _curve(axes, times, reference + unpacked_by_size(off["curve"]), one)
-    low, high = np.min(reference) - allowed, np.max(reference) + allowed
-    bottom, top = axes.get_ylim()
-    axes.set_ylim(max(bottom, low - ROOM * (high - low)), min(top, high + ROOM * (high - low)))
+            x, y = times, reference + unpacked_by_size(off["curve"])
+        _curve(axes, x, y, one, shown)
+        if np.min(y) < bottom or np.max(y) > top:
+            most = short(float(np.max(np.abs(unpacked_by_size(off["curve"])))))
+            away.append(f"{one.title} leaves the picture: off by up to {most}")
+    low, high = axes.get_ylim()
+    axes.set_ylim(max(bottom, low), min(top, high))
+    axes.text(0.01, 0.99, "\n".join(away), transform=axes.transAxes, va="top", fontsize=8)
     axes.set(xlabel="t [s]", ylabel=label)
 
 
@@ -81,7 +86,8 @@ def _error(
 ) -> None:
     for one, off in _off(curves, shown):
         own = unpacked(off["times"]) if "times" in off else times
-        _curve(axes, own, np.maximum(np.abs(unpacked_by_size(off["curve"])) / allowed, LEAST), one)
+        parts = np.abs(unpacked_by_size(off["curve"])) / allowed
+        _curve(axes, own, np.maximum(parts, LEAST), one, shown)
     _bound(axes)
     told = [row for row in rows if row.when is not None and row.ratio]
     if told:
@@ -100,14 +106,15 @@ def _error(
 
 
 def _ladder(axes: Any, rungs: Sequence[Rungs], allowed: float) -> None:
+    kinds = [column(rung) for rung in rungs]
     for rung in rungs:
-        steps = np.array(rung.steps.split(), dtype=float)
+        steps = 1e3 * np.array(rung.steps.split(), dtype=float)
         errors = np.array(rung.errors.split(), dtype=float) / allowed
         order = "" if rung.order is None else f", order {rung.order:.2g}"
         label = f"{column(rung).title}, {rung.ladder}{order}"
-        look = {**style(column(rung)), "lw": 1.0 if rung.ladder == "held" else 1.6, "ms": 4}
+        look = {**style(column(rung), kinds), "lw": 1.0 if rung.ladder == "held" else 1.6, "ms": 4}
         axes.plot(steps, np.maximum(errors, LEAST), label=label, **look)
-    axes.set(xscale="log", xlabel="step h [s]", ylabel="error / allowed")
+    axes.set(xscale="log", xlabel="step h [ms]", ylabel="error / allowed")
     axes.xaxis.set_minor_formatter(NullFormatter())
     _bound(axes)
 
@@ -116,9 +123,9 @@ def _off(curves: Any, shown: Sequence[Column]) -> list[tuple[Column, Any]]:
     return [(one, curves["off"][one.key]) for one in shown if one.key in curves["off"]]
 
 
-def _curve(axes: Any, x: Array, y: Array, of: Column) -> None:
+def _curve(axes: Any, x: Array, y: Array, of: Column, among: Sequence[Column]) -> None:
     every = max(1, len(x) // 5)
-    axes.plot(x, y, lw=1.3, ms=4, markevery=every, **style(of))
+    axes.plot(x, y, lw=1.3, ms=4, markevery=every, **style(of, among))
 
 
 def _bound(axes: Any) -> None:

@@ -7,9 +7,10 @@ import numpy as np
 
 from ...cases.space.rotation import turned
 from ...cases.trajectory import Array
+from .column import Column
 from .motions import Motion
 from .pack import unpacked
-from .paint import INK, colour
+from .paint import INK, style
 
 INSTANTS = 7
 AZIMUTH, ELEVATION = np.radians(35.0), np.radians(20.0)  # as the page looks at space
@@ -17,8 +18,11 @@ AZIMUTH, ELEVATION = np.radians(35.0), np.radians(20.0)  # as the page looks at 
 Pose = Mapping[str, Array]
 
 
-def strobe(axes: Any, motion: Motion, ghosts: Sequence[tuple[str, str]]) -> None:
-    """Draws it; ghosts: the ways whose last instant is drawn beside, each with its label."""
+def strobe(axes: Any, motion: Motion, ghosts: Sequence[Column]) -> None:
+    """Draws it; ghosts: the ways whose last instant is drawn beside the reference's.
+
+    The scale is the mechanism's: a ghost that fell away leaves the picture.
+    """
     frames = _frames(motion["poses"])
     last = len(unpacked(motion["times"])) - 1
     for k in sorted({round(last * i / (INSTANTS - 1)) for i in range(INSTANTS)}):
@@ -26,13 +30,19 @@ def strobe(axes: Any, motion: Motion, ghosts: Sequence[tuple[str, str]]) -> None
         _bodies(axes, motion, now, color=INK, alpha=0.2 + 0.8 * (k / last), lw=1.6)
         if k == last:
             _links(axes, motion, now)
-    for key, label in ghosts:
-        ends = {part: rows[-1] for part, rows in _frames(motion["ghosts"][key]["poses"]).items()}
-        engine = key.partition(".")[0]
-        _bodies(axes, motion, ends, color=colour(engine), ls="--", lw=1.3, label=label)
+    if motion["trail"]:
+        trail = _seen(np.stack([unpacked(c) for c in motion["trail"]], axis=1))
+        axes.plot(*trail.T, color=INK, lw=0.8, alpha=0.5)
+    axes.set_aspect("equal", adjustable="datalim")
+    limits = axes.get_xlim(), axes.get_ylim()
+    for one in ghosts:
+        told = motion["ghosts"][one.key]["poses"]
+        ends = {part: rows[-1] for part, rows in _frames(told).items()}
+        code = style(one, ghosts)["color"]
+        _bodies(axes, motion, ends, color=code, ls="--", lw=1.3, label=one.title)
+    axes.set(xlim=limits[0], ylim=limits[1])
     for place in motion["sketch"]["ground"]:
         axes.plot(*_seen(np.array([place])).T, marker=6, color=INK, ms=8, alpha=0.6)
-    axes.set_aspect("equal", adjustable="datalim")
     axes.set_axis_off()
     axes.set_title(f"{INSTANTS} instants, the last in full ink", fontsize=9, loc="left")
 

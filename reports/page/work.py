@@ -3,16 +3,11 @@
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from matplotlib.figure import Figure
-from matplotlib.ticker import NullLocator
-
 from ..row import Comparison, Rungs
 from .column import Column, column
-from .paint import INK, style, svg
 
 SHOWN = ("pins", "loops", "springs", "rolling", "friction", "impacts", "space")
-PRECISIONS = ((1.0, 1.5), (1e-2, 0.7))  # parts of what is allowed, each with the width of its line
-ACROSS = 4
+PRECISIONS = (1.0, 1e-2)  # parts of what is allowed: one is chosen
 ANY = "any way"  # native, or with a law or a driver of ours: whichever takes the larger step
 LEAST, MOST = 10.0, 1e5  # steps per second that are shown
 
@@ -22,29 +17,23 @@ Steps = Mapping[tuple[str, Column], Mapping[float, float]]
 
 def work(
     rows: Sequence[Comparison], rungs: Sequence[Rungs], themes: Mapping[str, tuple[str, ...]]
-) -> str:
-    """The figure as SVG, or nothing where there is no ladder of any theme."""
+) -> list[dict[str, Any]]:
+    """Returns a panel for each theme that has a ladder: by column the curve of each precision."""
     ladders = worst(rows, rungs)
     moving = {case: about for case, about in themes.items() if "states" not in about}
     panels = [(theme, [case for case in moving if theme in moving[case]]) for theme in SHOWN]
-    told = [(theme, cases) for theme, cases in panels if any(at[0] in cases for at in ladders)]
-    if not told:
-        return ""
-    down = -(-(len(told) + 1) // ACROSS)
-    # Places are given: to find them by the size of every text takes longer than all the rest.
-    height = 2.7 * down
-    figure = Figure(figsize=(2.9 * ACROSS, height))
-    figure.subplots_adjust(0.062, 0.55 / height, 0.99, 1 - 0.3 / height, 0.12, 0.32)
-    axes = figure.subplots(down, ACROSS, sharex=True, sharey=True, squeeze=False).ravel()
-    lines: dict[str, Any] = {}
-    for one, (theme, cases) in zip(axes, told, strict=False):
-        lines |= _panel(one, theme, cases, ladders)
-    for one in axes[len(told) :]:
-        one.set_axis_off()
-    axes[len(told)].legend(lines.values(), lines, loc="center left", frameon=False, fontsize=9)
-    figure.supxlabel("steps per simulated second", fontsize=10)
-    figure.supylabel("cases within tolerance [%]", x=0.008, fontsize=10)
-    return svg(figure, "work")
+    return [
+        {
+            "theme": theme,
+            "cases": len(cases),
+            "curves": {
+                of.key: [profile(of, cases, ladders, part) for part in PRECISIONS]
+                for of in _kinds(ladders)
+            },
+        }
+        for theme, cases in panels
+        if any(at[0] in cases for at in ladders)
+    ]
 
 
 def worst(rows: Iterable[Comparison], rungs: Iterable[Rungs]) -> Steps:
@@ -74,35 +63,12 @@ def enough(ladder: Mapping[float, float], precision: float) -> float | None:
     return largest
 
 
-def _panel(axes: Any, theme: str, cases: Sequence[str], ladders: Steps) -> dict[str, Any]:
-    """Its lines, drawn, and one of each kind by its label."""
-    axes.set(xscale="log", xlim=(LEAST, MOST), ylim=(-3, 103))
-    count = f"{len(cases)} case" if len(cases) == 1 else f"{len(cases)} cases"
-    axes.set_title(f"{theme}: {count}", fontsize=10, loc="left")
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.grid(color=INK, alpha=0.15, lw=0.5)
-    axes.tick_params(labelsize=9)
-    lines: dict[str, Any] = {}
-    for of in _kinds(ladders):
-        for precision, width in PRECISIONS:
-            x, y = profile(of, cases, ladders, precision)
-            look = style(of) if precision == 1.0 else {**style(of), "marker": ""}
-            ends = {"drawstyle": "steps-post", "markevery": slice(1, -1), "markersize": 3.5}
-            (line,) = axes.plot(x, y, lw=width, **look, **ends)
-            lines.setdefault(_label(of), line)
-    return lines
-
-
 def _kinds(ladders: Steps) -> list[Column]:
     """Of every engine the settings by themselves, and those with our laws where there are any."""
     seen = {of for _, of in ladders}
     native = {of for of in seen if of.realised == "native"}
     helped = {Column(of.engine, of.setting, ANY) for of in seen - native}
     return sorted(native | helped)
-
-
-def _label(of: Column) -> str:
-    return f"{of.engine} {of.setting}" + (" + law or driver" if of.realised == ANY else "")
 
 
 def profile(
@@ -123,4 +89,5 @@ def profile(
             steps.append(1 / max(found))
     corners = sorted(set(steps))
     shares = [100 * sum(step <= x for step in steps) / len(cases) for x in corners]
-    return [LEAST, *corners, MOST], [0.0, *shares, max(shares, default=0.0)]
+    corners = [float(f"{x:.4g}") for x in corners]
+    return [LEAST, *corners, MOST], [0.0, *(round(s, 1) for s in [*shares, max(shares, default=0)])]

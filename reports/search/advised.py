@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from ...cases.theme import themes
 from ...engines.engine import Plan, Refusal
 from ...engines.knobs import as_text
+from ..amount import milliseconds
 from ..row import Advice
 from ..unit import Pair
 from .candidate import Candidate
@@ -105,7 +106,7 @@ def _remains(one: Advised) -> dict[str, str | float]:
         return {"remains": "; ".join(filter(None, ("every run diverges", left_out)))}
     candidate, worst, quantity = found
     told = f"with {as_text(candidate.options)}" if candidate.options else "as shipped"
-    best_of = f"{told} at {candidate.step:.3g} s"
+    best_of = f"{told} at {milliseconds(candidate.step)}"
     what = f"{quantity} stays ×{worst:.2g} {best_of}, the best of all that was tried"
     if not one.kitchen.bar.elsewhere.get(candidate, 0.0) <= 1.0:
         what = f"{quantity} is ×{worst:.2g} {best_of}, and not where a loop is cut elsewhere"

@@ -20,7 +20,9 @@ from ..selection import BOOK
 NAME = "shares.svg"
 SIZE = (7.2, 3.4)  # inches
 LEAST, MOST = 1e-6, 1e4  # × allowed
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")  # told apart by the colour-blind, too
+COLOURS = ("#0072B2", "#D55E00", "#009E73")  # told apart by the colour-blind, too
+OWN = (("#CC79A7", (0, (2, 1))), ("#E69F00", (0, (1, 2))), ("#56B4E9", (0, (8, 2))))
+"""Of a person's own settings: colour and dash, as the page has them."""
 LINES = {"shipped": (0, (3, 1.5)), "recommended": (0, (6, 1.5, 1, 1.5)), "tuned": "solid"}
 TICKS = {1e-6: "1e-6", 1e-4: "1e-4", 1e-2: "0.01", 1.0: "1", 1e2: "100", 1e4: "1e4"}
 STYLE: dict[Any, Any] = {
@@ -35,16 +37,26 @@ STYLE: dict[Any, Any] = {
 def picture(rows: Sequence[Comparison]) -> str:
     """The picture as the text of an SVG file."""
     with rc_context(STYLE):
+        out = StringIO()
+        drawn(rows).savefig(out, format="svg", metadata={"Date": None, "Creator": None})
+    return "".join(f"{line.rstrip()}\n" for line in out.getvalue().splitlines())
+
+
+def drawn(rows: Sequence[Comparison]) -> Figure:
+    """Draws a curve for each engine's setting; a person's own have colours of their own."""
+    with rc_context(STYLE):
         figure = Figure(figsize=SIZE, layout="constrained")
         axes = figure.add_subplot()
         shares = worst(rows)
         engines = sorted({engine for engine, _ in shares})
+        own = [key for key in shares if key[1] not in LINES]
         for (engine, setting), ratios in shares.items():
-            _curve(axes, ratios, COLOURS[engines.index(engine) % len(COLOURS)], engine, setting)
+            look = (COLOURS[engines.index(engine) % len(COLOURS)], LINES.get(setting))
+            if (engine, setting) in own:
+                look = OWN[own.index((engine, setting)) % len(OWN)]
+            _curve(axes, ratios, look, f"{engine} {setting}")
         _frame(axes)
-        out = StringIO()
-        figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
-    return "".join(f"{line.rstrip()}\n" for line in out.getvalue().splitlines())
+    return figure
 
 
 def worst(rows: Sequence[Comparison]) -> Mapping[tuple[str, str], list[float]]:
@@ -59,19 +71,19 @@ def worst(rows: Sequence[Comparison]) -> Mapping[tuple[str, str], list[float]]:
     return {key: sorted(found.values()) for key, found in sorted(cases.items())}
 
 
-def _curve(axes: Axes, ratios: Sequence[float], colour: str, engine: str, setting: str) -> None:
+def _curve(axes: Axes, ratios: Sequence[float], look: tuple[str, Any], name: str) -> None:
     """Which share of the cases is at worst so far off."""
     x = np.clip([LEAST, *ratios, MOST], LEAST, MOST)
     finite = sum(ratio <= MOST for ratio in ratios)
     counts = [0, *np.minimum(np.arange(1, len(ratios) + 1), finite), finite]
     within = sum(ratio <= 1 for ratio in ratios) / len(ratios)
-    label = f"{engine} {setting}: {within:.0%} of {len(ratios)}"
+    label = f"{name}: {within:.0%} of {len(ratios)}"
     axes.step(
         x,
         np.array(counts) / len(ratios),
         where="post",
-        color=colour,
-        linestyle=LINES.get(setting, "dotted"),
+        color=look[0],
+        linestyle=look[1],
         linewidth=1.8,
         label=label,
     )

@@ -106,8 +106,8 @@ class Tab:
             time.sleep(0.05)
 
     def press(self, key: str) -> None:
-        """A key, as a person without a mouse does: `Tab`, `Enter`."""
-        code = {"Tab": 9, "Enter": 13, "ArrowRight": 39}[key]
+        """A key, as a person without a mouse does: `Tab`, `Enter`, an arrow."""
+        code = {"Tab": 9, "Enter": 13, "ArrowRight": 39, "ArrowDown": 40}[key]
         text = {"Enter": "\r"}.get(key)
         for kind in ("keyDown", "keyUp"):
             words = {"type": kind, "key": key, "code": key, "windowsVirtualKeyCode": code}

@@ -1,4 +1,4 @@
-"""A case that needs no file, and an engine whose errors are known in advance."""
+"""All rows, a case that needs no file, and an engine whose errors are known in advance."""
 
 import itertools
 from collections.abc import Callable
@@ -14,6 +14,11 @@ from textmech.cases.load import load
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Choice, Diverged, Plan, Realised, Refusal, Start
+from textmech.reports import pool, suite
+from textmech.reports.cache.store import usable
+from textmech.reports.pytest_plugin import CaseItem, measured
+from textmech.reports.selection import choose_cases, choose_engines
+from textmech.reports.suite import Report
 from textmech.reports.trial.start import first
 from textmech.reports.trial.trial import Trial, ways
 
@@ -183,3 +188,15 @@ def trial(moving: Case) -> Callable[..., Trial]:
         return Trial(case, reference, Fake(**properties), way)
 
     return made
+
+
+@pytest.fixture(scope="session")
+def report(request: pytest.FixtureRequest) -> Report:
+    """All rows; those of this session where it compares everything anyway."""
+    cases, engines = choose_cases([]), choose_engines([], [])
+    names = [item.name for item in request.session.items if isinstance(item, CaseItem)]
+    pairs = {"-".join(name.split("-")[:2]) for name in names}
+    if all(f"{c.name}-{e.name}.{e.setting}" in pairs for c in cases for e in engines):
+        return measured(request.session)
+    jobs, store = pool.workers(), usable()
+    return suite.measure(cases, engines, jobs=jobs, progress=lambda *_: None, store=store)

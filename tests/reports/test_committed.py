@@ -1,20 +1,10 @@
 """The committed reports are what the suite measures now, and the READMEs show them."""
 
-from collections.abc import Sequence
-from typing import Any
-
-import numpy as np
 import pytest
 
 from textmech.reports import pool, suite, write
 from textmech.reports.cache.store import usable
 from textmech.reports.judge.rounding import EPSILON
-from textmech.reports.page.folder import folder
-from textmech.reports.page.motions import motions
-from textmech.reports.page.pack import unpacked
-from textmech.reports.page.page import motions_of, page
-from textmech.reports.page.write import NAME
-from textmech.reports.pytest_plugin import CaseItem, measured
 from textmech.reports.row import Advice, Cause, Certificate, Comparison, Instant, Rungs
 from textmech.reports.search.advised import Asked
 from textmech.reports.search.advised import rows as rows_of
@@ -41,22 +31,7 @@ FOLLOWING = (
 # Below this part of a tolerance a number is rounding's, and differs between machines.
 FLOOR = 1e-6
 DIGITS = 1e-2  # of a step as it is written
-PAGE = write.HERE / NAME
-LARGEST = 3_000_000  # bytes: what a person waits for
-DRAWN = 1e-2  # of the height of a curve, or of how far a body moves
 ORDER = 0.05  # what the noise of neighbouring rungs may do to it, beside a quarter of itself
-
-
-@pytest.fixture(scope="module")
-def report(request: pytest.FixtureRequest) -> Report:
-    """All rows; those of this session where it compares everything anyway."""
-    cases, engines = choose_cases([]), choose_engines([], [])
-    names = [item.name for item in request.session.items if isinstance(item, CaseItem)]
-    pairs = {"-".join(name.split("-")[:2]) for name in names}
-    if all(f"{c.name}-{e.name}.{e.setting}" in pairs for c in cases for e in engines):
-        return measured(request.session)
-    jobs, store = pool.workers(), usable()
-    return suite.measure(cases, engines, jobs=jobs, progress=lambda *_: None, store=store)
 
 
 @pytest.mark.slow
@@ -184,38 +159,6 @@ def test_every_equation_that_a_case_names_is_executed_by_it(report: Report) -> N
 @pytest.mark.parametrize("file", readme.FILES)
 def test_what_is_generated_in_a_readme_is_current(file: str) -> None:
     assert (readme.ROOT / file).read_text(encoding="utf-8") == readme.current(file)
-
-
-@pytest.mark.slow
-def test_the_page_shows_the_reports() -> None:
-    """The same bytes, of the committed rows and of the motions that the page itself carries."""
-    text = PAGE.read_text(encoding="utf-8")
-    assert len(text.encode()) <= LARGEST
-    assert page(folder(write.HERE), choose_cases([]), motions_of(text)) == text
-
-
-@pytest.mark.slow
-def test_the_motions_of_the_page_are_current(report: Report) -> None:
-    now, before = motions(report), motions_of(PAGE.read_text(encoding="utf-8"))
-    assert set(now) == set(before)
-    for name, one in now.items():
-        other = before[name]
-        assert one["sketch"] == other["sketch"], name
-        for body, columns in one["poses"].items():
-            for column, committed in zip(columns, other["poses"][body], strict=True):
-                assert_drawn_alike(column, committed, f"{name}: {body}")
-        curves = other["curves"]["quantities"]
-        for quantity, curve in one["curves"]["quantities"].items():
-            committed = curves[quantity]["reference"]
-            assert_drawn_alike(curve["reference"], committed, f"{name}: {quantity}")
-            assert set(curve["off"]) == set(curves[quantity]["off"]), f"{name}: {quantity}"
-
-
-def assert_drawn_alike(now: Sequence[Any], before: Sequence[Any], what: str) -> None:
-    """To a hundredth of the picture; what is rounding's may be another number of it."""
-    a, b = unpacked(now), unpacked(before)
-    assert len(a) == len(b), what
-    assert np.max(np.abs(a - b)) <= DRAWN * max(np.ptp(a), np.ptp(b)) + FLOOR, what
 
 
 def key(row: Comparison | Rungs) -> tuple[str, ...]:

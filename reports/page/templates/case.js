@@ -1,18 +1,23 @@
 // The section of a case: built when it is opened, from its motion and its rows.
 const CALM = matchMedia('(prefers-reduced-motion: reduce)');
 
-function animation(name, motion) {
+// wanted: the ghosts that are shown at all; by default each, those of an engine by itself at once.
+function animation(name, motion, wanted = null) {
   const pose = poser(motion.times, motion.poses, motion.axes), times = unpack(motion.times);
   const last = times[times.length - 1], [slow, long] = [3, 12];
   const rate = last / Math.min(Math.max(last, slow), long); // s of the motion in one second
-  const root = svg('svg', {class: 'mechanism', viewBox: `0 0 ${CANVAS.width} ${CANVAS.height}`, role: 'img', 'aria-label': `${name} in motion`});
+  const root = svg('svg', {class: motion.axes === 3 ? 'mechanism space' : 'mechanism', viewBox: `0 0 ${CANVAS.width} ${CANVAS.height}`, role: 'img', 'aria-label': `${name} in motion`});
   const fixed = fittings(motion), own = bodies(motion, 'reference');
-  const ghosts = Object.entries(motion.ghosts).map(([key, ghost]) => ({
+  const ghosts = Object.entries(motion.ghosts).filter(([key]) => !wanted || wanted.includes(key)).map(([key, ghost]) => ({
     ...COLUMN.get(key), ...bodies(motion, `ghost ${COLUMN.get(key).look}`), pose: poser(ghost.times, ghost.poses, motion.axes),
   }));
-  root.append(fixed.group, ...ghosts.map((g) => g.group), own.group);
+  const trail = motion.trail ? motion.trail.map(unpack) : null, trace = svg('polyline', {class: 'trace'});
+  root.append(fixed.group, trace, ...ghosts.map((g) => g.group), own.group);
   let window = null, now = 0, playing = false, before = null;
-  const aim = (turn) => { window = frame(motion, camera(motion, turn), pose, times); };
+  const aim = (turn) => {
+    window = frame(motion, camera(motion, turn), pose, times);
+    if (trail) trace.setAttribute('points', path(Array.from(trail[0], (_, k) => window(trail.map((column) => column[k])))));
+  };
   const play = html('button', {type: 'button', class: 'play'});
   const scrub = html('input', {type: 'range', min: 0, max: 1000, value: 0, 'aria-label': 'time'});
   const clock = html('output', {});
@@ -28,7 +33,8 @@ function animation(name, motion) {
     if (!playing || !root.isConnected || !root.checkVisibility()) { before = null; return set(false); }
     if (before !== null) now = (now + rate * (stamp - before) / 1000) % last;
     before = stamp;
-    draw();
+    const {top, bottom} = root.getBoundingClientRect();
+    if (bottom > 0 && top < innerHeight) draw();
     requestAnimationFrame(tick);
   };
   function set(on) {
@@ -52,10 +58,13 @@ function animation(name, motion) {
     return html('li', {}, html('label', {}, box, swatch(ghost.look), ghost.title));
   }));
   set(!CALM.matches);
+  const controls = html('div', {class: 'controls'}, play, scrub, clock, wanted ? null : turner);
+  if (wanted) return [root, controls];
   const covered = motion.covered.map((key) => COLUMN.get(key).title).join(', ');
   const pace = rate >= .995 && rate <= 1.005 ? '' : ` Shown at ${short(rate)} of its speed.`;
-  return html('figure', {class: 'moving'}, root, html('div', {class: 'controls'}, play, scrub, clock, turner), keys,
-    html('figcaption', {}, `The reference in ink.${pace}` + (covered ? ` Not to be told apart from it at this size: ${covered}.` : '')));
+  const behind = trail ? ' The line is the way of the place that is observed.' : '';
+  return html('figure', {class: 'moving'}, root, controls, keys,
+    html('figcaption', {}, `The reference in ink.${behind}${pace}` + (covered ? ` Not to be told apart from it at this size: ${covered}.` : '')));
 }
 
 function swatch(look) {
@@ -78,13 +87,27 @@ function curvesOf(motion, quantity, wanted = () => true) {
     const values = found.values ? unpack(found.values) : error.map((e, k) => right[k] + e);
     return {...COLUMN.get(key), x: own, error, y: values};
   });
-  return {times, right, engines};
+  const place = (one) => COLUMNS.findIndex(({key}) => key === one.key);
+  return {times, right, engines: engines.sort((a, b) => place(a) - place(b))};
 }
 
-function tubePlot(quantity, unit, allow, {times, right, engines}) {
+// From where to where a tube's plot goes: not all the way with an engine that is lost.
+function tubeRange(allow, {right, engines}) {
+  const [bottom, top] = [least([right]) - allow, most([right]) + allow], room = (top - bottom) * .9;
+  return [Math.max(bottom - room, least([[bottom], ...engines.map((e) => e.y)])), Math.min(top + room, most([[top], ...engines.map((e) => e.y)]))];
+}
+
+// What leaves that range, and how far off it is.
+function leaving(unit, allow, found) {
+  const [bottom, top] = tubeRange(allow, found);
+  const told = found.engines.filter((e) => most([e.y]) > top || least([e.y]) < bottom)
+    .map((e) => `${e.title} by up to ${short(most([e.error.map(Math.abs)]))} ${unit}`);
+  return told.length ? ` Out of the picture: ${told.join(', ')}.` : '';
+}
+
+function tubePlot(quantity, unit, allow, found) {
+  const {times, right, engines} = found, y = tubeRange(allow, found);
   const [low, high] = [right.map((v) => v - allow), right.map((v) => v + allow)];
-  const [bottom, top] = [least([low]), most([high])], room = (top - bottom) * .9;
-  const y = [Math.max(bottom - room, least([low, ...engines.map((e) => e.y)])), Math.min(top + room, most([high, ...engines.map((e) => e.y)]))];
   const pad = (y[1] - y[0]) * .04 || 1;
   return plot({title: `${quantity} over time`, xLabel: 't [s]', yLabel: `${quantity} [${unit}]`, x: [times[0], times[times.length - 1]],
     y: [y[0] - pad, y[1] + pad], tube: {x: times, low, high},
@@ -102,7 +125,7 @@ function errorPlot(quantity, allow, {times, engines}, rows) {
 
 function ladderPlot(quantity, allow, ladders) {
   const curves = ladders.map(([column, , ladder, steps, errors]) => {
-    const x = word(steps).split(' ').map(Number), all = errors.split(' ').map(Number);
+    const x = word(steps).split(' ').map((h) => 1e3 * h), all = errors.split(' ').map(Number);
     const kept = x.map((h, k) => [h, all[k] / allow]).filter(([, e]) => e > 0 && isFinite(e));
     const one = COLUMNS[column], held = word(ladder) === 'held' && ladders.some((l) => l[0] === column && l[2] !== ladder);
     return {x: kept.map((p) => p[0]), y: kept.map((p) => p[1]), look: one.look + (held ? ' held' : ''), title: `${one.title}, ${word(ladder)}`, dots: 9};
@@ -110,5 +133,5 @@ function ladderPlot(quantity, allow, ladders) {
   if (!curves.length) return null;
   const x = [least(curves.map((c) => c.x)) / 1.3, most(curves.map((c) => c.x)) * 1.3];
   const y = [Math.min(.3, Math.max(1e-12, least(curves.map((c) => c.y)) / 3)), Math.max(3, most(curves.map((c) => c.y)) * 3)];
-  return plot({title: `ladder of ${quantity}`, xLabel: 'step h [s]', yLabel: 'error / allowed', x, y, xLog: true, yLog: true, bound: 1, curves});
+  return plot({title: `ladder of ${quantity}`, xLabel: 'step h [ms]', yLabel: 'error / allowed', x, y, xLog: true, yLog: true, bound: 1, curves});
 }

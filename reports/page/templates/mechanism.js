@@ -80,12 +80,14 @@ function piston([x0, y0], [x1, y1]) {
 }
 const LINK = {spring: zigzag, damper: piston};
 
+const closed = (line) => line.length > 2 && line[0].every((v, i) => v === line[line.length - 1][i]);
+
 // The bodies of one motion: what is drawn of the reference and of each ghost.
 function bodies(motion, kind) {
   const group = svg('g', {class: kind});
   const parts = Object.entries(motion.sketch.bodies).map(([name, body]) => ({
     name, body,
-    lines: body.lines.map(() => group.appendChild(svg('polyline', {class: 'body'}))),
+    lines: body.lines.map((line) => group.appendChild(svg('polyline', {class: closed(line) ? 'body closed' : 'body'}))),
     dot: body.dot ? group.appendChild(svg('circle', {class: 'dot', r: kind === 'reference' ? 5 : 6})) : null,
   }));
   const show = (now, window) => {

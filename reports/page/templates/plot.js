@@ -32,12 +32,16 @@ const MARKER = {
   mujoco: (x, y) => svg('circle', {cx: x, cy: y, r: 3.2}),
   pymunk: (x, y) => svg('path', {d: `M${x} ${y - 4}l4 7h-8z`}),
   book: (x, y) => svg('path', {d: `M${x} ${y - 4.2}l4.2 4.2l-4.2 4.2l-4.2 -4.2z`}),
-  own: (x, y) => svg('rect', {x: x - 3, y: y - 3, width: 6, height: 6}),
+  other: (x, y) => svg('rect', {x: x - 3, y: y - 3, width: 6, height: 6}),
+  mine0: (x, y) => svg('path', {d: `M${x - 1.3} ${y - 4}h2.6v2.7h2.7v2.6h-2.7v2.7h-2.6v-2.7h-2.7v-2.6h2.7z`}),
+  mine1: (x, y) => svg('path', {d: `M${x} ${y - 1.8}l2.4 -2.4l1.8 1.8l-2.4 2.4l2.4 2.4l-1.8 1.8l-2.4 -2.4l-2.4 2.4l-1.8 -1.8l2.4 -2.4l-2.4 -2.4l1.8 -1.8z`}),
+  mine2: (x, y) => svg('path', {d: `M${x} ${y - 5}l1.3 3.4l3.5 .2l-2.7 2.3l.9 3.5l-3 -1.9l-3 1.9l.9 -3.5l-2.7 -2.3l3.5 -.2z`}),
 };
+// Hollow as shipped, with a dot in it as recommended, full as tuned.
 function marker(look, x, y) {
-  const shape = MARKER[look.split(' ')[0]](x, y);
-  shape.setAttribute('class', look.includes('shipped') ? 'hollow' : 'marker');
-  return shape;
+  const [kind, setting] = look.split(' '), shape = MARKER[kind](x, y);
+  shape.setAttribute('class', ['shipped', 'recommended'].includes(setting) ? 'hollow' : 'marker');
+  return setting === 'recommended' ? svg('g', {}, shape, svg('circle', {class: 'marker', cx: x, cy: y, r: .9})) : shape;
 }
 
 // curves: [{x, y, look, title, dots}]; tube: {x, low, high}; bound: y; marks: [{x, y, text}]
@@ -77,7 +81,7 @@ function plot({title, xLabel, yLabel, x, y, xLog = false, yLog = false, curves, 
   for (const {x: mx, y: my, text} of marks) {
     const [px, py] = [at(mx), up(my)], end = px > width * .6;
     drawn.append(svg('circle', {class: 'largest', cx: px, cy: py, r: 6}),
-      svg('text', {class: 'label', x: px, y: py < top + 28 ? py + 21 : py - 11, 'text-anchor': end ? 'end' : 'start'}, text));
+      svg('text', {class: 'label', x: end ? px - 9 : px, y: py < top + 28 ? py + 21 : py - 11, 'text-anchor': end ? 'end' : 'start'}, text));
   }
   root.append(drawn, svg('rect', {class: 'axis', ...inside}),
     svg('text', {class: 'label', x: (left + width - right) / 2, y: height - 6, 'text-anchor': 'middle'}, xLabel),

@@ -1,7 +1,8 @@
 // What a section holds below its motion: plots of one quantity, events, and all its numbers.
-function table(head, rows, first = true) {
-  const cell = (text, k) => html(k === 0 && first ? 'th' : 'td', k === 0 && first ? {scope: 'row'} : {}, text instanceof Node ? text : plain(text));
-  return html('div', {class: 'scroll'}, html('table', {class: 'rows'},
+const NUMBER = /^(h ≤ )?[-−]?[\d.]+(e-?\d+)?( \S+)?$/; // with its unit: it stands on one line
+function table(caption, head, rows) {
+  const cell = (text, k) => html(k ? 'td' : 'th', {scope: k ? null : 'row', class: NUMBER.test(text) ? 'num' : null}, text instanceof Node ? text : plain(text));
+  return html('div', {class: 'scroll'}, html('table', {class: 'rows'}, html('caption', {}, caption),
     html('thead', {}, html('tr', {}, ...head.map((text) => html('th', {scope: 'col'}, text)))),
     html('tbody', {}, ...rows.map((row) => html('tr', {}, ...row.map(cell))))));
 }
@@ -13,9 +14,9 @@ const folded = (title, content) => {
 };
 
 function orders(ladders) {
-  const told = ladders.map(([column, , ladder, , , order, limit, usable, verdict]) =>
-    [COLUMNS[column].title, word(ladder), short(order), short(limit), usable === null ? '–' : `h ≤ ${short(usable)}`, word(verdict)]);
-  return told.length ? table(['setting', 'ladder', 'order', 'left for h → 0', 'usable step [s]', 'says'], told) : null;
+  const told = [...ladders].sort((a, b) => a[0] - b[0]).map(([column, , ladder, , , order, limit, usable, verdict]) =>
+    [COLUMNS[column].title, word(ladder), short(order), short(limit), usable === null ? '–' : `h ≤ ${milliseconds(usable)}`, word(verdict)]);
+  return told.length ? table('Order of the error in the step, and what is left of it', ['setting', 'ladder', 'order', 'left for h → 0', 'usable step [ms]', 'says'], told) : null;
 }
 
 function quantityFigures(motion, data, quantity) {
@@ -26,7 +27,7 @@ function quantityFigures(motion, data, quantity) {
   const parts = [];
   if (found) {
     const keys = keyOf([{look: 'reference', title: `reference, ± ${short(allow)} ${unit}`}, ...found.engines]);
-    parts.push(figure('In its tolerance tube.', tubePlot(quantity, unit, allow, found)),
+    parts.push(figure(`In its tolerance tube.${leaving(unit, allow, found)}`, tubePlot(quantity, unit, allow, found)),
       figure('Off the reference; the largest is marked, the shade is within.', errorPlot(quantity, allow, found, rows)));
     const climbed = ladderPlot(quantity, allow, ladders);
     if (climbed) parts.push(figure('Largest error by step: what falls is the step’s, what stays is the model’s. Thin: tuned numbers held as of the largest step.', climbed));
@@ -50,25 +51,34 @@ function events(data) {
   const right = new Map(data.instants.filter((i) => i[0] === -1).map((i) => [`${i[1]} ${i[2]}`, i[3]]));
   const told = data.instants.filter((i) => i[0] >= 0).map(([column, event, k, time, difference]) =>
     [`${word(event)} ${k}`, COLUMNS[column].title, right.get(`${event} ${k}`) ?? 'not there', time, difference === null ? '–' : short(difference)]);
-  return told.length || right.size ? table(['event', 'setting', 'reference [s]', 'engine [s]', 'off by [s]'], told) : null;
+  return told.length || right.size ? table('When each event happens', ['event', 'setting', 'reference [s]', 'engine [s]', 'off by [s]'], told) : null;
+}
+
+// The shades of the heat map: blue within, orange beyond, hatched where it is declared.
+const SHADES = [1e-3, 1e-2, 1e-1, 1, 10, 100, 1000];
+function verdictLook(says, ratio) {
+  const at = SHADES.findIndex((bound) => ratio <= bound), lost = typeof ratio !== 'number' && says !== 'agrees';
+  return `s${lost || at < 0 ? 7 : at}` + (says === 'deviates' ? ' declared' : '');
 }
 
 function numbers(data) {
   const refused = new Map(), told = [];
   for (const [column, quantity, unit, step, allowed, largest, when, ratio, verdict, because] of data.rows) {
     const says = word(verdict);
-    if (says.startsWith('refused')) {
-      const key = `${COLUMNS[column].title}: ${says}`;
+    if (says === 'refused') {
+      const key = `${COLUMNS[column].title}: ${[says, word(because)].filter(Boolean).join(': ')}`;
       refused.set(key, [...(refused.get(key) || []), word(quantity)]);
-    } else told.push([COLUMNS[column].title, word(quantity), plain(step), `${plain(allowed)} ${word(unit)}`, plain(largest), plain(when), ratio === null ? '' : short(ratio), says, word(because)]);
+    } else told.push([COLUMNS[column].title, word(quantity), milliseconds(step), `${few(allowed)} ${word(unit)}`, few(largest), few(when), ratio === null ? '' : short(ratio),
+      html('span', {class: `chip ${verdictLook(says, ratio)}`}, says), word(because)]);
   }
-  return html('div', {}, told.length ? table(['setting', 'quantity', 'step [s]', 'allowed', 'largest error', 'at [s]', '× allowed', 'verdict', 'because'], told) : null,
+  return html('div', {}, told.length ? table('Every observed quantity', ['setting', 'quantity', 'step [ms]', 'allowed', 'largest error', 'at [s]', '× allowed', 'verdict', 'because'], told) : null,
     ...[...refused].map(([why, names]) => html('p', {class: 'note'}, `${why} (${names.join(', ')})`)));
 }
 
-const causes = (data) => table(['engine and setting', 'quantity', 'error', 'cured by', 'options', 'step [s]', 'then', 'cost', 'law'],
-  data.causes.map((row) => row.map(word)).map(([engine, setting, ...rest]) => [`${engine} ${setting}`, ...rest]));
-const checks = (data) => table(['check', 'difference', 'bound', 'certified to', 'verdict'],
+const causes = (data) => table('The smallest changes that bring a row within', ['engine and setting', 'quantity', 'error', 'cured by', 'options', 'step [ms]', 'error then', 'cost, × its own', 'law'],
+  data.causes.map((row) => row.map(word)).map(([engine, setting, quantity, before, cure, options, step, after, cost, law]) =>
+    [`${engine} ${setting}`, quantity, few(before), cure, options === '{}' ? '' : options, milliseconds(step), few(after), few(cost), law]));
+const checks = (data) => table('What holds the reference', ['check', 'difference', 'bound', 'certified to', 'verdict'],
   data.checks.map(([check, difference, bound, certified, unit, verdict]) => [word(check), short(difference), short(bound), certified === null ? '' : `${short(certified)} ${word(unit)}`, word(verdict)]));
 
 function build(section) {

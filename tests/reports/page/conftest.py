@@ -1,6 +1,7 @@
 """A small run with its page: two cases, one of them with a title that would be markup."""
 
 from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import pandas as pd
@@ -12,7 +13,9 @@ from textmech.reports import suite, write
 from textmech.reports.page.folder import folder
 from textmech.reports.page.motions import motions
 from textmech.reports.page.page import page
+from textmech.reports.page.write import NAME
 from textmech.reports.selection import choose_cases, choose_engines
+from textmech.reports.suite import Report
 
 ODD = "hostile? & <b>"  # a file may have any name
 HOSTILE = "<script>window.struck = 1</script></script><b onload=x>& A bar that swings"
@@ -27,7 +30,7 @@ ADVICE = {
     "step": ["0.008", "0.00063", ""],
     "cost": ["500", "1600", ""],
     "shipped_cost": ["500", "100", "500"],
-    "ratio": ["0.1", "0.3", ""],
+    "ratio": ["1.2e-05", "0.3", ""],
     "quantity": ["rod.angle", "rod.angle", ""],
     "remains": ["", "", "<i>nothing cures it</i>"],
 }
@@ -58,7 +61,7 @@ VERSIONS = {
 }
 
 
-@pytest.fixture(scope="package")
+@pytest.fixture(scope="session")
 def shipped() -> list[Case]:
     """All shipped cases."""
     return choose_cases([])
@@ -82,3 +85,12 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
     return SimpleNamespace(
         odd=ODD, place=place, cases=cases, report=report, folder=found, motions=moved, text=text
     )
+
+
+@pytest.fixture(scope="session")
+def whole(report: Report, shipped: list[Case], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Returns the file of a page of the committed rows and this session's motions."""
+    file = tmp_path_factory.mktemp("whole") / NAME
+    text = page(folder(write.HERE), shipped, motions(report))
+    file.write_text(text, encoding="utf-8")
+    return file

@@ -18,7 +18,7 @@ def rows(text: str) -> pd.DataFrame:
 
 
 ADVICE = rows("""
-case engine tolerance margin want     recipe settings step   cost shipped_cost worst
+case engine tolerance margin want     recipe settings step   cost shipped_cost ratio
 a    mujoco -         2      both     RK4    o1       0.008  500  500          0.1
 b    mujoco -         2      cheapest RK4    o2       0.001  4000 500          0.2
 b    mujoco -         2      fewest_changes many o5   0.0001 9000 500          0.2
@@ -75,6 +75,26 @@ mujoco 4.0.0   shipped beyond  -
     told = [(one["version"], one["within"], one["judged"], one["moved"]) for one in found["shares"]]
     assert told == [("3.9.0", 0, 1, 0), ("3.10.0", 0, 1, 0), ("4.0.0", 1, 2, 1)]
     assert [row[1] for row in found["moved"]] == ["4.0.0"]
+
+
+@pytest.mark.mutant("a moved row beside the error of its own release")
+def test_a_moved_row_has_the_error_of_the_release_before() -> None:
+    frame = rows("""
+case engine version setting quantity error verdict moved
+a    mujoco 4.0.0   shipped x        0.3   agrees  yes
+a    mujoco 3.10.0  shipped x        0.2   beyond  yes
+a    mujoco 3.9.0   shipped x        0.1   beyond  -
+a    mujoco 3.9.0   tuned   x        7     beyond  -
+""")
+
+    def told(module: Any = beside) -> list[tuple[str, str]]:
+        found = module.versions(frame)
+        assert found["names"][-1] == "error before"
+        return [(row[2], row[-1]) for row in found["moved"]]
+
+    assert told() == [("4.0.0", "0.2"), ("3.10.0", "0.1")]
+    own = otherwise(beside, 'found[k] = last.get(of, "")', 'found[k] = rows[k]["error"]')
+    assert told(own) == [("4.0.0", "0.3"), ("3.10.0", "0.2")]
 
 
 @pytest.mark.parametrize("read", [causes, versions])

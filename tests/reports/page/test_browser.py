@@ -1,22 +1,25 @@
 """The page as a person meets it, in a real browser: it works, and asks nobody for anything."""
 
 import json
+import re
+from base64 import b64decode
 from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 from given.browser import Tab, browser, found
 
 from textmech.cases.space.rotation import turned
-from textmech.reports import write
 from textmech.reports.page.pack import packed_by_size
-from textmech.reports.page.write import NAME
 
-WIDTHS = (390, 900, 1500)
+WIDTHS = (390, 900, 1440)
 SHEET = 794  # px: the width of A4
-COMMITTED = write.HERE / NAME
+STOPS = 60  # of the tab key: ten sections, their links, three motions, one choice
+SHEETS = {"": 2, "#swing": 2, "#overview": 1, "#heat": 6, "#four_bar": 2, "#cases": 12}
+"""What is printed at most of a choice: with nothing open, the first screen."""
 
 pytestmark = [
     pytest.mark.skipif(found() is None, reason="there is no Chromium on this machine to look with"),
@@ -42,6 +45,12 @@ def page(tab: Tab, made: SimpleNamespace) -> Iterator[str]:
     assert {url.partition("#")[0] for url in asked} <= {address}
 
 
+def look(tab: Tab, address: str, **how: Any) -> None:
+    """Opens the page, and waits until its data are unpacked."""
+    tab.open(address, **how)
+    tab.until("document.documentElement.dataset.ready")
+
+
 def each(selector: str, field: str) -> str:
     """A script: the field of every element that the selector finds."""
     return f"[...document.querySelectorAll('{selector}')].map((one) => one.{field})"
@@ -60,7 +69,7 @@ def test_an_error_and_a_request_would_be_seen(tab: Tab, tmp_path: Path) -> None:
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("width", WIDTHS)
 def test_nothing_is_wider_than_the_window(tab: Tab, page: str, width: int, scheme: str) -> None:
-    tab.open(f"{page}#swing", width=width, prefers_color_scheme=scheme)
+    look(tab, f"{page}#swing", width=width, prefers_color_scheme=scheme)
     tab.until("document.querySelector('#swing svg.mechanism')")
     assert tab.ask("document.documentElement.scrollWidth") <= width
     dark = tab.ask("getComputedStyle(document.body).backgroundColor") != "rgb(255, 255, 255)"
@@ -69,7 +78,7 @@ def test_nothing_is_wider_than_the_window(tab: Tab, page: str, width: int, schem
 
 def test_text_of_a_case_is_never_markup(tab: Tab, page: str, made: SimpleNamespace) -> None:
     """Its title, and the name of its file, by which it is also found."""
-    tab.open(page)
+    look(tab, page)
     tab.ask("document.querySelector('#heat-map tbody a').click()")
     tab.until("document.querySelector('details.case[open] svg.mechanism')")
     assert tab.ask("document.querySelector('details.case[open]').id") == made.odd
@@ -79,7 +88,7 @@ def test_text_of_a_case_is_never_markup(tab: Tab, page: str, made: SimpleNamespa
 
 
 def test_every_link_leads_somewhere(tab: Tab, page: str) -> None:
-    tab.open(page)
+    look(tab, page)
     lost = tab.ask(
         """[...document.querySelectorAll('a[href]')].map((a) => a.getAttribute('href')).filter(
         (h) => !h.startsWith('#') || !document.getElementById(
@@ -89,7 +98,7 @@ def test_every_link_leads_somewhere(tab: Tab, page: str) -> None:
 
 
 def test_a_case_opens_by_its_address_and_moves(tab: Tab, page: str) -> None:
-    tab.open(f"{page}#swing/rod.angle")
+    look(tab, f"{page}#swing/rod.angle")
     tab.until("document.querySelector('#swing svg.mechanism')")
     assert tab.ask("document.getElementById('swing').open")
     assert tab.ask("document.querySelector('#swing select').value") == "rod.angle"
@@ -104,7 +113,7 @@ def test_a_case_opens_by_its_address_and_moves(tab: Tab, page: str) -> None:
 
 
 def test_who_wants_no_motion_gets_a_picture(tab: Tab, page: str) -> None:
-    tab.open(f"{page}#swing", prefers_reduced_motion="reduce")
+    look(tab, f"{page}#swing", prefers_reduced_motion="reduce")
     tab.until("document.querySelector('#swing .play')")
     assert tab.ask("document.querySelector('#swing .play').textContent") == "Play"
 
@@ -113,7 +122,7 @@ def test_the_drawn_bar_is_where_the_reference_is(
     tab: Tab, page: str, made: SimpleNamespace
 ) -> None:
     """The script's places, against the trajectory itself: hinge at O, the bar at its angle."""
-    tab.open(f"{page}#swing", prefers_reduced_motion="reduce")
+    look(tab, f"{page}#swing", prefers_reduced_motion="reduce")
     tab.until("document.querySelector('#swing .play')")
     told = tab.ask(
         """(() => { const m = MOTIONS.swing, pose = poser(m.times, m.poses, m.axes);
@@ -127,7 +136,7 @@ def test_the_drawn_bar_is_where_the_reference_is(
 
 
 def test_the_script_reads_the_errors_that_were_packed(tab: Tab, page: str) -> None:
-    tab.open(page)
+    look(tab, page)
     errors = np.array([0.0, 1e-7, -3.3, 2.0, -1e-3, 1e-12])
     found = tab.ask(f"Array.from(unpackBySize({json.dumps(packed_by_size(errors))}))")
     assert found == pytest.approx([*errors[:5], 0.0], rel=0.006)
@@ -136,7 +145,7 @@ def test_the_script_reads_the_errors_that_were_packed(tab: Tab, page: str) -> No
 def test_places_turn_with_their_part(tab: Tab, page: str) -> None:
     """The script's rotations, in the plane and in space, against those of the cases."""
     random = np.random.default_rng(3)
-    tab.open(page)
+    look(tab, page)
 
     def told(pose: np.ndarray, place: np.ndarray) -> list[float]:
         return tab.ask(f"placed({json.dumps(pose.tolist())}, {json.dumps(place.tolist())})")
@@ -153,12 +162,12 @@ def test_places_turn_with_their_part(tab: Tab, page: str) -> None:
         assert found == pytest.approx(centre + turned(q, place))
 
 
-def test_every_committed_case_opens(tab: Tab) -> None:
+def test_every_shipped_case_opens(tab: Tab, whole: Path) -> None:
     tab.errors.clear()
-    tab.open(COMMITTED.as_uri(), width=390, prefers_reduced_motion="reduce")
-    assert tab.ask("document.documentElement.scrollWidth") <= 390
+    look(tab, whole.as_uri(), width=390, prefers_reduced_motion="reduce")
     count = tab.ask(
         """(() => { const all = [...document.querySelectorAll('details.case')];
+        document.getElementById('cases').open = true;
         for (const one of all) { one.open = true; fill(one); }
         return all.filter((one) => one.querySelector('table, svg, select')).length; })()"""
     )
@@ -170,7 +179,7 @@ def test_every_committed_case_opens(tab: Tab) -> None:
 def test_filters_choose_rows_and_stand_in_the_address(
     tab: Tab, page: str, made: SimpleNamespace
 ) -> None:
-    tab.open(page)
+    look(tab, page)
     shown = each("#heat-map tbody tr:not([hidden]) th", "textContent")
     assert tab.ask(shown) == [made.odd, "swing"]
     tab.ask(
@@ -182,15 +191,15 @@ def test_filters_choose_rows_and_stand_in_the_address(
     assert tab.ask("document.querySelector('#heat .count').textContent") == "1 of 2"
     address = tab.ask("location.href")
     assert "heat?words=swing" in address
-    tab.open(address)
+    look(tab, address)
     assert tab.ask(shown) == [made.odd]
-    tab.open(f"{page}#heat?column=pymunk&kind=beyond")
+    look(tab, f"{page}#heat?column=pymunk&kind=beyond")
     heads = each("#heat-map thead th[data-column]:not([hidden])", "dataset.column")
     assert set(tab.ask(heads)) == {"pymunk"}
 
 
 def test_advice_is_chosen_and_copied(tab: Tab, page: str) -> None:
-    tab.open(f"{page}#need?engine=pymunk")
+    look(tab, f"{page}#need?engine=pymunk")
     row = "#advice-themes tbody tr:not([hidden])"
     assert tab.ask(each(row, "dataset.engine")) == ["pymunk"]
     button = f"document.querySelector('{row} .copy')"
@@ -199,7 +208,7 @@ def test_advice_is_chosen_and_copied(tab: Tab, page: str) -> None:
 
 
 def test_a_case_is_opened_by_keyboard(tab: Tab, page: str) -> None:
-    tab.open(page)
+    look(tab, f"{page}#cases")
     tab.ask("document.querySelector('#swing summary').focus()")
     tab.press("Enter")
     tab.until("document.querySelector('#swing svg.mechanism')")
@@ -208,7 +217,7 @@ def test_a_case_is_opened_by_keyboard(tab: Tab, page: str) -> None:
 
 
 def test_on_paper_nothing_is_cut_off(tab: Tab, page: str) -> None:
-    tab.open(f"{page}#swing", width=SHEET)
+    look(tab, f"{page}#swing", width=SHEET)
     tab.call("Emulation.setEmulatedMedia", media="print")
     try:
         assert tab.ask("document.documentElement.scrollWidth") <= SHEET
@@ -217,3 +226,191 @@ def test_on_paper_nothing_is_cut_off(tab: Tab, page: str) -> None:
         assert tab.ask("getComputedStyle(document.querySelector('nav')).display") == "none"
     finally:
         tab.call("Emulation.setEmulatedMedia", media="")
+
+
+def test_a_browser_that_cannot_unpack_says_so_and_shows_the_tables(tab: Tab, page: str) -> None:
+    without = "delete globalThis.DecompressionStream"
+    script = tab.call("Page.addScriptToEvaluateOnNewDocument", source=without)
+    try:
+        tab.open(f"{page}#heat?words=swing")
+        said = "document.querySelector('#old')"
+        tab.until(f"{said}.checkVisibility() && {said}.textContent.includes('cannot unpack')")
+        tab.until("document.querySelector('#heat .count').textContent")
+    finally:
+        tab.call("Page.removeScriptToEvaluateOnNewDocument", **script)
+    look(tab, page)
+    assert not tab.ask("document.querySelector('#old').checkVisibility()")
+
+
+def test_the_first_screen_says_the_result_moves_and_answers(tab: Tab, whole: Path) -> None:
+    """On a usual screen: a sentence with its picture, three motions, and a setting to copy."""
+    look(tab, whole.as_uri(), width=1440, height=900)
+    sentence = tab.ask("document.getElementById('result').textContent")
+    assert re.match(
+        r"mujoco keeps every quantity within .* in \d+ of \d+ cases as shipped", sentence
+    )
+    assert sentence.count(".") == 1
+    parts = {
+        "#result": 1,
+        "#first .picture svg": 1,
+        "#in-motion svg.mechanism": 3,
+        "#answer code": 1,
+    }
+    for part, count in parts.items():
+        bottoms = (
+            f"[...document.querySelectorAll('{part}')].map((e) => e.getBoundingClientRect().bottom)"
+        )
+        found = tab.ask(bottoms)
+        assert len(found) == count, part
+        assert 0 < max(found) <= 900, part
+    moving = "document.querySelector('#in-motion .reference .body').getAttribute('points')"
+    tab.until(f"{moving} !== {tab.ask(moving)!r}")
+
+
+def test_all_else_is_folded_and_few_stops_of_the_tab_key_are_left(tab: Tab, whole: Path) -> None:
+    look(tab, whole.as_uri())
+    assert tab.ask("document.querySelectorAll('details[open]').length") == 0
+    stops = "a[href], button, input, select, summary, [tabindex]"
+    reached = f"""[...document.querySelectorAll('{stops}')].filter((one) =>
+        one.tabIndex >= 0 && one.checkVisibility()).length"""
+    assert 20 < tab.ask(reached) <= STOPS
+    tab.ask("document.getElementById('heat').open = true")
+    assert tab.ask(reached) <= STOPS + 10  # its filters, and the map as one
+
+
+@pytest.mark.parametrize(
+    ("address", "opened"),
+    [
+        ("#heat?theme=pins", ["heat"]),
+        ("#need?engine=pymunk", ["need"]),
+        ("#each", ["need", "each"]),
+        ("#swing/rod.angle", ["cases", "swing"]),
+    ],
+)
+def test_an_address_opens_what_is_folded(
+    tab: Tab, page: str, address: str, opened: list[str]
+) -> None:
+    look(tab, page + address)
+    assert tab.ask(each("details[open]", "id")) == opened
+    look(tab, page)
+    tab.ask(f"location.hash = '{address}'")  # as a link does
+    tab.until(f"document.querySelectorAll('details[open]').length === {len(opened)}")
+
+
+def test_what_is_opened_stands_in_the_address(tab: Tab, page: str) -> None:
+    look(tab, page)
+    tab.ask("document.querySelector('#trust > summary').click()")
+    assert tab.ask("location.hash") == "#trust"
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+def test_no_figure_and_no_section_hangs_out(tab: Tab, whole: Path, width: int) -> None:
+    """With all sections open, and the fullest of the cases."""
+    look(tab, f"{whole.as_uri()}#dynamometer", width=width, prefers_reduced_motion="reduce")
+    tab.ask("for (const one of document.querySelectorAll('details.fold, #each')) one.open = true")
+    tab.until("document.querySelector('#work-figures svg')")
+    assert tab.ask("document.documentElement.scrollWidth") <= width
+    wide = f"""[...document.querySelectorAll('figure, svg')].filter((one) => one.checkVisibility()
+        && one.getBoundingClientRect().right > {width}).length"""
+    assert tab.ask(wide) == 0
+    right = "getBoundingClientRect().right"
+    over = f"""[...document.querySelectorAll('#heat-map tbody th')].filter((th) =>
+        th.firstChild.{right} > th.{right} + 1).length"""
+    assert tab.ask(over) == 0  # no name lies on a number
+
+
+@pytest.mark.parametrize("address", SHEETS)
+def test_what_is_printed_is_what_is_open(
+    tab: Tab, whole: Path, made: SimpleNamespace, address: str
+) -> None:
+    text = whole if address != "#swing" else made.place / "index.html"
+    look(tab, text.as_uri() + address, width=SHEET)
+    paper = tab.call("Page.printToPDF", preferCSSPageSize=True)["data"]
+    sheets = len(re.findall(rb"/Type ?/Page\b", b64decode(paper)))
+    assert 1 <= sheets <= SHEETS[address]
+
+
+def test_every_table_has_a_caption_and_every_picture_a_name(tab: Tab, page: str) -> None:
+    look(tab, f"{page}#swing")
+    tab.ask("for (const one of document.querySelectorAll('details')) one.open = true")
+    tab.until("document.querySelectorAll('#swing table').length > 2")
+    assert tab.ask("[...document.querySelectorAll('table')].filter((t) => !t.caption).length") == 0
+    bare = """[...document.querySelectorAll('svg')].filter((one) => !one.closest('[aria-hidden]')
+        && !(one.getAttribute('role') === 'img' && one.getAttribute('aria-label'))).length"""
+    assert tab.ask(bare) == 0
+    assert tab.ask("document.querySelectorAll('svg[role=img]').length") > 5
+
+
+def test_the_words_of_the_heat_map_come_by_key_and_by_finger(tab: Tab, page: str) -> None:
+    look(tab, f"{page}#heat")
+    words = "document.getElementById('heat-words').textContent"
+    tab.ask("document.querySelector('#heat-map [tabindex=\"0\"]').focus()")
+    tab.press("ArrowRight")
+    first = tab.ask(words)
+    assert "mujoco shipped: " in first
+    assert "of what is allowed" in first
+    tab.press("ArrowDown")
+    assert tab.ask(words).startswith("swing, mujoco shipped: ")
+    tab.ask("document.querySelector('#heat-map tbody td').click()")  # as a finger does
+    assert tab.ask(words) == first
+    tab.press("Enter")
+    tab.until("document.querySelector('#cases details.case[open] svg.mechanism')")
+
+
+def test_the_heat_map_goes_by_the_worst(tab: Tab, whole: Path) -> None:
+    look(tab, f"{whole.as_uri()}#heat?order=worst&column=pymunk")
+    rows = "#heat-map tbody tr"
+    cells = f"[...document.querySelectorAll('{rows}')].map(badness)"
+    worst = [float("inf") if w is None else w for w in tab.ask(cells)]  # JSON has no infinity
+    assert worst == sorted(worst, reverse=True)
+    assert worst[0] > worst[-1]
+    tab.ask("location.hash = '#heat?column=pymunk'")
+    names = f"[...document.querySelectorAll('{rows} th')].map((one) => one.textContent)"
+    tab.until(f"String({names}) === String({names}.sort())")
+
+
+def test_a_setting_is_chosen_on_the_first_screen(tab: Tab, page: str) -> None:
+    look(tab, page)
+    assert tab.ask("document.querySelector('#answer code').textContent") == (
+        "mujoco: {integrator: RK4}"
+    )
+    look(tab, f"{page}#choose?engine=pymunk&tolerance=1e-3")
+    answer = "document.getElementById('answer')"
+    assert "pymunk: {error_bias: 0.0}" in tab.ask(f"{answer}.textContent")
+    assert "at 0.63 ms keeps 1 of 1 case about pins" in tab.ask(f"{answer}.textContent")
+    tab.ask(f"{answer}.querySelector('.copy').click()")
+    tab.until(f"['copied', 'marked'].includes({answer}.querySelector('.copy').textContent)")
+    assert "engine=pymunk" in tab.ask(f"{answer}.querySelector('a').getAttribute('href')")
+    none = "#choose?engine=pymunk&tolerance=as the case allows"
+    tab.ask(f"location.hash = '{none}'")
+    tab.until(f"{answer}.textContent.startsWith('No case about pins was asked in pymunk')")
+
+
+def test_settings_are_told_apart_in_every_plot(tab: Tab, page: str) -> None:
+    """By colour, dash and marker: a person's own from all that an engine offers."""
+    look(tab, f"{page}#swing")
+    script = """((setting) => { const own = ['mujoco.hers', 'mujoco.mine'];
+        const drawn = swatch(columnOf(`mujoco.${setting}.native`, own).look);
+        document.getElementById('swing').append(drawn);
+        const line = getComputedStyle(drawn.querySelector('.curve'));
+        return [line.stroke, line.strokeDasharray, drawn.lastChild.outerHTML]; })"""
+    names = ("shipped", "recommended", "tuned", "mine", "hers")
+    looks = {name: tab.ask(f"{script}('{name}')") for name in names}
+    assert len({str(look[1:]) for look in looks.values()}) == len(names)
+    assert len({look[1] for look in looks.values()}) == len(names)
+    colours = {name: look[0] for name, look in looks.items()}
+    assert colours["shipped"] == colours["recommended"] == colours["tuned"]
+    assert len({colours[name] for name in ("tuned", "mine", "hers")}) == 3
+
+
+def test_numbers_are_written_in_one_style_and_on_one_line(tab: Tab, page: str) -> None:
+    look(tab, page)
+    told = [0.00000179, 1e-8, 2.05e-7, 0.5, 1234.5, 3e7, 0]
+    found = [tab.ask(f"few({number!r})") for number in told]
+    assert found == ["1.79e-6", "1e-8", "2.05e-7", "0.5", "1230", "3e7", "0"]
+    tab.ask("location.hash = '#swing'")
+    tab.ask("for (const one of document.querySelectorAll('#swing details')) one.open = true")
+    tab.until("document.querySelector('#swing td.num')")
+    spaces = "[...document.querySelectorAll('td.num')].map((c) => getComputedStyle(c).whiteSpace)"
+    assert set(tab.ask(spaces)) == {"nowrap"}
+    assert tab.ask("document.querySelectorAll('#swing td .chip').length") > 0  # verdicts

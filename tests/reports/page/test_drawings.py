@@ -66,6 +66,41 @@ def test_a_spring_ends_where_it_is_fixed(case: Case) -> None:
     assert ends(case, centred)[0] == ["box", [0.0, 0.0]]
 
 
+def top(module: Any = outline) -> tuple[float, list[float]]:
+    """How high the rim of the heavy top stands over its centre at most, and its radius."""
+    body: Any = SHIPPED["heavy_top.cusp"].scene.bodies["top"]
+    rim = np.array(module.outline(body, 1.0)["lines"][0])
+    return float(np.max(np.abs(rim[:, 2]))), np.linalg.norm(rim, axis=1).tolist()
+
+
+@pytest.mark.mutant("a top whose disk stands along its axis")
+def test_a_top_is_a_disk_as_hard_to_turn_on_its_point() -> None:
+    """Of 0.5 kg and 0.0006 kg m² about its axis: J = m r²/2."""
+    body: Any = SHIPPED["heavy_top.cusp"].scene.bodies["top"]
+    height, radii = top()
+    assert height < 1e-6
+    assert radii == pytest.approx([np.sqrt(2 * 0.0006 / 0.5)] * len(radii), rel=1e-3)
+    lines = outline.outline(body, 1.0)["lines"]
+    assert [line for line in lines if line[0] == [0.0, 0.0, -0.05]]  # its cone ends in its tip
+    assert top(otherwise(outline, "k = 2 if alike[0] else 0", "k = 0"))[0] > 0.01
+
+
+def box(module: Any = outline) -> list[float]:
+    """The sides of the box that the torque-free body is drawn as, about as long as it reaches."""
+    body: Any = SHIPPED["torque_free.thrown"].scene.bodies["body"]
+    return np.ptp(np.concatenate(module.outline(body, 1.0)["lines"]), axis=0).tolist()
+
+
+@pytest.mark.mutant("a box whose longest side is along its largest moment of inertia")
+def test_a_body_of_space_is_a_box_as_hard_to_turn() -> None:
+    """J_1 = m (b² + c²)/12 and so on, of 1.3 kg and (0.09, 0.06, 0.04) kg m²."""
+    a, b, c = box()
+    inertia = [1.3 * (b**2 + c**2) / 12, 1.3 * (a**2 + c**2) / 12, 1.3 * (a**2 + b**2) / 12]
+    assert inertia == pytest.approx([0.09, 0.06, 0.04], rel=1e-3)
+    wrong = otherwise(outline, "np.sum(moments) - 2 * moments", "0.5 * moments")
+    assert box(wrong) != pytest.approx([a, b, c], rel=0.1)
+
+
 def moved(case: Case) -> dict[str, Array]:
     """Two poses (N, 3) that are nothing alike."""
     t = case.times

@@ -1,15 +1,18 @@
 """What is drawn is what was computed: poses, curves and the joints between bodies."""
 
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 from given import scenes
+from given.otherwise import otherwise
 
 from textmech import engines
 from textmech.cases.case import Case
 from textmech.cases.motion import Motion as Looked
 from textmech.cases.observe import observe
+from textmech.reports.page import motions
 from textmech.reports.page.motions import FRAMES, POINTS, motion, thinned
 from textmech.reports.page.pack import unpacked, unpacked_by_size
 from textmech.reports.page.sketch import sketch
@@ -33,7 +36,7 @@ def test_curves_are_the_reference_and_what_each_engine_is_off_it(made: SimpleNam
     wanted = observe(case.scene, made.report.solutions["swing"].trajectory, "rod.angle")
     assert unpacked(curves["reference"]) == pytest.approx(wanted, abs=LEVEL * np.ptp(wanted))
     ran = [one for one in made.report.tried if one.pair.case.name == "swing"]
-    assert len(curves["off"]) == len(ran) == 4
+    assert len(curves["off"]) == len(ran) == sum(len(engines.settings(e)) for e in engines.names())
     for one in ran:
         key = f"{one.pair.engine.name}.{one.pair.engine.setting}.{one.realised}"
         off = one.outcome.samples["rod.angle"] - wanted
@@ -86,6 +89,37 @@ def test_every_shipped_scene_can_be_drawn(shipped: list[Case]) -> None:
         assert {part for part, _ in ends} <= known
         lengths = {len(place) for _, place in ends}
         assert lengths <= {case.scene.frame.dimension}
+
+
+@pytest.mark.mutant("a trail of straight lines between samples")
+def test_a_trail_goes_round_between_its_samples() -> None:
+    """A circle of eight samples stays one to a hundredth."""
+    times = np.linspace(0.0, 2 * np.pi, 9)
+    places = np.stack([np.cos(times), np.sin(times)], axis=1)
+    velocities = np.stack([-np.sin(times), np.cos(times)], axis=1)
+
+    def off(module: Any = motions) -> float:
+        way = module.between(times, places, velocities, 100)
+        assert way[[0, -1]] == pytest.approx(places[[0, -1]])
+        return float(np.max(np.abs(np.hypot(*way.T) - 1)))
+
+    assert off() < 0.01
+    was = "    return ends + h * (velocities"
+    straight = otherwise(motions, was, "    return ends + 0 * h * (velocities")
+    assert off(straight) > 0.05
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "quantity"), [("heavy_top.loops", "top."), ("driven_wheel.weave", "upright.")]
+)
+def test_a_trail_is_of_what_the_case_observes(name: str, quantity: str) -> None:
+    """A body's place, or a joint's: it begins and ends where the reference says."""
+    (case,), trajectory = choose_cases([name]), scenes.solved(name).trajectory
+    x, y = (unpacked(column) for column in motion(case, trajectory, [])["trail"][:2])
+    for found, axis in ((x, "x"), (y, "y")):
+        right = observe(case.scene, trajectory, quantity + axis)
+        assert found[[0, -1]] == pytest.approx(right[[0, -1]], abs=2 * LEVEL * np.ptp(found) + 1e-6)
 
 
 def test_a_long_curve_has_no_more_points_than_are_seen() -> None:

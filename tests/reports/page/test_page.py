@@ -1,17 +1,26 @@
 """The page as text: the same bytes every time, whole by itself, and no text of a case is markup."""
 
+import gzip
 import json
+import re
+from base64 import b64decode
 from html.parser import HTMLParser
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 from urllib.parse import unquote
 
 import pytest
 
+from textmech.cases.case import Case
+from textmech.reports import write
 from textmech.reports.page.folder import BESIDE, Missing, folder
-from textmech.reports.page.page import embedded, motions_of, page
+from textmech.reports.page.motions import motions
+from textmech.reports.page.page import embedded, page
+from textmech.reports.suite import Report
 from textmech.reports.write import FILES
 
+LARGEST = 3_000_000  # bytes: what a person waits for
 VOID = {"meta", "link", "input", "br", "img", "hr"}
 
 
@@ -51,12 +60,27 @@ def parsed(made: SimpleNamespace) -> Parsed:
     return Parsed(made.text)
 
 
+def data(text: str, name: str) -> Any:
+    """What a script element of the page holds, as its script unpacks it."""
+    (packed,) = re.findall(rf'<script type="text/plain" id="{name}">([^<]*)</script>', text)
+    return json.loads(gzip.decompress(b64decode(packed, validate=True)))
+
+
 @pytest.mark.slow
-def test_its_rows_and_its_own_motions_give_the_same_bytes(made: SimpleNamespace) -> None:
-    """So that the committed page can be checked without running an engine."""
-    kept = motions_of(made.text)
-    assert kept == json.loads(json.dumps(made.motions))
-    assert page(made.folder, made.cases, kept) == made.text
+def test_the_same_rows_and_motions_give_the_same_bytes(made: SimpleNamespace) -> None:
+    assert page(made.folder, made.cases, made.motions) == made.text
+    assert data(made.text, "motions") == json.loads(json.dumps(made.motions))
+
+
+@pytest.mark.slow
+def test_the_page_of_the_committed_rows_is_small_and_the_same_every_time(
+    whole: Path, report: Report, shipped: list[Case]
+) -> None:
+    """It is not committed: everyone who builds it gets these bytes."""
+    text = whole.read_text(encoding="utf-8")
+    assert len(text.encode()) <= LARGEST
+    assert set(data(text, "motions")) == {case.name for case in shipped if case.states is None}
+    assert page(folder(write.HERE), shipped, motions(report)) == text
 
 
 def test_every_element_is_closed_and_has_a_name_of_its_own(parsed: Parsed) -> None:
@@ -80,10 +104,16 @@ def test_a_title_is_text_wherever_it_stands(made: SimpleNamespace, parsed: Parse
 
 def test_words_in_the_data_close_no_script(made: SimpleNamespace) -> None:
     words = {"because": "</script><script><!-- \u2028"}
-    assert "<" not in embedded(words)
-    assert json.loads(embedded(words)) == words
-    rows = made.text.partition('id="rows">')[2].partition("</script>")[0]
-    assert json.loads(rows)["cases"].keys() == {"swing", made.odd}
+    assert not set(embedded(words)) & set("<>&")
+    assert json.loads(gzip.decompress(b64decode(embedded(words)))) == words
+    assert data(made.text, "rows")["cases"].keys() == {"swing", made.odd}
+
+
+def test_powers_of_ten_are_written_in_one_style(made: SimpleNamespace) -> None:
+    """As the page's script writes them: 2e-7 and 2e3, in all that is read."""
+    shown = re.sub(r"<(style|script|svg).*?</\1>", "", made.text, flags=re.DOTALL)
+    assert "1.2e-5" in shown
+    assert not re.search(r"\de(\+|-0)\d", shown)
 
 
 def test_tables_beside_the_reports_are_shown(made: SimpleNamespace) -> None:

@@ -9,11 +9,46 @@ from given.otherwise import otherwise
 from given.report_folders import RUNGS
 from matplotlib.figure import Figure
 
-from textmech.reports.page import picture
+from textmech.reports.page import paint, picture
 from textmech.reports.page.column import Column
 from textmech.reports.page.pack import packed, packed_by_size
 
 ALLOWED = 1e-2
+
+
+KINDS = [Column("mujoco", name, "native") for name in ("shipped", "recommended", "tuned", "a", "b")]
+
+
+def looks(module: Any = paint) -> set[tuple[Any, ...]]:
+    """Colour, dash, marker and how full it is, of an engine's settings and of two own ones."""
+    found = [module.style(one, KINDS) for one in KINDS]
+    names = ("color", "linestyle", "marker", "fillstyle")
+    return {tuple(str(one.get(name)) for name in names) for one in found}
+
+
+@pytest.mark.mutant("own settings look as tuned")
+def test_no_setting_looks_as_another() -> None:
+    assert len(looks()) == len(KINDS)
+    mine = [paint.style(one, KINDS) for one in KINDS[2:]]
+    for name in ("color", "linestyle", "marker"):
+        assert len({str(one[name]) for one in mine}) == 3, name
+    assert len(looks(otherwise(paint, "if column.own:", "if False:"))) == 3
+
+
+@pytest.mark.mutant("a curve that leaves the tube's picture is not told")
+def test_what_leaves_the_tube_is_told_with_its_size() -> None:
+    def told(module: Any = picture) -> str:
+        axes, times = Figure().subplots(), np.array([0.0, 1.0])
+        curves = {
+            "reference": packed(np.array([1.0, 2.0])),
+            "off": {KINDS[0].key: {"curve": packed_by_size(np.array([0.0, 50.0]))}},
+        }
+        module._tube(axes, times, curves, KINDS[:1], 0.25, "x [m]")
+        assert axes.get_ylim()[1] < 5.0
+        return axes.texts[0].get_text()
+
+    assert told() == "mujoco shipped leaves the picture: off by up to 50"
+    assert told(otherwise(picture, "or np.max(y) > top", "")) == ""
 
 
 def drawn(module: Any = picture) -> tuple[list[float], list[float]]:
@@ -28,7 +63,7 @@ def drawn(module: Any = picture) -> tuple[list[float], list[float]]:
 @pytest.mark.mutant("a ladder of errors that are not over what is allowed")
 def test_a_ladder_is_of_errors_over_what_is_allowed() -> None:
     steps, errors = drawn()
-    assert steps == [1e-3, 2e-3]
+    assert steps == [1.0, 2.0]  # ms
     assert errors == pytest.approx([0.1, 5.0])  # beyond from 1 on, as the line says
     bare = otherwise(picture, "dtype=float) / allowed\n", "dtype=float)\n")
     assert drawn(bare)[1] == pytest.approx([1e-3, 5e-2])

@@ -92,6 +92,27 @@ def test_only_all_is_a_hundred_percent() -> None:
     assert share(249, 250, whole) == 100
 
 
+@pytest.mark.mutant("twice what is allowed is within in the sentence of the result")
+def test_the_result_is_one_sentence() -> None:
+    """Each engine's settings in their order, counted in cases; of the book none, nor refusals."""
+    within, beyond = replace(COMPARED, case="a"), replace(COMPARED, case="b", ratio=2.0)
+    rows = [within, beyond, replace(within, setting="recommended"), replace(within, setting="mine"),
+            replace(within, setting="shipped", ratio=5.0), replace(within, engine="pymunk"),
+            replace(within, quantity="other", ratio=1.5), replace(within, engine="book"),
+            replace(within, case="c", verdict="refused")]  # fmt: skip
+
+    def told(module: Any = overview) -> str:
+        return module.result(rows)
+
+    assert told() == (
+        "mujoco keeps every quantity within the textbook’s tolerance in 0 of 1 case as shipped, "
+        "1 of 1 as its documentation recommends, 1 of 1 with mine and 0 of 2 tuned; "
+        "pymunk in 1 of 1 tuned."
+    )
+    lax = otherwise(overview, "sum(ratio <= 1 for", "sum(ratio <= 2 for")
+    assert "2 of 2 tuned" in told(lax)
+
+
 def kind(module: Any = trust) -> tuple[str, str]:
     """Of two checks of one kind: the worst case, and how much of its bound is used."""
     checks = [

@@ -9,11 +9,15 @@ from matplotlib.figure import Figure
 
 from textmech.cases.trajectory import Array
 from textmech.reports.page import strobe
+from textmech.reports.page.column import Column
 from textmech.reports.page.pack import packed
 
 T = np.linspace(0.0, 1.0, 7)
 UP = np.stack([0 * T, 2 * T, 0 * T], axis=1)  # x, y, angle: it rises by 2 m
 RIGHT = np.stack([3 * T, 0 * T, 0 * T], axis=1)
+
+
+TUNED = Column("mujoco", "tuned", "native")
 
 
 def columns(rows: Array) -> list[Any]:
@@ -23,6 +27,7 @@ def columns(rows: Array) -> list[Any]:
 MOTION: dict[str, Any] = {
     "axes": 2,
     "times": packed(T),
+    "trail": None,
     "poses": {"dot": columns(UP), "ground.hook": columns(RIGHT[:, :2])},
     "ghosts": {"mujoco.tuned.native": {"poses": {"dot": columns(RIGHT)}}},
     "sketch": {
@@ -36,7 +41,7 @@ MOTION: dict[str, Any] = {
 def drawn(module: Any = strobe) -> list[tuple[str, list[list[float]]]]:
     """Each line by its label, as places."""
     axes = Figure().subplots()
-    module.strobe(axes, MOTION, [("mujoco.tuned.native", "mujoco tuned")])
+    module.strobe(axes, MOTION, [TUNED])
     return [
         (str(line.get_label()), np.round(np.asarray(line.get_xydata()), 3).tolist())
         for line in axes.get_lines()
@@ -55,6 +60,20 @@ def test_the_reference_is_drawn_at_its_instants_and_its_links_at_the_last() -> N
     dots = np.array([place[0] for place in places if len(place) == 1])
     assert dots == pytest.approx(UP[:, :2], abs=1e-3)
     assert [place for place in places if len(place) == 2] == [[[0.5, 2.0], [3.0, 0.0]]]
+
+
+@pytest.mark.mutant("the scale is that of an engine that fell away")
+def test_the_scale_is_the_mechanisms() -> None:
+    fell = {"mujoco.tuned.native": {"poses": {"dot": columns(-50 * UP)}}}
+
+    def lowest(module: Any = strobe) -> float:
+        axes = Figure().subplots()
+        module.strobe(axes, {**MOTION, "ghosts": fell}, [TUNED])
+        axes.apply_aspect()
+        return axes.get_ylim()[0]
+
+    assert -3.0 < lowest() < 0.0
+    assert lowest(otherwise(strobe, "axes.set(xlim=limits[0], ylim=limits[1])", "pass")) < -90.0
 
 
 @pytest.mark.mutant("ink by 0.8 k / last, of which rounding may make more than all")
