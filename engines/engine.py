@@ -252,3 +252,10 @@ class Maker(Protocol):
         Raises ValueError for mistaken options: a line `<engine>.<option>: what is wrong` for each.
         """
         ...
+
+
+def lacking(engine: object, protocol: type) -> tuple[str, ...]:
+    """The members of a protocol that an engine does not have, in their order."""
+    members = [*getattr(protocol, "__annotations__", {}), *vars(protocol)]
+    public = (name for name in dict.fromkeys(members) if not name.startswith("_"))
+    return tuple(name for name in public if not hasattr(engine, name))
