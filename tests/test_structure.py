@@ -54,7 +54,8 @@ def test_everything_is_in_the_wheel() -> None:
     """Each folder with modules is listed, and each kind of file that is read at run time."""
     setup = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]
     folders = {module(file.parent / "__init__.py") for file in FILES}
-    assert set(setup["packages"]) == {f"textmech.{folder}" for folder in folders}
+    assert set(setup["packages"]) == {"textmech", *(f"textmech.{folder}" for folder in folders)}
+    assert setup["package-data"]["textmech"] == ["py.typed"]
     data = {
         file
         for package in PACKAGES
