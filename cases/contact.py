@@ -38,7 +38,9 @@ class Contact:
     static: float  # coefficient of friction; at least `kinetic`
     kinetic: float  # coefficient of friction where it slides
     restitution: float = 0.0  # speed after an impact over that before
-    ideal: Literal["rolling", "pivot"] | None = None  # what the reference assumes; no engine need
+    ideal: Literal["rolling", "pivot"] | None = (
+        None  # the reference assumes and checks it; an engine need not
+    )
     plane: Plane = LEVEL  # the floor y = 0, or another line of the ground; `on` is its name
     tips: tuple[str, ...] = ()  # of spokes named by their centre: the points that may touch
     ahead_of: Anchor | None = None  # of walkers: what it has to be ahead of to strike

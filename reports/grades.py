@@ -91,6 +91,7 @@ GRADES = (
 )
 """From the easiest on."""
 
+SCRIPT = "script"  # the one member of the protocol without which all cases still run
 LOST = {
     Tunable: "`textmech advise` and `textmech causes` find no settings",
     Claims: "claims about states are refused",
@@ -122,9 +123,11 @@ class Mark:
 
 def members(engine: Engine) -> list[Mark]:
     """What of the protocol is there, and what one has not where something is missing."""
-    missing = lacking(engine, Engine)
+    missing = [name for name in lacking(engine, Engine) if name != SCRIPT]
     told = f"it has no {', '.join(missing)}" if missing else f"version {engine.version}"
     marks = [Mark("protocol", "", "wrong" if missing else "works", told)]
+    if not hasattr(engine, SCRIPT):
+        marks.append(Mark(SCRIPT, "", "not there", "`textmech show` has nothing to show"))
     for protocol, lost in LOST.items():
         name = protocol.__name__
         if missing := lacking(engine, protocol):

@@ -135,10 +135,8 @@ def _equal(one: float, other: float) -> bool:
 
 
 def _cured(found: Mapping[str, float], worst: float) -> tuple[str, ...]:
-    """Those that leave little, the least first: none that leaves far more, or just the same."""
+    """Those that leave little, the least first; a mistake that leaves far more is not told."""
     kept = {what: left for what, left in found.items() if left <= min(ROUGH / 2, worst / CURES)}
-    same = {left: what for what, left in reversed(kept.items())}  # y and vy, where nothing turns
-    kept = {what: left for left, what in same.items()}
     least = min(kept.values(), default=0.0)
     told = sorted(kept, key=kept.__getitem__)
     return tuple(what for what in told if kept[what] <= CURES * max(least, SHIFTS))
@@ -183,8 +181,9 @@ def _unwound(rows: Array) -> Array:
     return rows
 
 
+DOWN = "y points down"  # with both turns the other way, where something turns
 PLANE: Sequence[Undone] = (
-    ("y points down", _times(y=-1, vy=-1, angle=-1, omega=-1)),
+    (DOWN, _times(y=-1, vy=-1, angle=-1, omega=-1)),
     ("y and vy have the opposite sign", _times(y=-1, vy=-1)),
     ("x and vx have the opposite sign", _times(x=-1, vx=-1)),
     ("velocities have the opposite sign", _times(vx=-1, vy=-1, omega=-1)),
@@ -239,7 +238,10 @@ IN_SPACE: Sequence[Undone] = (
 def _read(compared: Compared) -> Iterator[tuple[str, States]]:
     """What the samples would be without each mistake."""
     space = compared.case.scene.frame is SPACE
+    turns = any(body.turns for body in compared.case.scene.bodies.values())
     for what, undo in IN_SPACE if space else PLANE:
+        if what == DOWN and not turns:
+            continue  # it is the same as y and vy
         yield what, {name: undo(rows) for name, rows in compared.states.items()}
     if not space:
         yield from _other_points(compared)
@@ -271,7 +273,7 @@ def _late(compared: Compared) -> Iterator[tuple[str, States]]:
     rates = [*range(frame.width)[frame.velocity], *range(frame.width)[frame.spin]]
     places = [k for k in range(frame.width) if k not in rates]
     for steps, words in ((1.0, "one step"), (0.5, "half a step")):
-        for sense, side in ((-1.0, "late"), (1.0, "early")):
+        for sense, side in ((-1.0, "late"), (1.0, "ahead")):
             by = sense * steps * h
             for columns, who in (
                 (None, "all is"),
