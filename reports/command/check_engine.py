@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ... import engines
 from ...cases.mistake import CaseError, Mistake, nearest
 from ..show.say import say
 from .answer import FAILED, as_json
@@ -38,9 +37,9 @@ def check_engine(name: str, grades: tuple[str, ...], jobs: int | None, wants_jso
     \b
       works      within 5 % of the motion; how near, is what `textmech run` measures
       refused    for the engine's own reason, which is no mistake
-      wrong      by how much, with a quarter of the step too; and as if which mistake were made:
-                 one is told only if the motion agrees once it is undone, or made in the reference.
-                 Where none is told it may be the engine's own model, as of soft joints
+      wrong      by how much, at a quarter of the step too. `as if` tells a mistake that explains
+                 it: the motion agrees once that is undone, or made in the reference. Where none is
+                 told it may be the engine's own model, as of soft joints
       crashed    it raised an exception, ended its process, or took too long
       not there  an optional member, and what is lost without it
 
@@ -71,6 +70,7 @@ def check_engine(name: str, grades: tuple[str, ...], jobs: int | None, wants_jso
 
 def _made(name: str) -> "tuple[Engine | None, list[Mark]]":
     """The engine, or why it cannot be made. Raises CaseError where there is no such."""
+    from ... import engines
     from ..grades import Mark
 
     word, _, setting = name.partition(".")
