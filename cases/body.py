@@ -34,16 +34,17 @@ class Body:
     """A rigid body. A particle has no inertia and no angle."""
 
     name: str
-    shape: Literal["bar", "disk", "block", "particle", "rigid", "spokes"]
-    mass: float
+    shape: Literal["bar", "disk", "block", "particle", "rigid", "spokes"]  # as the file calls it
+    mass: float  # kg
     inertia: float | None  # about the centre of mass, kg m²; None: it cannot turn
-    points: Mapping[str, Vector]
-    radius: float | None = None  # of a disk, m
+    points: Mapping[str, Vector]  # m, in body axes from the centre of mass; `center` is (0, 0)
+    radius: float | None = None  # of a disk or what else is round, m: its rim touches, no point
     tips: tuple[str, ...] = ()  # of spokes: the points with which it touches, counter-clockwise
     size: Vector | None = None  # of a block, m
 
     @property
     def turns(self) -> bool:
+        """Whether it has an angle: a particle has none."""
         return self.inertia is not None
 
     def quantities(self) -> dict[str, Fields]:

@@ -34,7 +34,7 @@ class Edge:
     word: ClassVar[str] = "edge"
     kept: ClassVar[bool] = False  # a height, which there is in space alone
     name: str
-    at: Anchor
+    at: Anchor  # the point of the body that does not slip
     along: Annotated[Direction, Field(description="in the axes of the body")]
     speed: (
         Annotated[Signal, Law("m/s"), Field(description="prescribed, of the point along the blade")]

@@ -12,8 +12,8 @@ from .point import Anchor
 from .trajectory import ANGLE, OMEGA, Array
 
 _CONTACT: Fields = {
-    "normal": ("N", "force"),
-    "tangent": ("N", "force"),
+    "normal": ("N", "force"),  # on the body, along the plane's normal
+    "tangent": ("N", "force"),  # on the body, along `plane.along`: x, of the floor
     "slip": ("m/s", "residual"),  # of the point that touches
     "gap": ("m", "residual"),  # its height above the plane
 }
@@ -36,12 +36,14 @@ class Contact:
     name: str
     at: Anchor  # a disk is named by its centre and touches with its rim
     static: float  # coefficient of friction; at least `kinetic`
-    kinetic: float
-    restitution: float = 0.0
-    ideal: Literal["rolling", "pivot"] | None = None
-    plane: Plane = LEVEL
+    kinetic: float  # coefficient of friction where it slides
+    restitution: float = 0.0  # speed after an impact over that before
+    ideal: Literal["rolling", "pivot"] | None = (
+        None  # the reference assumes and checks it; an engine need not
+    )
+    plane: Plane = LEVEL  # the floor y = 0, or another line of the ground; `on` is its name
     tips: tuple[str, ...] = ()  # of spokes named by their centre: the points that may touch
-    ahead_of: Anchor | None = None
+    ahead_of: Anchor | None = None  # of walkers: what it has to be ahead of to strike
 
     @property
     def body(self) -> str:

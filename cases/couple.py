@@ -20,9 +20,9 @@ class Couple(Force):
     """A torque of the first body on the second, which takes its opposite."""
 
     word = "couple"
-    first: str
-    second: str
-    signal: Annotated[Signal, InTime("N m", axes=1)]
+    first: str  # the body that takes the opposite
+    second: str  # the body that it turns
+    signal: Annotated[Signal, InTime("N m", axes=1)]  # on the second, counter-clockwise
 
     def refers(self) -> tuple[Anchor, ...]:
         """The bodies' centres: any points would do."""

@@ -29,12 +29,12 @@ class Drag(Force):
 
     word = "drag"
     stated = True
-    at: Anchor
-    coefficient: Annotated[float, In("N", least=0)]
-    exponent: Annotated[float, In("1", least=0)]
-    along: Direction | None = None
-    backward: Annotated[float, In("N", least=0)] | None = None
-    across: Annotated[float, In("N", least=0)] | None = None
+    at: Anchor  # the point that it slows
+    coefficient: Annotated[float, In("N", least=0)]  # d, or d₊ of an edge
+    exponent: Annotated[float, In("1", least=0)]  # α
+    along: Direction | None = None  # the edge, in body axes; None: alike in all directions
+    backward: Annotated[float, In("N", least=0)] | None = None  # d₋
+    across: Annotated[float, In("N", least=0)] | None = None  # d⊥
 
     def refers(self) -> tuple[Anchor, ...]:
         """Its point; the ground does not move."""
@@ -116,9 +116,9 @@ class Viscous(Force):
 
     word = "viscous"
     freedom = "shift"
-    joint: str
-    coefficient: Annotated[Bounds, FrictionForce]
-    exponent: Annotated[float, In("1", above=0)]
+    joint: str  # the slide along which it acts
+    coefficient: Annotated[Bounds, FrictionForce]  # d₊ and d₋, N
+    exponent: Annotated[float, In("1", above=0)]  # α
 
     def refers(self) -> tuple[Anchor, ...]:
         """No points: the joint has them."""

@@ -29,7 +29,7 @@ class Force:
     given: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     """Of its quantities, by what reactions of its own a producer tells each."""
     works: ClassVar[bool] = True  # whether it has a power
-    name: str
+    name: str  # by which the scene has it
 
     def refers(self) -> tuple[Anchor, ...]:
         """The points on which it acts, in the order of the file."""

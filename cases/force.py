@@ -34,8 +34,8 @@ from .turning import Motor, Torsion, TorsionDamper
 class Line(Force):
     """A force along the line between two points."""
 
-    a: Anchor
-    b: Anchor
+    a: Anchor  # one end
+    b: Anchor  # the other
 
     def refers(self) -> tuple[Anchor, ...]:
         """Its two ends."""
@@ -65,9 +65,9 @@ class Spring(Line):
     """(2.82): F = −c(λ − λ₀) along the line between two points; of a leg or rope on one side."""
 
     word = "spring"
-    stiffness: Annotated[float, In("N/m", above=0)]
-    rest_length: Annotated[float, In("m", least=0)]
-    only: Annotated[str, Word("side", ("compression", "tension"))] | None = None
+    stiffness: Annotated[float, In("N/m", above=0)]  # c
+    rest_length: Annotated[float, In("m", least=0)]  # λ₀
+    only: Annotated[str, Word("side", ("compression", "tension"))] | None = None  # acts; or on both
 
     def tension(self, length: Array, rate: Array) -> Array:
         """(2.82) c(λ − λ₀)."""
@@ -100,7 +100,7 @@ class Damper(Line):
     """(2.47) along the line between two points: F = −d λ̇."""
 
     word = "damper"
-    damping: Annotated[float, In("N s/m", least=0)]
+    damping: Annotated[float, In("N s/m", least=0)]  # d
 
     def tension(self, length: Array, rate: Array) -> Array:
         """(2.47) d λ̇."""
@@ -120,8 +120,8 @@ class Push(Force):
     """A force at a point of a body, in ground axes."""
 
     word = "push"
-    at: Anchor
-    signal: Annotated[Signal, InTime("N", axes=2)]
+    at: Anchor  # where it acts, as the body moves
+    signal: Annotated[Signal, InTime("N", axes=2)]  # in ground axes, in space along three
 
     def refers(self) -> tuple[Anchor, ...]:
         """Its point; of the ground there is nothing to push."""
@@ -143,11 +143,11 @@ class Push(Force):
 
 @dataclass(frozen=True)
 class Torque(Force):
-    """A torque on a body."""
+    """A torque on a body, which nothing else takes: counter-clockwise, in space in ground axes."""
 
     word = "torque"
-    body: str
-    signal: Annotated[Signal, InTime("N m", axes=1)]
+    body: str  # on which it acts
+    signal: Annotated[Signal, InTime("N m", axes=1)]  # in space along three
 
     def refers(self) -> tuple[Anchor, ...]:
         """The body's centre: any point would do."""

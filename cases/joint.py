@@ -58,19 +58,19 @@ _DRY_TURN: Fields = {
 class Joint:
     """What joins a point of one part to a point of another, and leaves the kind's freedoms.
 
-    A swing is that of the second point about the first, at the `length` [m] of a massless rod, or
-    at that of the start. A shift is along one line: `along` is a unit vector in the axes of the
-    first part. `angle` [rad] is the angle of the second part against the first, held by what leaves
-    no turn.
+    A swing is that of the second point about the first, on a massless rod.
+    along: unit vector in the axes of the first part; a shift is along that line.
+    angle: of the second part against the first [rad], held by what leaves no turn.
+    length: of the rod [m]; None: the distance of both points at the start.
     """
 
     name: str
-    kind: str
-    a: Anchor
-    b: Anchor
+    kind: str  # pin, slide, slot, weld or distance: a key of FREEDOMS
+    a: Anchor  # the point of the first part
+    b: Anchor  # the point of the second part: reactions are what it takes from the first
     along: Annotated[Direction, Field(description="in the axes of the first part")] = (1.0, 0.0)
     angle: Angle = 0.0
-    dry_friction: DryFriction | None = None
+    dry_friction: DryFriction | None = None  # of a slide or a pin
     length: Annotated[float, In("m", above=0)] | None = None
 
     @property

@@ -15,9 +15,9 @@ class Magnetic(Force):
 
     word = "magnetic"
     works = False  # it is across the velocity
-    body: str
-    charge: Annotated[float, In("C")]
-    along_z: Annotated[float, In("T")]
+    body: str  # that carries the charge in its centre
+    charge: Annotated[float, In("C")]  # e
+    along_z: Annotated[float, In("T")]  # B
 
     def refers(self) -> tuple[Anchor, ...]:
         """The body's centre."""

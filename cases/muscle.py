@@ -22,13 +22,13 @@ class Contracting(Force):
     """
 
     inner: ClassVar[str] = "contractile_length"
-    a: Anchor
-    b: Anchor
-    isometric: Annotated[float, In("N", above=0)]
-    series_stiffness: Annotated[float, In("N/m", above=0)]
-    parallel_stiffness: Annotated[float, In("N/m", least=0)]
-    rest_length: Annotated[float, In("m", least=0)]
-    contractile_length: Annotated[float, In("m", above=0)]
+    a: Anchor  # one end
+    b: Anchor  # the other
+    isometric: Annotated[float, In("N", above=0)]  # F₀
+    series_stiffness: Annotated[float, In("N/m", above=0)]  # c_s
+    parallel_stiffness: Annotated[float, In("N/m", least=0)]  # c_p
+    rest_length: Annotated[float, In("m", least=0)]  # λ₀ of the spring beside
+    contractile_length: Annotated[float, In("m", above=0)]  # u at the start
 
     @property
     def begins(self) -> float:
@@ -83,8 +83,8 @@ class Muscle(Contracting):
     """
 
     word = "muscle"
-    hill_a: Annotated[float, In("N", above=0)]
-    hill_b: Annotated[float, In("m/s", above=0)]
+    hill_a: Annotated[float, In("N", above=0)]  # a
+    hill_b: Annotated[float, In("m/s", above=0)]  # b
 
 
 @dataclass(frozen=True)
@@ -92,4 +92,4 @@ class LinearMuscle(Contracting):
     """F = F₀ − b v of the shortening speed v = −u̇."""
 
     word = "linear_muscle"
-    damping: Annotated[float, In("N s/m", above=0)]
+    damping: Annotated[float, In("N s/m", above=0)]  # b

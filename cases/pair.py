@@ -13,8 +13,8 @@ from .point import CENTER, Anchor, Vector
 from .trajectory import ANGLE, OMEGA, VX, VY, Array, X, Y
 
 _PAIR: Fields = {
-    "normal": ("N", "force"),
-    "tangent": ("N", "force"),
+    "normal": ("N", "force"),  # on what touches, away from what is touched
+    "tangent": ("N", "force"),  # on what touches, along what has the normal to its left
     "slip": ("m/s", "residual"),  # of the body that touches, where it does
     "gap": ("m", "residual"),  # between both
 }
@@ -57,8 +57,8 @@ class Pair:
     touched: str  # a body
     face: str | None  # of a block; None: it is touched on its rim
     static: float  # coefficient of friction; at least `kinetic`
-    kinetic: float
-    restitution: float = 0.0
+    kinetic: float  # coefficient of friction where it slides
+    restitution: float = 0.0  # speed after an impact over that before
 
     @property
     def body(self) -> str:

@@ -8,11 +8,11 @@ from .point import FLOOR, Vector
 
 @dataclass(frozen=True)
 class Plane:
-    """A straight line of the ground; `normal` is a unit vector and points to where bodies are."""
+    """A straight line of the ground on which bodies stand."""
 
     name: str
-    at: Vector = (0.0, 0.0)
-    normal: Vector = (0.0, 1.0)
+    at: Vector = (0.0, 0.0)  # m, a point of it
+    normal: Vector = (0.0, 1.0)  # a unit vector that points to where bodies are
 
     @property
     def along(self) -> Vector:

@@ -21,8 +21,8 @@ Vector = tuple[float, float]
 class Anchor:
     """A named point of a body or of the ground."""
 
-    body: str
-    point: str
+    body: str  # its name, or `ground`
+    point: str  # its name on that: of a body `center` or one of its points
 
     def __str__(self) -> str:
         return f"{self.body}.{self.point}"
@@ -41,8 +41,8 @@ class GroundPoint:
     moves: by how much [m] it is away from `at`, in ground axes.
     """
 
-    at: Vector
-    velocity: Vector = (0.0, 0.0)
+    at: Vector  # m, at t = 0
+    velocity: Vector = (0.0, 0.0)  # m/s
     moves: Signal | None = None
 
     @property

@@ -40,11 +40,11 @@ SIDES: tuple[Side, ...] = ("", "before", "after")
 class Quantity:
     """One observable: `part` is `crank`, `crank.end`, `hinge`, `energy`."""
 
-    name: str
-    part: str
-    field: str
-    unit: str
-    kind: Kind
+    name: str  # as it is written: `crank.end.x`
+    part: str  # whose it is
+    field: str  # what of it
+    unit: str  # SI
+    kind: Kind  # what it is told by: a place, a velocity, a force, …
 
 
 _MADE: list[tuple[Scene, dict[str, Quantity]]] = []  # the last: a scene is asked many times

@@ -23,9 +23,9 @@ class Rope(Force):
     word = "rope"
     given: ClassVar[Mapping[str, tuple[str, ...]]] = {"force": ("force",)}
     works = False  # taut it has one length; what an impact takes is none of its power
-    a: Anchor
-    b: Anchor
-    length: Annotated[float, In("m", above=0)]
+    a: Anchor  # one end
+    b: Anchor  # the other
+    length: Annotated[float, In("m", above=0)]  # L
 
     def refers(self) -> tuple[Anchor, ...]:
         """Its two ends."""

@@ -77,15 +77,19 @@ STANDARD_GRAVITY = 9.80665  # m/s², the book's value
 
 @dataclass(frozen=True)
 class Scene:
-    """Bodies, joints, constraints, contacts and forces by name, in the order of the case file."""
+    """Bodies, joints, constraints, contacts and forces by name, in the order of the case file.
 
-    gravity: Vector
-    points: Mapping[str, GroundPoint]
-    bodies: Mapping[str, Body]
-    joints: Mapping[str, Joint]
-    contacts: Mapping[str, Contact]
-    forces: Mapping[str, Force]
-    constraints: Mapping[str, Edge] = field(default_factory=dict)
+    A scene in space is a `SpatialScene`, whose elements are those of space: `scene.frame is SPACE`
+    tells it. Beside `contacts` and `pairs` nothing touches, and what no joint holds is free.
+    """
+
+    gravity: Vector  # m/s², in ground axes; 0 where a scene has none
+    points: Mapping[str, GroundPoint]  # of the ground, by name; they may move
+    bodies: Mapping[str, Body]  # all that has mass
+    joints: Mapping[str, Joint]  # each between two points of bodies or of the ground
+    contacts: Mapping[str, Contact]  # with planes of the ground, as the file has them: see touching
+    forces: Mapping[str, Force]  # all else that acts, of the kinds below
+    constraints: Mapping[str, Edge] = field(default_factory=dict)  # blades that do not slip
     drives: Mapping[str, Signal] = field(default_factory=dict)
     """Prescribed rates [rad/s, m/s] of joints' freedoms, by the quantity: `hinge.omega`."""
     pairs: Mapping[str, Pair] = field(default_factory=dict)
@@ -93,7 +97,7 @@ class Scene:
 
     @property
     def frame(self) -> Frame:
-        """Of the plane, or of space."""
+        """PLANE or SPACE: what the columns of a body's states are, and which nouns stand here."""
         return PLANE
 
     def driven(self) -> Mapping[str, Fields]:
@@ -147,6 +151,7 @@ class Scene:
             yield from section.values()
 
     def springs(self) -> Iterator[Spring]:
+        """The springs along a line."""
         return of(Spring, self.forces.values())
 
     def one_sided(self) -> Iterator[Spring]:
@@ -154,9 +159,11 @@ class Scene:
         return (spring for spring in self.springs() if spring.only)
 
     def ropes(self) -> Iterator[Rope]:
+        """The ropes."""
         return of(Rope, self.forces.values())
 
     def stops(self) -> Iterator[Stops]:
+        """The stops of joints."""
         return of(Stops, self.forces.values())
 
     def limits(self) -> Iterator[str]:
@@ -165,9 +172,11 @@ class Scene:
             yield from (f"{force.name}.{name}" for told in force.given.values() for name in told)
 
     def dampers(self) -> Iterator[Damper]:
+        """The dampers along a line."""
         return of(Damper, self.forces.values())
 
     def signals(self) -> Iterator[Push | Torque | Couple | Motor]:
+        """The forces and torques that are given in time."""
         kinds = (Push, Torque, Couple, Motor)
         return (f for kind in kinds for f in of(kind, self.forces.values()))
 

@@ -21,12 +21,12 @@ class Signal:
     table the values at the times, lines between them, and outside the nearest value.
     """
 
-    law: Law
+    law: Law  # how the number goes
     amplitude: tuple[float, ...]  # N for a push (x, y), N m for a torque (one entry)
-    angular_frequency: float = 0.0
-    phase: float = 0.0
-    times: tuple[float, ...] = ()
-    values: tuple[float, ...] = ()
+    angular_frequency: float = 0.0  # w of a sine, rad/s
+    phase: float = 0.0  # of a sine, rad
+    times: tuple[float, ...] = ()  # s, where a step, a pulse or a table has its corners
+    values: tuple[float, ...] = ()  # of a table at its times; of a polynomial its coefficients
 
     @property
     def corners(self) -> tuple[float, ...]:

@@ -26,9 +26,9 @@ class Stops(Turning):
     winds = True
     works = False  # what does not move takes no work, and an impact's is none of a power
     given: ClassVar[Mapping[str, tuple[str, ...]]] = {"torque": SIDES}
-    low: Annotated[float, In("rad")] | None = None
-    high: Annotated[float, In("rad")] | None = None
-    restitution: Annotated[float, In("1", least=0, most=1)] = 0.0
+    low: Annotated[float, In("rad")] | None = None  # the least angle; None: it has no end there
+    high: Annotated[float, In("rad")] | None = None  # the largest
+    restitution: Annotated[float, In("1", least=0, most=1)] = 0.0  # of the rate, at a stop
 
     def unfit(self, bodies: Mapping[str, Body]) -> str | None:
         """It needs one, and with both there has to be something between them."""

@@ -17,7 +17,9 @@ class Trajectory:
 
     times: (N,) s. states: body → (N, 6), the columns x, y, angle, vx, vy, omega of its centre
     of mass; in space (N, 13), the columns r, unit quaternion, v and ω in body axes, as `SPACE` has
-    them. reactions: quantity (`pin.fx`, `touch.normal`) → (N,), as the producer gives them.
+    them. reactions: quantity (`pin.fx`, `touch.normal`) → (N,), as the producer gives them: what
+    acts in the state of the row itself, neither the mean over a step nor what led to it; where
+    something jumps, what acts after it.
     record: every step of a motion that switches, from which event times are read. phase: in the
     reference's record, the number of the smooth piece that a row belongs to; an event stands there
     twice, as the last row of one piece and the first of the next. switches: (K,) s, when the

@@ -20,6 +20,7 @@ class Turning(Force):
     """A torque between the two parts of a joint that lets them turn."""
 
     joint: Annotated[str, Text(turn, TURN, "a joint's name, or joint.turn of named freedoms")]
+    """The joint whose turn it is, in space with the turn's name where it has several."""
 
     def refers(self) -> tuple[Anchor, ...]:
         """No points: the joint has them."""
@@ -60,8 +61,8 @@ class Torsion(Turning):
 
     word = "torsion"
     winds = True
-    stiffness: Annotated[float, In("N m/rad", above=0)]
-    rest_angle: Annotated[float, In("rad")]
+    stiffness: Annotated[float, In("N m/rad", above=0)]  # c
+    rest_angle: Annotated[float, In("rad")]  # φ₀; turns count
 
     def torque(self, angle: Array, rate: Array) -> Array:
         """(2.45) −c(φ − φ₀)."""
@@ -82,7 +83,7 @@ class TorsionDamper(Turning):
     """(2.47) A damper of a joint's turn: M = −d φ̇."""
 
     word = "torsion_damper"
-    damping: Annotated[float, In("N m s/rad", least=0)]
+    damping: Annotated[float, In("N m s/rad", least=0)]  # d
 
     def torque(self, angle: Array, rate: Array) -> Array:
         """(2.47) −d φ̇."""
@@ -98,7 +99,7 @@ class Motor(Turning):
     """A torque between the parts of a joint that follows a law in time."""
 
     word = "motor"
-    signal: Annotated[Signal, InTime("N m", axes=1)]
+    signal: Annotated[Signal, InTime("N m", axes=1)]  # on the second part; the first takes −M
 
     def quantities(self) -> dict[str, Fields]:
         """Nothing: its torque is given."""

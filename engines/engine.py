@@ -26,9 +26,9 @@ class Diverged(RuntimeError):
 class Choice:
     """One number or option of a setting, as the engine spells it, with its reason."""
 
-    name: str
-    value: Any
-    because: str
+    name: str  # as the engine spells it
+    value: Any  # at the step
+    because: str  # its reason, in words for a table
 
 
 def no_numbers(step: float) -> Sequence[Choice]:
@@ -54,7 +54,7 @@ class Plan:
     withheld: quantity → why it cannot be read from the engine: `engine: …` or `adapter: …`.
     """
 
-    realised: Realised
+    realised: Realised  # native: the engine's own elements; law, driver: ours beside them
     held: tuple[int, ...]
     following: tuple[int, ...] | None = None
     numbers: Callable[[float], Sequence[Choice]] = no_numbers
@@ -82,8 +82,8 @@ class Plan:
 class Refusal:
     """A way in which the scene is not run: `engine: …` it cannot, `adapter: …` ours does not."""
 
-    realised: Realised
-    because: str
+    realised: Realised  # the way that is refused
+    because: str  # why, in words for a table
 
 
 class Engine(Protocol):
@@ -249,6 +249,16 @@ class Maker(Protocol):
     def __call__(self, setting: str, options: Mapping[str, Any]) -> Engine:
         """The engine with a setting it offers, or with the user's options under another name.
 
+        options: all that the user's file has under the engine's name, `step` [s] too if the engine
+        takes one: it is then its `own_step`. Empty for a setting that the engine offers.
+
         Raises ValueError for mistaken options: a line `<engine>.<option>: what is wrong` for each.
         """
         ...
+
+
+def lacking(engine: object, protocol: type) -> tuple[str, ...]:
+    """The members of a protocol that an engine does not have, in their order."""
+    members = [*getattr(protocol, "__annotations__", {}), *vars(protocol)]
+    public = (name for name in dict.fromkeys(members) if not name.startswith("_"))
+    return tuple(name for name in public if not hasattr(engine, name))

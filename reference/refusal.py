@@ -5,7 +5,7 @@ asked only after the integrators have failed, to say why.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
 import numpy as np
@@ -13,6 +13,7 @@ from numpy.linalg import LinAlgError
 
 from ..cases.case import Case
 from ..cases.force import Force
+from ..cases.frame import SPACE
 from ..cases.islands import apart
 from ..cases.language.check import cost
 from ..cases.language.check.work import GO_ON
@@ -23,15 +24,17 @@ from .generated.either import Generated
 from .generated.mechanism import BadStart
 from .generated.together import OneInstant
 from .integrators.budget import Endless, budget
+from .laws.rotation import axes
 from .motion.stuck import Stuck
 from .motion.zeno import ZenoError
 from .start.closure import Closure
 from .start.positions import rank
 from .start.sizes import size_of
 from .start.space.closure import SpatialClosure
-from .system import Array
+from .system import Array, Pose
 
 MOST = cost.LIMIT  # s: the largest shipped case takes 8
+STEEP = 1e-2  # of a blade's length: steps give up well before its shadow is gone
 SHORT = 1e-3  # of the mechanism's size: steps give up well before the length is zero
 UNEVEN = 1e4  # of two masses: the lighter one's equations then have lost four digits of sixteen
 FAST = 1e3  # swings in the duration: an integrator of order 8 takes a dozen steps for each
@@ -106,8 +109,9 @@ def _mistake(case: Case, generated: Generated, failure: Exception) -> Mistake:
         case ZenoError(event=event, time=time):
             why = f"{event!r} happens thousands of times or without end (a Zeno sequence)"
         case Stuck(time=time):
-            q, _ = generated.base.place(failure.mode.poses(time, failure.q, failure.v))
-            why = _line(case, generated, time, q) or _constraint(case, q)
+            poses = failure.mode.poses(time, failure.q, failure.v)
+            q, _ = generated.base.place(poses)
+            why = _upright(case, poses) or _line(case, generated, time, q) or _constraint(case, q)
             why = why or f"{str(failure).partition(' at t = ')[0]}{_uneven(case)}"
         case _:
             raise failure
@@ -117,6 +121,17 @@ def _mistake(case: Case, generated: Generated, failure: Exception) -> Mistake:
 
 def _touching(case: Case) -> set[str]:
     return {*case.scene.contacts, *case.scene.pairs}
+
+
+def _upright(case: Case, poses: Mapping[str, Pose]) -> str | None:
+    """Which blade in space stands upright, and so has no heading."""
+    for edge in case.scene.constraints.values() if case.scene.frame is SPACE else ():
+        x, y, z = edge.along @ axes(poses[edge.at.body][SPACE.attitude])
+        if math.hypot(x, y) < STEEP:
+            where = "down" if z < 0 else "up"
+            falls = f": {edge.at.body} falls on its nose" if z < 0 and not edge.kept else ""
+            return f"{edge.name} points straight {where} there and has no heading{falls}"
+    return None
 
 
 def _line(case: Case, generated: Generated, t: float, q: Array) -> str | None:

@@ -12,6 +12,7 @@ from .command.answer import BAD_INPUT
 from .command.bench import bench
 from .command.causes import causes
 from .command.check import check
+from .command.check_engine import check_engine
 from .command.diff import diff
 from .command.done import done
 from .command.list import list_
@@ -75,11 +76,12 @@ def command() -> None:
       textmech show bar_pendulum --engine mujoco.tuned > pendulum.xml
       textmech diff before after              what changed between two report folders
       textmech versions pymunk==7.0.1 pymunk==7.3.1     and between releases of an engine
+      textmech check-engine toy               an adapter of your own, from the easiest on
 
     \b
     Exit codes:
       0    all is as expected; findings (`beyond`) are no failures
-      1    of run and check a verdict FAILS; of diff something got worse
+      1    of run and check a verdict FAILS; of diff something got worse; of check-engine a mistake
       2    a mistake in the command or in a file, which is left out; the other files run
       130  interrupted
     """
@@ -87,6 +89,7 @@ def command() -> None:
 
 command.add_command(run)
 command.add_command(check)
+command.add_command(check_engine)
 command.add_command(list_)
 command.add_command(bench)
 command.add_command(advise)

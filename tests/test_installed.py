@@ -8,6 +8,7 @@ import sysconfig
 import venv
 import zipfile
 from collections.abc import Iterable
+from importlib.metadata import version
 from pathlib import Path
 
 import pytest
@@ -20,7 +21,8 @@ NAMES = {"textmech", "__editable__"}  # what an installed suite leaves beside ot
 
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return built(ROOT, (*OURS, "pyproject.toml", "README.md", "LICENSE"), tmp_path_factory)
+    others = ("__init__.py", "py.typed", "pyproject.toml", "README.md", "LICENSE")
+    return built(ROOT, (*OURS, *others), tmp_path_factory)
 
 
 @pytest.fixture(scope="module")
@@ -84,6 +86,7 @@ def run(*words: object, cwd: Path | None = None) -> subprocess.CompletedProcess[
 def test_the_wheel_holds_one_package_and_its_data(wheel: Path) -> None:
     names = zipfile.ZipFile(wheel).namelist()
     assert {name.split("/")[0].split("-")[0] for name in names} == {"textmech"}
+    assert {"textmech/__init__.py", "textmech/py.typed"} <= set(names)
     data = ("cases", "*.yaml"), ("cases", "*.json"), ("cases/questions", "*.yaml")
     told = [(name, "*.md") for name in (*OURS, "cases/questions")]
     for folder, pattern in (*data, *told, ("reports", "*.csv"), ("reports", "*.svg")):
@@ -111,6 +114,13 @@ def test_the_command_runs_beside_them(python: Path, project: Path) -> None:
     assert "swing in mujoco" in done.stdout
     assert "swing in pymunk" in done.stdout
     assert "bar_pendulum" in run(python.parent / "textmech", "list", cwd=project).stdout
+
+
+@pytest.mark.slow
+def test_it_says_its_version(python: Path, project: Path) -> None:
+    """Where it is asked for alone: reading it imports nothing of ours."""
+    asked = "import sys, textmech; print(textmech.__version__, 'textmech.reports' in sys.modules)"
+    assert run(python, "-c", asked, cwd=project).stdout.split() == [version("textmech"), "False"]
 
 
 @pytest.mark.slow
@@ -181,6 +191,10 @@ def test_an_engine_of_somebody_else_is_a_column(
         "agrees",
         "refused: engine: toy has no joints and no contacts",
     ]
+    checked = run(python.parent / "textmech", "check-engine", "toy", "falls", "spring", "pendulum")
+    told = [line.split()[:2] for line in checked.stdout.splitlines() if line[:1].isalpha()]
+    assert told[5:8] == [["works", "falls"], ["works", "spring"], ["refused", "pendulum"]]
+    assert "as if places are half a step ahead" in checked.stdout  # semi-implicit Euler
     ladder = (project / "out" / "convergence.csv").read_text(encoding="utf-8")
     assert "ball,toy,1.0,shipped,native,held,ball.x" in ladder
     done = run(python, "-m", "pytest", "-v", "ball.yaml", "--textmech-engine", "toy", cwd=project)

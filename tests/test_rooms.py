@@ -36,14 +36,14 @@ ROOMS = {
         "mujoco pymunk",
     ],
     "reports": [
-        "own_settings spelled limit amount",
-        "row pins selection coverage events content lock ending cluster pytest_short"
-        " pytest_options",
+        "own_settings spelled limit amount content",
+        "row runs pins selection coverage events lock ending cluster pytest_short pytest_options",
         "processes child trial replace passing ours promised",
         "diff",
         "pool judge asking",
         "cache",
-        "unit results",
+        "unit results likely",
+        "grades",
         "trials search",
         "suite",
         "poses",

@@ -56,7 +56,8 @@ def test_everything_is_in_the_wheel() -> None:
     """Each folder with modules, and each kind of file that is read; a page is made, not shipped."""
     setup = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]
     folders = {module(file.parent / "__init__.py") for file in FILES}
-    assert set(setup["packages"]) == {f"textmech.{folder}" for folder in folders}
+    assert set(setup["packages"]) == {"textmech", *(f"textmech.{folder}" for folder in folders)}
+    assert setup["package-data"]["textmech"] == ["py.typed"]
     data = {
         file
         for package in PACKAGES

@@ -6,8 +6,9 @@ from math import cos, sin
 from typing import Any
 
 from ..case import Case, Deviation, Event, Origin, Placement
+from ..frame import PLANE
 from ..mistake import Source
-from ..point import anchor
+from ..point import CENTER, anchor
 from ..scene import STANDARD_GRAVITY, Scene
 from ..space.joint import SpatialJoint
 from ..space.scene import SpatialScene
@@ -83,7 +84,7 @@ def resolve_case(name: str, file: File, scene: Scene, source: Source, *, long: b
         parameters={name: amount.value for name, amount in file.parameters.items()},
         drops_out=file.drops_out,
         scene=scene,
-        initial=_placements(file.initial, scene),
+        initial=_turned(_placements(file.initial, scene), scene),
         near=_placements(file.near, scene),
         duration=file.duration if states is None else states.random - 1.0,
         samples=file.samples if states is None else states.random,
@@ -137,6 +138,25 @@ def _placements(places: Mapping[str, Any], scene: Scene) -> dict[str, Placement]
         )
         for name, place in places.items()
     }
+
+
+def _turned(starts: dict[str, Placement], scene: Scene) -> dict[str, Placement]:
+    """With the angle 0 of each disk that gives none, if nothing depends on it: disks are alike."""
+    if scene.frame is not PLANE:
+        return starts
+    held = {at.body for joint in scene.joints.values() for at in joint.refers()}
+    marked = (*scene.constraints.values(), *scene.forces.values(), *scene.contacts.values())
+    held |= {at.body for one in marked for at in one.refers() if at.point != CENTER}
+    held |= {one.at.body for one in scene.constraints.values()}
+    axed = (force for force in scene.forces.values() if getattr(force, "along", None))
+    held |= {at.body for force in axed for at in force.refers()}
+    free = (b.name for b in scene.bodies.values() if b.shape == "disk" and b.name not in held)
+    found = dict(starts)
+    for name in free:
+        place = starts.get(name, Placement())
+        if "angle" not in place.given and not place.points and not place.on:
+            found[name] = replace(place, given={**place.given, "angle": 0.0})
+    return found
 
 
 def _polar(given: tuple[str, float, float] | None, scene: Scene) -> dict[str, float]:

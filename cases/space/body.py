@@ -41,16 +41,17 @@ class SpatialBody:
     """
 
     name: str
-    shape: Literal["bar", "disk", "block", "sphere", "particle", "rigid"]
-    mass: float
-    inertia: Tensor | None
-    points: Mapping[str, Vector3]
-    radius: float | None = None
+    shape: Literal["bar", "disk", "block", "sphere", "particle", "rigid"]  # as the file calls it
+    mass: float  # kg
+    inertia: Tensor | None  # J11, J22, J33, J12, J13, J23 about the centre of mass, kg m²
+    points: Mapping[str, Vector3]  # m, in body axes from the centre of mass; `center` is (0, 0, 0)
+    radius: float | None = None  # of a disk or a sphere, m
     axle: Vector3 | None = None
     size: Vector3 | None = None  # of a block, m
 
     @property
     def turns(self) -> bool:
+        """Whether it has an attitude: a particle has none."""
         return self.inertia is not None
 
     @property

@@ -36,7 +36,7 @@ class SpatialEdge:
 
     word: ClassVar[str] = "edge"
     name: str
-    at: Anchor
+    at: Anchor  # the point of the body that does not slip
     along: Vector3
     kept: bool = False
 

@@ -34,12 +34,12 @@ class SpatialContact:
     """
 
     name: str
-    at: Anchor
-    friction: float
+    at: Anchor  # a disk or sphere is named by its centre
+    friction: float  # the one coefficient
     rim: bool  # of a disk; a sphere has none
     on: ClassVar[str] = FLOOR  # there is no other plane in space
-    ideal: Literal["rolling", "pivot"] = "rolling"
-    restitution: float = 0.0
+    ideal: Literal["rolling", "pivot"] = "rolling"  # it only rolls, or stands on a point
+    restitution: float = 0.0  # nothing bounces in space yet
 
     @property
     def body(self) -> str:

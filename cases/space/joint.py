@@ -42,8 +42,8 @@ class Freedom:
     of a hinge, `theta` of a joint with named freedoms; "" where it cannot be.
     """
 
-    kind: Literal["shift", "turn", "ball"]
-    axis: Vector3 = (0.0, 0.0, 0.0)
+    kind: Literal["shift", "turn", "ball"]  # along the axis, about it, or all three turns
+    axis: Vector3 = (0.0, 0.0, 0.0)  # unit vector; of a ball none
     name: str = ""
 
 
@@ -57,10 +57,10 @@ class SpatialJoint:
     """
 
     name: str
-    kind: Literal["hinge", "ball", "universal", "slide", "weld", "freedoms"]
-    a: Anchor
-    b: Anchor
-    freedoms: tuple[Freedom, ...]
+    kind: Literal["hinge", "ball", "universal", "slide", "weld", "freedoms"]  # the file's word
+    a: Anchor  # the point of the first part
+    b: Anchor  # the point of the second part: reactions are what it takes from the first
+    freedoms: tuple[Freedom, ...]  # all that it leaves: an engine needs no more than these
     begins: Mapping[str, float] = field(default_factory=dict)
 
     @property

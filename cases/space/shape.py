@@ -5,13 +5,14 @@ over the shape (tests/cases/space/test_shape.py). Hand-written systems carry the
 """
 
 from collections.abc import Callable, Mapping
-from typing import Annotated
+from typing import Annotated, Any
 
-from pydantic import AfterValidator
+from pydantic import AfterValidator, BeforeValidator
 
 from ..language.grammar.field import In
 from ..language.grammar.part import Length, Mass
 from ..language.grammar.space.vector import Direction
+from ..language.grammar.words import wrong
 from ..point import CENTER
 from .body import SpatialBody
 from .rotation import Vector3
@@ -19,8 +20,20 @@ from .tensor import Tensor, possible
 
 Points = Mapping[str, Vector3]
 _Moment = Annotated[float, In("kg m²")]
+
+
+def _six(given: Any) -> Any:
+    """Six, or a mistake that names them: three may be meant as principal moments."""
+    if isinstance(given, list | tuple) and len(given) < 6:
+        what = f"should be the six J11, J22, J33, J12, J13, J23, has {len(given)}"
+        raise wrong(what + "; beside principal moments the last three are 0" * (len(given) == 3))
+    return given
+
+
 Inertia = Annotated[
-    tuple[_Moment, _Moment, _Moment, _Moment, _Moment, _Moment], AfterValidator(possible)
+    tuple[_Moment, _Moment, _Moment, _Moment, _Moment, _Moment],
+    AfterValidator(possible),
+    BeforeValidator(_six),
 ]
 _AT_CENTER = {CENTER: (0.0, 0.0, 0.0)}
 

@@ -1,7 +1,10 @@
 """`textmech list`."""
 
+import re
 from collections.abc import Iterator, Sequence
+from functools import cache
 from itertools import groupby
+from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
@@ -22,7 +25,9 @@ WIDTH = 80
 def list_(words: tuple[str, ...], wants_json: bool) -> None:
     """The shipped cases, with titles and sources: the textbook's, then public questions.
 
-    With WORDS those that have all of them in name, title or source, as in `textmech list wheel`.
+    With WORDS those that have all of them, as in `textmech list wheel`: in name, title or source,
+    and then those whose scene or quantities have them, in our words or in what others call them
+    (`restitution`, `motor`, `penetration`, `revolute`, `3d`).
 
     Below a file's name are its variants: `sliding_block .below` is run as sliding_block.below.
     """
@@ -30,25 +35,65 @@ def list_(words: tuple[str, ...], wants_json: bool) -> None:
     from ...cases.load import titled
     from ..show import document
 
-    cases = [case for file in shipped().values() for case in titled(file) if _has(case, words)]
+    every = [case for file in shipped().values() for case in titled(file)]
+    named = [case for case in every if _has(f"{case.name} {case.title} {case.origin}", words)]
+    beside = [case for case in every if case not in named and _has(_held(case.file), words)]
+    cases = [*named, *beside]
     if wants_json:
         document.write(document.of_cases(cases))
         return
     if not cases:
         raise click.UsageError(f"no shipped case has {' and '.join(words)} in it")
     for title, files in (("Textbook mechanics", of_the_book()), ("What people ask", questions())):
-        group = [case for case in cases if case.name.partition(".")[0] in files]
+        group = [case for case in named if case.name.partition(".")[0] in files]
         if group:
             say(f"{title}\n")
         for line in _lines(group):
             say(f"  {line}")
         if group:
             say()
+    if beside:
+        say("In their scenes and quantities\n")
+    for line in _lines(beside):
+        say(f"  {line}")
 
 
-def _has(case: "Titled", words: Sequence[str]) -> bool:
-    text = f"{case.name} {case.title} {case.origin}".lower()
-    return all(word.lower() in text for word in words)
+def _has(text: str, words: Sequence[str]) -> bool:
+    text = text.lower()
+    return all(any(x in text for x in (w, *ALIKE.get(w, ()))) for w in map(str.lower, words))
+
+
+@cache
+def _held(file: str) -> str:
+    """What a case file says, but for its comments."""
+    return re.sub(r"(?m)(^|\s)#.*$", "", Path(file).read_text(encoding="utf-8"))
+
+
+ALIKE = {
+    "penetration": ("sink",),
+    "bounce": ("restitution: ", "elastic"),
+    "collision": ("strikes", "bounce", "knock", "lands"),
+    "impact": ("strikes", "bounce", "knock", "lands"),
+    "stiction": ("dry_friction", "sticks"),
+    "revolute": ("{pin:", "{hinge:"),
+    "prismatic": ("{slide:",),
+    "spherical": ("{ball:",),
+    "actuator": ("{motor:", "drive:"),
+    "servo": ("{motor:", "drive:"),
+    "limit": ("{stops:",),
+    "tendon": ("{rope:",),
+    "cable": ("{rope:",),
+    "contact": ("contacts:",),
+    "damping": ("damper",),
+    "rod": ("{bar:", "{distance:"),
+    "box": ("{block:",),
+    "3d": ("space: 3",),
+    "spatial": ("space: 3",),
+    "quaternion": ("attitude",),
+    "nonholonomic": ("{edge:", "ideal: rolling"),
+    "inverse dynamics": ("mass_matrix",),
+}
+"""What others call something, and how case files write it."""
 
 
 def _lines(cases: "Sequence[Titled]") -> Iterator[str]:

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from ...cases.mistake import CaseError
-from ...engines.engine import Plan, Refusal, Tunable
+from ...engines.engine import Plan, Refusal, Tunable, lacking
 from ..pool import Died
 from ..results import Results
 from ..trial.start import first
@@ -22,7 +22,7 @@ from .solving import solved
 from .together import Asking, Known, Search, together
 
 ROUNDS = 12  # of what keeps the bar here, and not where a loop is cut elsewhere
-NO_KNOBS = "adapter: it says of nothing how it can be turned"
+TOLD_IN = "engines/README.md#the-protocol"
 NO_STEPS = "a claim about states: no step and no option plays a part"
 
 
@@ -116,8 +116,8 @@ def _prepared(pair: Pair, asked: Asked, unsolved: str, broken: str) -> Advised:
     reference = pair.reference()
     ways = planned(engine, case.scene, first(reference))
     way = next(way for way in ways if way.realised == "native")
-    if isinstance(way, Plan) and not isinstance(engine, Tunable):
-        way = Refusal("native", NO_KNOBS)
+    if isinstance(way, Plan) and (missing := lacking(engine, Tunable)):
+        way = Refusal("native", f"adapter: it has no {', '.join(missing)} of Tunable: {TOLD_IN}")
     if isinstance(way, Refusal):
         return Advised(pair, asked, way, None, None)
     assert isinstance(engine, Tunable)

@@ -30,17 +30,21 @@ APART = 0.1  # of each parameter: how far a draw may be from it
 class Held:
     """In how many draws the case's tolerances were kept, and of how many that were the same case.
 
-    A draw may be no case, as of a loop that does not close, or go through other phases: neither
-    tells anything of a recipe.
+    none: how many draws were no case, as a loop that does not close. other: how many went through
+    other phases. Neither tells anything of a recipe.
     """
 
     held: int
     tried: int
+    none: int = 0
+    other: int = 0
 
     def __str__(self) -> str:
-        left_out = DRAWS - self.tried
-        but = f"; {left_out} were no case, or another one" if left_out else ""
-        return f"holds in {self.held} of {self.tried} draws of its parameters ± {APART:.0%}{but}"
+        no_case = "had no reference (as a loop that does not close)"
+        another = "passed other phases (more or fewer impacts, stops or slips)"
+        left_out = [f"{n} {what}" for n, what in ((self.none, no_case), (self.other, another)) if n]
+        told = f"holds in {self.held} of {self.tried} draws of its parameters ± {APART:.0%}"
+        return "; ".join([told, *left_out])
 
 
 def held(pair: Pair, candidate: Candidate, scale: Mapping[str, float], results: Results) -> Held:
@@ -48,16 +52,21 @@ def held(pair: Pair, candidate: Candidate, scale: Mapping[str, float], results: 
     cases = [case for seed in range(DRAWS) if (case := drawn(pair.case, seed)) is not None]
     keys = [results.keys.solution(case) for case in cases]
     references = results.of("draws", solved, dict(zip(keys, cases, strict=True)))
+    moved = [
+        (case, key, found)
+        for case, key in zip(cases, keys, strict=True)
+        if isinstance(found := references[key], Solution) and found.holds
+    ]
+    phases = _phases(pair.reference())
     same = [
         replace(pair, case=case, key=key)
-        for case, key in zip(cases, keys, strict=True)
-        if isinstance(found := references[key], Solution)
-        if found.holds and _phases(found.trajectory) == _phases(pair.reference())
+        for case, key, found in moved
+        if _phases(found.trajectory) == phases
     ]
     runs = {pair.key: Run(pair, candidate) for pair in same}
     found = results.anew("draws", errors, runs) if runs else {}
     kept = [Bar({candidate: one}, 1.0, scale).holds(candidate) for one in found.values()]
-    return Held(sum(kept), len(kept))
+    return Held(sum(kept), len(kept), DRAWS - len(moved), len(moved) - len(same))
 
 
 def _phases(reference: Trajectory) -> int:

@@ -13,6 +13,7 @@ from ..write import HERE, read
 from . import picture
 from .catalogue import catalogue
 from .cures import cures
+from .nouns import nouns
 from .questions import questions
 from .releases import listed, releases
 from .shares import shares
@@ -63,6 +64,7 @@ PARTS = (
         lambda: markdown(page(approximations(_rows(), _rungs()))),
     ),
     Part("reports/README.md", "releases", lambda: releases(listed())),
+    Part("engines/SCENE.md", "scene", nouns),
     Part("cases/CATALOGUE.md", "cases", lambda: markdown(catalogue())),
     Part("cases/questions/README.md", "questions", lambda: markdown(questions())),
 )

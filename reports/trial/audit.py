@@ -30,15 +30,24 @@ def audit(trial: Trial) -> tuple[float, str]:
 
     Rounding is nothing: what is below a tenth of what counts as equal is told as 0.
     """
-    wanted = expected(trial.case.scene, trial.reference)
-    found = read_back(trial.engine.measure(trial.case.scene, trial.start), wanted)
-    sizes = _sizes(trial.case.scene, wanted)
-    off = {n: _relative(x - wanted[n], sizes.get(n, wanted[n])) for n, x in found.items()}
+    wanted, found, off = audited(trial)
     worst = max(off, key=off.__getitem__, default="")
     if off.get(worst, 0.0) <= NOTHING:
         return 0.0, f"{len(found)} numbers read back"
     what = f"{worst} is {found[worst]!r}, the case says {wanted[worst]!r}"
     return off[worst], what
+
+
+def audited(trial: Trial) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
+    """By name the numbers of the case, those that the engine reads back, and how far each is off.
+
+    Raises BadAnswer.
+    """
+    wanted = expected(trial.case.scene, trial.reference)
+    found = read_back(trial.engine.measure(trial.case.scene, trial.start), wanted)
+    sizes = _sizes(trial.case.scene, wanted)
+    off = {n: _relative(x - wanted[n], sizes.get(n, wanted[n])) for n, x in found.items()}
+    return wanted, found, off
 
 
 def _relative(difference: float, size: float) -> float:

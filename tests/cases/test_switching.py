@@ -93,7 +93,9 @@ def test_a_disk_that_slides_and_rolls(tmp_path: Path) -> None:
     (case,) = written(tmp_path, BACKSPIN)
     assert case.scene.contacts == {"touch": Contact("touch", Anchor("wheel", "center"), 0.4, 0.4)}
     assert case.scene.contacts["touch"].switches
-    assert case.initial["wheel"].given == {"x": 0.0, "y": 0.25, "vx": -3.0, "omega": -20.0}
+    assert case.initial["wheel"].given == {
+        "x": 0.0, "y": 0.25, "angle": 0.0, "vx": -3.0, "omega": -20.0,
+    }  # fmt: skip
     assert case.events == {"rolls": Event("touch.slip", "stays zero")}
     assert (case.allow["rolls.time"], case.allow["rolls.count"]) == (1e-3, 0.5)
     assert case.reach["mujoco"]["rolls.time"] == 5e-6

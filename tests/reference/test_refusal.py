@@ -11,6 +11,7 @@ from given.refused import refused
 from given.typed_scenes import AT_REST, PARALLELOGRAM, SPRING, time_to_flat
 
 from textmech.cases.mistake import CaseError
+from textmech.reference import refusal
 from textmech.reference.generated.mode import Multibody
 from textmech.reference.motion.stuck import Stuck
 from textmech.reference.refusal import refusals
@@ -106,3 +107,28 @@ def test_steps_that_shrink_are_told_with_what_can_be_done(
     (mistake,) = caught.value.mistakes
     begin = "the motion cannot be followed beyond t = 0.0003467 s: the steps shrink to nothing; "
     assert mistake.what.startswith(begin + words)
+
+
+SLEIGH = """\
+scene:
+  space: 3
+  bodies:
+    sled: {rigid: {mass: 1.7, inertia: [0.05, 0.09, 0.12, 0, 0, 0]}, points: {P: [-0.35, 0, -0.1]}}
+  constraints: {blade: {edge: sled.P, along: [1, 0, 0]}}
+initial:
+  sled: {x: 0, y: 0, z: 1, vx: 0.4, attitude: {axis: [1, 2, 1], angle: 0.4}, omega: [0.3, 2, 0.5]}
+allow: {sled.x: 1.0e-2}
+duration: 3.0
+samples: 11
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a blade that stands upright is not told")
+def test_a_sleigh_that_falls_on_its_nose(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Free in space its blade comes to point down, where it has no heading."""
+    case = scenes.typed(tmp_path, SLEIGH, tail="")
+    mistake = refused(case)
+    assert "blade points straight down there and has no heading: sled falls on" in mistake.what
+    monkeypatch.setattr(refusal, "STEEP", 0.0)
+    assert "the steps shrink to nothing" in refused(case).what

@@ -242,6 +242,22 @@ def test_list_names_every_case_with_its_source() -> None:
     assert max(map(len, done.stdout.splitlines())) <= 80
 
 
+@pytest.mark.parametrize(
+    ("word", "names"),
+    [
+        ("restitution", {"bouncing_disk", "bouncing_ball", "stopped_pendulum"}),
+        ("motor", {"pulled_hook", "torsion_pendulum"}),
+        ("penetration", {"sinking_ball", "heavy_on_light"}),
+        ("revolute", {"bar_pendulum", "skew_chain"}),
+        ("mass_matrix", {"robot_states"}),
+    ],
+)
+def test_list_finds_what_a_scene_is_about(word: str, names: set[str]) -> None:
+    found = {line.split()[0] for line in textmech("list", word).stdout.splitlines() if line}
+    assert names <= found
+    assert "falling_too_far" not in found
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("engine", ["mujoco", "mujoco.shipped", "pymunk", "pymunk.shipped"])
 def test_show_is_ready_to_paste(engine: str) -> None:

@@ -124,8 +124,42 @@ def _unknown(
         yield path, _no_freedom(known, part, field)
     elif field == "angle" and f"{part}.attitude" in known:
         yield path, f"a body in space has no angle; its quantity is '{part}.attitude'"
+    elif alike := [f"{part}.{x}" for x in ALIKE.get(field, ()) if f"{part}.{x}" in known]:
+        yield path, f"unknown quantity {name!r}; did you mean {alike[0]!r}?"
+    elif field in FORCES and part in parsed.file.scene.bodies:
+        told = ", ".join(f"'{force}'" for force in _forces(parsed, part, known))
+        yield (
+            path,
+            f"a body has no {field}; forces belong to joints and what acts: {told or 'none'}",
+        )
     else:
         yield path, f"unknown quantity {name!r}{nearest(name, known)}"
+
+
+FORCES = ("force", "tension", "reaction", "fx", "fy", "fz", "load")
+ALIKE = {
+    **dict.fromkeys(("theta", "phi", "rotation", "orientation", "yaw"), ("angle", "attitude")),
+    **dict.fromkeys(("theta_dot", "angular_velocity", "rate", "w"), ("omega",)),
+    **dict.fromkeys(("angular_acceleration", "omega_dot"), ("alpha",)),
+    **dict.fromkeys(("position", "displacement"), ("shift", "x")),
+    **dict.fromkeys(("velocity", "v"), ("speed", "vx")),
+    **dict.fromkeys(("acceleration", "a"), ("ax",)),
+    **dict.fromkeys(("tension", "reaction", "load"), ("force",)),
+    **dict.fromkeys(("penetration", "depth", "distance"), ("gap", "length")),
+    "normal_force": ("normal",),
+    **dict.fromkeys(("tangential", "friction_force"), ("tangent", "friction")),
+}
+"""What others call a quantity, and what it is here: the first that there is."""
+
+
+def _forces(parsed: Parsed, body: str, known: Mapping[str, Quantity]) -> Iterator[str]:
+    """The forces on a body that can be observed, by what exerts them."""
+    scene = parsed.file.scene
+    for section in (scene.joints, scene.constraints, scene.forces):
+        for name, element in section.items():
+            held = any(at.body == body for at in element.named(name).refers())
+            if held and (force := f"{name}.force") in known:
+                yield force
 
 
 def _no_freedom(known: Mapping[str, Quantity], part: str, field: str) -> str:

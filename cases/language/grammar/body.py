@@ -57,4 +57,17 @@ def body(
 
 
 KINDS = {word: body(word, makes) for word, makes in shape.SHAPES.items()}
-Body = Annotated[Shaped, OneOf("shape", KINDS)]
+ALIKE = {
+    **dict.fromkeys(("rod", "link", "beam"), "did you mean 'bar'?"),
+    **dict.fromkeys(("box", "rectangle"), "did you mean 'block'?"),
+    **dict.fromkeys(("point", "mass", "point_mass"), "did you mean 'particle'?"),
+}
+"""What others call a shape."""
+Body = Annotated[
+    Shaped,
+    OneOf(
+        "shape",
+        KINDS,
+        ALIKE | dict.fromkeys(("ball", "circle", "wheel"), "did you mean 'disk'?"),
+    ),
+]

@@ -1,6 +1,7 @@
 """Joints as a case file writes them: the kind's word, and what the freedoms it leaves need."""
 
-from typing import Annotated, Any
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar
 
 from pydantic import model_validator
 
@@ -13,6 +14,12 @@ from .words import wrong
 
 
 class _Joint(Element):
+    elsewhere: ClassVar[Mapping[str, str]] = {
+        "damping": "among the `forces` there is a `torsion_damper` of a turn, and a `damper`",
+        "stiffness": "among the `forces` there is a `torsion` spring of a turn, and a `spring`",
+        **dict.fromkeys(("limits", "range"), "where a turn ends are `stops` among the forces"),
+    }
+
     @property
     def kind(self) -> str:
         """The word is the kind."""
@@ -47,6 +54,10 @@ def _joint(kind: str) -> type[Element]:
 KINDS = {kind: _joint(kind) for kind in FREEDOMS}
 IN_SPACE = {
     "hinge": "in the plane it is `pin`",
+    "revolute": "did you mean 'pin'?",
+    "prismatic": "did you mean 'slide'?",
+    "fixed": "did you mean 'weld'?",
+    "rod": "did you mean 'distance'?",
     **dict.fromkeys(("ball", "universal", "freedoms"), "it joins parts in space (`space: 3`)"),
 }
 Joint = Annotated[Element, OneOf("joint", KINDS, IN_SPACE)]

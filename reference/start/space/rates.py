@@ -16,10 +16,11 @@ from .positions import CLOSED
 def rates(closure: SpatialClosure, q: Array) -> Array:
     """v (n,) with f_a v = g (2.15); what nobody gives and nothing determines is 0.
 
-    That are rates of joints, of the second part against the first, and all of a mechanism of which
-    no rate is given.
+    First the rates of joints, of the second part against the first, and all of a mechanism of which
+    no rate is given; then those of bodies.
 
-    Raises CaseError if the given rates violate a constraint, or leave others open.
+    Raises CaseError if the given rates violate a constraint, or leave others open that cannot all
+    be zero.
     """
     rows, g, _ = closure.mode.rows(0.0, q, np.zeros(closure.where.size))
     found = list(closure.given.rates(closure.case.initial, q))
@@ -38,7 +39,17 @@ def rates(closure: SpatialClosure, q: Array) -> Array:
         worst = names[int(np.argmax(np.abs(rows @ v - right)))]
         raise messages.rates_violate(closure.case, worst)
     loose = null(rows * units, closure.where.size)
-    if len(loose):
+    return _resting(closure, rows, right, loose) if len(loose) else v
+
+
+def _resting(closure: SpatialClosure, rows: Array, right: Array, loose: Array) -> Array:
+    """With 0 for every rate that is still open, if all else allows that."""
+    still = np.eye(closure.where.size)[refusal.open_columns(loose)]
+    rows, right = np.vstack([rows, still]), np.append(right, np.zeros(len(still)))
+    units = closure.units
+    v = units * least(rows * units, right)
+    v = v + units * least(rows * units, right - rows @ v)
+    if _violated(rows, right, v):
         raise refusal.rates_open(closure, loose)
     return v
 

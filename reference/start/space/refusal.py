@@ -101,8 +101,12 @@ def rates_open(closure: SpatialClosure, loose: Array) -> CaseError:
 
 
 def _open_columns(closure: SpatialClosure, loose: Array, names: tuple[str, ...]) -> list[str]:
-    open_ = np.max(np.abs(loose), axis=0) > OPEN
-    return [name for name, is_open in zip(names, open_, strict=True) if is_open]
+    return [names[i] for i in open_columns(loose)]
+
+
+def open_columns(loose: Array) -> list[int]:
+    """The columns that what is loose moves."""
+    return np.flatnonzero(np.max(np.abs(loose), axis=0) > OPEN).tolist()
 
 
 def dependent(closure: SpatialClosure, part: str) -> CaseError:

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from ....space.shape import SHAPES
-from ..body import Shaped, body
+from ..body import ALIKE, Shaped, body
 from ..part import Name, OneOf
 from ..words import wrong
 from .vector import Position
@@ -32,4 +32,9 @@ KINDS = {
     word: body(word, makes, with_points=WithPoints, prefix="Spatial")
     for word, makes in SHAPES.items()
 }
-Body = Annotated[Shaped, OneOf("shape", KINDS)]
+Body = Annotated[
+    Shaped,
+    OneOf(
+        "shape", KINDS, ALIKE | {"ball": "did you mean 'sphere'?", "wheel": "did you mean 'disk'?"}
+    ),
+]

@@ -106,6 +106,10 @@ KINDS: dict[str, type[SpatialJointed]] = {
 }
 IN_THE_PLANE = {
     "pin": "in space it is `hinge`, with its `axis`",
+    "revolute": "did you mean 'hinge'?",
+    "prismatic": "did you mean 'slide'?",
+    "spherical": "did you mean 'ball'?",
+    "fixed": "did you mean 'weld'?",
     "distance": "rods join points of the plane",
     "slot": "in space it is `freedoms`, a slide and the hinges after it",
 }
