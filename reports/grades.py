@@ -28,7 +28,7 @@ from ..reference.solve import solve
 from .judge.compare import answered
 from .likely import ROUGH, Compared, explained, factor, shifted
 from .limit import limit
-from .row import DEVIATES
+from .row import DEVIATES, REFUSED
 from .spelled import why
 from .trial import states
 from .trial.answers import BadAnswer, moved
@@ -289,7 +289,7 @@ def _states(attempt: Attempt) -> Mark:
     trial = Trial(case, reference, engine, way)
     found = climbed(states.asked(trial))
     outcome = answered(trial, found)
-    off = [r for r in outcome.rows if not r.verdict.startswith(("refused", DEVIATES))]
+    off = [r for r in outcome.rows if r.verdict not in (REFUSED, DEVIATES)]
     wrong = [row for row in off if row.ratio is None or not row.ratio <= 1]
     if not wrong:
         deviates = [row.because for row in outcome.rows if row.verdict == DEVIATES]

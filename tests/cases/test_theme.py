@@ -3,11 +3,18 @@
 from dataclasses import replace
 
 import pytest
+from given import scenes
 from given.otherwise import otherwise
 
 from textmech.cases import theme
 from textmech.cases.case import Case
 from textmech.cases.theme import THEMES, themes
+
+
+@pytest.fixture
+def shipped() -> list[Case]:
+    """All shipped cases."""
+    return [*scenes.EVERY.values()]
 
 
 @pytest.mark.parametrize(
