@@ -31,7 +31,7 @@ def rates(closure: Closure, q: Array) -> Array:
 
 
 def _said(closure: Closure, q: Array, scaled: Array, free: list[int]) -> None:
-    """Raises CaseError where a joint gives its place, and its rate is not zero by nobody's word."""
+    """Raises CaseError where a joint gives its place, and has a rate that nothing says."""
     rows = closure.rows([*closure.parts, *closure.gliding, *closure.still], q)
     for part in silent(closure.case, closure.where):
         row = closure.rows([part], q)
