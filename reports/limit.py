@@ -1,9 +1,11 @@
 """How long an engine may take for one task, beyond what its steps are worth: then it hangs.
 
-Told by the environment, so that processes of our own and pytest know it too.
+And how much memory its process may take: one that eats without end costs its own rows, and not the
+run. Both are told by the environment, so that processes of our own and pytest know them too.
 """
 
 import os
+from contextlib import suppress
 
 VARIABLE = "TEXTMECH_TIME_LIMIT"
 USUAL = 120.0  # s of a clock, for what waits spends nothing else: a task of ours takes a few
@@ -23,3 +25,43 @@ def choose(seconds: float | None) -> None:
     """Another one from now on."""
     if seconds is not None:
         os.environ[VARIABLE] = repr(seconds)
+
+
+MEMORY = "TEXTMECH_MEMORY_LIMIT"
+SHARE = 0.5  # of the machine's memory for all processes: the rest is the user's
+LEAST = 2.0  # GiB for one: engines and a case of ours take some 0.5
+GIB = 2**30
+
+
+def hold(jobs: int) -> None:
+    """From now on this process has its share of the memory, as one of so many, where that is told.
+
+    What it asks for beyond is refused, as a MemoryError in Python. Room that is only reserved, as
+    for a graphics card, does not count.
+    """
+    with suppress(ImportError, AttributeError, OSError, ValueError):  # no POSIX, or a lower limit
+        import resource
+
+        most = int(GIB * _gib(jobs))
+        hard = resource.getrlimit(resource.RLIMIT_DATA)[1]
+        if hard == resource.RLIM_INFINITY or most < hard:
+            resource.setrlimit(resource.RLIMIT_DATA, (most, hard))
+
+
+def held() -> str:
+    """How much memory this process may take, in words; nothing where nobody limits it."""
+    with suppress(ImportError, AttributeError, OSError):
+        import resource
+
+        most = resource.getrlimit(resource.RLIMIT_DATA)[0]
+        return "" if most == resource.RLIM_INFINITY else f"{most / GIB:.3g} GiB"
+    return ""
+
+
+def _gib(jobs: int) -> float:
+    """GiB of each of so many processes."""
+    with suppress(KeyError, ValueError):
+        if (said := float(os.environ[MEMORY])) > 0.0:
+            return said
+    all_of_it = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / GIB
+    return max(LEAST, SHARE * all_of_it / jobs)

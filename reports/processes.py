@@ -20,7 +20,7 @@ from typing import Any
 
 from ..engines.quiet import silence
 from ..reference.integrators.now import NOW, doing
-from . import ending
+from . import ending, limit
 from .spelled import why
 
 WORDS = 300  # bytes of what a process is at
@@ -42,6 +42,7 @@ class Processes(Executor):
         self._ended = False
         self._idle: SimpleQueue[_Process] = SimpleQueue()
         self._all: set[_Process] = set()
+        self._jobs = jobs
         for _ in range(jobs):  # before there are threads: a fork copies their locks as they are
             self._idle.put(self._started())
         self._threads = ThreadPoolExecutor(jobs)
@@ -69,7 +70,7 @@ class Processes(Executor):
         with self._lock:
             if self._ended:
                 raise ProcessDied("the run was ended")
-            process = _Process()
+            process = _Process(self._jobs)
             self._all.add(process)
             return process
 
@@ -89,11 +90,11 @@ class Processes(Executor):
 class _Process:
     """A process that answers one call after the other."""
 
-    def __init__(self) -> None:
+    def __init__(self, jobs: int) -> None:
         self._here, there = multiprocessing.Pipe()
         self._words = multiprocessing.RawArray("c", WORDS)
         self._task, self._since = "", 0.0
-        serving = there, self._words
+        serving = there, self._words, jobs
         self._process = multiprocessing.Process(target=_serve, args=serving, daemon=True)
         with _CHILDREN, _deaf():
             self._process.start()  # looks at all others too
@@ -154,8 +155,9 @@ def _deaf() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _serve(calls: Connection, words: Any) -> None:
-    """What runs in the process: until its parent is gone."""
+def _serve(calls: Connection, words: Any, jobs: int) -> None:
+    """What runs in the process, one of so many: until its parent is gone."""
+    limit.hold(jobs)
     threading.Thread(target=_with_parent, daemon=True).start()
     threading.Thread(target=_tell, args=(words,), daemon=True).start()
     silence()

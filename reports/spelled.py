@@ -1,5 +1,7 @@
 """What others say, made fit for a table: one line, short, and nothing that no file can hold."""
 
+from . import limit
+
 MOST = 300  # letters: a row is read
 
 
@@ -17,7 +19,9 @@ def spelled(text: object, most: int = MOST) -> str:
 
 def why(error: BaseException) -> str:
     """What an error is called, and what it says, whatever that is."""
-    return spelled(f"{type(error).__name__}: {_said(error)}")
+    held = limit.held() if isinstance(error, MemoryError) else ""
+    most = f"its process may take {held}" if held else ""
+    return spelled(f"{type(error).__name__}: {', '.join(filter(None, (_said(error), most)))}")
 
 
 def _said(text: object) -> str:

@@ -143,11 +143,21 @@ class Mechanism(System):
             choices = staying(self.built, mode)
             for k in beside(self.elements, self.built.states[mode], i):
                 choices[k] = (*choice, *opening(self.elements[k])) if choice == REST else choice
+            if choice == REST:
+                self._stops_too(mode, choices, t, q, v)
             if self.built.loose(mode):
                 choices = yielding(self.built, mode, choices, t, q, v)
             return settled(self.built, choices, t, q, v)
 
         return then
+
+    def _stops_too(self, mode: str, choices: list[Options], t: float, q: Array, v: Array) -> None:
+        """What stops at the same instant may rest as well, as both ends of a ladder do."""
+        still = self.built.still(t, q, v, part=STILL)
+        for k, (e, state) in enumerate(zip(self.elements, self.built.states[mode], strict=True)):
+            rubs = sign(state) and e.slips and not e.frictionless and not e.only
+            if rubs and abs(rate(e.tangent, t, q, v)) <= still:
+                choices[k] = (*e.rest, *opening(e))
 
     def _opens(self, mode: str, i: int) -> Callable[[float, Array, Array], After]:
         """The contact opens, if it then rises: a force that jumps instead has no next mode."""

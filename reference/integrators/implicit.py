@@ -22,6 +22,7 @@ MANY = 200  # columns: such a Jacobian costs as much as some thirty iterations
 PATIENT = 0.1  # and so does not pay before this contraction, where they are twice as many
 ROUNDING = 100.0 * EPS  # corrections this small that no longer shrink are rounding
 FAR = 3.0  # do not extrapolate the stages to a step this many times longer than the last
+NEAR = 1e-12  # nor to one as much shorter: its nodes are the last one's end but for rounding
 
 
 def difference_jacobian(f: Slope, t: float, y: Vector, slope: Vector, size: Vector) -> Matrix:
@@ -113,7 +114,7 @@ class Radau:
 
     def _guess(self, h: float, n: int) -> Matrix:
         """Stage increments from the last step's polynomial, continued; zero where that is wild."""
-        if self._last is None or h > FAR * self._last[0]:
+        if self._last is None or not NEAR < h / self._last[0] < FAR:
             return np.zeros((len(self.table.c), n))
         length, z = self._last
         return self.table.continued(h / length) @ z - z[-1]

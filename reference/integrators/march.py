@@ -20,6 +20,7 @@ SAFETY = 0.8  # aim below the tolerance: on chaotic motion 0.9 has a quarter of 
 SHRINK, GROW = 0.2, 6.0  # one estimate is not trusted to change the step by more than this
 FUTILE = 0.5  # an error that falls less than that with a shorter step is no error of the step
 ROUNDED = 10.0  # an error row adds up to 8 slopes, each with its rounding
+TICKS = 1024  # ulp of the time, of a first step: in a shorter one slopes leap as the clock does
 AT_ONCE = 1e-3  # of the interval after it: a shorter first one says nothing of the motion
 STRETCH = 0.05  # a step may be this much longer than wanted if that saves a step before a sample
 
@@ -110,6 +111,7 @@ class _Walker:
     until: float  # s: when it ends, where what begins gently is largest
     quiet: bool = True  # nothing is known of any noise
     begun: bool = False  # a step was accepted
+    last_heard: float = -math.inf  # s: where it was listened as far as ahead
 
     def step(self, target: float) -> Step:
         """Take one step towards `target`, landing on it exactly with the last."""
@@ -134,18 +136,32 @@ class _Walker:
             self.wanted = h * min(factor, SAFETY)
             # Below 4 ulp the time no longer advances properly; at t = 0 some other bound is needed.
             if self.wanted < max(4.0 * math.ulp(self.t), 1e-30 * left):
+                if self._hears(h):
+                    self.wanted = h
+                    continue
                 what = "the step size underflows" if error < math.inf else "values are not finite"
                 raise IntegrationError(what, self.t) from problem
+
+    def _hears(self, h: float) -> bool:
+        """Whether the slopes have a rounding that the shortest of steps did not see.
+
+        At each time it is listened for once, as far ahead as before the first step.
+        """
+        if self.last_heard == self.t:
+            return False
+        self.last_heard, self.begun, known = self.t, False, self.noise
+        self._listen(h)
+        return bool((self.noise > known).any())
 
     def _listen(self, h: float) -> None:
         """Learn the rounding of the slopes: the error did not fall as the step did."""
         with np.errstate(all="ignore"):
             try:
-                far, later = h, np.zeros_like(self.y)
+                far = h
                 if not self.begun:  # a step this short may see no rounding at all
                     far = max(h, self.ahead)
                     self.least = leaps(self.method.f, self.t, self.y, far)
-                    later = np.abs(self.method.f(self.until, self.y))
+                later = np.abs(self.method.f(self.until, self.y))
                 found = noise(self.method.f, self.t, self.y, far, self.peak, self.least, later)
             except (ArithmeticError, ValueError):  # too far out, as in an attempt
                 return
@@ -187,13 +203,13 @@ class _Walker:
         return done
 
 
-def _first_step(y: Vector, slope: Vector, size: Vector, span: float) -> float:
+def _first_step(t: float, y: Vector, slope: Vector, size: Vector, span: float) -> float:
     """A hundredth of the time in which the state changes by its own size, if that says anything."""
     with np.errstate(all="ignore"):
         value, rate = rms(y / size), rms(slope / size)
     if value == 0.0 or not 0.0 < rate < math.inf:
         return 1e-3 * span
-    return min(span, 0.01 * value / rate)
+    return min(span, max(0.01 * value / rate, TICKS * math.ulp(t)))
 
 
 def _span(samples: Sequence[float]) -> float:
@@ -221,7 +237,7 @@ def march(
     if len(samples) == 1:
         return
     size = sizes(np.abs(y), method.tolerance)
-    first = _first_step(y, slope, size, _span(samples))
+    first = _first_step(samples[0], y, slope, size, _span(samples))
     none = np.zeros_like(y)
     ahead = AT_ONCE * _span(samples)
     walker = _Walker(method, samples[0], y, none, np.abs(y), first, none, none, ahead, samples[-1])

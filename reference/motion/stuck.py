@@ -39,14 +39,16 @@ class Watched:
 
     def __init__(self, mode: Mode, duration: float, y: Array) -> None:
         self.slope, self.duration, self.y = slope(mode), duration, y
-        self.calls, self.farthest, self.mark = 0, -np.inf, -np.inf
+        self.calls, self.earliest, self.mark = 0, np.inf, -np.inf
 
     def __call__(self, t: float, y: Vector) -> Vector:
         self.y = y
         self.calls += 1
-        self.farthest = max(self.farthest, t)
+        self.earliest = min(
+            self.earliest, t
+        )  # others look ahead, at what comes later or is refused
         if self.calls % WATCHED == 0:
-            if self.farthest - self.mark < CRAWL * self.duration:
+            if self.earliest - self.mark < CRAWL * self.duration:
                 raise IntegrationError("the steps shrink to nothing", t)
-            self.mark, self.farthest = self.farthest, -np.inf
+            self.mark, self.earliest = self.earliest, np.inf
         return self.slope(t, y)

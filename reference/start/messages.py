@@ -77,6 +77,16 @@ def rates_violate(case: Case, part: str) -> CaseError:
     return initial(case, f"the rates violate {part}: no motion satisfies all that is given")
 
 
+def rate_unsaid(case: Case, joint: str, *, angular: bool) -> CaseError:
+    """A joint on a part that moves gives its place, and not its rate."""
+    place, rate = ("angle", "omega") if angular else ("shift", "speed")
+    what = (
+        f"gives the {place} and no {rate}, where one of its parts moves: zero may be the joint's "
+        f"rate or the other part's, and these are two starts; say {rate}"
+    )
+    return CaseError([case.mistake(("initial", joint, place), what)])
+
+
 def moves(case: Case, point: str) -> CaseError:
     """The given rates move a point that is to stand still."""
     return initial(

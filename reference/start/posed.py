@@ -29,6 +29,16 @@ def moving(case: Case, where: Coordinates) -> Iterator[Constraint]:
             yield Constraint(joint.name, (joint.a, joint.b), ((*row, given),), ((),), None, where)
 
 
+def silent(case: Case, where: Coordinates) -> Iterator[Constraint]:
+    """ω_B − ω_A and d/dt u·(r_B − r_A) of joints that give the place of these, and not the rate."""
+    for name, start in case.initial.items():
+        joint = case.scene.joints.get(name)
+        for place, rate in (("angle", "omega"), ("shift", "speed")):
+            if joint and place in start.given and rate not in start.given:
+                row = turned() if place == "angle" else shifted(joint)
+                yield Constraint(joint.name, (joint.a, joint.b), (row,), ((),), None, where)
+
+
 def _of_joints(
     case: Case, fields: tuple[str, str]
 ) -> Iterator[tuple[Joint, list[tuple[Row, float]]]]:

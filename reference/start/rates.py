@@ -8,6 +8,7 @@ from ...cases.scene import GROUND, Scene
 from ..system import Array
 from . import messages, refusal
 from .closure import RATES, Closure
+from .posed import silent
 from .positions import CLOSED, RANK, rank, undetermined
 
 
@@ -15,15 +16,28 @@ def rates(closure: Closure, q: Array) -> Array:
     """v (n,) with f_a q̇ᵃ = g (2.15); what does not follow is zero.
 
     Raises CaseError if the given rates violate a constraint, or leave rates open that cannot all
-    be zero: a bar on a bar that turns could keep its own rate or its neighbour's.
+    be zero: a bar on a bar that turns could keep its own rate or its neighbour's. So could a wheel
+    whose angle is given against the arm: its own rate and the joint's are not both zero.
     """
     given = closure.numbers(closure.case.initial, RATES)
     v = np.zeros(closure.n)
     v[list(given)] = list(given.values())
     for bodies in mechanisms(closure.case.scene):
         columns = [i for i, name in enumerate(closure.where.names) if name.split(".")[0] in bodies]
-        v[columns] = _of_one(closure, q, v, columns, free=[i for i in columns if i not in given])
+        free = [i for i in columns if i not in given]
+        v[columns] = _of_one(closure, q, v, columns, free)
+        _said(closure, q, v / closure.units, free)
     return v
+
+
+def _said(closure: Closure, q: Array, scaled: Array, free: list[int]) -> None:
+    """Raises CaseError where a joint gives its place, and has a rate that nothing says."""
+    rows = closure.rows([*closure.parts, *closure.gliding, *closure.still], q)
+    for part in silent(closure.case, closure.where):
+        row = closure.rows([part], q)
+        open_ = rank(np.vstack([rows, row])[:, free], RANK) > rank(rows[:, free], RANK)
+        if open_ and _open(row, np.zeros(1), scaled)[1]:
+            raise messages.rate_unsaid(closure.case, part.part, angular=part.angular[0])
 
 
 def _of_one(closure: Closure, q: Array, v: Array, columns: list[int], free: list[int]) -> Array:

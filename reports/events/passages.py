@@ -22,15 +22,33 @@ def passages(
     """
     from scipy.optimize import brentq
 
-    times, kept = np.unique(times, return_index=True)
-    u = u[kept]
-    bends = bent(times, corners)
-    rows = [*zip(times.tolist(), u.tolist(), range(len(u)), strict=True)]
-    rows = sorted([*rows, *_hidden(times, u, bends)])
+    times, u, bends, rows = _rows(times, u, still, corners)
     clear = [row for row in rows if abs(row[1]) > still]
     for (before, above, i), (after, below, _) in pairwise(clear):
         if above > 0.0 > below:
             yield float(brentq(_curve(times, u, i, bends), before, after, xtol=1e-14))
+
+
+def touches(times: Array, u: Array, still: float, corners: Sequence[float] = ()) -> Iterator[float]:
+    """Times [s] at which u (N,) comes as near to zero as `still` and turns back, through it or not.
+
+    Rounding says which.
+    """
+    *_, rows = _rows(times, u, still, corners)
+    clear = [k for k, row in enumerate(rows) if abs(row[1]) > still]
+    for i, k in pairwise(clear):
+        if k > i + 1 and rows[i][1] * rows[k][1] > 0.0:
+            yield min(rows[i + 1 : k], key=lambda row: abs(row[1]))[0]
+
+
+def _rows(
+    times: Array, u: Array, still: float, corners: Sequence[float]
+) -> tuple[Array, Array, list[int], list[tuple[float, float, int]]]:
+    """Each time once, u there, the bends, and the rows: time, u and number, with what hides."""
+    times, kept = np.unique(times, return_index=True)
+    u, bends = u[kept], bent(times, corners)
+    rows = [*zip(times.tolist(), u.tolist(), range(len(u)), strict=True)]
+    return times, u, bends, sorted([*rows, *_hidden(times, u, bends, still)])
 
 
 def bent(times: Array, corners: Sequence[float]) -> list[int]:
@@ -51,8 +69,10 @@ def _curve(times: Array, u: Array, i: int, bends: Sequence[int]) -> Callable[[fl
     return lambda t: float(made(t))
 
 
-def _hidden(times: Array, u: Array, bends: Sequence[int]) -> Iterator[tuple[float, float, int]]:
-    """Extrema beyond zero beside a row that is as near to zero as it differs from the others."""
+def _hidden(
+    times: Array, u: Array, bends: Sequence[int], still: float
+) -> Iterator[tuple[float, float, int]]:
+    """Extrema at zero or beyond, beside a row as near to it as it differs from the others."""
     from scipy.optimize import minimize_scalar
 
     signs = np.where(u[1:-1] > 0.0, 1.0, -1.0)
@@ -70,5 +90,5 @@ def _hidden(times: Array, u: Array, bends: Sequence[int]) -> Iterator[tuple[floa
                 method="bounded",
                 options={"xatol": LOCATED},
             )
-            if turn.fun < 0.0:
+            if turn.fun <= still:
                 yield float(turn.x), float(sign * turn.fun), k

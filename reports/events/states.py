@@ -18,7 +18,7 @@ from ...cases.observe import observe
 from ...cases.quantity import SIDES, AtEvent, at_event
 from ...cases.trajectory import Array, Trajectory
 from .passages import bent
-from .times import never, reference_events, still
+from .times import grazed, never, reference_events, still
 
 ROWS = 8  # of the reference: of seventh degree, as the integrator's eighth order
 STEPS = 4  # of an engine: of third degree, as the best of their integrators is of fourth order
@@ -79,10 +79,10 @@ def _curve(times: Array, u: Array, rows: Rows, t: float, most: int) -> float:
 
 def mistaken(case: Case, reference: Trajectory) -> list[Mistake]:
     """What the case says of its events and the reference contradicts."""
-    found = never(case, reference)
-    if found or reference.record is None:
-        return found
-    return list(_jumps(case, reference.record))
+    record = reference.record
+    if record is None:
+        return never(case, reference)
+    return list(grazed(case, record)) or never(case, reference) or list(_jumps(case, record))
 
 
 def _jumps(case: Case, record: Trajectory) -> Iterator[Mistake]:

@@ -4,10 +4,11 @@ The reference knows its phases, and an event is the boundary of two. An engine o
 it creeps: it never rests. So no threshold is a time here; a threshold only tells what is near.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...cases.case import Case, Event
 from ...cases.mistake import Mistake
@@ -15,7 +16,7 @@ from ...cases.observe import observe
 from ...cases.quantity import at_event, table
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
-from .passages import passages
+from .passages import passages, touches
 from .rests import LOW, STEPS, rests
 
 STILL = 1e-9  # of the largest value of its kind: what the reference's own rounding leaves of a zero
@@ -29,14 +30,7 @@ TREMBLE = 1e-6  # steps: two zeros of a curve that touch are not rounding's to l
 
 def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
     """Times (K,) [s] of the event, from the boundaries of the reference's phases."""
-    assert record.phase is not None  # the reference's record has it
-    u = observe(scene, record, event.quantity)
-    u, small = event.falling(u), still(scene, record, event.quantity)
-    pieces = [
-        piece
-        for piece in np.split(np.arange(len(u)), np.flatnonzero(np.diff(record.phase)) + 1)
-        if record.times[piece[-1]] > record.times[piece[0]]  # what lasts no time is no phase
-    ]
+    u, small, pieces = _pieces(scene, record, event)
     happens = _RULES[event.rule]
     times = [
         float(record.times[before[-1]])
@@ -44,10 +38,25 @@ def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
         if happens(u[before], u[after], small)
     ]
     if event.crosses:
-        corners = [t for law in scene.laws() for t in law.corners]
+        corners = _corners(scene)
         for piece in pieces:
             times += passages(record.times[piece], u[piece], small, corners)
     return np.array(sorted(times), float)
+
+
+def _pieces(
+    scene: Scene, record: Trajectory, event: Event
+) -> tuple[Array, float, list[NDArray[np.int64]]]:
+    """What falls to zero where the event happens, what is nothing beside it, the rows of phases."""
+    assert record.phase is not None  # the reference's record has it
+    u = event.falling(observe(scene, record, event.quantity))
+    pieces = np.split(np.arange(len(u)), np.flatnonzero(np.diff(record.phase)) + 1)
+    lasting = [p for p in pieces if record.times[p[-1]] > record.times[p[0]]]  # others are none
+    return u, still(scene, record, event.quantity), lasting
+
+
+def _corners(scene: Scene) -> list[float]:
+    return [t for law in scene.laws() for t in law.corners]
 
 
 def still(scene: Scene, record: Trajectory, name: str) -> float:
@@ -181,6 +190,19 @@ def never(case: Case, reference: Trajectory) -> list[Mistake]:
         what = f"never happens in {case.duration:g} s: nothing is compared"
         found += [case.mistake(place, what) for place in places]
     return found
+
+
+def grazed(case: Case, record: Trajectory) -> Iterator[Mistake]:
+    """A mistake for every event of which rounding says whether it happens."""
+    for name, event in case.events.items():
+        u, small, pieces = _pieces(case.scene, record, event)
+        for piece in pieces if event.crosses else ():
+            for t in touches(record.times[piece], u[piece], small, _corners(case.scene)):
+                what = (
+                    f"{event.quantity} comes to {event.value:g} at t = {t:.6g} s and turns back, "
+                    f"within {small:.1e}: whether it gets there is rounding; give another value"
+                )
+                yield case.mistake(("events", name), what)
 
 
 def _falls_later(scene: Scene, reference: Trajectory, event: Event) -> bool:

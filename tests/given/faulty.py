@@ -50,6 +50,14 @@ def spins() -> None:
         pass
 
 
+def eats() -> None:
+    """Until somebody says no, and here not for ever."""
+    taken: list[bytearray] = []
+    while len(taken) < 40:
+        taken.append(bytearray(2**27))
+    raise AssertionError("5 GiB, and nobody said no")
+
+
 def dies(number: int) -> Callable[[], Any]:
     return lambda: os.kill(os.getpid(), number)
 
@@ -66,6 +74,7 @@ ACTS: dict[str, Callable[[], Any]] = {
     "panics": fails(Panic("called `Option::unwrap()` on a `None` value")),
     "panics for ever": fails(KeyboardInterrupt("no")),
     "is out of memory": fails(MemoryError()),
+    "eats": eats,
     "recurses": fails(RecursionError("maximum recursion depth exceeded")),
     "ends": fails(SystemExit(0)),
     "ends otherwise": fails(SystemExit("bye")),

@@ -278,3 +278,48 @@ def test_a_state_at_an_event_beside_a_corner_is_read_from_its_side(
     assert times[0] == pytest.approx(t, abs=1e-14)
     found = reference_states(case, record, at, times)
     assert found == pytest.approx([x], abs=1e-14)
+
+
+FLIGHT = """\
+title: A ball that comes up to a height
+scene:
+  bodies: {{ball: {{particle: {{mass: 1}}}}}}
+initial: {{ball: {{x: 0, y: 0, vx: 1, vy: 4.42869}}}}
+events: {{up: {{ball.y: {{rises to: {height!r}}}}}}}
+duration: 0.9
+samples: {samples}
+allow: {{ball.x: 0.1, ball.y: 0.1, up.count: 0.5}}
+"""
+TOP = 4.42869**2 / 2 / 9.80665
+
+
+@pytest.mark.parametrize("samples", [4, 10, 31])  # with 31 a sample is 1 ms from the top
+@pytest.mark.parametrize("below", [1e-6, 1e-8, 1e-10, 0.0, -1e-10, -1e-8])
+def test_a_graze_is_an_event_or_none_or_is_asked_to_be_said_otherwise(
+    below: float, samples: int, tmp_path: Path
+) -> None:
+    path = tmp_path / "flight.yaml"
+    path.write_text(FLIGHT.format(height=TOP - below, samples=samples))
+    (case,) = load(path)
+    motion = solve(case).trajectory
+    assert motion.record is not None
+    found = reference_events(case.scene, motion.record, case.events["up"])
+    said = [str(mistake) for mistake in mistaken(case, motion)]
+    if abs(below) < 1e-9:  # of a metre, the largest place
+        assert "ball.y comes to" in said[0]
+        assert "turns back" in said[0]
+    elif below > 0.0:
+        early = math.sqrt(2 * below / 9.80665)
+        assert found == pytest.approx([4.42869 / 9.80665 - early], abs=1e-15 / early)
+        assert said == []
+    else:
+        assert "never happens" in said[0]
+
+
+@pytest.mark.mutant("what touches the value of an event is none, without a word")
+def test_a_graze_that_is_not_said_is_certified(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(reading, "touches", lambda *_: iter(()))
+    with pytest.raises(AssertionError):
+        test_a_graze_is_an_event_or_none_or_is_asked_to_be_said_otherwise(1e-10, 10, tmp_path)

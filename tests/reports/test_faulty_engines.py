@@ -44,6 +44,7 @@ def test_a_fault_costs_the_engines_own_rows(
     engine: Faulty, moving: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(limit.VARIABLE, "1.0" if engine.act in ("hangs", "spins") else "60")
+    monkeypatch.setenv(limit.MEMORY, "2")
     report = measured(moving, engine, Faulty(setting="sound"))
     sound = of(report, "sound")
     assert [row.verdict for row in sound] == [AGREES, AGREES], [row.because for row in sound]
@@ -55,6 +56,8 @@ def test_a_fault_costs_the_engines_own_rows(
         assert len(row.because) <= LONGEST
         assert row.because.isprintable()
         assert row.because or row.verdict == AGREES
+        if engine.act == "eats" and row.verdict == FAILS:
+            assert row.because.endswith("its process may take 2 GiB")
         assert row.realised == "native"
     write.write(write.tables(report, report.cases), tmp_path / "reports")
     with (tmp_path / "reports" / "tolerance.csv").open(encoding="utf-8", newline="") as file:

@@ -120,7 +120,7 @@ def moved(model: Any, y: Array, state: State, duration: float, samples: int) -> 
     times = np.linspace(0.0, duration, samples)
     found = []
     for t in times:
-        piece = next(p for p in pieces if t <= p.end)
+        piece = next((p for p in pieces if t < p.end), pieces[-1])  # what is just after a corner
         now = state.now(t, piece.at(t))
         found.append((now, solved(now)))
     return Motion(state, pieces, times, found)

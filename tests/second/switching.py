@@ -161,6 +161,8 @@ def followed(model: Any, y: Array, state: State, duration: float, samples: int) 
     mode = chosen(all_sites, state.now(0.0, y), {})
     for a, b in spans(model, duration):
         t, last = a, np.nextafter(b, a)
+        if a > 0.0:  # what acts may have jumped
+            mode = next_mode(state.now(a, y), mode, None, "")
         while t < b and len(pieces) < MOST:
             ends, bent = watched(mode, state, last), kinks(state, y, t, last)
 
@@ -189,7 +191,7 @@ def followed(model: Any, y: Array, state: State, duration: float, samples: int) 
     times = np.linspace(0.0, duration, samples)
     found = []
     for t in times:
-        piece = next(p for p in pieces if t <= p.end)
+        piece = next((p for p in pieces if t < p.end), pieces[-1])  # what is just after a corner
         now = state.now(t, piece.at(t))
         found.append((now, piece.mode.solved(now)))
     return Motion(state, pieces, times, found)

@@ -12,6 +12,7 @@ from textmech.cases.mistake import CaseError
 from textmech.cases.scene import Anchor, Contact, Scene
 from textmech.reference.generated import mechanism
 from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 
 STANDS, UP = (0.0, 0.25, 0.0), 9.81
@@ -129,3 +130,47 @@ def seen_wrong(case: Case) -> list[str]:
         return [check.name for check in solve(case).checks if not check.holds]
     except CaseError as refused:
         return [mistake.what for mistake in refused.mistakes]
+
+
+LADDER = """\
+scene:
+  planes: {wall: {at: [0, 0], normal: [1, 0]}}
+  bodies: {rod: {bar: {mass: 1.5, length: 0.9}}}
+  contacts:
+    CONTACTS
+  forces:
+    p: {push: rod.center, sine: {amplitude: [10, -2], angular_frequency: 17, phase: 1.9}}
+initial: {rod: {angle: -0.71, on: [end, start]}}
+allow: {rod.angle: 1.0e-2}
+"""
+ENDS = [
+    "foot: {between: [rod.end, ground.floor], friction: 0.37}",
+    "top: {between: [rod.start, ground.wall], friction: 0.46}",
+]
+
+
+def phases(tmp_path: Path, ends: list[str]) -> list[tuple[float, dict[str, str]]]:
+    """When the ladder goes on otherwise, and what each end does then."""
+    text = LADDER.replace("CONTACTS", "\n    ".join(ends))
+    made = scenes.mechanism(scenes.typed(tmp_path, text))
+    assert isinstance(made, Mechanism)
+    names = [e.name for e in made.elements]
+    return [
+        (change.time, dict(zip(names, made.built.states[change.mode_after], strict=True)))
+        for change in follow(made, np.linspace(0.0, 0.5, 11)).changes
+    ]
+
+
+def test_a_ladder_rests_at_both_ends_in_whatever_order_they_are_told(tmp_path: Path):
+    """Both stop at one instant: none goes on to rub at rest, and rubs as nothing says how."""
+    one, other = phases(tmp_path, ENDS), phases(tmp_path, ENDS[::-1])
+    assert [states for _, states in one] == [states for _, states in other]
+    assert [t for t, _ in one] == pytest.approx([t for t, _ in other], abs=1e-12)
+    assert one[0][1] == {"foot": "sticks", "top": "sticks"}
+
+
+@pytest.mark.mutant("what stops at the instant of another goes on to slide, at rest")
+def test_one_end_of_a_ladder_rests_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(Mechanism, "_stops_too", lambda *_: None)
+    with pytest.raises(AssertionError):
+        test_a_ladder_rests_at_both_ends_in_whatever_order_they_are_told(tmp_path)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from given.problems import by_scipy
 
-from textmech.reference.integrators.implicit import radau
+from textmech.reference.integrators.implicit import Radau, radau
 from textmech.reference.integrators.march import Vector
 from textmech.reference.integrators.radau import radau_table
 from textmech.reference.integrators.stages import ByEigenvalues, Whole
@@ -73,3 +73,16 @@ def test_a_polynomial_is_continued(ratio: float):
         known = (1.0 + ratio * table.c) ** power - 1.0
         found = table.continued(ratio) @ table.c**power - 1.0
         np.testing.assert_allclose(found, known, rtol=0.0, atol=rounding)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("part", [1e-9, 1e-14, 1e-17])
+def test_a_step_next_to_none_is_a_step(part: float):
+    """As a root-finder tries them: from the nodes of such a step the last one's end is not told."""
+    method = Radau(van_der_pol, 1e-13, radau_table(5))
+    y, h = np.array([2.0, 0.0]), 1e-3
+    size = np.array([2.0, 1.0])
+    there = y + method.attempt(0.0, y, h, size)
+    method.begin(h, there)
+    moved = method.attempt(h, there, part * h, size)
+    np.testing.assert_allclose(moved, part * h * van_der_pol(h, there), rtol=1e-6)

@@ -55,7 +55,7 @@ def test_a_block_that_is_set_off_at_a_sample(
 
 @pytest.mark.mutant("a step from an event to the sample that comes at once")
 def test_a_step_of_rounding_is_no_step(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    case = block(tmp_path, 6.6e-14, 5)
+    case = block(tmp_path, 3e-14, 5)
     monkeypatch.setattr(following, "on_sample", lambda t, samples: t)
     with pytest.raises(Stuck):
         follow(mechanism(case), case.times)

@@ -122,6 +122,43 @@ def test_slips_are_counted_however_short(
     assert found == pytest.approx(slips(omega, excess, 2.0), rel=0, abs=1e-12 + late)
 
 
+CLOCK = "a first step shorter than an ulp of the time"
+LEAP = "a rounding that the shortest of steps does not see"
+AGAIN = {  # a scene, mass, friction, a sine's amplitude, frequency and phase, the end, samples
+    CLOCK: (
+        SLIDE, "0.5963534737096239", "static: 1.4585736856695222, kinetic: 1.4522767199911273",
+        1.4587917264899888, 10.548419051921188, 0.0, 1.9082279576994505, 6,
+    ),
+    "a rounding as loud as what begins from zero, after a step": (
+        FLOOR, "2.997564705809844", "0.07860690712319751",
+        2.3107664939252817, 9.86639278279836, 0.7819065326608694, 1.532678376153763, 101,
+    ),
+    LEAP: (
+        SLIDE, "1.4029633665812846", "kinetic: 3.7686232298388864",
+        3.7686232302312295, 2.7851606784255187, 1.3212706719596934, 5.608668769600543, 101,
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", AGAIN)
+def test_a_slip_is_followed_as_often_as_it_comes_back(tmp_path: Path, name: str):
+    """A sine just above friction: each half of its period has the slip of the one before."""
+    scene, mass, friction, most, omega, phase, end, samples = AGAIN[name]
+    sine = f"{{amplitude: [{most!r}, 0], angular_frequency: {omega!r}, phase: {phase!r}}}"
+    text = scene.replace("mass: 1", f"mass: {mass}").replace("START", "0")
+    text = text.replace("FRICTION", friction).replace("friction: 0.3", f"friction: {friction}")
+    text = text.replace("PULL", f"push: {{push: block.center, sine: {sine}}}")
+    times = np.linspace(0.0, end, samples)
+    found = follow(scenes.mechanism(scenes.typed(tmp_path, text)), times).changes
+    peaks = np.arange((np.pi / 2 - phase) / omega, end, np.pi / omega)
+    joint = "guide" if scene is SLIDE else "touch"
+    ways = [f"{joint} {way}" for way in ("slides +", "sticks", "slides -", "sticks")]
+    assert [c.mode_after for c in found] == (ways * len(peaks))[: 2 * len(peaks)]
+    late = 1e-9  # s: what is 1e-10 above friction has its rounding of 1e-16 for some 1e-11 s
+    both = np.array([c.time for c in found]).reshape(-1, 2)
+    np.testing.assert_allclose(np.diff(both, axis=0), np.pi / omega, rtol=0, atol=late)
+
+
 @pytest.mark.slow
 @pytest.mark.mutant("the rounding of a slope is heard beyond the first step only of rest at zero")
 def test_short_slips_are_missed_within_a_first_step(
@@ -135,7 +172,29 @@ def test_short_slips_are_missed_within_a_first_step(
 
     monkeypatch.setattr(march._Walker, "_listen", within)
     with pytest.raises((AssertionError, Stuck)):
-        test_slips_are_counted_however_short(tmp_path, 3.0, 6, 0.0, 1e-8)
+        test_a_slip_is_followed_as_often_as_it_comes_back(tmp_path, LEAP)
+
+
+@pytest.mark.slow
+@pytest.mark.mutant(
+    "where a step shrinks to nothing its rounding is not listened for farther ahead"
+)
+def test_what_the_shortest_steps_do_not_see_ends_the_motion(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(march._Walker, "_hears", lambda walker, h: False)
+    with pytest.raises(Stuck, match="underflows"):
+        test_a_slip_is_followed_as_often_as_it_comes_back(tmp_path, LEAP)
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a first step may be shorter than the clock can tell")
+def test_a_first_step_within_the_leaps_of_the_clock_gets_nowhere(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(march, "TICKS", 0)
+    with pytest.raises(Stuck):
+        test_a_slip_is_followed_as_often_as_it_comes_back(tmp_path, CLOCK)
 
 
 @pytest.mark.slow

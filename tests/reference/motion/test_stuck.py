@@ -9,8 +9,10 @@ from given.typed_scenes import PARALLELOGRAM, SPRING, time_to_flat
 
 from textmech.cases.case import Case
 from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.integrators.march import IntegrationError
+from textmech.reference.motion import stuck as watching
 from textmech.reference.motion.follow import follow
-from textmech.reference.motion.stuck import Stuck
+from textmech.reference.motion.stuck import Stuck, Watched
 from textmech.reference.system import Array, Mode, Only
 
 # The spring of SPRING along a guide, and a disk that slides for (v + R ω)/(3 μ g) and then rolls.
@@ -89,3 +91,33 @@ def test_a_written_mode_is_told_as_well():
     assert caught.value.mode is system.mode
     assert caught.value.time == pytest.approx(1.0, abs=1e-5)
     assert caught.value.q == pytest.approx([1.0], abs=1e-3)
+
+
+class Falling(Mode):
+    """A place that goes evenly."""
+
+    coordinates = ("x",)
+
+    def accelerations(self, t: float, q: Array, v: Array) -> Array:
+        return np.zeros(1)
+
+
+@pytest.mark.parametrize("pace", [1e-3, 0.0])
+def test_who_looks_ahead_does_not_seem_to_stand_still(
+    pace: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In 20 s at 1 ms a call, once asked for the end: it goes on; at none it is stuck."""
+    monkeypatch.setattr(watching, "WATCHED", 100)
+    y = np.zeros(2)
+    watched = Watched(Falling(), 20.0, y)
+    watched(20.0, y)
+
+    def goes_on() -> None:
+        for k in range(1000):
+            watched(pace * k, y)
+
+    if pace:
+        goes_on()
+    else:
+        with pytest.raises(IntegrationError, match="shrink to nothing"):
+            goes_on()

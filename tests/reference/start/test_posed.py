@@ -121,3 +121,22 @@ def test_an_angle_that_is_given_twice_is_given_on_one_turn(tmp_path: Path) -> No
     assert begun(tmp_path, CHAIN, start.format(rod=20))[0][2] == pytest.approx(np.radians(20))
     with pytest.raises(CaseError, match=r"hinge.angle: is 0.349066 rad, but .* another turn"):
         begun(tmp_path, CHAIN, start.format(rod=380))
+
+
+FLYWHEEL = CHAIN.replace("arm.start, rod.end", "rod.end, arm.center")
+
+
+@pytest.mark.parametrize("rate", ["elbow: {angle: 30 deg}", "elbow: {angle: 30 deg, omega: -1}"])
+def test_a_rate_that_is_zero_both_ways_or_said_is_known(rate: str, tmp_path: Path) -> None:
+    start = f"{{rod: {{angle: 20 deg, omega: 0}}, arm: {{angle: 50 deg}}, {rate}}}"
+    _, v = begun(tmp_path, FLYWHEEL, start)
+    assert v[5] == (-1.0 if "omega" in rate else 0.0)
+
+
+def test_of_two_rates_that_may_be_zero_one_is_asked_for(tmp_path: Path) -> None:
+    """The wheel that hangs on the arm may keep its own rate, or turn with the arm."""
+    start = "{hinge: {angle: 20 deg, omega: 1.5}, elbow: {angle: 30 deg}}"
+    with pytest.raises(CaseError, match=r"elbow.angle: gives the angle and no omega.*say omega"):
+        begun(tmp_path, FLYWHEEL, start)
+    _, v = begun(tmp_path, FLYWHEEL, start.replace("elbow: {angle: 30 deg}", "arm: {angle: 1}"))
+    assert v[5] == 0.0  # by the body: its own
