@@ -1,7 +1,8 @@
 """Force elements. Each answers for itself: its words, its quantities, its energy, its numbers.
 
-A new one is a class here with its place in FORCES, what it exerts in reference/generated/action.py
-and how each engine builds it in engines/*/force.py (its law in engines/law.py if it needs one).
+A new one is a class here with its place in FORCES, what it exerts in
+reference/mechanism/forces/action.py, and how each engine builds it in engines/*/force.py, with its
+law in engines/law.py if it needs one.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping

@@ -16,8 +16,8 @@ from ..cases.observe import observe
 from ..cases.quantity import at_event, table
 from ..cases.trajectory import Trajectory
 from .certificate.agreement import Check, worst
-from .generated.either import Generated
-from .generated.leeway import LEANS, Leeway
+from .mechanism.constraints.leeway import LEANS, Leeway
+from .mechanism.modes.either import Generated
 from .motion.bodies import Answer
 from .system import Pose
 

@@ -17,7 +17,7 @@ from ..cases.trajectory import Trajectory
 from .certificate.agreement import Check, gravest
 from .certificate.alone import alone
 from .certificate.errors import ERROR
-from .generated.either import Base
+from .mechanism.modes.either import Base
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from ..cases.observe import motion_of, observe
 from ..cases.quantity import table
 from ..cases.scene import Contact
 from ..cases.trajectory import Array, Trajectory
-from .generated.either import Generated
+from .mechanism.modes.either import Generated
 from .start.sizes import size_of
 from .system import Pose, System
 

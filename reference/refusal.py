@@ -19,12 +19,12 @@ from ..cases.language.check import cost
 from ..cases.language.check.work import GO_ON
 from ..cases.mistake import CaseError, Mistake
 from ..cases.space.scene import SpatialScene
-from .generated.choosing import Undetermined
-from .generated.either import Generated
-from .generated.mechanism import BadStart
-from .generated.together import OneInstant
 from .integrators.budget import Endless, budget
 from .laws.rotation import axes
+from .mechanism.modes.choosing import Undetermined
+from .mechanism.modes.either import Generated
+from .mechanism.modes.mechanism import BadStart
+from .mechanism.modes.together import OneInstant
 from .motion.stuck import Stuck
 from .motion.zeno import ZenoError
 from .start.closure import Closure

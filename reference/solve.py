@@ -18,11 +18,11 @@ from .certificate.certify import certify
 from .certificate.errors import beyond
 from .coverage import look, noting
 from .determined import check_determined
-from .generated.either import Generated
 from .integrators.budget import apart
 from .integrators.now import begun, doing
 from .integrators.threads import one_thread
 from .islands import Island, parts, together
+from .mechanism.modes.either import Generated
 from .motion.bodies import Answer, Beside
 from .motion.follow import Followed, follow
 from .premises import check_premises, check_start, pressed
@@ -31,7 +31,7 @@ from .start.mechanism import mechanism
 from .states.answer import answered
 from .system import Pose, System
 from .systems import written as written_system
-from .systems.stated import STATED
+from .systems.states.stated import STATED
 
 
 @dataclass(frozen=True)

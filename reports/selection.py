@@ -17,7 +17,7 @@ from ..cases.load import load
 from ..cases.mistake import CaseError, Mistake, nearest
 from ..engines.engine import Engine
 from ..reference.systems import SYSTEMS
-from ..reference.systems.stated import STATED
+from ..reference.systems.states.stated import STATED
 from .own_settings import SUFFIXES, read_settings
 
 BOOK = "book"

@@ -40,9 +40,9 @@ class Cable(Line):
 
 FORCES["cable"] = Cable
 
-# reference/generated/action.py
+# reference/mechanism/forces/action.py
 
-from textmech.reference.generated.action import ACTIONS, Action, ends, length
+from textmech.reference.mechanism.forces.action import ACTIONS, Action, ends, length
 
 
 def exerts(force: Cable, where: Any, t: float, q: Any, v: Any) -> Iterator[Any]:

@@ -15,7 +15,7 @@ def mirrored(name: str) -> set[str]:
     ("file", "folder"),
     [
         ("cases/quantity.py", "tests/cases"),
-        ("reference/generated/mode.py", "tests/reference/generated"),
+        ("reference/mechanism/modes/mode.py", "tests/reference/mechanism"),
         ("engines/pymunk/law/friction.py", "tests/engines/pymunk"),  # no folder is its own
         ("reports/judge/verdict.py", "tests/reports"),
         ("cases/four_bar.yaml", "tests/cases"),

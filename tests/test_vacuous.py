@@ -17,8 +17,8 @@ from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 from textmech.cases.observe import observe
 from textmech.cases.trajectory import Array, Trajectory
-from textmech.reference.generated.choosing import Undetermined
-from textmech.reference.generated.mechanism import BadStart
+from textmech.reference.mechanism.modes.choosing import Undetermined
+from textmech.reference.mechanism.modes.mechanism import BadStart
 from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import either, follow
 from textmech.reference.motion.stuck import Stuck

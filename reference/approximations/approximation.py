@@ -9,9 +9,9 @@ from ...cases.trajectory import VX, Trajectory, X
 from ..motion.bodies import Answer
 from ..motion.follow import follow
 from ..system import Array, Mode, Only, System
-from ..systems.dynamometer import Dynamometer
-from ..systems.growing_force import GrowingForce
-from ..systems.smooth_friction import SmoothDynamometer, SmoothGrowingForce
+from ..systems.friction.dynamometer import Dynamometer
+from ..systems.friction.growing_force import GrowingForce
+from ..systems.friction.smooth_friction import SmoothDynamometer, SmoothGrowingForce
 from .karnopp import Karnopp, boxcars
 
 KINDS = ("karnopp", "boxcar", "smooth")

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..laws.friction import Dry, boxcar
 from ..system import Array, Guard, System
-from ..systems.stick_slip import Pull, guards, modes
+from ..systems.friction.stick_slip import Pull, guards, modes
 from .stepping import stepped
 
 

@@ -7,11 +7,11 @@ import numpy as np
 from ...cases.case import Case
 from ...cases.space.scene import SpatialScene
 from ...cases.trajectory import Array, Trajectory
-from ..generated.coordinates import Coordinates
-from ..generated.either import Base
-from ..generated.mode import Multibody
-from ..generated.space.coordinates import SpatialCoordinates
-from ..generated.space.mode import SpatialMultibody
+from ..mechanism.kinematics.coordinates import Coordinates
+from ..mechanism.kinematics.space.coordinates import SpatialCoordinates
+from ..mechanism.modes.either import Base
+from ..mechanism.modes.mode import Multibody
+from ..mechanism.modes.space.mode import SpatialMultibody
 from ..system import Pose
 from .agreement import Check, worst
 from .beside import AGREE, condition, lost

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..coverage import look
 from ..formalisms.derivative import along
-from ..generated.either import Base, Generated
+from ..mechanism.modes.either import Base, Generated
 from ..motion.bodies import Answer
 from ..system import Array, Mode
 from .agreement import Check, worst

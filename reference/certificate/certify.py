@@ -15,11 +15,11 @@ import numpy as np
 from ...cases.case import Case
 from ...cases.trajectory import Trajectory
 from ..coverage import look
-from ..generated.either import Generated
 from ..integrators.implicit import Radau
 from ..integrators.march import Method, Slope
 from ..integrators.now import doing
 from ..integrators.radau import radau_table
+from ..mechanism.modes.either import Generated
 from ..motion.bodies import Answer
 from ..motion.follow import TOLERANCE, Followed, either, follow
 from ..start.sizes import size_of

@@ -14,9 +14,9 @@ from ...cases.frame import PLANE, SPACE
 from ..coverage import look
 from ..formalisms import appell, chaplygin, energy, lagrange, lagrangian, newton_euler, voronets
 from ..formalisms.dependent import dependent
-from ..generated.either import Base, Generated
-from ..generated.space.mode import SpatialMultibody
 from ..integrators.now import reached
+from ..mechanism.modes.either import Base, Generated
+from ..mechanism.modes.space.mode import SpatialMultibody
 from ..motion.bodies import Answer
 from ..system import Array, Mode
 from .agreement import Check, gravest, worst

@@ -15,7 +15,7 @@ from ...cases.quantity import table
 from ...cases.signal import Signal
 from ...cases.space.joint import SpatialJoint
 from ...cases.trajectory import Array, Trajectory
-from ..generated.either import Generated
+from ..mechanism.modes.either import Generated
 from .agreement import Check, worst
 from .reading import Size
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from ...cases.case import Case
 from ...cases.space.scene import SpatialScene
-from ..generated.coordinates import Coordinates
-from ..generated.space.coordinates import SpatialCoordinates
+from ..mechanism.kinematics.coordinates import Coordinates
+from ..mechanism.kinematics.space.coordinates import SpatialCoordinates
 from ..system import Array, Pose
 from . import refusal
 from .closure import Closure

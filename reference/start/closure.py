@@ -13,11 +13,11 @@ from ...cases.case import Case, Placement
 from ...cases.pair import Pair
 from ...cases.plane import LEVEL
 from ...cases.scene import Anchor, Vector
-from ..generated.constraint import Constraint, assembled
-from ..generated.coordinates import ORIGIN, Coordinates
-from ..generated.pair import along, apart
-from ..generated.permanent import constraints, gliding
-from ..generated.rows import FIRST, Along, X, Y
+from ..mechanism.constraints.constraint import Constraint, assembled
+from ..mechanism.constraints.permanent import constraints, gliding
+from ..mechanism.constraints.rows import FIRST, Along, X, Y
+from ..mechanism.kinematics.coordinates import ORIGIN, Coordinates
+from ..mechanism.modes.pair import along, apart
 from ..system import Array
 from .posed import moving, posed
 

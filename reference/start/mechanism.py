@@ -4,9 +4,9 @@ import numpy as np
 
 from ...cases.case import Case
 from ...cases.space.scene import SpatialScene
-from ..generated.either import Generated
-from ..generated.mechanism import Mechanism
-from ..generated.space.mechanism import SpatialMechanism
+from ..mechanism.modes.either import Generated
+from ..mechanism.modes.mechanism import Mechanism
+from ..mechanism.modes.space.mechanism import SpatialMechanism
 from .assembly import assemble
 from .sizes import size_of
 from .space.assembly import assemble_in_space

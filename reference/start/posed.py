@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 from ...cases.case import Case
 from ...cases.scene import Joint, Signal
-from ..generated.constraint import Constraint
-from ..generated.coordinates import Coordinates
-from ..generated.rows import FIRST, SECOND, Given, Line, Term, Turning
+from ..mechanism.constraints.constraint import Constraint
+from ..mechanism.constraints.rows import FIRST, SECOND, Given, Line, Term, Turning
+from ..mechanism.kinematics.coordinates import Coordinates
 
 Row = tuple[Term, ...]
 

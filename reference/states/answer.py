@@ -15,12 +15,12 @@ from ...cases.trajectory import Trajectory
 from ..certificate.agreement import Check, difference, relative, worst
 from ..certificate.errors import beyond, errors
 from ..coverage import look
-from ..generated.free import FreeBodies
-from ..generated.space.chain import SpatialChain
 from ..integrators.now import doing, reached
+from ..mechanism.constraints.free import FreeBodies
+from ..mechanism.kinematics.space.chain import SpatialChain
 from ..stated import Stated
 from ..system import Array, Pose
-from ..systems.stated import STATED
+from ..systems.states.stated import STATED
 from .derived import by_virtual_work, derived, efforts
 from .held import misread, unheld
 

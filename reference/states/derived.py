@@ -14,9 +14,9 @@ from ...cases.space.scene import SpatialScene
 from ...cases.states import MASS_MATRIX
 from ..formalisms import lagrange
 from ..formalisms.derivative import along
-from ..generated.action import dissipation
-from ..generated.coordinates import Coordinates
 from ..laws.rotation import axes
+from ..mechanism.forces.action import dissipation
+from ..mechanism.kinematics.coordinates import Coordinates
 from ..stated import Stated
 from ..system import Array, Pose
 

@@ -12,7 +12,7 @@ from ...cases.motion import Motion
 from ...cases.space.scene import SpatialScene
 from ...cases.trajectory import Trajectory
 from ..certificate.agreement import relative, worst
-from ..generated.space.mode import SpatialMultibody
+from ..mechanism.modes.space.mode import SpatialMultibody
 from ..stated import Stated
 from ..system import Array
 from .derived import moving

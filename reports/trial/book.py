@@ -11,8 +11,8 @@ from ...cases.trajectory import Array, Trajectory
 from ...engines.engine import Choice, Engine, Plan, Start
 from ...reference.approximations.approximation import DELTA, KINDS, A, Example, approximated
 from ...reference.systems import SYSTEMS
-from ...reference.systems.dynamometer import Dynamometer
-from ...reference.systems.growing_force import GrowingForce
+from ...reference.systems.friction.dynamometer import Dynamometer
+from ...reference.systems.friction.growing_force import GrowingForce
 
 STEP = 1e-3  # s, of the boxcar form: the finest rung then takes 1/16 of it
 

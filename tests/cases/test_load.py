@@ -13,7 +13,7 @@ from textmech.cases.load import load, titled
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Joint, Push, Signal, Torque
 from textmech.reference.systems import SYSTEMS
-from textmech.reference.systems.stated import STATED
+from textmech.reference.systems.states.stated import STATED
 
 PARAMETERS = {
     name: tuple(f.name for f in fields(system))  # type: ignore[arg-type]

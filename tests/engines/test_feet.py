@@ -22,7 +22,7 @@ from textmech.engines.mujoco.read.poses import poses
 from textmech.engines.mujoco.refuse import unbuildable
 from textmech.engines.pymunk import run as steps
 from textmech.engines.stride import Stride, stride
-from textmech.reference.systems.compass_walker import CompassWalker
+from textmech.reference.systems.walkers.compass_walker import CompassWalker
 
 CASE = SHIPPED["compass_walker"]
 STEPS = (1e-3, 2.5e-4)  # s

@@ -15,7 +15,7 @@ from textmech.cases.trajectory import ANGLE, Array, Trajectory
 from textmech.engines.engine import Choice, Plan
 from textmech.engines.mujoco import contact
 from textmech.engines.mujoco.settings import at_step
-from textmech.reference.systems.spoke_steps import SpokeSteps
+from textmech.reference.systems.walkers.spoke_steps import SpokeSteps
 from textmech.reports.events.times import falls
 
 L, M = 0.3, 2.0

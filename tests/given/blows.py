@@ -15,10 +15,10 @@ import numpy as np
 from scipy.optimize import linprog
 
 from given import scenes
-from textmech.reference.generated import landing
-from textmech.reference.generated.blow import Condition, Meeting
-from textmech.reference.generated.element import State
-from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.mechanism.modes import landing
+from textmech.reference.mechanism.modes.blow import Condition, Meeting
+from textmech.reference.mechanism.modes.element import State
+from textmech.reference.mechanism.modes.mechanism import Mechanism
 from textmech.reference.system import Array
 
 R = 0.3  # of the disk, and half the side of the box

@@ -12,7 +12,7 @@ import numpy as np
 
 from textmech.cases.scene import GROUND, Anchor, Damper, Push, Spring, Torque
 from textmech.reference.formalisms import appell, chaplygin, lagrange, voronets
-from textmech.reference.generated.space.mode import SpatialMultibody
+from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
 from textmech.reference.system import Array
 
 from .free_cut import matrix

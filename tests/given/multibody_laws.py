@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from textmech.reference.formalisms import energy, lagrange
-from textmech.reference.generated.either import Base
+from textmech.reference.mechanism.modes.either import Base
 from textmech.reference.system import Array
 
 EXACT = 1e-12  # of the largest term

@@ -25,7 +25,7 @@ from textmech.cases.scene import (
     Torque,
 )
 from textmech.cases.shape import bar, block, disk, particle, rigid
-from textmech.reference.generated.mode import Multibody
+from textmech.reference.mechanism.modes.mode import Multibody
 
 GRAVITY = (0.8, -9.7)  # not along an axis, so that no component can hide
 REGULAR = 0.05  # smallest singular value of the rows: nearer to singular, forces grow large

@@ -20,7 +20,7 @@ from textmech.cases.scene import (
     Spring,
     Torque,
 )
-from textmech.reference.generated.mode import Multibody
+from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.system import Array
 
 Random = np.random.Generator

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from textmech.reference.system import Array, Cut, Load, Mode, Pose, Vector
-from textmech.reference.systems.sleigh import Sleigh
+from textmech.reference.systems.rolling.sleigh import Sleigh
 
 
 @dataclass(frozen=True)

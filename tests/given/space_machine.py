@@ -12,7 +12,7 @@ from textmech.cases.space.constraint import SpatialEdge
 from textmech.cases.space.contact import SpatialContact
 from textmech.cases.space.joint import SpatialJoint
 from textmech.cases.space.scene import SpatialScene
-from textmech.reference.generated.space.mode import SpatialMultibody
+from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
 from textmech.reference.system import Array
 
 from .engine_space import point, unit, vector

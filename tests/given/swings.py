@@ -6,7 +6,7 @@ from textmech.cases.observe import observe
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import ANGLE, Array, Trajectory
 from textmech.engines.engine import Engine, Start
-from textmech.reference.generated.mode import Multibody
+from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Only

@@ -8,7 +8,7 @@ import numpy as np
 
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array, System
-from textmech.reference.systems.compass_walker import CompassWalker
+from textmech.reference.systems.walkers.compass_walker import CompassWalker
 
 SLOPE = 0.009  # rad, of the simplest walker
 DOWN = 0.02  # rad, of the compass walker

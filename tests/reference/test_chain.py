@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from textmech.cases.load import load
-from textmech.reference.generated import holding
-from textmech.reference.generated.banded import Band
-from textmech.reference.generated.mode import Multibody
 from textmech.reference.integrators import implicit
+from textmech.reference.mechanism.constraints import holding
+from textmech.reference.mechanism.constraints.banded import Band
+from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.solve import Solution, solve
 
 BAR = "{bar: {mass: 1.0, length: 0.4}}"

@@ -17,8 +17,8 @@ from scipy.integrate import solve_ivp
 
 from textmech.cases.case import Case
 from textmech.reference import determined
-from textmech.reference.generated import loose
-from textmech.reference.generated.modes import Modes
+from textmech.reference.mechanism.modes import loose
+from textmech.reference.mechanism.modes.modes import Modes
 from textmech.reference.solve import solve
 
 G = 9.80665

@@ -55,7 +55,7 @@ CHECKS = {
 PREMISES = {
     "premises.py::_otherwise": "test_premises.py::test_a_written_system_starts_as_the_scene",
     "premises.py::_unsaid": "test_premises.py::test_a_contact_above_the_floor_has_to_say_so",
-    "premises.py::_past_ends": "generated/test_one_instant.py",
+    "premises.py::_past_ends": "mechanism/test_one_instant.py",
     "premises.py::_slipping": "test_premises.py::test_rolling_needs_enough_friction",
     "premises.py::_still": "test_premises.py::test_what_rests_has_to_say_so",
     "determined.py::check_determined": (

@@ -24,7 +24,7 @@ from textmech.cases.shape import bar, disk
 from textmech.reference import islands as parts
 from textmech.reference import solve as door
 from textmech.reference.certificate.agreement import Check, difference
-from textmech.reference.generated.mode import Multibody
+from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.solve import Solution, solve
 
 PLANE = """\

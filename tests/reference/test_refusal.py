@@ -12,7 +12,7 @@ from given.typed_scenes import AT_REST, PARALLELOGRAM, SPRING, time_to_flat
 
 from textmech.cases.mistake import CaseError
 from textmech.reference import refusal
-from textmech.reference.generated.mode import Multibody
+from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.motion.stuck import Stuck
 from textmech.reference.refusal import refusals
 from textmech.reference.solve import solve

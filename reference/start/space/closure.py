@@ -9,7 +9,7 @@ import numpy as np
 
 from ....cases.case import Case
 from ....cases.space.scene import SpatialScene
-from ...generated.space.mode import SpatialMultibody
+from ...mechanism.modes.space.mode import SpatialMultibody
 from ...system import Array
 from .given import Equation, Given
 

@@ -14,8 +14,8 @@ from ....cases.space import chain
 from ....cases.space.counting import counted
 from ....cases.space.joint import Freedom, SpatialJoint, rate_of
 from ....cases.space.rotation import UPRIGHT, about, inverse, matrix, product, turned
-from ...generated.space.attitude import skew
-from ...generated.space.mode import SpatialMultibody
+from ...mechanism.kinematics.space.attitude import skew
+from ...mechanism.modes.space.mode import SpatialMultibody
 from ...system import Array
 
 PLACES = ("x", "y", "z")

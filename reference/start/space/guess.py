@@ -9,7 +9,7 @@ from ....cases.scene import GROUND, Anchor
 from ....cases.space.joint import SpatialJoint
 from ....cases.space.rotation import UPRIGHT, about, inverse, product, turned
 from ....cases.space.scene import SpatialScene
-from ...generated.space.coordinates import SpatialCoordinates
+from ...mechanism.kinematics.space.coordinates import SpatialCoordinates
 from ...system import Array
 
 Pose = tuple[Array, Array]  # r (3,) and the quaternion (4,)

@@ -19,11 +19,13 @@ from given.linkages import LINKAGE
 from textmech.cases.point import GroundPoint
 from textmech.cases.signal import Signal
 from textmech.reference.certificate.prescribed import integral
-from textmech.reference.generated import action, blades, coordinates, permanent, signal
-from textmech.reference.generated.space import action as space_action
-from textmech.reference.generated.space import held as space_held
-from textmech.reference.generated.space import rolling
-from textmech.reference.generated.space import turning as space_turning
+from textmech.reference.mechanism.constraints import blades, permanent
+from textmech.reference.mechanism.constraints.space import held as space_held
+from textmech.reference.mechanism.constraints.space import rolling
+from textmech.reference.mechanism.forces import action
+from textmech.reference.mechanism.forces.space import action as space_action
+from textmech.reference.mechanism.forces.space import turning as space_turning
+from textmech.reference.mechanism.kinematics import coordinates, signal
 from textmech.reference.start import assembly
 from textmech.reference.start import positions as start_positions
 from textmech.reference.start.closure import Closure

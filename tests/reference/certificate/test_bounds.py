@@ -14,13 +14,13 @@ from textmech.cases.case import Case
 from textmech.reference.certificate import beside as at_states
 from textmech.reference.certificate import certify as module
 from textmech.reference.certificate.agreement import Check
-from textmech.reference.generated.space.mode import SpatialMultibody
+from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
 from textmech.reference.motion.follow import TOLERANCE
 from textmech.reference.solve import solve
 from textmech.reference.system import Array, Only
 from textmech.reference.systems import written
-from textmech.reference.systems.bar_pendulum import BarPendulum
-from textmech.reference.systems.spring_mass_damper import SpringMassDamper
+from textmech.reference.systems.particles.spring_mass_damper import SpringMassDamper
+from textmech.reference.systems.pendula.bar_pendulum import BarPendulum
 
 Patch = pytest.MonkeyPatch
 

@@ -19,8 +19,8 @@ from textmech.reference.integrators.explicit import DormandPrince
 from textmech.reference.motion import follow
 from textmech.reference.motion.follow import TOLERANCE
 from textmech.reference.system import Array, Load, Mass, Mode, Only
-from textmech.reference.systems.bar_pendulum import BarPendulum
-from textmech.reference.systems.spring_mass_damper import SpringMassDamper
+from textmech.reference.systems.particles.spring_mass_damper import SpringMassDamper
+from textmech.reference.systems.pendula.bar_pendulum import BarPendulum
 
 GENERATED, MOVED = "generated motion", "generated accelerations"
 REACTIONS, CLOSED = "generated reactions", "closed form"

@@ -8,7 +8,7 @@ from given import scenes, written_scenes
 from given.certified import certified
 
 from textmech.reference.certificate import laws
-from textmech.reference.generated.mode import Multibody
+from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.solve import solve
 from textmech.reference.system import Array, Mode
 from textmech.reference.systems import written

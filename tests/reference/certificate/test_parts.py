@@ -16,7 +16,7 @@ from given.mutants import mutant
 from textmech.cases.space.joint import SpatialJoint
 from textmech.reference.certificate import agreement, errors
 from textmech.reference.certificate.agreement import Check
-from textmech.reference.generated.space.mode import SpatialMultibody
+from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
 from textmech.reference.states import answer, held
 from textmech.reference.system import System
 from textmech.reference.systems import written

@@ -15,7 +15,7 @@ from given.mutants import mutant, with_mode
 from textmech.cases.case import Case
 from textmech.reference.certificate import certify as module
 from textmech.reference.certificate.agreement import Check
-from textmech.reference.generated.mechanism import Mechanism
+from textmech.reference.mechanism.modes.mechanism import Mechanism
 from textmech.reference.motion.follow import Followed, follow
 from textmech.reference.system import MOVING, Array, Guard, System
 from textmech.reference.systems import written

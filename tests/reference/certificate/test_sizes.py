@@ -13,8 +13,8 @@ import pytest
 from given import scenes
 
 from textmech.cases.case import Case
-from textmech.reference.generated.mode import Multibody
-from textmech.reference.generated.space.mode import SpatialMultibody
+from textmech.reference.mechanism.modes.mode import Multibody
+from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
 from textmech.reference.solve import Solution, solve
 from textmech.reference.system import Array
 

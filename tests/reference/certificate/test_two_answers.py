@@ -15,12 +15,12 @@ from textmech.cases.case import Case
 from textmech.reference.certificate import certify as module
 from textmech.reference.certificate.agreement import Check
 from textmech.reference.certificate.errors import ERROR
-from textmech.reference.generated.mechanism import Mechanism
 from textmech.reference.integrators.explicit import DormandPrince
+from textmech.reference.mechanism.modes.mechanism import Mechanism
 from textmech.reference.motion.follow import Followed, follow
 from textmech.reference.system import Load, System
 from textmech.reference.systems import written
-from textmech.reference.systems.bar_pendulum import BarPendulum
+from textmech.reference.systems.pendula.bar_pendulum import BarPendulum
 
 Patch = pytest.MonkeyPatch
 Plant = Callable[[Case, System, Patch], tuple[Case, System]]

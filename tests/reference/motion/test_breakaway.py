@@ -7,14 +7,14 @@ import pytest
 from given import scenes
 from scipy.optimize import brentq
 
-from textmech.reference.generated.mechanism import Mechanism
 from textmech.reference.integrators import march
+from textmech.reference.mechanism.modes.mechanism import Mechanism
 from textmech.reference.motion.follow import Followed, follow
 from textmech.reference.motion.stuck import Stuck
 from textmech.reference.system import System
-from textmech.reference.systems.anisotropic_drift import AnisotropicDrift
-from textmech.reference.systems.dynamometer import Dynamometer
-from textmech.reference.systems.growing_force import GrowingForce
+from textmech.reference.systems.friction.anisotropic_drift import AnisotropicDrift
+from textmech.reference.systems.friction.dynamometer import Dynamometer
+from textmech.reference.systems.friction.growing_force import GrowingForce
 
 SLIDE = """\
 scene:

@@ -10,7 +10,7 @@ from given.watched import Oscillator, Watched
 from textmech.reference.motion import follow as module
 from textmech.reference.motion.follow import Followed, Kept, follow
 from textmech.reference.system import Array
-from textmech.reference.systems.bouncing_disk import BouncingDisk
+from textmech.reference.systems.contact.bouncing_disk import BouncingDisk
 
 DISK = BouncingDisk(m=1.0, R=0.25, e=1.0, y0=0.75)
 TIMES = np.linspace(0.0, 3.0, 4)

@@ -8,8 +8,8 @@ from given import scenes
 from given.typed_scenes import PARALLELOGRAM, SPRING, time_to_flat
 
 from textmech.cases.case import Case
-from textmech.reference.generated.mechanism import Mechanism
 from textmech.reference.integrators.march import IntegrationError
+from textmech.reference.mechanism.modes.mechanism import Mechanism
 from textmech.reference.motion import stuck as watching
 from textmech.reference.motion.follow import follow
 from textmech.reference.motion.stuck import Stuck, Watched

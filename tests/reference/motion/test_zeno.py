@@ -16,7 +16,7 @@ from textmech.reference.motion import zeno as module
 from textmech.reference.motion.follow import follow
 from textmech.reference.motion.zeno import ZenoError, accumulation, ends_here, settles
 from textmech.reference.system import Array, Guard, System
-from textmech.reference.systems.bouncing_disk import BouncingDisk
+from textmech.reference.systems.contact.bouncing_disk import BouncingDisk
 
 
 def limit(e: float) -> float:

@@ -8,7 +8,7 @@ import pytest
 from given import scenes
 from given.linkages import BAR, FOUR_BAR, PAIR, SLIDER_CRANK
 
-from textmech.reference.generated.mode import Multibody
+from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.start.assembly import assemble
 from textmech.reference.system import Array
 

@@ -17,16 +17,17 @@ from textmech.cases.scene import Signal
 from textmech.cases.space.joint import rate_of
 from textmech.cases.space.scene import SpatialScene
 from textmech.cases.trajectory import Array
-from textmech.reference.generated.space.chain import SpatialChain
 from textmech.reference.laws import energy, inertia, momentum, rotation
+from textmech.reference.mechanism.kinematics.space.chain import SpatialChain
 from textmech.reference.solve import solve
 from textmech.reference.start.mechanism import mechanism
 from textmech.reference.stated import Stated
 from textmech.reference.states.answer import answered, generated_mode, rows
 from textmech.reference.states.derived import derived, efforts
 from textmech.reference.system import Vector
-from textmech.reference.systems import arm, hung_shapes, moving_body, planar_bodies
-from textmech.reference.systems.stated import STATED
+from textmech.reference.systems.robots import arm
+from textmech.reference.systems.states import hung_shapes, moving_body, planar_bodies
+from textmech.reference.systems.states.stated import STATED
 
 WRITTEN = [name for name, case in scenes.CLAIMS.items() if case.system is not None]
 LAW = 1e-12  # of the largest: algebra alone

@@ -10,8 +10,8 @@ import pytest
 from given.claims import CHAIN, claimed
 
 from textmech.cases.space.scene import SpatialScene
-from textmech.reference.generated.space import chain
-from textmech.reference.generated.space.chain import Moving, SpatialChain
+from textmech.reference.mechanism.kinematics.space import chain
+from textmech.reference.mechanism.kinematics.space.chain import Moving, SpatialChain
 from textmech.reference.states.answer import answered
 from textmech.reference.states.held import misread
 

@@ -9,9 +9,9 @@ from given import scenes
 from textmech.cases.observe import observe
 from textmech.cases.scene import Bounds, Drag
 from textmech.cases.trajectory import Trajectory
-from textmech.reference.generated import drag, scrape
+from textmech.reference.mechanism.forces import drag, scrape
 from textmech.reference.states.answer import LAW, answered
-from textmech.reference.systems import sliding_points
+from textmech.reference.systems.states import sliding_points
 
 CASE = scenes.CLAIMS["sliding_points"]
 

@@ -11,7 +11,7 @@ from given.examples import example
 from textmech.reference.motion.follow import Followed, follow
 from textmech.reference.solve import solve
 from textmech.reference.system import System
-from textmech.reference.systems.ball_on_rope import BallOnRope
+from textmech.reference.systems.pendula.ball_on_rope import BallOnRope
 
 STRUCK = {"x0": 0.0, "y0": -1.0}
 THROWN: dict[str, tuple[dict[str, float], list[str]]] = {

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from textmech.reference.motion.follow import follow
-from textmech.reference.systems.bouncing_disk import BouncingDisk
+from textmech.reference.systems.contact.bouncing_disk import BouncingDisk
 
 H, R, G = 0.8, 0.25, 9.80665  # the heights are those of the lowest point
 

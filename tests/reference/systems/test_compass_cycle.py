@@ -10,7 +10,7 @@ from given.walkers import DOWN, ENTRIES, SLOPE, UP, WALKER, Legs, begun, returne
 from textmech.reference.motion.cycle import Cycle, cycle, derivative
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array
-from textmech.reference.systems.compass_walker import CompassWalker
+from textmech.reference.systems.walkers.compass_walker import CompassWalker
 
 
 def stepped(walker: CompassWalker, x: Array) -> Array:

@@ -15,7 +15,7 @@ from given.walkers import UNEVEN, WALKER, Legs
 from textmech.reference.formalisms import energy, lagrange, newton_euler
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array
-from textmech.reference.systems.compass_walker import CompassWalker
+from textmech.reference.systems.walkers.compass_walker import CompassWalker
 
 
 def states(count: int = 20) -> list[tuple[Array, Array]]:

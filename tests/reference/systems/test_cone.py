@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from textmech.reference.motion.follow import follow
-from textmech.reference.systems.sliding_disk import SlidingDisk
+from textmech.reference.systems.contact.sliding_disk import SlidingDisk
 
 
 @pytest.mark.parametrize(("mu", "sticks"), [(0.4, True), (0.334, True), (0.332, False)])

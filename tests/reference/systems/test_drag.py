@@ -9,7 +9,7 @@ from given.mutants import mutant, with_mode
 
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import System
-from textmech.reference.systems.drag_stops import Slowing
+from textmech.reference.systems.particles.drag_stops import Slowing
 
 TIMES = np.linspace(0.0, 4.0, 41)
 

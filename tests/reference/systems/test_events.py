@@ -6,7 +6,7 @@ from given.events import LOCATED, event_errors
 from given.examples import SMOOTH, VARIANTS, duration, example
 
 from textmech.reference.motion.follow import follow
-from textmech.reference.systems.dynamometer import Dynamometer
+from textmech.reference.systems.friction.dynamometer import Dynamometer
 
 
 @pytest.mark.slow

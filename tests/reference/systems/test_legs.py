@@ -18,7 +18,7 @@ from scipy.optimize import brentq
 from textmech.cases.quantity import at_event
 from textmech.reference.motion.follow import Followed, either, follow
 from textmech.reference.system import Array, Guard, System
-from textmech.reference.systems.trunk_on_legs import TrunkOnLegs
+from textmech.reference.systems.walkers.trunk_on_legs import TrunkOnLegs
 from textmech.reports.events.states import reference_states
 from textmech.reports.events.times import reference_events
 

@@ -14,8 +14,8 @@ from given.robots import robot, states
 from textmech.reference.formalisms import lagrange
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Mode, Only
-from textmech.reference.systems import robot_knife
-from textmech.reference.systems.arm import places
+from textmech.reference.systems.robots import robot_knife
+from textmech.reference.systems.robots.arm import places
 
 BELOW = 0.9800170106  # rad, of q2: with the angles there P is straight below the second hinge
 P = np.array([0.13, 0.014, -0.045])  # of the hand, from its centre

@@ -12,8 +12,14 @@ from given.laws import LIMIT
 from given.mutants import mutant
 from given.robots import PARAMETERS, robot
 
-from textmech.reference.systems import arm, driven_robot, five_axis_robot, robot_knife, serial_arm
-from textmech.reference.systems.triples import NIL
+from textmech.reference.systems.robots import (
+    arm,
+    driven_robot,
+    five_axis_robot,
+    robot_knife,
+    serial_arm,
+)
+from textmech.reference.systems.robots.triples import NIL
 
 NAMES = pytest.mark.parametrize("name", PARAMETERS)
 MODULES = (arm, driven_robot, five_axis_robot, robot_knife, serial_arm)

@@ -12,7 +12,7 @@ from given.robots import PARAMETERS, robot, states
 from textmech.reference.formalisms.derivative import along
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Mode, Only
-from textmech.reference.systems.arm import places
+from textmech.reference.systems.robots.arm import places
 
 NAMES = pytest.mark.parametrize("name", PARAMETERS)
 G = 9.80665

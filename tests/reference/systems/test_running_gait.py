@@ -10,7 +10,7 @@ from given.examples import example
 from textmech.reference.motion.cycle import Cycle, cycle
 from textmech.reference.motion.follow import Change, follow
 from textmech.reference.system import Array
-from textmech.reference.systems.running_gait import RunningGait, _Runner
+from textmech.reference.systems.walkers.running_gait import RunningGait, _Runner
 
 G = 9.80665  # m/s²
 TIMES = np.linspace(0.0, 1.0, 11)

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 from textmech.reference.motion.cycle import Cycle, NoCycle, cycle, derivative
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array
-from textmech.reference.systems.simplest_walker import G, SimplestWalker
+from textmech.reference.systems.walkers.simplest_walker import G, SimplestWalker
 
 # Garcia, Chatterjee, Ruina and Coleman 1998, for a slope of 0.009 and legs of one unit: given to 13
 # digits or so; the time in √(l/g).

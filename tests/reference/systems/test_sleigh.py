@@ -9,7 +9,7 @@ from given.sleigh_by_speeds import SleighBySpeeds, random_state
 
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Only
-from textmech.reference.systems.sleigh import Sleigh
+from textmech.reference.systems.rolling.sleigh import Sleigh
 
 SLEIGH = Sleigh(**PARAMETERS["sleigh"])
 

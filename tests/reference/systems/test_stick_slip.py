@@ -5,8 +5,8 @@ import pytest
 
 from textmech.reference.laws.friction import Dry
 from textmech.reference.motion.follow import follow
-from textmech.reference.systems import stick_slip
-from textmech.reference.systems.dynamometer import Dynamometer
+from textmech.reference.systems.friction import stick_slip
+from textmech.reference.systems.friction.dynamometer import Dynamometer
 
 DRY = Dry(F_minus=3.0, F_plus=1.0, Fs_minus=4.0, Fs_plus=2.0)
 

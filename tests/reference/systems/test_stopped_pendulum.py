@@ -11,11 +11,11 @@ from given.events import LOCATED, event_errors
 from given.examples import example
 
 from textmech.cases.observe import observe
-from textmech.reference.generated import stop
+from textmech.reference.mechanism.modes import stop
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
-from textmech.reference.systems import stopped_pendulum
-from textmech.reference.systems.stopped_pendulum import StoppedPendulum
+from textmech.reference.systems.pendula import stopped_pendulum
+from textmech.reference.systems.pendula.stopped_pendulum import StoppedPendulum
 
 SWUNG: dict[str, tuple[dict[str, float], int]] = {
     "rests": ({}, 1),

@@ -7,7 +7,7 @@ import pytest
 from given.otherwise import otherwise
 
 from textmech.cases.trajectory import Array
-from textmech.reference.systems import spring_mass_damper
+from textmech.reference.systems.particles import spring_mass_damper
 
 G = 9.80665  # m/s²
 M, C, L0, Y0 = 1.3, 40.0, 0.4, -0.2

@@ -12,8 +12,8 @@ from scipy.integrate import solve_ivp
 
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array, System
-from textmech.reference.systems import tilting_ring
-from textmech.reference.systems.tilting_ring import TiltingRing
+from textmech.reference.systems.rolling import tilting_ring
+from textmech.reference.systems.rolling.tilting_ring import TiltingRing
 
 m, R, G = 1.3, 0.25, 9.80665
 

@@ -1,1 +1,0 @@
-"""The mechanism of any scene, in maximal coordinates with multipliers."""

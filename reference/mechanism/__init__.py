@@ -1,0 +1,1 @@
+"""The mechanism of any scene, from the scene alone: kinematics, constraints, forces, modes."""

@@ -1,0 +1,1 @@
+"""Rows of the constraint Jacobian, and the solution of the equations of motion with them."""

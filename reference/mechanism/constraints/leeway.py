@@ -1,0 +1,126 @@
+"""What equilibrium leaves open of the forces: all that the laws allow, by linear programmes.
+
+Forces are one + z₁ way₁ + …: each way exerts nothing in sum.  The laws (a contact only pushes,
+friction stays within its cone) are margins, affine in the forces and so in z, that are not to be
+negative.
+"""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...system import Array
+
+LEANS = 1e-9  # of the forces' size: a margin that changes less with z does not depend on it
+FITS = 1e-10  # of the forces' size: as well as a linear programme's bounds are kept
+UNBOUNDED = 3  # HiGHS: as far as one likes
+
+Margins = Callable[[Mapping[str, float]], list[float]]
+"""What forces leave until a law is broken, each negative where one is: affine in the forces."""
+
+
+@dataclass(frozen=True)
+class Inmost:
+    """Forces, and the least of what they leave, of their size."""
+
+    forces: dict[str, float]
+    least: float
+
+
+@dataclass(frozen=True)
+class Leeway:
+    """left + slope z (m,) ≥ 0, of the forces' size; z (k,)."""
+
+    one: Mapping[str, float]
+    ways: Sequence[Mapping[str, float]]
+    left: Array
+    slope: Array
+    size: float
+
+    @cached_property
+    def leans(self) -> NDArray[np.bool_]:
+        """(m,) which margins z changes."""
+        return np.max(np.abs(self.slope), axis=1, initial=0.0) > LEANS
+
+    @cached_property
+    def inmost(self) -> Inmost:
+        """The forces whose least margin is the largest; of its size at most."""
+        if not np.any(self.leans):
+            return Inmost(dict(self.one), 1.0)
+        slope, left = self.slope[self.leans], self.left[self.leans]
+        m, k = slope.shape
+        found = _best(np.append(np.zeros(k), -1.0), np.hstack([-slope, np.ones((m, 1))]), left, 1.0)
+        z, least = found[:-1], float(np.min(slope @ found[:-1] + left))
+        return Inmost({name: self._at(name, z) for name in self.one}, least)
+
+    @property
+    def fits(self) -> bool:
+        """Whether there are forces that keep all laws that z can change."""
+        return self.inmost.least >= -FITS
+
+    def open(self, name: str) -> bool:
+        """Whether the equations leave this force open; the laws may hold it all the same."""
+        return any(abs(way[name] - self.one[name]) > LEANS * self.size for way in self.ways)
+
+    def span(self, name: str) -> tuple[float, float]:
+        """The least and the largest value that the laws allow a force."""
+        return self.spanned(self.one[name], [way[name] for way in self.ways])
+
+    def spanned(self, own: float, others: Sequence[float]) -> tuple[float, float]:
+        """The same of anything linear in the forces, which is `own` of one and others of ways."""
+        along = (np.array(others) - own) / self.size
+        if np.max(np.abs(along)) <= LEANS:
+            return own, own
+        slope, left = self.slope[self.leans], self.left[self.leans]
+        left = left + max(0.0, -self.inmost.least)
+        low, high = (self._farthest(sense * along, slope, left) for sense in (1.0, -1.0))
+        return own + self.size * low, own - self.size * high
+
+    def _farthest(self, along: Array, slope: Array, left: Array) -> float:
+        """The least of along · z."""
+        z = _best(along, -slope, left)
+        return -math.inf if z is None else float(along @ z)
+
+    def _at(self, name: str, z: Array) -> float:
+        own = self.one[name]
+        return own + float(np.array([way[name] - own for way in self.ways]) @ z)
+
+
+def _best(cost: Array, rows: Array, bound: Array, most: float | None = None) -> Any:
+    """The x with the least cost · x and rows x ≤ bound, the last of it ≤ most; None: no end."""
+    from scipy.optimize import linprog
+
+    limits = [(None, None)] * (len(cost) - 1) + [(None, most)]
+    programme: Any = linprog
+    found = programme(cost, A_ub=rows, b_ub=bound, bounds=limits, options=EXACT)
+    if found.status == UNBOUNDED:
+        return None
+    if found.x is None:
+        raise ArithmeticError(f"a linear programme has no answer: {found.message}")
+    return found.x
+
+
+def sized(ways: Array, size: float) -> Array:
+    """Ways (k, r), the largest part of each of this size, so that margins can be seen in them."""
+    return ways * (size / np.max(np.abs(ways), axis=1, keepdims=True))
+
+
+EXACT = {"primal_feasibility_tolerance": FITS, "dual_feasibility_tolerance": FITS}
+
+
+def leeway(
+    told: Callable[[Array], Mapping[str, float]], multipliers: Array, ways: Array, margins: Margins
+) -> Leeway:
+    """What ways (k, r) that move nothing leave open of the forces told of multipliers (r,)."""
+    one = told(multipliers)
+    size = max(map(abs, one.values()), default=0.0) or 1.0
+    others = [told(multipliers + way) for way in sized(ways, size)]
+    left = np.array(margins(one), dtype=float)
+    slope = np.array([margins(other) for other in others], dtype=float)
+    slope = slope.reshape(len(others), len(left)).T  # a bar between two hinges has no margins
+    return Leeway(one, others, left / size, (slope - left[:, None]) / size, size)

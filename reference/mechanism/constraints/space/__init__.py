@@ -1,0 +1,1 @@
+"""Rows of the constraint Jacobian in space."""

@@ -1,0 +1,1 @@
+"""Generalized forces of each kind of force element."""

@@ -1,0 +1,1 @@
+"""Coordinates of bodies, and how points move with them."""

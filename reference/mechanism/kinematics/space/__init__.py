@@ -1,0 +1,1 @@
+"""Coordinates in space: attitudes, and chains of joints."""

@@ -1,0 +1,197 @@
+"""One way in which contacts may take a blow: the velocities after it, and whether laws allow it.
+
+Rows that repeat what others hold, as of a disk in a groove, change nothing of the motion as long as
+they ask for the same; which of them bears how much of the blow is for nobody to say. So they are
+solved by their rank, and the laws need some impulses that keep them (`leeway`).
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...system import Array
+from ..constraints.leeway import FITS, Leeway, sized
+from .element import Element, State, sign
+from .loose import NONE, rank, unit
+
+CONE = 1e-12  # of the impulses: one that needs all of the cone sticks
+ROUNDING = 1e-12  # of the velocities
+TURNS = 2  # of refinement, as in a mode: light bodies beside heavy ones
+APART = 1e-8  # of the velocities: ten times what rows leave that are taken for dependent
+SAME = 1e-9  # of the velocities: as far apart as linear programmes leave one
+
+
+@dataclass(frozen=True)
+class Condition:
+    """f_a (n,) and g of (2.15)."""
+
+    f: Array
+    g: float
+
+    def rate(self, v: Array) -> float:
+        """f_a q̇ᵃ − g [m/s]."""
+        return float(self.f @ v) - self.g
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """A closed contact in the instant: its rows, and the normal velocity after it."""
+
+    element: Element
+    normal: Condition
+    tangent: Condition
+    after: float
+    strikes: bool
+
+
+@dataclass(frozen=True)
+class Blow:
+    """q̇⁺ (n,); shared: its impulses are open; loose: so is which of several velocities it is."""
+
+    v: Array
+    shared: bool = False
+    loose: bool = False
+
+
+@dataclass(frozen=True)
+class _Rows:
+    """f (r, n), what a unit of each impulse exerts (r, n), and f q̇⁺ (r,)."""
+
+    f: Array
+    columns: Array
+    after: Array
+    normals: Sequence[int | None]  # where each contact's normal row stands
+    stuck: Mapping[tuple[str, str], int]  # and the row of no slip of what sticks
+
+
+def blow(
+    M: Array,
+    joints: Sequence[Condition],
+    meetings: Sequence[Meeting],
+    v: Array,
+    states: Sequence[State],
+) -> Blow | None:
+    """The velocities after it, or None where what the contacts do contradicts the laws."""
+    rows = _rows(joints, meetings, states, len(v))
+    if not len(rows.f):
+        after, impulse, ways = v, np.zeros(0), np.zeros((0, 0))
+    else:
+        after, impulse, ways = _solved(M, rows, v)
+    fast = float(np.max(np.abs(v)))
+    if np.max(np.abs(rows.f @ after - rows.after), initial=0.0) > APART * _fast(rows, v):
+        return None
+    return _allowed(M, rows, meetings, states, (v, after, impulse), ways, fast)
+
+
+def _fast(rows: _Rows, v: Array) -> float:
+    """What rates of the rows are small against."""
+    sizes = np.abs(rows.f) @ np.abs(v)
+    return float(max(np.max(sizes), np.max(np.abs(rows.after))))
+
+
+def _rows(
+    joints: Sequence[Condition], meetings: Sequence[Meeting], states: Sequence[State], n: int
+) -> _Rows:
+    rows = [joint.f for joint in joints]
+    columns = list(rows)
+    after = [joint.g for joint in joints]
+    normals: list[int | None] = []
+    stuck: dict[tuple[str, str], int] = {}
+    for meeting, state in zip(meetings, states, strict=True):
+        if state == "open":
+            normals.append(None)
+            continue
+        normals.append(len(rows))
+        lean = -meeting.element.kinetic * sign(state)
+        rows.append(meeting.normal.f)
+        columns.append(meeting.normal.f + lean * meeting.tangent.f)
+        after.append(meeting.after)
+        mine = meeting.element.together
+        if state == "sticks" and mine not in stuck:  # its other points do not slip either
+            stuck[mine] = len(rows)
+            rows.append(meeting.tangent.f)
+            columns.append(meeting.tangent.f)
+            after.append(meeting.tangent.g)
+    shape = (len(rows), n)
+    f, exerts = np.array(rows).reshape(shape), np.array(columns).reshape(shape)
+    return _Rows(f, exerts, np.array(after), normals, stuck)
+
+
+def _solved(M: Array, rows: _Rows, v: Array) -> tuple[Array, Array, Array]:
+    """q̇⁺ (n,), the least impulses (r,) that give it, and those (k, r) that change no row's rate."""
+    root = np.sqrt(M)
+    f, sizes = unit(rows.f / root)
+    columns = rows.columns / root / sizes[:, None]
+    across, s, along = np.linalg.svd(f @ columns.T)
+    k = min(rank(f), int(np.sum(s > NONE * s[0])))
+    v_after, impulse = v, np.zeros(len(f))
+    for _ in range(1 + TURNS):
+        left = (rows.after - rows.f @ v_after) / sizes
+        if k == len(f):
+            more = np.linalg.solve(f @ columns.T, left)
+        else:
+            more = along[:k].T @ ((across.T @ left)[:k] / s[:k])
+        v_after, impulse = v_after + more @ columns / root, impulse + more / sizes
+    return v_after, impulse, along[k:] / sizes
+
+
+def _allowed(
+    M: Array,
+    rows: _Rows,
+    meetings: Sequence[Meeting],
+    states: Sequence[State],
+    found: tuple[Array, Array, Array],
+    ways: Array,
+    fast: float,
+) -> Blow | None:
+    """The same, if there are impulses that keep the laws: one + z₁ way₁ + …"""
+    v, v_after, impulse = found
+    size = float(np.max(np.abs(impulse), initial=0.0)) or 1.0
+
+    def left(v_after: Array, impulse: Array) -> Array:
+        pushes = [margin / size for margin in _pushes(rows, meetings, impulse)]
+        speeds = [rate / fast for rate in _speeds(meetings, states, v_after)] if fast else []
+        return np.array([*pushes, *speeds])
+
+    one = left(v_after, impulse)
+    if not len(ways):
+        return Blow(v_after) if np.all(one >= -ROUNDING) else None
+    others = [(v_after + way @ rows.columns / M, impulse + way) for way in sized(ways, size)]
+    slope = np.array([left(*other) - one for other in others]).T
+    places = [str(i) for i in range(len(v))]
+    own, *told = (
+        dict(zip(places, each.tolist(), strict=True)) for each in (v_after, *(x for x, _ in others))
+    )
+    leeway = Leeway(own, told, one, slope, fast or 1.0)
+    if np.any(one[~leeway.leans] < -FITS) or not leeway.fits:
+        return None
+    moved = [place for place in places if leeway.open(place)]
+    if not moved:
+        return Blow(v_after, shared=True)
+    inmost = np.array([leeway.inmost.forces[place] for place in places])
+    spans = [leeway.span(place) for place in moved]
+    return Blow(inmost, shared=True, loose=any(high - low > SAME * fast for low, high in spans))
+
+
+def _pushes(rows: _Rows, meetings: Sequence[Meeting], impulse: Array) -> Iterator[float]:
+    """(2.87) for impulses, each ≥ 0: what touches pushes, and what sticks is within the cone.
+
+    The points of one body that stick have one cone together.
+    """
+    pairs = [(m.element, at) for m, at in zip(meetings, rows.normals, strict=True)]
+    closed = [(e, impulse[at]) for e, at in pairs if at is not None]
+    yield from (normal for _, normal in closed)
+    for mine, row in rows.stuck.items():
+        own = [(e.kinetic, normal) for e, normal in closed if e.together == mine]
+        cone, room = sum(mu * normal for mu, normal in own), 1.0 + sum(mu for mu, _ in own)
+        yield from ((cone + way * impulse[row]) / room for way in (1.0, -1.0))
+
+
+def _speeds(meetings: Sequence[Meeting], states: Sequence[State], v: Array) -> Iterator[float]:
+    """Each ≥ 0: what is open rises, and what slides does so the way that friction is against."""
+    for meeting, state in zip(meetings, states, strict=True):
+        if state == "open":
+            yield meeting.normal.rate(v)
+        elif (s := sign(state)) and not meeting.element.frictionless:
+            yield s * meeting.tangent.rate(v)

@@ -1,0 +1,68 @@
+"""Friction of a point by a power below 1 of its speed (2.86), which could end its motion.
+
+d |v|^α is not small beside the speed that is left: alone it takes that in a finite time, and then
+nothing tells where the point goes on, if anything pushes it. Under its weight a ball never stops.
+"""
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from ....cases.drag import Drag
+from ....cases.force import of
+from ...system import Array, Guard
+from ..kinematics.coordinates import Point
+from .choosing import After, Undetermined
+from .modes import Modes
+
+SLOW = 1e-6  # of the speed at the start, or of one that forces give within the scene's size
+OTHERS = 2.0  # times what the friction does: then it goes through rest, and does not stay
+
+
+def halting(modes: Modes, mode: str, size: float) -> Iterator[Guard]:
+    """What ends at a stop: a message, since a point that is held so has no law to be set off by."""
+    for force in of(Drag, modes.scene.forces.values()):
+        if force.exponent < 1.0 and force.coefficient:
+            slow = SLOW * _speed(modes, size)
+            yield Guard(
+                None, _over(modes, force, slow), _stops(modes, mode, force, slow), vain=True
+            )
+
+
+def _speed(modes: Modes, size: float) -> float:
+    q, v = modes.start
+    fastest = float(np.max(np.abs(v), initial=0.0))
+    return fastest or float(np.sqrt(size * modes.base.terms(0.0, q, v)[0])) or 1.0
+
+
+def _point(modes: Modes, force: Drag, t: float, q: Array, v: Array) -> Point:
+    return modes.base.where.point(force.at, t, q.tolist(), v.tolist())
+
+
+def _over(modes: Modes, force: Drag, slow: float) -> Callable[[float, Array, Array], float]:
+    """How much faster than that the point is [m/s]."""
+    return lambda t, q, v: float(np.hypot(*_point(modes, force, t, q, v).r_dot)) - slow
+
+
+def _stops(
+    modes: Modes, mode: str, force: Drag, slow: float
+) -> Callable[[float, Array, Array], After]:
+    """The same mode, where others move the point through its rest. Raises Undetermined."""
+
+    def then(t: float, q: Array, v: Array) -> After:
+        p = _point(modes, force, t, q, v)
+        a = modes[mode].accelerations(t, q, v)
+        turned = _point(modes, force, t, q, a)  # its ṙ of q̇ = q̈, and without ω × ḋ
+        (x, y), omega = turned.r_dot, p.omega
+        a_P = np.hypot(x - omega**2 * p.d[0], y - omega**2 * p.d[1])
+        body = modes.scene.bodies[force.at.body]
+        if a_P < OTHERS * force.coefficient * slow**force.exponent * body.mobility(force.at.point):
+            what = (
+                f"stops {force.at} at t = {t:.4g} s, and with an exponent below 1 it does so in a "
+                "finite time: shorten the duration, or give an exponent of at least 1; along a "
+                "slide a `viscous` may stop"
+            )
+            raise Undetermined(force.name, what, t)
+        return mode, q, v
+
+    return then

@@ -1,0 +1,102 @@
+"""Impacts on the floor: velocities that jump while the places stay.
+
+(2.60) integrated over the instant: M (q̇⁺ − q̇⁻) = Λ_b f_aᵇ. Joints and sticking contacts hold, the
+floor gives back the part `restitution` of the normal velocity, and friction is an impulse of
+Coulomb's law (2.87): within the cone it stops the slip, else it is μ times the normal impulse.
+
+All ways are asked in which the contacts may do that (`blow`), so that nothing depends on their
+order. Most often one velocity keeps the laws and creates no energy. Several do where a disk may as
+well stay wedged in a groove as roll out of it: then rigid bodies do not say which.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...integrators.budget import tries
+from ...system import Array
+from .blow import SAME, Blow, Condition, Meeting, blow
+from .element import State
+from .sharing import undecided, ways
+
+BLOW = 5  # evaluations: of solving for the impulses of a blow (measured 3–6)
+GAIN = 1e-9  # of the kinetic energy: more is no rounding
+
+
+class NoImpact(ArithmeticError):
+    """Where Coulomb's law and the restitution have no answer, or one that creates energy."""
+
+
+class Several(NoImpact):
+    """Where they have several."""
+
+
+def impact(
+    M: Array, joints: Sequence[Condition], meetings: Sequence[Meeting], v: Array
+) -> tuple[Array, tuple[State, ...]]:
+    """q̇⁺ (n,) and what each of the contacts does after it.
+
+    Raises NoImpact, and Several of them.
+    """
+    elements, choices = [meeting.element for meeting in meetings], _choices(meetings)
+    driven, small = _driven(joints, meetings), SAME * float(np.max(np.abs(v)))
+    found: list[tuple[Blow, tuple[State, ...]]] = []
+    gains = False
+    for states in tries(lambda: ways(elements, choices), BLOW, undecided(elements, choices)):
+        way = blow(M, joints, meetings, v, states)
+        if way is None:
+            continue
+        if M @ way.v**2 > (1 + GAIN) * (M @ v**2) and not driven:
+            gains = True
+            continue
+        # Of the ways to one velocity the first holds the most: what takes no part may also be open.
+        same = [
+            k
+            for k, (known, _) in enumerate(found)
+            if not (way.loose or known.loose) and np.max(np.abs(known.v - way.v)) <= small
+        ]
+        if not same:
+            found.append((way, states))
+        elif found[same[0]][0].shared and _lets_go(found[same[0]][1], states):
+            found[same[0]] = way, states
+    if not found:
+        what = (
+            "the impact would create energy" if gains else "no impulse satisfies the friction law"
+        )
+        raise NoImpact(what)
+    (first, states), *others = found
+    if others or first.loose:
+        raise Several(_ambiguous(meetings, [states for _, states in found]))
+    return first.v, states
+
+
+def _driven(joints: Sequence[Condition], meetings: Sequence[Meeting]) -> bool:
+    """Whether something that moves by itself takes part, and may give energy."""
+    return any(row.g for row in (*joints, *(meeting.normal for meeting in meetings)))
+
+
+def _choices(meetings: Sequence[Meeting]) -> Sequence[tuple[State, ...]]:
+    """Sticking first; what only rests on the floor may also leave it."""
+    sliding: tuple[State, ...] = ("slides +",)
+    rests = [sliding if m.element.frictionless else m.element.rest for m in meetings]
+    return [rest if m.strikes else (*rest, "open") for m, rest in zip(meetings, rests, strict=True)]
+
+
+def _lets_go(known: Sequence[State], states: Sequence[State]) -> bool:
+    """Whether only ropes and stops take no part here that could have one: they are not pulled."""
+    pairs = [(a, b) for a, b in zip(known, states, strict=True) if a != b]
+    return all(pair == ("acts", "open") for pair in pairs)
+
+
+def _ambiguous(meetings: Sequence[Meeting], found: Sequence[Sequence[State]]) -> str:
+    """`…: left sticks, right sticks as well as left sticks, right open`."""
+    names = [m.element.name for m in meetings]
+    each = (
+        ", ".join(f"{name} {state}" for name, state in zip(names, states, strict=True))
+        for states in found[:2]
+    )
+    many = ", with any of many velocities" if len(found) == 1 else ""
+    return (
+        "rigid bodies do not say what the blow does, the law of friction is kept by "
+        f"{' as well as '.join(each)}{many}"
+    )

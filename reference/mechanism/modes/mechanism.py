@@ -1,0 +1,230 @@
+"""Any planar scene as a System, in maximal coordinates: its modes and what ends them.
+
+A scene in which nothing switches has one mode, and no guards.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+
+import numpy as np
+
+from ....cases.scene import GROUND, Anchor, Scene
+from ...system import Array, Guard, System
+from ..constraints.constraint import Constraint
+from ..constraints.leeway import Leeway
+from ..forces.action import act
+from ..forces.drag import blurred
+from .choosing import After, Options, closed, opening, painleve, settled, staying, yielding
+from .element import REST, Element, State, sign
+from .halting import halting
+from .landing import STILL, landed
+from .modes import Modes, rate
+from .one_side import HAPPENS, OTHER, OneSided
+from .sharing import beside
+
+CLOSED = 1e-9  # of the scene's size: a start this close to the floor stands on it
+STEEP = 2.0  # how deep a foot may be for each metre that it is behind
+PIECES = 16  # of the shortest period of a force: a guard at rest sees nothing else of time
+
+
+class BadStart(Exception):
+    """A contact that starts where no contact can."""
+
+
+class Mechanism(System):
+    """The scene as modes and guards; `size` [m] is what its gaps are small against."""
+
+    def __init__(self, scene: Scene, start: tuple[Array, Array], size: float) -> None:
+        self.size = size
+        self.modes = self.built = Modes(scene, start)
+        self.base, self.elements = self.built.base, self.built.elements
+        self.corners = [corner for law in scene.laws() for corner in law.corners]
+        sines = [f.signal for f in scene.signals() if f.signal.law == "sine"]
+        fastest = max((abs(s.angular_frequency) for s in sines), default=0.0)
+        self.longest = math.tau / fastest / PIECES if fastest else None
+        self.blurred = blurred(scene, float(np.max(np.abs(start[1]), initial=0.0)) or 1.0)
+
+    def start(self) -> After:
+        """The assembled start, and what contacts and slides do there.
+
+        Raises BadStart for a contact inside the floor or on its way into it.
+        """
+        q, v = self.base.start()
+        if all(e.only for e in self.elements):  # nothing to choose, and nothing to bring to rest
+            return self.built.name(tuple(e.only for e in self.elements if e.only)), q, v
+        choices = [self._at_start(e, q, v) for e in self.elements]
+        return settled(self.built, choices, 0.0, q, v)
+
+    def _at_start(self, element: Element, q: Array, v: Array) -> Options:
+        if element.only:
+            return (element.only,)
+        if isinstance(element, OneSided):
+            return (element.began(q, v, CLOSED * self.size),)
+        still = self.built.still(0.0, q, v, part=STILL)
+        if element.normal is not None:
+            gap = element.normal.f(0.0, q.tolist())[0]
+            if gap > CLOSED * self.size:
+                return ("open",)
+            passes = element.behind(0.0, q.tolist(), self.size) > 0.0
+            if passes and (gap < -CLOSED * self.size or rate(element.normal, 0.0, q, v) < -still):
+                return ("open",)
+            if gap < -CLOSED * self.size:
+                raise BadStart(element.amiss(-gap, 0.0))
+            rising = rate(element.normal, 0.0, q, v)
+            if rising < -still:
+                raise BadStart(element.amiss(0.0, -rising))
+            if rising > still:
+                return ("open",)
+            if element.slip is None:
+                return closed(element, 0.0)
+        slip = rate(element.tangent, 0.0, q, v)
+        if abs(slip) > still and not element.slips:
+            raise BadStart(f"{element.name} starts with a slip of {slip:.3g} m/s, and only pivots")
+        return closed(element, slip if abs(slip) > still else 0.0)
+
+    def guards(self, mode: str) -> Sequence[Guard]:
+        """Opening, landing, stopping, slipping, and what springs do, in this order."""
+        states = self.built.states[mode]
+        found = [g for i, s in enumerate(states) for g in self._guards(mode, i, s)]
+        found += halting(self.built, mode, self.size)
+        order = {
+            "opens": 0,
+            "lands": 1,
+            "stops": 2,
+            "slips": 3,
+            "slackens": 4,
+            "tightens": 4,
+            "None": 5,
+        }
+        order |= {"leaves": 0, "strikes": 1}
+        return sorted(found, key=lambda guard: order[str(guard.event).split()[-1]])
+
+    def _guards(self, mode: str, i: int, state: State) -> Iterator[Guard]:
+        e = self.elements[i]
+        if e.only:
+            return
+        if isinstance(e, OneSided):
+            ends = lambda t, q, v: e.ends(state, t, q)  # noqa: E731
+            yield Guard(f"{e.name} {HAPPENS[state]}", ends, self._to(mode, i, (OTHER[state],)))
+            return
+        if (normal := e.normal) is not None:
+            if state == "open":
+                gap = self._clear(e, normal)
+                rest = self._lands(mode, i, rests=True)
+                yield Guard(f"{e.name} {e.endings[1]}", gap, self._lands(mode, i), rest, vain=True)
+                return
+            push = lambda t, q, v: self.built.forces(mode, t, q, v)[e.push]  # noqa: E731
+            yield Guard(f"{e.name} {e.endings[0]}", push, self._opens(mode, i))
+        if e.frictionless or not e.slips:
+            return
+        if s := sign(state):
+            slip = lambda t, q, v: e.slowing(s * rate(e.tangent, t, q, v))  # noqa: E731
+            yield Guard(f"{e.name} stops", slip, self._to(mode, i, REST))
+            return
+        for k, way in enumerate(("slides +", "slides -")):
+            yield Guard(f"{e.name} slips", self._margin(mode, e, k), self._to(mode, i, (way,)))
+
+    def _clear(self, e: Element, normal: Constraint) -> Callable[[float, Array, Array], float]:
+        """Its height; more, where it passes through the floor, which is never steeper than 2."""
+
+        def clear(t: float, q: Array, v: Array) -> float:
+            numbers = q.tolist()
+            return normal.f(t, numbers)[0] + STEEP * e.behind(t, numbers, self.size)
+
+        return clear
+
+    def _margin(self, mode: str, e: Element, k: int) -> Callable[[float, Array, Array], float]:
+        return lambda t, q, v: e.margins(self.built.forces(mode, t, q, v))[k]
+
+    def _to(self, mode: str, i: int, choice: Options) -> Callable[[float, Array, Array], After]:
+        """The next mode if element i has this choice; at rest it first comes to rest exactly."""
+
+        def then(t: float, q: Array, v: Array) -> After:
+            choices = staying(self.built, mode)
+            for k in beside(self.elements, self.built.states[mode], i):
+                choices[k] = (*choice, *opening(self.elements[k])) if choice == REST else choice
+            if choice == REST:
+                self._stops_too(mode, choices, t, q, v)
+            if self.built.loose(mode):
+                choices = yielding(self.built, mode, choices, t, q, v)
+            return settled(self.built, choices, t, q, v)
+
+        return then
+
+    def _stops_too(self, mode: str, choices: list[Options], t: float, q: Array, v: Array) -> None:
+        """What stops at the same instant may rest as well, as both ends of a ladder do."""
+        still = self.built.still(t, q, v, part=STILL)
+        for k, (e, state) in enumerate(zip(self.elements, self.built.states[mode], strict=True)):
+            rubs = sign(state) and e.slips and not e.frictionless and not e.only
+            if rubs and abs(rate(e.tangent, t, q, v)) <= still:
+                choices[k] = (*e.rest, *opening(e))
+
+    def _opens(self, mode: str, i: int) -> Callable[[float, Array, Array], After]:
+        """The contact opens, if it then rises: a force that jumps instead has no next mode."""
+
+        def then(t: float, q: Array, v: Array) -> After:
+            choices, e = staying(self.built, mode), self.elements[i]
+            choices[i] = ("open",)
+            after = settled(self.built, choices, t, q, v)
+            assert e.normal is not None
+            rises = self.built.change(e.normal, after[0], t, q, v)
+            if rises < -self.built.small(t, q, v):
+                raise painleve(e.name, f"neither staying nor leaving the {e.plane}", t)
+            return after
+
+        return then
+
+    def leeway(self, mode: str, t: float, q: Array, v: Array) -> Leeway | None:
+        """All forces that the laws allow in a mode here; None where there is one of each."""
+        return self.built.leeway(mode, t, q, v)
+
+    def driven_point(self, name: str, t: float) -> tuple[float, ...]:
+        """x, y, vx, vy of a point of the ground that moves."""
+        still = np.zeros(len(self.base.coordinates)).tolist()
+        point = self.base.where.point(Anchor(GROUND, name), t, still, still)
+        return *point.r, *point.r_dot
+
+    def powers(self, t: float, q: Array, v: Array) -> dict[str, float]:
+        """The power [W] at any rates of each force that follows a law in time, by its name."""
+        found = {}
+        for force in self.base.scene.signals():
+            Q = np.zeros(len(v))
+            act(force, self.base.where, t, q.tolist(), v.tolist(), Q)
+            found[force.name] = float(Q @ v)
+        return found
+
+    def beyond(self, mode: str, t: float, q: Array, v: Array) -> After:
+        """What holds by friction, and what touches, may do another thing under another force."""
+        if all(e.only for e in self.elements):
+            return mode, q, v
+        return settled(self.built, staying(self.built, mode), t, q, v)
+
+    def _lands(
+        self, mode: str, i: int, *, rests: bool = False
+    ) -> Callable[[float, Array, Array], After]:
+        """The impact law, and what each contact and slide may do after it; without a rebound."""
+        near = CLOSED * self.size
+        return lambda t, q, v: landed(self.built, mode, i, t, q, v, near=near, rests=rests)
+
+    def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
+        """(2.87), (2.89) F_N ≥ 0, |F_fr| ≤ μ_s F_N where it sticks, v as it slides, gap ≥ 0."""
+        forces = self.built.forces(mode, t, q, v)
+        # At an event a force or rate is at its bound, as well as events are located.
+        force = 1e-9 * (max(map(abs, forces.values()), default=0.0) or 1.0)
+        slow = self.built.still(t, q, v, part=1e-9)
+        for e, state in zip(self.elements, self.built.states[mode], strict=True):
+            if isinstance(e, OneSided) and e.ends(state, t, q) < -CLOSED * self.size:
+                return f"{e.name} is {state} on the wrong side of its rest length"
+            if e.normal is not None:
+                if state == "open":
+                    height = e.normal.f(t, q.tolist())[0]
+                    if not e.behind(t, q.tolist(), self.size) and height < -CLOSED * self.size:
+                        return f"{e.name} is in the {e.plane}"
+                    continue
+                if forces[e.push] < -force:
+                    return e.pulls
+            if state == "sticks" and min(e.margins(forces)) < -force:
+                return f"{e.name} would have to slip"
+            if (s := sign(state)) and not e.frictionless and s * rate(e.tangent, t, q, v) < -slow:
+                return f"{e.name} slides the other way"
+        return None

@@ -1,0 +1,61 @@
+"""A spring that only presses or only pulls: (2.82) on one side of its rest length, else slack.
+
+| spring | acts  | F = −c (λ − λ₀) | λ passes λ₀: slackens |
+| spring | slack | nothing         | λ passes λ₀: tightens |
+
+At λ₀ its force is zero on both sides, so q̇ and q̈ go through the event, and the rates of q̈ jump.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from ....cases.force import Spring
+from ....cases.scene import Scene
+from ...system import Array
+from ..forces.action import ends, length
+from ..kinematics.coordinates import Coordinates
+from .element import Element, State
+
+OTHER: dict[State, State] = {"acts": "slack", "slack": "acts"}
+HAPPENS: dict[State, str] = {"acts": "slackens", "slack": "tightens"}  # where the state ends
+
+
+@dataclass(frozen=True, kw_only=True)
+class OneSided(Element):
+    """The spring, and how far it is from acting."""
+
+    spring: Spring
+    where: Coordinates
+
+    @property
+    def way(self) -> float:
+        """1 if it is slack when longer than λ₀, −1 if when shorter."""
+        return 1.0 if self.spring.only == "compression" else -1.0
+
+    def slack(self, t: float, q: Array) -> float:
+        """± (λ − λ₀) [m], positive where it does not act."""
+        return self.way * (length(self.spring, self.where, t, q.tolist()) - self.spring.rest_length)
+
+    def slackens(self, t: float, q: Array, v: Array) -> float:
+        """± λ̇ [m/s], λ̇ = Δ·Δ̇/λ."""
+        a, b = ends(self.spring, self.where, t, q.tolist(), v.tolist())
+        d = (b.r[0] - a.r[0], b.r[1] - a.r[1])
+        along = d[0] * (b.r_dot[0] - a.r_dot[0]) + d[1] * (b.r_dot[1] - a.r_dot[1])
+        return self.way * along / length(self.spring, self.where, t, q.tolist())
+
+    def began(self, q: Array, v: Array, near: float) -> State:
+        """Its state at the start; within `near` [m] of λ₀, by where it goes."""
+        gap = self.slack(0.0, q)
+        if abs(gap) > near:
+            return "slack" if gap > 0.0 else "acts"
+        return "slack" if self.slackens(0.0, q, v) >= 0.0 else "acts"
+
+    def ends(self, state: State, t: float, q: Array) -> float:
+        """What falls through zero where the state ends [m]."""
+        return self.slack(t, q) if state == "slack" else -self.slack(t, q)
+
+
+def one_sided(scene: Scene, where: Coordinates) -> Iterator[OneSided]:
+    """All of the scene."""
+    for spring in scene.one_sided():
+        yield OneSided(name=spring.name, spring=spring, where=where)

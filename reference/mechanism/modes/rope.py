@@ -1,0 +1,45 @@
+"""A rope (2.14) on one side: nothing while it is slack, and taut no farther than its length.
+
+It comes taut by an impact, as what lands on a floor without a rebound.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from ....cases.rope import Rope
+from ....cases.scene import Scene
+from ..constraints.constraint import Constraint
+from ..constraints.rows import FIRST, SECOND, Distance
+from ..kinematics.coordinates import Coordinates
+from .limit import Limit
+
+
+@dataclass(frozen=True, kw_only=True)
+class Roped(Limit):
+    """A rope's end."""
+
+    endings: tuple[str, str] = ("slackens", "tightens")
+
+    def amiss(self, depth: float, speed: float) -> str:
+        if depth:
+            return f"{self.name} starts {depth * 1e3:.3g} mm longer than it is"
+        return f"{self.name} starts taut, and with its ends parting by {speed:.3g} m/s"
+
+    @property
+    def pulls(self) -> str:
+        return f"{self.name} would have to push"
+
+
+def taut(rope: Rope, where: Coordinates) -> Constraint:
+    """(2.14) −λ = −L; its multiplier pulls both ends together."""
+    row = (Distance(FIRST, SECOND),)
+    return Constraint(rope.name, (rope.a, rope.b), (row,), (("force",),), (-rope.length,), where)
+
+
+def roped(scene: Scene, where: Coordinates) -> Iterator[Roped]:
+    """All of the scene."""
+    for rope in scene.ropes():
+        yield Roped(
+            name=rope.name, quantity=f"{rope.name}.force", normal=taut(rope, where),
+            plane="end of its length",
+        )  # fmt: skip

@@ -1,0 +1,1 @@
+"""The mechanism in space, which has one mode."""

@@ -1,0 +1,1 @@
+"""Bodies that touch: sliding, tipping, bouncing, striking each other."""

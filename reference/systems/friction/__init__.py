@@ -1,0 +1,1 @@
+"""Dry friction with stick and slip, and viscous friction beside it."""

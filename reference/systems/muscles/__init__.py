@@ -1,0 +1,1 @@
+"""Muscles against a wall and against a load."""

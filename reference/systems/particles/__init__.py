@@ -1,0 +1,1 @@
+"""One particle: springs, drag, fields."""

@@ -1,0 +1,1 @@
+"""Pendula: particles, bars and springs that swing."""

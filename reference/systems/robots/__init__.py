@@ -1,0 +1,1 @@
+"""Serial arms in space, and what they carry."""

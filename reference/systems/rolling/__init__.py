@@ -1,0 +1,1 @@
+"""Wheels, disks and blades: constraints on velocities."""

@@ -1,0 +1,1 @@
+"""Mechanisms of which states are claimed, and no motion."""

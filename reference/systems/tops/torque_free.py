@@ -1,0 +1,116 @@
+"""Rigid body without a moment, thrown or left alone: Euler's equations about principal axes.
+
+q = (r, e): the place of the centre and the unit quaternion e = (w, x, y, z) that turns body axes
+into ground axes; v = (ṙ, ω), ω in body axes, which are the principal ones.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...system import Array, Load, Mass, Mode, Pose, Vector
+from .polhode import Polhode
+
+
+@dataclass(frozen=True)
+class TorqueFree(Mode):
+    """Moments A > B > C [kg m²] about axes 1, 2, 3, thrown from the origin, z up.
+
+    vx, vy, vz: its first velocity [m/s], in ground axes; w1, w2, w3: its first ω [rad/s], in body
+    axes. It is put up by turns of psi0 about z, theta0 about the new x, phi0 about the new z [rad].
+    """
+
+    m: float
+    A: float
+    B: float
+    C: float
+    gravity: float  # m/s²; `g` is the right side of constraints
+    vx: float
+    vy: float
+    vz: float
+    psi0: float
+    theta0: float
+    phi0: float
+    w1: float
+    w2: float
+    w3: float
+
+    coordinates = ("x", "y", "z", "e_w", "e_x", "e_y", "e_z")
+
+    def __post_init__(self) -> None:
+        if not self.A > self.B > self.C > 0.0:
+            raise ValueError("its axes are numbered so that A > B > C > 0")
+        if self.A > self.B + self.C:
+            raise ValueError("no body has a moment above the sum of the other two: A > B + C")
+        J = np.diag([self.A, self.B, self.C])
+        object.__setattr__(self, "masses", {"body": Mass(self.m, J)})
+
+    def start(self) -> tuple[Array, Array]:
+        """At the origin, with the given attitude and velocities."""
+        c, s = math.cos(self.theta0 / 2), math.sin(self.theta0 / 2)
+        plus, minus = (self.psi0 + self.phi0) / 2, (self.psi0 - self.phi0) / 2
+        e = [c * math.cos(plus), s * math.cos(minus), s * math.sin(minus), c * math.sin(plus)]
+        v = [self.vx, self.vy, self.vz, self.w1, self.w2, self.w3]
+        return np.array([0.0, 0.0, 0.0, *e]), np.array(v)
+
+    def accelerations(self, t: float, q: Array, v: Array) -> Array:
+        """(2.33) A ω̇₁ = (B − C) ω₂ ω₃, B ω̇₂ = (C − A) ω₃ ω₁, C ω̇₃ = (A − B) ω₁ ω₂; r̈ = g, (6,)."""
+        A, B, C = self.A, self.B, self.C
+        w1, w2, w3 = v[3:].tolist()
+        spin = [(B - C) / A * w2 * w3, (C - A) / B * w3 * w1, (A - B) / C * w1 * w2]
+        return np.array([0.0, 0.0, -self.gravity, *spin])
+
+    def rates(self, t: Any, q: Vector, v: Vector) -> Vector:
+        """(2.5) ė = ½ e ∘ (0, ω), ω in body axes; ṙ as it is: q̇ (7,)."""
+        w, x, y, z = q[3:]
+        w1, w2, w3 = v[3:]
+        e_dot = [
+            -x * w1 - y * w2 - z * w3, w * w1 + y * w3 - z * w2,
+            w * w2 + z * w1 - x * w3, w * w3 + x * w2 - y * w1,
+        ]  # fmt: skip
+        return np.concatenate([v[:3], np.array(e_dot) / 2])
+
+    def closed_form(self, t: float) -> tuple[Array, Array] | None:
+        """(2.33) Jacobi's solution; the attitude by the precession about D, which stays.
+
+        None on the separatrix, where ω turns over once and never again.
+        """
+        given = (self.psi0, self.theta0, self.phi0)
+        solution = Polhode.of((self.A, self.B, self.C), (self.w1, self.w2, self.w3), given)
+        if solution is None:
+            return None
+        r = [self.vx * t, self.vy * t, self.vz * t - self.gravity * t * t / 2]
+        v = [self.vx, self.vy, self.vz - self.gravity * t]
+        return np.array([*r, *solution.attitude(t)]), np.array([*v, *solution.omega(t)])
+
+    def T(self, t: Any, q: Vector, v: Vector) -> Any:
+        """(2.54) T = ½ m ṙ² + ½ (A ω₁² + B ω₂² + C ω₃²), (0, ω) = 2 ē ∘ ė/|e|² [J]."""
+        w, x, y, z = q[3:]
+        w_dot, x_dot, y_dot, z_dot = v[3:]
+        w1 = w * x_dot - x * w_dot - y * z_dot + z * y_dot
+        w2 = w * y_dot - y * w_dot - z * x_dot + x * z_dot
+        w3 = w * z_dot - z * w_dot - x * y_dot + y * x_dot
+        size = w**2 + x**2 + y**2 + z**2
+        spin = self.A * w1**2 + self.B * w2**2 + self.C * w3**2
+        return self.m * (v[0] ** 2 + v[1] ** 2 + v[2] ** 2) / 2 + 2 * spin / size**2
+
+    def U(self, t: Any, q: Vector) -> Any:
+        """(2.45) U = m g z [J]."""
+        return self.m * self.gravity * q[2]
+
+    def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
+        """(2.8) R₁ = r, E₁ by e/|e|: its length, which rounding changes, has no meaning."""
+        e = q[3:]
+        size = np.sqrt(e[0] ** 2 + e[1] ** 2 + e[2] ** 2 + e[3] ** 2)
+        return {"body": (*q[:3], *(e / size), *v)}
+
+    def loads(self, t: float, q: Array, v: Array) -> list[Load]:
+        """(2.81) weight m g at the centre."""
+        x, y, z = q[:3].tolist()
+        return [Load("body", (x, y, z), (0.0, 0.0, -self.m * self.gravity))]
+
+    def cuts(self, t: float, q: Array) -> list[Any]:
+        """Nothing holds it."""
+        return []

@@ -1,0 +1,1 @@
+"""Legs that walk, run and jump."""

@@ -1,0 +1,86 @@
+"""Rows in space of every kind: they are the rates of their places, and γ is what is left of them.
+
+Both by the complex step, at rates that do not obey the rows.
+"""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from given import scenes
+
+from textmech.cases.space.scene import SpatialScene
+from textmech.reference.formalisms.derivative import along
+from textmech.reference.mechanism.constraints.space import pivots, rolling, rows
+from textmech.reference.mechanism.kinematics.space import attitude
+from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
+from textmech.reference.start.space.assembly import assemble_in_space
+
+CASES = ["universal_shaft", "spatial_four_bar", "cat_turn", "tilting_disk.circle", "rolling_sphere"]
+CASES += ["top_on_floor"]
+T = 0.13  # s: laws in time are neither at zero nor at rest
+
+
+def state(name: str) -> tuple[SpatialMultibody, Any, Any]:
+    """The mode at its start, with rates anyhow."""
+    case = scenes.SHIPPED[name]
+    assert isinstance(case.scene, SpatialScene)
+    mode = SpatialMultibody(case.scene, assemble_in_space(case, case.scene))
+    q, v = mode.start()
+    return mode, q, v + np.random.default_rng(1).normal(size=len(v))
+
+
+def left_of_gamma(name: str) -> float:
+    """(2.15) f_a v̇ = γ is d/dt of f_a v = g: what is left, over the largest."""
+    mode, q, v = state(name)
+
+    def excess(t: Any, q: Any) -> Any:
+        f_a, g, _ = mode.rows(t, q, v)
+        return f_a @ v - g
+
+    gamma = mode.rows(T, q, v)[2]
+    slopes = along(excess, (T, q), (1.0, mode.rates(T, q, v)))
+    return float(np.max(np.abs(gamma + slopes)) / max(np.max(np.abs(gamma)), 1.0))
+
+
+def left_of_rates(name: str) -> float:
+    """(2.14), (2.15) f_a v − g is the rate of f."""
+    mode, q, v = state(name)
+    f_a, g, _ = mode.rows(T, q, v)
+    rates = (f_a @ v - g)[mode.constraints.holonomic]
+    slopes = along(mode.f, (T, q), (1.0, mode.rates(T, q, v)))
+    return float(np.max(np.abs(rates - slopes), initial=0.0) / max(np.max(np.abs(rates)), 1.0))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", CASES)
+def test_rows_are_the_rates_of_places_and_gamma_of_rows(name: str) -> None:
+    assert left_of_gamma(name) < 1e-12  # of the largest: algebra, only rounding differs
+    assert left_of_rates(name) < 1e-12
+
+
+MOVED = [
+    (rows.Points, "universal_shaft"), (rows.Dots, "cat_turn"),
+    (rolling.Rims, "tilting_disk.circle"), (rolling.Drives, "cat_turn"),
+    (pivots.Pivots, "top_on_floor"),
+]  # fmt: skip
+
+
+@pytest.mark.mutant("γ of {kind.name} left out")
+@pytest.mark.parametrize(("kind", "name"), MOVED)
+def test_a_lost_gamma_is_seen(kind: Any, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    values = kind.values
+
+    def lost(self: Any, t: Any, bodies: Any) -> Any:
+        entries, g, gamma = values(self, t, bodies)
+        return entries, g, 0.0 * gamma
+
+    monkeypatch.setattr(kind, "values", lost)
+    assert left_of_gamma(name) > 1e-3
+
+
+@pytest.mark.mutant("slip of a disk's centre for that of its rim")
+def test_the_slip_of_a_centre_is_not_that_of_the_rim(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The height of the lowest point does not change as the rows of the centre would have it."""
+    monkeypatch.setattr(rolling, "skew", lambda rho: 0.0 * attitude.skew(rho))
+    assert left_of_rates("tilting_disk.circle") > 1e-3

@@ -1,0 +1,130 @@
+"""What acts about a turn in space, in the generated mechanism: values, laws, planted mistakes."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from given import scenes, torsion
+from given.multibody_laws import EXACT, balance, lagrangian
+
+from textmech.cases.observe import observe
+from textmech.reference.mechanism.forces.space import turning
+from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
+from textmech.reference.solve import solve
+
+SHORT = scenes.tail(1.0, 6)
+
+
+def built(folder: Path, scene: str = torsion.SPATIAL) -> Any:
+    return scenes.mechanism(scenes.typed(folder, scene)).base
+
+
+def violated(mode: SpatialMultibody) -> float:
+    """(2.60) and (2.51) at the start, at three times: explicit forces against U, D and Q₄."""
+    q, v = mode.start()
+    times = (0.0, 0.7, 1.9)
+    law: Any = (lagrangian, balance)
+    return max(check(mode, t, q, v) for t in times for check in law)
+
+
+@pytest.mark.slow
+def test_laws(tmp_path: Path) -> None:
+    assert violated(built(tmp_path)) < EXACT
+
+
+def test_signs(tmp_path: Path) -> None:
+    """About z as in the plane: the elbow's second part is the rod, turned by 70° on the arm."""
+    mode = built(tmp_path, torsion.FLAT)
+    q, v = mode.start()
+    found = dict(mode._actions.moments(np.pi / 8, mode.layout.bodies(q, v)))
+    assert set(found) == {"hinge", "elbow"}  # the last about each: motors
+    assert found["elbow"] == pytest.approx([0, 0, 1.3], rel=1e-14)
+    alone = list(mode._actions.alone(np.pi / 8, mode.layout.bodies(q, v), len(v)))
+    knee, oil = -3.0 * np.radians(50.0), -0.12
+    about_rod, about_arm = mode.where.columns["rod"].omega, mode.where.columns["arm"].omega
+    for force, torque in zip(alone[1:3], (knee, oil), strict=True):
+        assert force[about_rod : about_rod + 3] == pytest.approx([0, 0, torque], rel=1e-14)
+        assert force[about_arm : about_arm + 3] == pytest.approx([0, 0, -torque], rel=1e-14)
+    wire = alone[0][about_rod : about_rod + 3]
+    assert wire == pytest.approx([0, 0, -9.0 * np.radians(50.0)], rel=1e-14)
+
+
+@pytest.mark.slow
+def test_in_the_plane_it_is_the_plane_s(tmp_path: Path) -> None:
+    flat = scenes.typed(tmp_path, torsion.FLAT, tail=SHORT)
+    seen = solve(flat).trajectory
+    plane = scenes.typed(tmp_path, torsion.ARM, tail=SHORT)
+    known = solve(plane).trajectory
+    for name in ("wire.torque", "knee.angle", "oil.torque", "energy.total"):
+        apart = observe(flat.scene, seen, name) - observe(plane.scene, known, name)
+        assert np.max(np.abs(apart)) < 1e-11, name  # of 10 N m, 1.2 rad, 2 J
+
+
+def lost_couple(*given: Any) -> Any:
+    return list(COUPLE(*given))[1:]
+
+
+def torsion_backward(*numbers: float) -> float:
+    return -TORSION(*numbers)
+
+
+def damper_backward(*numbers: float) -> float:
+    return -DAMPER(*numbers)
+
+
+COUPLE, TORSION, DAMPER = turning.couple, turning.torsion, turning.torsion_damper
+
+
+@pytest.mark.mutant("about a turn in space: {wrong}")
+@pytest.mark.parametrize(
+    ("name", "wrong"),
+    [("couple", lost_couple), ("torsion", torsion_backward), ("torsion_damper", damper_backward)],
+)
+def test_a_wrong_torque_is_seen(
+    name: str, wrong: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(turning, name, wrong)
+    assert violated(built(tmp_path)) > 1e-3
+
+
+def along_its_axis(turn: Any) -> Any:
+    """As if skew axes did not share their moments."""
+    return turn.first[0] if turn.way > 0 else turn.last[0]
+
+
+def unsigned(turn: Any) -> Any:
+    return turn.way * ANGLE(turn)
+
+
+ANGLE: Any = turning.Turned.angle.fget  # type: ignore[attr-defined]
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("{name} of a turn in space: {wrong}")
+@pytest.mark.parametrize(
+    ("name", "wrong"), [("m", along_its_axis), ("gradient", along_its_axis), ("angle", unsigned)]
+)
+def test_a_mistaken_axis_is_seen(
+    name: str, wrong: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(turning.Turned, name, property(wrong))
+    assert violated(built(tmp_path)) > 1e-3
+
+
+WINDING = torsion.FLAT.replace("pull: {motor: hinge, ramp: 0.8}", "pull: {motor: hinge, ramp: 120}")
+
+
+@pytest.mark.slow
+def test_what_needs_no_angle_may_turn_on(tmp_path: Path) -> None:
+    """A damper's angle has its turns counted; its torque is that of the rate."""
+    wires = "    wire: {torsion: hinge, stiffness: 9.0, rest_angle: -30 deg}\n"
+    free = WINDING.replace(wires, "    wire: {torsion_damper: hinge, damping: 0.1}\n")
+    case = scenes.typed(tmp_path, free)
+    motion = solve(case).trajectory
+    turned = observe(case.scene, motion, "wire.angle")
+    assert turned[-1] > 2 * np.pi
+    assert np.max(np.abs(np.diff(turned))) < np.pi
+    rate = observe(case.scene, motion, "hinge.omega")
+    np.testing.assert_allclose(observe(case.scene, motion, "wire.torque"), -0.1 * rate, rtol=1e-14)

@@ -1,0 +1,92 @@
+"""Friction of a generated slide, dry and smooth, against closed forms and a written system."""
+
+import numpy as np
+import pytest
+from given import random_scenes
+
+from textmech.cases import shape
+from textmech.cases.scene import (
+    Anchor,
+    Bounds,
+    DryFriction,
+    GroundPoint,
+    Joint,
+    Scene,
+    Smooth,
+    Spring,
+)
+from textmech.reference.formalisms import lagrange
+from textmech.reference.mechanism.modes.mechanism import Mechanism
+from textmech.reference.mechanism.modes.smooth import SmoothMultibody
+from textmech.reference.motion.follow import follow
+from textmech.reference.system import Only
+from textmech.reference.systems.friction.smooth_friction import SmoothDynamometer
+
+
+def guided(mass: float, smooth: Smooth | None) -> Scene:
+    """A particle on a slide of the ground, thrown along it."""
+    friction = DryFriction(Bounds(3.0, 4.0), Bounds(2.0, 2.5), smooth)
+    slide = Joint(
+        "rail",
+        "slide",
+        Anchor("ground", "O"),
+        Anchor("dot", "center"),
+        along=(0.6, 0.8),
+        dry_friction=friction,
+    )
+    return Scene(
+        gravity=(0.0, 0.0),
+        points=random_scenes.scene(np.random.default_rng(1)).points,
+        bodies={"dot": shape.particle(name="dot", mass=mass)},
+        joints={"rail": slide},
+        contacts={},
+        forces={},
+    )
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_a_slide_brakes_by_its_own_bound(way: float) -> None:
+    """(2.89) v₀ m / F₊ forward, v₀ m / F₋ backward; then it rests, by no force."""
+    q, v = np.array([0.1, -0.2]), way * np.array([0.6, 0.8])
+    system = Mechanism(guided(1.3, None), (q, v), 1.0)
+    followed = follow(system, np.linspace(0.0, 1.0, 11))
+    (stop,) = followed.changes
+    assert stop.time == pytest.approx(1.3 / (2.0 if way > 0 else 2.5), abs=1e-12)
+    assert stop.mode_after == "rail sticks"
+    forces = system.modes["rail sticks"].reactions(0.0, *np.split(followed.y[-1], 2))
+    assert forces["rail.friction"] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_smooth_friction_of_a_slide_by_the_formalisms() -> None:
+    """(2.95) outside the band is −F₊; the residual by superposition is the sum of the forces."""
+    law = Smooth(band=0.05, sharpness=100.0)
+    start = np.array([0.1, -0.2]), np.zeros(2)
+    system = Mechanism(guided(1.3, law), start, 1.0)
+    mechanism = system.modes[system.start()[0]]
+    assert isinstance(mechanism, SmoothMultibody)
+    for speed in (-1.0, -0.05, 0.0, 0.02, 0.05, 1.0):
+        q, v = np.array([0.1, -0.2]), speed * np.array([0.6, 0.8])
+        a = mechanism.accelerations(0.0, q, v)
+        assert lagrange.multipliers(mechanism, 0.0, q, v)[0] == pytest.approx(a, abs=1e-12)
+    v = np.array([0.6, 0.8])
+    assert mechanism.accelerations(0.0, q, v) == pytest.approx(-2.0 / 1.3 * v, abs=1e-12)
+
+
+@pytest.mark.slow
+def test_smooth_friction_on_an_oblique_slide_of_odd_mass() -> None:
+    """Forces that cancel leave no rounding behind: from rest, steps would shrink to nothing."""
+    friction = DryFriction(Bounds(6.0, 6.0), Bounds(3.0, 3.0), Smooth(band=0.0005, sharpness=1e5))
+    ends = Anchor("ground", "O"), Anchor("dot", "center")
+    scene = Scene(
+        gravity=(0.0, 0.0),
+        points={"O": GroundPoint((0.0, 0.0)), "hook": GroundPoint((0.6, 0.8), (1.2, 1.6))},
+        bodies={"dot": shape.particle(name="dot", mass=1.3)},
+        joints={"rail": Joint("rail", "slide", *ends, along=(0.6, 0.8), dry_friction=friction)},
+        contacts={},
+        forces={"coil": Spring("coil", Anchor("ground", "hook"), ends[1], 2.0, 1.0)},
+    )
+    times = np.linspace(0.0, 5.0, 26)
+    y = follow(Mechanism(scene, (np.zeros(2), np.zeros(2)), 1.0), times).y
+    block = SmoothDynamometer(1.3, 2.0, 2.0, 3.0, 3.0, 6.0, 6.0, 5e-4, 1e5)
+    exact = follow(Only(block), times).y
+    assert y[:, :2] @ [0.6, 0.8] == pytest.approx(exact[:, 0], abs=1e-9)

@@ -1,0 +1,130 @@
+"""Blows at one instant, and starts and ends that two bodies cannot have: what a file is told."""
+
+from pathlib import Path
+
+import pytest
+from given import scenes
+
+from textmech.cases.case import Case
+from textmech.cases.mistake import CaseError
+from textmech.cases.observe import observe
+from textmech.cases.trajectory import VX
+from textmech.reference.mechanism.modes import landing
+from textmech.reference.motion.follow import follow
+from textmech.reference.solve import solve
+
+THREE = """\
+scene:
+  gravity: none
+  bodies:
+    a: {disk: {mass: 1, radius: 0.1}}
+    b: {disk: {mass: 1, radius: 0.1}}
+    c: {disk: {mass: 1, radius: 0.1}}
+  contacts:
+    first: {between: [b, a], friction: 0, restitution: E}
+    second: {between: [c, WITH], friction: 0, restitution: E}
+initial:
+  a: {x: 0, y: 0, angle: 0, vx: 1}
+  b: {x: 0.5, y: BY, angle: 0}
+  c: {x: CX, y: CY, angle: 0}
+events: {strikes: {first.gap: falls to zero}, passes: {second.gap: falls to zero}}
+allow: {a.x: 1.0e-2, c.x: 1.0e-2}
+"""
+
+
+def three(tmp_path: Path, **words: object) -> Case:
+    text = THREE
+    for word, value in {"E": 0.5, "WITH": "b", "BY": 0, "CX": 0.7, "CY": 0, **words}.items():
+        text = text.replace(word, str(value))
+    return scenes.typed(tmp_path, text)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        {},  # b touches c
+        {"E": 1.0},
+        {"WITH": "a", "BY": 0.12, "CX": 0.5, "CY": -0.12},  # a meets both at once
+    ],
+)
+def test_a_blow_through_two_contacts_at_one_instant_is_refused(
+    words: dict[str, object], tmp_path: Path
+) -> None:
+    with pytest.raises(CaseError) as caught:
+        solve(three(tmp_path, **words))
+    (mistake,) = caught.value.mistakes
+    assert mistake.where == "scene.contacts.first"
+    assert "first and second strike at one instant, t = 0.3" in mistake.what
+    assert "leave a gap" in mistake.what
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "words",
+    [
+        {"CX": 0.701},  # a gap
+        {"E": 0.0},  # all go on together, whatever the order
+        {"CX": 0.5, "CY": 0.2},  # b touches c across the blow: nothing is passed on
+    ],
+)
+def test_blows_one_after_the_other_are_not(words: dict[str, object], tmp_path: Path) -> None:
+    case = three(tmp_path, **words)
+    if words.get("CY"):  # then c never moves
+        assert follow(scenes.mechanism(case), case.times[::5]).y[-1] is not None
+        return
+    motion = solve(case).trajectory
+    assert observe(case.scene, motion, "momentum.x")[-1] == pytest.approx(1.0)
+    assert motion.states["c"][-1, VX] > 0.1
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("two blows at one instant that nobody refuses")
+def test_a_check_that_is_left_out_lets_the_blow_pass(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The mutant: then the answer is one of many, and nobody is told."""
+    monkeypatch.setattr(landing, "check_alone", lambda *given: None)
+    assert solve(three(tmp_path)).trajectory is not None
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "where", "message"),
+    [
+        ("x: 0.5, y: BY", "x: 0.19, y: 0", "initial", "first starts 10 mm in the rim of a"),
+        ("x: 0.5, y: BY", "x: 0.2, y: 0", "initial", "first starts into the rim of a, with 1 m/s"),
+        (
+            "strikes: {first.gap: falls to zero}, ", "", "scene.contacts.first",
+            "starts 0.3 m above the rim of a; if it is meant to fall on it",
+        ),
+    ],
+)  # fmt: skip
+def test_a_start_that_cannot_be_is_said(
+    old: str, new: str, where: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(globals(), "THREE", THREE.replace(old, new))
+    with pytest.raises(CaseError) as caught:
+        solve(three(tmp_path, CX=2.0))
+    (mistake,) = caught.value.mistakes
+    assert mistake.where == where
+    assert message in mistake.what
+
+
+def test_what_slides_off_the_end_of_a_side_is_said(tmp_path: Path) -> None:
+    """The reference's side is a line without an end; the block's is not."""
+    text = """\
+scene:
+  bodies:
+    lower: {block: {mass: 2, width: 0.8, height: 0.2}}
+    dot: {particle: {mass: 1}}
+  contacts:
+    left: {between: [lower.lower_left, ground.floor], friction: 0.9}
+    right: {between: [lower.lower_right, ground.floor], friction: 0.9}
+    touch: {between: [dot, lower.top], friction: 0}
+initial: {lower: {x: 0, angle: 0, on: [lower_left, lower_right]}, dot: {x: 0, y: 0.2, vx: 1.0}}
+allow: {dot.x: 1.0e-2}
+"""
+    with pytest.raises(CaseError) as caught:
+        solve(scenes.typed(tmp_path, text))
+    (mistake,) = caught.value.mistakes
+    assert mistake.where == "scene.contacts.touch"
+    assert "dot.center has left the top of lower at t = 0.4" in mistake.what

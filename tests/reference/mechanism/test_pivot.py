@@ -1,0 +1,159 @@
+"""What pivots on the floor, from the scene alone: strikes, rest, what friction cannot hold."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from given import scenes
+from given.scenes import tail, typed
+
+from textmech.cases.mistake import CaseError
+from textmech.cases.observe import observe
+from textmech.cases.scene import Scene
+from textmech.reference.mechanism.modes import element, landing
+from textmech.reference.motion.follow import follow
+from textmech.reference.solve import solve
+from textmech.reference.systems import written
+from textmech.reference.systems.walkers.spoke_steps import SpokeSteps
+
+L, M, J, GAMMA = 0.3, 2.0, 0.09, 0.1
+WHEEL = """\
+scene:
+  incline: 0.1
+  bodies: {{wheel: {{spokes: {{number: 8, length: 0.3, mass: 2, inertia: 0.09}}}}}}
+  contacts: {{feet: {{between: [wheel, ground.floor], friction: {mu}, ideal: pivot}}}}
+initial: {{wheel: {{x: 0, angle: 0, on: tip1, omega: -{w0}{more}}}}}
+events: {{strikes: {{feet.gap: falls to zero}}}}
+allow: {{wheel.angle: 1.0e-3, strikes.time: 1.0e-3}}
+"""
+ROD = """\
+scene:
+  bodies: {{rod: {{bar: {{mass: 1.5, length: 0.8}}}}}}
+  contacts: {{foot: {{between: [rod.start, ground.floor], friction: {mu}, ideal: pivot}}}}
+initial: {{rod: {{x: 0, angle: 60 deg, on: start, omega: {w0}}}}}
+allow: {{rod.angle: 1.0e-3, foot.normal: 0.1}}
+"""
+PARAMETERS = {"n": 8.0, "l": L, "m": M, "J": J, "gamma": GAMMA, "mu": 2.0}
+
+
+def strikes(tmp_path: Path, w0: float, until: float = 1.0) -> list[float]:
+    case = typed(tmp_path, WHEEL.format(mu=2.0, w0=w0, more=""))
+    found = follow(scenes.mechanism(case), np.linspace(0.0, until, 3))
+    return [change.time for change in found.changes]
+
+
+@pytest.mark.slow
+def test_strikes_are_those_of_the_energy(tmp_path: Path) -> None:
+    known = SpokeSteps(8, L, J / (M * L**2), GAMMA).strikes(3.3, 1.0)
+    assert strikes(tmp_path, 3.3) == pytest.approx(known, abs=1e-12)
+
+
+@pytest.mark.mutant("an impact of spokes in which the old tip stays")
+def test_an_impact_in_which_the_old_tip_stays_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Without a tip that lets go, the wheel stands on two after the first strike."""
+    sound = landing.impact
+    monkeypatch.setattr(
+        landing,
+        "impact",
+        lambda mass, joints, met, v: (0.0 * sound(mass, joints, met, v)[0], ("sticks",) * len(met)),
+    )
+    assert len(strikes(tmp_path, 3.3)) == 1
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("half of J in the impact of spokes")
+def test_another_inertia_in_the_impact_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Half of J keeps another part of the speed."""
+    known = SpokeSteps(8, L, J / (M * L**2), GAMMA).strikes(3.3, 1.0)
+    assert known is not None
+    sound, halved = landing.impact, np.array([1.0, 1.0, 0.5])
+    monkeypatch.setattr(
+        landing, "impact", lambda mass, joints, met, v: sound(halved * mass, joints, met, v)
+    )
+    assert abs(np.array(strikes(tmp_path, 3.3)) - known).max() > 1e-4
+
+
+@pytest.mark.slow
+def test_it_rocks_to_rest_as_the_hand_written_one(tmp_path: Path) -> None:
+    case = typed(tmp_path, WHEEL.format(mu=2.0, w0=0.5, more=""))
+    mechanism, wheel = scenes.mechanism(case), written("rimless_wheel", {**PARAMETERS, "w0": 0.5})
+    found, other = follow(mechanism, case.times), follow(wheel, case.times)
+    times = np.array([[change.time for change in each.changes] for each in (found, other)])
+    assert np.abs(times[0] - times[1]).max() < 1e-8  # the last are told apart by rounding's 1e-10
+    assert found.phases[-1].startswith("feet.tip0 sticks, feet.tip1 sticks, feet.tip2 open")
+    forces = mechanism.modes[found.phases[-1]].reactions(1.0, *np.split(found.y[-1], 2))
+    weight = M * 9.80665 * np.array([-math.sin(GAMMA), math.cos(GAMMA)])
+    assert [forces["feet.tangent"], forces["feet.normal"]] == pytest.approx(weight, rel=1e-12)
+    assert forces["feet.tip1.normal"] > forces["feet.tip0.normal"] > 0.0  # it leans down the slope
+
+
+@pytest.mark.slow
+def test_a_rod_that_pivots_on_its_end(tmp_path: Path) -> None:
+    """½ (m l²/3) ω² + m g (l/2) sin φ stays what it was; F_N by (2.23)."""
+    case = typed(tmp_path, ROD.format(mu=9.0, w0=-0.4), tail=tail(0.3, 16))
+    motion = solve(case).trajectory
+    s = motion.states["rod"]
+    angle, omega, half, g = s[:, 2], s[:, 5], 0.4, 9.80665
+    energy = omega**2 * half * 4 / 3 / 2 + g * np.sin(angle)
+    assert energy == pytest.approx(energy[0], rel=1e-12)
+    turning = -0.75 * g / half * np.cos(angle)
+    normal = 1.5 * (g + half * (turning * np.cos(angle) - omega**2 * np.sin(angle)))
+    assert observe(case.scene, motion, "foot.normal") == pytest.approx(normal, rel=1e-11)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("scene", "words"),
+    [
+        (WHEEL.format(mu=0.2, w0=3.3, more=""), "the impact at t = 0.2455 s would slip: "),
+        (WHEEL.format(mu=2.0, w0=9, more=""), "the floor would have to pull at t = 0 s: wheel"),
+        (WHEEL.format(mu=2.0, w0=3.3, more=", vx: 1.5"), "`on` says that wheel.tip1 does not move"),
+        (ROD.format(mu=0.2, w0=0.1), "pivoting is not possible with friction 0.2: at t = 0 s"),
+        (ROD.format(mu=0, w0=0.1), "pivoting is not possible with friction 0: at t = 0 s"),
+        (ROD.format(mu=0.5, w0=-0.1).replace("on: start", "y: 9"), "rod leaves it"),
+        (
+            ROD.format(mu=0.5, w0=0).replace("on: start", "y: 0.34641016151377546, vx: 1"),
+            "starts with a slip of",
+        ),
+    ],
+)
+def test_what_cannot_pivot_is_said(tmp_path: Path, scene: str, words: str) -> None:
+    with pytest.raises(CaseError) as caught:
+        solve(typed(tmp_path, scene))
+    assert words in str(caught.value)
+
+
+@pytest.mark.slow
+def test_friction_that_an_impact_needs_is_enough(tmp_path: Path) -> None:
+    """The number in the message, rounded up, and not 1 % less."""
+    with pytest.raises(CaseError) as caught:
+        solve(typed(tmp_path, WHEEL.format(mu=0.2, w0=3.3, more="")))
+    needed = float(str(caught.value).partition("it needs ")[2].split()[0])
+    mechanism = scenes.mechanism(typed(tmp_path, WHEEL.format(mu=1.01 * needed, w0=3.3, more="")))
+    assert len(follow(mechanism, np.linspace(0.0, 0.3, 3)).changes) == 1
+    with pytest.raises(CaseError, match="the impact"):
+        solve(typed(tmp_path, WHEEL.format(mu=0.99 * needed, w0=3.3, more="")))
+
+
+@pytest.mark.mutant("friction cone of a pivot left out")
+def test_margins_of_a_pivot_are_asked_of_its_samples(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A friction cone that is lost lets a rod stand that would slip."""
+    scene = ROD.format(mu=0.2, w0=0.1)
+    case = typed(tmp_path, scene)
+    mechanism = scenes.mechanism(case)
+    mode, q, v = mechanism.start()
+    assert mechanism.possible(mode, 0.0, q, v) == "foot would have to slip"
+    monkeypatch.setattr(element.Touching, "margins", lambda self, forces: (1.0, 1.0))
+    assert mechanism.possible(mode, 0.0, q, v) is None
+
+
+def test_scenes_without_spokes_touch_as_they_say(tmp_path: Path) -> None:
+    scene: Scene = typed(tmp_path, ROD.format(mu=3.0, w0=0.1)).scene
+    assert list(scene.touching.items()) == list(scene.contacts.items())
