@@ -113,6 +113,11 @@ class _Walker:
     begun: bool = False  # a step was accepted
     last_heard: float = -math.inf  # s: where it was listened as far as ahead
 
+    def start(self) -> None:
+        """Listen before a short first step: its error may be rounding and yet acceptable."""
+        if self.wanted < self.ahead:
+            self._listen(self.wanted)
+
     def step(self, target: float) -> Step:
         """Take one step towards `target`, landing on it exactly with the last."""
         rejected, before = 0, math.inf
@@ -212,7 +217,7 @@ def _first_step(t: float, y: Vector, slope: Vector, size: Vector, span: float) -
     return min(span, max(0.01 * value / rate, TICKS * math.ulp(t)))
 
 
-def _span(samples: Sequence[float]) -> float:
+def span(samples: Sequence[float]) -> float:
     """The first interval [s]; the second one, where the first ends at once.
 
     A motion that begins anew just before a sample need not take steps as short as what is left.
@@ -222,9 +227,17 @@ def _span(samples: Sequence[float]) -> float:
 
 
 def march(
-    method: Method, times: ArrayLike, y0: ArrayLike, *, most: int = 100_000_000
+    method: Method,
+    times: ArrayLike,
+    y0: ArrayLike,
+    *,
+    most: int = 100_000_000,
+    anew: bool = False,
 ) -> Iterator[Step]:
-    """The accepted steps from `times[0]` to `times[-1]`; every sample time ends one of them."""
+    """The accepted steps from `times[0]` to `times[-1]`; every sample time ends one of them.
+
+    anew: y0 is what another motion has left, and its size may say nothing of what comes.
+    """
     grid, y = np.array(times, dtype=np.float64), np.array(y0, dtype=np.float64)
     if grid.ndim != 1 or not grid.size or not np.isfinite(grid).all() or (np.diff(grid) <= 0).any():
         raise ValueError("the sample times must be finite and strictly increasing")
@@ -237,10 +250,12 @@ def march(
     if len(samples) == 1:
         return
     size = sizes(np.abs(y), method.tolerance)
-    first = _first_step(samples[0], y, slope, size, _span(samples))
+    first = _first_step(samples[0], y, slope, size, span(samples))
     none = np.zeros_like(y)
-    ahead = AT_ONCE * _span(samples)
+    ahead = AT_ONCE * span(samples)
     walker = _Walker(method, samples[0], y, none, np.abs(y), first, none, none, ahead, samples[-1])
+    if anew:
+        walker.start()
     taken = 0
     for target in samples[1:]:
         while walker.t < target:

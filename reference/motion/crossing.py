@@ -4,7 +4,7 @@ No interpolation: the state within a step is that of a shorter one, and the root
 until it ends on the zero.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 
 import numpy as np
@@ -28,6 +28,8 @@ Fall = Callable[[float, Array], float]
 """t, y → g of a guard."""
 Within = Callable[[float], Array]
 """h → y after a step of that length."""
+Rounding = Callable[[Fall, Array], Iterable[float]]
+"""A guard and y at a step's end → what rounding makes of the guard at each point of the step."""
 
 
 def clear(guards: Sequence[Fall], f: Slope, t: float, h: float, y0: Array, y1: Array) -> bool:
@@ -72,11 +74,13 @@ def first(
     *,
     begins: bool,
     spent: int | None,
+    rounding: Rounding | None = None,
 ) -> tuple[int, float] | None:
     """Which guard falls first in the step from t, and how far into it.
 
     points: 0, some times inside the step, and its length; states: y at each of them. begins: the
-    mode does, with this step. spent: the guard that ended it just before.
+    mode does, with this step. spent: the guard that ended it just before. rounding: what is no more
+    than that is zero, and a guard that is zero begins.
     """
     found = None
     # All guards at one state: they ask for the same forces.
@@ -88,7 +92,11 @@ def first(
             return guard(t + at, state(at))
 
         values = [row[i] for row in rows]
-        at = crossing(g, points, values, begins=begins, spent=i == spent)
+        if rounding is not None:
+            pairs = zip(values, rounding(guard, states[-1]), strict=True)
+            values = [value if abs(value) > room else 0.0 for value, room in pairs]
+        fresh = begins or (rounding is not None and values[0] == 0.0)
+        at = crossing(g, points, values, begins=fresh, spent=i == spent)
         if at is not None and (found is None or at < found[1] - TOGETHER):
             found = i, at
     return found
@@ -109,6 +117,10 @@ def crossing(
             return _begun(g, points[-1], spent)
         top = _near(g, points, values, -1.0)
         return None if top is None else _root(g, *top)
+    if begins and not spent and rise:
+        low = min(values[:rise])
+        if low < values[0] - TOUCH * max(map(abs, values)):  # and it comes back in the same step
+            return _begun(g, points[values.index(low)], spent)
     fall = next((i for i in range(rise, len(values)) if values[i] <= 0.0), None)
     if fall is None:
         bottom = _near(g, points[rise:], values[rise:], 1.0)

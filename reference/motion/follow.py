@@ -17,6 +17,7 @@ from ..integrators.march import IntegrationError, Method, Slope, march
 from ..integrators.radau import radau_table
 from ..system import Array, Guard, Mode, System
 from .crossing import INSIDE, TOGETHER, Fall, Within, clear, first
+from .early import Early
 from .inside import inside
 from .stops import between, on_sample, on_samples, stops
 from .stuck import Stuck, Watched, slope
@@ -151,9 +152,9 @@ class _Walk:
         falls = [here(_falling(mode, guard)) for guard in guards]
         f, bare = here(watched), here(slope(mode))
         method, probe = self.by(mode, f, len(self.now)), self.by(mode, bare, len(self.now))
-        begins, probed = True, 0
+        early, begins, probed = Early(bare, self.now, ends.tolist()), True, 0
         look()
-        for step in march(method, ends, self.now):
+        for step in march(method, ends, self.now, anew=bool(self.changes) and not mode.stiff):
             self.steps += 1
             state = inside(step, probe)
             length = step.t_next - step.t
@@ -166,6 +167,11 @@ class _Walk:
             spent = self.spent if begins else None
             near = falls if looks else ()
             found = first(near, step.t, points, states, state, begins=begins, spent=spent)
+            room = early.rounding(step.t, points) if found is not None else None
+            if room is not None:
+                found = first(
+                    near, step.t, points, states, state, begins=begins, spent=spent, rounding=room
+                )
             spend(probe.evaluations - probed + GUARD * len(guards), step.t)
             probed = probe.evaluations
             if found is not None:
@@ -173,7 +179,7 @@ class _Walk:
                 self._note(step.t, [part * after for part in (*INSIDE, 1.0)], state)
                 self._switch(guards[i], i, step.t + after, state(after))
                 return
-            begins = False
+            begins = begins and room is not None
             self._stepped(step.t_next, step.y_next)
             self._note(step.t, points[1:], state, states[1:])
             self.now = step.y_next

@@ -1,5 +1,6 @@
 """A block at rest breaks loose where static friction is kinetic friction, wherever it stands."""
 
+import math
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ from scipy.optimize import brentq
 
 from textmech.reference.integrators import march
 from textmech.reference.mechanism.modes.mechanism import Mechanism
+from textmech.reference.motion.early import Early
 from textmech.reference.motion.follow import Followed, follow
 from textmech.reference.motion.stuck import Stuck
 from textmech.reference.system import System
@@ -122,8 +124,14 @@ def test_slips_are_counted_however_short(
     assert found == pytest.approx(slips(omega, excess, 2.0), rel=0, abs=1e-12 + late)
 
 
+# Phases at which a force that is above friction by 1e-8 of it passes friction, about.
+AT_BOUND = (math.asin(1.0 / (1.0 + 1e-8)) + np.arange(-2000, 2000) * 1e-12).tolist()
+
+
 CLOCK = "a first step shorter than an ulp of the time"
 LEAP = "a rounding that the shortest of steps does not see"
+SIGN = "a speed that has the wrong sign by rounding, at first"
+CREEP = "a first step that sees nothing but rounding"
 AGAIN = {  # a scene, mass, friction, a sine's amplitude, frequency and phase, the end, samples
     CLOCK: (
         SLIDE, "0.5963534737096239", "static: 1.4585736856695222, kinetic: 1.4522767199911273",
@@ -136,6 +144,15 @@ AGAIN = {  # a scene, mass, friction, a sine's amplitude, frequency and phase, t
     LEAP: (
         SLIDE, "1.4029633665812846", "kinetic: 3.7686232298388864",
         3.7686232302312295, 2.7851606784255187, 1.3212706719596934, 5.608668769600543, 101,
+    ),
+    SIGN: (
+        SLIDE, "0.6522167572729699", "kinetic: 5.351924585216668",
+        5.351924597416955, 6.480954134838052, -2.5279814481902543, 2.935065674331179, 6,
+    ),
+    CREEP: (
+        SLIDE, "0.01813715894142108",
+        "static: 0.34770983113384557, kinetic: 0.34767678995901496",
+        0.3477098833763602, 24.910182154226344, 0.0, 0.8399243952906374, 3,
     ),
 }  # fmt: skip
 
@@ -150,10 +167,12 @@ def test_a_slip_is_followed_as_often_as_it_comes_back(tmp_path: Path, name: str)
     text = text.replace("PULL", f"push: {{push: block.center, sine: {sine}}}")
     times = np.linspace(0.0, end, samples)
     found = follow(scenes.mechanism(scenes.typed(tmp_path, text)), times).changes
-    peaks = np.arange((np.pi / 2 - phase) / omega, end, np.pi / omega)
+    first = np.ceil(phase / np.pi - 0.5)  # peak; an even one pushes forward
+    peaks = np.arange(((first + 0.5) * np.pi - phase) / omega, end, np.pi / omega)
     joint = "guide" if scene is SLIDE else "touch"
     ways = [f"{joint} {way}" for way in ("slides +", "sticks", "slides -", "sticks")]
-    assert [c.mode_after for c in found] == (ways * len(peaks))[: 2 * len(peaks)]
+    ways = ways[2 * int(first % 2) :] + ways * len(peaks)
+    assert [c.mode_after for c in found] == ways[: 2 * len(peaks)]
     late = 1e-9  # s: what is 1e-10 above friction has its rounding of 1e-16 for some 1e-11 s
     both = np.array([c.time for c in found]).reshape(-1, 2)
     np.testing.assert_allclose(np.diff(both, axis=0), np.pi / omega, rtol=0, atol=late)
@@ -176,25 +195,62 @@ def test_short_slips_are_missed_within_a_first_step(
 
 
 @pytest.mark.slow
-@pytest.mark.mutant(
-    "where a step shrinks to nothing its rounding is not listened for farther ahead"
-)
+@pytest.mark.mutant("neither a short first step nor one that shrinks to nothing is listened to")
 def test_what_the_shortest_steps_do_not_see_ends_the_motion(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
+    """Either of the two is enough here."""
+    monkeypatch.setattr(march._Walker, "start", lambda walker: None)
+    test_a_slip_is_followed_as_often_as_it_comes_back(tmp_path, LEAP)
     monkeypatch.setattr(march._Walker, "_hears", lambda walker, h: False)
     with pytest.raises(Stuck, match="underflows"):
         test_a_slip_is_followed_as_often_as_it_comes_back(tmp_path, LEAP)
 
 
 @pytest.mark.slow
-@pytest.mark.mutant("a first step may be shorter than the clock can tell")
+@pytest.mark.mutant("a first step shorter than the clock can tell, which is not listened to")
 def test_a_first_step_within_the_leaps_of_the_clock_gets_nowhere(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
+    """Either of the two is enough here."""
+    monkeypatch.setattr(march._Walker, "start", lambda walker: None)
+    test_a_slip_is_followed_as_often_as_it_comes_back(tmp_path, CLOCK)
     monkeypatch.setattr(march, "TICKS", 0)
     with pytest.raises(Stuck):
         test_a_slip_is_followed_as_often_as_it_comes_back(tmp_path, CLOCK)
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a mode ends at once where its guard falls by rounding")
+def test_a_speed_of_rounding_that_counts_is_a_stop(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(Early, "rounding", lambda *given: None)
+    with pytest.raises(AssertionError):
+        test_a_slip_is_followed_as_often_as_it_comes_back(tmp_path, SIGN)
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a first step that is short is not listened to before it is taken")
+def test_a_first_step_that_is_not_listened_to_creeps(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(march._Walker, "start", lambda walker: None)
+    with pytest.raises(Stuck, match="shrink"):
+        test_a_slip_is_followed_as_often_as_it_comes_back(tmp_path, CREEP)
+
+
+@pytest.mark.parametrize("samples", [3, 31])
+def test_what_starts_at_the_bound_slips_at_once(tmp_path: Path, samples: int):
+    """A force that is 3 N at first, more for 2.8e-4 s, and less: all that within a first step."""
+    most, bound = 3.0 * (1.0 + 1e-8), 3.0
+    phase = next(p for p in AT_BOUND if most * math.sin(p) == bound)
+    sine = f"{{amplitude: [{most!r}, 0], angular_frequency: 1, phase: {phase!r}}}"
+    text = SLIDE.replace("FRICTION", "kinetic: 3").replace("START", "0")
+    text = text.replace("PULL", f"push: {{push: block.center, sine: {sine}}}")
+    times = np.linspace(0.0, 2.0, samples)
+    found = follow(scenes.mechanism(scenes.typed(tmp_path, text)), times).changes
+    assert [c.mode_after for c in found] == ["guide slides +", "guide sticks"]
+    # v = a (cos φ − cos(τ + φ)) − 3 τ is zero again at 3 d, where d = √(2e-8) s before the peak.
+    assert [c.time for c in found] == pytest.approx([0.0, 3 * math.sqrt(2e-8)], rel=0, abs=1e-9)
 
 
 @pytest.mark.slow

@@ -114,6 +114,13 @@ def test_a_dip_after_a_rise_is_found(a: float, b: float):
     assert found(g, spent=True) == pytest.approx(a, abs=4e-15)
 
 
+def test_a_fall_at_once_is_found_though_it_comes_back():
+    """It begins at zero, falls at once or after a short rise, and is above zero at the end."""
+    assert found(dips(0.0, 0.6), begins=True) == 0.0
+    assert found(lambda t: t * (t - 1e-3) * (t - 0.6), begins=True) == pytest.approx(1e-3)
+    assert found(dips(0.0, 0.6), begins=True, spent=True) is None
+
+
 @pytest.mark.mutant("a guard that dips below zero between the points of a step")
 def test_a_dip_that_is_not_looked_for_is_seen(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(module, "_near", lambda *given: None)
