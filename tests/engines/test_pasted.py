@@ -9,7 +9,7 @@ was promised.
 # pyright: reportAttributeAccessIssue=false
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import cos, degrees, sin
 from typing import Any
 
@@ -17,13 +17,16 @@ import mujoco
 import numpy as np
 import pytest
 from given import scenes
+from given.planning import begun
 
+from textmech.engines.mujoco import MuJoCo
 from textmech.reference.solve import solve
 from textmech.reports.cache.store import usable
 from textmech.reports.search.advised import Advised, Asked
 from textmech.reports.search.session import advised
 from textmech.reports.selection import choose_engines
 from textmech.reports.show.advice import told
+from textmech.reports.show.questions import listed
 
 pytestmark = pytest.mark.slow
 
@@ -133,6 +136,41 @@ def test_a_heavy_box_of_geoms_does_not_sink() -> None:
     assert sunk("") > 5e-4
     for text in handed_over("heavy_on_light", "mujoco"):
         assert abs(sunk(text)) < 2e-4  # m: what the case allows
+
+
+LYING = """
+<mujoco>
+  {pasted}
+  <worldbody>
+    <geom type="plane" size="0 0 1"/>
+    <body pos="0 0 0.1">
+      <freejoint/>
+      <geom type="sphere" size="0.1" mass="20"/>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+
+
+def lies(pasted: str) -> float:
+    """How deep [m] a ball lies in the floor after 1 s, with the friction 1 that MuJoCo gives it."""
+    model = mujoco.MjModel.from_xml_string(LYING.format(pasted=pasted))
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data, nstep=round(1.0 / model.opt.timestep))
+    return 0.1 - float(data.qpos[2])
+
+
+def test_a_ball_of_geoms_does_not_sink_as_the_question_is_answered() -> None:
+    """A finer step alone changes nothing of it, where friction is larger than the case's."""
+    (scene, start), engine = begun("sinking_ball"), MuJoCo("shipped")
+    setting = listed()["sinking_ball"].settings["mujoco"]
+    assert isinstance(setting, Mapping)
+    options = {name: value for name, value in setting.items() if name != "step"}
+    step = setting.get("step", engine.own_step)
+    allowed = 1e-4  # m: the case's own
+    assert lies("") > 3 * allowed
+    assert lies('<option timestep="0.001"/>') > 3 * allowed
+    assert lies(engine.snippet(scene, start, options, step)) < allowed
 
 
 BLOCK = """
