@@ -6,8 +6,7 @@ from pathlib import Path
 from .mistake import CaseError, Mistake, nearest, plain, unseen
 
 LONGEST = 100  # letters of a name: with a variant's and an ending it has to make a file's name
-
-
+SUFFIXES = (".yaml", ".yml")
 QUESTIONS = "questions"  # the folder of cases that answer public questions
 
 
@@ -46,10 +45,12 @@ def find(words: Sequence[str]) -> list[Path]:
             paths.append(path)
         elif is_dir:
             mistakes.append(Mistake(word, 0, 0, "", "is a directory; a case is one YAML file"))
-        elif path.suffix in (".yaml", ".yml"):
+        elif path.suffix in SUFFIXES:
             mistakes.append(Mistake(word, 0, 0, "", f"no such file{nearest(path.stem, known)}"))
         else:
-            mistakes.append(Mistake(word, 0, 0, "", f"no such case{nearest(word, known)}"))
+            own = [str(file) for end in SUFFIXES if (file := Path(word + end)).is_file()]
+            hint = nearest(word, known) if not own else f"; did you mean {own[0]!r}?"
+            mistakes.append(Mistake(word, 0, 0, "", f"no such case{hint}"))
     if mistakes:
         raise CaseError(mistakes)
     return paths

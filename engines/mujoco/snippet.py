@@ -22,10 +22,13 @@ _KEPT = {
 }
 """What else decides, of an element of <default>."""
 _PAIRS = (
-    "a <pair> has no number of its geoms, nor their friction and condim: it takes these; and only "
-    "a pair has a solreffriction. Of the geoms that touch: <contact>"
+    "a <pair> has no number of its geoms, nor their friction and condim: it takes these{need}. Of "
+    "the geoms that touch: <contact>"
     '<pair geom1="…" geom2="…" condim="3" friction="{friction} {friction}" /></contact>'
 )
+_NEED = "; and only a pair has a solreffriction, without which the rest makes it hop"
+_PYRAMID = "a contact is the softer the larger its friction, as its cone is a pyramid: this is for "
+_CONTACTS = ("pair.", "option.impratio")  # what begins so acts on contacts alone
 
 
 def snippet(
@@ -38,7 +41,8 @@ def snippet(
 ) -> str:
     """What is not as MuJoCo has it by itself, for a model in which geoms touch.
 
-    notes: what no element says. friction: of the scene's contacts, where it has any.
+    notes: what no element says. friction: of the scene's contacts, where it has any. Numbers that
+    need a solreffriction beside them are for a <pair> alone: a geom has none, and hops with them.
     """
     before = {choice.name: choice.value for choice in shipped}
     changed = {c.name: c.value for c in choices if before.get(c.name) != c.value}
@@ -48,7 +52,8 @@ def snippet(
     default, beside = ET.Element("default"), list[str]()
     for group, element in _ELEMENTS.items():
         given = attributes(changed, group)
-        mine = {name: value for name, value in given.items() if (group, name) != ("pair", _ALONE)}
+        pairs_alone = group == "pair" and _ALONE in given
+        mine = {} if pairs_alone else given
         if mine:
             found = default.find(element)
             place = ET.SubElement(default, element) if found is None else found
@@ -60,8 +65,12 @@ def snippet(
         if group == "pair" and given:
             ET.SubElement(default, "pair", given)
     beside += [_KEPT[element.tag] for element in default if element.tag in _KEPT]
-    if default.find("pair") is not None:
-        beside.append(_PAIRS.format(friction=written(friction or 0.0)))
+    if (pair := default.find("pair")) is not None:
+        need = _NEED if _ALONE in pair.attrib else ""
+        beside.append(_PAIRS.format(need=need, friction=written(friction or 0.0)))
+    pyramid = {choice.name: choice.value for choice in choices}.get("option.cone") == "pyramidal"
+    if pyramid and friction and any(name.startswith(_CONTACTS) for name in changed):
+        beside.append(_PYRAMID + written(friction))
     for name, value in changed.items():
         where, _, attribute = name.rpartition(".")
         if where.startswith(f"{EACH}."):

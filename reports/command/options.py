@@ -65,6 +65,6 @@ def own_settings(becomes: str = "stands beside them, by its name") -> Decorated:
     return click.option(
         "--settings",
         multiple=True,
-        metavar="shipped|tuned|FILE",
+        metavar="shipped|recommended|tuned|FILE",
         help=f"Only this setting; a FILE of your own engine options {becomes}. May be repeated.",
     )

@@ -74,7 +74,7 @@ def _asked_elsewhere(one: Advised) -> tuple[Pair, list[Candidate], Mapping[str, 
 def _rejected(one: Advised, worst: Mapping[Candidate, float]) -> bool:
     """Whether one of the recipes does not hold elsewhere; what does not is not taken again."""
     assert one.kitchen is not None
-    one.kitchen.bar.elsewhere.update(worst)
+    one.kitchen.bar.leave_out(worst)
     return not all(one.kitchen.bar.holds(recipe.candidate) for _, recipe in one.wanted)
 
 

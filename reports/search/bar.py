@@ -9,6 +9,11 @@ from .errors import of
 from .together import Known
 
 
+def digits(error: float) -> float:
+    """In digits that no rounding decides."""
+    return float(f"{error:.3g}")
+
+
 @dataclass(frozen=True)
 class Bar:
     """margin: how often the worst error has to fit into what is allowed.
@@ -32,6 +37,21 @@ class Bar:
         errors = self.known[candidate]
         found = [(of(errors, name) * self.scale.get(name, 1.0), name) for name in names]
         return max(found, default=(inf, ""), key=lambda one: one[0])
+
+    def leave_out(self, elsewhere: Mapping[Candidate, float]) -> None:
+        """What does not hold elsewhere; and with it, at its step, whatever is just as far off here.
+
+        Options that change nothing here change nothing there: each would be asked after the other.
+        """
+        self.elsewhere.update(elsewhere)
+        here = {candidate: self._here(candidate) for candidate in self.known}
+        lost = {here[c]: x for c, x in self.elsewhere.items() if c in here and not x <= 1.0}
+        alike = {c: lost[here[c]] for c in here.keys() - self.elsewhere if here[c] in lost}
+        self.elsewhere.update(alike)
+
+    def _here(self, candidate: Candidate) -> tuple[float, float, str]:
+        worst, quantity = self.worst(candidate)
+        return candidate.step, digits(worst), quantity
 
     def holds(self, candidate: Candidate) -> bool:
         """At this step alone."""

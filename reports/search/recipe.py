@@ -11,7 +11,7 @@ from math import inf
 from typing import Any
 
 from ...engines.knobs import said
-from .bar import Bar
+from .bar import Bar, digits
 from .candidate import Candidate
 from .menu import MOST, NOTHING, WHOLE, Choice, Menu, parts
 from .together import Asking
@@ -45,7 +45,7 @@ class Kitchen:
         In digits that no rounding decides: of those that are alike the first, which changes least.
         """
         candidate = recipe.candidate
-        error = _told(self.bar.worst(candidate)[0])
+        error = digits(self.bar.worst(candidate)[0])
         return self.cost(candidate), recipe.choice.size, recipe.choice.protocol, error
 
 
@@ -186,11 +186,7 @@ def best(kitchen: Kitchen) -> tuple[Candidate, float, str] | None:
     """Of all that was run the least worst, where nothing keeps the bar."""
     told = [(candidate, *kitchen.bar.worst(candidate)) for candidate in kitchen.bar.known]
     finite = [one for one in told if one[1] < inf]
-    return min(finite, key=lambda one: (_told(one[1]), kitchen.cost(one[0])), default=None)
-
-
-def _told(error: float) -> float:
-    return float(f"{error:.3g}")
+    return min(finite, key=lambda one: (digits(one[1]), kitchen.cost(one[0])), default=None)
 
 
 def front(kitchen: Kitchen, thin: float = 0.8) -> Iterator[tuple[Candidate, float, str]]:

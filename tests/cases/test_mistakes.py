@@ -205,11 +205,12 @@ def test_find(tmp_path: Path) -> None:
     own.write_text(SOUND)
     assert [path.name for path in find(["four_bar", str(own)])] == ["four_bar.yaml", "own.yaml"]
     with pytest.raises(CaseError) as caught:
-        find(["four_bra", str(tmp_path), str(tmp_path / "for_bar.yaml")])
+        find(["four_bra", str(tmp_path), str(tmp_path / "for_bar.yaml"), str(tmp_path / "own")])
     said = {m.file: m.what for m in caught.value.mistakes}
     assert said["four_bra"] == "no such case; did you mean 'four_bar'?"
     assert said[str(tmp_path)] == "is a directory; a case is one YAML file"
     assert said[str(tmp_path / "for_bar.yaml")] == "no such file; did you mean 'four_bar'?"
+    assert said[str(tmp_path / "own")] == f"no such case; did you mean {str(own)!r}?"
 
 
 def test_of_an_engine_that_cannot_be_imported_no_setting_is_known(tmp_path: Path) -> None:

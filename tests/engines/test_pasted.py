@@ -8,7 +8,8 @@ was promised.
 # MuJoCo's bindings are compiled and have no stubs.
 # pyright: reportAttributeAccessIssue=false
 
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 from math import cos, degrees, sin
 from typing import Any
 
@@ -16,13 +17,16 @@ import mujoco
 import numpy as np
 import pytest
 from given import scenes
+from given.planning import begun
 
+from textmech.engines.mujoco import MuJoCo
 from textmech.reference.solve import solve
 from textmech.reports.cache.store import usable
 from textmech.reports.search.advised import Advised, Asked
 from textmech.reports.search.session import advised
 from textmech.reports.selection import choose_engines
 from textmech.reports.show.advice import told
+from textmech.reports.show.questions import listed
 
 pytestmark = pytest.mark.slow
 
@@ -134,6 +138,41 @@ def test_a_heavy_box_of_geoms_does_not_sink() -> None:
         assert abs(sunk(text)) < 2e-4  # m: what the case allows
 
 
+LYING = """
+<mujoco>
+  {pasted}
+  <worldbody>
+    <geom type="plane" size="0 0 1"/>
+    <body pos="0 0 0.1">
+      <freejoint/>
+      <geom type="sphere" size="0.1" mass="20"/>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+
+
+def lies(pasted: str) -> float:
+    """How deep [m] a ball lies in the floor after 1 s, with the friction 1 that MuJoCo gives it."""
+    model = mujoco.MjModel.from_xml_string(LYING.format(pasted=pasted))
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data, nstep=round(1.0 / model.opt.timestep))
+    return 0.1 - float(data.qpos[2])
+
+
+def test_a_ball_of_geoms_does_not_sink_as_the_question_is_answered() -> None:
+    """A finer step alone changes nothing of it, where friction is larger than the case's."""
+    (scene, start), engine = begun("sinking_ball"), MuJoCo("shipped")
+    setting = listed()["sinking_ball"].settings["mujoco"]
+    assert isinstance(setting, Mapping)
+    options = {name: value for name, value in setting.items() if name != "step"}
+    step = setting.get("step", engine.own_step)
+    allowed = 1e-4  # m: the case's own
+    assert lies("") > 3 * allowed
+    assert lies('<option timestep="0.001"/>') > 3 * allowed
+    assert lies(engine.snippet(scene, start, options, step)) < allowed
+
+
 BLOCK = """
 <mujoco>
   {pasted}
@@ -200,6 +239,50 @@ def test_a_ball_of_geoms_is_carried_from_the_first_step_on() -> None:
     assert carried("")[0] == 0.0
     for text in handed_over("rolling_wheel.pushed", "mujoco"):
         assert carried(text) == pytest.approx([G] * 5, rel=1e-2)
+
+
+DISK = """
+<mujoco>
+  {pasted}
+  <worldbody>
+    <geom name="floor" type="plane" size="0 0 1" friction="0.4 0 0"/>
+    <body pos="0 0 0.25">
+      <freejoint/>
+      <geom name="disk" type="cylinder" size="0.25 0.05" euler="90 0 0" friction="0.4 0 0"/>
+    </body>
+  </worldbody>
+  {pair}
+</mujoco>
+"""
+
+
+def thrown(pasted: str) -> tuple[float, float]:
+    """How far [m] a disk that spins back, slides up 10 degrees and rolls is off, and its hop."""
+    pair = "".join(re.findall("<contact>.*</contact>", pasted))
+    pair = pair.replace("…", "floor", 1).replace("…", "disk", 1)
+    model = mujoco.MjModel.from_xml_string(DISK.format(pasted=pasted, pair=pair))
+    slope, radius, v, spin = np.radians(10.0), 0.25, -3.0, -20.0
+    pulled, rubbed = G * sin(slope), 0.4 * G * cos(slope)
+    model.opt.gravity[:] = pulled, 0, -G * cos(slope)
+    data, hop = mujoco.MjData(model), 0.0
+    data.qvel[0], data.qvel[4] = v, -spin
+    for _ in range(round(2.0 / model.opt.timestep)):
+        mujoco.mj_step(model, data)
+        hop = max(hop, float(data.qpos[2]) - radius)
+    # it slides until its slip v + spin R is gone, which grows by pulled + 3 rubbed; then it rolls
+    slides = -(v + spin * radius) / (pulled + 3 * rubbed)
+    reached = v * slides + (pulled + rubbed) * slides**2 / 2
+    rolls, fast = 2.0 - slides, v + (pulled + rubbed) * slides
+    return abs(float(data.qpos[0]) - reached - fast * rolls - pulled / 3 * rolls**2), hop
+
+
+def test_a_disk_of_geoms_slides_and_rolls_where_the_pair_is_pasted_too() -> None:
+    off, hop = thrown("")
+    assert off > 3e-3
+    for text in handed_over("sliding_disk.uphill", "mujoco"):
+        assert thrown(text)[0] < 1e-3  # m: what the case allows
+        forgotten = re.sub("<contact>.*</contact>", "", text)
+        assert thrown(forgotten)[1] < 2 * hop  # where no pair is, it does no harm
 
 
 PENDULUM = """

@@ -132,6 +132,34 @@ def test_what_no_line_says_is_a_comment(
     assert note not in engine.snippet(scene, start, {}, STEP)
 
 
+def test_what_needs_a_solreffriction_is_for_pairs_alone() -> None:
+    """With the rest of it a thrown disk of geoms hops by 10 cm, and by 1 cm as shipped."""
+    scene, start = begun("sliding_disk.uphill")
+    numbers = {"solref": ["-0.25/h2", "-1/h"], "solimp": [0.000101, 0.000101, 0.001]}
+    for pair, geoms in ((numbers, True), ({**numbers, "solreffriction": [-1.0, "-1/h"]}, False)):
+        text = MuJoCo("shipped").snippet(scene, start, {"pair": pair}, STEP)
+        assert "<pair solref" in text
+        assert ("<geom solref" in text) == geoms
+        assert ("without which the rest makes it hop" in text) != geoms
+
+
+@pytest.mark.parametrize(
+    ("told", "noted"),
+    [
+        ({"impratio": 100.0}, True),
+        ({"pair": {"margin": 1e-9}}, True),
+        ({"cone": "elliptic", "impratio": 100.0}, False),
+        ({"integrator": "RK4"}, False),
+    ],
+    ids=str,
+)
+def test_for_which_friction_a_soft_contact_is_told(told: Options, noted: bool) -> None:
+    """A ball of geoms sinks 0.07 mm with 0.5 and 0.37 mm with MuJoCo's own 1."""
+    scene, start = begun("sinking_ball")
+    text = MuJoCo("shipped").snippet(scene, start, told, STEP)
+    assert ("as its cone is a pyramid: this is for 0.5" in text) == noted
+
+
 PYMUNK: list[tuple[str, Options]] = [
     ("bar_pendulum", {"iterations": 30, "error_bias": 0.0, "max_bias": 10.0}),
     ("four_bar", RECIPE),

@@ -11,6 +11,7 @@ from given.command import NEW, process, textmech
 from textmech.cases.case import Case
 from textmech.reference import solve as solving
 from textmech.reports import write
+from textmech.reports.selection import choose_engines
 
 
 @pytest.fixture(autouse=True)
@@ -55,6 +56,7 @@ def test_out_and_keep_write_where_they_are_told(new: Path, tmp_path: Path) -> No
         "coverage.csv",
         "events.csv",
         "reference.csv",
+        "runs.csv",
         "tolerance.csv",
     ]
     head, *rows = (tmp_path / "k" / "cart.csv").read_text().splitlines()
@@ -105,6 +107,14 @@ def test_an_unknown_tolerance_is_never_written_but_said(new: Path) -> None:
     assert done.returncode == 1
     assert "was measured: type a number" in done.stdout
     assert "unknown" in new.read_text()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("command", ["run", "page", "versions"])
+def test_help_names_every_setting_that_engines_offer(command: str) -> None:
+    offered = {engine.setting for engine in choose_engines(["mujoco", "pymunk"], [])}
+    metavar = next(line for line in textmech(command, "--help").stdout.split() if "|FILE" in line)
+    assert set(metavar.split("|")) == {*offered, "FILE"}
 
 
 @pytest.mark.slow

@@ -53,6 +53,10 @@ INCLINE = "turns gravity, never the ground: x points down the slope"
 class Scene(Part):
     """Bodies and what joins, touches and drives them."""
 
+    elsewhere = {  # noqa: RUF012  # a ClassVar of Part
+        "stops": "each is one of the `forces`: NAME: {stops: JOINT, low: -90 deg}"
+    }
+
     space: Annotated[int, Space()] | None = Field(None, description="3: a scene in space")
     gravity: Gravity | None = Field(None, description=GRAVITY)
     seen: Annotated[str, Word("view", ("from above",))] | None = Field(

@@ -17,7 +17,10 @@ class _Joint(Element):
     elsewhere: ClassVar[Mapping[str, str]] = {
         "damping": "among the `forces` there is a `torsion_damper` of a turn, and a `damper`",
         "stiffness": "among the `forces` there is a `torsion` spring of a turn, and a `spring`",
-        **dict.fromkeys(("limits", "range"), "where a turn ends are `stops` among the forces"),
+        **dict.fromkeys(
+            ("stops", "limits", "range"),
+            "where a turn ends stands among the `forces`: {stops: JOINT, low: -90 deg}",
+        ),
     }
 
     @property

@@ -49,6 +49,16 @@ def test_recipes_that_are_known(
 
 
 @pytest.mark.slow
+def test_a_step_finer_is_found_where_a_loop_cut_elsewhere_needs_it() -> None:
+    """With 2 ms all that keeps a thousandth does so only with the loop cut where it is."""
+    one = advice(Asked(1e-3, 2.0), "opening_loop", engines=("mujoco",))["opening_loop mujoco"]
+    assert one.settings == (
+        "mujoco: {connect: {solimp: [0.9999, 0.9999, 0.001], solref: [8h, 1.0]}, "
+        "integrator: RK4, step: 0.001}"
+    )
+
+
+@pytest.mark.slow
 def test_a_loop_needs_both_and_a_creeping_block_only_its_impratio(
     found: Mapping[str, Advice],
 ) -> None:
@@ -110,5 +120,5 @@ def test_a_finer_step_costs_more_time() -> None:
 @pytest.mark.slow
 def test_advice_as_a_frame() -> None:
     found = advise("bar_pendulum", engines=["mujoco"])
-    assert list(found.columns)[:3] == ["case", "engine", "tolerance"]
+    assert list(found.columns)[:4] == ["case", "theme", "engine", "tolerance"]
     assert found.settings.tolist() == ["mujoco: {integrator: RK4, step: 0.01}"]

@@ -30,7 +30,7 @@ class Told:
         known: dict[Key, list[Cause]] = {}
         for one in self.causes:
             before, allow = as_written(one.error), as_written(one.allowed)
-            known.setdefault(key_of(one), []).append(replace(one, error=before, allow=allow))
+            known.setdefault(key_of(one), []).append(replace(one, error=before, allowed=allow))
         return known
 
     @property
@@ -79,7 +79,7 @@ Change = Callable[[Cause], Cause]
 CHANGES: Mapping[str, Change] = {
     "of another version or adapter": lambda c: replace(c, searched_with="4.0.0 0123456789ab"),
     "of another error": lambda c: replace(c, error=1.01 * (c.error or 0.0)),
-    "of another tolerance": lambda c: replace(c, allow=2 * (c.allowed or 0.0)),
+    "of another tolerance": lambda c: replace(c, allowed=2 * (c.allowed or 0.0)),
     "of no search": lambda c: replace(c, searched_with=""),
 }
 

@@ -64,7 +64,7 @@ def test_scripts_read_rows(new: Path, tmp_path: Path) -> None:
     found = json.loads(done.stdout)
     assert found["exit_code"] == 0
     assert {row["engine"] for row in found["advice"]} == {"mujoco", "pymunk"}
-    assert all(0 < row["worst"] <= 0.5 for row in found["advice"])
+    assert all(0 < row["ratio"] <= 0.5 for row in found["advice"])
     written = write.read(tmp_path / "out" / write.ADVICE, Advice)
     assert [(row.engine, row.want, row.recipe) for row in written] == [
         (row["engine"], row["want"], row["recipe"]) for row in found["advice"]

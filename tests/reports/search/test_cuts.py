@@ -13,6 +13,7 @@ from textmech.reports.search import cuts
 from textmech.reports.search.bar import Bar
 from textmech.reports.search.candidate import Candidate
 from textmech.reports.search.errors import Run, errors
+from textmech.reports.search.together import Known
 from textmech.reports.selection import choose_engines
 from textmech.reports.unit import Pair
 
@@ -63,3 +64,14 @@ def test_it_is_not_taken_then() -> None:
         bars, "return here and self.elsewhere.get(candidate, 0.0) <= 1.0", "return here"
     )
     assert holds(blind, 1.1)
+
+
+def test_what_changes_nothing_is_left_out_with_it() -> None:
+    """Or each setting of the solver would be asked of other cuts after the one before."""
+    soft, alike, other = (Candidate.of({"tolerance": x}, 1e-3) for x in (1e-8, 1e-9, 1e-10))
+    finer = Candidate.of({"tolerance": 1e-9}, 5e-4)
+    worst = {soft: 0.1, alike: 0.10001, other: 0.2, finer: 0.1}
+    bar = Bar(Known({candidate: {"x": (x, x)} for candidate, x in worst.items()}), 2.0)
+    bar.leave_out({soft: 1.5})
+    assert [bar.holds(c) for c in (soft, alike, other, finer)] == [False, False, True, True]
+    assert bar.elsewhere == {soft: 1.5, alike: 1.5}
