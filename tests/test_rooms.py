@@ -34,7 +34,8 @@ ROOMS = {
         "mujoco pymunk",
     ],
     "reports": [
-        "own_settings spelled limit amount content",
+        "limit amount content",
+        "own_settings spelled",
         "row runs pins selection coverage events lock ending cluster pytest_short pytest_options",
         "processes child trial replace passing ours promised",
         "diff",
