@@ -59,11 +59,14 @@ def test_a_release_that_moved_a_number_is_seen_and_one_that_did_not_is_not(
         by_version.setdefault(row["version"], []).append(row)
     now, equal, other = (by_version[version] for version in (NOW, "90.1", "90.2"))
     for row, its_equal in zip(now, equal, strict=True):
-        assert its_equal == {**row, "version": "90.1"}
+        assert its_equal == {**row, "version": "90.1", "release": "2"}
         assert row["moved"] == ""
     moved = [row for row in other if row["moved"]]
     assert {row["quantity"] for row in moved} >= {"rod.angle", "cart.x"}
     assert {row["change"] for row in moved} == {"regression"}
+    assert {row["release"] for row in other} == {"3"}
+    (angle,) = [row for row in moved if row["quantity"] == "rod.angle"]
+    assert float(angle["ratio"]) > 10
 
 
 @pytest.mark.slow
@@ -76,9 +79,10 @@ def test_what_a_release_lacks_is_a_row_that_says_so(case: Path, tmp_path: Path) 
     assert "Traceback" not in done.stderr
     assert "91.1: refused: adapter: pymunk" in done.stdout
     lacking, dying = rows(tmp_path / "out")
-    assert lacking["verdict"].startswith("refused: adapter: pymunk")
-    assert "no module of this name any more" in lacking["verdict"]
-    assert dying["verdict"] == "crashed: its process ended by signal 9"
+    assert lacking["verdict"] == "refused"
+    assert lacking["because"].startswith("adapter: pymunk")
+    assert "no module of this name any more" in lacking["because"]
+    assert (dying["verdict"], dying["because"]) == ("crashed", "its process ended by signal 9")
     assert {row["case"] for row in (lacking, dying)} == {"cart"}
 
 
