@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from given.otherwise import otherwise
 from given.watched import Oscillator, Still, Watched, events
 
 from textmech.reference.motion import crossing as module
@@ -119,6 +120,15 @@ def test_a_fall_at_once_is_found_though_it_comes_back():
     assert found(dips(0.0, 0.6), begins=True) == 0.0
     assert found(lambda t: t * (t - 1e-3) * (t - 0.6), begins=True) == pytest.approx(1e-3)
     assert found(dips(0.0, 0.6), begins=True, spent=True) is None
+
+
+@pytest.mark.mutant("a guard that falls at once and comes back in the same step has not fallen")
+def test_a_fall_at_once_that_is_passed_over_is_seen():
+    g = dips(0.0, 0.6)
+    given = (g, POINTS, [g(t) for t in POINTS])
+    assert crossing(*given, begins=True, spent=False) == 0.0
+    blind = otherwise(module, "if begins and not spent and rise:", "if False:")
+    assert blind.crossing(*given, begins=True, spent=False) != 0.0
 
 
 @pytest.mark.mutant("a guard that dips below zero between the points of a step")
