@@ -15,8 +15,8 @@ from ...cases.space.scene import SpatialScene
 from ...cases.states import MASS_MATRIX
 from ...cases.trajectory import Array
 from .force import lacking
-from .law.signal import installed
-from .run import listening, started
+from .law.signal import installed, listening
+from .run import started
 from .shaped import sensor, shaped
 from .space.tree import natives, spanning_tree
 from .tree import called

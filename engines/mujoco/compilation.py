@@ -18,10 +18,10 @@ from ..engine import Choice, Plan, Start
 from .hinge import hinge
 from .law.inner import acting
 from .law.settle import settle
-from .law.signal import installed
+from .law.signal import installed, listening
 from .law.taut import draw
 from .law.touch import one_touch, touches
-from .run import listening, started
+from .run import started
 from .scene import mjcf
 from .settings import alone
 from .stops import lean

@@ -8,21 +8,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
-import mujoco
-
 from ...cases.joint import DRIVES
 from ...cases.scene import GROUND, Joint, Scene
 from ...cases.signal import Signal
-from ...cases.trajectory import Array
-from ..law import TORQUES
 from ..signal import derivative
-from .force import about, signals
-from .read.reaction import Seen, line
+from .force import signals
 from .tree import coordinate, spanning_tree
 from .written import written
 
 HEAVY = 1e15  # kg m² (kg of a slide): what a scene exerts changes the rate by 1e-15 of it
-NEEDED = ("qpos", "qvel", "xmat", "actuator_force")
 
 
 @dataclass(frozen=True)
@@ -78,25 +72,3 @@ def write(root: ET.Element, scene: Scene) -> None:
         # The gear is what is heavy: a control above 1e10 would be "huge".
         gear = written(HEAVY * size)
         ET.SubElement(section, "general", name=f"drive.{i}", joint=name, gear=gear)
-
-
-def effort(
-    scene: Scene, model: mujoco.MjModel, seen: Seen, drive: Drive, held: tuple[Array, ...]
-) -> Array:
-    """(N,) what the drive exerts on the second part [N m or N].
-
-    held: fx, fy and torque of all that holds the second part, from which what else acts about the
-    joint is taken away.
-    """
-    fx, fy, torque, *_ = held
-    if drive.effort.endswith(".drive"):
-        ux, uy = line(model, seen, drive.joint).T
-        return ux * fx + uy * fy
-    place = model.joint(drive.name)
-    angle = drive.way * seen["qpos"][:, place.qposadr[0]]
-    rate = drive.way * seen["qvel"][:, place.dofadr[0]]
-    for other in scene.forces.values():
-        if other.about == drive.joint.name and (law := TORQUES.get(type(other))):  # type: ignore[arg-type]
-            torque = torque - law(other, angle, rate)  # type: ignore[arg-type]
-    sizes = seen["actuator_force"]
-    return torque - drive.way * about(scene, model, drive.joint.name, sizes)

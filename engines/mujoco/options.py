@@ -8,8 +8,7 @@ import mujoco
 
 from ..tied import FORMS, at, tied
 from .contact import RECIPES
-from .law.signal import installed
-from .run import listening
+from .law.signal import installed, listening
 from .space.contact import RECIPES as RECIPES_IN_SPACE
 from .written import EACH, of_one
 

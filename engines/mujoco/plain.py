@@ -20,9 +20,8 @@ from ..signal import factor, value
 from .drive import controls
 from .force import BY_ITSELF
 from .law.friction import one_slide
-from .law.signal import Control, installed
+from .law.signal import Control, installed, listening
 from .read.poses import poses
-from .run import listening
 
 Take = Callable[[int], None]
 

@@ -1,8 +1,5 @@
 """Stepping MuJoCo: its own loop between samples, one record a sample, everything read later."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-
 import mujoco
 import numpy as np
 
@@ -12,7 +9,7 @@ from ..engine import Diverged, Realised, Start
 from .drive import controls
 from .law.edge import edges
 from .law.inner import acting, activations, rated
-from .law.signal import Corners, installed, signals
+from .law.signal import Corners, installed, listening, signals
 from .law.smooth import smooth
 from .law.stepping import stepping
 from .law.told import told
@@ -20,21 +17,6 @@ from .read.poses import poses
 from .read.reaction import felt_force
 from .read.readout import read
 from .read.record import Record, all_steps, counted, sampled, whole
-
-
-@contextmanager
-def listening() -> Iterator[list[str]]:
-    """MuJoCo's warnings as a list.
-
-    Without someone who listens, MuJoCo writes them to MUJOCO_LOG.TXT in the user's folder.
-    """
-    messages: list[str] = []
-    before = mujoco.get_mju_user_warning()
-    mujoco.set_mju_user_warning(messages.append)
-    try:
-        yield messages
-    finally:
-        mujoco.set_mju_user_warning(before)
 
 
 def started(model: mujoco.MjModel) -> tuple[mujoco.MjModel, mujoco.MjData]:

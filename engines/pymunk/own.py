@@ -11,7 +11,7 @@ from .holding import Holding, holding
 from .options import BY_THE_SCENE, PROTOCOL, full
 from .recipe import recipe
 from .rope import eases
-from .scene import oblique
+from .slot import oblique
 from .settings import DEFAULT, defaults
 
 _BECAUSE = "your own option"

@@ -18,7 +18,7 @@ from .law.friction import ruled
 from .own import Own
 from .pair import closed_pairs
 from .recipe import Recipe
-from .scene import oblique
+from .slot import oblique
 
 Numbers = Recipe | Own
 NOMINAL = 1e-3  # s; whether a bias is 0 depends on no step

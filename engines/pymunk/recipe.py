@@ -12,7 +12,7 @@ from ..engine import Choice, Start
 from .contact import closed, is_tip
 from .holding import Holding, holding
 from .rope import eases
-from .scene import oblique
+from .slot import oblique
 
 _MIDPOINT = Choice(
     "time.midpoint",

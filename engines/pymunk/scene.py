@@ -13,7 +13,7 @@ from pymunk.constraints import Constraint, GearJoint, GrooveJoint, PinJoint, Piv
 from pymunk.shapes import Segment
 from pymunk.space import Space
 
-from ...cases.scene import GROUND, Anchor, DryFriction, Joint, Scene, Vector
+from ...cases.scene import GROUND, DryFriction, Joint, Scene, Vector
 from ..engine import Realised, Start
 from ..stride import stride
 from .contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle, closed, only, planes
@@ -21,7 +21,7 @@ from .edge import add_edges
 from .force import lines
 from .pair import add_pairs
 from .rope import add_ropes
-from .slot import line, pinned
+from .slot import holds_angle, line, oblique, pinned, turns
 from .stops import add_stops
 from .world import World
 
@@ -142,19 +142,9 @@ def _across(world: World, joint: Joint) -> GrooveJoint:
     return GrooveJoint(world.body(joint.a), world.body(joint.b), *ends, (0.0, 0.0))
 
 
-def holds_angle(scene: Scene, joint: Joint) -> bool:
-    """Whether both parts have an angle and one of them can turn; a particle has none."""
-    bodies = [scene.bodies[p.body] for p in (joint.a, joint.b) if p.body != GROUND]
-    return all(body.turns for body in bodies)
-
-
 def reach(world: World, joint: Joint) -> float:
     """How far [m] the second part can shift to each side."""
     return world.reach if joint.a.body == GROUND else NEAR
-
-
-def turns(scene: Scene, anchor: Anchor) -> bool:
-    return anchor.body != GROUND and scene.bodies[anchor.body].turns
 
 
 def phase(joint: Joint, start: Start) -> float:
@@ -169,7 +159,7 @@ def groove(world: World, joint: Joint) -> tuple[Vector, Vector, Vector]:
     A slot has its own line. As a slide lets nothing turn, any parallel line holds the same: it
     runs through the centre of a first part that turns, else of the second, and meets the other
     where it is nearest to that one's centre. pymunk projects K⁻¹(v_bias − v) onto the groove's
-    normal, and only there is the normal a principal axis of K; see `oblique` for elsewhere.
+    normal, and only there is the normal a principal axis of K; see `slot.oblique` for elsewhere.
     """
     (ax, ay), (ux, uy) = world.local(joint.a), joint.along
     cos, sin = math.cos(joint.angle), math.sin(joint.angle)
@@ -185,20 +175,3 @@ def groove(world: World, joint: Joint) -> tuple[Vector, Vector, Vector]:
         px, py, anchor = 0.0, 0.0, (cos * nx + sin * ny, cos * ny - sin * nx)
     ends = (px - far * ux, py - far * uy), (px + far * ux, py + far * uy)
     return *ends, anchor
-
-
-def oblique(scene: Scene, joint: Joint) -> bool:
-    """Whether a groove has to lie where K is oblique to it: beside a turning centre.
-
-    There the solver settles with the second point off the line by c h times its sliding speed, and
-    with other joints nowhere near it; see slot.py.
-    """
-    if not joint.shifts or (not joint.turns and holds_angle(scene, joint)):
-        return False
-    second = scene.bodies[joint.b.body].points[joint.b.point] if turns(scene, joint.b) else ()
-    if joint.turns and any(second):
-        return True
-    if not turns(scene, joint.a):
-        return False
-    (x, y), (ux, uy) = scene.bodies[joint.a.body].points[joint.a.point], joint.along
-    return abs(ux * y - uy * x) > 1e-12 * math.hypot(x, y)

@@ -7,6 +7,7 @@ else. Laid across the groove, its far end carried beside the point in every step
 line exactly.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -14,6 +15,8 @@ from pymunk.body import Body
 from pymunk.constraints import Constraint, PinJoint
 from pymunk.space import Space
 from pymunk.vec2d import Vec2d
+
+from ...cases.scene import GROUND, Anchor, Joint, Scene
 
 LENGTH = 1.0  # m, of the pin joint: of no effect, as its direction is set anew in every step
 
@@ -55,3 +58,30 @@ def carried(point: Vec2d, along: Vec2d) -> Callable[[Constraint, Space], None]:
         joint.anchor_a = end + along * (there - point).dot(along)
 
     return carry
+
+
+def oblique(scene: Scene, joint: Joint) -> bool:
+    """Whether a groove has to lie where K is oblique to it: beside a turning centre.
+
+    There the solver settles with the second point off the line by c h times its sliding speed, and
+    with other joints nowhere near it.
+    """
+    if not joint.shifts or (not joint.turns and holds_angle(scene, joint)):
+        return False
+    second = scene.bodies[joint.b.body].points[joint.b.point] if turns(scene, joint.b) else ()
+    if joint.turns and any(second):
+        return True
+    if not turns(scene, joint.a):
+        return False
+    (x, y), (ux, uy) = scene.bodies[joint.a.body].points[joint.a.point], joint.along
+    return abs(ux * y - uy * x) > 1e-12 * math.hypot(x, y)
+
+
+def holds_angle(scene: Scene, joint: Joint) -> bool:
+    """Whether both parts have an angle and one of them can turn; a particle has none."""
+    bodies = [scene.bodies[p.body] for p in (joint.a, joint.b) if p.body != GROUND]
+    return all(body.turns for body in bodies)
+
+
+def turns(scene: Scene, anchor: Anchor) -> bool:
+    return anchor.body != GROUND and scene.bodies[anchor.body].turns

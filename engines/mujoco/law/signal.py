@@ -92,6 +92,21 @@ def installed(control: Control | None) -> Iterator[None]:
         mujoco.set_mjcb_control(before)
 
 
+@contextmanager
+def listening() -> Iterator[list[str]]:
+    """MuJoCo's warnings as a list.
+
+    Without someone who listens, MuJoCo writes them to MUJOCO_LOG.TXT in the user's folder.
+    """
+    messages: list[str] = []
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(messages.append)
+    try:
+        yield messages
+    finally:
+        mujoco.set_mju_user_warning(before)
+
+
 def bound(bind: Callable[[mujoco.MjData], Callable[[], None]]) -> Control:
     """A callback that takes MuJoCo's arrays once: to fetch one at every stage costs half a law."""
     known: mujoco.MjData | None = None

@@ -12,17 +12,19 @@ import numpy as np
 
 from ....cases.scene import Scene
 from ....cases.trajectory import Array
+from ...law import TORQUES
 from ...stride import strode
-from ..drive import NEEDED as DRIVING
-from ..drive import drives, effort
+from ..drive import Drive, drives
 from ..edge import fields
+from ..force import about
 from ..tree import Tree, spanning_tree
 from .acceleration import NEEDED, acceleration
 from .friction import SlideFriction
-from .reaction import damped, felt_force, joint_force, pinned
+from .reaction import Seen, damped, felt_force, joint_force, line, pinned
 from .record import Counts, Record
 
 _TOUCHING = ("sensordata", "qfrc_applied")
+_DRIVING = ("qpos", "qvel", "xmat", "actuator_force")
 _JOINTS = ("cfrc_int", "subtree_com", "site_xpos", "actuator_force")
 _STATE = int(
     mujoco.mjtState.mjSTATE_TIME
@@ -60,7 +62,7 @@ def read(
         elif part in scene.bodies:
             found[name] = acceleration(model, seen, part, field)
         elif name in driving:
-            found[name] = effort(scene, model, seen, driving[name], of_joint(part))
+            found[name] = _effort(scene, model, seen, driving[name], of_joint(part))
         elif part in scene.joints:
             found[name] = of_joint(part)[("fx", "fy", "torque", "force").index(field)]
         elif part in strode(scene):
@@ -68,6 +70,28 @@ def read(
         else:
             found[name] = felt_force(scene, model, name, seen["sensordata"], seen["qfrc_applied"])
     return found
+
+
+def _effort(
+    scene: Scene, model: mujoco.MjModel, seen: Seen, drive: Drive, held: tuple[Array, ...]
+) -> Array:
+    """(N,) what the drive exerts on the second part [N m or N].
+
+    held: fx, fy and torque of all that holds the second part, from which what else acts about the
+    joint is taken away.
+    """
+    fx, fy, torque, *_ = held
+    if drive.effort.endswith(".drive"):
+        ux, uy = line(model, seen, drive.joint).T
+        return ux * fx + uy * fy
+    place = model.joint(drive.name)
+    angle = drive.way * seen["qpos"][:, place.qposadr[0]]
+    rate = drive.way * seen["qvel"][:, place.dofadr[0]]
+    for other in scene.forces.values():
+        if other.about == drive.joint.name and (law := TORQUES.get(type(other))):  # type: ignore[arg-type]
+            torque = torque - law(other, angle, rate)  # type: ignore[arg-type]
+    sizes = seen["actuator_force"]
+    return torque - drive.way * about(scene, model, drive.joint.name, sizes)
 
 
 def _needed(scene: Scene, tree: Tree, reactions: tuple[str, ...]) -> set[str]:
@@ -82,7 +106,7 @@ def _needed(scene: Scene, tree: Tree, reactions: tuple[str, ...]) -> set[str]:
         elif part not in scene.joints:
             names |= {"efc_force"} if part in strode(scene) else {*_TOUCHING}
         elif field != "friction":
-            names |= {*DRIVING} if scene.drives else set()
+            names |= {*_DRIVING} if scene.drives else set()
             closes = scene.joints[part] in tree.loops
             names |= {"efc_force", "site_xpos"} if closes else {*_JOINTS}
             names |= {"qvel", "xmat"} if damped(scene, scene.joints[part]) else set()

@@ -8,8 +8,8 @@ import mujoco
 from ....cases.space.scene import SpatialScene
 from ...engine import Plan, Start
 from ..compilation import timestep
-from ..law.signal import installed
-from ..run import listening, started
+from ..law.signal import installed, listening
+from ..run import started
 from .scene import mjcf
 from .settle import settle
 

@@ -1,25 +1,15 @@
-"""Edges in space: a blade that does not slip to its side, nor leave its height if that is kept."""
+"""What edges hold in space, row by row, in the order in which `userdata` has their forces."""
 
 from collections.abc import Iterator
 from xml.etree import ElementTree as ET
 
-import mujoco
-import numpy as np
-
 from ....cases.space.constraint import SpatialEdge
-from ....cases.space.rotation import Vector3
 from ....cases.space.scene import SpatialScene
-from ....cases.trajectory import Array
-from ..law.edge import Row, Way, holding, still
-from ..law.signal import Control
-from ..tree import called
-
-UP = np.array([0.0, 0.0, 1.0])
 
 
 def fields(scene: SpatialScene) -> list[str]:
-    """The reactions of the scene's edges, in the order in which `userdata` has them."""
-    return [f"{edge.name}.{field}" for edge, field in _held(scene)]
+    """The reactions of the scene's edges, as quantities."""
+    return [f"{edge.name}.{field}" for edge, field in held(scene)]
 
 
 def write_room(root: ET.Element, scene: SpatialScene) -> None:
@@ -28,35 +18,9 @@ def write_room(root: ET.Element, scene: SpatialScene) -> None:
         ET.SubElement(root, "size", nuserdata=str(len(fields(scene))))
 
 
-def edges(scene: SpatialScene, model: mujoco.MjModel) -> list[Control]:
-    """One callback for all edges, or none."""
-    return holding(model, [_row(model, edge, field) for edge, field in _held(scene)])
-
-
-def _held(scene: SpatialScene) -> Iterator[tuple[SpatialEdge, str]]:
+def held(scene: SpatialScene) -> Iterator[tuple[SpatialEdge, str]]:
+    """Each edge's force to its side, and the one on its height where that is kept."""
     for edge in scene.constraints.values():
         yield edge, "force"
         if edge.kept:
             yield edge, "normal"
-
-
-def _row(model: mujoco.MjModel, edge: SpatialEdge, field: str) -> Row:
-    body, site = model.body(called(edge.at.body)).id, model.site(str(edge.at)).id
-    return Row(body, site, _upward if field == "normal" else _leftward(edge.along), still)
-
-
-def _upward(axes: Array, omega: Array) -> tuple[Array, Array]:
-    return UP, np.zeros(3)
-
-
-def _leftward(along: Vector3) -> Way:
-    """w is 90 degrees to the left of the blade's shadow h: ẇ = −ψ̇ h/|h|, with ψ̇ its turning."""
-
-    def left(axes: Array, omega: Array) -> tuple[Array, Array]:
-        x, y, z = axes @ along
-        size = np.hypot(x, y)
-        turning = omega[2] - z * (omega[0] * x + omega[1] * y) / size**2
-        way = np.array([-y, x, 0.0]) / size
-        return way, turning * np.array([-way[1], way[0], 0.0])
-
-    return left

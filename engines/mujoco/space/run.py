@@ -8,12 +8,13 @@ import numpy as np
 from ....cases.space.scene import SpatialScene
 from ....cases.trajectory import Array, Trajectory
 from ...engine import Realised, Start
-from ..law.signal import Corners, following, together
+from ..law.signal import Corners, following, listening, together
 from ..law.stepping import Steps
 from ..read.record import Counts, Record, all_steps, counted, sampled, whole
-from ..run import check, listening
+from ..run import check
 from .drive import drives
-from .edge import edges, fields
+from .blade import edges
+from .edge import fields
 from .read.reaction import contact_force, effort, joint_wrench
 from .read.seen import EDGES, JOINTS, LOOPS, TOUCHING, Seen, seen
 from .read.states import states

@@ -13,7 +13,7 @@ from ...engine import Start
 from ..contact import closed
 from ..force import ELEMENTS
 from ..lacking import lacking
-from ..scene import oblique
+from ..slot import oblique
 from ..world import World
 from .cold import NO_TIME, Lengths, drift, open_gaps
 from .foot import Carrier, Foot
