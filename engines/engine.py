@@ -7,6 +7,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 
+import numpy as np
+
+from ..cases.motion import Motion
 from ..cases.scene import Scene
 from ..cases.trajectory import Array, Trajectory
 from .knobs import Knob, Options
@@ -262,3 +265,12 @@ def lacking(engine: object, protocol: type) -> tuple[str, ...]:
     members = [*getattr(protocol, "__annotations__", {}), *vars(protocol)]
     public = (name for name in dict.fromkeys(members) if not name.startswith("_"))
     return tuple(name for name in public if not hasattr(engine, name))
+
+
+# A start as elements look at it: a motion of one row.
+
+
+def begun(scene: Scene, start: Start) -> Motion:
+    """The start."""
+    states = {name: np.array([start[name]]) for name in scene.bodies}
+    return Motion(scene.bodies, scene.points, Trajectory(np.zeros(1), states, {}), scene.joints)

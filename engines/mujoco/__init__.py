@@ -15,13 +15,12 @@ from ..knobs import Knob, Options
 from . import options, settings
 from .claims import answered
 from .compilation import NOMINAL, timestep
-from .drawn import drawn
 from .knobs import STEPS, cost, knobs
 from .own import as_options, unfit
 from .plane import PLANE
 from .refuse import not_native, uncompilable
 from .rods import of_scene
-from .script import commented, controls
+from .script import commented, controls, drawn
 from .snippet import said, snippet
 from .space.world import SPACE
 from .world import World

@@ -10,8 +10,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 
 from ...cases.scene import CENTER, Anchor, Contact, Pair, Scene
-from ..begun import begun
-from ..engine import Choice, Start
+from ..engine import Choice, Start, begun
 from .bounce import dead, springy
 from .planes import met, touching
 from .written import of_one

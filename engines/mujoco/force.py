@@ -4,6 +4,7 @@ A tendon carries a spring or a damper. An actuator carries what follows a law in
 makes a constant, the integral of 1 a ramp; any other law's control is a callback.
 """
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -20,28 +21,132 @@ from ...cases.force import (
     Line,
     LinearMuscle,
     Magnetic,
-    Motor,
     Muscle,
     Push,
     Rope,
     Spring,
     Stops,
     Torque,
-    Torsion,
-    TorsionDamper,
     Viscous,
 )
+from ...cases.muscle import Contracting
 from ...cases.scene import CENTER, GROUND, Anchor, Scene
 from ...cases.signal import Signal
 from ...cases.trajectory import Array
-from .couple import couple_outer, write_couple
+from ...cases.turning import Motor, Torsion, TorsionDamper
 from .hinge import Hinge, hinge
-from .muscle import ANOTHER, NOTHING, write_muscle
 from .rope import rope_length, write_rope
 from .stops import stop_numbers, write_stops
-from .turning import motor, torsion, torsion_damper, torsion_damping, torsion_numbers
-from .viscous import damping, not_polynomial, viscous_numbers, write_viscous
 from .written import written
+
+# Viscous friction along a slide as MuJoCo's damping of a joint: a v + b v|v| + c v³.
+
+
+_POWERS = (1.0, 2.0, 3.0)
+
+
+def not_polynomial(force: Viscous) -> str | None:
+    """Why it is not such a damping: another exponent, or another coefficient each way."""
+    if force.exponent in _POWERS and force.coefficient.forward == force.coefficient.backward:
+        return None
+    return "engine: MuJoCo damps a joint by a v + b v|v| + c v³, alike both ways"
+
+
+def write_viscous(sections: object, force: Viscous, along: Hinge) -> None:
+    """The coefficient of its power, if MuJoCo has that."""
+    if not_polynomial(force):
+        return
+    assert along.element is not None
+    d, power = force.coefficient.forward, _POWERS.index(force.exponent)
+    along.element.set("damping", written(*[d if i == power else 0.0 for i in range(3)]))
+
+
+def damping(force: Viscous, slip: Array) -> Array:
+    """(N,) what such a damping exerts along the slide, by the slip [m/s]."""
+    return -force.coefficient.forward * np.abs(slip) ** force.exponent * np.sign(slip)
+
+
+def viscous_numbers(model: mujoco.MjModel, force: Viscous, along: Hinge) -> dict[str, float]:
+    """The coefficient, as the compiled model holds it."""
+    dof = model.jnt_dofadr[model.joint(along.name).id]
+    held = [model.dof_damping[dof], *np.ravel(model.dof_dampingpoly[dof])]
+    d = float(held[_POWERS.index(force.exponent)])
+    return {"forward": d, "backward": d}
+
+
+# What acts about a joint: MuJoCo's own of the joint, or an actuator.
+
+
+def torsion(sections: Mapping[str, ET.Element], force: Torsion, about: Hinge) -> None:
+    """A torsion spring is a joint's own."""
+    about.give("stiffness", force.stiffness)
+    about.give("springref", math.degrees(about.way * force.rest_angle))
+
+
+def torsion_numbers(model: mujoco.MjModel, force: Torsion, about: Hinge) -> dict[str, float]:
+    """What the joint holds of it."""
+    number = model.joint(about.name).id
+    rest = about.way * model.qpos_spring[model.jnt_qposadr[number]]
+    return {"stiffness": np.ravel(model.jnt_stiffness[number])[0], "rest_angle": rest}
+
+
+def torsion_damper(sections: Mapping[str, ET.Element], force: TorsionDamper, about: Hinge) -> None:
+    """A damper is a joint's own too."""
+    about.give("damping", force.damping)
+
+
+def torsion_damping(model: mujoco.MjModel, force: TorsionDamper, about: Hinge) -> dict[str, float]:
+    """What the joint holds of it."""
+    dof = model.jnt_dofadr[model.joint(about.name).id]
+    return {"damping": np.ravel(model.dof_damping[dof])[0]}
+
+
+def motor(sections: Mapping[str, ET.Element], force: Motor, about: Hinge) -> None:
+    """An actuator of the joint."""
+    gear = written(about.way * force.signal.amplitude[0])
+    given = {"name": force.name, "joint": about.name, "gear": gear}
+    element = ET.SubElement(sections["actuator"], "general", given)
+    if force.signal.law == "ramp":
+        element.set("dyntype", "integrator")
+
+
+# The inner state of a muscle, as the activation of an actuator that does nothing else.
+
+
+# Set up as near to it as can be, it has a load that it lifts by 84 mm up to 10 mm elsewhere.
+ANOTHER = (
+    "engine: MuJoCo's muscle is another law: without an element in series, its force falls as a "
+    "parabola of its speed"
+)
+NOTHING = Signal("constant", (0.0,))
+
+
+def write_muscle(sections: Mapping[str, ET.Element], force: Contracting) -> None:
+    """An actuator without gain, whose activation has the rate that our callback gives."""
+    ET.SubElement(
+        sections["actuator"], "general", name=force.name, site=GROUND, gear="0 0 0 0 0 0",
+        dyntype="user", actdim="1", gainprm="0",
+    )  # fmt: skip
+
+
+# A torque between two bodies: an actuator at one body's site, against the site of the other.
+
+
+def write_couple(sections: Mapping[str, ET.Element], force: Couple) -> None:
+    """MuJoCo turns the second body against the first, about the first's z: in the plane, z."""
+    sites = {"site": f"{force.second}.{CENTER}", "refsite": f"{force.first}.{CENTER}"}
+    gear = written(0, 0, 0, 0, 0, *force.signal.amplitude)
+    given = {"name": force.name, **sites, "gear": gear}
+    element = ET.SubElement(sections["actuator"], "general", given)
+    if force.signal.law == "ramp":
+        element.set("dyntype", "integrator")
+
+
+def couple_outer(force: Couple, size: Array, gear: Array) -> Iterator[tuple[Anchor, Array, Array]]:
+    """The torque (N,) on each body."""
+    for body, way in ((force.first, -1.0), (force.second, 1.0)):
+        yield Anchor(body, CENTER), np.zeros((len(size), 2)), way * size * gear[5]
+
 
 NEVER = 1e6  # m: a length that no tendon has
 BY_ITSELF = ("constant", "ramp")  # the laws that need no callback

@@ -5,16 +5,17 @@ springs and dampers are tendons, pushes and torques are actuators at sites.
 """
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 from xml.etree import ElementTree as ET
 
 from ...cases.scene import GROUND, Anchor, DryFriction, Scene
 from ..engine import Choice, Start
+from ..stride import strode
+from .contact import lies, place
 from .drive import controls
 from .drive import write as write_drives
 from .edge import write_room
-from .feet import add_pins
 from .force import BY_ITSELF, begun_with, write
 from .loops import add_loops, add_rods
 from .pairs import add_geoms, add_pair_sensors, add_pairs
@@ -219,3 +220,25 @@ def _start(
         key.set("act", written(*activations))
     if laws := controls(scene):
         key.set("ctrl", written(*(int(law.law in BY_ITSELF) for law in laws)))
+
+
+# Feet that stand one after the other, as MJCF: pins to the floor, of which the driver moves the
+# sites and says which are active.
+
+
+def add_pins(root: ET.Element, scene: Scene, start: Start, attributes: Mapping[str, str]) -> None:
+    """A `connect` for each foot, with the contact's name; those that lie on the floor stand."""
+    world = root.find("worldbody")
+    feet = strode(scene)
+    if world is None or not feet:
+        return
+    equality = root.find("equality")
+    equality = ET.SubElement(root, "equality") if equality is None else equality
+    for name, foot in feet.items():
+        stands = lies(scene, foot, start)
+        at = place(scene, foot.at, start) if stands else (0.0, 0.0)
+        ET.SubElement(world, "site", name=name, pos=written(*at, 0))
+        ET.SubElement(
+            equality, "connect", dict(attributes),
+            name=name, site1=name, site2=str(foot.at), active="true" if stands else "false",
+        )  # fmt: skip

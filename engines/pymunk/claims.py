@@ -11,7 +11,7 @@ from ...cases.point import CENTER
 from ...cases.scene import Body as Part
 from ...cases.scene import Scene
 from ...cases.trajectory import Array
-from .lacking import lacking
+from .force import lacking
 from .world import World
 
 _KINEMATIC = ("x", "y", "vx", "vy")

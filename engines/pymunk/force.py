@@ -17,7 +17,6 @@ from ...cases.force import (
     Couple,
     Damper,
     Drag,
-    Force,
     LinearMuscle,
     Magnetic,
     Motor,
@@ -31,20 +30,78 @@ from ...cases.force import (
     TorsionDamper,
     Viscous,
 )
-from ...cases.scene import Scene
+from ...cases.scene import Force, Scene
 from ..engine import Realised
 from ..signal import acting, in_time
-from .couple import couple, couple_load, couple_script
-from .direct import State, pushing, reading
+from .direct import State, pushing, reading, turning
 from .law import one_side
 from .law.line import Exerted, Load, drifted, pull, told
+from .law.one_side import NO_SIDE
 from .law.told import BY_LAW
 from .law.turning import couple_as_text, motor, motor_load, twist, twisted
 from .stops import stop_numbers
-from .torque import torque, torque_load, torque_script
 from .wording import as_text
 from .world import World
 from .written import written
+
+# A torque on a body, given to it before every step.
+
+
+def torque(world: World, force: Torque, step: float, drift: float) -> Callable[[float], None]:
+    """In the middle of the step, or at its start."""
+    turn, turned = turning(world.bodies[force.body]), acting(force.signal, drift)
+    return lambda t: turn(turned(t)[0])
+
+
+def torque_load(world: World, force: Torque, name: str) -> Exerted:
+    """What it exerts on its body."""
+    turned = in_time(force.signal)
+    return lambda t, drift, state: (0.0, 0.0, turned(t)[0])
+
+
+def torque_script(
+    world: World, force: Torque, of: Callable[[Body], str], midpoint: bool
+) -> Iterator[str]:
+    """A line of Python."""
+    (size,) = as_text(force.signal, midpoint=midpoint)
+    yield f"    {of(world.bodies[force.body])}.torque += {size}"
+
+
+# A torque between two bodies, given to both before every step.
+
+
+def couple(world: World, force: Couple, step: float, drift: float) -> Callable[[float], None]:
+    """Its torque in the middle of the step, or at its start."""
+    first, second = (turning(body) for body in _both(world, force))
+    torque = acting(force.signal, drift)
+
+    def apply(t: float) -> None:
+        (size,) = torque(t)
+        first(-size)
+        second(size)
+
+    return apply
+
+
+def couple_load(world: World, force: Couple, name: str) -> Exerted:
+    """What it exerts on the body `name`."""
+    way = 1.0 if name == force.second else -1.0
+    torque = in_time(force.signal)
+    return lambda t, drift, state: (0.0, 0.0, way * torque(t)[0])
+
+
+def couple_script(
+    world: World, force: Couple, of: Callable[[Body], str], midpoint: bool
+) -> Iterator[str]:
+    """Lines of Python."""
+    (torque,) = as_text(force.signal, midpoint=midpoint)
+    for body, sign in zip(_both(world, force), "-+", strict=True):
+        yield f"    {of(body)}.torque {sign}= {torque}"
+
+
+def _both(world: World, force: Couple) -> tuple[Body, Body]:
+    return world.bodies[force.first], world.bodies[force.second]
+
 
 Apply = Callable[[float], None]
 """Called before the step that starts at t [s]."""
@@ -247,3 +304,13 @@ ELEMENTS: dict[type[Force], Element] = {
     Rope: Element(load=lambda world, rope, name: _nothing),  # a joint
     Stops: Element(load=lambda world, stops, name: _nothing),
 }  # fmt: skip
+
+
+# What of a scene pymunk has no element for.
+
+
+def lacking(scene: Scene) -> list[tuple[Force, str]]:
+    """The forces that pymunk has no element for, and why: our laws tell it them."""
+    found = ((force, ELEMENTS[type(force)].lacks) for force in scene.forces.values())
+    one_sided = ((spring, NO_SIDE) for spring in scene.one_sided())
+    return [*((force, why) for force, why in found if why), *one_sided]

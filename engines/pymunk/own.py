@@ -11,8 +11,8 @@ from .holding import Holding, holding
 from .options import BY_THE_SCENE, PROTOCOL, full
 from .recipe import recipe
 from .rope import eases
-from .slot import oblique
 from .settings import DEFAULT, defaults
+from .slot import oblique
 
 _BECAUSE = "your own option"
 

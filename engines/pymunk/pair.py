@@ -14,8 +14,7 @@ from pymunk.vec2d import Vec2d
 
 from ...cases.pair import Pair
 from ...cases.scene import Scene, Vector
-from ..begun import begun
-from ..engine import Start
+from ..engine import Start, begun
 from .contact import ABOVE, FLOOR_ELASTICITY, FLOOR_FRICTION, TOUCHING, Follow
 from .world import World
 

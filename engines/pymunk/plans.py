@@ -11,8 +11,7 @@ from ..law import one_number
 from ..stride import strides
 from .contact import closed
 from .edge import alone
-from .force import damped
-from .lacking import lacking
+from .force import damped, lacking
 from .law.cut import cuts, lands
 from .law.friction import ruled
 from .own import Own

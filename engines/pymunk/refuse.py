@@ -7,8 +7,7 @@ from ...cases.scene import GROUND, Scene
 from ..stride import NO_STRIDE, strides
 from .drive import NO_LINE
 from .edge import NO_EDGE
-from .force import ELEMENTS
-from .lacking import lacking
+from .force import ELEMENTS, lacking
 from .pair import MOST
 from .stops import throws_back
 

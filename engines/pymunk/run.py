@@ -12,10 +12,13 @@ from typing import Any
 
 from ...cases.scene import Scene
 from ..engine import Realised, Start
-from .contact import closed, sink
+from .contact import Tip, closed, follower, is_tip, sink, steers
+from .drive import tells as turned
+from .edge import driver
+from .force import tells
 from .law.cut import Landings, cuts
-from .law.force import forces
-from .pair import closed_pairs, press
+from .law.friction import laws
+from .pair import closed_pairs, pair_followers, press
 from .scene import build
 from .world import World
 
@@ -124,3 +127,34 @@ def _cutting(
                 keep()
 
     return cut
+
+
+# All that is done before every step: forces that pymunk has to be told, friction, circles.
+
+
+Apply = Callable[[float], None]  # at time t [s]
+
+
+def forces(world: World, step: float, *, midpoint: bool, law: bool, reflects: bool) -> list[Apply]:
+    """What has to be called before each step; law: whether friction is ours too.
+
+    reflects: whether a point stays on the floor as `follower` says.
+    """
+    friction = laws(world, step) if law else []
+    told = [*turned(world, step, midpoint=midpoint), *tells(world, step, midpoint=midpoint)]
+    told += [*friction, *_followers(world, step, reflects)]
+    walks = [steers(world.stride, world.wheels, world.place)] if world.stride else []
+    return [*told, *walks, *driver(world, step)]  # which has to know what has been told
+
+
+def _followers(world: World, step: float, reflects: bool) -> list[Apply]:
+    scene = world.scene
+    tips: dict[str, list[Tip]] = {}
+    for contact in scene.touching.values():
+        if is_tip(scene, contact):
+            tip = Tip(contact, scene.bodies[contact.body], world.wheels[contact.name])
+            tips.setdefault(contact.body, []).append(tip)
+    found = [
+        follower(world.bodies[body], those, step, reflects=reflects) for body, those in tips.items()
+    ]
+    return [*found, *pair_followers(world, step, reflects=reflects)]

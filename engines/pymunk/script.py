@@ -1,6 +1,6 @@
 """A scene as a stand-alone Python script, written from the very objects that would be stepped."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from inspect import getsource
 from typing import Any
@@ -18,19 +18,21 @@ from pymunk.constraints import (
     SimpleMotor,
     SlideJoint,
 )
+from pymunk.shapes import Segment
 
-from ...cases.scene import Scene
+from ...cases.pair import Pair
+from ...cases.plane import LEVEL, Plane
+from ...cases.scene import Anchor, Scene
 from ..engine import Start
-from .contact import closed
+from .contact import ABOVE, GROUP, closed, is_tip
 from .drive import as_lines
 from .edge import joints_as_text, lays_as_text
 from .force import script
 from .law.one_side import as_text
-from .meeting import followed, pair_seeds, shapes
+from .pair import closed_pairs
 from .run import COLD
 from .scene import build
 from .slot import LENGTH, carried
-from .touching import feet, followers, planes
 from .wording import helpers
 from .world import World
 from .written import written
@@ -229,3 +231,162 @@ def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
                 point, along = (f"Vec2d{written(v)}" for v in (cut.point, cut.along))
                 yield f"joint.pre_solve = carried({point}, {along})"
             yield "space.add(joint)"
+
+
+# Two bodies that touch, as lines of the script; `of` is how a body is called there.
+
+
+Of = Callable[[Body], str]
+
+
+def shapes(world: World, of: Of) -> Iterator[str]:
+    """Both shapes of each pair: what touches stands in `pairs`."""
+    if world.pairs:
+        yield "pairs = {}"
+    for name, (touching, touched) in world.pairs.items():
+        pair = world.scene.pairs[name]
+        at = f", {written(touching.offset)}" if any(touching.offset) else ""
+        body, other = (of(world.bodies[b]) for b in (pair.body, pair.touched))
+        yield f"pairs[{name!r}] = rim = pymunk.Circle({body}, {touching.radius!r}{at})"
+        size = f"{touched.radius!r}"
+        if isinstance(touched, Segment):
+            size = f"{written(touched.a)}, {written(touched.b)}, 0.0"
+        kind = type(touched).__name__
+        yield f"other = pymunk.{kind}({other}, {size})  # {pair.on}"
+        yield f"rim.friction, other.friction = {touching.friction!r}, {touched.friction!r}"
+        both = f"{touching.elasticity!r}, {touched.elasticity!r}"
+        yield f"rim.elasticity, other.elasticity = {both}"
+        told = f"categories={touching.filter.categories}, mask={touching.filter.mask}"
+        yield f"rim.filter = other.filter = pymunk.ShapeFilter({told})"
+        yield "space.add(rim, other)"
+
+
+def pair_seeds(world: World, start: Start, seed: float) -> Iterator[str]:
+    """What touches at the start does so a little deeper."""
+    for pair in closed_pairs(world.scene, start):
+        grown = world.pairs[pair.name][0].radius + seed
+        yield f"pairs[{pair.name!r}].unsafe_set_radius({grown!r})"
+
+
+def followed(world: World, of: Of, numbers: Mapping[str, Any]) -> Iterator[str]:
+    """Before each step, what `pair_followers` does."""
+    for pair in world.scene.pairs.values():
+        rim = f"pairs[{pair.name!r}]"
+        body, other = of(world.bodies[pair.body]), of(world.bodies[pair.touched])
+        radius = pair.radius(world.scene.bodies)
+        if numbers.get("contact.reflects"):
+            yield f"    apart = {_gap(world, pair, body, other)}"
+            yield f"    stays = apart < {rim}.radius - {radius or ABOVE!r}"
+            yield f"    {rim}.elasticity = 1.0 if stays else {pair.restitution!r}"
+        if not radius:
+            yield from _over(world, pair, body, other)
+
+
+def _over(world: World, pair: Pair, body: str, other: str) -> Iterator[str]:
+    """What `above` finds for the end of the step."""
+    point = f"pymunk.Vec2d{written(world.local(pair.at))}"
+    yield f"    turned = {body}.angle + h * {body}.angular_velocity"
+    if pair.face:
+        yield f"    normal = pymunk.Vec2d{written(pair.side.normal)}"
+        yield f"    normal = normal.rotated({other}.angle + h * {other}.angular_velocity)"
+    else:
+        yield f"    apart = {body}.position - {other}.position"
+        yield f"    apart += h * ({body}.velocity - {other}.velocity)"
+        yield f"    normal = (apart + {point}.rotated(turned)).normalized()"
+    offset = f"{point} + normal.rotated(-turned) * {ABOVE!r}"
+    yield f"    pairs[{pair.name!r}].unsafe_set_offset({offset})"
+
+
+def _gap(world: World, pair: Pair, body: str, other: str) -> str:
+    both = pair.radius(world.scene.bodies) + pair.reach(world.scene.bodies)
+    point = f"{body}.local_to_world({written(world.local(pair.at))})"
+    if pair.face is None:
+        return f"({point} - {other}.position).length - {both!r}"
+    (nx, ny), corner = pair.side.normal, world.local(pair.corner)
+    level = nx * corner[0] + ny * corner[1] + both
+    return f"{other}.world_to_local({point}).dot({written(pair.side.normal)}) - {level!r}"
+
+
+# What touches, as lines of the script; `of` is how a body is called there.
+
+
+def planes(world: World, of: Of, *, reflects: bool) -> Iterator[str]:
+    """The planes, and the circles that touch them."""
+    several = len(world.planes) > 1 or bool(world.pairs)
+    for name, shape in world.planes.items():
+        yield ""
+        ends = f"{written(shape.a)}, {written(shape.b)}"
+        yield f"plane = pymunk.Segment(ground, {ends}, 0.0)  # {name}"
+        yield f"plane.friction = {shape.friction!r}"
+        if reflects or any(wheel.elasticity for wheel in world.wheels.values()):
+            yield f"plane.elasticity = {shape.elasticity!r}"
+        if several:
+            yield f"plane.filter = pymunk.ShapeFilter(categories={shape.filter.categories})"
+        yield "space.add(plane)"
+    if world.planes:
+        yield "wheels = {}"
+    for name, wheel in world.wheels.items():
+        size = f"{wheel.radius!r}, {written(wheel.offset)}" if any(wheel.offset) else wheel.radius
+        yield f"wheels[{name!r}] = wheel = pymunk.Circle({of(world.wheel(name))}, {size})"
+        yield f"wheel.friction = {wheel.friction!r}  # pymunk takes the product of both"
+        if wheel.elasticity:
+            yield f"wheel.elasticity = {wheel.elasticity!r}  # of these too"
+        mask = f", mask={wheel.filter.mask}" if several else ""
+        yield f"wheel.filter = pymunk.ShapeFilter(group={wheel.filter.group}{mask})"
+        yield "space.add(wheel)"
+
+
+def followers(world: World, of: Of, numbers: Mapping[str, Any]) -> Iterator[str]:
+    """Keeps the circle of a turning body's point above it, see `follower`."""
+    for contact in world.scene.touching.values():
+        if not is_tip(world.scene, contact):
+            continue
+        body, (a, b) = of(world.wheel(contact.name)), world.local(contact.at)
+        wheel = f"wheels[{contact.name!r}]"
+        if numbers.get("contact.reflects"):
+            yield f"    low = pymunk.Vec2d({a!r}, {b!r}).rotated({body}.angle)"
+            yield f"    low = {_height(contact.plane, f'({body}.position + low)')}"
+            yield f"    low -= {wheel}.radius - {ABOVE}"
+            begins = "" if contact.ideal == "pivot" else "n > 0 and "
+            yield f"    stays = {begins}low < 0"
+            yield f"    {wheel}.elasticity = 1.0 if stays else {contact.restitution!r}"
+        yield f"    turned = {body}.angle + h * {body}.angular_velocity"
+        nx, ny = contact.plane.normal
+        along = _sum(a, (ABOVE * nx, "math.cos(turned)"), (ABOVE * ny, "math.sin(turned)"))
+        up = _sum(b, (ABOVE * ny, "math.cos(turned)"), (-ABOVE * nx, "math.sin(turned)"))
+        offset = f"({along}, {up})"
+        yield f"    {wheel}.unsafe_set_offset({offset})"
+
+
+def _height(plane: Plane, place: str) -> str:
+    """How far a place is above the plane."""
+    if plane == LEVEL:
+        return f"{place}.y"
+    return f"({place} - {written(plane.at)}).dot({written(plane.normal)})"
+
+
+def _sum(first: float, *terms: tuple[float, str]) -> str:
+    """Without the terms that are nothing."""
+    return " + ".join([repr(first), *(f"{size!r} * {what}" for size, what in terms if size)])
+
+
+def feet(world: World, of: Of) -> Iterator[str]:
+    """Lets the floor meet the feet that it has to, as `Stride.look` says."""
+    if world.stride is None:
+        return
+    places = [
+        f"({_point(world, of, foot.at)}, {name!r})" for name, foot in world.stride.feet.items()
+    ]
+    yield f"    behind, front = sorted([{', '.join(places)}])"
+    yield f"    if front[0].x > behind[0].x + {world.stride.ahead!r}:"
+    yield "        if front[0].y > 0:"
+    yield "            meets[front[1]] = True"
+    yield "        elif meets[front[1]]:"
+    yield "            meets[behind[1]] = False"
+    yield "    for name in meets:"
+    yield "        mask = pymunk.ShapeFilter.ALL_MASKS() if meets[name] else 0"
+    yield f"        wheels[name].filter = pymunk.ShapeFilter(group={GROUP}, mask=mask)"
+
+
+def _point(world: World, of: Of, at: Anchor) -> str:
+    return f"{of(world.body(at))}.local_to_world({written(world.local(at))})"

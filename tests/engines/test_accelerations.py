@@ -8,7 +8,7 @@ from given import scenes
 from given.planning import TUNED, moved, planned
 
 from textmech.cases.case import Case
-from textmech.engines.mujoco.read import acceleration as read
+from textmech.engines.mujoco.read import readout as read
 from textmech.reference.motion import bodies
 from textmech.reference.solve import solve
 from textmech.reports.trial.start import first

@@ -13,9 +13,9 @@ from given.planning import TUNED, moved
 from textmech.cases.case import Case
 from textmech.cases.couple import Couple
 from textmech.engines.engine import Start
-from textmech.engines.mujoco import couple as of_mujoco
 from textmech.engines.mujoco import force as mujoco_force
-from textmech.engines.pymunk import couple as of_pymunk
+from textmech.engines.mujoco import force as of_mujoco
+from textmech.engines.pymunk import force as of_pymunk
 from textmech.engines.pymunk import force as pymunk_force
 from textmech.reference.solve import solve
 

@@ -8,7 +8,7 @@ from given import scenes
 from given.planning import TUNED, moved, refused
 
 from textmech.engines.mujoco import drive
-from textmech.engines.pymunk.law import force as told
+from textmech.engines.pymunk import run as told
 from textmech.reference.solve import solve
 from textmech.reports.trial.start import first
 

@@ -17,8 +17,8 @@ from textmech.cases.case import Case
 from textmech.cases.observe import observe
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Trajectory
-from textmech.engines.begun import begun as begun_of
 from textmech.engines.engine import Plan, Refusal, Start
+from textmech.engines.engine import begun as begun_of
 from textmech.engines.mujoco.compilation import compiled
 from textmech.engines.mujoco.law import settle as settling
 from textmech.engines.mujoco.law.floor import Floor

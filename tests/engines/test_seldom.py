@@ -14,7 +14,8 @@ from textmech.cases.scene import Signal
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Realised
 from textmech.engines.mujoco import contact
-from textmech.engines.mujoco.law import smooth, stiction, taut
+from textmech.engines.mujoco.law import driver as stiction
+from textmech.engines.mujoco.law import smooth, taut
 from textmech.reference.solve import solve
 from textmech.reports.trial.start import first
 

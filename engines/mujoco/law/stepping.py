@@ -12,11 +12,9 @@ from ....cases.scene import Scene
 from ...engine import Realised
 from .catch import Catching, catches
 from .corner import Corners
-from .driver import driven_step, room
-from .falling import falling
+from .driver import bounded, driven_step, falling, room
 from .friction import Slide, slides, smooth_only
 from .signal import Control
-from .stiction import bounded
 from .stride import Feet, feet
 from .touch import Touch, one_touch, touches
 

@@ -17,11 +17,34 @@ from ...stride import strode
 from ..drive import Drive, drives
 from ..edge import fields
 from ..force import about
-from ..tree import Tree, spanning_tree
-from .acceleration import NEEDED, acceleration
-from .friction import SlideFriction
+from ..hinge import way
+from ..tree import Tree, called, spanning_tree
 from .reaction import Seen, damped, felt_force, joint_force, line, pinned
 from .record import Counts, Record
+
+# Dry friction of joints, read from MuJoCo's constraint forces.
+
+
+_FRICTION = int(mujoco.mjtConstraint.mjCNSTR_FRICTION_DOF)
+
+
+class SlideFriction:
+    """The friction [N or N m] on the second part of each slide or pin: (N,) by its name."""
+
+    def __init__(self, scene: Scene, model: mujoco.MjModel, samples: int) -> None:
+        dry = [joint for joint in scene.joints.values() if joint.dry_friction is not None]
+        self.forces = {joint.name: np.zeros(samples) for joint in dry}
+        self._of_dof = {
+            int(model.joint(joint.name).dofadr[0]): (way(scene, joint), self.forces[joint.name])
+            for joint in dry
+        }
+
+    def keep(self, sample: int, data: mujoco.MjData) -> None:
+        """MuJoCo's own friction, and what our law or driver pushes in its place."""
+        for dof, (sign, kept) in self._of_dof.items():
+            rows = (data.efc_type == _FRICTION) & (data.efc_id == dof)
+            kept[sample] = sign * (data.qfrc_applied[dof] + data.efc_force[rows].sum())
+
 
 _TOUCHING = ("sensordata", "qfrc_applied")
 _DRIVING = ("qpos", "qvel", "xmat", "actuator_force")
@@ -163,3 +186,26 @@ def _rows(ids: tuple[int, ...]) -> tuple[Counts, Counts]:
     begins = np.flatnonzero(np.diff(ids, prepend=-1))
     rows = np.arange(len(ids)) - np.repeat(begins, np.diff(begins, append=len(ids)))
     return np.array(ids, dtype=np.int64), rows
+
+
+# Accelerations of bodies, as MuJoCo knows them after `mj_rnePostConstraint`.
+
+
+NEEDED = ("cacc", "cvel", "subtree_com", "xipos")
+FIELDS = ("ax", "ay", "alpha")
+
+
+def acceleration(model: mujoco.MjModel, seen: Seen, body: str, field: str) -> Array:
+    """`ax`, `ay` [m/s²] of the centre of mass, or `alpha` [rad/s²], (N,).
+
+    MuJoCo's spatial vectors are about the centre of mass of the whole tree, and its world falls
+    upward instead of weights pulling down.
+    """
+    i = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, called(body))
+    change, rate = seen["cacc"][:, i], seen["cvel"][:, i]
+    if field == "alpha":
+        return change[:, 2].copy()
+    arm = seen["xipos"][:, i] - seen["subtree_com"][:, model.body_rootid[i]]
+    velocity = rate[:, 3:] + np.cross(rate[:, :3], arm)
+    found = change[:, 3:] + np.cross(change[:, :3], arm) + np.cross(rate[:, :3], velocity)
+    return (found + model.opt.gravity)[:, FIELDS.index(field)]

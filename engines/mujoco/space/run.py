@@ -12,13 +12,11 @@ from ..law.signal import Corners, following, listening, together
 from ..law.stepping import Steps
 from ..read.record import Counts, Record, all_steps, counted, sampled, whole
 from ..run import check
-from .drive import drives
 from .blade import edges
+from .drive import drives
 from .edge import fields
-from .read.reaction import contact_force, effort, joint_wrench
-from .read.seen import EDGES, JOINTS, LOOPS, TOUCHING, Seen, seen
-from .read.states import states
-from .read.turning import ABOUT, acting
+from .read.reaction import ABOUT, acting, contact_force, effort, joint_wrench
+from .read.seen import EDGES, JOINTS, LOOPS, TOUCHING, Seen, seen, states
 from .scene import signals
 from .tree import spanning_tree
 

@@ -7,6 +7,7 @@ torques are actuators at sites, prescribed rates are heavy armatures.
 from collections.abc import Iterable, Sequence
 from xml.etree import ElementTree as ET
 
+import mujoco
 import numpy as np
 
 from ....cases.scene import GROUND, Anchor, Signal
@@ -14,8 +15,9 @@ from ....cases.space.body import SpatialBody
 from ....cases.space.chain import across
 from ....cases.space.contact import SpatialContact
 from ....cases.space.joint import SpatialJoint
-from ....cases.space.rotation import Vector3
+from ....cases.space.rotation import Quaternion, Vector3
 from ....cases.space.scene import SpatialScene
+from ....cases.trajectory import Array
 from ...engine import Choice, Start
 from ..force import BY_ITSELF, write
 from ..force import signals as laws
@@ -25,7 +27,6 @@ from ..written import attributes, soft, written
 from .drive import signals as drives
 from .drive import write as write_drives
 from .edge import write_room
-from .inertia import principal
 from .start import started
 from .tree import held_points, natives, spanning_tree
 
@@ -238,3 +239,43 @@ def _start(
     key.set("qvel", written(*(begun[1] or [x for _, rates in each for x in rates])))
     if laws := signals(scene):
         key.set("ctrl", written(*(int(law.law in BY_ITSELF) for law in laws)))
+
+
+# An inertia tensor as MuJoCo takes it: principal moments, and the attitude of their axes.
+#
+# MuJoCo's own `fullinertia` refuses a third of all thin disks that are turned: rounding makes their
+# largest moment exceed the sum of the others. Here it is cut to the sum.
+
+
+ROUNDING = 1e-13  # of the largest moment: what is beyond is no rounding, and MuJoCo's to refuse
+
+
+def principal(tensor: Array) -> tuple[tuple[float, float, float], Quaternion | None]:
+    """Moments [kg m²], none below MuJoCo's least, and the attitude of their axes; None: the body's.
+
+    A slender bar's moment about its own axis becomes 1e-15.
+    """
+    if np.array_equal(tensor, np.diag(np.diag(tensor))):
+        return _possible(np.diag(tensor)), None
+    moments, axes = np.linalg.eigh(tensor)
+    if np.linalg.det(axes) < 0:
+        axes[:, 0] = -axes[:, 0]
+    return _possible(moments), _quaternion(axes)
+
+
+def _possible(moments: Array) -> tuple[float, float, float]:
+    """No moment exceeds the sum of the others, by rounding."""
+    found = np.maximum(moments, LEAST)
+    largest = int(np.argmax(found))
+    rest = float(sum(np.delete(found, largest)))
+    if 0 < found[largest] - rest <= ROUNDING * rest:
+        found[largest] = rest
+    return float(found[0]), float(found[1]), float(found[2])
+
+
+def _quaternion(axes: Array) -> Quaternion:
+    """Of a rotation matrix."""
+    found = np.empty(4)
+    mujoco.mju_mat2Quat(found, axes.ravel())
+    w, x, y, z = found.tolist()
+    return w, x, y, z

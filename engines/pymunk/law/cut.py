@@ -11,8 +11,7 @@ from collections.abc import Sequence
 from ....cases.scene import Scene
 from ...engine import Start
 from ..contact import closed
-from ..force import ELEMENTS
-from ..lacking import lacking
+from ..force import ELEMENTS, lacking
 from ..slot import oblique
 from ..world import World
 from .cold import NO_TIME, Lengths, drift, open_gaps

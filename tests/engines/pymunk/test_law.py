@@ -15,8 +15,8 @@ from textmech.cases.scene import GROUND, Anchor, Bounds, Damper, Scene
 from textmech.cases.shape import disk
 from textmech.cases.trajectory import ANGLE, OMEGA, VX, Array, X
 from textmech.engines.engine import Start
-from textmech.engines.pymunk.law import present
 from textmech.engines.pymunk.law.line import drifting
+from textmech.engines.pymunk.plain import acts
 from textmech.engines.pymunk.scene import build
 
 ENGINE = TUNED["pymunk"]
@@ -95,7 +95,7 @@ def stopped(static: float) -> list[float]:
     space, body = pymunk.Space(), pymunk.Body(1.0, 1.0)
     space.add(body)
     body.velocity = 0.5, 0.0
-    (act,) = present.acts(replace(scene, gravity=(0.0, 0.0)), space, {"block": body})
+    (act,) = acts(replace(scene, gravity=(0.0, 0.0)), space, {"block": body})
     found = []
     for n in range(100):
         body.force = (-3.0 if n >= 80 else 0.0), 0.0

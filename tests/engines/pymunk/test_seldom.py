@@ -15,7 +15,7 @@ from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Realised
 from textmech.engines.pymunk import stops
 from textmech.engines.pymunk.law import points
-from textmech.engines.pymunk.law.slip import turn
+from textmech.engines.pymunk.law.friction import turn
 from textmech.engines.pymunk.pair import closed_pairs
 from textmech.engines.pymunk.run import placed
 from textmech.reference.solve import solve

@@ -18,8 +18,9 @@ from textmech.cases.space.rotation import angle_between, inverse, product
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Plan
 from textmech.engines.mujoco import MuJoCo
-from textmech.engines.mujoco.space import inertia, start
-from textmech.engines.mujoco.space.read import states
+from textmech.engines.mujoco.space import start
+from textmech.engines.mujoco.space.read.seen import states
+from textmech.engines.mujoco.space.scene import principal
 
 TIMES = np.linspace(0.0, 2.0, 11)
 BODY = rigid("top", 1.3, LOPSIDED)
@@ -79,13 +80,10 @@ _SPIN = SPACE.spin
 
 
 def _ground_axes_out(*args: Any) -> Any:
-    found = states_before(*args)
+    found = states(*args)
     for rows in found.values():
         rows[:, _SPIN] = rotation.turned(rows[:, SPACE.attitude], rows[:, _SPIN])
     return found
-
-
-states_before = states.states
 
 
 def _ground_axes_in(*args: Any) -> Any:
@@ -98,7 +96,7 @@ free_before = start._free
 
 
 def _back(tensor: Array) -> Any:
-    moments, axes = inertia.principal(tensor)
+    moments, axes = principal(tensor)
     assert axes is not None
     return moments, tuple(inverse(np.array(axes)).tolist())
 
@@ -115,17 +113,17 @@ def _turned_back(*args: Any) -> Any:
     "J turned back from its principal axes",
 )
 @pytest.mark.parametrize(
-    ("module", "name", "wrong"),
+    ("place", "wrong"),
     [
-        ("run", "states", _ground_axes_out), ("start", "_free", _ground_axes_in),
-        ("start", "_free", _turned_back), ("scene", "principal", _back),
+        ("space.run.states", _ground_axes_out), ("space.start._free", _ground_axes_in),
+        ("space.start._free", _turned_back), ("space.scene.principal", _back),
     ],
     ids=["ω read in ground axes", "ω started in ground axes", "R transposed", "J turned back"],
 )  # fmt: skip
 def test_a_wrong_convention_is_seen(
-    monkeypatch: pytest.MonkeyPatch, euler: Array, module: str, name: str, wrong: Any
+    monkeypatch: pytest.MonkeyPatch, euler: Array, place: str, wrong: Any
 ) -> None:
-    monkeypatch.setattr(f"textmech.engines.mujoco.space.{module}.{name}", wrong)
+    monkeypatch.setattr(f"textmech.engines.mujoco.{place}", wrong)
     assert max(off(euler)) > 0.1
 
 
