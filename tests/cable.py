@@ -65,11 +65,11 @@ from textmech.engines.law import TENSIONS
 
 TENSIONS[Cable] = lambda force, length, rate: force.pull
 
-# engines/mujoco/force.py
+# engines/mujoco/model/force.py
 
 from textmech.engines.mujoco import MuJoCo
-from textmech.engines.mujoco import force as mujoco
-from textmech.engines.mujoco.written import written
+from textmech.engines.mujoco.model import force as mujoco
+from textmech.engines.mujoco.model.written import written
 
 
 def write(sections: mujoco.Sections, force: Cable) -> None:
@@ -80,11 +80,11 @@ def write(sections: mujoco.Sections, force: Cable) -> None:
 
 mujoco.ELEMENTS[Cable] = mujoco.Element(write, signal=lambda force: Signal("constant", (1.0,)))
 
-# engines/pymunk/force.py
+# engines/pymunk/callbacks/force.py
 
 from textmech.engines.pymunk import Pymunk
-from textmech.engines.pymunk import force as pymunk
-from textmech.engines.pymunk.law.line import pull, told
+from textmech.engines.pymunk.callbacks import force as pymunk
+from textmech.engines.pymunk.callbacks.line import pull, told
 
 pymunk.ELEMENTS[Cable] = pymunk.Element(
     load=pull, tell=lambda world, force, step, drift: told(world, force, step)

@@ -16,7 +16,7 @@ def mirrored(name: str) -> set[str]:
     [
         ("cases/quantity.py", "tests/cases"),
         ("reference/mechanism/modes/mode.py", "tests/reference/mechanism"),
-        ("engines/pymunk/law/friction.py", "tests/engines/pymunk"),  # no folder is its own
+        ("engines/pymunk/callbacks/friction.py", "tests/engines/pymunk"),  # no folder is its own
         ("reports/judge/verdict.py", "tests/reports"),
         ("cases/four_bar.yaml", "tests/cases"),
     ],

@@ -12,18 +12,18 @@ from ...cases.trajectory import Array, Trajectory
 from ..engine import Plain, Plan, Realised, Refusal, Start
 from ..heading import heading
 from ..knobs import Knob, Options
-from . import options, settings
-from .claims import answered
-from .compilation import NOMINAL, timestep
-from .knobs import STEPS, cost, knobs
-from .own import as_options, unfit
-from .plane import PLANE
-from .refuse import not_native, uncompilable
-from .rods import of_scene
-from .script import commented, controls, drawn
-from .snippet import said, snippet
-from .space.world import SPACE
-from .world import World
+from .adapter.claims import answered
+from .adapter.compilation import NOMINAL, timestep
+from .adapter.plane import PLANE
+from .adapter.refuse import not_native, uncompilable
+from .adapter.space.world import SPACE
+from .adapter.world import World
+from .model.rods import of_scene
+from .model.script import commented, controls, drawn
+from .settings import options, settings
+from .settings.knobs import STEPS, cost, knobs
+from .settings.own import as_options, unfit
+from .settings.snippet import said, snippet
 
 _WORLDS: Mapping[int, World] = {2: PLANE, 3: SPACE}
 """By the dimension of the scene's frame."""

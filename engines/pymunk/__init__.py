@@ -12,24 +12,25 @@ from ...cases.trajectory import Array, Trajectory
 from ..engine import Plain, Plan, Realised, Refusal, Start
 from ..heading import heading
 from ..knobs import Knob, Options
-from . import options, plans
-from .claims import answered
-from .knobs import STEPS, knobs
-from .law.inner import states
-from .own import as_options, own
-from .plain import plain
-from .plans import named
+from .adapter import plans
+from .adapter.claims import answered
+from .adapter.plain import plain
+from .adapter.plans import named
+from .adapter.refuse import not_native, unbuildable
+from .adapter.script import text
+from .callbacks.inner import states
 from .read.health import Left
 from .read.measure import measured
 from .read.record import Record
 from .read.samples import sampled
-from .recipe import recipe
-from .refuse import not_native, unbuildable
-from .run import placed, stepper
-from .scene import FAR, build
-from .script import text
-from .settings import SHIPPED_STEP
-from .snippet import snippet
+from .settings import options
+from .settings.knobs import STEPS, knobs
+from .settings.own import as_options, own
+from .settings.recipe import recipe
+from .settings.settings import SHIPPED_STEP
+from .settings.snippet import snippet
+from .stepping.run import placed, stepper
+from .stepping.scene import FAR, build
 
 
 @dataclass(frozen=True)

@@ -32,10 +32,10 @@ from textmech.reports.trial.trial import Trial
 
 # Where a scene is handed to what builds it.
 BUILDER = {
-    "mujoco": "textmech.engines.mujoco.compilation.mjcf",
+    "mujoco": "textmech.engines.mujoco.adapter.compilation.mjcf",
     "pymunk": "textmech.engines.pymunk.build",
 }
-IN_SPACE = "textmech.engines.mujoco.space.compilation.mjcf"
+IN_SPACE = "textmech.engines.mujoco.adapter.space.compilation.mjcf"
 
 
 BOTH = ("forward", "backward")

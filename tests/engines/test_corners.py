@@ -8,7 +8,7 @@ from textmech.cases.joint import Joint
 from textmech.cases.scene import Anchor, GroundPoint, Push, Scene, Signal
 from textmech.cases.shape import disk, particle
 from textmech.engines import signal
-from textmech.engines.mujoco.law.signal import Corners
+from textmech.engines.mujoco.callbacks.signal import Corners
 
 M, F = 1.5, 6.0
 TIMES = np.linspace(0.0, 1.0, 11)

@@ -13,10 +13,10 @@ from given.planning import TUNED, moved
 from textmech.cases.case import Case
 from textmech.cases.couple import Couple
 from textmech.engines.engine import Start
-from textmech.engines.mujoco import force as mujoco_force
-from textmech.engines.mujoco import force as of_mujoco
-from textmech.engines.pymunk import force as of_pymunk
-from textmech.engines.pymunk import force as pymunk_force
+from textmech.engines.mujoco.model import force as mujoco_force
+from textmech.engines.mujoco.model import force as of_mujoco
+from textmech.engines.pymunk.callbacks import force as of_pymunk
+from textmech.engines.pymunk.callbacks import force as pymunk_force
 from textmech.reference.solve import solve
 
 # The pin `elbow` has arm as its first part.

@@ -7,8 +7,8 @@ import pytest
 from given import scenes
 from given.planning import TUNED, moved, refused
 
-from textmech.engines.mujoco import drive
-from textmech.engines.pymunk import run as told
+from textmech.engines.mujoco.model import drive
+from textmech.engines.pymunk.stepping import run as told
 from textmech.reference.solve import solve
 from textmech.reports.trial.start import first
 

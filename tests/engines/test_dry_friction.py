@@ -34,7 +34,7 @@ from textmech.cases.scene import Anchor, Bounds, DryFriction, Push, Signal, Smoo
 from textmech.cases.trajectory import OMEGA, VX, Array, X
 from textmech.engines.engine import Realised
 from textmech.engines.law import smooth_friction
-from textmech.engines.mujoco.law import driver as stiction
+from textmech.engines.mujoco.callbacks import driver as stiction
 
 STEPS = {"mujoco": 1e-3, "pymunk": 1e-4}  # s: RK4 is of fourth order, position Verlet of second
 EIGHT, TEN = np.linspace(0.0, 8.0, 81), np.linspace(0.0, 10.0, 101)

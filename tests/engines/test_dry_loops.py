@@ -11,7 +11,7 @@ from textmech.cases.case import Case
 from textmech.cases.observe import observe
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Realised
-from textmech.engines.mujoco.law import friction, smooth
+from textmech.engines.mujoco.callbacks import friction, smooth
 from textmech.reference.solve import solve
 from textmech.reports.trial.start import first
 

@@ -11,7 +11,7 @@ from given.rubbing import HELD, HUNG
 from textmech.cases.case import Case
 from textmech.cases.trajectory import ANGLE
 from textmech.engines.engine import Realised, Start
-from textmech.engines.mujoco.law import friction
+from textmech.engines.mujoco.callbacks import friction
 from textmech.reference.solve import solve
 
 END = scenes.tail(3.0, 31)

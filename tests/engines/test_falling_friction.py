@@ -12,8 +12,8 @@ from textmech.cases.scene import DryFriction
 from textmech.cases.trajectory import ANGLE, Array, X
 from textmech.engines.engine import Realised, Start
 from textmech.engines.law import braking
-from textmech.engines.mujoco.law import driver, stepping
-from textmech.engines.mujoco.law import friction as of_mujoco
+from textmech.engines.mujoco.callbacks import driver, stepping
+from textmech.engines.mujoco.callbacks import friction as of_mujoco
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 

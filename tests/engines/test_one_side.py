@@ -15,8 +15,8 @@ from textmech.cases.scene import Scene, Spring
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Realised, Start
 from textmech.engines.law import TENSIONS
-from textmech.engines.mujoco.force import ELEMENTS
-from textmech.engines.mujoco.law.corner import Corners
+from textmech.engines.mujoco.callbacks.corner import Corners
+from textmech.engines.mujoco.model.force import ELEMENTS
 from textmech.reference.solve import solve
 from textmech.reports.trial.start import first
 

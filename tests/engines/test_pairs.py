@@ -19,14 +19,14 @@ from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Plan, Refusal, Start
 from textmech.engines.engine import begun as begun_of
-from textmech.engines.mujoco.compilation import compiled
-from textmech.engines.mujoco.law import settle as settling
-from textmech.engines.mujoco.law.floor import Floor
-from textmech.engines.pymunk import refuse
-from textmech.engines.pymunk.plans import named
-from textmech.engines.pymunk.run import placed, stepper
-from textmech.engines.pymunk.scene import build
-from textmech.engines.pymunk.script import before_each, building
+from textmech.engines.mujoco.adapter.compilation import compiled
+from textmech.engines.mujoco.callbacks import settle as settling
+from textmech.engines.mujoco.callbacks.floor import Floor
+from textmech.engines.pymunk.adapter import refuse
+from textmech.engines.pymunk.adapter.plans import named
+from textmech.engines.pymunk.adapter.script import before_each, building
+from textmech.engines.pymunk.stepping.run import placed, stepper
+from textmech.engines.pymunk.stepping.scene import build
 from textmech.reference.solve import solve
 
 STEP = 2.5e-4  # s

@@ -13,8 +13,8 @@ from given.planning import TUNED, begun, planned
 from textmech.cases.shape import spokes
 from textmech.cases.trajectory import ANGLE, Array, Trajectory
 from textmech.engines.engine import Choice, Plan
-from textmech.engines.mujoco import contact
-from textmech.engines.mujoco.settings import at_step
+from textmech.engines.mujoco.model import contact
+from textmech.engines.mujoco.settings.settings import at_step
 from textmech.reference.systems.walkers.spoke_steps import SpokeSteps
 from textmech.reports.events.times import falls
 

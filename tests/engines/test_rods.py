@@ -11,8 +11,8 @@ import pytest
 from given import rods, scenes
 from given.planning import TUNED, moved, planned
 
-from textmech.engines.mujoco import loops
-from textmech.engines.mujoco import rods as bars
+from textmech.engines.mujoco.model import loops
+from textmech.engines.mujoco.model import rods as bars
 from textmech.engines.mujoco.read import readout
 from textmech.reference.solve import solve
 from textmech.reports.trial.start import first

@@ -12,7 +12,7 @@ from textmech.cases.case import Case
 from textmech.cases.observe import observe
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Realised, Start
-from textmech.engines.mujoco.law import catch, taut
+from textmech.engines.mujoco.callbacks import catch, taut
 from textmech.reference.solve import solve
 from textmech.reports.trial.start import first
 

@@ -25,11 +25,11 @@ from textmech.cases.signal import Law, Signal
 from textmech.cases.space.rotation import matrix
 from textmech.cases.space.scene import SpatialScene
 from textmech.engines.engine import Engine, Start
-from textmech.engines.mujoco.drive import controls
-from textmech.engines.mujoco.force import BY_ITSELF
-from textmech.engines.mujoco.law.signal import Corners, following, installed, together
-from textmech.engines.mujoco.script import controls as callback
-from textmech.engines.mujoco.space.scene import signals as controls_in_space
+from textmech.engines.mujoco.callbacks.signal import Corners, following, installed, together
+from textmech.engines.mujoco.model.drive import controls
+from textmech.engines.mujoco.model.force import BY_ITSELF
+from textmech.engines.mujoco.model.script import controls as callback
+from textmech.engines.mujoco.model.space.scene import signals as controls_in_space
 from textmech.reports.trial.start import assembled
 
 STEP = 1e-3  # s: whole steps in the 1 s that a script of pymunk's runs

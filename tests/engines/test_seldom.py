@@ -13,9 +13,9 @@ from textmech.cases.case import Case
 from textmech.cases.scene import Signal
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Realised
-from textmech.engines.mujoco import contact
-from textmech.engines.mujoco.law import driver as stiction
-from textmech.engines.mujoco.law import smooth, taut
+from textmech.engines.mujoco.callbacks import driver as stiction
+from textmech.engines.mujoco.callbacks import smooth, taut
+from textmech.engines.mujoco.model import contact
 from textmech.reference.solve import solve
 from textmech.reports.trial.start import first
 
@@ -124,7 +124,7 @@ def test_two_ropes_come_taut_in_one_step(tmp_path: Path) -> None:
 @pytest.mark.mutant("of two ropes that come taut in one step the later one first")
 def test_the_later_of_two_first_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What came taut before is too long by then, and its impact is missed."""
-    monkeypatch.setattr("textmech.engines.mujoco.law.cut.min", max, raising=False)
+    monkeypatch.setattr("textmech.engines.mujoco.callbacks.cut.min", max, raising=False)
     case, motion = known(tmp_path, TWO_CATCHES, 0.2)
     assert off(case, motion, 1e-3)[:2].max() > 3e-4
 

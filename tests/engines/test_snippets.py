@@ -18,14 +18,14 @@ from given.planning import begun, planned
 from textmech.engines.engine import Choice
 from textmech.engines.knobs import Options
 from textmech.engines.mujoco import MuJoCo
-from textmech.engines.mujoco.compilation import timestep
-from textmech.engines.mujoco.plane import PLANE
-from textmech.engines.mujoco.space.world import SPACE
+from textmech.engines.mujoco.adapter.compilation import timestep
+from textmech.engines.mujoco.adapter.plane import PLANE
+from textmech.engines.mujoco.adapter.space.world import SPACE
 from textmech.engines.pymunk import Pymunk
-from textmech.engines.pymunk.plans import named
-from textmech.engines.pymunk.run import placed
-from textmech.engines.pymunk.scene import build
-from textmech.engines.pymunk.script import building
+from textmech.engines.pymunk.adapter.plans import named
+from textmech.engines.pymunk.adapter.script import building
+from textmech.engines.pymunk.stepping.run import placed
+from textmech.engines.pymunk.stepping.scene import build
 from textmech.reference.solve import solve
 from textmech.reports.trial.start import first
 

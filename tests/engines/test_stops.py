@@ -13,7 +13,7 @@ from textmech.cases.case import Case
 from textmech.cases.observe import observe
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Tunable
-from textmech.engines.mujoco import stops as of_mujoco
+from textmech.engines.mujoco.model import stops as of_mujoco
 from textmech.reference.solve import solve
 from textmech.reports.trial.start import first
 

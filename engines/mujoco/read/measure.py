@@ -3,9 +3,9 @@
 import mujoco
 
 from ....cases.scene import Scene
-from ..force import numbers
-from ..planes import touching
-from ..tree import called, driven
+from ..model.force import numbers
+from ..model.planes import touching
+from ..model.tree import called, driven
 
 
 def measured(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, float]:

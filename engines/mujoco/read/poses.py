@@ -13,8 +13,8 @@ import numpy as np
 from ....cases.scene import GROUND, Scene
 from ....cases.trajectory import ANGLE, OMEGA, VX, VY, Array, X, Y
 from ...engine import Start
-from ..scene import local
-from ..tree import Branch, built_as, coordinate, driven, spanning_tree, turned
+from ..model.scene import local
+from ..model.tree import Branch, built_as, coordinate, driven, spanning_tree, turned
 
 Coordinate = Callable[[str], tuple[Array, Array]]
 

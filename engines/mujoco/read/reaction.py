@@ -8,13 +8,13 @@ import numpy as np
 
 from ....cases.scene import GROUND, Anchor, Joint, Scene
 from ....cases.trajectory import Array
-from ..force import ELEMENTS, outer
-from ..loops import pulled
-from ..pairs import pair_force
-from ..planes import touching
-from ..rope import tension
-from ..stops import pushing
-from ..tree import Tree, called
+from ..model.force import ELEMENTS, outer
+from ..model.loops import pulled
+from ..model.pairs import pair_force
+from ..model.planes import touching
+from ..model.rope import tension
+from ..model.stops import pushing
+from ..model.tree import Tree, called
 
 Seen = Mapping[str, Array]
 _OBJECT = mujoco.mjtObj

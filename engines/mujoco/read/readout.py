@@ -14,11 +14,11 @@ from ....cases.scene import Scene
 from ....cases.trajectory import Array
 from ...law import TORQUES
 from ...stride import strode
-from ..drive import Drive, drives
-from ..edge import fields
-from ..force import about
-from ..hinge import way
-from ..tree import Tree, called, spanning_tree
+from ..model.drive import Drive, drives
+from ..model.edge import fields
+from ..model.force import about
+from ..model.hinge import way
+from ..model.tree import Tree, called, spanning_tree
 from .reaction import Seen, damped, felt_force, joint_force, line, pinned
 from .record import Counts, Record
 

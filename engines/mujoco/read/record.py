@@ -8,7 +8,7 @@ from mujoco import rollout
 from numpy.typing import NDArray
 
 from ....cases.trajectory import Array
-from ..law.stepping import Steps
+from ..callbacks.stepping import Steps
 
 Counts = NDArray[np.int64]
 _WHOLE = 1e-9  # of the longest time: what its sum of rounding may be

@@ -13,10 +13,10 @@ from pymunk.constraints import GrooveJoint, PinJoint, PivotJoint
 
 from ....cases.trajectory import Array
 from ...engine import Diverged
-from ..scene import reach
-from ..slot import line
-from ..sweeps import halving
-from ..world import World
+from ..model.slot import line
+from ..model.sweeps import halving
+from ..model.world import World
+from ..stepping.scene import reach
 
 
 class Left(Diverged):

@@ -10,8 +10,8 @@ from pymunk.constraints import Constraint
 from pymunk.shapes import Shape
 
 from ....cases.scene import Scene, Vector
-from ..stops import pressed
-from ..world import World
+from ..model.stops import pressed
+from ..model.world import World
 
 Planes = dict[str, tuple[float, float]]
 

@@ -2,8 +2,8 @@
 
 from pymunk.vec2d import Vec2d
 
-from ..force import numbers
-from ..world import World
+from ..callbacks.force import numbers
+from ..model.world import World
 
 
 def measured(world: World) -> dict[str, float]:

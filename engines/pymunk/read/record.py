@@ -13,8 +13,8 @@ from pymunk.batch import BodyFields, Buffer, get_space_bodies
 
 from ....cases.observe import observe
 from ....cases.trajectory import Array, Trajectory
-from ..direct import copier
-from ..world import World
+from ..model.direct import copier
+from ..model.world import World
 from .impulse import impulses
 
 _STATE = BodyFields.POSITION | BodyFields.ANGLE | BodyFields.VELOCITY | BodyFields.ANGULAR_VELOCITY

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from pymunk.batch import BodyFields, Buffer
 
 from ....cases.trajectory import Array, Trajectory
-from ..direct import copier
-from ..run import Steps
-from ..world import World
+from ..model.direct import copier
+from ..model.world import World
+from ..stepping.run import Steps
 from .health import sound
 from .impulse import impulses
 

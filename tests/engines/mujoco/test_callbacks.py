@@ -15,8 +15,8 @@ from given.planning import SHIPPED, TUNED, begun, moved, planned
 
 from textmech.cases.scene import Spring
 from textmech.engines.engine import Diverged, Engine, Loop
-from textmech.engines.mujoco import scene as builder
-from textmech.engines.mujoco.law import signal as control
+from textmech.engines.mujoco.callbacks import signal as control
+from textmech.engines.mujoco.model import scene as builder
 
 TIMES = np.linspace(0.0, 0.8, 11)
 BOTH = [SHIPPED["mujoco"], TUNED["mujoco"]]
@@ -110,7 +110,7 @@ def test_other_warnings_are_diverged_too(tmp_path: Path, monkeypatch: pytest.Mon
     def mixed(*given: Any) -> str:  # MuJoCo says so in the first step, and takes another pair
         return built(*given).replace('solref="0.02 1.0"', 'solref="0.02 -1.0"')
 
-    monkeypatch.setattr("textmech.engines.mujoco.compilation.mjcf", mixed)
+    monkeypatch.setattr("textmech.engines.mujoco.adapter.compilation.mjcf", mixed)
     scene, begin = begun("four_bar")
     with pytest.raises(Diverged, match=r"MuJoCo warns: .*solref"):
         moved(SHIPPED["mujoco"], scene, begin, np.array([0.0, 0.04, 0.08]), 2e-3)

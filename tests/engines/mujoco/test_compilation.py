@@ -18,10 +18,11 @@ from given.planning import CASES, NATIVE, begun, planned
 from textmech.cases.frame import PLANE
 from textmech.cases.scene import Scene
 from textmech.engines.engine import Plan, Realised, Start
-from textmech.engines.mujoco import MuJoCo, compilation
-from textmech.engines.mujoco.rods import with_rods
-from textmech.engines.mujoco.space import compilation as space
-from textmech.engines.mujoco.tree import called
+from textmech.engines.mujoco import MuJoCo
+from textmech.engines.mujoco.adapter import compilation
+from textmech.engines.mujoco.adapter.space import compilation as space
+from textmech.engines.mujoco.model.rods import with_rods
+from textmech.engines.mujoco.model.tree import called
 from textmech.reports.judge.compare import compare
 from textmech.reports.trial.start import assembled, first
 from textmech.reports.trial.trial import Trial

@@ -20,7 +20,7 @@ from scipy.integrate import solve_ivp
 
 from textmech.cases.scene import Anchor, Push, Signal
 from textmech.cases.trajectory import VX, Array
-from textmech.engines.mujoco.bounce import damping_ratio
+from textmech.engines.mujoco.model.bounce import damping_ratio
 
 
 def test_a_disk_is_started_as_deep_as_it_is_carried() -> None:
@@ -41,7 +41,9 @@ def test_noslip_needs_the_way_out_of_the_plane(monkeypatch: pytest.MonkeyPatch) 
         return abs(every(run).states["block"][-1, VX])
 
     still = speed()
-    monkeypatch.setattr("textmech.engines.mujoco.scene._leaves_plane", lambda scene, numbers: False)
+    monkeypatch.setattr(
+        "textmech.engines.mujoco.model.scene._leaves_plane", lambda scene, numbers: False
+    )
     assert still <= 1e-15 < 1e-9 <= speed()
 
 

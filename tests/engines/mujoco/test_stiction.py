@@ -7,7 +7,7 @@ from given.planning import TUNED, moved
 
 from textmech.cases.scene import Bounds
 from textmech.cases.trajectory import VX, Array
-from textmech.engines.mujoco.law import driver as stiction
+from textmech.engines.mujoco.callbacks import driver as stiction
 
 H, BRAKES = 1e-3, 3.0  # s; N on 1 kg
 TIMES = np.linspace(0.0, 40 * H, 41)

@@ -7,8 +7,8 @@ import pytest
 from given.engine_scenes import ODD_NAMES, ROD, machine, pin
 from given.random_machines import chain, loops, tree
 
+from textmech.engines.mujoco.model.tree import spanning_tree
 from textmech.engines.mujoco.read.record import all_steps
-from textmech.engines.mujoco.tree import spanning_tree
 
 
 @pytest.mark.parametrize("seed", range(12))

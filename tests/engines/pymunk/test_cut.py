@@ -13,8 +13,8 @@ from textmech.cases.case import Case
 from textmech.cases.observe import observe
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Diverged, Realised
-from textmech.engines.pymunk.law import cold, cut
-from textmech.engines.pymunk.law.foot import Foot
+from textmech.engines.pymunk.callbacks import cold, cut
+from textmech.engines.pymunk.callbacks.foot import Foot
 from textmech.reference.solve import solve
 from textmech.reports.events.times import engine_events, reference_events
 from textmech.reports.trial.start import first

@@ -7,7 +7,7 @@ import pytest
 from pymunk import batch
 from pymunk.batch import BodyFields, Buffer, get_space_bodies
 
-from textmech.engines.pymunk import direct
+from textmech.engines.pymunk.model import direct
 
 FIELDS = BodyFields.BODY_ID | BodyFields.POSITION | BodyFields.ANGULAR_VELOCITY
 

@@ -14,8 +14,8 @@ from textmech.cases.case import Case
 from textmech.cases.observe import observe
 from textmech.cases.trajectory import ANGLE, Trajectory
 from textmech.engines.engine import Diverged, Plan, Realised, Start
-from textmech.engines.pymunk.scene import build
-from textmech.engines.pymunk.sweeps import halving
+from textmech.engines.pymunk.model.sweeps import halving
+from textmech.engines.pymunk.stepping.scene import build
 from textmech.reference.solve import solve
 from textmech.reports.trial.start import assembled, first
 

@@ -15,9 +15,9 @@ from textmech.cases.scene import GROUND, Anchor, Bounds, Damper, Scene
 from textmech.cases.shape import disk
 from textmech.cases.trajectory import ANGLE, OMEGA, VX, Array, X
 from textmech.engines.engine import Start
-from textmech.engines.pymunk.law.line import drifting
-from textmech.engines.pymunk.plain import acts
-from textmech.engines.pymunk.scene import build
+from textmech.engines.pymunk.adapter.plain import acts
+from textmech.engines.pymunk.callbacks.line import drifting
+from textmech.engines.pymunk.stepping.scene import build
 
 ENGINE = TUNED["pymunk"]
 STEPS = (2e-3, 1e-3, 5e-4)

@@ -14,9 +14,9 @@ from textmech.cases.observe import observe
 from textmech.cases.scene import Bounds, DryFriction, Joint
 from textmech.cases.trajectory import ANGLE, X, Y
 from textmech.engines.engine import Choice
-from textmech.engines.pymunk import scene as builder
-from textmech.engines.pymunk.law import breakaway
-from textmech.engines.pymunk.recipe import Recipe
+from textmech.engines.pymunk.callbacks import breakaway
+from textmech.engines.pymunk.settings.recipe import Recipe
+from textmech.engines.pymunk.stepping import scene as builder
 from textmech.reports.events.times import engine_events
 
 ENGINE = TUNED["pymunk"]

@@ -13,11 +13,11 @@ from given.planning import TUNED, begun, moved
 from textmech.cases.case import Case
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Realised
-from textmech.engines.pymunk import stops
-from textmech.engines.pymunk.law import points
-from textmech.engines.pymunk.law.friction import turn
-from textmech.engines.pymunk.pair import closed_pairs
-from textmech.engines.pymunk.run import placed
+from textmech.engines.pymunk.callbacks import points
+from textmech.engines.pymunk.callbacks.friction import turn
+from textmech.engines.pymunk.model import stops
+from textmech.engines.pymunk.model.pair import closed_pairs
+from textmech.engines.pymunk.stepping.run import placed
 from textmech.reference.solve import solve
 from textmech.reports.trial.start import first
 

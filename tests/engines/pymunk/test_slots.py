@@ -12,10 +12,10 @@ from textmech.cases.scene import Scene
 from textmech.cases.shape import bar
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Start
+from textmech.engines.pymunk.model.sweeps import halving
+from textmech.engines.pymunk.model.world import World
 from textmech.engines.pymunk.read.health import _left
-from textmech.engines.pymunk.run import placed
-from textmech.engines.pymunk.sweeps import halving
-from textmech.engines.pymunk.world import World
+from textmech.engines.pymunk.stepping.run import placed
 
 ARM = bar(name="arm", mass=0.9, length=1.0, points={})
 ROD = bar(name="rod", mass=1.2, length=0.8, points={})

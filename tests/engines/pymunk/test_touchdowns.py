@@ -12,8 +12,8 @@ from given.planning import TUNED, every, moved, ways
 from textmech.cases.case import Case
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Realised
-from textmech.engines.pymunk.law import cut
-from textmech.engines.pymunk.law.foot import Foot
+from textmech.engines.pymunk.callbacks import cut
+from textmech.engines.pymunk.callbacks.foot import Foot
 from textmech.reference.solve import solve
 from textmech.reports.trial.start import first
 
@@ -225,7 +225,7 @@ def test_a_smooth_ladder_leaves_its_wall_once(step: float, tmp_path: Path) -> No
 @pytest.mark.slow
 @pytest.mark.mutant("a seed that the curve of a tip's path uses up")
 def test_a_seed_that_is_used_up_is_seen(tmp_path: Path, monkeypatch: Patch) -> None:
-    recipe = import_module("textmech.engines.pymunk.recipe")  # the package has a function so called
+    recipe = import_module("textmech.engines.pymunk.settings.recipe")
     monkeypatch.setattr(recipe, "_TIP_SEED", replace(recipe._TIP_SEED, value=1e-8))
     leaves, found = let_go(tmp_path, 5e-4)
     assert found < leaves - 0.1

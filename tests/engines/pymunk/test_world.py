@@ -13,7 +13,7 @@ from pymunk.space import Space
 from textmech.cases.scene import Bounds
 from textmech.cases.trajectory import Trajectory, X
 from textmech.engines.engine import Diverged
-from textmech.engines.pymunk import scene as builder
+from textmech.engines.pymunk.stepping import scene as builder
 from textmech.reports.trial.audit import EQUAL, audit
 from textmech.reports.trial.trial import Trial
 

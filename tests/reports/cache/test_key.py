@@ -116,8 +116,8 @@ def test_what_is_tried_counts_and_the_code_that_tries_it(code: Path) -> None:
         ("reference/laws/friction.py", True, True),
         ("reference/motion/follow.py", True, True),
         ("engines/engine.py", False, True),
-        ("engines/pymunk/law/friction.py", False, True),
-        ("engines/mujoco/run.py", False, False),
+        ("engines/pymunk/callbacks/friction.py", False, True),
+        ("engines/mujoco/adapter/run.py", False, False),
         ("reports/judge/verdict.py", False, True),
         ("reports/trial/ladder.py", False, True),
         ("reports/events/times.py", False, True),
@@ -171,11 +171,11 @@ def test_all_code_counts_that_computes() -> None:
 @pytest.mark.parametrize(
     ("file", "stands"),
     [
-        ("engines/pymunk/force.py", True),
+        ("engines/pymunk/callbacks/force.py", True),
         ("engines/engine.py", True),
         ("reports/search/cures.py", True),
         ("reports/judge/metric.py", True),
-        ("engines/mujoco/run.py", False),
+        ("engines/mujoco/adapter/run.py", False),
         ("reference/laws/friction.py", False),  # of a reference the rows' own errors tell
         ("reports/write.py", False),
     ],

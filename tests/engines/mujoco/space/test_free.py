@@ -18,9 +18,9 @@ from textmech.cases.space.rotation import angle_between, inverse, product
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Plan
 from textmech.engines.mujoco import MuJoCo
-from textmech.engines.mujoco.space import start
-from textmech.engines.mujoco.space.read.seen import states
-from textmech.engines.mujoco.space.scene import principal
+from textmech.engines.mujoco.model.space import start
+from textmech.engines.mujoco.model.space.scene import principal
+from textmech.engines.mujoco.read.space.seen import states
 
 TIMES = np.linspace(0.0, 2.0, 11)
 BODY = rigid("top", 1.3, LOPSIDED)
@@ -115,8 +115,10 @@ def _turned_back(*args: Any) -> Any:
 @pytest.mark.parametrize(
     ("place", "wrong"),
     [
-        ("space.run.states", _ground_axes_out), ("space.start._free", _ground_axes_in),
-        ("space.start._free", _turned_back), ("space.scene.principal", _back),
+        ("adapter.space.run.states", _ground_axes_out),
+        ("model.space.start._free", _ground_axes_in),
+        ("model.space.start._free", _turned_back),
+        ("model.space.scene.principal", _back),
     ],
     ids=["ω read in ground axes", "ω started in ground axes", "R transposed", "J turned back"],
 )  # fmt: skip

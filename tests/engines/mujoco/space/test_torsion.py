@@ -14,7 +14,7 @@ from textmech.cases.quantity import table
 from textmech.cases.space.rotation import UPRIGHT
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Start
-from textmech.engines.mujoco.space import run
+from textmech.engines.mujoco.adapter.space import run
 from textmech.reference.solve import solve
 
 MUJOCO = TUNED["mujoco"]

@@ -18,9 +18,10 @@ from textmech.cases.difference import apart
 from textmech.cases.observe import observe
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Start
-from textmech.engines.mujoco.law.signal import Control, installed
-from textmech.engines.mujoco.space import compilation, run, settle
-from textmech.engines.mujoco.tree import called
+from textmech.engines.mujoco.adapter.space import compilation, run
+from textmech.engines.mujoco.callbacks.signal import Control, installed
+from textmech.engines.mujoco.callbacks.space import settle
+from textmech.engines.mujoco.model.tree import called
 
 # So hard that what the soft d leaves of friction, 1e-2 with the recipe's 1e6, is out of the way.
 IMPRATIO = 1e8

@@ -1,0 +1,1 @@
+"""The protocol's words for MuJoCo: plans, refusals, runs, claims."""

@@ -1,0 +1,130 @@
+"""What a setting of MuJoCo decides about a scene: ways, exponents, and the protocol's words."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+
+from ....cases.scene import CENTER, Contact, Pair, Scene
+from ...engine import Choice, Plan, Realised, Start
+from ...law import one_number
+from ...stride import strides
+from ..callbacks.catch import catches
+from ..callbacks.corner import has_corners
+from ..callbacks.friction import one_slide, smooth_only
+from ..callbacks.touch import one_touch
+from ..model.bounce import spread
+from ..model.contact import falls
+from ..model.force import lacking
+from ..model.planes import met
+from ..model.scene import HEAVY
+from ..model.tree import driven
+from ..settings.settings import only_slides
+from .compilation import NOMINAL, placed
+
+Numbers = Callable[[float], Sequence[Choice]]
+
+
+def ways(scene: Scene, start: Start, *, tuned: bool) -> tuple[Realised, ...]:
+    """MuJoCo's own elements; dry friction, of which it knows one number, in other ways too; and
+    springs of one side, whose corners its steps do not know.
+
+    Edges, and forces that it has no element for, by our law alone.
+    """
+    if scene.constraints:
+        return ("law",)
+    if strides(scene):
+        return ("driver",)
+    if lacking(scene):
+        driver = tuned and one_slide(scene) and not smooth_only(scene)
+        return ("law", "driver") if driver else ("law",)
+    if tuned and one_touch(scene) and not falls(scene, start):
+        return ("native", "law", "driver")
+    if tuned and (has_corners(scene) or catches(scene)):
+        return ("native", "driver")
+    if not tuned or not one_slide(scene):
+        return ("native",)
+    return ("native", "law") if smooth_only(scene) else ("native", "law", "driver")
+
+
+def plan(
+    scene: Scene,
+    start: Start,
+    realised: Realised,
+    numbers: Numbers,
+    *,
+    settles: bool,
+    tuned: bool,
+) -> Plan:
+    """One way's plan. Nothing is withheld: a joint's force and moment can be read, a contact's too.
+
+    Exponents: Euler, contacts, corners of dry friction and of springs 1, 2; RK4 4, 5, with corners
+    of other laws and the mean of a force that jumps 2, 3; soft constraints that follow the step
+    2, 3.
+    """
+    integrator = {choice.name: choice.value for choice in numbers(NOMINAL)}["option.integrator"]
+    dry = any(joint.dry_friction for joint in scene.joints.values())
+    jumps = any(law.corners for law in scene.laws())
+    first = integrator != "RK4" or bool(met(scene)) or (dry and realised != "driver")
+    first |= any(scene.stops())
+    first |= any(scene.ropes()) and realised != "driver"
+    first |= any(scene.one_sided()) and realised != "driver"
+    corners = any(force.corner for force in scene.forces.values())
+    following = (1, 2) if first else (4, 5) if dry else (2, 3)
+    bare = Plan(
+        realised,
+        held=(1, 2) if first else (2, 3) if corners or jumps else (4, 5),
+        following=following if follows(numbers) else None,
+        alike=realised != "native" and only_slides(scene),  # what our law holds lies still
+        numbers=numbers,
+        simplified=one_number(scene) if realised == "native" else "",
+    )
+    return replace(bare, protocol=partial(_words, scene, start, bare, settles, tuned))
+
+
+def follows(numbers: Numbers) -> bool:
+    """Whether a number follows the step."""
+    here, there = ([c.value for c in numbers(step)] for step in (NOMINAL, 2 * NOMINAL))
+    return here != there
+
+
+def _words(scene: Scene, start: Start, plan: Plan, settles: bool, tuned: bool, step: float) -> str:
+    """Driven points, laws and drivers, and how deep a disk is started in the floor."""
+    words = []
+    if any(driven(scene)):
+        words.append(f"driven points are masses of {HEAVY:g} kg")
+    if scene.drives:
+        words.append(f"prescribed rates are armatures of {HEAVY:g} kg m² (kg of a slide)")
+    if plan.simplified:
+        words.append(plan.simplified)
+    if scene.constraints:
+        words.append(f"{', '.join(scene.constraints)} held by our law at every stage")
+    elif plan.realised == "law" and (one_slide(scene) or one_touch(scene)):
+        when = "stage" if smooth_only(scene) and not met(scene) else "step"
+        words.append(f"dry friction by our law before every {when}")
+    if ours := [force.name for force, _ in lacking(scene)]:
+        words.append(f"{', '.join(ours)} by our law at every stage, which the script has not")
+    if strides(scene):
+        words.append("the foot that stands is pinned; steps are cut where one strikes: an impulse")
+    elif plan.realised == "driver":
+        acts, dry = "where a spring begins or ends to act", "at the events of dry friction"
+        taut = "where a rope comes taut, and the impact taken there"
+        acts = taut if catches(scene) else acts
+        words.append(f"steps cut {dry if one_slide(scene) or one_touch(scene) else acts}")
+    if tuned and met(scene) and falls(scene, start):
+        words.append("starts above the floor: contacts are tuned for impacts")
+    if tuned and (thrown := max((one.restitution for one in met(scene)), default=0.0)):
+        lasts, kept = spread(thrown)
+        words.append(f"a bounce lasts {lasts:.0f} steps, and keeps its speed to about {kept:.2g} %")
+    if settles and (met(scene) or any(scene.ropes())):
+        *_, depths = placed(scene, start, step, plan, settles=True)
+        both = {**scene.touching, **scene.pairs}
+        longer = ((name, depth) for name, depth in depths.items() if name not in both)
+        words += [f"{name} started {more:.1e} m too long" for name, more in longer]
+        deep = ((both[name], depth) for name, depth in depths.items() if depth and name in both)
+        words += [f"{_at(c)} started {depth:.1e} m in the {c.on}" for c, depth in deep]
+    return "; ".join(words)
+
+
+def _at(contact: Contact | Pair) -> str:
+    """`wheel`, `rod.end`."""
+    return contact.body if contact.at.point == CENTER else str(contact.at)

@@ -1,0 +1,74 @@
+"""Prescribed rates in the plane: motions that no force of the scene can hold back.
+
+As a driven point is a heavy mass, a driven freedom has a heavy armature, and actuators that give it
+the acceleration of the law: right at every RK4 stage, and all forces follow.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from xml.etree import ElementTree as ET
+
+from ....cases.joint import DRIVES
+from ....cases.scene import GROUND, Joint, Scene
+from ....cases.signal import Signal
+from ...signal import derivative
+from .force import signals
+from .tree import coordinate, spanning_tree
+from .written import written
+
+HEAVY = 1e15  # kg m² (kg of a slide): what a scene exerts changes the rate by 1e-15 of it
+
+
+@dataclass(frozen=True)
+class Drive:
+    """What one prescribed rate is to MuJoCo; effort: what it exerts, such as `hinge.torque`.
+
+    way: 1.0 if MuJoCo's joint counts as the scene's does, from the first part to the second.
+    """
+
+    joint: Joint
+    name: str
+    way: float
+    law: Signal
+    effort: str
+
+
+def drives(scene: Scene) -> Iterator[Drive]:
+    """In the scene's order."""
+    forward = {b.joint.name: b.forward for b in spanning_tree(scene).branches if b.joint}
+    for quantity, law in scene.drives.items():
+        part, _, rate = quantity.rpartition(".")
+        joint, turns = scene.joints[part], rate == "omega"
+        way = -1.0 if turns and not forward.get(part, True) else 1.0
+        name = coordinate(joint, "turn" if turns else "shift")
+        yield Drive(joint, name, way, law, f"{part}.{DRIVES[rate][0]}")
+
+
+def controls(scene: Scene) -> list[Signal]:
+    """The laws of all actuators' controls, in MuJoCo's order."""
+    return [*signals(scene), *(law for *_, law in _accelerations(scene))]
+
+
+def _accelerations(scene: Scene) -> Iterator[tuple[str, float, Signal]]:
+    """MuJoCo's joint, how large its acceleration is, and the law that it follows."""
+    for drive in drives(scene):
+        for law in derivative(drive.law):
+            yield drive.name, drive.way * law.amplitude[0], law
+    for name, point in scene.points.items():
+        rates = derivative(point.moves) if point.moves else []
+        for law in (law for rate in rates for law in derivative(rate)):
+            for axis, size in zip("xy", law.amplitude, strict=True):
+                yield f"{GROUND}.{name}.{axis}", size, law
+
+
+def write(root: ET.Element, scene: Scene) -> None:
+    """Armatures, and actuators after those of the scene's forces."""
+    joints = {joint.attrib["name"]: joint for joint in root.iter("joint")}
+    for drive in drives(scene):
+        joints[drive.name].set("armature", written(HEAVY))
+    for i, (name, size, _) in enumerate(_accelerations(scene)):
+        section = root.find("actuator")
+        section = ET.SubElement(root, "actuator") if section is None else section
+        # The gear is what is heavy: a control above 1e10 would be "huge".
+        gear = written(HEAVY * size)
+        ET.SubElement(section, "general", name=f"drive.{i}", joint=name, gear=gear)

@@ -1,0 +1,25 @@
+"""What edges hold in MuJoCo, row by row, in the order in which `userdata` has their forces."""
+
+from collections.abc import Iterator
+from xml.etree import ElementTree as ET
+
+from ....cases.scene import Edge, Scene
+
+
+def fields(scene: Scene) -> list[str]:
+    """The reactions of the scene's edges, as quantities."""
+    return [f"{edge.name}.{field}" for edge, field in held(scene)]
+
+
+def write_room(root: ET.Element, scene: Scene) -> None:
+    """A number of `userdata` for each."""
+    if scene.constraints:
+        ET.SubElement(root, "size", nuserdata=str(len(fields(scene))))
+
+
+def held(scene: Scene) -> Iterator[tuple[Edge, str]]:
+    """Each edge's force across, and its drive where its speed is prescribed."""
+    for edge in scene.constraints.values():
+        yield edge, "force"
+        if edge.speed is not None:
+            yield edge, "drive"

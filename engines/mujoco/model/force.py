@@ -1,0 +1,338 @@
+"""MuJoCo's element for each force element, and what is read back of it: one table, ELEMENTS.
+
+A tendon carries a spring or a damper. An actuator carries what follows a law in time: control 1
+makes a constant, the integral of 1 a ramp; any other law's control is a callback.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+from xml.etree import ElementTree as ET
+
+import mujoco
+import numpy as np
+
+from ....cases.force import (
+    Couple,
+    Damper,
+    Drag,
+    Force,
+    Line,
+    LinearMuscle,
+    Magnetic,
+    Muscle,
+    Push,
+    Rope,
+    Spring,
+    Stops,
+    Torque,
+    Viscous,
+)
+from ....cases.muscle import Contracting
+from ....cases.scene import CENTER, GROUND, Anchor, Scene
+from ....cases.signal import Signal
+from ....cases.trajectory import Array
+from ....cases.turning import Motor, Torsion, TorsionDamper
+from .hinge import Hinge, hinge
+from .rope import rope_length, write_rope
+from .stops import stop_numbers, write_stops
+from .written import written
+
+# Viscous friction along a slide as MuJoCo's damping of a joint: a v + b v|v| + c v³.
+
+
+_POWERS = (1.0, 2.0, 3.0)
+
+
+def not_polynomial(force: Viscous) -> str | None:
+    """Why it is not such a damping: another exponent, or another coefficient each way."""
+    if force.exponent in _POWERS and force.coefficient.forward == force.coefficient.backward:
+        return None
+    return "engine: MuJoCo damps a joint by a v + b v|v| + c v³, alike both ways"
+
+
+def write_viscous(sections: object, force: Viscous, along: Hinge) -> None:
+    """The coefficient of its power, if MuJoCo has that."""
+    if not_polynomial(force):
+        return
+    assert along.element is not None
+    d, power = force.coefficient.forward, _POWERS.index(force.exponent)
+    along.element.set("damping", written(*[d if i == power else 0.0 for i in range(3)]))
+
+
+def damping(force: Viscous, slip: Array) -> Array:
+    """(N,) what such a damping exerts along the slide, by the slip [m/s]."""
+    return -force.coefficient.forward * np.abs(slip) ** force.exponent * np.sign(slip)
+
+
+def viscous_numbers(model: mujoco.MjModel, force: Viscous, along: Hinge) -> dict[str, float]:
+    """The coefficient, as the compiled model holds it."""
+    dof = model.jnt_dofadr[model.joint(along.name).id]
+    held = [model.dof_damping[dof], *np.ravel(model.dof_dampingpoly[dof])]
+    d = float(held[_POWERS.index(force.exponent)])
+    return {"forward": d, "backward": d}
+
+
+# What acts about a joint: MuJoCo's own of the joint, or an actuator.
+
+
+def torsion(sections: Mapping[str, ET.Element], force: Torsion, about: Hinge) -> None:
+    """A torsion spring is a joint's own."""
+    about.give("stiffness", force.stiffness)
+    about.give("springref", math.degrees(about.way * force.rest_angle))
+
+
+def torsion_numbers(model: mujoco.MjModel, force: Torsion, about: Hinge) -> dict[str, float]:
+    """What the joint holds of it."""
+    number = model.joint(about.name).id
+    rest = about.way * model.qpos_spring[model.jnt_qposadr[number]]
+    return {"stiffness": np.ravel(model.jnt_stiffness[number])[0], "rest_angle": rest}
+
+
+def torsion_damper(sections: Mapping[str, ET.Element], force: TorsionDamper, about: Hinge) -> None:
+    """A damper is a joint's own too."""
+    about.give("damping", force.damping)
+
+
+def torsion_damping(model: mujoco.MjModel, force: TorsionDamper, about: Hinge) -> dict[str, float]:
+    """What the joint holds of it."""
+    dof = model.jnt_dofadr[model.joint(about.name).id]
+    return {"damping": np.ravel(model.dof_damping[dof])[0]}
+
+
+def motor(sections: Mapping[str, ET.Element], force: Motor, about: Hinge) -> None:
+    """An actuator of the joint."""
+    gear = written(about.way * force.signal.amplitude[0])
+    given = {"name": force.name, "joint": about.name, "gear": gear}
+    element = ET.SubElement(sections["actuator"], "general", given)
+    if force.signal.law == "ramp":
+        element.set("dyntype", "integrator")
+
+
+# The inner state of a muscle, as the activation of an actuator that does nothing else.
+
+
+# Set up as near to it as can be, it has a load that it lifts by 84 mm up to 10 mm elsewhere.
+ANOTHER = (
+    "engine: MuJoCo's muscle is another law: without an element in series, its force falls as a "
+    "parabola of its speed"
+)
+NOTHING = Signal("constant", (0.0,))
+
+
+def write_muscle(sections: Mapping[str, ET.Element], force: Contracting) -> None:
+    """An actuator without gain, whose activation has the rate that our callback gives."""
+    ET.SubElement(
+        sections["actuator"], "general", name=force.name, site=GROUND, gear="0 0 0 0 0 0",
+        dyntype="user", actdim="1", gainprm="0",
+    )  # fmt: skip
+
+
+# A torque between two bodies: an actuator at one body's site, against the site of the other.
+
+
+def write_couple(sections: Mapping[str, ET.Element], force: Couple) -> None:
+    """MuJoCo turns the second body against the first, about the first's z: in the plane, z."""
+    sites = {"site": f"{force.second}.{CENTER}", "refsite": f"{force.first}.{CENTER}"}
+    gear = written(0, 0, 0, 0, 0, *force.signal.amplitude)
+    given = {"name": force.name, **sites, "gear": gear}
+    element = ET.SubElement(sections["actuator"], "general", given)
+    if force.signal.law == "ramp":
+        element.set("dyntype", "integrator")
+
+
+def couple_outer(force: Couple, size: Array, gear: Array) -> Iterator[tuple[Anchor, Array, Array]]:
+    """The torque (N,) on each body."""
+    for body, way in ((force.first, -1.0), (force.second, 1.0)):
+        yield Anchor(body, CENTER), np.zeros((len(size), 2)), way * size * gear[5]
+
+
+NEVER = 1e6  # m: a length that no tendon has
+BY_ITSELF = ("constant", "ramp")  # the laws that need no callback
+
+Sections = Mapping[str, ET.Element]
+Outer = tuple[Anchor, Array, Array]
+"""A body's point at which a force (N, 2) [N] and a torque (N,) [N m] act; in space (N, 3) each."""
+
+
+@dataclass(frozen=True)
+class Element:
+    """MuJoCo's element of one kind; called with the force element, and if it acts about a joint
+    with that joint's `Hinge`.
+
+    write: into the file's sections. numbers: for the audit. Of what has an actuator, signal: the
+    law that its control follows; outer: what it exerts on bodies at its force (N,), by its gear,
+    unless through a tendon, whose forces MuJoCo counts rightly itself. lacks: why MuJoCo has no
+    element for it, so that it is told by our law; or None. damping: of what is its joint's damping,
+    what it exerts (N,) at the slips (N,).
+    """
+
+    write: Callable[..., None] = lambda *_: None
+    numbers: Callable[..., dict[str, float]] = lambda model, force, *about: {}
+    signal: Callable[[Any], Signal] | None = None
+    outer: Callable[[Any, Array, Array], Iterator[Outer]] = lambda *_: iter(())
+    lacks: Callable[[Any], str | None] = lambda force: None
+    damping: Callable[[Any, Array], Array] | None = None
+
+
+def lacking(scene: Scene) -> list[tuple[Force, str]]:
+    """The forces that MuJoCo has no element for, and why."""
+    found = ((force, ELEMENTS[type(force)].lacks(force)) for force in scene.forces.values())
+    return [(force, why) for force, why in found if why is not None]
+
+
+def write(root: ET.Element, scene: Scene) -> None:
+    """The sections of the scene's forces."""
+    sections = {name: ET.Element(name) for name in ("tendon", "actuator")}
+    for force in scene.forces.values():
+        ELEMENTS[type(force)].write(sections, force, *_about(scene, force, root))
+    root.extend(section for section in sections.values() if len(section))
+
+
+def signals(scene: Scene) -> list[Signal]:
+    """The laws of the actuators' controls, in MuJoCo's order."""
+    return [signal(force) for force, signal in _actuated(scene)]
+
+
+def begun_with(scene: Scene) -> list[float]:
+    """The activations at the start, in MuJoCo's order: of ramps, and of what has an inner state."""
+    return [
+        force.begins if force.inner else 0.0
+        for force, signal in _actuated(scene)
+        if force.inner or signal(force).law == "ramp"
+    ]
+
+
+def numbers(scene: Scene, model: mujoco.MjModel) -> dict[str, float]:
+    """What the compiled model holds of the forces, as `Force.numbers` names it."""
+    return {
+        f"{force.name}.{key}": number
+        for force in scene.forces.values()
+        if ELEMENTS[type(force)].lacks(force) is None
+        for key, number in _held(scene, model, force).items()
+    }
+
+
+def _held(scene: Scene, model: mujoco.MjModel, force: Force) -> dict[str, float]:
+    return ELEMENTS[type(force)].numbers(model, force, *_about(scene, force))
+
+
+def _about(scene: Scene, force: Force, root: ET.Element | None = None) -> Iterator[Hinge]:
+    if force.about is not None:
+        yield hinge(scene, force, root)
+
+
+def outer(scene: Scene, model: mujoco.MjModel, sizes: Array) -> Iterator[Outer]:
+    """What the actuators exert on bodies, when their forces are `sizes` (N, actuators)."""
+    for i, (force, _) in enumerate(_actuated(scene)):
+        gear = model.actuator_gear[i]
+        yield from ELEMENTS[type(force)].outer(force, sizes[:, i], gear)
+
+
+def about(scene: Scene, model: mujoco.MjModel, joint: str, sizes: Array) -> Array:
+    """(N,) what the actuators exert about a joint, as MuJoCo counts its angle."""
+    total = np.zeros(len(sizes))
+    for i, (force, _) in enumerate(_actuated(scene)):
+        if force.about == joint:
+            total += sizes[:, i] * model.actuator_gear[i, 0]
+    return total
+
+
+def _actuated(scene: Scene) -> Iterator[tuple[Force, Callable[[Any], Signal]]]:
+    for force in scene.forces.values():
+        if signal := ELEMENTS[type(force)].signal:
+            yield force, signal
+
+
+def tendon(sections: Sections, force: Line, **attributes: float | tuple[float, ...]) -> None:
+    """A tendon between the two ends."""
+    texts = {
+        key: written(*(value if isinstance(value, tuple) else (value,)))
+        for key, value in attributes.items()
+    }
+    spatial = ET.SubElement(sections["tendon"], "spatial", texts, name=force.name)
+    for end in (force.a, force.b):
+        ET.SubElement(spatial, "site", site=str(end))
+
+
+def _spring(sections: Sections, force: Spring) -> None:
+    rest = force.rest_length
+    dead = {"compression": (rest, NEVER), "tension": (0.0, rest)}.get(force.only or "", (rest,))
+    tendon(sections, force, stiffness=force.stiffness, springlength=dead)
+
+
+def _spring_numbers(model: mujoco.MjModel, force: Spring) -> dict[str, float]:
+    """Between two lengths MuJoCo's spring is dead."""
+    number = model.tendon(force.name).id
+    low, high = model.tendon_lengthspring[number].tolist()
+    pulls, pushes = high < NEVER, low == high or high == NEVER
+    numbers = {"stiffness": model.tendon_stiffness[number], "rest_length": high if pulls else low}
+    return numbers | {"pulls": float(pulls), "pushes": float(pushes)}
+
+
+def _damper(sections: Sections, force: Damper) -> None:
+    tendon(sections, force, damping=force.damping)
+
+
+def _damper_numbers(model: mujoco.MjModel, force: Damper) -> dict[str, float]:
+    return {"damping": model.tendon_damping[model.tendon(force.name).id]}
+
+
+def _actuator(
+    sections: Sections, force: Push | Torque, site: str, gear: tuple[float, ...]
+) -> ET.Element:
+    given = {"name": force.name, "site": site, "gear": written(*gear)}
+    element = ET.SubElement(sections["actuator"], "general", given)
+    if force.signal.law == "ramp":
+        element.set("dyntype", "integrator")
+    return element
+
+
+def _push(sections: Sections, force: Push) -> None:
+    along = force.signal.amplitude
+    rest = [0] * (6 - len(along))
+    element = _actuator(sections, force, str(force.at), (*along, *rest))
+    element.set("refsite", GROUND)  # the force keeps the ground's axes
+
+
+def _push_outer(force: Push, size: Array, gear: Array) -> Iterator[Outer]:
+    if len(force.signal.amplitude) == 3:
+        yield force.at, size[:, None] * gear[:3], np.zeros((len(size), 3))
+    else:
+        yield force.at, size[:, None] * gear[:2], np.zeros(len(size))
+
+
+def _torque(sections: Sections, force: Torque) -> None:
+    site, about = f"{force.body}.{CENTER}", force.signal.amplitude
+    rest = [0] * (6 - len(about))
+    element = _actuator(sections, force, site, (*rest, *about))
+    if len(about) == 3:
+        element.set("refsite", GROUND)  # the torque keeps the ground's axes
+
+
+def _torque_outer(force: Torque, size: Array, gear: Array) -> Iterator[Outer]:
+    at = Anchor(force.body, CENTER)
+    if len(force.signal.amplitude) == 3:
+        yield at, np.zeros((len(size), 3)), size[:, None] * gear[3:]
+    else:
+        yield at, np.zeros((len(size), 2)), size * gear[5]
+
+
+ELEMENTS: dict[type[Force], Element] = {
+    Spring: Element(_spring, _spring_numbers),
+    Damper: Element(_damper, _damper_numbers),
+    Push: Element(_push, signal=lambda force: force.signal, outer=_push_outer),
+    Torque: Element(_torque, signal=lambda force: force.signal, outer=_torque_outer),
+    Couple: Element(write_couple, signal=lambda force: force.signal, outer=couple_outer),
+    Torsion: Element(torsion, torsion_numbers),
+    TorsionDamper: Element(torsion_damper, torsion_damping),
+    Motor: Element(motor, signal=lambda force: force.signal),
+    Drag: Element(lacks=lambda force: "engine: MuJoCo has no drag at a point of a body"),
+    Viscous: Element(write_viscous, viscous_numbers, lacks=not_polynomial, damping=damping),
+    Magnetic: Element(lacks=lambda force: "engine: MuJoCo has no force of a magnetic field"),
+    Muscle: Element(write_muscle, signal=lambda force: NOTHING, lacks=lambda force: ANOTHER),
+    LinearMuscle: Element(write_muscle, signal=lambda force: NOTHING, lacks=lambda force: ANOTHER),
+    Rope: Element(write_rope, rope_length),
+    Stops: Element(write_stops, stop_numbers),
+}

@@ -1,0 +1,1 @@
+"""What is written otherwise of scenes in space."""

@@ -1,0 +1,26 @@
+"""What edges hold in space, row by row, in the order in which `userdata` has their forces."""
+
+from collections.abc import Iterator
+from xml.etree import ElementTree as ET
+
+from .....cases.space.constraint import SpatialEdge
+from .....cases.space.scene import SpatialScene
+
+
+def fields(scene: SpatialScene) -> list[str]:
+    """The reactions of the scene's edges, as quantities."""
+    return [f"{edge.name}.{field}" for edge, field in held(scene)]
+
+
+def write_room(root: ET.Element, scene: SpatialScene) -> None:
+    """A number of `userdata` for each."""
+    if scene.constraints:
+        ET.SubElement(root, "size", nuserdata=str(len(fields(scene))))
+
+
+def held(scene: SpatialScene) -> Iterator[tuple[SpatialEdge, str]]:
+    """Each edge's force to its side, and the one on its height where that is kept."""
+    for edge in scene.constraints.values():
+        yield edge, "force"
+        if edge.kept:
+            yield edge, "normal"

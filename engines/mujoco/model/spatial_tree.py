@@ -1,0 +1,86 @@
+"""A scene's joints in space as a spanning tree, and a body's freedoms as MuJoCo's joints.
+
+MuJoCo applies the joints of one body in their order, each along or about an axis in the axes that
+the joints before it leave: what a `Freedom` is. Loops close by `connect`, which holds one point:
+one of them is a ball, two are a hinge, three a weld.
+"""
+
+from dataclasses import dataclass
+
+from ....cases.scene import GROUND
+from ....cases.space.joint import Freedom, SpatialJoint
+from ....cases.space.rotation import Vector3
+from ....cases.space.scene import SpatialScene
+from .tree import Branch, Tree, spanned
+
+
+@dataclass(frozen=True)
+class Native:
+    """One of MuJoCo's joints: of: the number of the joint's freedom that it is."""
+
+    name: str
+    type: str
+    axis: Vector3 = (0.0, 0.0, 1.0)
+    of: int = 0
+
+
+def spanning_tree(scene: SpatialScene) -> Tree[SpatialJoint]:
+    """The tree over the joints; what `connect` closes best, or at all, comes last."""
+
+    def closes(joint: SpatialJoint) -> int:
+        driven = any(quantity.startswith(f"{joint.name}.") for quantity in scene.drives)
+        acted = any(force.about == joint.name for force in scene.forces.values())
+        return -4 if driven or acted else -(held_points(scene, joint) or 4)
+
+    return spanned(scene, sorted(scene.joints.values(), key=closes))
+
+
+def left(scene: SpatialScene, joint: SpatialJoint) -> tuple[Freedom, ...]:
+    """The freedoms that the joint leaves here: a particle has no axes, so none are held."""
+    ends = (joint.a.body, joint.b.body)
+    rigid = all(end == GROUND or scene.bodies[end].turns for end in ends)
+    return joint.freedoms if rigid else (*joint.shifts, Freedom("ball"))
+
+
+def held_points(scene: SpatialScene, joint: SpatialJoint) -> int | None:
+    """By how many points `connect` can hold what the joint holds; None: by no number."""
+    freedoms = left(scene, joint)
+    if any(freedom.kind == "shift" for freedom in freedoms):
+        return None
+    if len(freedoms) == 3 or any(freedom.kind == "ball" for freedom in freedoms):
+        return 1
+    return {0: 3, 1: 2}.get(len(freedoms))
+
+
+def natives(scene: SpatialScene, branch: Branch[SpatialJoint]) -> list[Native]:
+    """What the body can do on its parent, as MuJoCo's joints in their order, outer first.
+
+    A body that is its joint's first part undoes the freedoms, the last one first.
+    """
+    body, joint = scene.bodies[branch.body], branch.joint
+    if joint is None and body.turns:
+        return [Native(body.name, "free")]
+    if joint is None:
+        axes = zip("xyz", ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), strict=True)
+        return [Native(f"{body.name}.{name}", "slide", axis) for name, axis in axes]
+    freedoms = [
+        (number, freedom)
+        for number, freedom in enumerate(left(scene, joint))
+        if body.turns or freedom.kind == "shift"
+    ]
+    sign = 1.0 if branch.forward else -1.0
+    kinds = {"shift": "slide", "turn": "hinge", "ball": "ball"}
+    return [
+        Native(
+            coordinate(joint, number),
+            kinds[freedom.kind],
+            (sign * freedom.axis[0], sign * freedom.axis[1], sign * freedom.axis[2]),
+            number,
+        )
+        for number, freedom in (freedoms if branch.forward else reversed(freedoms))
+    ]
+
+
+def coordinate(joint: SpatialJoint, number: int) -> str:
+    """MuJoCo's joint for a freedom: the joint's name, and where there are several its number."""
+    return joint.name if len(joint.freedoms) < 2 else f"{joint.name}.{number}"

@@ -1,0 +1,97 @@
+"""Stops of a joint's turn: the range of MuJoCo's joint, with sensors of what holds it there."""
+
+import math
+from collections.abc import Mapping, Sequence
+from xml.etree import ElementTree as ET
+
+import mujoco
+import numpy as np
+
+from ....cases.scene import Scene
+from ....cases.stops import Stops
+from ....cases.trajectory import Array
+from ...engine import Choice
+from .bounce import dead, springy
+from .contact import HARDEST
+from .hinge import Hinge, hinge
+from .planes import Soft
+from .written import of_one, written
+
+NEVER = 1e6  # rad: where no turn ends
+AT = 1e-9  # rad: what is nearer to a stop is at it
+BEHIND = 1e-12  # rad
+BEAT = 0.05  # h times the frequency of a stop that throws back
+
+
+def write_stops(sections: Mapping[str, ET.Element], stops: Stops, about: Hinge) -> None:
+    """The range, as MuJoCo counts the angle."""
+    assert about.element is not None
+    ends = sorted(about.way * at for at in _ends(stops))
+    about.element.set("limited", "true")
+    about.element.set("range", written(*map(math.degrees, ends)))
+
+
+def _ends(stops: Stops) -> tuple[float, float]:
+    low = -NEVER if stops.low is None else stops.low
+    return low, NEVER if stops.high is None else stops.high
+
+
+def finish_stops(root: ET.Element, scene: Scene, soft: Soft) -> None:
+    """A setting's numbers for the limits, and their sensors behind those of others."""
+    for stops in scene.stops():
+        about = hinge(scene, stops, root)
+        assert about.element is not None
+        about.element.attrib.update(soft(stops.name))
+        found = root.find("sensor")
+        sensors = ET.SubElement(root, "sensor") if found is None else found
+        ET.SubElement(sensors, "jointlimitfrc", name=stops.name, joint=about.name)
+        ET.SubElement(sensors, "jointpos", name=f"{stops.name}.angle", joint=about.name)
+
+
+def stop_numbers(model: mujoco.MjModel, stops: Stops, about: Hinge) -> dict[str, float]:
+    """Where the range ends."""
+    ends = sorted(about.way * model.jnt_range[model.joint(about.name).id])
+    return {side: ends[("low", "high").index(side)] for side in stops.sides}
+
+
+def lean(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """Puts what starts at a stop a rounding behind it: exactly there MuJoCo sees no limit."""
+    for stops in scene.stops():
+        joint = model.joint(hinge(scene, stops).name).id
+        place = model.jnt_qposadr[joint]
+        for end, way in zip(model.jnt_range[joint], (-1.0, 1.0), strict=True):
+            if abs(data.qpos[place] - end) <= AT:
+                data.qpos[place] = end + way * BEHIND
+
+
+def pushing(scene: Scene, model: mujoco.MjModel, quantity: str, sensed: Array) -> Array:
+    """(N,) with what moment one of the stops pushes, from the sensors' rows (N, ·)."""
+    name, _, side = quantity.rpartition(".")
+    stops = next(stops for stops in scene.stops() if stops.name == name)
+    size, angle = (sensed[:, model.sensor(n).adr[0]] for n in (name, f"{name}.angle"))
+    low, high = _ends(stops)
+    below = hinge(scene, stops).way * angle < (low + high) / 2
+    return np.where(below == (side == "low"), size, 0.0)
+
+
+def recipe(all_of_them: Sequence[Stops]) -> list[Choice]:
+    """The limits' numbers: of the stops that throw back most, and what others have instead."""
+    most = max(stops.restitution for stops in all_of_them)
+    others = [stops for stops in all_of_them if stops.restitution != most]
+    return [
+        _spring("stop", most),
+        *(_spring(of_one(stops.name), stops.restitution) for stops in others),
+        Choice("stop.solimplimit", [HARDEST, HARDEST, 0.001], "the hardest MuJoCo takes"),
+        Choice(
+            "flag.diagexact", "enable", "or k and b are those of the inertia at the file's own pose"
+        ),
+    ]
+
+
+def _spring(whose: str, bounce: float) -> Choice:
+    """What throws back with a part of the speed."""
+    if bounce:
+        k, b, because = springy(bounce, BEAT)
+    else:
+        k, b, because = dead(1)
+    return Choice(f"{whose}.solreflimit", [f"-{k}", f"{-b}/h"], because)

@@ -1,0 +1,1 @@
+"""MuJoCo as shipped, as its authors recommend it, tuned, and with a user's own options."""

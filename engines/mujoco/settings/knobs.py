@@ -1,0 +1,129 @@
+"""What of MuJoCo can be turned for a scene: a closed list, each value measured in some case.
+
+A group's solref, solimp and solreffriction are one knob: they spoil each other alone.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from ...engine import Choice
+from ...knobs import Knob, Options, Value, said
+from ..model.contact import HARDEST, SOFTEST
+from ..model.written import EACH
+from .own import ELEMENTS, as_options, key, suffix
+
+STEPS = (1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2.5e-4, 1e-4)  # s
+STAGES = {"RK4": 4}  # evaluations of the dynamics in a step; every other integrator takes one
+INTEGRATORS = ("implicitfast", "implicit", "discrete", "RK4")
+# What only touches would fall freely for one step: MuJoCo knows a contact from below its margin on.
+MARGIN = Value("a margin of 1e-9 m", {"pair": {"margin": 1e-9}})
+_HARD, _MIDDLE, _SOFT = ([d, d, 0.001] for d in (HARDEST, 0.99, SOFTEST))
+_STIFF = ("2h", "4h", "10h")  # time constants
+
+
+def knobs(
+    best: Sequence[Choice],
+    soft: Sequence[str],
+    bundles: Mapping[str, Sequence[Choice]],
+    *,
+    lies: bool,
+    rubs: bool,
+) -> list[Knob]:
+    """Those that matter for the scene. best: the tuned recipe; soft: its groups.
+
+    bundles: the recipes for contacts that fit it. lies: whether something starts on the floor;
+    rubs: whether what touches has friction.
+    """
+    tuned = as_options(best, settled=lies)
+    found = [
+        Knob(
+            "integrator",
+            tuple(_of("integrator", word) for word in INTEGRATORS),
+            _of("integrator", tuned["integrator"]),
+        ),
+        *(_softness(group, tuned) for group in soft),
+    ]
+    if rubs:
+        found += _contacts(tuned)
+    if "noslip_iterations" in tuned or bundles:
+        found.append(_knob("noslip_iterations", [5], tuned))
+    if "diagexact" in tuned:
+        found.append(_knob("diagexact", [True], tuned))
+    if lies:
+        start = Value("a settled start", {"settled": True})
+        found.append(Knob("start", (start,), start, "ours"))
+        found.append(Knob("margin", (MARGIN,)))
+    if bundles:
+        recipes = tuple(
+            Value(f"the recipe for contacts that {word}", as_options(choices, settled=False))
+            for word, choices in bundles.items()
+        )
+        found.append(Knob("contacts", recipes, kind="bundle"))
+    return found
+
+
+def _contacts(tuned: Options) -> Iterator[Knob]:
+    """The pyramid's friction and its creep."""
+    yield _knob("cone", ["elliptic"], tuned)
+    yield _knob("impratio", [10.0, 100.0, 1e4, 1e6], tuned)
+
+
+def _knob(name: str, values: Sequence[Any], tuned: Options) -> Knob:
+    best = _of(name, tuned[name]) if name in tuned else None
+    return Knob(name, tuple(_of(name, value) for value in values), best)
+
+
+def _of(name: str, value: Any) -> Value:
+    if value is True or name == "noslip_iterations":
+        return Value(name.partition("_")[0], {name: value})
+    if isinstance(value, str):
+        return Value(value if name == "integrator" else f"{value} {name}", {name: value})
+    return Value(f"{name} {said(value)}", {name: value})
+
+
+_WHOSE = {
+    "connect": "loops", "pair": "contacts", "slide": "dry joints", "rope": "ropes", "stop": "stops",
+    "rod": "rods in loops",
+}  # fmt: skip
+
+
+def _softness(group: str, tuned: Options) -> Knob:
+    """The time constant, how hard it is, both, and what the tuned recipe has."""
+    pushes, holds = (key(group, name).partition(".")[2] for name in ("solref", "solimp"))
+    whose, element = _WHOSE[group], ELEMENTS[group]
+
+    def value(**numbers: Any) -> Value:
+        words = (f"d = {n[0]:g}" if k == holds else f"{k} {said(n)}" for k, n in numbers.items())
+        return Value(f"{whose}: {', '.join(words)}", {element: numbers})
+
+    springs: list[list[Any]] = [[text, 1.0] for text in _STIFF]
+    hardness = [_HARD, _MIDDLE]
+    if group == "pair":
+        springs += [["-0.25/h2", "-1/h"], ["-0.04/h2", 0.0]]
+        hardness.append(_SOFT)
+    values = [
+        *(value(**{pushes: spring}) for spring in springs),
+        *(value(**{holds: d}) for d in hardness),
+        *(value(**{pushes: spring, holds: _HARD}) for spring in springs[:2]),
+    ]
+    numbers = {
+        name: x for name, x in tuned.get(element, {}).items() if name.endswith(suffix(group))
+    }
+    best = value(**numbers) if numbers else None
+    if best and (own := _own(tuned, group)):
+        best = Value(f"{best.words}, {' and '.join(own)} otherwise", {**best.options, EACH: own})
+    if best and best.options not in [one.options for one in values]:
+        values.append(best)
+    return Knob(f"softness of {whose}", tuple(values), best)
+
+
+def _own(tuned: Options, group: str) -> dict[str, Any]:
+    """What the tuned recipe gives one contact, or one joint's stops, alone."""
+    pushes = key(group, "solref").partition(".")[2]
+    given = tuned.get(EACH, {}).items() if group in ("pair", "stop") else ()
+    return {element: numbers for element, numbers in given if pushes in numbers}
+
+
+def cost(options: Options, step: float) -> float:
+    """Evaluations of the dynamics in a simulated second."""
+    return STAGES.get(options.get("integrator", ""), 1) / step

@@ -1,0 +1,95 @@
+"""Options as elements of an MJCF file, ready to paste between `<mujoco>` and `</mujoco>`."""
+
+from collections.abc import Sequence
+from xml.etree import ElementTree as ET
+
+from ...engine import Choice
+from ...knobs import Options
+from ..model.script import commented
+from ..model.written import EACH, attributes, written
+
+_ELEMENTS = {
+    "connect": "equality", "pair": "geom", "slide": "joint", "rope": "tendon", "stop": "joint",
+    "rod": "equality",
+}  # fmt: skip
+"""What stands in <default> for a group of soft constraints, in a model as a user writes it."""
+_ALONE = "solreffriction"  # which a geom has not
+_KEPT = {
+    "geom": "of two geoms that touch the one of higher priority tells, or both by solmix",
+    "equality": "a <connect> or <weld> with numbers of its own keeps them: write these there",
+    "joint": "a <joint> with numbers of its own keeps them: write these there",
+    "tendon": "a tendon with numbers of its own keeps them: write these there",
+}
+"""What else decides, of an element of <default>."""
+_PAIRS = (
+    "a <pair> has no number of its geoms, nor their friction and condim: it takes these{need}. Of "
+    "the geoms that touch: <contact>"
+    '<pair geom1="…" geom2="…" condim="3" friction="{friction} {friction}" /></contact>'
+)
+_NEED = "; and only a pair has a solreffriction, without which the rest makes it hop"
+_PYRAMID = "a contact is the softer the larger its friction, as its cone is a pyramid: this is for "
+_CONTACTS = ("pair.", "option.impratio")  # what begins so acts on contacts alone
+
+
+def snippet(
+    choices: Sequence[Choice],
+    shipped: Sequence[Choice],
+    step: float,
+    notes: Sequence[str],
+    *,
+    friction: float | None = None,
+) -> str:
+    """What is not as MuJoCo has it by itself, for a model in which geoms touch.
+
+    notes: what no element says. friction: of the scene's contacts, where it has any. Numbers that
+    need a solreffriction beside them are for a <pair> alone: a geom has none, and hops with them.
+    """
+    before = {choice.name: choice.value for choice in shipped}
+    changed = {c.name: c.value for c in choices if before.get(c.name) != c.value}
+    option = ET.Element("option", {"timestep": written(step)} | attributes(changed, "option"))
+    if flags := attributes(changed, "flag"):
+        ET.SubElement(option, "flag", flags)
+    default, beside = ET.Element("default"), list[str]()
+    for group, element in _ELEMENTS.items():
+        given = attributes(changed, group)
+        pairs_alone = group == "pair" and _ALONE in given
+        mine = {} if pairs_alone else given
+        if mine:
+            found = default.find(element)
+            place = ET.SubElement(default, element) if found is None else found
+            if any(place.get(name, value) != value for name, value in mine.items()):
+                numbers = ", ".join(f"{name}={value!r}" for name, value in mine.items())
+                beside.append(f"each {element} of a {group} has {numbers} instead")
+            else:
+                place.attrib.update(mine)
+        if group == "pair" and given:
+            ET.SubElement(default, "pair", given)
+    beside += [_KEPT[element.tag] for element in default if element.tag in _KEPT]
+    if (pair := default.find("pair")) is not None:
+        need = _NEED if _ALONE in pair.attrib else ""
+        beside.append(_PAIRS.format(need=need, friction=written(friction or 0.0)))
+    pyramid = {choice.name: choice.value for choice in choices}.get("option.cone") == "pyramidal"
+    if pyramid and friction and any(name.startswith(_CONTACTS) for name in changed):
+        beside.append(_PYRAMID + written(friction))
+    for name, value in changed.items():
+        where, _, attribute = name.rpartition(".")
+        if where.startswith(f"{EACH}."):
+            beside.append(f"{where.partition('.')[2]} alone has {attribute}={written(value)!r}")
+    return "".join(
+        [commented([*notes, *beside]), _text(option), _text(default) if len(default) else ""]
+    )
+
+
+def said(options: Options, *, contacts: bool, plane: bool) -> list[str]:
+    """What of the options no element says."""
+    notes = []
+    if contacts and options.get("settled"):
+        notes.append("starts as deep in the floor as it is carried there: the keyframe of `show`")
+    if contacts and plane and options.get("noslip_iterations"):
+        notes.append("noslip does nothing for a body that has no freedom along the third axis")
+    return notes
+
+
+def _text(element: ET.Element) -> str:
+    ET.indent(element)
+    return ET.tostring(element, encoding="unicode") + "\n"

@@ -1,0 +1,1 @@
+"""Settings of scenes in space."""

@@ -1,1 +1,0 @@
-"""Scenes in space as MuJoCo runs them: z up, native joints, the same file names first."""

@@ -1,1 +1,0 @@
-"""What MuJoCo tells of a run in space: states, reactions, and the model's own numbers."""

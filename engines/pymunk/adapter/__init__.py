@@ -1,0 +1,1 @@
+"""The protocol's words for pymunk: plans, refusals, scripts, claims."""

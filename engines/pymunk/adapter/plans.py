@@ -1,0 +1,141 @@
+"""What a setting of pymunk decides about a scene: ways, exponents, and the protocol's words."""
+
+from collections.abc import Sequence
+from functools import partial
+from typing import Any
+
+from ....cases.quantity import table
+from ....cases.scene import Scene
+from ...engine import Choice, Plan, Realised, Start
+from ...law import one_number
+from ...stride import strides
+from ..callbacks.cut import cuts, lands
+from ..callbacks.force import damped, lacking
+from ..callbacks.friction import ruled
+from ..model.contact import closed
+from ..model.edge import alone
+from ..model.pair import closed_pairs
+from ..model.slot import oblique
+from ..settings.own import Own
+from ..settings.recipe import Recipe
+
+Numbers = Recipe | Own
+NOMINAL = 1e-3  # s; whether a bias is 0 depends on no step
+SIGNED = ("fx", "fy", "torque", "drive", "friction")
+
+
+def ways(scene: Scene, start: Start) -> tuple[Realised, ...]:
+    """Edges by our driver, forces that pymunk has no element for by our law.
+
+    Dampers also by their law: pymunk applies its own after the kick, a first order.
+
+    Dry friction too: pymunk's has one bound, where the textbook's has up to four.
+
+    Landings also by our driver: pymunk finds them at the end of a step, a first order.
+    """
+    if scene.constraints or strides(scene):
+        return ("driver",)
+    if lacking(scene):
+        return ("law",)
+    law = damped(scene) or any(scene.dampers()) or ruled(scene)
+    driver = lands(scene, start)
+    return ("native", *(("law",) if law else ()), *(("driver",) if driver else ()))
+
+
+def plan(
+    scene: Scene, start: Start, realised: Realised, numbers: Numbers, *, shipped: bool = False
+) -> Plan:
+    """One way's plan. A bias that stays while h falls is of first order, as pymunk's own is."""
+    order = (2, 3) if _second(scene, realised, numbers) else (1, 2)
+    return Plan(
+        realised,
+        held=(1, 2) if numbers.follows else order,
+        following=order if numbers.follows else None,
+        numbers=numbers,
+        protocol=partial(_words, scene, start, realised, numbers),
+        withheld=_withheld(scene, realised),
+        simplified=one_number(scene) if realised == "native" and not shipped else "",
+    )
+
+
+def named(choices: Sequence[Choice]) -> dict[str, Any]:
+    """The numbers without their reasons."""
+    return {choice.name: choice.value for choice in choices}
+
+
+def _second(scene: Scene, realised: Realised, numbers: Numbers) -> bool:
+    """Whether errors are of second order: by the midpoint protocol, with whole gaps closed."""
+    known = named(numbers(NOMINAL))
+    closes = not scene.joints or numbers.biased or known.get("constraint.error_bias") == 0.0
+    touches = not scene.pressed or bool(known.get("start.seed"))
+    midpoint = bool(known.get("time.midpoint"))
+    return midpoint and closes and touches and not _spoilt(scene, realised)
+
+
+def _spoilt(scene: Scene, realised: Realised) -> bool:
+    """Where pymunk spoils the midpoint protocol's second order.
+
+    An impact, and a part that turns back without a rest, take whole steps: measured, 1. Of a step
+    in which a spring begins or ends to act, what is left is anything up to its second order.
+    """
+    native = realised == "native"
+    brakes = native and any(joint.dry_friction for joint in scene.joints.values())
+    met = bool(scene.pairs) or any(contact.switches for contact in scene.contacts.values())
+    sided, roped = any(scene.one_sided()), any(scene.limits())
+    jointed = realised == "driver" and met and bool(scene.joints)  # no gap is closed in a part
+    return (
+        (native and (damped(scene) or met)) or brakes or strides(scene) or sided or roped or jointed
+    )
+
+
+def _withheld(scene: Scene, realised: Realised) -> dict[str, str]:
+    """A constraint's impulse has no direction; beside others, not even a sign."""
+    edges = {
+        name: "engine: pymunk reports a joint's impulse as a magnitude only"
+        for name, quantity in table(scene).items()
+        if quantity.part in scene.constraints and quantity.field in ("force", "drive")
+        if not alone(scene, quantity.part)
+    }
+    moved = {
+        name: "engine: pymunk knows velocities and impulses, and no accelerations"
+        for name, quantity in table(scene).items()
+        if quantity.kind == "acceleration"
+    }
+    joints = {
+        name: "engine: pymunk reports a joint's impulse as a magnitude only"
+        for name, quantity in table(scene).items()
+        if quantity.part in scene.joints and quantity.kind == "force"
+        if quantity.field in SIGNED or scene.joints[quantity.part].swings
+    }
+    blurred = {
+        f"{name}.force": f"adapter: {name} rubs by a force of ours, which no impulse counts"
+        for name, joint in scene.joints.items()
+        if joint.shifts and joint.dry_friction and joint.dry_friction.smooth
+    }
+    return edges | moved | joints | (blurred if realised == "law" else {})
+
+
+def _words(scene: Scene, start: Start, realised: Realised, numbers: Numbers, step: float) -> str:
+    """The half step along the velocities, contacts' depth at the start, and what holds a slot."""
+    known, words = named(numbers(step)), []
+    if known.get("time.midpoint"):
+        words.append(f"started {step / 2:g} s back, positions read {step / 2:g} s ahead")
+    seed, touching = known.get("start.seed"), [*closed(scene, start), *closed_pairs(scene, start)]
+    if seed and touching:
+        bodies = ", ".join(dict.fromkeys(contact.body for contact in touching))
+        planes = " and the ".join(dict.fromkeys(contact.on for contact in touching))
+        words.append(f"{bodies} started {seed:g} m in the {planes}")
+    slots = [joint.name for joint in scene.joints.values() if oblique(scene, joint)]
+    if slots and known.get("slot.across"):
+        words.append(f"{', '.join(slots)} held across by a pin joint that is carried along")
+    if ours := [force.name for force, _ in lacking(scene)]:
+        words.append(f"{', '.join(ours)} by our law before each step, which the script has not")
+    if strides(scene):
+        words.append("before each step the floor is told which foot it meets")
+    if realised == "driver" and cuts(scene):
+        words.append("a step is cut where something lands, which the script does not")
+    if scene.constraints:
+        words.append(
+            f"{', '.join(scene.constraints)} held by pin joints that are laid anew before each step"
+        )
+    return "; ".join(words)

@@ -1,0 +1,1 @@
+"""What pymunk has to be told before each step: forces, friction, landings."""

@@ -1,0 +1,138 @@
+"""Landings by a driver: a step is cut where something comes down, and the impact is one instant.
+
+pymunk finds a landing at the end of the step in which it happens, up to h late and v h deep: an
+error of first order. Here the step ends at the touch-down, as the motion goes on along the
+velocities and as it falls freely; there the impact is pymunk's own, in a step that lasts no time;
+and the rest of the step begins behind it. Each part is a step of the midpoint protocol.
+"""
+
+from collections.abc import Sequence
+
+from ....cases.scene import Scene
+from ...engine import Start
+from ..model.contact import closed
+from ..model.slot import oblique
+from ..model.world import World
+from .cold import NO_TIME, Lengths, drift, open_gaps
+from .foot import Carrier, Foot
+from .force import ELEMENTS, lacking
+
+_SHORTEST = 1e-9  # of a step: what lasts no longer happens at once
+_PARTS = 3  # for each that comes down: nearly there, there, and there again
+
+
+def cuts(scene: Scene) -> bool:
+    """Whether a step may be cut: all that acts is pymunk's own, and takes steps of any length."""
+    told = any(ELEMENTS[type(force)].tell for force in scene.forces.values())
+    told |= bool(scene.drives or scene.constraints) or any(scene.laws())
+    gives = any(joint.dry_friction for joint in scene.joints.values()) or any(scene.limits())
+    gives |= any(contact.static != contact.kinetic for contact in scene.contacts.values())
+    carried = any(oblique(scene, joint) for joint in scene.joints.values())
+    return not (told or gives or carried or scene.pairs or lacking(scene))
+
+
+def lands(scene: Scene, start: Start) -> bool:
+    """Whether a step may be cut, and something is there that does not stand on its plane yet."""
+    above = {contact.name for contact in scene.touching.values() if contact.switches}
+    return cuts(scene) and bool(above - {contact.name for contact in closed(scene, start)})
+
+
+class Landings:
+    """What may come down in a world; `step` takes its steps in place of `space.step`."""
+
+    def __init__(self, world: World, seed: float) -> None:
+        self.world, self.space = world, world.space
+        touching = world.scene.touching.values()
+        self._carriers = {contact.body: Carrier(world, contact.body) for contact in touching}
+        self.feet = [Foot(world, each, seed, self._carriers[each.body]) for each in touching]
+        self._lengths, self._begun = Lengths(world.space), False
+
+    def step(self, step: float) -> None:
+        """One step [s], in as many parts as something comes down in it; places are h/2 behind."""
+        self._moved()
+        self._look(step)
+        if not self._begun:
+            self._begin(step)
+        if any(foot.comes(step / 2, step) for foot in self.feet):
+            self._cut(step)
+        else:
+            self._take(step, step)
+
+    def _moved(self) -> None:
+        for carrier in self._carriers.values():
+            carrier.look()
+
+    def _drift(self, length: float) -> None:
+        drift(self.space, length)
+        self._moved()
+
+    def _begin(self, step: float) -> None:
+        """What strikes at the start does so before the first step."""
+        self._begun = True
+        if any(foot.stands for foot in self.feet):
+            self._drift(step / 2)
+            self._strike([])
+            self._drift(-step / 2)
+
+    def _cut(self, step: float) -> None:
+        self._drift(step / 2)
+        left = step
+        if late := [foot for foot in self.feet if foot.is_down and not foot.is_above]:
+            self._strike(late)  # as the step before ended, by a little more than it had foreseen
+        for _ in range(_PARTS * len(self.feet)):
+            after = [
+                foot.after(left) for foot in self.feet if foot.is_above and foot.comes(0.0, left)
+            ]
+            if not after:
+                break
+            self._part(min(after), step)
+            left -= min(after)
+            if down := [foot for foot in self.feet if foot.is_down]:
+                self._strike(down)
+        self._part(left, step)
+        self._drift(-step / 2)
+
+    def _part(self, length: float, step: float) -> None:
+        """A step so long [s] from where the bodies are now to where they are then."""
+        if length > _SHORTEST * step:
+            self._drift(-length / 2)
+            with open_gaps(self.space):
+                self._take(length, step)
+            self._drift(length / 2)
+
+    def _take(self, length: float, step: float) -> None:
+        self._lay(length)
+        self._lengths.take(length)
+        self.world.share[0] = length / step
+
+    def _strike(self, struck: Sequence[Foot]) -> None:
+        for foot in struck:
+            self._stand(foot)
+            foot.touch()
+        self._lay(NO_TIME, strikes=True)
+        self._lengths.impact()
+        self._moved()
+        for foot in struck:
+            foot.bounce()
+
+    def _stand(self, foot: Foot) -> None:
+        """Of feet that stand one after the other the one behind is let go."""
+        if self.world.stride:
+            self.world.stride.come_down(foot.contact.name)
+            self._meet()
+
+    def _look(self, step: float) -> None:
+        if self.world.stride:
+            self.world.stride.look(self.world.place)
+            self._meet()
+        for foot in self.feet:
+            foot.look(step)
+
+    def _meet(self) -> None:
+        assert self.world.stride is not None
+        for foot in self.feet:
+            foot.meets = self.world.stride.meets.get(foot.contact.name, True)
+
+    def _lay(self, length: float, *, strikes: bool = False) -> None:
+        for foot in self.feet:
+            foot.lay(length, strikes=strikes)

@@ -1,0 +1,194 @@
+"""Dry friction by its law (2.89), (2.95): ours, told to pymunk's friction before every step.
+
+pymunk knows one bound of friction. The law sets it to the mean force of the coming step, and
+pymunk holds with it, or brakes. `ruled` says where the law is known beforehand: on a part that
+nothing else joins or touches.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from ....cases.scene import GROUND, Bounds, Contact, DryFriction, Joint, Scene, Vector
+from ..model.direct import State, pushing, reading, turning
+from ..model.world import World
+from .breakaway import bound, smooth_mean
+from .force import load
+
+# What slips in a joint of the ground, as the law of friction sees it: a mass, a speed, a force.
+
+
+@dataclass(frozen=True)
+class Slip:
+    """mass: what resists the slip [kg; of a pin kg m²]. read: the state of what slips, by which
+    the others know. applied: all else that acts along it [N or N m], at t + ahead. speed: [m/s or
+    rad/s]. push: friction as a force of ours."""
+
+    mass: float
+    read: Callable[[], State]
+    applied: Callable[[float, float, State], float]
+    speed: Callable[[State], float]
+    push: Callable[[float, State], None]
+
+
+def turn(world: World, joint: Joint, step: float) -> Slip:
+    """About a pin: its inertia there, and the moment there of all that acts at the centre."""
+    part, body = world.scene.bodies[joint.b.body], world.bodies[joint.b.body]
+    acting, (a, b) = load(world, joint.b.body, step), world.local(joint.b)
+
+    def about(t: float, ahead: float, state: State) -> float:
+        fx, fy, moment = acting(t, ahead, state)
+        _, _, angle, _, _, omega = state
+        angle += (ahead + step / 2) * omega  # which is h/2 behind
+        cos, sin = math.cos(angle), math.sin(angle)
+        return moment - (cos * a - sin * b) * fy + (sin * a + cos * b) * fx
+
+    twist = turning(body)
+
+    def push(moment: float, state: State) -> None:
+        twist(moment)
+
+    return Slip(part.about(joint.b.point), reading(body), about, lambda state: state[5], push)
+
+
+Told = Callable[[float], None]  # called before the step that starts at t [s]
+RESTING = 1e-9  # m/s: a part that neither falls nor rises; above rounding, below any impact
+
+
+def ruled(scene: Scene) -> bool:
+    """Whether there is dry friction with more than pymunk's one bound, and its law is known."""
+    joints = [j for j in scene.joints.values() if j.dry_friction]
+    contacts = [c for c in scene.contacts.values() if _two_bounds(c)]
+    alone = all(j.a.body == GROUND and _only(scene, j.b.body) for j in joints) and all(
+        _only(scene, c.body) and _simple(scene, c) for c in contacts
+    )
+    return bool(joints or contacts) and alone
+
+
+def laws(world: World, step: float) -> list[Told]:
+    """What has to be called before each step where friction goes by its law."""
+    found: list[Told] = []
+    for joint in world.scene.joints.values():
+        if joint.dry_friction:
+            found.append(_joint(world, joint, joint.dry_friction, step))
+    for contact in world.scene.contacts.values():
+        if _two_bounds(contact):
+            found.append(_contact(world, contact, step))
+    return found
+
+
+def _two_bounds(contact: Contact) -> bool:
+    return contact.switches and contact.static != contact.kinetic
+
+
+def _only(scene: Scene, body: str) -> bool:
+    """Whether one joint or contact is all that holds the body, and no rope or stop ever does."""
+    joints = [j for j in scene.joints.values() if body in (j.a.body, j.b.body)]
+    pairs = [p for p in scene.pairs.values() if body in (p.body, p.touched)]
+    contacts = [c for c in scene.contacts.values() if c.body == body]
+    limited = any(
+        body in (end.body for end in scene.ends(force))
+        for force in scene.forces.values()
+        if force.given
+    )
+    return len(joints) + len(pairs) + len(contacts) == 1 and not limited
+
+
+def _simple(scene: Scene, contact: Contact) -> bool:
+    """Where normal force and friction do not feel each other: a disk or a particle."""
+    body = scene.bodies[contact.body]
+    return body.radius is not None or not body.turns
+
+
+def _joint(world: World, joint: Joint, friction: DryFriction, step: float) -> Told:
+    brake, smooth = world.brakes[joint.name], friction.smooth
+    slip = _slide(world, joint, step) if joint.shifts else turn(world, joint, step)
+
+    read, applied, told = slip.read, slip.applied, brake.max_force
+
+    def exact(t: float) -> None:
+        nonlocal told
+        state = read()
+        limit, force = bound(
+            friction, slip.speed(state), slip.mass, lambda ahead: applied(t, ahead, state), step
+        )
+        if limit != told:
+            brake.max_force = told = limit
+        if force:
+            slip.push(force, state)
+
+    if smooth is None:
+        return exact
+    brake.max_force = 0.0  # nothing rests: a force, not a bound
+
+    def blurred(t: float) -> None:
+        state = read()
+        middle, v = applied(t, step / 2, state), slip.speed(state)
+        slip.push(smooth_mean(friction, smooth, v, slip.mass, middle, step), state)
+
+    return blurred
+
+
+def _slide(world: World, joint: Joint, step: float) -> Slip:
+    body, acting = world.bodies[joint.b.body], load(world, joint.b.body, step)
+    ux, uy = joint.along
+    carried = world.scene.points[joint.a.point].velocity  # of a driven rail
+
+    pushes = pushing(body)
+
+    def along(t: float, ahead: float, state: State) -> float:
+        fx, fy, _ = acting(t, ahead, state)
+        return ux * fx + uy * fy
+
+    def speed(state: State) -> float:
+        _, _, _, vx, vy, _ = state
+        return ux * (vx - carried[0]) + uy * (vy - carried[1])
+
+    def push(force: float, state: State) -> None:
+        x, y, *_ = state
+        pushes((ux * force, uy * force), (x, y))
+
+    return Slip(body.mass, reading(body), along, speed, push)
+
+
+def _contact(world: World, contact: Contact, step: float) -> Told:
+    """By the slip of the point that touches, and the mass that resists it there."""
+    part = world.scene.bodies[contact.body]
+    body, shape = world.bodies[contact.body], world.wheels[contact.name]
+    read, push = reading(body), pushing(body)
+    acting, ((ux, uy), (nx, ny)) = load(world, contact.body, step), _axes(contact)
+    radius = part.radius or 0.0
+    turn = radius / part.inertia if part.inertia else 0.0  # slip per angular impulse
+    mass = 1 / (1 / part.mass + radius * turn)
+
+    def along(t: float, normal: float, ahead: float, state: State) -> float:
+        """With what static friction has lost by then, or gained, so that its bound stays."""
+        fx, fy, torque = acting(t, ahead, state)
+        force = mass * ((ux * fx + uy * fy) / part.mass + turn * torque)
+        gained = normal + nx * fx + ny * fy
+        return force + math.copysign(1.0, force) * contact.static * gained
+
+    def exact(t: float) -> None:
+        state = read()
+        x, y, _, vx, vy, omega = state
+        fx, fy, _ = acting(t, step / 2, state)
+        normal = -(nx * fx + ny * fy)
+        if abs(nx * vx + ny * vy) > RESTING or normal <= 0:
+            shape.friction = contact.kinetic
+            return  # in flight, or in an impact, which is no place to rest
+        slip = ux * vx + uy * vy + radius * omega
+        both = DryFriction(
+            Bounds(contact.static * normal, contact.static * normal),
+            Bounds(contact.kinetic * normal, contact.kinetic * normal),
+        )
+        limit, force = bound(both, slip, mass, lambda ahead: along(t, normal, ahead, state), step)
+        shape.friction = limit / normal
+        if force:
+            push((force * ux, force * uy), (x - radius * nx, y - radius * ny))
+
+    return exact
+
+
+def _axes(contact: Contact) -> tuple[Vector, Vector]:
+    """Along its plane, and away from it."""
+    return contact.plane.along, contact.plane.normal

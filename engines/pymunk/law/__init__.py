@@ -1,1 +1,0 @@
-"""What pymunk is told before each step: force laws and signals."""

@@ -1,0 +1,42 @@
+"""Ropes: slide joints without a least length, which pull where it is beyond their largest.
+
+A step finds one too long by how far its ends have parted in it. With error_bias = 0 it takes all of
+that back at once, and throws back what it has caught by up to its whole speed: so a rope has a bias
+of its own, and the stops of joints have the same.
+"""
+
+import math
+
+from pymunk.constraints import SlideJoint
+
+from ...engine import Choice
+from .world import World
+
+FASTEST = 150.0  # 1/s: at 0.1 ms a ball that swings on a rope is ten times nearer than with 20/s
+SLOWING = 1.5  # s^-1/2: it meets FASTEST at 0.1 ms; at 1 ms a ball that is caught is caught once
+
+
+def add_ropes(world: World) -> None:
+    """In the order of the case file."""
+    for rope in world.scene.ropes():
+        a, b = world.body(rope.a), world.body(rope.b)
+        ends = world.local(rope.a), world.local(rope.b)
+        world.ropes[rope.name] = joint = SlideJoint(a, b, *ends, 0.0, rope.length)
+        world.space.add(joint)
+
+
+def eases(step: float) -> Choice:
+    """How fast what is too long of a rope, or beyond a stop, is taken back.
+
+    A step overshoots by up to v h, and what is taken back at a rate r throws with up to v h r: 15 %
+    of the speed with 150/s at 1 ms, where a ball that was caught bounces. Slower, a taut rope stays
+    too long instead. With r ~ h^-1/2 both fall with the step (measured, 0.1 to 1 ms).
+    """
+    rate = min(FASTEST, SLOWING / math.sqrt(step))
+    return Choice(
+        "limit.error_bias",
+        math.exp(-rate),
+        f"what is too long of a rope, or beyond a stop, falls as exp(−{rate:.3g} t/s): with 0 it "
+        "is taken back in one step, and throws back what was caught; the default takes a tenth of "
+        "a second",
+    )

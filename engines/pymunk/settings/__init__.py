@@ -1,0 +1,1 @@
+"""pymunk as shipped, tuned, and with a user's own options."""

@@ -1,0 +1,66 @@
+"""Options as lines of Python for a script as users write it, which has a `space` and steps it."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from ...engine import Choice
+from ..model.written import written
+from ..stepping.run import COLD
+from .settings import defaults
+
+_SWEEPS = "space.iterations"
+_GIVE_WAY = "(pymunk.SlideJoint, pymunk.RotaryLimitJoint)"
+_SHIFTED = """\
+# pymunk drifts, then kicks: start h/2 back, so that forces act in the middle of a step
+for body in space.bodies:
+    body.position -= h / 2 * body.velocity
+    body.angle -= h / 2 * body.angular_velocity
+# read body.position + h / 2 * body.velocity, and body.angle + h / 2 * body.angular_velocity"""
+_SEEDED = """\
+# what only touches would fall freely for one step
+for body in space.bodies:
+    for shape in body.shapes:
+        shape.unsafe_set_radius(shape.radius + {seed!r})"""
+_COLD = """\
+for n in range({cold}):  # the first steps have no impulses to begin with
+    space.iterations = {first}
+    space.step(h)
+space.iterations = {usual}  # from here on step as you do"""
+
+
+def snippet(choices: Sequence[Choice], step: float) -> str:
+    """What is not as pymunk has it by itself, to stand between building and stepping."""
+    before = defaults()
+    changed = {c.name: c.value for c in choices if before.get(c.name) != c.value}
+    sweeps = int(changed.get(_SWEEPS, before[_SWEEPS]))
+    return "\n".join([f"h = {step!r}  # s, for space.step(h)", *_lines(changed, sweeps)]) + "\n"
+
+
+def _lines(changed: Mapping[str, Any], sweeps: int) -> Iterator[str]:
+    yield from (f"{n} = {written(x)}" for n, x in changed.items() if n.startswith("space."))
+    joints = {n.partition(".")[2]: x for n, x in changed.items() if n.startswith("constraint.")}
+    if joints:
+        yield "for joint in space.constraints:"
+        for name, x in joints.items():
+            if name == "max_bias":
+                yield "    if joint.max_bias:  # 0: a joint that rubs corrects no position"
+            yield f"    {'    ' * (name == 'max_bias')}joint.{name} = {written(x)}"
+    if (eases := changed.get("limit.error_bias")) is not None:
+        yield "for joint in space.constraints:  # ropes and stops"
+        yield f"    if isinstance(joint, {_GIVE_WAY}):"
+        yield f"        joint.error_bias = {written(eases)}"
+    if seed := changed.get("start.seed"):
+        yield _SEEDED.format(seed=seed)
+    if changed.get("time.midpoint"):
+        yield _SHIFTED
+    if (first := changed.get("start.iterations", sweeps)) != sweeps:
+        yield _COLD.format(cold=COLD, first=first, usual=sweeps)
+    yield from _said(changed)
+
+
+def _said(changed: Mapping[str, Any]) -> Iterator[str]:
+    """What takes more than a line: the script of `show` has it."""
+    if changed.get("contact.reflects"):
+        yield "# a tip on the floor gets elasticity 1 before each step: see `stays` in the script"
+    if changed.get("slot.across"):
+        yield "# slots beside a centre are pin joints, carried along: see `carried` in the script"

@@ -1,0 +1,1 @@
+"""The scene as a Space, and its steps."""

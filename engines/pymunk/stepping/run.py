@@ -1,0 +1,160 @@
+"""Stepping pymunk.
+
+Midpoint protocol: pymunk moves bodies by h v first and then changes v. Every body is started
+h/2 back along its velocity, so that the engine's positions belong to tₙ − h/2 when its
+velocities belong to tₙ; positions are read h/2 ahead. Forces at positions then act at the
+middle of a step, which makes the method time-symmetric, and of second order.
+"""
+
+from collections.abc import Callable, Mapping
+from itertools import repeat
+from typing import Any
+
+from ....cases.scene import Scene
+from ...engine import Realised, Start
+from ..callbacks.cut import Landings, cuts
+from ..callbacks.force import tells
+from ..callbacks.friction import laws
+from ..model.contact import Tip, closed, follower, is_tip, sink, steers
+from ..model.drive import tells as turned
+from ..model.edge import driver
+from ..model.pair import closed_pairs, pair_followers, press
+from ..model.world import World
+from .scene import build
+
+Steps = Callable[[int], None]
+COLD = 5  # steps that begin without impulses worth keeping; measured: from the third on they are
+
+
+def placed(
+    scene: Scene, start: Start, step: float, numbers: Mapping[str, Any], realised: Realised
+) -> World:
+    """The world where a setting starts it: wheels seeded, bodies half a step back."""
+    world = build(scene, start, numbers, realised)
+    for contact in closed(scene, start):
+        seed = numbers.get("start.seed", 0.0)
+        sink(contact, scene.bodies[contact.body], world.wheels[contact.name], seed)
+    for pair in closed_pairs(scene, start):
+        press(world, pair, numbers.get("start.seed", 0.0))
+    if numbers.get("time.midpoint"):
+        for body in (*world.bodies.values(), *world.driven.values()):
+            body.position -= step / 2 * body.velocity
+            body.angle -= step / 2 * body.angular_velocity
+    return world
+
+
+def stepper(
+    world: World,
+    step: float,
+    numbers: Mapping[str, Any],
+    realised: Realised,
+    keep: Callable[[], None] | None = None,
+) -> Steps:
+    """A function that runs n steps, with the forces pymunk has to be told before each.
+
+    keep: what is called after each.
+    """
+    space, usual = world.space, world.space.iterations
+    cold, done = numbers.get("start.iterations", usual), 0
+    between = _between(world, step, numbers, realised, keep)
+
+    def run(n: int) -> None:
+        nonlocal done
+        first, done = done, done + n
+        if first < COLD and cold != usual:
+            middle = min(done, COLD)
+            space.iterations = cold
+            between(first, middle)
+            space.iterations, first = usual, middle
+        between(first, done)
+
+    return run
+
+
+def _between(
+    world: World,
+    step: float,
+    numbers: Mapping[str, Any],
+    realised: Realised,
+    keep: Callable[[], None] | None,
+) -> Callable[[int, int], None]:
+    """A function that takes the steps from one number up to another."""
+    if realised == "driver" and cuts(world.scene):
+        return _cutting(Landings(world, numbers.get("start.seed", 0.0)), step, keep)
+    one, midpoint = world.space.step, bool(numbers.get("time.midpoint"))
+    reflects = bool(numbers.get("contact.reflects"))
+    applied = forces(world, step, midpoint=midpoint, law=realised != "native", reflects=reflects)
+
+    def free(first: int, last: int) -> None:
+        for _ in repeat(None, last - first):
+            one(step)
+
+    def forced(first: int, last: int) -> None:
+        for i in range(first, last):
+            t = i * step
+            for apply in applied:
+                apply(t)
+            one(step)
+
+    if keep is None:
+        return forced if applied else free
+
+    def kept(first: int, last: int) -> None:
+        for i in range(first, last):
+            t = i * step
+            for apply in applied:
+                apply(t)
+            one(step)
+            keep()
+
+    def kept_free(first: int, last: int) -> None:
+        for _ in repeat(None, last - first):
+            one(step)
+            keep()
+
+    return kept if applied else kept_free
+
+
+def _cutting(
+    landings: Landings, step: float, keep: Callable[[], None] | None
+) -> Callable[[int, int], None]:
+    """The same by our driver, which cuts a step where something lands."""
+
+    def cut(first: int, last: int) -> None:
+        for _ in repeat(None, last - first):
+            landings.step(step)
+            if keep is not None:
+                keep()
+
+    return cut
+
+
+# All that is done before every step: forces that pymunk has to be told, friction, circles.
+
+
+Apply = Callable[[float], None]  # at time t [s]
+
+
+def forces(world: World, step: float, *, midpoint: bool, law: bool, reflects: bool) -> list[Apply]:
+    """What has to be called before each step; law: whether friction is ours too.
+
+    reflects: whether a point stays on the floor as `follower` says.
+    """
+    friction = laws(world, step) if law else []
+    told = [*turned(world, step, midpoint=midpoint), *tells(world, step, midpoint=midpoint)]
+    told += [*friction, *_followers(world, step, reflects)]
+    walks = [steers(world.stride, world.wheels, world.place)] if world.stride else []
+    return [*told, *walks, *driver(world, step)]  # which has to know what has been told
+
+
+def _followers(world: World, step: float, reflects: bool) -> list[Apply]:
+    scene = world.scene
+    tips: dict[str, list[Tip]] = {}
+    for contact in scene.touching.values():
+        if is_tip(scene, contact):
+            tip = Tip(contact, scene.bodies[contact.body], world.wheels[contact.name])
+            tips.setdefault(contact.body, []).append(tip)
+    found = [
+        follower(world.bodies[body], those, step, reflects=reflects) for body, those in tips.items()
+    ]
+    return [*found, *pair_followers(world, step, reflects=reflects)]
