@@ -9,8 +9,8 @@ from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 
 import numpy as np
 
-from ..cases.motion import Motion
 from ..cases.scene import Scene
+from ..cases.scene.motion import Motion
 from ..cases.trajectory import Array, Trajectory
 from .knobs import Knob, Options
 

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from given.claims import CHAIN, PLANE, claimed
 
-from textmech.cases import shape
+from textmech.cases import find
 from textmech.cases.language.grammar.states import Drawn
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
-from textmech.cases.quantity import table
-from textmech.cases.states import States, claimable, coordinates
+from textmech.cases.scene.quantity import table
+from textmech.cases.scene.states import States, claimable, coordinates
 
 
 def test_sound(tmp_path: Path) -> None:
@@ -168,7 +168,7 @@ def test_a_variant_may_draw_others(tmp_path: Path) -> None:
 
 
 STATES = (
-    Path(shape.__file__).with_name("README.md").read_text(encoding="utf-8")
+    Path(find.__file__).with_name("README.md").read_text(encoding="utf-8")
     .partition("## States\n")[2].partition("\n## ")[0]
 )  # fmt: skip
 

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
-from ....cases.joint import DRIVES
+from ....cases.fields.signal import Signal
 from ....cases.scene import GROUND, Joint, Scene
-from ....cases.signal import Signal
+from ....cases.scene.joint import DRIVES
 from ...signal import derivative
 from .force import signals
 from .tree import coordinate, spanning_tree

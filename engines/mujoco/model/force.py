@@ -13,7 +13,9 @@ from xml.etree import ElementTree as ET
 import mujoco
 import numpy as np
 
-from ....cases.force import (
+from ....cases.fields.signal import Signal
+from ....cases.scene import CENTER, GROUND, Anchor, Scene
+from ....cases.scene.forces.force import (
     Couple,
     Damper,
     Drag,
@@ -29,11 +31,9 @@ from ....cases.force import (
     Torque,
     Viscous,
 )
-from ....cases.muscle import Contracting
-from ....cases.scene import CENTER, GROUND, Anchor, Scene
-from ....cases.signal import Signal
+from ....cases.scene.forces.muscle import Contracting
+from ....cases.scene.forces.turning import Motor, Torsion, TorsionDamper
 from ....cases.trajectory import Array
-from ....cases.turning import Motor, Torsion, TorsionDamper
 from .hinge import Hinge, hinge
 from .rope import rope_length, write_rope
 from .stops import stop_numbers, write_stops

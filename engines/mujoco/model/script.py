@@ -8,8 +8,8 @@ from xml.etree import ElementTree as ET
 import mujoco
 import numpy as np
 
+from ....cases.fields.signal import Signal
 from ....cases.scene import CENTER, Scene
-from ....cases.signal import Signal
 from ...engine import Start
 from .force import BY_ITSELF
 from .tree import called

@@ -20,9 +20,9 @@ from pymunk.constraints import (
 )
 from pymunk.shapes import Segment
 
-from ....cases.pair import Pair
-from ....cases.plane import LEVEL, Plane
 from ....cases.scene import Anchor, Scene
+from ....cases.scene.pair import Pair
+from ....cases.scene.plane import LEVEL, Plane
 from ...engine import Start
 from ..callbacks.force import script
 from ..callbacks.one_side import as_text

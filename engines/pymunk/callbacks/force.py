@@ -13,7 +13,8 @@ from typing import Any
 from pymunk.body import Body
 from pymunk.constraints import DampedRotarySpring, DampedSpring
 
-from ....cases.force import (
+from ....cases.scene import Force, Scene
+from ....cases.scene.forces.force import (
     Couple,
     Damper,
     Drag,
@@ -30,7 +31,6 @@ from ....cases.force import (
     TorsionDamper,
     Viscous,
 )
-from ....cases.scene import Force, Scene
 from ...engine import Realised
 from ...signal import acting, in_time
 from ..model.direct import State, pushing, reading, turning

@@ -12,8 +12,8 @@ from pymunk.shape_filter import ShapeFilter
 from pymunk.shapes import Circle, Segment
 from pymunk.vec2d import Vec2d
 
-from ....cases.pair import Pair
 from ....cases.scene import Scene, Vector
+from ....cases.scene.pair import Pair
 from ...engine import Start, begun
 from .contact import ABOVE, FLOOR_ELASTICITY, FLOOR_FRICTION, TOUCHING, Follow
 from .world import World

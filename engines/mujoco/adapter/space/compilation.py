@@ -5,7 +5,7 @@ from contextlib import contextmanager
 
 import mujoco
 
-from .....cases.space.scene import SpatialScene
+from .....cases.scene.space.scene import SpatialScene
 from ....engine import Plan, Start
 from ...callbacks.signal import installed, listening
 from ...callbacks.space.settle import settle

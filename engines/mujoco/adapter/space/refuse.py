@@ -1,8 +1,8 @@
 """Scenes in space that MuJoCo has no element for, or the adapter does not build."""
 
 from .....cases.scene import GROUND
-from .....cases.space.joint import SpatialJoint
-from .....cases.space.scene import SpatialScene
+from .....cases.scene.space.joint import SpatialJoint
+from .....cases.scene.space.scene import SpatialScene
 from ...model.space.drive import drives
 from ...model.spatial_tree import held_points, left, natives, spanning_tree
 from ...model.tree import Tree

@@ -3,9 +3,9 @@
 import mujoco
 import numpy as np
 
-from .....cases.space.constraint import SpatialEdge
-from .....cases.space.rotation import Vector3
-from .....cases.space.scene import SpatialScene
+from .....cases.scene.rotation import Vector3
+from .....cases.scene.space.constraint import SpatialEdge
+from .....cases.scene.space.scene import SpatialScene
 from .....cases.trajectory import Array
 from ...model.space.edge import held
 from ...model.tree import called

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from xml.etree import ElementTree as ET
 
-from .....cases.space.constraint import SpatialEdge
-from .....cases.space.scene import SpatialScene
+from .....cases.scene.space.constraint import SpatialEdge
+from .....cases.scene.space.scene import SpatialScene
 
 
 def fields(scene: SpatialScene) -> list[str]:

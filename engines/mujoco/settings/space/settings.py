@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from .....cases.space.scene import SpatialScene
+from .....cases.scene.space.scene import SpatialScene
 from ....engine import Choice, Start
 from ...model.contact import HARDEST
 from ...model.space.contact import RECIPES, chosen, recipe
