@@ -21,8 +21,7 @@ from ruamel.yaml.events import (
     SequenceStartEvent,
 )
 
-from ...mistake import CaseError, Mistake, Path, Source
-from ..grammar.words import NO_VALUE
+from ...mistake import NO_VALUE, CaseError, Mistake, Path, Source
 
 DEEPEST = 20  # levels; a case has 6
 

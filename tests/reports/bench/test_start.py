@@ -16,7 +16,7 @@ HEAVY = (
 NEEDED = {
     "--help": set(),
     "import": {"numpy", "pydantic"},
-    "list": {"numpy", "pydantic", "ruamel.yaml"},
+    "list": {"ruamel.yaml"},
     "show": {"numpy", "pydantic", "ruamel.yaml", "pint", "mujoco"},
     "check": {*HEAVY} - {"pandas", "matplotlib", "jinja2", "scipy.optimize", "scipy.interpolate"},
 }
