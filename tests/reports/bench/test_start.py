@@ -18,7 +18,7 @@ NEEDED = {
     "import": {"numpy", "pydantic"},
     "list": {"ruamel.yaml"},
     "show": {"numpy", "pydantic", "ruamel.yaml", "pint", "mujoco"},
-    "check": {*HEAVY} - {"pandas", "matplotlib", "jinja2", "scipy.optimize", "scipy.interpolate"},
+    "check": {"numpy", "pydantic", "ruamel.yaml", "pint", "mujoco", "pymunk", "scipy.linalg"},
 }
 TOLD = "import atexit, sys; atexit.register(lambda: sys.stderr.write('|'.join(sys.modules)));"
 
