@@ -6,13 +6,13 @@ from math import cos, sin
 from typing import Any
 
 from ..case import Case, Deviation, Event, Placement
-from ..frame import PLANE
 from ..mistake import Source
 from ..origin import Origin
-from ..point import CENTER, anchor
 from ..scene import STANDARD_GRAVITY, Scene
-from ..space.joint import SpatialJoint
-from ..space.scene import SpatialScene
+from ..scene.frame import PLANE
+from ..scene.point import CENTER, anchor
+from ..scene.space.joint import SpatialJoint
+from ..scene.space.scene import SpatialScene
 from .grammar.file import File
 from .grammar.source import Source as Book
 from .grammar.space.scene import SpatialScene as SpatialWords

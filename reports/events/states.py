@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from ...cases.case import Case
 from ...cases.mistake import Mistake
-from ...cases.observe import observe
-from ...cases.quantity import SIDES, AtEvent, at_event
+from ...cases.scene.observe import observe
+from ...cases.scene.quantity import SIDES, AtEvent, at_event
 from ...cases.trajectory import Array, Trajectory
 from .passages import bent
 from .times import grazed, never, reference_events, still

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from ...cases.case import Case, Event
 from ...cases.mistake import Mistake
-from ...cases.observe import observe
-from ...cases.quantity import at_event, table
 from ...cases.scene import Scene
+from ...cases.scene.observe import observe
+from ...cases.scene.quantity import at_event, table
 from ...cases.trajectory import Array, Trajectory
 from .passages import passages, touches
 from .rests import LOW, STEPS, rests
