@@ -10,40 +10,13 @@ import numpy as np
 
 from .fields.event import Event
 from .mistake import Mistake, Source
+from .origin import Origin
 from .scene import Scene, Vector
 from .scene.quantity import Quantity, table
 from .scene.states import States, claimable
 from .trajectory import Array
 
 ROUNDED = 1e-14  # of the duration: a time nearer than this is the same but for its rounding
-_KINDS = ("example", "exercise", "figure", "section")
-
-
-@dataclass(frozen=True)
-class Origin:
-    """Where the case comes from: numbers of the book as text ("2.10" is not 2.1).
-
-    thread: the public question that it answers, as `owner/repository#number`.
-    """
-
-    equations: tuple[str, ...] = ()
-    example: str | None = None
-    exercise: str | None = None
-    figures: tuple[str, ...] = ()
-    section: str | None = None
-    thread: str | None = None
-
-    def __str__(self) -> str:
-        words = [f"{kind} {number}" for kind in _KINDS for number in self.places(kind)]
-        asked = () if self.thread is None else (self.thread,)
-        return ", ".join([*words, *(f"({number})" for number in self.equations), *asked])
-
-    def places(self, kind: str) -> tuple[str, ...]:
-        """Of a kind, as `figure`: there may be several figures, and one of any other."""
-        if kind == "figure":
-            return self.figures
-        number = getattr(self, kind)
-        return () if number is None else (number,)
 
 
 @dataclass(frozen=True)

@@ -56,6 +56,11 @@ def find(words: Sequence[str]) -> list[Path]:
     return paths
 
 
+def named(path: Path, variant: str) -> str:
+    """What a variant of the file is called; "" is that of a file that has none."""
+    return f"{path.stem}.{variant}" if variant else path.stem
+
+
 def misnamed(path: Path) -> Iterator[Mistake]:
     """What is wrong with the file's name, which is the case's in every report."""
     stem = path.stem

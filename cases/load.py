@@ -1,36 +1,21 @@
 """A case file → its cases, one for each variant, or all of its mistakes at once."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path as FilePath
 
-from pydantic import ValidationError
-
-from .case import Case, Origin
-from .fields.words import NO_VALUE
-from .find import misnamed
+from .case import Case
+from .find import misnamed, named
 from .language.check.check import check
 from .language.check.engines import Engines
 from .language.check.work import too_many_variants, work
-from .language.grammar.file import FIXED
-from .language.grammar.source import Source as Book
 from .language.parse import parse
 from .language.read.document import read
 from .language.read.overlay import overlay
-from .language.resolve import resolve_case, resolve_origin, resolve_scene
-from .mistake import CaseError, Mistake
+from .language.resolve import resolve_case, resolve_scene
+from .mistake import NO_VALUE, CaseError, Mistake
 
 Systems = Mapping[str, tuple[str, ...]]
-
-
-@dataclass(frozen=True)
-class Titled:
-    """What a list says of a case."""
-
-    name: str
-    title: str
-    origin: Origin
-    file: str
 
 
 def load(
@@ -64,33 +49,11 @@ def load(
             for where, what in findings
             if what != NO_VALUE  # the document has said so
         ]
-        cases.append(resolve_case(_name(path, variant), parsed.file, scene, source, long=long))
+        cases.append(resolve_case(named(path, variant), parsed.file, scene, source, long=long))
     mistakes += _once(found)
     if mistakes:
         raise CaseError(mistakes)
     return cases
-
-
-def titled(path: FilePath) -> list[Titled]:
-    """The cases of a file that is known to be sound, of which no more is read than a list says.
-
-    Raises CaseError for what `load` finds, where that much cannot be read.
-    """
-    document = read(path, only=FIXED)
-    variants, mistakes = overlay(document)
-    title = document.data.get("title")
-    try:
-        book = Book.model_validate(document.data.get("source", {}))
-    except ValidationError:
-        book = None
-    if book is None or not isinstance(title, str) or document.mistakes or mistakes:
-        return [Titled(c.name, c.title, c.origin, c.source.file) for c in load(path)]
-    origin = resolve_origin(book)
-    return [Titled(_name(path, variant), title, origin, str(path)) for variant in variants]
-
-
-def _name(path: FilePath, variant: str) -> str:
-    return f"{path.stem}.{variant}" if variant else path.stem
 
 
 def _once(found: Mapping[str, list[Mistake]]) -> list[Mistake]:

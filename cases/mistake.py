@@ -7,6 +7,7 @@ from itertools import groupby
 
 Path = tuple[str | int, ...]
 
+NO_VALUE = "has no value"  # of a key: whatever else is wrong with it follows from that
 SHOWN = 20  # mistakes of one file: whoever has more has one cause, and reads no further
 _JOINERS = "\u00ad\u200c\u200d"  # not printable to Python, and part of how words are written
 

@@ -184,10 +184,10 @@ def advise(
     """
     import pandas as pd
 
+    from .advice.advised import Asked, rows
+    from .advice.session import advised
     from .asking import asked
     from .cache.store import usable
-    from .search.advised import Asked, rows
-    from .search.session import advised
 
     wanted = asked(load(word), engines, ["shipped"])
     bar = Asked(tolerance, margin)

@@ -11,6 +11,7 @@ from ..cases.mistake import CaseError, Mistake
 from ..cases.trajectory import Trajectory
 from ..engines.engine import Engine, Refusal
 from ..reference.solve import Solution, solve
+from .because import with_causes
 from .cache.key import Keys
 from .cache.store import Store, passing
 from .coverage import countable
@@ -23,7 +24,6 @@ from .pool import Died, local
 from .promised import answered
 from .results import Progress, Results
 from .row import FAILS, Cause, Certificate, Comparison, Instant, Rungs
-from .search.because import with_causes
 from .search.causes import Known
 from .search.causes import causes as found_causes
 from .selection import sound

@@ -6,10 +6,8 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
-from ..mistake import listed, nearest
+from ..mistake import NO_VALUE, listed, nearest
 from .number import shown
-
-NO_VALUE = "has no value"
 
 _SHAPES = {
     "tuple_type": "a list",

@@ -5,8 +5,9 @@ from dataclasses import replace
 from math import cos, sin
 from typing import Any
 
-from ..case import Case, Deviation, Event, Origin, Placement
+from ..case import Case, Deviation, Event, Placement
 from ..mistake import Source
+from ..origin import Origin
 from ..scene import STANDARD_GRAVITY, Scene
 from ..scene.frame import PLANE
 from ..scene.point import CENTER, anchor
@@ -66,7 +67,7 @@ def _named(elements: Mapping[str, Any]) -> dict[str, Any]:
     return {name: element.named(name) for name, element in elements.items()}
 
 
-def resolve_origin(book: Book) -> Origin:
+def _origin(book: Book) -> Origin:
     """Where the case comes from."""
     return Origin(
         book.equations, book.example, book.exercise, book.figures, book.section, book.thread
@@ -79,7 +80,7 @@ def resolve_case(name: str, file: File, scene: Scene, source: Source, *, long: b
     return Case(
         name=name,
         title=file.title,
-        origin=resolve_origin(file.source),
+        origin=_origin(file.source),
         system=file.system,
         parameters={name: amount.value for name, amount in file.parameters.items()},
         drops_out=file.drops_out,

@@ -9,6 +9,8 @@ from functools import cache
 from typing import Any
 
 import numpy as np
+from numpy.polynomial import Legendre
+from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 
 
@@ -56,12 +58,11 @@ def lagrange(nodes: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.
 
 
 def _nodes(stages: int) -> NDArray[np.float64]:
-    """Zeros of the Jacobi polynomial for the weight (1 - x), moved to [0, 1], and the end point."""
-    if stages == 1:
-        return np.ones(1)
-    from scipy.special import roots_jacobi
-
-    return np.append((1.0 + roots_jacobi(stages - 1, 1.0, 0.0)[0]) / 2.0, 1.0)
+    """Zeros of P_(s-1) - P_s, of Legendre's polynomials, moved to [0, 1]: the last is the end."""
+    polynomial = Legendre.basis(stages - 1) - Legendre.basis(stages)
+    zeros = polynomial.roots()
+    zeros -= polynomial(zeros) / polynomial.deriv()(zeros)  # eigenvalues, to the last bit
+    return np.append((1.0 + zeros[:-1]) / 2.0, 1.0)
 
 
 @cache
@@ -77,9 +78,7 @@ def _stage_matrix(c: NDArray[np.float64]) -> NDArray[np.float64]:
 
     Gauss quadrature with as many points as stages is exact well beyond their degree.
     """
-    from scipy.special import roots_legendre
-
-    points, weights = roots_legendre(len(c))
+    points, weights = leggauss(len(c))
     return np.array([end / 2.0 * weights @ lagrange(c, end / 2.0 * (1.0 + points)) for end in c])
 
 

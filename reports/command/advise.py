@@ -86,11 +86,11 @@ def advise(
       textmech advise --all                             the committed reports/advice.csv
     """
     from .. import write
+    from ..advice.advised import Asked, rows
+    from ..advice.session import advised
     from ..cache import store
     from ..ours import unasked
     from ..row import Advice
-    from ..search.advised import Asked, rows
-    from ..search.session import advised
     from ..selection import choose_cases, choose_engines
     from ..show import document, progress
     from ..show.advice import told

@@ -14,7 +14,7 @@ from ..show.say import say
 from .answer import as_json
 
 if TYPE_CHECKING:
-    from ...cases.load import Titled
+    from ...cases.titled import Titled
 
 WIDTH = 80
 
@@ -32,14 +32,15 @@ def list_(words: tuple[str, ...], wants_json: bool) -> None:
     Below a file's name are its variants: `sliding_block .below` is run as sliding_block.below.
     """
     from ...cases.find import of_the_book, questions, shipped
-    from ...cases.load import titled
-    from ..show import document
+    from ...cases.titled import titled
 
     every = [case for file in shipped().values() for case in titled(file)]
     named = [case for case in every if _has(f"{case.name} {case.title} {case.origin}", words)]
     beside = [case for case in every if case not in named and _has(_held(case.file), words)]
     cases = [*named, *beside]
     if wants_json:
+        from ..show import document  # which needs all that a run's rows need
+
         document.write(document.of_cases(cases))
         return
     if not cases:

@@ -1,1 +1,1 @@
-"""Searches over an engine's options: what cures a row, and what a user needs."""
+"""What cures a row: a search over an engine's options, which knows nothing of any advice."""

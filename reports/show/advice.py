@@ -4,13 +4,13 @@ from collections.abc import Iterator, Sequence
 
 from ...engines.engine import Diverged, Tunable
 from ...engines.knobs import as_text
+from ..advice.advised import BOTH, Advised, rows, settings, words
+from ..advice.price import ratio
+from ..advice.recipe import Recipe, front
 from ..amount import factor, milliseconds
 from ..judge.plain import plain
-from ..search.advised import BOTH, Advised, rows, settings, words
 from ..search.candidate import Candidate
 from ..search.errors import trial_of
-from ..search.price import ratio
-from ..search.recipe import Recipe, front
 from ..trial.start import first
 
 HEADS = {BOTH: "fewest changes, and cheapest"}

@@ -13,7 +13,7 @@ from .say import say
 from .summary import Cures, approximations, summary
 
 if TYPE_CHECKING:
-    from ...cases.load import Titled
+    from ...cases.titled import Titled
     from ..row import Cause
     from ..suite import Report
 

@@ -9,7 +9,7 @@ import pytest
 from textmech.cases.case import Case, Deviation
 from textmech.cases.fields.number import Names, amount, number
 from textmech.cases.find import find, shipped
-from textmech.cases.load import load, titled
+from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Joint, Push, Signal, Torque
 from textmech.reference.systems import SYSTEMS
@@ -190,19 +190,3 @@ def test_number(text: object, unit: str, value: float) -> None:
     found = number(text, unit, Names({"l": amount("80 cm")}))
     assert found is not None
     assert found.value == pytest.approx(value, rel=1e-15)
-
-
-@pytest.mark.mutant("a list of a file reads no variants")
-@pytest.mark.slow
-def test_a_list_says_what_the_cases_say() -> None:
-    for file in shipped().values():
-        said = [(one.name, one.title, one.origin, one.file) for one in titled(file)]
-        assert said == [(c.name, c.title, c.origin, c.source.file) for c in load(file)]
-
-
-def test_a_list_of_a_mistaken_file_says_where(tmp_path: Path) -> None:
-    file = tmp_path / "case.yaml"
-    file.write_text("scene: {bodies: {}}\ntitle: [a]\nsource: {figure: 3}\n", encoding="utf-8")
-    with pytest.raises(CaseError) as caught:
-        titled(file)
-    assert ("title", 2) in {(m.where, m.line) for m in caught.value.mistakes}

@@ -3,12 +3,12 @@
 import pytest
 
 from textmech.reports import pool, suite, write
+from textmech.reports.advice.advised import Asked
+from textmech.reports.advice.advised import rows as rows_of
+from textmech.reports.advice.session import advised
 from textmech.reports.cache.store import usable
 from textmech.reports.judge.rounding import EPSILON
 from textmech.reports.row import Advice, Cause, Certificate, Comparison, Instant, Rungs
-from textmech.reports.search.advised import Asked
-from textmech.reports.search.advised import rows as rows_of
-from textmech.reports.search.session import advised
 from textmech.reports.selection import choose_cases, choose_engines
 from textmech.reports.show import readme
 from textmech.reports.suite import Report

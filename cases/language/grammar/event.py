@@ -13,8 +13,8 @@ from ...fields.event import Rule
 from ...fields.field import NUMBER, Plain
 from ...fields.number import Amount, Names, number, shown
 from ...fields.text import Text, Word
-from ...fields.words import NO_VALUE, wrong
-from ...mistake import nearest
+from ...fields.words import wrong
+from ...mistake import NO_VALUE, nearest
 
 RULES: tuple[Rule, ...] = get_args(Rule)
 CROSSES: Mapping[str, Rule] = {"falls to": "falls to zero", "rises to": "rises to zero"}

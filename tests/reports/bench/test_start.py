@@ -16,9 +16,9 @@ HEAVY = (
 NEEDED = {
     "--help": set(),
     "import": {"numpy", "pydantic"},
-    "list": {"numpy", "pydantic", "ruamel.yaml"},
+    "list": {"ruamel.yaml"},
     "show": {"numpy", "pydantic", "ruamel.yaml", "pint", "mujoco"},
-    "check": {*HEAVY} - {"pandas", "matplotlib", "jinja2", "scipy.optimize", "scipy.interpolate"},
+    "check": {"numpy", "pydantic", "ruamel.yaml", "pint", "mujoco", "pymunk", "scipy.linalg"},
 }
 TOLD = "import atexit, sys; atexit.register(lambda: sys.stderr.write('|'.join(sys.modules)));"
 

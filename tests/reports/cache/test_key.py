@@ -5,7 +5,7 @@ import os
 import shutil
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import fields, replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -141,6 +141,8 @@ def test_the_code_that_makes_it_counts_and_no_other(
     assert (before[0] != after[0], before[1] != after[1]) == (reference, outcome)
 
 
+MODULES = {module(file): file for file in FILES}
+PACKAGES = {name for name, file in MODULES.items() if file.name == "__init__.py"}
 COMPUTING = (
     "reports.unit",
     "reports.trial.rung",
@@ -149,21 +151,55 @@ COMPUTING = (
 )
 CARRYING = ("ending", "content", "lock", "passing", "cache.store", "cache.fits", "search.solving")
 """What they import too, and what changes no result: where results lie."""
+HANDING = ("results", "pool", "processes", "cache.key", "cache.parts", "cache.digest", *CARRYING)
+"""What a search imports too: who computes what it asks for, and whether it is known already."""
+SEARCH = "reports.search.causes"
 
 
 @pytest.mark.slow
 def test_all_code_counts_that_computes() -> None:
     """As far as imports lead from it, in reports and in what engines share."""
-    modules = {module(file): file for file in FILES}
-    needed, left = set[str](), set(COMPUTING)
+    assert untold(COMPUTING, (*key.REFERENCE, *key.JUDGING, *key.TRYING), CARRYING) == set()
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a key of causes without a file that a search for them imports")
+@pytest.mark.mutant("a key of causes with a file that only who advises imports")
+def test_a_search_counts_what_it_imports_and_no_other_search() -> None:
+    """What the reference is made of is left out: the rows' own errors tell of it."""
+
+    def missed(places: tuple[str, ...]) -> set[str]:
+        return untold([SEARCH], (*key.REFERENCE, *places), HANDING)
+
+    assert missed(key.SEARCHING) == set()
+    assert missed(tuple(p for p in key.SEARCHING if p != "reports/limit.py")) == {"reports.limit"}
+    assert needless([SEARCH], ["reports/search"]) == set()
+    assert "reports.advice.cuts" in needless([SEARCH], ["reports/search", "reports/advice"])
+
+
+def reached(names: Iterable[str]) -> set[str]:
+    """Modules of ours to which imports lead from these, and these."""
+    needed, left = set[str](), {*names}
     while left:
         needed |= left
-        left = {other for name in left for other in imported(modules[name])} & set(modules) - needed
-    places = [*key.REFERENCE, *key.JUDGING, *key.TRYING]
-    told = {path for place in places for path in key._modules(key.ROOT / place)}
-    known = {f"reports.{name}" for name in CARRYING}
-    packages = {name for name in modules if modules[name].name == "__init__.py"}
-    assert {name for name in needed - known - packages if modules[name] not in told} == set()
+        left = {other for name in left for other in imported(MODULES[name])} & {*MODULES} - needed
+    return needed
+
+
+def told(places: Iterable[str]) -> set[str]:
+    """The modules of which a key with these places is made; packages, which hold no code, too."""
+    paths = {path for place in places for path in key._modules(key.ROOT / place)}
+    return {name for name, path in MODULES.items() if path in paths} | PACKAGES
+
+
+def untold(names: Iterable[str], places: Iterable[str], besides: Iterable[str]) -> set[str]:
+    """What is reached from these modules and is at none of the places."""
+    return reached(names) - told(places) - {f"reports.{name}" for name in besides}
+
+
+def needless(names: Iterable[str], places: Iterable[str]) -> set[str]:
+    """What is at the places and is not reached from these modules."""
+    return told(places) - PACKAGES - reached(names)
 
 
 @pytest.mark.slow
@@ -177,6 +213,7 @@ def test_all_code_counts_that_computes() -> None:
         ("reports/judge/metric.py", True),
         ("engines/mujoco/adapter/run.py", False),
         ("reference/laws/friction.py", False),  # of a reference the rows' own errors tell
+        ("reports/advice/cuts.py", False),
         ("reports/write.py", False),
     ],
 )

@@ -9,16 +9,17 @@ from given.lines import row
 from given.otherwise import otherwise
 
 from textmech import engines
+from textmech.reports.advice import advised, price
+from textmech.reports.advice.advised import Advised, Asked
+from textmech.reports.advice.bar import Bar
+from textmech.reports.advice.menu import Choice, Menu
+from textmech.reports.advice.recipe import Kitchen, Recipe, Recipes
 from textmech.reports.cache.key import Keys
 from textmech.reports.cache.store import Store
-from textmech.reports.search import advised, price, told
-from textmech.reports.search.advised import Advised, Asked
-from textmech.reports.search.bar import Bar
+from textmech.reports.search import told
 from textmech.reports.search.candidate import Candidate
 from textmech.reports.search.cures import Cure, Cured
 from textmech.reports.search.lever import STEP, Field, Lever
-from textmech.reports.search.menu import Choice, Menu
-from textmech.reports.search.recipe import Kitchen, Recipe, Recipes
 from textmech.reports.show import advice
 from textmech.reports.trial.start import first
 from textmech.reports.trial.trial import planned

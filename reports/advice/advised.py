@@ -7,8 +7,8 @@ from ...engines.engine import Plan, Refusal
 from ...engines.knobs import as_text
 from ..amount import milliseconds
 from ..row import Advice
+from ..search.candidate import Candidate
 from ..unit import Pair
-from .candidate import Candidate
 from .draws import Held
 from .menu import NOTHING, Choice
 from .recipe import Kitchen, Recipe, Recipes, best

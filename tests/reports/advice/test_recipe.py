@@ -8,11 +8,11 @@ import pytest
 from given.otherwise import otherwise
 
 from textmech.engines.knobs import Knob, Value
-from textmech.reports.search import recipe as searching
-from textmech.reports.search.bar import Bar
+from textmech.reports.advice import recipe as searching
+from textmech.reports.advice.bar import Bar
+from textmech.reports.advice.menu import Menu, fitting
+from textmech.reports.advice.recipe import Kitchen, Recipe, Recipes, best, front, recipes
 from textmech.reports.search.candidate import Candidate
-from textmech.reports.search.menu import Menu, fitting
-from textmech.reports.search.recipe import Kitchen, Recipe, Recipes, best, front, recipes
 from textmech.reports.search.together import Known
 
 Error = Callable[[Mapping[str, Any], float], float]

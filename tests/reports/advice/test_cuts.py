@@ -6,11 +6,11 @@ import pytest
 from given import scenes
 from given.otherwise import otherwise
 
+from textmech.reports.advice import bar as bars
+from textmech.reports.advice import cuts
+from textmech.reports.advice.bar import Bar
 from textmech.reports.cache.key import Keys
 from textmech.reports.cache.store import passing
-from textmech.reports.search import bar as bars
-from textmech.reports.search import cuts
-from textmech.reports.search.bar import Bar
 from textmech.reports.search.candidate import Candidate
 from textmech.reports.search.errors import Run, errors
 from textmech.reports.search.together import Known

@@ -6,14 +6,14 @@ from typing import Any
 import pytest
 from given.otherwise import otherwise
 
-from textmech.reports.search import advice, bar
+from textmech.reports.advice import advise, bar
 from textmech.reports.search.candidate import Candidate
 from textmech.reports.trial.trial import Trial
 
 ONE = Candidate.of({}, 1e-3)
 
 
-def scale(made: Trial, tolerance: float | None, module: Any = advice) -> Any:
+def scale(made: Trial, tolerance: float | None, module: Any = advise) -> Any:
     return module._scale(made, tolerance)
 
 
@@ -25,7 +25,7 @@ def test_an_error_is_told_over_a_part_of_the_quantitys_size(trial: Callable[...,
     assert scale(made, 1e-3) == {"ball.x": pytest.approx(10.0)}
     assert scale(made, 1e-1) == {"ball.x": pytest.approx(0.1)}
     was = "(trial.allowed(name) or 0.0) / (tolerance * size)"
-    other = otherwise(advice, was, "(tolerance * size) / (trial.allowed(name) or 1.0)")
+    other = otherwise(advise, was, "(tolerance * size) / (trial.allowed(name) or 1.0)")
     assert scale(made, 1e-3, other) == {"ball.x": pytest.approx(0.1)}
 
 

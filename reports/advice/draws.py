@@ -16,11 +16,11 @@ from ...cases.trajectory import Trajectory
 from ...reference.solve import Solution
 from ..passing import passing
 from ..results import Results
+from ..search.candidate import Candidate
+from ..search.errors import Run, errors
+from ..search.solving import solved
 from ..unit import Pair
 from .bar import Bar
-from .candidate import Candidate
-from .errors import Run, errors
-from .solving import solved
 
 DRAWS = 6
 APART = 0.1  # of each parameter: how far a draw may be from it

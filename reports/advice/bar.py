@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import inf
 
-from .candidate import Candidate
-from .errors import of
-from .together import Known
+from ..search.candidate import Candidate
+from ..search.errors import of
+from ..search.together import Known
 
 
 def digits(error: float) -> float:

@@ -3,9 +3,9 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from ..row import DEVIATES, DIVERGED, UNSEARCHED, Cause, Comparison
-from .told import NONE, NOTHING
-from .why import Key, key_of
+from .row import DEVIATES, DIVERGED, UNSEARCHED, Cause, Comparison
+from .search.told import NONE, NOTHING
+from .search.why import Key, key_of
 
 Moments = Mapping[Key, str]
 """In words, of rows whose error is largest at an instant."""

@@ -7,19 +7,19 @@ from ...cases.mistake import CaseError
 from ...engines.engine import Plan, Refusal, Tunable, lacking
 from ..pool import Died
 from ..results import Results
+from ..search.asked import lost
+from ..search.candidate import Candidate
+from ..search.solving import solved
+from ..search.together import Asking, Known, Search, together
 from ..trial.start import first
 from ..trial.trial import Trial, judged_names, planned
 from ..unit import Pair
 from .advised import Advised, Asked
-from .asked import lost
 from .bar import Bar
-from .candidate import Candidate
 from .cuts import elsewhere
 from .draws import held
 from .menu import NOTHING, Choice, Menu, fitting
 from .recipe import Kitchen, Recipes, recipes, rungs_of
-from .solving import solved
-from .together import Asking, Known, Search, together
 
 ROUNDS = 12  # of what keeps the bar here, and not where a loop is cut elsewhere
 TOLD_IN = "engines/README.md#the-protocol"

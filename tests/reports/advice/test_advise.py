@@ -6,11 +6,11 @@ import pytest
 from given import scenes
 
 from textmech.reports import advise
+from textmech.reports.advice.advised import FEWEST, Asked, rows
+from textmech.reports.advice.price import ratio
+from textmech.reports.advice.session import advised
 from textmech.reports.cache.store import usable
 from textmech.reports.row import Advice
-from textmech.reports.search.advised import FEWEST, Asked, rows
-from textmech.reports.search.price import ratio
-from textmech.reports.search.session import advised
 from textmech.reports.selection import choose_engines
 
 CASES = ("bar_pendulum", "four_bar", "sliding_block.below", "planar_bodies", "heavy_top.cusp")

@@ -11,10 +11,10 @@ from math import inf
 from typing import Any
 
 from ...engines.knobs import said
+from ..search.candidate import Candidate
+from ..search.together import Asking
 from .bar import Bar, digits
-from .candidate import Candidate
 from .menu import MOST, NOTHING, WHOLE, Choice, Menu, parts
-from .together import Asking
 
 Cost = Callable[[Candidate], float]
 

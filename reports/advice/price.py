@@ -4,10 +4,10 @@ import time
 
 import numpy as np
 
+from ..search.candidate import Candidate
+from ..search.errors import trial_of
 from ..trial.trial import Trial
 from ..unit import Pair
-from .candidate import Candidate
-from .errors import trial_of
 
 ROUNDS = 3  # in turn; the least of each counts
 LONG = 0.05  # s: what is shorter is run as often as fills it, for its least time to be found

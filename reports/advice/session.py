@@ -11,7 +11,7 @@ from ..cache.store import Store, passing
 from ..pool import local, workers
 from ..results import Progress, Results
 from ..unit import Pair
-from .advice import advise
+from .advise import advise
 from .advised import Advised, Asked
 
 

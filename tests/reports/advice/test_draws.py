@@ -12,12 +12,12 @@ from given import scenes
 from textmech import engines
 from textmech.reference.certificate.agreement import Check
 from textmech.reports import pool
+from textmech.reports.advice import draws
+from textmech.reports.advice.draws import APART, DRAWS, drawn, held
 from textmech.reports.cache.key import Keys
 from textmech.reports.cache.store import Store
 from textmech.reports.results import Results
-from textmech.reports.search import draws
 from textmech.reports.search.candidate import Candidate
-from textmech.reports.search.draws import APART, DRAWS, drawn, held
 from textmech.reports.unit import Pair
 
 

@@ -10,10 +10,10 @@ from typing import Any
 
 from ...cases.scene import GROUND
 from ..results import Results
+from ..search.candidate import Candidate
+from ..search.together import Asking, Known, Search, together
 from ..unit import Pair
 from .bar import Bar
-from .candidate import Candidate
-from .together import Asking, Known, Search, together
 
 MOST = 4  # other orders that are tried of a scene
 

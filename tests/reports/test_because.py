@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 
+from textmech.reports.because import with_causes
 from textmech.reports.row import BEYOND, DEVIATES, UNSEARCHED, Cause, Comparison
-from textmech.reports.search.because import with_causes
 from textmech.reports.search.told import NONE, NOTHING
 
 ROW = Comparison(

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from itertools import combinations, product
 
 from ...engines.knobs import Knob, Options, Value, merged
-from .candidate import Candidate
+from ..search.candidate import Candidate
 
 MOST = 2  # options, all sets of which are tried; then bundles
 WHOLE = 1e-9  # of a ratio: whole up to rounding
