@@ -86,7 +86,7 @@ class Rungs:
 
 
 @dataclass(frozen=True)
-class Step:
+class StepError:
     """A row of steps.csv: the largest error of one quantity at one step of a ladder.
 
     A row for each, for nothing bounds how many a ladder has: they double up to 8 ms from whatever

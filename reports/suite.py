@@ -22,7 +22,7 @@ from .judge.uncertified import failing, uncertified
 from .pool import Died, local
 from .promised import answered
 from .results import Progress, Results
-from .row import FAILS, Cause, Certificate, Comparison, Instant, Rungs, Step
+from .row import FAILS, Cause, Certificate, Comparison, Instant, Rungs, StepError
 from .search.because import with_causes
 from .search.causes import Known
 from .search.causes import causes as found_causes
@@ -43,7 +43,7 @@ class Report:
 
     comparisons: list[Comparison] = field(default_factory=list)
     rungs: list[Rungs] = field(default_factory=list)
-    steps: list[Step] = field(default_factory=list)
+    steps: list[StepError] = field(default_factory=list)
     certificates: list[Certificate] = field(default_factory=list)
     instants: list[Instant] = field(default_factory=list)
     equations: dict[str, set[str]] = field(default_factory=dict)  # case → executed equations

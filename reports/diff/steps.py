@@ -29,7 +29,7 @@ def compared(old: Row, new: Row, rule: Rule, allowed: float | None) -> Change | 
 STEPS = File(
     name="steps.csv",
     keys=("case", "engine", "setting", "realised", "ladder", "quantity", "step"),
-    numbers=("step", "error"),
+    numbers=("error",),
     words=(),
     compare=compared,
     place=place,

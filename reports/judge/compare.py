@@ -20,7 +20,7 @@ from ..row import (
     Comparison,
     Instant,
     Rungs,
-    Step,
+    StepError,
 )
 from ..spelled import why
 from ..trial.audit import EQUAL, audit
@@ -49,7 +49,7 @@ class Outcome:
 
     rows: list[Comparison]
     rungs: list[Rungs] = field(default_factory=list)
-    steps: list[Step] = field(default_factory=list)
+    steps: list[StepError] = field(default_factory=list)
     samples: Samples = field(default_factory=dict)
     instants: list[Instant] = field(default_factory=list)
     moments: dict[str, str] = field(default_factory=dict)  # of what is off at an instant, in words

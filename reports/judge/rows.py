@@ -3,7 +3,7 @@
 from typing import Any
 
 from ...cases.theme import themes
-from ..row import Comparison, Rungs, Step
+from ..row import Comparison, Rungs, StepError
 from ..trial.ladder import Ladder
 from ..trial.trial import Trial
 from .convergence import Convergence
@@ -75,11 +75,11 @@ def rungs(trial: Trial, ladder: Ladder, name: str, found: Convergence) -> Rungs:
     )
 
 
-def steps(trial: Trial, ladder: Ladder, name: str, found: Convergence) -> list[Step]:
+def steps(trial: Trial, ladder: Ladder, name: str, found: Convergence) -> list[StepError]:
     """Rows of steps.csv: the error at each step of a ladder, the smallest step first."""
     least = floor(trial, name, min(found.errors))
     return [
-        Step(
+        StepError(
             case=trial.case.name,
             engine=trial.engine.name,
             setting=trial.engine.setting,

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from ...cases.trajectory import Array
-from ..row import Comparison, Rungs, Step
+from ..row import Comparison, Rungs, StepError
 from .column import Column, column
 from .heat import short
 from .motions import Motion
@@ -26,7 +26,7 @@ def picture(
     motion: Motion,
     rows: Sequence[Comparison],
     rungs: Sequence[Rungs],
-    steps: Sequence[Step],
+    steps: Sequence[StepError],
 ) -> Figure:
     """Of the rows of one case; what has no curve, as the time of an event, has a ladder alone."""
     own = [row for row in rows if row.quantity == quantity]
@@ -107,7 +107,7 @@ def _error(
     axes.set(xlabel="t [s]", ylabel="error / allowed")
 
 
-def _ladder(axes: Any, rungs: Sequence[Rungs], steps: Sequence[Step], allowed: float) -> None:
+def _ladder(axes: Any, rungs: Sequence[Rungs], steps: Sequence[StepError], allowed: float) -> None:
     kinds = [column(rung) for rung in rungs]
     for rung in rungs:
         own = [s for s in steps if (column(s), s.ladder) == (column(rung), rung.ladder)]

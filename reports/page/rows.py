@@ -5,7 +5,7 @@ from typing import Any
 
 import pandas as pd
 
-from ..row import OF_A_LADDER, Step
+from ..row import OF_A_LADDER, StepError
 from .beside import records
 from .column import Column, column
 from .folder import Folder
@@ -45,7 +45,7 @@ def rows(folder: Folder, columns: Sequence[Column]) -> dict[str, Any]:
             _few(row.step), _few(row.allowed), _few(row.error), _few(row.when, TIME),
             _few(row.ratio), words.number(row.verdict), words.number(row.because),
         ])  # fmt: skip
-    climbed: dict[tuple[str, Column, str, str], list[Step]] = {}
+    climbed: dict[tuple[str, Column, str, str], list[StepError]] = {}
     for one in folder.steps:
         climbed.setdefault((one.case, column(one), one.quantity, one.ladder), []).append(one)
     for rung in folder.rungs:

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from ..row import Comparison, Step
+from ..row import Comparison, StepError
 from .column import Column, column
 
 SHOWN = ("pins", "loops", "springs", "rolling", "friction", "impacts", "space")
@@ -16,7 +16,7 @@ Steps = Mapping[tuple[str, Column], Mapping[float, float]]
 
 
 def work(
-    rows: Sequence[Comparison], steps: Sequence[Step], themes: Mapping[str, tuple[str, ...]]
+    rows: Sequence[Comparison], steps: Sequence[StepError], themes: Mapping[str, tuple[str, ...]]
 ) -> list[dict[str, Any]]:
     """Returns a panel for each theme that has a ladder: by column the curve of each precision."""
     ladders = worst(rows, steps)
@@ -36,7 +36,7 @@ def work(
     ]
 
 
-def worst(rows: Iterable[Comparison], steps: Iterable[Step]) -> Steps:
+def worst(rows: Iterable[Comparison], steps: Iterable[StepError]) -> Steps:
     """Of each case's first ladder: tuned numbers follow the step, where any are tied to it."""
     allowed = {(row.case, column(row), row.quantity): row.allowed for row in rows}
     found: dict[tuple[str, Column], dict[str, dict[float, float]]] = {}

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from ...engines.engine import Tunable
 from ...reference.solve import Solution
 from ..results import Results
-from ..row import UNSEARCHED, Cause, Comparison, Step, as_written
+from ..row import UNSEARCHED, Cause, Comparison, StepError, as_written
 from ..unit import Pair
 from .asked import lost
 from .between import between
@@ -38,7 +38,7 @@ class Known:
 
 def causes(
     comparisons: Sequence[Comparison],
-    steps: Sequence[Step],
+    steps: Sequence[StepError],
     pairs: Iterable[Pair],
     results: Results,
     *,
@@ -122,7 +122,7 @@ def _asked(cause: Cause) -> tuple[str, float | None, float | None]:
 
 
 def _searched(
-    rows: Sequence[Comparison], steps: Sequence[Step], pairs: Iterable[Pair], results: Results
+    rows: Sequence[Comparison], steps: Sequence[StepError], pairs: Iterable[Pair], results: Results
 ) -> Iterator[tuple[Asked, Mapping[str, Cured]]]:
     of: dict[tuple[str, str, str], list[Comparison]] = {}
     for row in rows:

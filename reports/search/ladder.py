@@ -3,17 +3,17 @@
 from collections.abc import Iterator, Sequence
 from itertools import takewhile
 
-from ..row import Comparison, Step
+from ..row import Comparison, StepError
 from .candidate import Candidate
 from .together import Known
 
 
 def usable(
-    rows: Sequence[Comparison], steps: Sequence[Step]
+    rows: Sequence[Comparison], steps: Sequence[StepError]
 ) -> Iterator[tuple[Comparison, float, float]]:
     """Rows with the largest step [s] from which on their held ladder keeps what is allowed, and
     the error there; those that have one."""
-    held: dict[tuple[str, ...], list[Step]] = {}
+    held: dict[tuple[str, ...], list[StepError]] = {}
     for one in steps:
         if one.ladder == "held":
             key = one.case, one.engine, one.setting, one.realised, one.quantity
@@ -24,13 +24,13 @@ def usable(
             yield row, kept[-1].step, kept[-1].error
 
 
-def _kept(ladder: Sequence[Step], allowed: float) -> list[Step]:
+def _kept(ladder: Sequence[StepError], allowed: float) -> list[StepError]:
     """The steps up to the last before the first that does not keep it."""
     climbed = sorted(ladder, key=lambda one: one.step)
     return [*takewhile(lambda one: one.error <= allowed, climbed)]
 
 
-def climbed(base: Candidate, rows: Sequence[Comparison], steps: Sequence[Step]) -> Known:
+def climbed(base: Candidate, rows: Sequence[Comparison], steps: Sequence[StepError]) -> Known:
     """The errors of the rows at the ladder's steps, if it tells all of them.
 
     steps: of the case in the engine with that setting. An error of all samples stands for that

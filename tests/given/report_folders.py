@@ -6,7 +6,7 @@ from pathlib import Path
 import pandas as pd
 
 from textmech.reports import write
-from textmech.reports.row import Cause, Certificate, Comparison, Instant, Rungs, Step
+from textmech.reports.row import Cause, Certificate, Comparison, Instant, Rungs, StepError
 from textmech.reports.suite import Report
 
 ROW = Comparison(
@@ -22,8 +22,8 @@ RUNGS = Rungs(
     verdict="converges",
 )  # fmt: skip
 STEPS = [
-    Step("swing", "mujoco", "tuned", "native", "held", "bar.angle", "rad", 1e-3, 1e-3),
-    Step("swing", "mujoco", "tuned", "native", "held", "bar.angle", "rad", 2e-3, 2e-3),
+    StepError("swing", "mujoco", "tuned", "native", "held", "bar.angle", "rad", 1e-3, 1e-3),
+    StepError("swing", "mujoco", "tuned", "native", "held", "bar.angle", "rad", 2e-3, 2e-3),
 ]
 INSTANT = Instant("swing", "mujoco", "4.0.0", "tuned", "native", "stops", 1, 0.451600756, 1e-9)
 CERTIFICATE = Certificate("swing", "(2.44)", "pendulum", "drift", 1e-14, 1e-9, 1e-12, "m", "holds")
@@ -37,7 +37,7 @@ def report(
     folder: Path,
     rows: list[Comparison] | None = None,
     rungs: list[Rungs] | None = None,
-    steps: list[Step] | None = None,
+    steps: list[StepError] | None = None,
     instants: list[Instant] | None = None,
     certificates: list[Certificate] | None = None,
     causes: list[Cause] | None = None,

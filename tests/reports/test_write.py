@@ -12,7 +12,7 @@ from given.otherwise import otherwise
 from given.report_folders import STEPS, report
 
 from textmech.reports import runs, write
-from textmech.reports.row import Comparison, Instant, Step
+from textmech.reports.row import Comparison, Instant, StepError
 from textmech.reports.suite import Report
 
 ROW = Comparison(
@@ -125,7 +125,7 @@ def test_steps_are_numbers_to_any_program(tmp_path: Path) -> None:
     assert found.quantity.tolist() == 3 * ["a"] + 3 * ["bar.angle"]
     assert found.step.tolist() == 2 * [1e-3, 2e-3, 4e-3]
     assert found.error.tolist() == 2 * [1e-3, 2e-3, inf]
-    assert write.read(tmp_path / "steps.csv", Step) == others + steps
+    assert write.read(tmp_path / "steps.csv", StepError) == others + steps
 
 
 @pytest.mark.slow

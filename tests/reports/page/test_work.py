@@ -7,7 +7,7 @@ import pytest
 
 from textmech.reports.page.column import Column
 from textmech.reports.page.work import enough, profile, work, worst
-from textmech.reports.row import AGREES, Comparison, Step
+from textmech.reports.row import AGREES, Comparison, StepError
 
 ROW = Comparison("a", "", "", "mujoco", "4", "tuned", "native", "", "x", "m", 0.1, 1.0, 0.5, 1.0,
                  1.0, 2.0, 0.5, AGREES, "")  # fmt: skip
@@ -15,9 +15,11 @@ STEPS = {0.001: 0.2, 0.002: 1.0, 0.004: 4.0}
 TUNED = Column("mujoco", "tuned", "native")
 
 
-def climbed(errors: Mapping[float, float], ladder: str = "held", quantity: str = "x") -> list[Step]:
+def climbed(
+    errors: Mapping[float, float], ladder: str = "held", quantity: str = "x"
+) -> list[StepError]:
     at = ("a", "mujoco", "tuned", "native", ladder, quantity, "m")
-    return [Step(*at, step, error) for step, error in errors.items()]
+    return [StepError(*at, step, error) for step, error in errors.items()]
 
 
 @pytest.mark.parametrize(

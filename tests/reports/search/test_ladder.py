@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from given.otherwise import otherwise
 
-from textmech.reports.row import BEYOND, Comparison, Step
+from textmech.reports.row import BEYOND, Comparison, StepError
 from textmech.reports.search import ladder as told
 from textmech.reports.search.candidate import Candidate
 from textmech.reports.search.ladder import climbed
@@ -19,12 +19,12 @@ ROW = Comparison(
     allowed=2.0, ratio=2.0, verdict=BEYOND, because="",
 )  # fmt: skip
 STEPS = [
-    Step("b", "mujoco", "shipped", "native", "held", "x", "m", step, error)
+    StepError("b", "mujoco", "shipped", "native", "held", "x", "m", step, error)
     for step, error in ((5e-4, 1.0), (1e-3, 2.0), (2e-3, 4.0))
 ]
 
 
-def changed(**other: Any) -> list[Step]:
+def changed(**other: Any) -> list[StepError]:
     """The same steps of another quantity, say."""
     return [replace(step, **other) for step in STEPS]
 
@@ -46,11 +46,11 @@ def test_its_errors_at_smaller_steps_are_known() -> None:
         STEPS + changed(quantity="y")[1:],  # the finest of one quantity is another step
     ],
 )
-def test_what_it_does_not_tell_is_run(steps: list[Step]) -> None:
+def test_what_it_does_not_tell_is_run(steps: list[StepError]) -> None:
     assert climbed(BASE, [ROW], steps) == {}
 
 
-def enough(steps: list[Step], module: Any = told) -> list[tuple[float, float]]:
+def enough(steps: list[StepError], module: Any = told) -> list[tuple[float, float]]:
     return [(step, error) for _, step, error in module.usable([ROW], steps)]
 
 
