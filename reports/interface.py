@@ -57,6 +57,7 @@ class Comparisons:
     summary: "pd.DataFrame"
     tolerance: "pd.DataFrame"
     convergence: "pd.DataFrame"
+    steps: "pd.DataFrame"
     events: "pd.DataFrame"
     reference: "pd.DataFrame"
     causes: "pd.DataFrame"
@@ -160,6 +161,7 @@ def run(
         summary=pd.DataFrame(map(vars, summary(report.comparisons, report.rungs))),
         tolerance=frames["tolerance"],
         convergence=frames["convergence"],
+        steps=frames["steps"],
         events=frames["events"],
         reference=frames["reference"],
         causes=frames["causes"],

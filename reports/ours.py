@@ -8,7 +8,7 @@ from pathlib import Path
 
 from . import runs
 from .content import content
-from .row import Advice, Cause, Certificate, Comparison, Instant, Rungs
+from .row import Advice, Cause, Certificate, Comparison, Instant, Rungs, StepError
 
 TITLE = "<title>textmech: "
 """In the head of a page."""
@@ -22,7 +22,7 @@ _PICTURES = {
 """What stands in the heads of a picture and of a list of tests."""
 _REPORTS = {
     ",".join(column.name for column in fields(kind))
-    for kind in (Comparison, Rungs, Certificate, Instant, Cause, Advice)
+    for kind in (Comparison, Rungs, StepError, Certificate, Instant, Cause, Advice)
 } | {",".join(runs.HEAD), "kind,number,cases,otherwise", "room,planted,seen_by,loop"}
 """The first lines of reports."""
 _TABLES = {

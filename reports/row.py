@@ -6,6 +6,19 @@ AGREES, BEYOND, DEVIATES, FAILS = "agrees", "beyond", "deviates", "FAILS"
 REFUSED, DIVERGED, CRASHED, CHANGED = "refused", "diverged", "crashed", "changed"
 LADDER = (AGREES, DEVIATES, BEYOND, CHANGED, REFUSED, DIVERGED, CRASHED, FAILS)
 """Verdicts from good to bad, each one word: its reason is another column's."""
+EXACT, TEXTBOOK, WITHIN, ANOTHER = "exact", "converges", "within", BEYOND
+FALLS, STAYS, UNSETTLED, INSTANTS = "falls", "stays", "unsettled", "instants"
+OF_A_LADDER = {
+    EXACT: "exact but for rounding at the smallest step",
+    TEXTBOOK: "converges to the textbook",
+    WITHIN: "converges to another value, within the tolerance",
+    ANOTHER: "converges to another value, beyond the tolerance",
+    FALLS: "no limit settles; the error falls with the step",
+    STAYS: "no limit settles; the error stays on every step",
+    UNSETTLED: "not settled",
+    INSTANTS: "instants of events: no order, no limit",
+}
+"""Of convergence.csv: each verdict, one word, and what it says to a person."""
 UNSEARCHED = "not searched"
 """Of causes.csv: nobody has looked for a cure."""
 MUTANTS, MUTATION, SPEED = OF_NO_RUN = "mutants.csv", "mutation.csv", "speed.csv"
@@ -53,7 +66,7 @@ class Comparison:
 
 @dataclass(frozen=True)
 class Rungs:
-    """A row of convergence.csv: one quantity on one ladder of steps."""
+    """A row of convergence.csv: what one quantity's ladder of steps says."""
 
     case: str
     engine: str
@@ -63,8 +76,6 @@ class Rungs:
     ladder: str
     quantity: str
     unit: str
-    steps: str
-    errors: str
     order: float | None
     order_low: float | None
     order_high: float | None
@@ -72,6 +83,25 @@ class Rungs:
     uncertainty: float | None
     usable_step: float | None
     verdict: str
+
+
+@dataclass(frozen=True)
+class StepError:
+    """A row of steps.csv: the largest error of one quantity at one step of a ladder.
+
+    A row for each, for nothing bounds how many a ladder has: they double up to 8 ms from whatever
+    step a case names.
+    """
+
+    case: str
+    engine: str
+    setting: str
+    realised: str
+    ladder: str
+    quantity: str
+    unit: str
+    step: float
+    error: float  # inf where an event happens more or less often than in the reference
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ from .judge.uncertified import failing, uncertified
 from .pool import Died, local
 from .promised import answered
 from .results import Progress, Results
-from .row import FAILS, Cause, Certificate, Comparison, Instant, Rungs
+from .row import FAILS, Cause, Certificate, Comparison, Instant, Rungs, StepError
 from .search.causes import Known
 from .search.causes import causes as found_causes
 from .selection import sound
@@ -43,6 +43,7 @@ class Report:
 
     comparisons: list[Comparison] = field(default_factory=list)
     rungs: list[Rungs] = field(default_factory=list)
+    steps: list[StepError] = field(default_factory=list)
     certificates: list[Certificate] = field(default_factory=list)
     instants: list[Instant] = field(default_factory=list)
     equations: dict[str, set[str]] = field(default_factory=dict)  # case → executed equations
@@ -141,6 +142,7 @@ def _take(one: Tried, report: Report) -> None:
     outcome = replace(outcome, rows=answered(one.pair.case, outcome.rows))
     report.comparisons += outcome.rows
     report.rungs += outcome.rungs
+    report.steps += outcome.steps
     report.instants += outcome.instants
     report.tried.append(replace(one, outcome=outcome))
 
@@ -155,7 +157,7 @@ def _explain(
         for name, words in one.outcome.moments.items()
     }
     report.causes = found_causes(
-        report.comparisons, report.rungs, pairs, results, search=search, known=known
+        report.comparisons, report.steps, pairs, results, search=search, known=known
     )
     report.comparisons = with_causes(report.comparisons, report.causes, moments)
 

@@ -18,13 +18,14 @@ from .content import text as content
 from .coverage import coverage
 from .ours import unasked
 from .replace import replace
-from .row import NUMBERS, Advice, Cause, Certificate, Comparison, Instant, Rungs
+from .row import NUMBERS, Advice, Cause, Certificate, Comparison, Instant, Rungs, StepError
 from .suite import Report
 
 HERE = Path(__file__).parent
 ELSEWHERE = Path("textmech-reports")
 NAMES = (
-    "tolerance.csv", "convergence.csv", "events.csv", "causes.csv", "reference.csv", "coverage.csv",
+    "tolerance.csv", "convergence.csv", "steps.csv", "events.csv", "causes.csv", "reference.csv",
+    "coverage.csv",
 )  # fmt: skip
 FILES = (*NAMES, runs.NAME)
 """What a run writes."""
@@ -33,7 +34,7 @@ KEYS = ("case", "engine", "setting", "realised", "ladder", "quantity", "check", 
 KNOWN = 1e-6  # of `allow`: the least certified error that is written
 TIMES = ".9g"  # of an event's time: its difference is a thousandth of a step
 
-Row = TypeVar("Row", Comparison, Rungs, Certificate, Instant, Cause, Advice)
+Row = TypeVar("Row", Comparison, Rungs, StepError, Certificate, Instant, Cause, Advice)
 
 
 def by_default() -> Path:
@@ -46,6 +47,7 @@ def tables(report: Report, cases: Sequence[Case]) -> dict[str, pd.DataFrame]:
     found = (
         _table(report.comparisons, Comparison),
         _table(report.rungs, Rungs),
+        _table(report.steps, StepError),
         _table(report.instants, Instant),
         _table(report.causes, Cause),
         _table(_as_known(report.certificates, cases), Certificate),

@@ -10,7 +10,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 TEXT = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
 # The dataclasses of reports/row.py.
-ROWS = {"Comparison", "Rungs", "Certificate", "Instant", "Cause", "Advice"}
+ROWS = {"Comparison", "Rungs", "StepError", "Certificate", "Instant", "Cause", "Advice"}
 BOUNDS = {"forward", "backward"}  # the numbers of a law of dry friction
 
 

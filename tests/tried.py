@@ -25,7 +25,7 @@ import limited
 import touched
 from drawn import Mistake
 
-SEEN, TIMED_OUT, SURVIVED, UNDECIDED = "seen", "timed out", "survived", "not seen in time"
+SEEN, TIMED_OUT, SURVIVED, UNDECIDED = "seen", "timeout", "survived", "undecided"
 WORK = 90.0  # CPU s for the tests of one mistake
 EACH = 30.0  # CPU s of one test: it takes 1.5 s where it is sound
 WALL = 1800.0  # s: who waits without working for so long waits for ever

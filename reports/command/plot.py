@@ -65,7 +65,8 @@ def plot(
         why = report.lost.get(name, "is a claim about states: nothing moves")
         raise click.UsageError(f"{name} {why}")
     chosen = _quantity(quantity, report)
-    save(picture(name, chosen, found, report.comparisons, report.rungs), file)
+    rows = report.comparisons, report.rungs, report.steps
+    save(picture(name, chosen, found, *rows), file)
     say(f"written to {file}: {chosen}")
 
 

@@ -6,5 +6,7 @@ from .covered import COVERED
 from .errors import ERRORS
 from .instants import INSTANTS
 from .ladders import LADDERS
+from .steps import STEPS
 
-FILES = {file.name: file for file in (ERRORS, LADDERS, INSTANTS, CERTIFICATES, COVERED, CAUSES)}
+_KNOWN = (ERRORS, LADDERS, STEPS, INSTANTS, CERTIFICATES, COVERED, CAUSES)
+FILES = {file.name: file for file in _KNOWN}

@@ -111,13 +111,18 @@ def _mixed(tables: Mapping[str, Table], written: Mapping[str, Written]) -> Itera
 
 
 def _mistaken(file: File, table: Table) -> Iterator[Mistake]:
-    """Columns that are not there, two rows for one thing, and cells that cannot be read."""
+    """Columns that are not there, two rows for one thing, and cells that cannot be read.
+
+    A word that is no verdict is told where it stands first: an old table has it in many rows.
+    """
     missing = [name for name in file.needed if name not in table.columns]
     if missing:
         what = f"has no column {missing[0]!r}: of another version of textmech?"
         yield table.mistake(f"{what} Its columns are {', '.join(table.columns)}")
         return
     seen: dict[tuple[str, ...], int] = {}
+    words = {row["verdict"] for row in table.rows} if "verdict" in file.words else set[str]()
+    strange = {word for word in words if not file.verdicts(word)}
     for row, line in zip(table.rows, table.lines, strict=True):
         key = tuple(row[name] for name in file.keys)
         if (first := seen.setdefault(key, line)) != line:
@@ -127,8 +132,10 @@ def _mistaken(file: File, table: Table) -> Iterator[Mistake]:
             if not _is_number(row[name]):
                 what = f"should be a number or nothing, is {row[name]!r}"
                 yield table.mistake(what, line, name)
-        if "verdict" in file.words and not file.verdicts(row["verdict"]):
-            yield table.mistake(f"{row['verdict']!r} is no verdict", line, "verdict")
+        if strange and (word := row["verdict"]) in strange:
+            strange.remove(word)
+            what = f"{word!r} is no verdict: of another version of textmech?"
+            yield table.mistake(what, line, "verdict")
 
 
 def _is_number(text: str) -> bool:

@@ -1,9 +1,9 @@
 """convergence.csv: up to which step a quantity is usable, and what its ladder shows.
 
-Digits of order and limit are not compared, for they are rounding's where an error is small; nor are
-errors, for the judged step's is in tolerance.csv.
+Digits of order and limit are not compared, for they are rounding's where an error is small.
 """
 
+from ..row import OF_A_LADDER
 from .change import BETTER, CHANGED, WORSE, Change, Place, Seen
 from .file import File, column, number
 from .rule import Rule
@@ -42,4 +42,5 @@ LADDERS = File(
     compare=compared,
     place=place,
     seen=seen,
+    verdicts=lambda word: word in OF_A_LADDER,
 )

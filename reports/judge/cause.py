@@ -1,6 +1,6 @@
 """Why there is a difference, as far as a held ladder tells."""
 
-from . import convergence as of
+from .. import row as of
 from .convergence import Convergence
 
 STEPS = (of.EXACT, of.TEXTBOOK, of.WITHIN, of.FALLS)  # verdicts that blame no model

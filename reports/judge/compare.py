@@ -10,7 +10,18 @@ from numpy.typing import NDArray
 from ...cases.trajectory import Array
 from ...engines import SETTINGS
 from ...engines.engine import Refusal
-from ..row import AGREES, CRASHED, DIVERGED, FAILS, REFUSED, Comparison, Instant, Rungs
+from ..row import (
+    AGREES,
+    CRASHED,
+    DIVERGED,
+    FAILS,
+    REFUSED,
+    UNSETTLED,
+    Comparison,
+    Instant,
+    Rungs,
+    StepError,
+)
 from ..spelled import why
 from ..trial.audit import EQUAL, audit
 from ..trial.ladder import Ladder
@@ -19,11 +30,11 @@ from ..trial.simulate import Runs, simulate
 from ..trial.trial import Trial, judged_names
 from . import instants, metric, states
 from .cause import cause
-from .convergence import UNSETTLED, Convergence, study
+from .convergence import Convergence, study
 from .metric import told
 from .moment import moment
 from .rounding import floor
-from .rows import judged, row, rungs
+from .rows import judged, row, rungs, steps
 from .verdict import verdict
 
 AWAY = 4  # of a ladder's largest steps: how far from an event a sample tells an order
@@ -38,6 +49,7 @@ class Outcome:
 
     rows: list[Comparison]
     rungs: list[Rungs] = field(default_factory=list)
+    steps: list[StepError] = field(default_factory=list)
     samples: Samples = field(default_factory=dict)
     instants: list[Instant] = field(default_factory=list)
     moments: dict[str, str] = field(default_factory=dict)  # of what is off at an instant, in words
@@ -64,12 +76,20 @@ def compare(trial: Trial, runs: Runs | None = None) -> Outcome:
         for name in motion
         for found in [_study(trial, ladder, runs, name)]
     ]
-    climbed = [rungs(trial, ladder, name, found) for ladder, name, found in studies]
-    told, ladders = instants.judge(trial, events, runs, runs.judged)
+    told, of_events = instants.judge(trial, events, runs, runs.judged)
+    studies += of_events
     moments |= {name: words for name in events if (words := instants.spread(trial, name))}
     listed = instants.listed(trial, runs.judged)
     wanted = {name: trial.wanted(name) for name in motion} if trial.sampled else {}
-    return Outcome(rows + told, climbed + ladders, runs.judged, listed, moments, wanted)
+    return Outcome(
+        rows + told,
+        [rungs(trial, *study) for study in studies],
+        [step for study in studies for step in steps(trial, *study)],
+        runs.judged,
+        listed,
+        moments,
+        wanted,
+    )
 
 
 def answered(trial: Trial, found: Climbed) -> Outcome:

@@ -14,16 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...cases.trajectory import Array
+from ..row import ANOTHER, EXACT, FALLS, INSTANTS, STAYS, TEXTBOOK, UNSETTLED, WITHIN
 from . import metric
-
-EXACT = "exact"
-TEXTBOOK = "converges to the textbook"
-WITHIN = "converges to another value within the tolerance"
-ANOTHER = "converges to another value"
-FALLS = "falls with the step"
-STAYS = "stays on every rung"
-UNSETTLED = "not settled"
-INSTANTS = "instants"  # of events: they have errors and a usable step, and no order
 
 TEXTBOOK_WITHIN = 3.0  # uncertainties between limit and reference
 TEXTBOOK_BELOW = 1e-6  # of `allow`: nobody can use so small a difference
@@ -46,8 +38,8 @@ NO_ORDER: Orders = (None, None, None)
 class Convergence:
     """One quantity on one ladder: errors by step, smallest first, and what they say.
 
-    The order is that of the differences, or where the verdict is `falls with the step`, of the
-    errors' size. Without either there is none.
+    The order is that of the differences, or where the verdict is `falls`, of the errors' size.
+    Without either there is none.
     """
 
     verdict: str

@@ -8,27 +8,29 @@ from ...cases.case import Case
 from ...cases.scene.quantity import at_event
 from ...cases.trajectory import Array, Trajectory
 from ..events.times import reference_events
-from ..row import REFUSED, Comparison, Instant, Rungs
+from ..row import REFUSED, UNSETTLED, Comparison, Instant
 from ..trial.ladder import Ladder
 from ..trial.rung import Samples
 from ..trial.simulate import Runs
 from ..trial.trial import Trial
 from . import metric
 from .cause import cause
-from .convergence import UNSETTLED, Convergence, instants
+from .convergence import Convergence, instants
 from .rounding import floor
-from .rows import judged, row, rungs
+from .rows import judged, row
 from .verdict import verdict
 
+Study = tuple[Ladder, str, Convergence]
+"""What a ladder says of a quantity."""
 LATER = "say so by `tube`, as `tube: 2 ms` at the top of the file: it is then read so much later"
 
 
 def judge(
     trial: Trial, names: tuple[str, ...], runs: Runs, samples: Samples
-) -> tuple[list[Comparison], list[Rungs]]:
-    """Rows of tolerance.csv and convergence.csv: `event.time`, `event.count`, states at events."""
+) -> tuple[list[Comparison], list[Study]]:
+    """Rows of `event.time`, `event.count` and states at events, and what ladders say of them."""
     rows: list[Comparison] = []
-    ladders: list[Rungs] = []
+    studies: list[Study] = []
     for name in names:
         event, field = trial.quantity(name).part, trial.quantity(name).field
         if (f"{event}.time" if field == "count" else name) not in samples:
@@ -38,8 +40,8 @@ def judge(
             rows.append(_count(trial, event, samples[f"{event}.time"]))
         else:
             rows.append(_each(trial, name, samples[name], runs))
-            ladders += [rungs(trial, *rung) for rung in _climbed(trial, name, runs)]
-    return rows, ladders
+            studies += _climbed(trial, name, runs)
+    return rows, studies
 
 
 def _count(trial: Trial, event: str, found: Array) -> Comparison:
@@ -80,7 +82,7 @@ def spread(trial: Trial, name: str) -> str:
     return f"if an impact lasts some steps here, {LATER}"
 
 
-def _climbed(trial: Trial, name: str, runs: Runs) -> Iterator[tuple[Ladder, str, Convergence]]:
+def _climbed(trial: Trial, name: str, runs: Runs) -> Iterator[Study]:
     """What each ladder's errors by step say, inf where the count is another one.
 
     They compare the events that the largest step of all can tell, or else the first.

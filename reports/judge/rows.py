@@ -3,7 +3,7 @@
 from typing import Any
 
 from ...cases.theme import themes
-from ..row import Comparison, Rungs
+from ..row import Comparison, Rungs, StepError
 from ..trial.ladder import Ladder
 from ..trial.trial import Trial
 from .convergence import Convergence
@@ -55,8 +55,7 @@ def judged(
 
 
 def rungs(trial: Trial, ladder: Ladder, name: str, found: Convergence) -> Rungs:
-    """A row of convergence.csv: the errors by step, smallest first, and what they say."""
-    least = floor(trial, name, min(found.errors))
+    """A row of convergence.csv: what the errors by step say."""
     return Rungs(
         case=trial.case.name,
         engine=trial.engine.name,
@@ -66,8 +65,6 @@ def rungs(trial: Trial, ladder: Ladder, name: str, found: Convergence) -> Rungs:
         ladder=ladder.name,
         quantity=name,
         unit=trial.quantity(name).unit,
-        steps=" ".join(f"{h:.3g}" for h in found.errors),
-        errors=" ".join(f"{told(e, least):.2e}" for e in found.errors.values()),
         order=found.order,
         order_low=found.order_low,
         order_high=found.order_high,
@@ -76,3 +73,22 @@ def rungs(trial: Trial, ladder: Ladder, name: str, found: Convergence) -> Rungs:
         usable_step=found.usable_step,
         verdict=found.verdict,
     )
+
+
+def steps(trial: Trial, ladder: Ladder, name: str, found: Convergence) -> list[StepError]:
+    """Rows of steps.csv: the error at each step of a ladder, the smallest step first."""
+    least = floor(trial, name, min(found.errors))
+    return [
+        StepError(
+            case=trial.case.name,
+            engine=trial.engine.name,
+            setting=trial.engine.setting,
+            realised=trial.realised,
+            ladder=ladder.name,
+            quantity=name,
+            unit=trial.quantity(name).unit,
+            step=h,
+            error=told(error, least),
+        )
+        for h, error in sorted(found.errors.items())
+    ]

@@ -1,10 +1,10 @@
 """Rows of a claim about states: no step, no order, and nothing that happens at a time."""
 
-from ..row import Comparison
+from ..row import UNSETTLED, Comparison
 from ..trial.rung import Samples
 from ..trial.trial import Trial
 from . import metric
-from .convergence import UNSETTLED, Convergence
+from .convergence import Convergence
 from .metric import told
 from .rounding import floor
 from .rows import row

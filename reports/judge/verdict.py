@@ -3,9 +3,9 @@
 from ...cases.case import Deviation
 from ...engines.engine import Engine
 from .. import pins
-from ..row import AGREES, BEYOND, CHANGED, DEVIATES, FAILS
+from ..row import AGREES, ANOTHER, BEYOND, CHANGED, DEVIATES, FAILS
 from ..trial.trial import Trial
-from .convergence import ANOTHER, Convergence
+from .convergence import Convergence
 
 STAYS = 0.25  # of a declared deviation: what it may change and be the same one
 CERTAIN = 10  # uncertainties that a declared limit must stand above

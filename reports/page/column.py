@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ...engines import SETTINGS, place
-from ..row import Comparison, Instant, Rungs
+from ..row import Comparison, Instant, Rungs, StepError
 from ..selection import BOOK
 
 WAYS = {"native": 0, "driver": 1, "law": 2}
@@ -35,7 +35,7 @@ class Column:
         return f"{self.engine} {self.setting}{way}"
 
 
-def column(row: Comparison | Rungs | Instant) -> Column:
+def column(row: Comparison | Rungs | StepError | Instant) -> Column:
     """Where a row belongs."""
     return Column(row.engine, row.setting, row.realised)
 

@@ -8,7 +8,7 @@ import pandas as pd
 
 from .. import runs
 from ..content import text as content
-from ..row import MUTANTS, Certificate, Comparison, Instant, Rungs
+from ..row import MUTANTS, Certificate, Comparison, Instant, Rungs, StepError
 from ..write import NAMES, read
 
 BESIDE = {
@@ -29,6 +29,7 @@ class Folder:
 
     comparisons: list[Comparison]
     rungs: list[Rungs]
+    steps: list[StepError]
     instants: list[Instant]
     certificates: list[Certificate]
     coverage: pd.DataFrame
@@ -50,6 +51,7 @@ def folder(path: Path, beside: Path | None = None) -> Folder:
     return Folder(
         comparisons=read(path / "tolerance.csv", Comparison),
         rungs=read(path / "convergence.csv", Rungs),
+        steps=read(path / "steps.csv", StepError),
         instants=read(path / "events.csv", Instant),
         certificates=read(path / "reference.csv", Certificate),
         coverage=_text(path / "coverage.csv"),

@@ -54,7 +54,7 @@ def page(folder: Folder, cases: Sequence[Case], motions: Mapping[str, Motion]) -
         causes=beside.causes(folder.beside.get("causes.csv")),
         versions=beside.versions(folder.beside.get("versions.csv")),
         names=named,
-        work=bool(folder.rungs),
+        work=bool(folder.steps),
         engines=list(dict.fromkeys(one.engine for one in mapped)),
         groups=[(name, len(list(of))) for name, of in groupby(one.engine for one in mapped)],
         columns=mapped,
@@ -69,7 +69,7 @@ def page(folder: Folder, cases: Sequence[Case], motions: Mapping[str, Motion]) -
         script=_text(f"{name}.js" for name in SCRIPTS),
         motions=embedded(motions),
         rows=embedded(
-            rows(folder, shown) | {"work": work(folder.comparisons, folder.rungs, about)}
+            rows(folder, shown) | {"work": work(folder.comparisons, folder.steps, about)}
         ),
     )
 

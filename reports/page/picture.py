@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from ...cases.trajectory import Array
-from ..row import Comparison, Rungs
+from ..row import Comparison, Rungs, StepError
 from .column import Column, column
 from .heat import short
 from .motions import Motion
@@ -26,6 +26,7 @@ def picture(
     motion: Motion,
     rows: Sequence[Comparison],
     rungs: Sequence[Rungs],
+    steps: Sequence[StepError],
 ) -> Figure:
     """Of the rows of one case; what has no curve, as the time of an event, has a ladder alone."""
     own = [row for row in rows if row.quantity == quantity]
@@ -44,7 +45,8 @@ def picture(
         times = unpacked(motion["curves"]["times"])
         _tube(axes[0, 1], times, curves, shown, allowed, f"{quantity} [{unit}]")
         _error(axes[1, 0], times, curves, shown, allowed, own)
-    _ladder(axes[1, 1], [rung for rung in rungs if rung.quantity == quantity], allowed)
+    climbed = [one for one in steps if one.quantity == quantity]
+    _ladder(axes[1, 1], [rung for rung in rungs if rung.quantity == quantity], climbed, allowed)
     lines = {}
     for one in axes.ravel()[1:]:
         lines |= dict(zip(*reversed(one.get_legend_handles_labels()), strict=True))
@@ -105,15 +107,16 @@ def _error(
     axes.set(xlabel="t [s]", ylabel="error / allowed")
 
 
-def _ladder(axes: Any, rungs: Sequence[Rungs], allowed: float) -> None:
+def _ladder(axes: Any, rungs: Sequence[Rungs], steps: Sequence[StepError], allowed: float) -> None:
     kinds = [column(rung) for rung in rungs]
     for rung in rungs:
-        steps = 1e3 * np.array(rung.steps.split(), dtype=float)
-        errors = np.array(rung.errors.split(), dtype=float) / allowed
+        own = [s for s in steps if (column(s), s.ladder) == (column(rung), rung.ladder)]
+        milliseconds = [1e3 * one.step for one in own]
+        parts = [one.error / allowed for one in own]
         order = "" if rung.order is None else f", order {rung.order:.2g}"
         label = f"{column(rung).title}, {rung.ladder}{order}"
         look = {**style(column(rung), kinds), "lw": 1.0 if rung.ladder == "held" else 1.6, "ms": 4}
-        axes.plot(steps, np.maximum(errors, LEAST), label=label, **look)
+        axes.plot(milliseconds, np.maximum(parts, LEAST), label=label, **look)
     axes.set(xscale="log", xlabel="step h [ms]", ylabel="error / allowed")
     axes.xaxis.set_minor_formatter(NullFormatter())
     _bound(axes)

@@ -5,6 +5,7 @@ from typing import Any
 
 import pandas as pd
 
+from ..row import OF_A_LADDER, StepError
 from .beside import records
 from .column import Column, column
 from .folder import Folder
@@ -44,11 +45,16 @@ def rows(folder: Folder, columns: Sequence[Column]) -> dict[str, Any]:
             _few(row.step), _few(row.allowed), _few(row.error), _few(row.when, TIME),
             _few(row.ratio), words.number(row.verdict), words.number(row.because),
         ])  # fmt: skip
+    climbed: dict[tuple[str, Column, str, str], list[StepError]] = {}
+    for one in folder.steps:
+        climbed.setdefault((one.case, column(one), one.quantity, one.ladder), []).append(one)
     for rung in folder.rungs:
+        steps = climbed.get((rung.case, column(rung), rung.quantity, rung.ladder), [])
         of(rung.case)["ladders"].append([
             place[column(rung)], words.number(rung.quantity), words.number(rung.ladder),
-            words.number(rung.steps), rung.errors, _few(rung.order), _few(rung.limit),
-            _few(rung.usable_step), words.number(rung.verdict),
+            [_few(one.step) for one in steps], [_few(one.error) for one in steps],
+            _few(rung.order), _few(rung.limit), _few(rung.usable_step),
+            words.number(OF_A_LADDER[rung.verdict]),
         ])  # fmt: skip
     for instant in folder.instants:
         at = -1 if instant.engine == "reference" else place.get(column(instant), -2)

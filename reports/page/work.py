@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from ..row import Comparison, Rungs
+from ..row import Comparison, StepError
 from .column import Column, column
 
 SHOWN = ("pins", "loops", "springs", "rolling", "friction", "impacts", "space")
@@ -16,10 +16,10 @@ Steps = Mapping[tuple[str, Column], Mapping[float, float]]
 
 
 def work(
-    rows: Sequence[Comparison], rungs: Sequence[Rungs], themes: Mapping[str, tuple[str, ...]]
+    rows: Sequence[Comparison], steps: Sequence[StepError], themes: Mapping[str, tuple[str, ...]]
 ) -> list[dict[str, Any]]:
     """Returns a panel for each theme that has a ladder: by column the curve of each precision."""
-    ladders = worst(rows, rungs)
+    ladders = worst(rows, steps)
     moving = {case: about for case, about in themes.items() if "states" not in about}
     panels = [(theme, [case for case in moving if theme in moving[case]]) for theme in SHOWN]
     return [
@@ -36,17 +36,16 @@ def work(
     ]
 
 
-def worst(rows: Iterable[Comparison], rungs: Iterable[Rungs]) -> Steps:
+def worst(rows: Iterable[Comparison], steps: Iterable[StepError]) -> Steps:
     """Of each case's first ladder: tuned numbers follow the step, where any are tied to it."""
     allowed = {(row.case, column(row), row.quantity): row.allowed for row in rows}
     found: dict[tuple[str, Column], dict[str, dict[float, float]]] = {}
-    for rung in rungs:
-        allow = allowed.get((rung.case, column(rung), rung.quantity))
-        if not allow or rung.engine == "book":
+    for one in steps:
+        allow = allowed.get((one.case, column(one), one.quantity))
+        if not allow or one.engine == "book":
             continue
-        at = found.setdefault((rung.case, column(rung)), {}).setdefault(rung.ladder, {})
-        for h, error in zip(rung.steps.split(), rung.errors.split(), strict=False):
-            at[float(h)] = max(at.get(float(h), 0.0), float(error) / allow)
+        at = found.setdefault((one.case, column(one)), {}).setdefault(one.ladder, {})
+        at[one.step] = max(at.get(one.step, 0.0), one.error / allow)
     return {
         at: ladders["following" if "following" in ladders else "held"]
         for at, ladders in found.items()

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from ...engines.engine import Tunable
 from ...reference.solve import Solution
 from ..results import Results
-from ..row import UNSEARCHED, Cause, Comparison, Rungs, as_written
+from ..row import UNSEARCHED, Cause, Comparison, StepError, as_written
 from ..unit import Pair
 from .asked import lost
 from .between import between
@@ -38,7 +38,7 @@ class Known:
 
 def causes(
     comparisons: Sequence[Comparison],
-    rungs: Sequence[Rungs],
+    steps: Sequence[StepError],
     pairs: Iterable[Pair],
     results: Results,
     *,
@@ -58,14 +58,14 @@ def causes(
     states = {pair.case.name for pair in pairs if pair.case.states is not None}
     found |= {key_of(row): [without(row, NOTHING)] for row in left if row.case in states}
     if search:
-        found |= {key_of(cause): [cause] for cause in by_ladder(left, rungs)}
+        found |= {key_of(cause): [cause] for cause in by_ladder(left, steps)}
         words = _words(left, pairs, results)
         moved = _moved(comparisons, known) if known else set[tuple[str, str]]()
         same = [row for row in left if (row.case, row.engine) not in moved]
         carried = _carried(same, words, known.causes) if known else {}
         found |= carried
         left = [row for row in left if key_of(row) not in carried]
-        for asked, cured in _searched(left, rungs, pairs, results):
+        for asked, cured in _searched(left, steps, pairs, results):
             for row in asked.rows:
                 causes = searched(asked, row, cured[row.quantity])
                 found[key_of(row)] = [replace(c, searched_with=words[_where(row)]) for c in causes]
@@ -122,7 +122,7 @@ def _asked(cause: Cause) -> tuple[str, float | None, float | None]:
 
 
 def _searched(
-    rows: Sequence[Comparison], rungs: Sequence[Rungs], pairs: Iterable[Pair], results: Results
+    rows: Sequence[Comparison], steps: Sequence[StepError], pairs: Iterable[Pair], results: Results
 ) -> Iterator[tuple[Asked, Mapping[str, Cured]]]:
     of: dict[tuple[str, str, str], list[Comparison]] = {}
     for row in rows:
@@ -141,7 +141,7 @@ def _searched(
         if name in broken:
             continue
         levers = between(pair)
-        mine = [rung for rung in rungs if (rung.case, rung.engine, rung.setting) == key]
+        mine = [one for one in steps if (one.case, one.engine, one.setting) == key]
         runs = climbed(levers.base, of[key], mine)
         asked[name] = Asked(pair, levers, of[key])
         looking = cures(levers, runs, [row.quantity for row in of[key]])

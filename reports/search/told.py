@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from ...engines.engine import Tunable
 from ...engines.knobs import as_text, merged
-from ..row import Cause, Comparison, Rungs, as_written
+from ..row import Cause, Comparison, StepError, as_written
 from ..unit import Pair
 from .candidate import Candidate
 from .cures import LARGEST, Cure, Cured
@@ -62,10 +62,12 @@ def by_ours(row: Comparison, agreeing: Sequence[Comparison]) -> list[Cause]:
     ]
 
 
-def by_ladder(rows: Sequence[Comparison], rungs: Sequence[Rungs]) -> Iterator[Cause]:
+def by_ladder(rows: Sequence[Comparison], steps: Sequence[StepError]) -> Iterator[Cause]:
     """The step, where a row's own ladder knows one that is small enough."""
-    for row, step, error in usable(rows, rungs):
-        yield replace(without(row, STEP.words), options="{}", step=step, error_after=error)
+    for row, step, error in usable(rows, steps):
+        yield replace(
+            without(row, STEP.words), options="{}", step=step, error_after=as_written(error)
+        )
 
 
 def without(row: Comparison, words: str) -> Cause:

@@ -40,6 +40,7 @@ def of_run(
         "summary": [asdict(line) for line in (*lines, *book)],
         "tolerance": [asdict(row) for row in report.comparisons],
         "convergence": [asdict(row) for row in report.rungs],
+        "steps": [asdict(row) for row in report.steps],
         "events": [asdict(row) for row in report.instants],
         "reference": [asdict(row) for row in report.certificates],
         "causes": [asdict(row) for row in report.causes],

@@ -6,7 +6,7 @@ from pathlib import Path
 import pandas as pd
 
 from textmech.reports import write
-from textmech.reports.row import Cause, Certificate, Comparison, Instant, Rungs
+from textmech.reports.row import Cause, Certificate, Comparison, Instant, Rungs, StepError
 from textmech.reports.suite import Report
 
 ROW = Comparison(
@@ -17,10 +17,14 @@ ROW = Comparison(
 )  # fmt: skip
 RUNGS = Rungs(
     case="swing", engine="mujoco", version="4.0.0", setting="tuned", realised="native",
-    ladder="held", quantity="bar.angle", unit="rad", steps="0.001 0.002", errors="1e-3 2e-3",
+    ladder="held", quantity="bar.angle", unit="rad",
     order=1.0, order_low=0.9, order_high=1.1, limit=1e-9, uncertainty=1e-6, usable_step=2e-3,
-    verdict="converges to the textbook",
+    verdict="converges",
 )  # fmt: skip
+STEPS = [
+    StepError("swing", "mujoco", "tuned", "native", "held", "bar.angle", "rad", 1e-3, 1e-3),
+    StepError("swing", "mujoco", "tuned", "native", "held", "bar.angle", "rad", 2e-3, 2e-3),
+]
 INSTANT = Instant("swing", "mujoco", "4.0.0", "tuned", "native", "stops", 1, 0.451600756, 1e-9)
 CERTIFICATE = Certificate("swing", "(2.44)", "pendulum", "drift", 1e-14, 1e-9, 1e-12, "m", "holds")
 COVERED = pd.DataFrame(
@@ -33,6 +37,7 @@ def report(
     folder: Path,
     rows: list[Comparison] | None = None,
     rungs: list[Rungs] | None = None,
+    steps: list[StepError] | None = None,
     instants: list[Instant] | None = None,
     certificates: list[Certificate] | None = None,
     causes: list[Cause] | None = None,
@@ -43,6 +48,7 @@ def report(
     told = Report(
         comparisons=[ROW] if rows is None else rows,
         rungs=[RUNGS] if rungs is None else rungs,
+        steps=STEPS if steps is None else steps,
         instants=[INSTANT] if instants is None else instants,
         certificates=[CERTIFICATE] if certificates is None else certificates,
         causes=causes or [],

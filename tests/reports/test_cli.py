@@ -57,6 +57,7 @@ def test_out_and_keep_write_where_they_are_told(new: Path, tmp_path: Path) -> No
         "events.csv",
         "reference.csv",
         "runs.csv",
+        "steps.csv",
         "tolerance.csv",
     ]
     head, *rows = (tmp_path / "k" / "cart.csv").read_text().splitlines()

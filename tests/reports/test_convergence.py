@@ -1,5 +1,6 @@
 """Ladders with known expansions: order, limit, verdict and usable step come out as put in."""
 
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -7,18 +8,19 @@ import numpy as np
 import pytest
 from given.otherwise import otherwise
 
+from textmech.reports import write
 from textmech.reports.judge import convergence
 from textmech.reports.judge.cause import cause
-from textmech.reports.judge.convergence import (
+from textmech.reports.judge.convergence import Convergence, study
+from textmech.reports.row import (
     ANOTHER,
     EXACT,
     FALLS,
+    OF_A_LADDER,
     STAYS,
     TEXTBOOK,
     UNSETTLED,
     WITHIN,
-    Convergence,
-    study,
 )
 
 T = np.linspace(0.0, 1.0, 26)
@@ -82,6 +84,12 @@ def test_an_order_is_never_printed_for_an_unsettled_ladder() -> None:
     found = judge(wild, p=1)
     assert found.verdict == UNSETTLED
     assert found.order is None
+
+
+def test_every_verdict_is_one_word_that_the_readme_explains() -> None:
+    text = (write.HERE / "README.md").read_text(encoding="utf-8")
+    legend = text.partition("what its errors in `steps.csv` say")[2].partition("\n#")[0]
+    assert re.findall(r"^\| `(\w+)` \|", legend, re.MULTILINE) == list(OF_A_LADDER)
 
 
 def test_two_rungs_are_no_ladder() -> None:

@@ -46,6 +46,7 @@ def test_a_run_tells_all_its_rows(new: Path, tmp_path: Path) -> None:
         "summary",
         "tolerance",
         "convergence",
+        "steps",
         "events",
         "reference",
         "causes",

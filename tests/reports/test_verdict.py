@@ -13,9 +13,9 @@ from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
 from textmech.reports.judge import metric
 from textmech.reports.judge.compare import compare
-from textmech.reports.judge.convergence import ANOTHER, TEXTBOOK, Convergence
+from textmech.reports.judge.convergence import Convergence
 from textmech.reports.judge.verdict import verdict
-from textmech.reports.row import BEYOND, DEVIATES, DIVERGED, FAILS
+from textmech.reports.row import ANOTHER, BEYOND, DEVIATES, DIVERGED, FAILS, TEXTBOOK
 from textmech.reports.trial.trial import Trial
 
 Make = Callable[..., Trial]

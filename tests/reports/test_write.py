@@ -1,15 +1,18 @@
 """Reports are whole or old: never half, never unsorted, never uncounted."""
 
+import re
 import shutil
 from dataclasses import replace
+from math import inf
 from pathlib import Path
 
 import pandas as pd
 import pytest
 from given.otherwise import otherwise
+from given.report_folders import STEPS, report
 
 from textmech.reports import runs, write
-from textmech.reports.row import Comparison, Instant
+from textmech.reports.row import Comparison, Instant, StepError
 from textmech.reports.suite import Report
 
 ROW = Comparison(
@@ -18,6 +21,8 @@ ROW = Comparison(
     error=1.23456e-9, when=0.4515, rms=None, final=0.0, allowed=1e-2, ratio=1.23456e-7,
     verdict="agrees", because="a, b \"c\"",
 )  # fmt: skip
+
+NUMBER = r"[-+]?(\d+\.?\d*(e[-+]?\d+)?|inf|nan)"
 
 
 def frames(*rows: Comparison) -> dict[str, pd.DataFrame]:
@@ -30,7 +35,7 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     assert (row.error, row.rms, row.because) == (1.23e-9, None, ROW.because)
     assert sorted(p.name for p in tmp_path.iterdir()) == [
         "causes.csv", "convergence.csv", "coverage.csv", "events.csv", "reference.csv", "runs.csv",
-        "tolerance.csv",
+        "steps.csv", "tolerance.csv",
     ]  # fmt: skip
 
 
@@ -109,6 +114,34 @@ def test_an_interrupted_run_leaves_the_old_reports_whole(tmp_path: Path, monkeyp
     with pytest.raises(KeyboardInterrupt):
         write.write(frames(), tmp_path)
     assert {p.name: p.read_bytes() for p in tmp_path.iterdir()} == before
+
+
+def test_steps_are_numbers_to_any_program(tmp_path: Path) -> None:
+    """One in a cell: of a ladder a row for each, the smallest first; inf where a count is off."""
+    steps = [*STEPS, replace(STEPS[1], step=4e-3, error=inf)]
+    others = [replace(step, quantity="a") for step in steps]
+    found = pd.read_csv(report(tmp_path, steps=steps + others) / "steps.csv")
+    assert found[["step", "error"]].dtypes.tolist() == [float, float]
+    assert found.quantity.tolist() == 3 * ["a"] + 3 * ["bar.angle"]
+    assert found.step.tolist() == 2 * [1e-3, 2e-3, 4e-3]
+    assert found.error.tolist() == 2 * [1e-3, 2e-3, inf]
+    assert write.read(tmp_path / "steps.csv", StepError) == others + steps
+
+
+@pytest.mark.slow
+def test_no_cell_of_the_committed_tables_holds_two_numbers() -> None:
+    def crowded(table: pd.DataFrame) -> list[str]:
+        return [str(name) for name in table if table[name].map(_several).any()]
+
+    tables = {file.name: pd.read_csv(file, dtype=str) for file in write.HERE.glob("*.csv")}
+    assert len(tables) > 10
+    assert {name: found for name, one in tables.items() if (found := crowded(one))} == {}
+    assert crowded(pd.DataFrame({"steps": ["0.001 0.002"], "unit": ["kg m"]})) == ["steps"]
+
+
+def _several(cell: object) -> bool:
+    parts = str(cell).split()
+    return len(parts) > 1 and all(re.fullmatch(NUMBER, part) for part in parts)
 
 
 def test_instants_are_sorted_counted_and_read_back(tmp_path: Path) -> None:

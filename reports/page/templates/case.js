@@ -125,8 +125,7 @@ function errorPlot(quantity, allow, {times, engines}, rows) {
 
 function ladderPlot(quantity, allow, ladders) {
   const curves = ladders.map(([column, , ladder, steps, errors]) => {
-    const x = word(steps).split(' ').map((h) => 1e3 * h), all = errors.split(' ').map(Number);
-    const kept = x.map((h, k) => [h, all[k] / allow]).filter(([, e]) => e > 0 && isFinite(e));
+    const kept = steps.map((h, k) => [1e3 * h, errors[k] / allow]).filter(([, e]) => e > 0 && isFinite(e));
     const one = COLUMNS[column], held = word(ladder) === 'held' && ladders.some((l) => l[0] === column && l[2] !== ladder);
     return {x: kept.map((p) => p[0]), y: kept.map((p) => p[1]), look: one.look + (held ? ' held' : ''), title: `${one.title}, ${word(ladder)}`, dots: 9};
   }).filter((c) => c.x.length > 1);

@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 import pytest
-from given.report_folders import CERTIFICATE, COVERED, INSTANT, ROW, RUNGS, report
+from given.report_folders import CERTIFICATE, COVERED, INSTANT, ROW, RUNGS, STEPS, report
 
 from textmech.cases.mistake import CaseError
 from textmech.reports import write
@@ -99,9 +99,9 @@ def test_a_new_row(tmp_path: Path, verdict: str, kind: str) -> None:
         ({"usable_step": 1e-3}, WORSE),
         ({"usable_step": None}, WORSE),
         ({"usable_step": 4e-3}, BETTER),
-        ({"verdict": "converges to another value"}, CHANGED),
+        ({"verdict": "beyond"}, CHANGED),
         ({"verdict": "exact", "uncertainty": 1e-9}, CHANGED),  # the old one was sure
-        ({"order": 2.0, "limit": 1.0, "errors": "1 1"}, None),
+        ({"order": 2.0, "limit": 1.0}, None),
     ],
 )
 def test_a_row_of_convergence(tmp_path: Path, now: dict[str, Any], kind: str | None) -> None:
@@ -113,6 +113,13 @@ def test_words_that_rounding_decides_are_not_compared(tmp_path: Path) -> None:
     sure = replace(RUNGS, uncertainty=1e-9)  # below 1e-6 of what the quantity is allowed
     other = replace(sure, verdict="exact", uncertainty=5e-9)
     assert not found(tmp_path, {"rungs": [sure]}, {"rungs": [other]}).changes
+
+
+def test_a_step_that_only_one_ladder_has(tmp_path: Path) -> None:
+    """Their errors are not compared: those of the judged step are in tolerance.csv."""
+    change = only(found(tmp_path, {}, {"steps": [replace(STEPS[0], error=9.0)]}))
+    assert (change.kind, change.now) == (LOST, None)
+    assert change.place == Place("swing", "mujoco.tuned", "bar.angle (held, h = 0.002 s)")
 
 
 @pytest.mark.parametrize(

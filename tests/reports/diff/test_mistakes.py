@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 from given.command import textmech
 from given.damage import damaged as accidents
-from given.report_folders import COVERED, ROW, damaged, report
+from given.report_folders import COVERED, ROW, RUNGS, damaged, report
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -88,11 +88,20 @@ def test_a_wrong_cell_of_each_known_file_is_seen(old: Path, tmp_path: Path) -> N
             assert "has no column" in said(old, folder)
 
 
+def test_a_table_of_older_words_is_refused_once_a_word(old: Path, tmp_path: Path) -> None:
+    """Verdicts of several words, as convergence.csv had them, are not taken for a change."""
+    worded = replace(RUNGS, verdict="converges to the textbook")
+    rungs = [worded, replace(worded, quantity="bar.omega")]
+    err = said(old, report(tmp_path / "words", rungs=rungs))
+    assert "'converges to the textbook' is no verdict: of another version of textmech?" in err
+    assert err.count("is no verdict") == 1
+
+
 def test_all_mistakes_of_both_folders_are_told_at_once(old: Path, new: Path) -> None:
     damaged(old, "events.csv", lambda text: text[:40])
     damaged(new, NAME, lambda text: text.replace("agrees", "?"))
     err = said(old, new)
-    assert "3 mistakes" in err
+    assert "2 mistakes" in err
     assert str(old / "events.csv") in err
     assert str(new / NAME) in err
 

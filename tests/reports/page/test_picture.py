@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from given.otherwise import otherwise
-from given.report_folders import RUNGS
+from given.report_folders import RUNGS, STEPS
 from matplotlib.figure import Figure
 
 from textmech.reports.page import paint, picture
@@ -54,8 +54,9 @@ def test_what_leaves_the_tube_is_told_with_its_size() -> None:
 def drawn(module: Any = picture) -> tuple[list[float], list[float]]:
     """The first line of the ladder: steps, and what is drawn over them."""
     axes = Figure().subplots()
-    rung = replace(RUNGS, steps="0.001 0.002", errors="1e-3 5e-2")
-    module._ladder(axes, [rung], ALLOWED)
+    steps = [STEPS[0], replace(STEPS[1], error=5e-2)]
+    others = [replace(one, engine="pymunk", error=7.0) for one in steps]
+    module._ladder(axes, [RUNGS], others + steps, ALLOWED)
     line = axes.get_lines()[0]
     return np.asarray(line.get_xdata()).tolist(), np.asarray(line.get_ydata()).tolist()
 
@@ -65,7 +66,7 @@ def test_a_ladder_is_of_errors_over_what_is_allowed() -> None:
     steps, errors = drawn()
     assert steps == [1.0, 2.0]  # ms
     assert errors == pytest.approx([0.1, 5.0])  # beyond from 1 on, as the line says
-    bare = otherwise(picture, "dtype=float) / allowed\n", "dtype=float)\n")
+    bare = otherwise(picture, "one.error / allowed", "one.error")
     assert drawn(bare)[1] == pytest.approx([1e-3, 5e-2])
 
 

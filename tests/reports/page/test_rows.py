@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 from given.otherwise import otherwise
-from given.report_folders import CERTIFICATE, COVERED, INSTANT, ROW, RUNGS
+from given.report_folders import CERTIFICATE, COVERED, INSTANT, ROW, RUNGS, STEPS
 
 from textmech.reports.page import overview, rows, trust
 from textmech.reports.page.column import column
@@ -21,7 +21,13 @@ COMPARED = replace(
 )  # fmt: skip
 LADDER = replace(RUNGS, order=1.0, order_low=0.9, order_high=1.1, limit=5e-9, uncertainty=1e-6)
 CHECK = replace(CERTIFICATE, difference=1e-14, bound=1e-9, certified=1e-12)
-FOLDER = Folder([COMPARED], [LADDER], [INSTANT], [CHECK], COVERED, {}, "run")
+CLIMBED = [replace(step, error=3 * step.error) for step in STEPS]
+OTHERS = [
+    replace(step, **other, error=9.0)
+    for step in STEPS
+    for other in ({"ladder": "following"}, {"quantity": "bar.omega"}, {"engine": "pymunk"})
+]
+FOLDER = Folder([COMPARED], [LADDER], OTHERS + CLIMBED, [INSTANT], [CHECK], COVERED, {}, "run")
 COLUMNS = [column(COMPARED)]
 
 
@@ -29,7 +35,7 @@ def told(module: Any = rows) -> dict[str, Any]:
     """The case's lists, with texts for the numbers of words."""
     found = module.rows(FOLDER, COLUMNS)
     words = {
-        "rows": (1, 2, 8, 9), "ladders": (1, 2, 3, 8), "instants": (1,), "checks": (0, 4, 5)
+        "rows": (1, 2, 8, 9), "ladders": (1, 2, 8), "instants": (1,), "checks": (0, 4, 5)
     }  # fmt: skip
     for kind, places in words.items():
         (row,) = found["cases"]["swing"][kind]
@@ -44,7 +50,7 @@ def test_every_number_stands_in_its_column() -> None:
             [0, "bar.angle", "rad", 1e-3, 1e-2, 2e-3, 0.4, 0.2, "agrees", "for a reason"],
         ],
         "ladders": [
-            [0, "bar.angle", "held", "0.001 0.002", "1e-3 2e-3", 1, 5e-9, 2e-3,
+            [0, "bar.angle", "held", [1e-3, 2e-3], [3e-3, 6e-3], 1, 5e-9, 2e-3,
              "converges to the textbook"],
         ],
         "instants": [[0, "stops", 1, 0.451600756, 1e-9]],
@@ -59,6 +65,12 @@ def test_every_number_stands_in_its_column() -> None:
     [
         ("rms told as the largest error", "_few(row.error)", "_few(row.rms)"),
         ("bound told as what is certified", "_few(check.certified)", "_few(check.bound)"),
+        ("errors of a ladder told as its steps", "_few(one.error)", "_few(one.step)"),
+        (
+            "steps of a ladder told with those of the other",
+            "rung.quantity, rung.ladder)",
+            "rung.quantity, 'following')",
+        ),
         ("units lost", "words.number(row.unit)", "words.number('')"),
         ("units of certificates lost", "words.number(check.unit)", "words.number('')"),
     ],

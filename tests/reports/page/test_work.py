@@ -1,18 +1,25 @@
 """Work against precision: what is drawn, counted by hand."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import pytest
 
 from textmech.reports.page.column import Column
 from textmech.reports.page.work import enough, profile, work, worst
-from textmech.reports.row import AGREES, Comparison, Rungs
+from textmech.reports.row import AGREES, Comparison, StepError
 
 ROW = Comparison("a", "", "", "mujoco", "4", "tuned", "native", "", "x", "m", 0.1, 1.0, 0.5, 1.0,
                  1.0, 2.0, 0.5, AGREES, "")  # fmt: skip
-RUNG = Rungs("a", "mujoco", "4", "tuned", "native", "held", "x", "m", "0.001 0.002 0.004",
-             "0.2 1 4", 1.0, 1.0, 1.0, None, None, None, "")  # fmt: skip
+STEPS = {0.001: 0.2, 0.002: 1.0, 0.004: 4.0}
 TUNED = Column("mujoco", "tuned", "native")
+
+
+def climbed(
+    errors: Mapping[float, float], ladder: str = "held", quantity: str = "x"
+) -> list[StepError]:
+    at = ("a", "mujoco", "tuned", "native", ladder, quantity, "m")
+    return [StepError(*at, step, error) for step, error in errors.items()]
 
 
 @pytest.mark.parametrize(
@@ -33,10 +40,12 @@ def test_enough_is_the_largest_step_from_which_on_all_is_within(
 
 def test_the_worst_quantity_counts_and_the_ladder_that_follows() -> None:
     rows = [ROW, replace(ROW, quantity="y", allowed=0.5)]
-    rungs = [RUNG, replace(RUNG, quantity="y", errors="0.1 0.1 5")]
-    assert worst(rows, rungs) == {("a", TUNED): {0.001: 0.2, 0.002: 0.5, 0.004: 10.0}}
-    following = replace(RUNG, ladder="following", errors="0 0 0")
-    assert worst([ROW], [RUNG, following]) == {("a", TUNED): {0.001: 0, 0.002: 0, 0.004: 0}}
+    steps = climbed(STEPS) + climbed({0.001: 0.1, 0.002: 0.1, 0.004: 5.0}, quantity="y")
+    assert worst(rows, steps) == {("a", TUNED): {0.001: 0.2, 0.002: 0.5, 0.004: 10.0}}
+    following = climbed(dict.fromkeys(STEPS, 0.0), ladder="following")
+    assert worst([ROW], climbed(STEPS) + following) == {
+        ("a", TUNED): {0.001: 0, 0.002: 0, 0.004: 0}
+    }
 
 
 def test_a_share_is_of_all_cases_whether_they_run_or_not() -> None:
@@ -55,7 +64,7 @@ def test_a_share_is_of_all_cases_whether_they_run_or_not() -> None:
 
 def test_a_panel_has_a_curve_of_each_precision_for_each_column() -> None:
     themes = {"a": ("pins",), "b": ("space",)}
-    (panel,) = work([ROW], [RUNG], themes)  # of a theme without a ladder there is none
+    (panel,) = work([ROW], climbed(STEPS), themes)  # of a theme without a ladder there is none
     assert (panel["theme"], panel["cases"]) == ("pins", 1)
     assert set(panel["curves"]) == {TUNED.key}
     allowed, hundredth = panel["curves"][TUNED.key]
