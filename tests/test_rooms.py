@@ -24,8 +24,9 @@ ROOMS = {
     "cases": [
         "mistake",
         f"{NOUNS}+language.grammar",  # nouns declare their numbers in the words of the grammar
-        "case find language.read language.parse",
+        "case find language.read language.parse passages",
         "observe language.check language.resolve theme",
+        "still",
         "load",
     ],
     "engines": [

@@ -15,10 +15,11 @@ from numpy.typing import NDArray
 from ...cases.case import Case
 from ...cases.mistake import Mistake
 from ...cases.observe import observe
+from ...cases.passages import bent
 from ...cases.quantity import SIDES, AtEvent, at_event
+from ...cases.still import still
 from ...cases.trajectory import Array, Trajectory
-from .passages import bent
-from .times import grazed, never, reference_events, still
+from .times import grazed, never, reference_events
 
 ROWS = 8  # of the reference: of seventh degree, as the integrator's eighth order
 STEPS = 4  # of an engine: of third degree, as the best of their integrators is of fourth order
