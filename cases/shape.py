@@ -6,13 +6,42 @@ integrals over the shape (tests/cases/test_shape.py). Hand-written systems carry
 
 import math
 from collections.abc import Callable, Mapping
-from typing import Annotated
+from dataclasses import dataclass
+from typing import Annotated, Any
 
 from .body import Body
-from .language.grammar.count import Count
-from .language.grammar.field import In
+from .language.grammar.field import NUMBER, In, Plain
+from .language.grammar.number import Names, number
 from .language.grammar.part import Length, Mass
+from .language.grammar.words import wrong
 from .point import CENTER, Vector
+
+# How many: a whole number, or a parameter that is one.
+
+
+@dataclass(frozen=True)
+class Count(Plain):
+    """A whole number from `least` to `most`; `least` stands for a mistaken parameter, too."""
+
+    least: int
+    most: int
+
+    def check(self, value: object, known: Names) -> int:
+        found = number(value, "1", known)
+        if found is None:
+            return self.least
+        if not self.least <= found.value <= self.most or found.value != round(found.value):
+            by_name = f" ({value})" if isinstance(value, str) else ""
+            raise wrong(
+                f"should be a whole number from {self.least} to {self.most}, is "
+                f"{found.value:g}{by_name}"
+            )
+        return round(found.value)
+
+    def schema(self) -> dict[str, Any]:
+        literal = {"type": "integer", "minimum": self.least, "maximum": self.most}
+        return {"anyOf": [literal, {"type": "string"}], "description": NUMBER}
+
 
 Points = Mapping[str, Vector]
 POINT = ": what turns without inertia has no equation of its turn; a point mass is a `particle`"

@@ -19,8 +19,7 @@ from textmech.cases.mistake import CaseError
 from textmech.cases.motion import Motion
 from textmech.cases.muscle import LinearMuscle, Muscle
 from textmech.cases.observe import observe
-from textmech.cases.pieces import pieces
-from textmech.cases.power import done
+from textmech.cases.power import done, pieces
 from textmech.cases.scene import Scene
 from textmech.cases.space.joint import SpatialJoint
 from textmech.cases.trajectory import Trajectory

@@ -1,11 +1,12 @@
 """What acts about or along a joint, or rubs in it: parts that may turn, or that may shift."""
 
 from collections.abc import Iterator
+from typing import Any
 
-from ...mistake import Path, nearest
+from ...mistake import Path, listed, nearest
 from ...scene import Force, Joint, Scene
+from ...space.joint import SpatialJoint
 from ..parse import Finding, Parsed
-from .space.turn import no_turn
 
 
 def about(parsed: Parsed, scene: Scene, path: Path, force: Force) -> Iterator[Finding]:
@@ -49,3 +50,29 @@ def turning(scene: Scene, path: Path, joint: Joint) -> Iterator[Finding]:
     for at in joint.refers():
         if at.body in scene.bodies and not scene.bodies[at.body].turns:
             yield path, f"{joint.name!r} joins {at.body!r}, which is a particle and cannot turn"
+
+
+# What acts about a joint in space: which of its turns is meant.
+
+
+def no_turn(joint: Any, force: Force) -> str | None:
+    """Why there is no such turn, or none about which anything can act."""
+    found: SpatialJoint = joint
+    name, freedom = found.name, force.turn
+    turns = [f.name for f in found.turns if f.name]
+    written = [f"{name}.{turn}" for turn in turns]
+    if not found.holds_attitude:
+        why = "their middle axis is fixed in neither part; put a body between, on a joint more"
+        return f"{name!r} leaves three turns, and about these nothing can act: {why}"
+    if not turns:
+        return f"the turns of {name!r}, a {found.kind}, have no names: write it as `freedoms`"
+    if not freedom and found.kind == "freedoms":
+        return f"{name!r} leaves freedoms with names: write {' or '.join(map(repr, written))}"
+    if freedom in found.rates:
+        turn = f"{name}.{found.rates[freedom].name}"
+        return f"{freedom!r} is a rate; the turn is {turn!r}"
+    if freedom in [f.name for f in found.shifts]:
+        return f"{freedom!r} slides, and nothing turns there{listed(written)}"
+    if freedom and freedom not in turns:
+        return f"{name!r} has no turn {freedom!r}{nearest(f'{name}.{freedom}', written)}"
+    return None

@@ -3,6 +3,8 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from ...drag import Drag
+from ...force import of
 from ...mistake import nearest
 from ...scene import Scene
 from ..parse import Finding, Parsed
@@ -10,7 +12,6 @@ from .claims import claims
 from .engines import Engines, engines
 from .links import links, twice
 from .sampling import sampling
-from .slowing import slowing
 from .states import states
 
 _NO_USE = ("title", "source", "parameters", "drops_out")  # where a name is not a use of it
@@ -74,3 +75,22 @@ def _words(data: object) -> set[str]:
     if isinstance(data, tuple):
         return set().union(*map(_words, data))
     return {data} if isinstance(data, str) else set()
+
+
+# Friction that ends any motion in a finite time: a claim about states may have it.
+
+
+def slowing(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
+    """What would stop a motion's points wherever they go; the rest the motion itself tells."""
+    if parsed.file.states is not None:
+        return
+    for force in of(Drag, scene.forces.values()):
+        path = ("scene", "forces", force.name, "exponent")
+        if force.exponent == 0.0:
+            yield path, "must be above 0 in a motion: with 0 it would be dry friction"
+        elif force.ends and force.along is not None:
+            what = (
+                "must be at least 1 of an edge in a motion: with less it would stop in a finite "
+                "time, along the edge or across it"
+            )
+            yield path, what

@@ -2,17 +2,16 @@
 
 from collections.abc import Iterator, Mapping
 
+from ...joint import SHIFT
 from ...mistake import Path, nearest
+from ...point import anchor
 from ...scene import FLOOR, GROUND, Anchor, Edge, Force, Joint, Scene
-from ..grammar.file import Near
+from ..grammar.file import Initial, Near
 from ..grammar.file import Scene as Spec
 from ..parse import NAMED, Finding, Parsed
 from .about import about, rubbing
 from .drive import drives
-from .edge import edges
 from .pair import pairs
-from .polar import polar
-from .posed import posed
 from .space.spatial import spatial
 from .touch import planes, touches
 
@@ -155,3 +154,80 @@ def _placed(
         for turning in ("angle", "omega"):
             if not scene.bodies[name].turns and getattr(place, turning, None) is not None:
                 yield (key, name, turning), f"{name!r} is a particle and cannot turn"
+
+
+# Edges: what can carry one, and with which speed it starts.
+
+
+def edges(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
+    """Every mistake in the sound edges and in the speeds of the start."""
+    for name, edge in scene.constraints.items():
+        if what := edge.unfit(scene.bodies.get(edge.at.body)):
+            yield ("scene", "constraints", name, edge.word), what
+    for name, start in parsed.file.initial.items():
+        given = sorted(start.keys)
+        if name not in scene.constraints:
+            if "speed" in given and name not in scene.joints:
+                what = "only an edge or a joint that slides starts with a `speed`"
+                yield ("initial", name, "speed"), what
+            continue
+        for key in given:
+            if key != "speed":
+                yield ("initial", name, key), f"{name!r} is an edge and starts with a `speed`"
+            elif scene.constraints[name].speed is not None:
+                yield ("initial", name, key), f"the speed of {name!r} is prescribed"
+
+
+# Starts that give a place by its distance from a point of the ground, in some direction.
+
+
+KEYS = ("from", "length", "direction")
+
+
+def polar(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
+    """Every mistake in the sound starts."""
+    for name, start in parsed.file.initial.items():
+        given = [key for key in KEYS if key in start.keys]
+        if not given or name not in scene.bodies:
+            continue
+        for key in (key for key in KEYS if key not in given):
+            yield ("initial", name), f"needs `{key}` beside {' and '.join(given)}"
+        for key in sorted({"x", "y", *start.places} & start.keys):
+            yield ("initial", name, key), "cannot stand beside `from`, which gives the place too"
+        yield from _origin(parsed, scene, name, start)
+
+
+def _origin(parsed: Parsed, scene: Scene, name: str, start: Initial) -> Iterator[Finding]:
+    if start.from_ is None:
+        return
+    at, path = anchor(start.from_), ("initial", name, "from")
+    if at.body != GROUND:
+        yield path, f"should be a point of the ground, is {start.from_!r}"
+    elif at.point not in scene.points and not parsed.hides(at.point, ("points",)):
+        known = parsed.names("points", scene.points)
+        yield path, f"the ground has no point {at.point!r}{nearest(at.point, known)}"
+
+
+# Starts by joints: only the coordinates that a joint has can be given, and their rates.
+
+
+def posed(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
+    """Every mistake in starts by sound joints, and the shift of what is no joint."""
+    left = scene.coordinates()
+    for name, start in parsed.file.initial.items():
+        if name not in scene.joints:
+            if "shift" in start.model_fields_set:
+                yield ("initial", name, "shift"), "only a joint that slides starts with a `shift`"
+            continue
+        kind = scene.joints[name].kind
+        for key in (*start.given, *start.places):
+            if key not in left[name]:
+                yield ("initial", name, key), _unknown(name, kind, key, list(left[name]))
+
+
+def _unknown(name: str, kind: str, key: str, known: list[str]) -> str:
+    if not known:
+        return f"{name!r} is a {kind} and leaves nothing that could be given"
+    if key in SHIFT or key in ("angle", "omega"):
+        return f"{name!r} is a {kind} and has no {key}; it starts by {' and '.join(known)}"
+    return f"{name!r} is a {kind} and starts by {' and '.join(known)}{nearest(key, known)}"

@@ -12,10 +12,10 @@ from ...islands import apart
 from ...mistake import Path
 from ...scene import Anchor, Body, Scene
 from ...signal import fastest
+from ...space.scene import SpatialScene
 from ..grammar.file import File
 from ..parse import Finding
 from . import cost
-from .space.work import spins
 
 VARIANTS = 100  # each is solved and run; a sweep of more is several files
 PARTS = 300  # bodies and what is between them: a chain of 100 bars has 200
@@ -157,3 +157,26 @@ def _pendulum(body: Body, point: str, g: float) -> float:
     """√(m g d/(J + m d²)) [rad/s], the body hung up at the point."""
     d = hypot(*body.points.get(point, (0.0, 0.0)))
     return sqrt(body.mass * g * d / body.about(point)) if d else 0.0
+
+
+# How fast a scene in space is set off and driven: turning costs steps, free or not.
+
+
+def spins(file: File, scene: Any) -> Iterator[tuple[float, Path]]:
+    """How fast [rad/s] bodies and joints start to turn, and how fast they are driven."""
+    driven: SpatialScene = scene
+    mine = [name for name in file.initial if name in {**driven.bodies, **driven.joints}]
+    for name, start in ((name, file.initial[name]) for name in mine):
+        turning = [*(f"omega_{i}" for i in (1, 2, 3))]
+        if name in driven.joints:
+            rates = driven.joints[name].rates
+            turning += [rate for rate, freedom in rates.items() if freedom.kind == "turn"]
+        for key in turning:
+            yield abs(start.given.get(key, 0.0)), ("initial", name)
+    for rate, signal in driven.drives.items():
+        part, _, name = rate.rpartition(".")
+        path = ("scene", "drive", rate)
+        yield signal.angular_frequency, path
+        freedom = driven.joints[part].rates.get(name) if part in driven.joints else None
+        if freedom is not None and freedom.kind == "turn":
+            yield fastest(signal, file.duration), path

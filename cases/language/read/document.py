@@ -1,17 +1,28 @@
 """A YAML file as plain data with the place of every key, and the mistakes of its form."""
 
-from collections.abc import Collection
-from dataclasses import dataclass
+import re
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path as FilePath
 from typing import Any
 
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
+from ruamel.yaml.events import (
+    AliasEvent,
+    DocumentStartEvent,
+    MappingEndEvent,
+    MappingStartEvent,
+    NodeEvent,
+    ScalarEvent,
+    SequenceEndEvent,
+    SequenceStartEvent,
+)
 from ruamel.yaml.reader import ReaderError
 
-from ...mistake import CaseError, Mistake, Source, plain
-from .tree import Tree
+from ...mistake import CaseError, Mistake, Path, Source, plain
+from ..grammar.words import NO_VALUE
 
 LARGEST = 200_000  # bytes, read in 1.5 s; a case has 2000
 AT_HAND = 128  # files whose text is not parsed again: all that are shipped
@@ -94,3 +105,135 @@ def _end(text: str) -> tuple[int, int]:
     """Line and column, from 1, of what would follow the text."""
     head, _, last = text.rpartition("\n")
     return head.count("\n") + 1 + ("\n" in text), len(last) + 1
+
+
+# Events of YAML → maps, tuples, text, numbers and truth values, and nothing else.
+#
+# Nothing is ever constructed by the file's wish: anchors, aliases and tags are refused as events,
+# before they could mean anything. So no file can run code, grow or refer to itself.
+
+
+DEEPEST = 20  # levels; a case has 6
+
+_INTEGER = re.compile(r"[-+]?[0-9]{1,18}")
+_FLOAT = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?")
+_WORDS = {
+    **dict.fromkeys(("", "~", "null", "Null", "NULL")),
+    **dict.fromkeys(("true", "True", "TRUE"), True),
+    **dict.fromkeys(("false", "False", "FALSE"), False),
+    **{
+        sign + word: float(sign + "inf")
+        for sign in ("", "+", "-")
+        for word in (".inf", ".Inf", ".INF")
+    },
+    **dict.fromkeys((".nan", ".NaN", ".NAN"), float("nan")),
+}
+
+
+@dataclass
+class Tree:
+    """Turns events into data, noting places and mistakes on the way."""
+
+    file: str
+    lines: tuple[str, ...]
+    places: dict[Path, tuple[int, int]] = field(default_factory=dict)
+    mistakes: list[Mistake] = field(default_factory=list)
+    fatal: list[Mistake] = field(default_factory=list)
+
+    def at(self, mark: Any, path: Path, what: str) -> Mistake:
+        line, column = (mark.line + 1, mark.column + 1) if mark else (0, 0)
+        return Source(self.file, self.lines, {path: (line, column)}).mistake(path, what)
+
+    def unreadable(self, error: YAMLError) -> Mistake:
+        mark = getattr(error, "problem_mark", None)
+        what = getattr(error, "problem", None) or str(error).splitlines()[0]
+        return self.at(mark, (), f"not YAML: {what}")
+
+    def document(self, events: Iterator[Any]) -> Any:
+        data: Any = None
+        documents = 0
+        for event in events:
+            if isinstance(event, DocumentStartEvent):
+                documents += 1
+                if documents > 1:
+                    what = "a second document; a case is one"
+                    self.fatal.append(self.at(event.start_mark, (), what))
+                    return data
+            elif isinstance(event, NodeEvent):
+                data = self.node(event, events, ())
+                if not isinstance(data, dict) and not self.fatal:
+                    what = "should be a map of keys (`title: …`)"
+                    self.fatal.append(self.at(event.start_mark, (), what))
+        if not documents:
+            self.fatal.append(Mistake(self.file, 0, 0, "", "is empty"))
+        return data
+
+    def node(self, event: NodeEvent, events: Iterator[Any], path: Path) -> Any:
+        if len(path) > DEEPEST:
+            what = f"is nested deeper than {DEEPEST} levels"
+            raise CaseError([*self.fatal, self.at(event.start_mark, path[:4], what)])
+        self.refuse_references(event, path)
+        if isinstance(event, MappingStartEvent):
+            return self.mapping(events, path)
+        if isinstance(event, SequenceStartEvent):
+            return self.sequence(events, path)
+        if not isinstance(event, ScalarEvent):
+            return None
+        value = scalar(event.value) if event.style is None else event.value
+        if value is None:
+            source = Source(self.file, self.lines, self.places)
+            self.mistakes.append(source.mistake(path, NO_VALUE))
+        return value
+
+    def refuse_references(self, event: NodeEvent, path: Path) -> None:
+        if isinstance(event, AliasEvent):
+            what = f"alias '*{event.anchor}': a case has no anchors and aliases"
+        elif event.anchor:
+            what = f"anchor '&{event.anchor}': a case has no anchors and aliases"
+        elif tag := getattr(event, "tag", None):
+            what = f"tag {tag!r}: a case has no tags"
+        else:
+            return
+        self.fatal.append(self.at(event.start_mark, path, what))
+
+    def sequence(self, events: Iterator[Any], path: Path) -> tuple[Any, ...]:
+        items: list[Any] = []
+        while not isinstance(event := next(events), SequenceEndEvent):
+            place = (*path, len(items))
+            self.places[place] = (event.start_mark.line + 1, event.start_mark.column + 1)
+            items.append(self.node(event, events, place))
+        return tuple(items)
+
+    def mapping(self, events: Iterator[Any], path: Path) -> dict[str, Any]:
+        data: dict[str, Any] = {}
+        while not isinstance(event := next(events), MappingEndEvent):
+            key = self.key(event, events, path)
+            place = (*path, key)
+            if key in data:
+                first = self.places[place][0]
+                what = f"duplicate key {key!r}, already on line {first}"
+                self.mistakes.append(self.at(event.start_mark, place, what))
+                said = len(self.mistakes)
+                self.node(next(events), events, (*path, f"{key} (again)"))
+                del self.mistakes[said:]  # it has to go as a whole
+                continue
+            self.places[place] = (event.start_mark.line + 1, event.start_mark.column + 1)
+            data[key] = self.node(next(events), events, place)
+        return data
+
+    def key(self, event: Any, events: Iterator[Any], path: Path) -> str:
+        if isinstance(event, ScalarEvent):
+            self.refuse_references(event, path)
+            return event.value
+        self.node(event, events, (*path, "?"))
+        self.fatal.append(self.at(event.start_mark, path, "a key should be a word"))
+        return "?"
+
+
+def scalar(text: str) -> str | int | float | bool | None:
+    """A plain scalar by the core schema of YAML 1.2: 1e-3 is a number, `on` is text."""
+    if text in _WORDS:
+        return _WORDS[text]
+    if _INTEGER.fullmatch(text):
+        return int(text)
+    return float(text) if _FLOAT.fullmatch(text) else text
