@@ -8,11 +8,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .event import Event
+from .fields.event import Event
 from .mistake import Mistake, Source
-from .quantity import Quantity, table
 from .scene import Scene, Vector
-from .states import States, claimable
+from .scene.quantity import Quantity, table
+from .scene.states import States, claimable
 from .trajectory import Array
 
 ROUNDED = 1e-14  # of the duration: a time nearer than this is the same but for its rounding

@@ -7,13 +7,13 @@ from pathlib import Path as FilePath
 from pydantic import ValidationError
 
 from .case import Case, Origin
+from .fields.words import NO_VALUE
 from .find import misnamed
 from .language.check.check import check
 from .language.check.engines import Engines
 from .language.check.work import too_many_variants, work
 from .language.grammar.file import FIXED
 from .language.grammar.source import Source as Book
-from .language.grammar.words import NO_VALUE
 from .language.parse import parse
 from .language.read.document import read
 from .language.read.overlay import overlay

@@ -1,8 +1,8 @@
 """What a case is about, told from its scene: the themes by which a person looks for an answer."""
 
 from .case import Case
-from .point import GROUND
 from .scene import Scene
+from .scene.point import GROUND
 
 THEMES = {
     "pins": "joints of open chains",

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ..cases.motion import Motion
 from ..cases.scene import Scene
+from ..cases.scene.motion import Motion
 from ..cases.trajectory import Trajectory
 from .engine import Start
 

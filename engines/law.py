@@ -10,10 +10,10 @@ from collections.abc import Callable
 from dataclasses import astuple
 from typing import Any
 
-from ..cases.force import Damper, Line, Spring
-from ..cases.friction import DryFriction, Smooth
+from ..cases.fields.friction import DryFriction, Smooth
 from ..cases.scene import Scene
-from ..cases.turning import Torsion, TorsionDamper, Turning
+from ..cases.scene.forces.force import Damper, Line, Spring
+from ..cases.scene.forces.turning import Torsion, TorsionDamper, Turning
 
 
 def tension(force: Line, length: float, rate: float) -> float:

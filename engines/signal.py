@@ -9,7 +9,7 @@ from collections.abc import Callable
 from itertools import pairwise
 from typing import Any
 
-from ..cases.signal import Law, Signal
+from ..cases.fields.signal import Law, Signal
 
 Factor = Callable[[float], float]
 NEAR = 1e-6  # of a step: so near a corner is at the end of a step, whatever rounding made of it

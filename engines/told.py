@@ -9,12 +9,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from ..cases.drag import Drag, Viscous
-from ..cases.element import Force
-from ..cases.friction import Bounds
-from ..cases.magnetic import Magnetic
-from ..cases.muscle import Contracting, LinearMuscle, Muscle
+from ..cases.fields.friction import Bounds
 from ..cases.scene import Scene
+from ..cases.scene.forces.drag import Drag, Viscous
+from ..cases.scene.forces.element import Force
+from ..cases.scene.forces.magnetic import Magnetic
+from ..cases.scene.forces.muscle import Contracting, LinearMuscle, Muscle
 
 
 class Place(NamedTuple):

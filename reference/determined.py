@@ -10,10 +10,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import numpy as np
 
 from ..cases.case import Case
-from ..cases.kind import WORK
+from ..cases.fields.kind import WORK
 from ..cases.mistake import CaseError
-from ..cases.observe import observe
-from ..cases.quantity import at_event, table
+from ..cases.scene.observe import observe
+from ..cases.scene.quantity import at_event, table
 from ..cases.trajectory import Trajectory
 from .certificate.agreement import Check, worst
 from .mechanism.constraints.leeway import LEANS, Leeway

@@ -9,10 +9,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..cases.case import Case
-from ..cases.islands import apart
-from ..cases.kind import RESERVED
-from ..cases.quantity import table
+from ..cases.fields.kind import RESERVED
 from ..cases.scene import Scene
+from ..cases.scene.islands import apart
+from ..cases.scene.quantity import table
 from ..cases.trajectory import Trajectory
 from .certificate.agreement import Check, gravest
 from .certificate.alone import alone

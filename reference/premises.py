@@ -8,12 +8,12 @@ from collections.abc import Collection, Iterator, Mapping
 import numpy as np
 
 from ..cases.case import Case
-from ..cases.difference import apart
-from ..cases.frame import PLANE, SPACE
 from ..cases.mistake import CaseError, Mistake
-from ..cases.observe import motion_of, observe
-from ..cases.quantity import table
 from ..cases.scene import Contact
+from ..cases.scene.difference import apart
+from ..cases.scene.frame import PLANE, SPACE
+from ..cases.scene.observe import motion_of, observe
+from ..cases.scene.quantity import table
 from ..cases.trajectory import Array, Trajectory
 from .mechanism.modes.either import Generated
 from .start.sizes import size_of

@@ -12,13 +12,13 @@ import numpy as np
 from numpy.linalg import LinAlgError
 
 from ..cases.case import Case
-from ..cases.force import Force
-from ..cases.frame import SPACE
-from ..cases.islands import apart
 from ..cases.language.check import cost
 from ..cases.language.check.work import GO_ON
 from ..cases.mistake import CaseError, Mistake
-from ..cases.space.scene import SpatialScene
+from ..cases.scene.forces.force import Force
+from ..cases.scene.frame import SPACE
+from ..cases.scene.islands import apart
+from ..cases.scene.space.scene import SpatialScene
 from .integrators.budget import Endless, budget
 from .laws.rotation import axes
 from .mechanism.modes.choosing import Undetermined

@@ -11,7 +11,7 @@ import numpy as np
 from ..cases.case import Case
 from ..cases.language.check import cost
 from ..cases.mistake import CaseError, Mistake
-from ..cases.quantity import table, told_by
+from ..cases.scene.quantity import table, told_by
 from ..cases.trajectory import Trajectory
 from .certificate.agreement import Check
 from .certificate.certify import certify

@@ -13,10 +13,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..cases.case import Case
-from ..cases.difference import apart
 from ..cases.mistake import CaseError, Mistake, Source
-from ..cases.observe import observe
-from ..cases.states import MASS_MATRIX
+from ..cases.scene.difference import apart
+from ..cases.scene.observe import observe
+from ..cases.scene.states import MASS_MATRIX
 from ..cases.trajectory import Trajectory
 
 if TYPE_CHECKING:

@@ -8,10 +8,10 @@ import numpy as np
 import pandas as pd
 
 from ..cases.case import Case
-from ..cases.difference import apart
 from ..cases.mistake import CaseError, Mistake
-from ..cases.observe import observe
-from ..cases.states import MASS_MATRIX
+from ..cases.scene.difference import apart
+from ..cases.scene.observe import observe
+from ..cases.scene.states import MASS_MATRIX
 from ..cases.trajectory import Array
 from .ours import unasked
 from .poses import COLUMNS, ending, filed, poses

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..cases.case import Case, Placement
-from ..cases.frame import SPACE
-from ..cases.quantity import table
 from ..cases.scene import Scene
-from ..cases.space.rotation import angle_between, inverse, turned
+from ..cases.scene.frame import SPACE
+from ..cases.scene.quantity import table
+from ..cases.scene.rotation import angle_between, inverse, turned
 from ..cases.trajectory import ANGLE, VX, VY, Array, Trajectory, X, Y
 from ..reference.solve import solve
 

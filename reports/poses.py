@@ -7,7 +7,7 @@ from io import BytesIO
 import pandas as pd
 
 from ..cases.case import Case
-from ..cases.frame import PLANE, SPACE
+from ..cases.scene.frame import PLANE, SPACE
 from ..cases.trajectory import Array
 from .suite import Report
 from .trial.rung import Samples, seen

@@ -15,11 +15,12 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-# cases/force.py
-from textmech.cases.force import FORCES, Line
-from textmech.cases.language.grammar.field import In
-from textmech.cases.motion import Motion
-from textmech.cases.signal import Signal
+from textmech.cases.fields.field import In
+from textmech.cases.fields.signal import Signal
+
+# cases/scene/forces/force.py
+from textmech.cases.scene.forces.force import FORCES, Line
+from textmech.cases.scene.motion import Motion
 from textmech.cases.trajectory import ANGLE, Array
 
 
@@ -93,7 +94,7 @@ pymunk.ELEMENTS[Cable] = pymunk.Element(
 # The rest is used as it is.
 
 from textmech.cases.load import load
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.engines.engine import Plan
 from textmech.reference.solve import solve
 

@@ -59,4 +59,6 @@ def test_a_law_of_friction_is_where_it_says() -> None:
     """But for the engines' own folders: what an engine knows of friction is its own."""
     told = {file for file, tree in trees().items() if reads(tree) and file.count("/") < 2}
     told |= {f for f, tree in trees().items() if f.startswith("reference/") and reads(tree)}
-    assert told | {"cases/friction.py", "reference/laws/friction.py"} == listed("a law of friction")
+    assert told | {"cases/fields/friction.py", "reference/laws/friction.py"} == listed(
+        "a law of friction"
+    )

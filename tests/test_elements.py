@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from textmech.cases.force import FORCES
-from textmech.cases.joint import FREEDOMS
+from textmech.cases.scene.forces.force import FORCES
+from textmech.cases.scene.joint import FREEDOMS
 
 ROOT = Path(__file__).parents[1]
 FILES = [

@@ -14,7 +14,7 @@ def mirrored(name: str) -> set[str]:
 @pytest.mark.parametrize(
     ("file", "folder"),
     [
-        ("cases/quantity.py", "tests/cases"),
+        ("cases/scene/quantity.py", "tests/cases"),
         ("reference/mechanism/modes/mode.py", "tests/reference/mechanism"),
         ("engines/pymunk/law/friction.py", "tests/engines/pymunk"),  # no folder is its own
         ("reports/judge/verdict.py", "tests/reports"),

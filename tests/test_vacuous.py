@@ -12,10 +12,10 @@ from given import scenes
 
 from textmech.cases.case import Case
 from textmech.cases.find import shipped
-from textmech.cases.frame import PLANE
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
-from textmech.cases.observe import observe
+from textmech.cases.scene.frame import PLANE
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.reference.mechanism.modes.choosing import Undetermined
 from textmech.reference.mechanism.modes.mechanism import BadStart

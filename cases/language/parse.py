@@ -6,9 +6,9 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from ..fields.number import names
 from ..mistake import Path
 from .grammar.file import File
-from .grammar.number import names
 from .grammar.space.file import SpatialFile
 
 Finding = tuple[Path, str]  # where, and what is wrong there

@@ -6,12 +6,12 @@ from math import cos, sin
 from typing import Any
 
 from ..case import Case, Deviation, Event, Origin, Placement
-from ..frame import PLANE
 from ..mistake import Source
-from ..point import CENTER, anchor
 from ..scene import STANDARD_GRAVITY, Scene
-from ..space.joint import SpatialJoint
-from ..space.scene import SpatialScene
+from ..scene.frame import PLANE
+from ..scene.point import CENTER, anchor
+from ..scene.space.joint import SpatialJoint
+from ..scene.space.scene import SpatialScene
 from .grammar.file import File
 from .grammar.source import Source as Book
 from .grammar.space.scene import SpatialScene as SpatialWords

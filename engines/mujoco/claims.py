@@ -7,12 +7,12 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from ...cases.point import CENTER
 from ...cases.scene import Scene
-from ...cases.space.joint import effort_of
-from ...cases.space.rotation import matrix
-from ...cases.space.scene import SpatialScene
-from ...cases.states import MASS_MATRIX
+from ...cases.scene.point import CENTER
+from ...cases.scene.rotation import matrix
+from ...cases.scene.space.joint import effort_of
+from ...cases.scene.space.scene import SpatialScene
+from ...cases.scene.states import MASS_MATRIX
 from ...cases.trajectory import Array
 from .force import lacking
 from .law.signal import installed

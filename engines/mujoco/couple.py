@@ -5,8 +5,8 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from ...cases.couple import Couple
-from ...cases.point import CENTER, Anchor
+from ...cases.scene.forces.couple import Couple
+from ...cases.scene.point import CENTER, Anchor
 from ...cases.trajectory import Array
 from .written import written
 

@@ -10,9 +10,9 @@ from xml.etree import ElementTree as ET
 
 import mujoco
 
-from ...cases.joint import DRIVES
+from ...cases.fields.signal import Signal
 from ...cases.scene import GROUND, Joint, Scene
-from ...cases.signal import Signal
+from ...cases.scene.joint import DRIVES
 from ...cases.trajectory import Array
 from ..law import TORQUES
 from ..signal import derivative

@@ -12,7 +12,9 @@ from xml.etree import ElementTree as ET
 import mujoco
 import numpy as np
 
-from ...cases.force import (
+from ...cases.fields.signal import Signal
+from ...cases.scene import CENTER, GROUND, Anchor, Scene
+from ...cases.scene.forces.force import (
     Couple,
     Damper,
     Drag,
@@ -31,8 +33,6 @@ from ...cases.force import (
     TorsionDamper,
     Viscous,
 )
-from ...cases.scene import CENTER, GROUND, Anchor, Scene
-from ...cases.signal import Signal
 from ...cases.trajectory import Array
 from .couple import couple_outer, write_couple
 from .hinge import Hinge, hinge

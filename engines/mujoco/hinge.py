@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
-from ...cases.joint import Freedom
 from ...cases.scene import Force, Joint, Scene
-from ...cases.space.scene import SpatialScene
+from ...cases.scene.joint import Freedom
+from ...cases.scene.space.scene import SpatialScene
 from .space.tree import coordinate as coordinate_in_space
 from .space.tree import spanning_tree as spanning_tree_in_space
 from .tree import coordinate, spanning_tree

@@ -6,7 +6,7 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from ...cases.joint import Joint
+from ...cases.scene.joint import Joint
 from ...cases.trajectory import Array
 from ..engine import Choice
 from .contact import HARDEST

@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from xml.etree import ElementTree as ET
 
-from ...cases.muscle import Contracting
+from ...cases.fields.signal import Signal
 from ...cases.scene import GROUND
-from ...cases.signal import Signal
+from ...cases.scene.forces.muscle import Contracting
 
 # Set up as near to it as can be, it has a load that it lifts by 84 mm up to 10 mm elsewhere.
 ANOTHER = (

@@ -4,8 +4,8 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from ...cases.pair import Pair
 from ...cases.scene import Scene
+from ...cases.scene.pair import Pair
 from ...cases.trajectory import Array
 from .planes import POINT, Soft, dimensions, touching
 from .written import written

@@ -11,8 +11,8 @@ from functools import partial
 import mujoco
 import numpy as np
 
-from ...cases.force import of
 from ...cases.scene import GROUND, Push, Scene, Signal
+from ...cases.scene.forces.force import of
 from ...cases.trajectory import Array
 from ..engine import Plain, Plan, Start
 from ..law import dry_friction, smooth_friction

@@ -3,9 +3,9 @@
 from collections.abc import Callable, Mapping
 from xml.etree import ElementTree as ET
 
-from ...cases.pair import Pair
-from ...cases.plane import Plane
 from ...cases.scene import GROUND, Contact, Scene
+from ...cases.scene.pair import Pair
+from ...cases.scene.plane import Plane
 from .written import written
 
 Soft = Callable[[str], Mapping[str, str]]

@@ -9,9 +9,9 @@ at a thousandth of the others' mass, 5e-3 m at 1e-5 of it. There a tendon is hel
 import math
 from dataclasses import replace
 
-from ...cases.body import Body
-from ...cases.joint import Joint
 from ...cases.scene import Anchor, Scene
+from ...cases.scene.body import Body
+from ...cases.scene.joint import Joint
 from ...cases.trajectory import Trajectory
 from ..engine import Start
 from .tree import place, spanned

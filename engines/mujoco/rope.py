@@ -5,8 +5,8 @@ from xml.etree import ElementTree as ET
 
 import mujoco
 
-from ...cases.rope import Rope
 from ...cases.scene import Scene
+from ...cases.scene.forces.rope import Rope
 from ...cases.trajectory import Array
 from ..engine import Choice
 from .contact import HARDEST

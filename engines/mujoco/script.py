@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 
 import mujoco
 
-from ...cases.signal import Signal
+from ...cases.fields.signal import Signal
 from .force import BY_ITSELF
 
 _SAID = (

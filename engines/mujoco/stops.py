@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 
 from ...cases.scene import Scene
-from ...cases.stops import Stops
+from ...cases.scene.forces.stops import Stops
 from ...cases.trajectory import Array
 from ..engine import Choice
 from .bounce import dead, springy

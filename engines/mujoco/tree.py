@@ -9,9 +9,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from ...cases.joint import Freedom
 from ...cases.scene import GROUND, Anchor, Joint, Scene, Vector
-from ...cases.space.joint import SpatialJoint
+from ...cases.scene.joint import Freedom
+from ...cases.scene.space.joint import SpatialJoint
 from ..engine import Start
 
 J = TypeVar("J", Joint, SpatialJoint)

@@ -7,7 +7,7 @@ from xml.etree import ElementTree as ET
 import mujoco
 import numpy as np
 
-from ...cases.turning import Motor, Torsion, TorsionDamper
+from ...cases.scene.forces.turning import Motor, Torsion, TorsionDamper
 from .hinge import Hinge
 from .written import written
 

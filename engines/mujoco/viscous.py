@@ -3,7 +3,7 @@
 import mujoco
 import numpy as np
 
-from ...cases.drag import Viscous
+from ...cases.scene.forces.drag import Viscous
 from ...cases.trajectory import Array
 from .hinge import Hinge
 from .written import written

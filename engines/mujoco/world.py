@@ -7,7 +7,7 @@ from typing import Any
 
 import mujoco
 
-from ...cases.signal import Signal
+from ...cases.fields.signal import Signal
 from ...cases.trajectory import Trajectory
 from ..engine import Choice, Plain, Plan, Realised, Start
 

@@ -7,9 +7,9 @@ import numpy as np
 import pymunk
 from pymunk.body import Body
 
-from ...cases.point import CENTER
 from ...cases.scene import Body as Part
 from ...cases.scene import Scene
+from ...cases.scene.point import CENTER
 from ...cases.trajectory import Array
 from .lacking import lacking
 from .world import World

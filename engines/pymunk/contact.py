@@ -13,9 +13,9 @@ from pymunk.body import Body
 from pymunk.shape_filter import ShapeFilter
 from pymunk.shapes import Circle
 
-from ...cases.plane import Plane
 from ...cases.scene import Body as Part
 from ...cases.scene import Contact, Scene, Vector
+from ...cases.scene.plane import Plane
 from ..engine import Start
 from ..stride import Place, Stride
 from .direct import reading

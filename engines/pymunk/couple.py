@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 
 from pymunk.body import Body
 
-from ...cases.couple import Couple
+from ...cases.scene.forces.couple import Couple
 from ..signal import acting, in_time
 from .direct import turning
 from .law.line import Exerted

@@ -13,7 +13,8 @@ from typing import Any
 from pymunk.body import Body
 from pymunk.constraints import DampedRotarySpring, DampedSpring
 
-from ...cases.force import (
+from ...cases.scene import Scene
+from ...cases.scene.forces.force import (
     Couple,
     Damper,
     Drag,
@@ -31,7 +32,6 @@ from ...cases.force import (
     TorsionDamper,
     Viscous,
 )
-from ...cases.scene import Scene
 from ..engine import Realised
 from ..signal import acting, in_time
 from .couple import couple, couple_load, couple_script

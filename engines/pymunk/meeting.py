@@ -6,7 +6,7 @@ from typing import Any
 from pymunk.body import Body
 from pymunk.shapes import Segment
 
-from ...cases.pair import Pair
+from ...cases.scene.pair import Pair
 from ..engine import Start
 from .contact import ABOVE
 from .pair import closed_pairs

@@ -12,8 +12,8 @@ from pymunk.shape_filter import ShapeFilter
 from pymunk.shapes import Circle, Segment
 from pymunk.vec2d import Vec2d
 
-from ...cases.pair import Pair
 from ...cases.scene import Scene, Vector
+from ...cases.scene.pair import Pair
 from ..begun import begun
 from ..engine import Start
 from .contact import ABOVE, FLOOR_ELASTICITY, FLOOR_FRICTION, TOUCHING, Follow

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
-from ...cases.quantity import table
 from ...cases.scene import Scene
+from ...cases.scene.quantity import table
 from ..engine import Choice, Plan, Realised, Start
 from ..law import one_number
 from ..stride import strides

@@ -2,8 +2,8 @@
 
 import math
 
-from ...cases.frame import PLANE
 from ...cases.scene import GROUND, Scene
+from ...cases.scene.frame import PLANE
 from ..stride import NO_STRIDE, strides
 from .drive import NO_LINE
 from .edge import NO_EDGE

@@ -3,7 +3,7 @@
 from pymunk.constraints import RotaryLimitJoint
 
 from ...cases.scene import Scene
-from ...cases.stops import Stops
+from ...cases.scene.forces.stops import Stops
 from .world import World
 
 NEVER = 1e6  # rad: where no turn ends

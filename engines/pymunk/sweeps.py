@@ -24,8 +24,8 @@ from pymunk.constraints import (
 from pymunk.space import Space
 from pymunk.vec2d import Vec2d
 
-from ...cases.motion import Motion
 from ...cases.scene import Contact, Pair
+from ...cases.scene.motion import Motion
 from ...cases.trajectory import Array, Trajectory
 from .world import World
 

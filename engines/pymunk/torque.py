@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 
 from pymunk.body import Body
 
-from ...cases.force import Torque
+from ...cases.scene.forces.force import Torque
 from ..signal import acting, in_time
 from .direct import turning
 from .law.line import Exerted

@@ -5,8 +5,8 @@ from typing import Any
 
 from pymunk.body import Body
 
-from ...cases.plane import LEVEL, Plane
 from ...cases.scene import Anchor
+from ...cases.scene.plane import LEVEL, Plane
 from .contact import ABOVE, GROUP, is_tip
 from .world import World
 from .written import written

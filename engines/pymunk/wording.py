@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable
 from inspect import getsource
 
-from ...cases.signal import Law, Signal
+from ...cases.fields.signal import Law, Signal
 from ..signal import table, under
 
 

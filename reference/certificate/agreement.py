@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...cases.frame import SPACE, frame_of
+from ...cases.scene.frame import SPACE, frame_of
 from ...cases.trajectory import Trajectory
 from ..system import Array
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from ...cases.case import Case
-from ...cases.space.scene import SpatialScene
+from ...cases.scene.space.scene import SpatialScene
 from ...cases.trajectory import Array, Trajectory
 from ..mechanism.kinematics.coordinates import Coordinates
 from ..mechanism.kinematics.space.coordinates import SpatialCoordinates

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...cases.case import Case
-from ...cases.difference import apart
-from ...cases.kind import WORK
+from ...cases.fields.kind import WORK
 from ...cases.mistake import Mistake
-from ...cases.observe import corners, observe
-from ...cases.quantity import at_event, event_quantities
+from ...cases.scene.difference import apart
+from ...cases.scene.observe import corners, observe
+from ...cases.scene.quantity import at_event, event_quantities
 from ...cases.trajectory import Array, Trajectory
 from .agreement import Check, worst
 from .timed import unread

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from ...cases.case import Case
-from ...cases.motion import Motion
-from ...cases.observe import motion_of, observe
 from ...cases.scene import Joint
-from ...cases.space.joint import SpatialJoint, axes_of
-from ...cases.space.rotation import angle_between, product
+from ...cases.scene.motion import Motion
+from ...cases.scene.observe import motion_of, observe
+from ...cases.scene.rotation import angle_between, product
+from ...cases.scene.space.joint import SpatialJoint, axes_of
 from ...cases.trajectory import Array, Trajectory
 from .agreement import Check, worst
 from .reading import Size

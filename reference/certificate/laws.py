@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...cases.frame import PLANE, SPACE
+from ...cases.scene.frame import PLANE, SPACE
 from ..coverage import look
 from ..formalisms import appell, chaplygin, energy, lagrange, lagrangian, newton_euler, voronets
 from ..formalisms.dependent import dependent

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from ...cases.case import Case
-from ...cases.observe import motion_of, observe
-from ...cases.quantity import table
-from ...cases.signal import Signal
-from ...cases.space.joint import SpatialJoint
+from ...cases.fields.signal import Signal
+from ...cases.scene.observe import motion_of, observe
+from ...cases.scene.quantity import table
+from ...cases.scene.space.joint import SpatialJoint
 from ...cases.trajectory import Array, Trajectory
 from ..mechanism.modes.either import Generated
 from .agreement import Check, worst

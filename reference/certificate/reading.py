@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ...cases.frame import Frame
+from ...cases.scene.frame import Frame
 from ...cases.trajectory import Array, Trajectory
 from .agreement import worst
 

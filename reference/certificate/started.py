@@ -9,13 +9,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...cases.case import Case, Placement
-from ...cases.frame import SPACE
-from ...cases.motion import Motion
-from ...cases.observe import motion_of, observe
-from ...cases.point import GROUND, Anchor, anchor
-from ...cases.quantity import table
-from ...cases.space.joint import axes_of
-from ...cases.space.rotation import angle_between, inverse, product, turned
+from ...cases.scene.frame import SPACE
+from ...cases.scene.motion import Motion
+from ...cases.scene.observe import motion_of, observe
+from ...cases.scene.point import GROUND, Anchor, anchor
+from ...cases.scene.quantity import table
+from ...cases.scene.rotation import angle_between, inverse, product, turned
+from ...cases.scene.space.joint import axes_of
 from ...cases.trajectory import Trajectory
 from ..motion.bodies import Answer
 from .agreement import Check, worst

@@ -10,11 +10,11 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.linalg import LinAlgError
 
-from ...cases.event import Event
-from ...cases.observe import observe
-from ...cases.passages import lasting, passing
+from ...cases.fields.event import Event
 from ...cases.scene import Scene
-from ...cases.still import still
+from ...cases.scene.observe import observe
+from ...cases.scene.passages import lasting, passing
+from ...cases.scene.still import still
 from ...cases.trajectory import Trajectory
 from ..integrators.march import EPS, sizes
 from ..motion.follow import TOLERANCE, Change, Followed, Kept

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ...cases.frame import PLANE, SPACE
+from ...cases.scene.frame import PLANE, SPACE
 from ..laws.rotation import axes
 from ..system import Array, Mass, Mode, Pose
 

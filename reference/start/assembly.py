@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from ...cases.case import Case
-from ...cases.space.scene import SpatialScene
+from ...cases.scene.space.scene import SpatialScene
 from ..mechanism.kinematics.coordinates import Coordinates
 from ..mechanism.kinematics.space.coordinates import SpatialCoordinates
 from ..system import Array, Pose

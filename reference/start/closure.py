@@ -10,9 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ...cases.case import Case, Placement
-from ...cases.pair import Pair
-from ...cases.plane import LEVEL
 from ...cases.scene import Anchor, Vector
+from ...cases.scene.pair import Pair
+from ...cases.scene.plane import LEVEL
 from ..mechanism.constraints.constraint import Constraint, assembled
 from ..mechanism.constraints.permanent import constraints, gliding
 from ..mechanism.constraints.rows import FIRST, Along, X, Y

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ...cases.case import Case
-from ...cases.space.scene import SpatialScene
+from ...cases.scene.space.scene import SpatialScene
 from ..mechanism.modes.either import Generated
 from ..mechanism.modes.mechanism import Mechanism
 from ..mechanism.modes.space.mechanism import SpatialMechanism

@@ -1,7 +1,7 @@
 """The size of a mechanism: what its lengths are small against."""
 
 from ...cases.case import Case
-from ...cases.space.scene import SpatialScene
+from ...cases.scene.space.scene import SpatialScene
 from .closure import Closure
 from .space.closure import size_in_space
 

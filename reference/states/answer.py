@@ -9,8 +9,8 @@ import numpy as np
 
 from ...cases.case import Case
 from ...cases.mistake import CaseError, Mistake
-from ...cases.observe import observe
-from ...cases.space.scene import SpatialScene
+from ...cases.scene.observe import observe
+from ...cases.scene.space.scene import SpatialScene
 from ...cases.trajectory import Trajectory
 from ..certificate.agreement import Check, difference, relative, worst
 from ..certificate.errors import beyond, errors

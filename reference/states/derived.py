@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from ...cases.frame import SPACE
 from ...cases.scene import Scene
-from ...cases.space.joint import effort_of
-from ...cases.space.scene import SpatialScene
-from ...cases.states import MASS_MATRIX
+from ...cases.scene.frame import SPACE
+from ...cases.scene.space.joint import effort_of
+from ...cases.scene.space.scene import SpatialScene
+from ...cases.scene.states import MASS_MATRIX
 from ..formalisms import lagrange
 from ..formalisms.derivative import along
 from ..laws.rotation import axes

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ...cases.motion import Motion
-from ...cases.space.scene import SpatialScene
+from ...cases.scene.motion import Motion
+from ...cases.scene.space.scene import SpatialScene
 from ...cases.trajectory import Trajectory
 from ..certificate.agreement import relative, worst
 from ..mechanism.modes.space.mode import SpatialMultibody

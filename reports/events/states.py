@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from ...cases.case import Case
 from ...cases.mistake import Mistake
-from ...cases.observe import observe
-from ...cases.passages import bent
-from ...cases.quantity import SIDES, AtEvent, at_event
-from ...cases.still import still
+from ...cases.scene.observe import observe
+from ...cases.scene.passages import bent
+from ...cases.scene.quantity import SIDES, AtEvent, at_event
+from ...cases.scene.still import still
 from ...cases.trajectory import Array, Trajectory
 from .times import grazed, never, reference_events
 

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from ...cases.case import Case, Event
 from ...cases.mistake import Mistake
-from ...cases.observe import observe
-from ...cases.passages import lasting, passages, touches
-from ...cases.quantity import at_event
 from ...cases.scene import Scene
-from ...cases.still import still
+from ...cases.scene.observe import observe
+from ...cases.scene.passages import lasting, passages, touches
+from ...cases.scene.quantity import at_event
+from ...cases.scene.still import still
 from ...cases.trajectory import Array, Trajectory
 from .rests import LOW, STEPS, rests
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from ...cases.case import Case
-from ...cases.quantity import at_event
+from ...cases.scene.quantity import at_event
 from ...cases.trajectory import Array, Trajectory
 from ..events.times import reference_events
 from ..row import REFUSED, Comparison, Instant, Rungs

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ...cases.observe import observe
-from ...cases.quantity import table
 from ...cases.scene import Scene
+from ...cases.scene.observe import observe
+from ...cases.scene.quantity import table
 from ...cases.trajectory import Array, Trajectory
 from ..trial.trial import Trial
 from .number import Plain

@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from ...cases.motion import Motion
-from ...cases.observe import observe
-from ...cases.quantity import table
 from ...cases.scene import Scene
+from ...cases.scene.motion import Motion
+from ...cases.scene.observe import observe
+from ...cases.scene.quantity import table
 from ...cases.trajectory import Array, Trajectory
 from .number import Plain
 

@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 
 from ...cases.case import Case
-from ...cases.frame import SPACE
-from ...cases.observe import observe
-from ...cases.point import CENTER, GROUND
-from ...cases.states import MASS_MATRIX
+from ...cases.scene.frame import SPACE
+from ...cases.scene.observe import observe
+from ...cases.scene.point import CENTER, GROUND
+from ...cases.scene.states import MASS_MATRIX
 from ...cases.trajectory import Array, Trajectory
 from ..suite import Report
 from ..trial.rung import seen

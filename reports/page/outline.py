@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ...cases.point import CENTER
+from ...cases.scene.point import CENTER
 from ...cases.trajectory import Array
 
 ROUND = 72  # corners of a circle: on a large disk fewer are seen

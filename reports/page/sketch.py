@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ...cases.point import GROUND, Anchor
 from ...cases.scene import Scene
+from ...cases.scene.point import GROUND, Anchor
 from ...cases.trajectory import Array
 from .outline import outline, reach, rounded
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ...cases.space.rotation import turned
+from ...cases.scene.rotation import turned
 from ...cases.trajectory import Array
 from .column import Column
 from .motions import Motion

@@ -8,26 +8,25 @@ from dataclasses import fields
 from functools import cache
 from typing import Any
 
-from ...cases import quantity
-from ...cases.body import Body
-from ...cases.constraint import Edge
-from ...cases.contact import Contact
-from ...cases.force import NOUNS
-from ...cases.frame import PLANE, SPACE, Frame
-from ...cases.friction import Bounds, DryFriction, Smooth, Stribeck
-from ...cases.joint import FREEDOMS, Joint
+from ...cases.fields.friction import Bounds, DryFriction, Smooth, Stribeck
+from ...cases.fields.signal import Signal
 from ...cases.language.grammar.space.joint import KINDS
-from ...cases.pair import Pair
-from ...cases.plane import Plane
-from ...cases.point import Anchor, GroundPoint
-from ...cases.quantity import Quantity
-from ...cases.scene import Scene
-from ...cases.signal import Signal
-from ...cases.space.body import SpatialBody
-from ...cases.space.constraint import SpatialEdge
-from ...cases.space.contact import SpatialContact
-from ...cases.space.joint import Freedom, SpatialJoint
-from ...cases.space.scene import SpatialScene
+from ...cases.scene import Scene, quantity
+from ...cases.scene.body import Body
+from ...cases.scene.constraint import Edge
+from ...cases.scene.contact import Contact
+from ...cases.scene.forces.force import NOUNS
+from ...cases.scene.frame import PLANE, SPACE, Frame
+from ...cases.scene.joint import FREEDOMS, Joint
+from ...cases.scene.pair import Pair
+from ...cases.scene.plane import Plane
+from ...cases.scene.point import Anchor, GroundPoint
+from ...cases.scene.quantity import Quantity
+from ...cases.scene.space.body import SpatialBody
+from ...cases.scene.space.constraint import SpatialEdge
+from ...cases.scene.space.contact import SpatialContact
+from ...cases.scene.space.joint import Freedom, SpatialJoint
+from ...cases.scene.space.scene import SpatialScene
 from ...cases.trajectory import Trajectory
 from ...engines.engine import (
     Choice,
@@ -240,7 +239,7 @@ def _columns(frame: Frame) -> list[str]:
 
 
 def _frame_text() -> str:
-    from ...cases import frame
+    from ...cases.scene import frame
 
     return (frame.__doc__ or "").strip()
 

@@ -6,8 +6,8 @@ from itertools import pairwise
 from textwrap import fill
 
 from ...cases.find import of_the_book
-from ...cases.frame import PLANE
 from ...cases.load import load
+from ...cases.scene.frame import PLANE
 from ..write import HERE
 
 Row = Mapping[str, str]

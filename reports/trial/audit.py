@@ -3,9 +3,9 @@
 import math
 from collections.abc import Mapping
 
-from ...cases.observe import observe
 from ...cases.scene import Scene
-from ...cases.space.scene import SpatialScene
+from ...cases.scene.observe import observe
+from ...cases.scene.space.scene import SpatialScene
 from ...cases.trajectory import Trajectory
 from .answers import read_back
 from .trial import Trial

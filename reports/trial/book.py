@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from ...cases.case import Case
-from ...cases.quantity import table
 from ...cases.scene import Scene
+from ...cases.scene.quantity import table
 from ...cases.trajectory import Array, Trajectory
 from ...engines.engine import Choice, Engine, Plan, Start
 from ...reference.approximations.approximation import DELTA, KINDS, A, Example, approximated

@@ -4,8 +4,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from ...cases.case import Case
-from ...cases.quantity import table
 from ...cases.scene import Scene
+from ...cases.scene.quantity import table
 from ...engines.engine import Engine, Plan
 
 COARSEST = 8e-3  # s: larger steps are of no use to anyone who controls a body

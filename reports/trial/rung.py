@@ -8,9 +8,9 @@ from functools import partial
 import numpy as np
 
 from ...cases.case import Case
-from ...cases.frame import frame_of
-from ...cases.observe import observe
-from ...cases.quantity import at_event, told_by
+from ...cases.scene.frame import frame_of
+from ...cases.scene.observe import observe
+from ...cases.scene.quantity import at_event, told_by
 from ...cases.trajectory import Array, Trajectory
 from ...engines.engine import Claims, Diverged, Engine, Plan, Start
 from ..events.states import engine_states

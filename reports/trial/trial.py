@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...cases.case import Case
-from ...cases.difference import from_reference
-from ...cases.observe import observe
-from ...cases.quantity import Quantity, at_event, at_events, event_quantities
 from ...cases.scene import Scene
+from ...cases.scene.difference import from_reference
+from ...cases.scene.observe import observe
+from ...cases.scene.quantity import Quantity, at_event, at_events, event_quantities
 from ...cases.trajectory import Array, Trajectory
 from ...engines.engine import Engine, Plan, Realised, Refusal, Start
 from ..events.states import reference_states

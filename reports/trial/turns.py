@@ -11,7 +11,7 @@ from typing import Any, cast
 import numpy as np
 
 from ...cases.case import Case
-from ...cases.observe import motion_of
+from ...cases.scene.observe import motion_of
 from ...cases.trajectory import Array, Trajectory
 
 FAR = 1.0  # rad from one row to the next: a third of the half turn that can be told

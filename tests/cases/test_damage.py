@@ -11,7 +11,7 @@ from given.spatial_case import SOUND as SPATIAL
 from hypothesis import given
 from hypothesis import strategies as st
 
-from textmech.cases.language.grammar.number import LARGEST, SMALLEST, NumberMistake, amount
+from textmech.cases.fields.number import LARGEST, SMALLEST, NumberMistake, amount
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError, plain
 from textmech.reports.selection import HANDWRITTEN

@@ -9,13 +9,12 @@ import numpy as np
 import pytest
 from given import scenes
 
-from textmech.cases import difference
-from textmech.cases.difference import apart, from_reference
-from textmech.cases.frame import SPACE
-from textmech.cases.observe import observe
-from textmech.cases.quantity import table
-from textmech.cases.space import rotation
-from textmech.cases.space.rotation import about, product
+from textmech.cases.scene import difference, rotation
+from textmech.cases.scene.difference import apart, from_reference
+from textmech.cases.scene.frame import SPACE
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.quantity import table
+from textmech.cases.scene.rotation import about, product
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.reference.certificate import agreement
 

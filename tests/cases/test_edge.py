@@ -7,9 +7,9 @@ import pytest
 from given import edges, scenes
 
 from textmech.cases.mistake import CaseError
-from textmech.cases.observe import observe
 from textmech.cases.scene import Anchor, Edge, Scene
-from textmech.cases.shape import rigid
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.shape import rigid
 from textmech.cases.trajectory import Trajectory
 from textmech.reference.start.assembly import start_poses
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from textmech.cases.case import Case, Deviation
+from textmech.cases.fields.number import Names, amount, number
 from textmech.cases.find import find, shipped
-from textmech.cases.language.grammar.number import Names, amount, number
 from textmech.cases.load import load, titled
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Joint, Push, Signal, Torque

@@ -8,9 +8,6 @@ import numpy as np
 import pytest
 from scipy.integrate import simpson
 
-from textmech.cases import quantity, shape
-from textmech.cases.observe import observe
-from textmech.cases.quantity import table
 from textmech.cases.scene import (
     Anchor,
     Bounds,
@@ -21,7 +18,11 @@ from textmech.cases.scene import (
     Joint,
     Scene,
     Spring,
+    quantity,
+    shape,
 )
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.quantity import table
 from textmech.cases.trajectory import ANGLE, OMEGA, VX, Trajectory
 
 Array = Any  # samples (N,), real or complex: x + i y

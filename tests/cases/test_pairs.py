@@ -8,10 +8,10 @@ import pytest
 
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
-from textmech.cases.observe import motion_of, observe
-from textmech.cases.pair import FACES, Pair
-from textmech.cases.point import Anchor
 from textmech.cases.scene import Scene
+from textmech.cases.scene.observe import motion_of, observe
+from textmech.cases.scene.pair import FACES, Pair
+from textmech.cases.scene.point import Anchor
 from textmech.cases.trajectory import Array, Trajectory
 
 TEXT = """\

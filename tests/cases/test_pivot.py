@@ -9,9 +9,9 @@ from given.scenes import typed
 
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
-from textmech.cases.observe import observe
-from textmech.cases.quantity import table
-from textmech.cases.shape import spokes
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.quantity import table
+from textmech.cases.scene.shape import spokes
 from textmech.cases.trajectory import Trajectory
 from textmech.reference.start.assembly import start_poses
 

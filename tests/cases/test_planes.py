@@ -8,8 +8,8 @@ import pytest
 
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
-from textmech.cases.observe import observe
-from textmech.cases.plane import LEVEL, Plane
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.plane import LEVEL, Plane
 from textmech.cases.trajectory import Trajectory
 
 TEXT = """\

@@ -7,7 +7,7 @@ import pytest
 from given import scenes
 
 from textmech.cases.case import Case
-from textmech.cases.point import GroundPoint
+from textmech.cases.scene.point import GroundPoint
 from textmech.reference.solve import solve
 
 HELD = """\

@@ -9,21 +9,21 @@ import numpy as np
 import pytest
 from given import scenes
 
-from textmech.cases import observe as looking
-from textmech.cases.couple import Couple
-from textmech.cases.drag import Drag, Viscous
-from textmech.cases.force import Damper, Force, Push, Spring, Torque
-from textmech.cases.joint import Joint
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
-from textmech.cases.motion import Motion
-from textmech.cases.muscle import LinearMuscle, Muscle
-from textmech.cases.observe import observe
-from textmech.cases.power import done, pieces
 from textmech.cases.scene import Scene
-from textmech.cases.space.joint import SpatialJoint
+from textmech.cases.scene import observe as looking
+from textmech.cases.scene.forces.couple import Couple
+from textmech.cases.scene.forces.drag import Drag, Viscous
+from textmech.cases.scene.forces.force import Damper, Force, Push, Spring, Torque
+from textmech.cases.scene.forces.muscle import LinearMuscle, Muscle
+from textmech.cases.scene.forces.turning import Motor, Torsion, TorsionDamper
+from textmech.cases.scene.joint import Joint
+from textmech.cases.scene.motion import Motion
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.power import done, pieces
+from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.cases.trajectory import Trajectory
-from textmech.cases.turning import Motor, Torsion, TorsionDamper
 from textmech.reference.certificate import errors
 from textmech.reference.solve import Solution, solve
 

@@ -5,17 +5,14 @@ from dataclasses import replace
 from inspect import signature
 from pathlib import Path
 
-from textmech.cases import shape
+from textmech.cases.fields.friction_grammar import Coefficients, DryFriction
+from textmech.cases.fields.number import amount
+from textmech.cases.fields.part import written
 from textmech.cases.language.grammar import body, constraint, force, joint
 from textmech.cases.language.grammar import file as grammar
 from textmech.cases.language.grammar.contact import Contact as ContactSpec
 from textmech.cases.language.grammar.file import File, Scene
-from textmech.cases.language.grammar.friction import Coefficients, DryFriction
-from textmech.cases.language.grammar.number import amount
-from textmech.cases.language.grammar.part import written
 from textmech.cases.load import load
-from textmech.cases.quantity import event_quantities, table
-from textmech.cases.rope import Rope
 from textmech.cases.scene import (
     Anchor,
     Bounds,
@@ -28,11 +25,14 @@ from textmech.cases.scene import (
     Spring,
     Torsion,
     Viscous,
+    shape,
 )
 from textmech.cases.scene import DryFriction as Dry
 from textmech.cases.scene import Joint as Connection
 from textmech.cases.scene import Scene as Resolved
-from textmech.cases.stops import Stops
+from textmech.cases.scene.forces.rope import Rope
+from textmech.cases.scene.forces.stops import Stops
+from textmech.cases.scene.quantity import event_quantities, table
 
 WHOLE = Path(shape.__file__).with_name("README.md").read_text(encoding="utf-8")
 PLANE, _, _rest = WHOLE.partition("## Space\n")

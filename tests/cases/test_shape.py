@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from textmech.cases import shape
-from textmech.cases.scene import Body
+from textmech.cases.scene import Body, shape
 from textmech.cases.trajectory import Array
 
 N = 2000  # pieces a side: a sum at midpoints is then off by 1/N² of itself or less

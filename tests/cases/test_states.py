@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from given.claims import CHAIN, PLANE, claimed
 
-from textmech.cases import shape
 from textmech.cases.language.grammar.states import Drawn
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
-from textmech.cases.quantity import table
-from textmech.cases.states import States, claimable, coordinates
+from textmech.cases.scene import shape
+from textmech.cases.scene.quantity import table
+from textmech.cases.scene.states import States, claimable, coordinates
 
 
 def test_sound(tmp_path: Path) -> None:

@@ -7,8 +7,8 @@ import pytest
 from textmech.cases.case import Case, Event
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
-from textmech.cases.quantity import event_quantities
 from textmech.cases.scene import Anchor, Bounds, Contact, DryFriction, Smooth
+from textmech.cases.scene.quantity import event_quantities
 
 BACKSPIN = """\
 title: Disk thrown up an incline with backspin slides, then rolls

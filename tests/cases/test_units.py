@@ -10,8 +10,8 @@ import pint
 import pytest
 from given.otherwise import otherwise
 
-from textmech.cases.language.grammar import number
-from textmech.cases.language.grammar.number import Names, NumberMistake, amount
+from textmech.cases.fields import number
+from textmech.cases.fields.number import Names, NumberMistake, amount
 
 ROUNDING = 1e-15  # a few products in a double each
 LINES = [line.partition("=") for line in number._UNITS.strip().splitlines()]

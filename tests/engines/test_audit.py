@@ -21,10 +21,10 @@ from given.planning import (
     way_of,
 )
 
-from textmech.cases.force import of
-from textmech.cases.frame import PLANE
 from textmech.cases.scene import Damper, Scene, Spring, Torsion, TorsionDamper
-from textmech.cases.shape import bar, particle
+from textmech.cases.scene.forces.force import of
+from textmech.cases.scene.frame import PLANE
+from textmech.cases.scene.shape import bar, particle
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Engine, Start
 from textmech.reports.trial.audit import EQUAL, audit

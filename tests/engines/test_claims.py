@@ -13,7 +13,7 @@ from given.planning import SETTINGS, words
 
 from textmech import engines
 from textmech.cases.case import Case
-from textmech.cases.states import claimable
+from textmech.cases.scene.states import claimable
 from textmech.engines.engine import Claims, Engine
 from textmech.reports.trial.start import assembled
 from textmech.reports.trial.states import ways

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from given.planning import TUNED, every, moved
 
-from textmech.cases.joint import Joint
 from textmech.cases.scene import Anchor, GroundPoint, Push, Scene, Signal
-from textmech.cases.shape import disk, particle
+from textmech.cases.scene.joint import Joint
+from textmech.cases.scene.shape import disk, particle
 from textmech.engines import signal
 from textmech.engines.mujoco.law.signal import Corners
 

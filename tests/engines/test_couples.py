@@ -11,7 +11,7 @@ from given import scenes, torsion
 from given.planning import TUNED, moved
 
 from textmech.cases.case import Case
-from textmech.cases.couple import Couple
+from textmech.cases.scene.forces.couple import Couple
 from textmech.engines.engine import Start
 from textmech.engines.mujoco import couple as of_mujoco
 from textmech.engines.mujoco import force as mujoco_force

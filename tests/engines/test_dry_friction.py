@@ -29,8 +29,8 @@ from given.engine_scenes import (
 from given.planning import NAMES, TUNED, every, moved, planned, ways
 from scipy.integrate import solve_ivp
 
-from textmech.cases.observe import observe
 from textmech.cases.scene import Anchor, Bounds, DryFriction, Push, Signal, Smooth
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import OMEGA, VX, Array, X
 from textmech.engines.engine import Realised
 from textmech.engines.law import smooth_friction

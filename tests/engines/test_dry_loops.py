@@ -8,7 +8,7 @@ from given import scenes
 from given.planning import TUNED, moved
 
 from textmech.cases.case import Case
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Realised
 from textmech.engines.mujoco.law import friction, smooth

@@ -19,7 +19,7 @@ from given.engine_scenes import (
 )
 from given.planning import NAMES, TUNED, every, moved
 
-from textmech.cases.shape import bar
+from textmech.cases.scene.shape import bar
 from textmech.cases.trajectory import ANGLE, OMEGA, VX, X, Y
 
 STEP = 1e-4

@@ -9,9 +9,9 @@ from given.closed_motions import pivoting
 from given.engine_scenes import RADIUS, WHEEL, G, incline, launched, machine, pin, touching
 from given.planning import NAMES, TUNED, every, moved
 
-from textmech.cases.observe import observe
 from textmech.cases.scene import GroundPoint
-from textmech.cases.shape import bar, rigid
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.shape import bar, rigid
 from textmech.cases.trajectory import ANGLE, OMEGA, VY, Y
 
 STEP = 1e-4

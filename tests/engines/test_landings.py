@@ -12,9 +12,9 @@ from given.planning import TUNED, every, moved
 from given.scenes import tail, typed
 
 from textmech.cases.case import Case
-from textmech.cases.observe import observe
 from textmech.cases.scene import Anchor, Push, Signal
-from textmech.cases.shape import bar
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.shape import bar
 from textmech.cases.trajectory import Array, Trajectory, Y
 from textmech.reference.solve import solve
 from textmech.reports.events.times import engine_events, reference_events

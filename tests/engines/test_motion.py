@@ -24,9 +24,9 @@ from given.planning import NAMES, TUNED, begun, moved, planned
 from given.scenes import SHIPPED, solved
 from given.swings import energy_drift, swing_error
 
-from textmech.cases.observe import observe
 from textmech.cases.scene import Anchor, Push, Signal
-from textmech.cases.shape import bar
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.shape import bar
 from textmech.cases.trajectory import ANGLE, Array, X
 from textmech.engines.engine import Start
 

@@ -13,7 +13,7 @@ import pytest
 from given import scenes
 from given.planning import CASES, TUNED, begun, moved
 
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.engines import told
 from textmech.engines.told import Living
 

@@ -14,8 +14,8 @@ from given.pairs import BOB, TRAY, G, R
 from given.planning import CASES, TUNED, begun, moved, planned
 
 from textmech.cases.case import Case
-from textmech.cases.observe import observe
 from textmech.cases.scene import Scene
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.begun import begun as begun_of
 from textmech.engines.engine import Plan, Refusal, Start

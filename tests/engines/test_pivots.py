@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from given.planning import TUNED, begun, planned
 
-from textmech.cases.shape import spokes
+from textmech.cases.scene.shape import spokes
 from textmech.cases.trajectory import ANGLE, Array, Trajectory
 from textmech.engines.engine import Choice, Plan
 from textmech.engines.mujoco import contact

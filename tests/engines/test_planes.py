@@ -11,7 +11,7 @@ from given.planning import moved as run
 from given.scenes import typed
 
 from textmech.cases.case import Case
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.reference.solve import solve
 from textmech.reports.trial.start import first
 

@@ -10,9 +10,9 @@ import pytest
 from given.planning import TUNED, planned, refused
 from given.random_machines import Build, chain, loops, mechanism, rolling, tree
 
-from textmech.cases.observe import observe
-from textmech.cases.quantity import table
 from textmech.cases.scene import Scene
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.quantity import table
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Realised, Start
 from textmech.reference.motion.bodies import Answer

@@ -18,9 +18,9 @@ from given.planning import (
 )
 
 from textmech.cases.case import Event
-from textmech.cases.frame import SPACE
-from textmech.cases.quantity import table
 from textmech.cases.scene import Anchor, Push, Signal
+from textmech.cases.scene.frame import SPACE
+from textmech.cases.scene.quantity import table
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Engine, Refusal
 from textmech.reports.events.times import engine_events

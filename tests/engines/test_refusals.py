@@ -22,7 +22,7 @@ from given.engine_scenes import (
 from given.planning import NAMES, SETTINGS, TUNED, moved, planned, refused, words
 
 from textmech.cases.scene import Anchor, Joint, Scene
-from textmech.cases.shape import disk, particle, rigid
+from textmech.cases.scene.shape import disk, particle, rigid
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Engine, Start
 

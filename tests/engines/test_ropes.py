@@ -9,7 +9,7 @@ from given import ropes, scenes
 from given.planning import TUNED, moved, refused, ways
 
 from textmech.cases.case import Case
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Realised, Start
 from textmech.engines.mujoco.law import catch, taut

@@ -7,7 +7,7 @@ import pytest
 from given import scenes
 from given.planning import TUNED
 
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.engines.engine import Refusal
 from textmech.engines.mujoco.read import reaction
 from textmech.reference.solve import solve

@@ -13,7 +13,7 @@ from given.engine_scenes import machine
 from given.planning import SETTINGS, begun, moved, planned, words
 
 from textmech.cases.scene import GROUND, Anchor, Spring
-from textmech.cases.shape import particle
+from textmech.cases.scene.shape import particle
 from textmech.engines.engine import Diverged, Engine, Loop
 
 # What each says of a step that is too large. MuJoCo alone would go back to its start without a

@@ -18,12 +18,12 @@ from given import engine_scenes as given
 from given.planning import NATIVE, SETTINGS, TUNED, begun, moved, pair, planned, words
 from given.scenes import SHIPPED
 
-from textmech.cases.frame import SPACE
+from textmech.cases.fields.signal import Law, Signal
 from textmech.cases.scene import Scene
-from textmech.cases.shape import bar
-from textmech.cases.signal import Law, Signal
-from textmech.cases.space.rotation import matrix
-from textmech.cases.space.scene import SpatialScene
+from textmech.cases.scene.frame import SPACE
+from textmech.cases.scene.rotation import matrix
+from textmech.cases.scene.shape import bar
+from textmech.cases.scene.space.scene import SpatialScene
 from textmech.engines.engine import Engine, Start
 from textmech.engines.mujoco.drive import controls
 from textmech.engines.mujoco.force import BY_ITSELF

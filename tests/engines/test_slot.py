@@ -7,8 +7,8 @@ import pytest
 from given.planning import NAMES, TUNED, every, moved, planned
 from given.scenes import typed
 
-from textmech.cases.observe import observe
 from textmech.cases.scene import Scene
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import ANGLE, Array
 from textmech.engines.engine import Start
 from textmech.reference.solve import solve

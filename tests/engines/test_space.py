@@ -6,8 +6,8 @@ from given.engine_space import STILL, attitude, hinge, joint, particle, rigid, s
 from given.skew_chain import Q_DOT, Q, chain, start
 
 from textmech.cases.scene import Anchor, Damper, Push, Signal, Spring, Torque
-from textmech.cases.space.joint import Freedom
-from textmech.cases.space.scene import SpatialScene
+from textmech.cases.scene.space.joint import Freedom
+from textmech.cases.scene.space.scene import SpatialScene
 from textmech.engines.engine import Engine, Plan, Refusal, Start
 from textmech.engines.mujoco import MuJoCo
 from textmech.engines.pymunk import Pymunk

@@ -10,7 +10,7 @@ from given import scenes
 from given.planning import TUNED, moved, refused
 
 from textmech.cases.case import Case
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Tunable
 from textmech.engines.mujoco import stops as of_mujoco

@@ -14,9 +14,9 @@ from given.engine_scenes import G, incline, leaning, machine, pin, touching
 from given.planning import TUNED, moved
 from given.scenes import tail, typed
 
-from textmech.cases.observe import observe
 from textmech.cases.scene import Scene
-from textmech.cases.shape import bar
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.shape import bar
 from textmech.cases.trajectory import ANGLE, Array, X
 from textmech.engines.engine import Start
 from textmech.reference.solve import solve

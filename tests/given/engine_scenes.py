@@ -21,7 +21,7 @@ from textmech.cases.scene import (
     Smooth,
     Spring,
 )
-from textmech.cases.shape import bar, block, disk, particle
+from textmech.cases.scene.shape import bar, block, disk, particle
 from textmech.engines.engine import Start
 
 G = 9.80665  # m/s²

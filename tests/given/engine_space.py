@@ -5,13 +5,13 @@ from typing import Any
 
 import numpy as np
 
-from textmech.cases.frame import SPACE
 from textmech.cases.scene import Anchor, Force, GroundPoint, Signal
-from textmech.cases.space.body import SpatialBody
-from textmech.cases.space.contact import SpatialContact
-from textmech.cases.space.joint import Freedom, SpatialJoint
-from textmech.cases.space.rotation import Vector3
-from textmech.cases.space.scene import SpatialScene
+from textmech.cases.scene.frame import SPACE
+from textmech.cases.scene.rotation import Vector3
+from textmech.cases.scene.space.body import SpatialBody
+from textmech.cases.scene.space.contact import SpatialContact
+from textmech.cases.scene.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Plan, Start
 from textmech.engines.mujoco import MuJoCo

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from textmech.cases.frame import PLANE, SPACE
+from textmech.cases.scene.frame import PLANE, SPACE
 from textmech.reference.formalisms.derivative import along
 from textmech.reference.laws.rotation import axes
 from textmech.reference.system import Array, Mass, Mode, Pose, Vector

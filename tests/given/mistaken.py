@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from textmech.cases.scene import Scene
-from textmech.cases.space.rotation import turned
+from textmech.cases.scene.rotation import turned
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines import make
 from textmech.engines.engine import Engine, Plan, Refusal, Start

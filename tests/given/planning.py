@@ -6,9 +6,9 @@ from functools import cache
 from typing import Any
 
 from textmech import engines
-from textmech.cases.force import of
-from textmech.cases.frame import PLANE
 from textmech.cases.scene import Scene, Viscous
+from textmech.cases.scene.forces.force import of
+from textmech.cases.scene.frame import PLANE
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Engine, Plan, Realised, Refusal, Start
 from textmech.engines.stride import strides

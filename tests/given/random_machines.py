@@ -24,7 +24,7 @@ from textmech.cases.scene import (
     Spring,
     Torque,
 )
-from textmech.cases.shape import bar, block, disk, particle, rigid
+from textmech.cases.scene.shape import bar, block, disk, particle, rigid
 from textmech.reference.mechanism.modes.mode import Multibody
 
 GRAVITY = (0.8, -9.7)  # not along an axis, so that no component can hide

@@ -4,7 +4,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from textmech.cases import shape
 from textmech.cases.scene import (
     GROUND,
     Anchor,
@@ -19,6 +18,7 @@ from textmech.cases.scene import (
     Signal,
     Spring,
     Torque,
+    shape,
 )
 from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.system import Array

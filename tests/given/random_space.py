@@ -8,11 +8,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from textmech.cases.scene import CENTER, GROUND, Anchor, Damper, Push, Signal, Spring, Torque
-from textmech.cases.space import shape
-from textmech.cases.space.body import SpatialBody
-from textmech.cases.space.constraint import SpatialEdge
-from textmech.cases.space.contact import SpatialContact
-from textmech.cases.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space import shape
+from textmech.cases.scene.space.body import SpatialBody
+from textmech.cases.scene.space.constraint import SpatialEdge
+from textmech.cases.scene.space.contact import SpatialContact
+from textmech.cases.scene.space.joint import Freedom, SpatialJoint
 from textmech.reference.system import Array
 
 from .engine_space import particle, rigid, unit, vector

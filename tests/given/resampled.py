@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 
 from textmech.cases.case import Case
-from textmech.cases.difference import apart
-from textmech.cases.kind import WORK
-from textmech.cases.observe import observe
+from textmech.cases.fields.kind import WORK
+from textmech.cases.scene.difference import apart
+from textmech.cases.scene.observe import observe
 from textmech.reference.certificate.errors import ERROR
 from textmech.reference.solve import Solution
 from textmech.reports.events.times import reference_events

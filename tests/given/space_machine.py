@@ -7,11 +7,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from textmech.cases.scene import CENTER, GROUND, Anchor, Force, GroundPoint, Signal
-from textmech.cases.space.body import SpatialBody
-from textmech.cases.space.constraint import SpatialEdge
-from textmech.cases.space.contact import SpatialContact
-from textmech.cases.space.joint import SpatialJoint
-from textmech.cases.space.scene import SpatialScene
+from textmech.cases.scene.space.body import SpatialBody
+from textmech.cases.scene.space.constraint import SpatialEdge
+from textmech.cases.scene.space.contact import SpatialContact
+from textmech.cases.scene.space.joint import SpatialJoint
+from textmech.cases.scene.space.scene import SpatialScene
 from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
 from textmech.reference.system import Array
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from textmech.cases.observe import observe
 from textmech.cases.scene import Scene
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import ANGLE, Array, Trajectory
 from textmech.engines.engine import Engine, Start
 from textmech.reference.mechanism.modes.mode import Multibody

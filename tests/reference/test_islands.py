@@ -10,17 +10,17 @@ import numpy as np
 import pytest
 from given.engine_scenes import machine, pin
 
-from textmech.cases import islands as graph
 from textmech.cases.case import Case
-from textmech.cases.force import FORCES
-from textmech.cases.islands import islands
-from textmech.cases.joint import FREEDOMS
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
-from textmech.cases.observe import observe
-from textmech.cases.pair import Pair
 from textmech.cases.scene import Anchor, Contact, Scene
-from textmech.cases.shape import bar, disk
+from textmech.cases.scene import islands as graph
+from textmech.cases.scene.forces.force import FORCES
+from textmech.cases.scene.islands import islands
+from textmech.cases.scene.joint import FREEDOMS
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.pair import Pair
+from textmech.cases.scene.shape import bar, disk
 from textmech.reference import islands as parts
 from textmech.reference import solve as door
 from textmech.reference.certificate.agreement import Check, difference

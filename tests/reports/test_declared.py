@@ -13,7 +13,7 @@ from given.one_number import OneNumber, one_number
 from textmech.cases.case import Case
 from textmech.cases.find import shipped
 from textmech.cases.load import load
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.reports.events.times import reference_events
 
 Parameters = Mapping[str, float]

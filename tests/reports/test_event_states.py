@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from textmech.cases.event import Event
+from textmech.cases.fields.event import Event
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
-from textmech.cases.quantity import SIDES, AtEvent, Side, at_event
 from textmech.cases.scene import Body, Scene
+from textmech.cases.scene.quantity import SIDES, AtEvent, Side, at_event
 from textmech.cases.trajectory import VX, Array, Trajectory, X
 from textmech.reference.solve import solve
 from textmech.reports.events import times as reading

@@ -8,8 +8,8 @@ import pytest
 from scipy.optimize import brentq
 
 from textmech.cases.case import Event
-from textmech.cases.passages import passages
 from textmech.cases.scene import Body, Scene
+from textmech.cases.scene.passages import passages
 from textmech.cases.trajectory import VX, Array, Trajectory
 from textmech.reports.events import rests as reading
 from textmech.reports.events.rests import rests

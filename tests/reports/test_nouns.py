@@ -7,9 +7,9 @@ import pytest
 from given.otherwise import otherwise
 
 from textmech.cases import scene
-from textmech.cases.element import Force
-from textmech.cases.joint import FREEDOMS
 from textmech.cases.language.grammar.space.joint import KINDS
+from textmech.cases.scene.forces.element import Force
+from textmech.cases.scene.joint import FREEDOMS
 from textmech.reports.show import nouns
 
 ALL = [kind for kinds in nouns.PARTS.values() for kind in kinds]

@@ -5,10 +5,10 @@ import pytest
 from given import scenes
 from given.engine_space import LOPSIDED, G, hinge, rigid, simulated, spatial, state
 
-from textmech.cases.frame import PLANE
-from textmech.cases.observe import observe
-from textmech.cases.quantity import table
 from textmech.cases.scene import Signal
+from textmech.cases.scene.frame import PLANE
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.quantity import table
 from textmech.reports.trial.ladder import wanted_reactions
 
 DRIVEN = spatial(

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from given import scenes
 
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.reports.trial import turns
 

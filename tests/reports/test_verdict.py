@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from textmech.cases.case import Case, Deviation
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
 from textmech.reports.judge import metric
 from textmech.reports.judge.compare import compare

@@ -11,8 +11,8 @@ from second import geometry, read
 from textmech.cases.case import Case
 from textmech.cases.find import shipped
 from textmech.cases.load import load
-from textmech.cases.observe import observe
-from textmech.cases.quantity import at_event
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.quantity import at_event
 from textmech.reference.solve import Solution, solve
 from textmech.reports.events.states import reference_states
 from textmech.reports.events.times import reference_events

@@ -5,7 +5,7 @@ from typing import Any
 
 from ...mistake import Path, listed, nearest
 from ...scene import Force, Joint, Scene
-from ...space.joint import SpatialJoint
+from ...scene.space.joint import SpatialJoint
 from ..parse import Finding, Parsed
 
 

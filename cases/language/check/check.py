@@ -3,10 +3,10 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ...drag import Drag
-from ...force import of
 from ...mistake import nearest
 from ...scene import Scene
+from ...scene.forces.drag import Drag
+from ...scene.forces.force import of
 from ..parse import Finding, Parsed
 from .claims import claims
 from .engines import Engines, engines

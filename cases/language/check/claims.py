@@ -2,13 +2,13 @@
 
 from collections.abc import Iterator, Mapping
 
-from ...joint import SHIFT, TURN
-from ...kind import WORK
+from ...fields.kind import WORK
+from ...fields.number import Amount, NumberMistake, fitting
 from ...mistake import Path, nearest
-from ...quantity import EVENT_FIELDS, Quantity, at_event, at_events, event_quantities, table
 from ...scene import Scene
-from ...states import claimable
-from ..grammar.number import Amount, NumberMistake, fitting
+from ...scene.joint import SHIFT, TURN
+from ...scene.quantity import EVENT_FIELDS, Quantity, at_event, at_events, event_quantities, table
+from ...scene.states import claimable
 from ..parse import Finding, Parsed
 
 

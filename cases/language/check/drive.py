@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator
 
-from ...joint import DRIVES, SHIFT, TURN
+from ...fields.number import NumberMistake, fitting, per_second
+from ...fields.signal import Signal
 from ...mistake import Path, nearest
 from ...scene import Scene
-from ...signal import Signal
+from ...scene.joint import DRIVES, SHIFT, TURN
 from ..grammar.drive import Drive
-from ..grammar.number import NumberMistake, fitting, per_second
 from ..parse import Finding, Parsed
 
 TYPED = 1e-9  # of a number: it is typed with up to ten digits, and a sine's phase too

@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator, Mapping
 
-from ...joint import SHIFT
 from ...mistake import Path, nearest
-from ...point import anchor
 from ...scene import FLOOR, GROUND, Anchor, Edge, Force, Joint, Scene
+from ...scene.joint import SHIFT
+from ...scene.point import anchor
 from ..grammar.file import Initial, Near
 from ..grammar.file import Scene as Spec
 from ..parse import NAMED, Finding, Parsed

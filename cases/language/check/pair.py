@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 
 from ...mistake import Path, nearest
-from ...pair import FACES, Pair
 from ...scene import GROUND, Body, Scene
+from ...scene.pair import FACES, Pair
 from ..grammar.contact import Contact
 from ..parse import Finding, Parsed
 from .touch import cannot_touch

@@ -5,12 +5,12 @@ What slows a body of the plane by its velocity may act on it: it is claimed, and
 
 from collections.abc import Iterator
 
-from ...point import GROUND
-from ...quantity import table
 from ...scene import Scene
-from ...space.joint import SpatialJoint
-from ...space.scene import SpatialScene
-from ...states import claimable
+from ...scene.point import GROUND
+from ...scene.quantity import table
+from ...scene.space.joint import SpatialJoint
+from ...scene.space.scene import SpatialScene
+from ...scene.states import claimable
 from ..grammar.file import File
 from ..parse import Finding, Parsed
 

@@ -8,11 +8,11 @@ from collections.abc import Iterator, Mapping
 from math import floor, hypot, inf, isnan, log10, sqrt
 from typing import Any
 
-from ...islands import apart
+from ...fields.signal import fastest
 from ...mistake import Path
 from ...scene import Anchor, Body, Scene
-from ...signal import fastest
-from ...space.scene import SpatialScene
+from ...scene.islands import apart
+from ...scene.space.scene import SpatialScene
 from ..grammar.file import File
 from ..parse import Finding
 from . import cost

@@ -5,9 +5,9 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, create_model
 
-from ... import shape
+from ...fields.part import Name, OneOf, Part, Position
+from ...scene import shape
 from .element import keys, numbers
-from .part import Name, OneOf, Part, Position
 
 
 class Shaped(Part):

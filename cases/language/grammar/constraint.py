@@ -2,9 +2,9 @@
 
 from typing import Annotated
 
-from ...constraint import CONSTRAINTS
+from ...fields.part import OneOf
+from ...scene.constraint import CONSTRAINTS
 from .element import Element, element
-from .part import OneOf
 
 KINDS = {word: element(word, noun) for word, noun in CONSTRAINTS.items()}
 Constraint = Annotated[Element, OneOf("constraint", KINDS)]

@@ -5,16 +5,16 @@ from typing import Annotated
 
 from pydantic import Field
 
-from ...body import Body
-from ...contact import Contact as Noun
-from ...pair import Pair
-from ...plane import LEVEL, Plane
-from ...point import CENTER, anchor
-from .field import In
-from .friction import Friction
-from .part import Part, Point
-from .text import Text, Word
-from .words import wrong
+from ...fields.field import In
+from ...fields.friction_grammar import Friction
+from ...fields.part import Part, Point
+from ...fields.text import Text, Word
+from ...fields.words import wrong
+from ...scene.body import Body
+from ...scene.contact import Contact as Noun
+from ...scene.pair import Pair
+from ...scene.plane import LEVEL, Plane
+from ...scene.point import CENTER, anchor
 
 
 class Contact(Part):

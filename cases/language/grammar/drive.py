@@ -5,13 +5,13 @@ from typing import Annotated, Any
 
 from pydantic import Tag, create_model
 
+from ...fields.field import AnyUnit
+from ...fields.number import Amount
+from ...fields.part import Made, plain_or_map
+from ...fields.signal import Signal
+from ...fields.signal_grammar import Prescribed, keys
+from ...fields.text import IDENTIFIER, Text, rate
 from ...mistake import Path
-from ...signal import Signal
-from .field import AnyUnit
-from .number import Amount
-from .part import Made, plain_or_map
-from .signal import Prescribed, keys
-from .text import IDENTIFIER, Text, rate
 
 Rate = Annotated[str, Text(rate, rf"^{IDENTIFIER}\.{IDENTIFIER}$", "joint.rate, as q1.omega")]
 _Amount = Annotated[Amount, AnyUnit()]

@@ -10,9 +10,9 @@ from typing import Any, ClassVar, get_type_hints
 
 from pydantic import create_model
 
-from ...point import anchor
-from .part import Name, Pair, Part, Point
-from .signal import Following, law
+from ...fields.part import Name, Pair, Part, Point
+from ...fields.signal_grammar import Following, law
+from ...scene.point import anchor
 
 REFERS = ("a", "b", "at", "body", "first", "second", "joint")
 """What nouns call that to which they refer: two points, a point, a body, two bodies or a joint."""

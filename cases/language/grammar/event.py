@@ -9,12 +9,12 @@ from typing import Annotated, Any, get_args
 
 from pydantic import BeforeValidator, Field
 
-from ...event import Rule
+from ...fields.event import Rule
+from ...fields.field import NUMBER, Plain
+from ...fields.number import Amount, Names, number, shown
+from ...fields.text import Text, Word
+from ...fields.words import NO_VALUE, wrong
 from ...mistake import nearest
-from .field import NUMBER, Plain
-from .number import Amount, Names, number, shown
-from .text import Text, Word
-from .words import NO_VALUE, wrong
 
 RULES: tuple[Rule, ...] = get_args(Rule)
 CROSSES: Mapping[str, Rule] = {"falls to": "falls to zero", "rises to": "rises to zero"}

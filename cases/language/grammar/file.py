@@ -4,32 +4,23 @@ from typing import Annotated, Any
 
 from pydantic import ConfigDict, Field, Tag
 
+from ...fields.field import Bound, In, Literal, Space
+from ...fields.gravity import Gravity
+from ...fields.number import Amount
+from ...fields.part import Angle, Name, Part, Point, Position, plain_or_list, plain_or_map, written
+from ...fields.text import Text, Word, label, no_formula
+from ...fields.words import wrong
 from .body import Body
 from .constraint import Constraint
 from .contact import Contact
 from .drive import Driven, Rate
 from .event import Event, Quantity
-from .field import Bound, In, Literal, Space
 from .force import Force
-from .gravity import Gravity
 from .ground import GroundPoint
 from .joint import Joint
-from .number import Amount
-from .part import (
-    Angle,
-    Name,
-    Part,
-    Point,
-    Position,
-    plain_or_list,
-    plain_or_map,
-    written,
-)
 from .plane import Plane
 from .source import Source
 from .states import Drawn
-from .text import Text, Word, label, no_formula
-from .words import wrong
 
 POLAR = ("from_", "length", "direction")  # how a start gives a place by a distance
 WAYS = ("", ".law", ".driver", ".limit")  # after an engine's name: which of its rows

@@ -2,9 +2,9 @@
 
 from typing import Annotated
 
-from ...force import FORCES
+from ...fields.part import OneOf
+from ...scene.forces.force import FORCES
 from .element import Element, element
-from .part import OneOf
 
 KINDS = {word: element(word, noun) for word, noun in FORCES.items()}
 Force = Annotated[Element, OneOf("force", KINDS)]

@@ -4,12 +4,12 @@ from typing import Annotated, Any
 
 from pydantic import Field, Tag, create_model
 
-from ...point import GroundPoint as Noun
-from ...signal import Signal
-from .field import In
-from .part import Made, Part, Position, plain_or_map
-from .signal import Moving, keys
-from .words import wrong
+from ...fields.field import In
+from ...fields.part import Made, Part, Position, plain_or_map
+from ...fields.signal import Signal
+from ...fields.signal_grammar import Moving, keys
+from ...fields.words import wrong
+from ...scene.point import GroundPoint as Noun
 
 Velocity = tuple[Annotated[float, In("m/s")], Annotated[float, In("m/s")]]
 _laws: dict[str, Any] = keys("Moving", "m", 2, Moving.laws)

@@ -5,12 +5,12 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import model_validator
 
-from ...joint import FREEDOMS
-from ...joint import Joint as Noun
+from ...fields.friction_grammar import OF_PIN, OF_SLIDE
+from ...fields.part import OneOf
+from ...fields.words import wrong
+from ...scene.joint import FREEDOMS
+from ...scene.joint import Joint as Noun
 from .element import Element, element
-from .friction import OF_PIN, OF_SLIDE
-from .part import OneOf
-from .words import wrong
 
 
 class _Joint(Element):

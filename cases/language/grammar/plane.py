@@ -2,8 +2,8 @@
 
 from pydantic import Field
 
-from ...plane import Plane as Noun
-from .part import Direction, Part, Position
+from ...fields.part import Direction, Part, Position
+from ...scene.plane import Plane as Noun
 
 
 class Plane(Part):

@@ -4,8 +4,8 @@ from typing import Annotated
 
 from pydantic import Field, Tag
 
-from .part import Part, plain_or_list
-from .text import THREAD, Place, Text, asked, equation
+from ...fields.part import Part, plain_or_list
+from ...fields.text import THREAD, Place, Text, asked, equation
 
 BookPlace = Annotated[str, Place()]
 Places = Annotated[

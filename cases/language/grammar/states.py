@@ -4,10 +4,10 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field
 
-from ...states import Span, States
-from .field import In
-from .part import Part
-from .words import wrong
+from ...fields.field import In
+from ...fields.part import Part
+from ...fields.words import wrong
+from ...scene.states import Span, States
 
 MOST = 10_000  # states of a file: a minute of its reference
 

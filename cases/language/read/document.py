@@ -21,8 +21,8 @@ from ruamel.yaml.events import (
 )
 from ruamel.yaml.reader import ReaderError
 
+from ...fields.words import NO_VALUE
 from ...mistake import CaseError, Mistake, Path, Source, plain
-from ..grammar.words import NO_VALUE
 
 LARGEST = 200_000  # bytes, read in 1.5 s; a case has 2000
 AT_HAND = 128  # files whose text is not parsed again: all that are shipped

@@ -4,9 +4,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
+from ...fields.number import shown
 from ...mistake import Mistake, Path, Source, nearest
 from ..grammar.file import OVERLAID
-from ..grammar.number import shown
 from .document import Document
 
 

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 
-from ....cases.pair import Pair
 from ....cases.scene import Contact, Scene
+from ....cases.scene.pair import Pair
 from ....cases.trajectory import Array
 from ..tree import spanning_tree
 from .touching import OnBody, OnPlane

@@ -8,8 +8,8 @@ from contextlib import AbstractContextManager, contextmanager
 
 import mujoco
 
-from ....cases.force import Force
 from ....cases.scene import Scene
+from ....cases.scene.forces.force import Force
 from ....cases.trajectory import Array
 from ...told import living
 from .points import Points

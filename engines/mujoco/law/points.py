@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 import mujoco
 import numpy as np
 
-from ....cases.force import Force
 from ....cases.scene import GROUND, Anchor, Scene
+from ....cases.scene.forces.force import Force
 from ...told import Exerted, Place
 
 _SITE = int(mujoco.mjtObj.mjOBJ_SITE)

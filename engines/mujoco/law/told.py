@@ -8,8 +8,8 @@ from collections.abc import Callable, Sequence
 
 import mujoco
 
-from ....cases.force import Force
 from ....cases.scene import Scene
+from ....cases.scene.forces.force import Force
 from ...told import Exerted, Place, law_of, living
 from ..force import lacking
 from .inner import activation

@@ -3,9 +3,9 @@
 import mujoco
 import numpy as np
 
-from ....cases.motion import Motion
-from ....cases.pair import Pair
 from ....cases.scene import Contact, Scene
+from ....cases.scene.motion import Motion
+from ....cases.scene.pair import Pair
 from ....cases.trajectory import Array, Trajectory
 from ..tree import called
 

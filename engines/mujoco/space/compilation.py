@@ -5,7 +5,7 @@ from contextlib import contextmanager
 
 import mujoco
 
-from ....cases.space.scene import SpatialScene
+from ....cases.scene.space.scene import SpatialScene
 from ...engine import Plan, Start
 from ..compilation import timestep
 from ..law.signal import installed

@@ -8,8 +8,8 @@ an impratio of 1e8, has the second order (tested beside this, in test_wandering.
 
 from collections.abc import Callable, Mapping
 
-from ....cases.space.contact import SpatialContact
-from ....cases.space.scene import SpatialScene
+from ....cases.scene.space.contact import SpatialContact
+from ....cases.scene.space.scene import SpatialScene
 from ...engine import Choice, Start
 from ..contact import HARDEST, SOFTEST
 

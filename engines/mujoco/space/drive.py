@@ -7,9 +7,9 @@ it the acceleration of the law: right at every RK4 stage, and all forces follow.
 from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
-from ....cases.signal import Signal
-from ....cases.space.joint import SpatialJoint, rate_of
-from ....cases.space.scene import SpatialScene
+from ....cases.fields.signal import Signal
+from ....cases.scene.space.joint import SpatialJoint, rate_of
+from ....cases.scene.space.scene import SpatialScene
 from ...signal import derivative
 from ..scene import HEAVY
 from ..written import written

@@ -6,9 +6,9 @@ from xml.etree import ElementTree as ET
 import mujoco
 import numpy as np
 
-from ....cases.space.constraint import SpatialEdge
-from ....cases.space.rotation import Vector3
-from ....cases.space.scene import SpatialScene
+from ....cases.scene.rotation import Vector3
+from ....cases.scene.space.constraint import SpatialEdge
+from ....cases.scene.space.scene import SpatialScene
 from ....cases.trajectory import Array
 from ..law.edge import Row, Way, holding, still
 from ..law.signal import Control

@@ -7,7 +7,7 @@ largest moment exceed the sum of the others. Here it is cut to the sum.
 import mujoco
 import numpy as np
 
-from ....cases.space.rotation import Quaternion
+from ....cases.scene.rotation import Quaternion
 from ....cases.trajectory import Array
 from ..scene import LEAST
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
-from ....cases.space.scene import SpatialScene
+from ....cases.scene.space.scene import SpatialScene
 from ...engine import Choice, Plan, Realised, Start
 from ..compilation import NOMINAL
 from ..plans import follows

@@ -1,8 +1,8 @@
 """Scenes in space that MuJoCo has no element for, or the adapter does not build."""
 
 from ....cases.scene import GROUND
-from ....cases.space.joint import SpatialJoint
-from ....cases.space.scene import SpatialScene
+from ....cases.scene.space.joint import SpatialJoint
+from ....cases.scene.space.scene import SpatialScene
 from ..refuse import touching_twice, unbuilt
 from ..tree import Tree
 from .drive import drives

@@ -5,7 +5,7 @@ from functools import cache
 import mujoco
 import numpy as np
 
-from ....cases.space.scene import SpatialScene
+from ....cases.scene.space.scene import SpatialScene
 from ....cases.trajectory import Array, Trajectory
 from ...engine import Realised, Start
 from ..law.signal import Corners, following, together

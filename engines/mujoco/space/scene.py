@@ -10,12 +10,12 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from ....cases.scene import GROUND, Anchor, Signal
-from ....cases.space.body import SpatialBody
-from ....cases.space.chain import across
-from ....cases.space.contact import SpatialContact
-from ....cases.space.joint import SpatialJoint
-from ....cases.space.rotation import Vector3
-from ....cases.space.scene import SpatialScene
+from ....cases.scene.rotation import Vector3
+from ....cases.scene.space.body import SpatialBody
+from ....cases.scene.space.chain import across
+from ....cases.scene.space.contact import SpatialContact
+from ....cases.scene.space.joint import SpatialJoint
+from ....cases.scene.space.scene import SpatialScene
 from ...engine import Choice, Start
 from ..force import BY_ITSELF, write
 from ..force import signals as laws

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from ....cases.space.scene import SpatialScene
+from ....cases.scene.space.scene import SpatialScene
 from ...engine import Choice, Start
 from ..contact import HARDEST
 from ..own import OWN, overlaid

@@ -10,10 +10,10 @@ from collections.abc import Callable, Mapping
 import mujoco
 import numpy as np
 
-from ....cases.frame import SPACE
-from ....cases.space.contact import SpatialContact
-from ....cases.space.rotation import turned
-from ....cases.space.scene import SpatialScene
+from ....cases.scene.frame import SPACE
+from ....cases.scene.rotation import turned
+from ....cases.scene.space.contact import SpatialContact
+from ....cases.scene.space.scene import SpatialScene
 from ....cases.trajectory import Array
 from ...engine import Start
 from ..law.signal import following, installed

@@ -4,12 +4,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ....cases.frame import SPACE
-from ....cases.motion import Motion
 from ....cases.scene import GROUND
-from ....cases.space.joint import SpatialJoint
-from ....cases.space.rotation import UPRIGHT, inverse, product, turned
-from ....cases.space.scene import SpatialScene
+from ....cases.scene.frame import SPACE
+from ....cases.scene.motion import Motion
+from ....cases.scene.rotation import UPRIGHT, inverse, product, turned
+from ....cases.scene.space.joint import SpatialJoint
+from ....cases.scene.space.scene import SpatialScene
 from ....cases.trajectory import Array, Trajectory
 from ...engine import Start
 from ..tree import Branch, Tree, called, driven

@@ -8,9 +8,9 @@ one of them is a ball, two are a hinge, three a weld.
 from dataclasses import dataclass
 
 from ....cases.scene import GROUND
-from ....cases.space.joint import Freedom, SpatialJoint
-from ....cases.space.rotation import Vector3
-from ....cases.space.scene import SpatialScene
+from ....cases.scene.rotation import Vector3
+from ....cases.scene.space.joint import Freedom, SpatialJoint
+from ....cases.scene.space.scene import SpatialScene
 from ..tree import Branch, Tree, spanned
 
 

@@ -4,8 +4,8 @@ import math
 from collections.abc import Callable
 from functools import partial
 
-from ....cases.force import Line
 from ....cases.scene import GROUND, Anchor, Vector
+from ....cases.scene.forces.force import Line
 from ...law import TENSIONS
 from ..direct import State, pushing, reading
 from ..world import World

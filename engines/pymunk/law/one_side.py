@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from pymunk.constraints import DampedSpring
 
-from ....cases.force import Spring
+from ....cases.scene.forces.force import Spring
 from ...law import tension
 
 NO_SIDE = "engine: a spring of pymunk's own acts both ways"

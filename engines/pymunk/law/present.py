@@ -6,8 +6,8 @@ from pymunk.body import Body
 from pymunk.space import Space
 from pymunk.vec2d import Vec2d
 
-from ....cases.force import Damper, Line
 from ....cases.scene import GROUND, Anchor, Joint, Scene
+from ....cases.scene.forces.force import Damper, Line
 from ...law import dry_friction, tension
 from ..lacking import lacking
 

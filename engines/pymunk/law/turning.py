@@ -5,7 +5,7 @@ from functools import partial
 
 from pymunk.body import Body
 
-from ....cases.turning import Motor, Turning
+from ....cases.scene.forces.turning import Motor, Turning
 from ...law import TORQUES
 from ...signal import acting, in_time
 from ..direct import State, spinning

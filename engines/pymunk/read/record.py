@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pymunk.batch import BodyFields, Buffer, get_space_bodies
 
-from ....cases.observe import observe
+from ....cases.scene.observe import observe
 from ....cases.trajectory import Array, Trajectory
 from ..direct import copier
 from ..world import World

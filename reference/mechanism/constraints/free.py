@@ -3,7 +3,7 @@
 from typing import Any
 
 from ....cases.scene import Scene
-from ....cases.states import coordinates
+from ....cases.scene.states import coordinates
 from ...stated import Stated
 from ...system import Mass, Pose, Vector
 

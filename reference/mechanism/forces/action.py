@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ....cases.force import (
+from ....cases.scene.forces.force import (
     Couple,
     Damper,
     Drag,

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from ....cases.couple import Couple
+from ....cases.scene.forces.couple import Couple
 from ...system import Array
 from ..kinematics.coordinates import Coordinates, Point
 from ..kinematics.signal import signal

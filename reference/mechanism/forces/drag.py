@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from ....cases.drag import Drag, Viscous
-from ....cases.force import of
 from ....cases.scene import Scene
+from ....cases.scene.forces.drag import Drag, Viscous
+from ....cases.scene.forces.force import of
 from ...laws.friction import power_law, viscous
 from ..kinematics.coordinates import Coordinates, Point
 from .scrape import one_way, power_loss, scrape_loss, scraped

@@ -3,8 +3,8 @@
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from ....cases.magnetic import Magnetic
-from ....cases.point import CENTER, Anchor
+from ....cases.scene.forces.magnetic import Magnetic
+from ....cases.scene.point import CENTER, Anchor
 from ...laws.force import magnetic
 from ..kinematics.coordinates import Coordinates, Point
 

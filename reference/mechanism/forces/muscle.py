@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ....cases.muscle import Contracting, LinearMuscle, Muscle
+from ....cases.scene.forces.muscle import Contracting, LinearMuscle, Muscle
 from ...laws.muscle import hill, linear
 from ..kinematics.coordinates import Coordinates, Point
 

@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from ....cases.drag import Drag
 from ....cases.scene import Bounds, Vector
+from ....cases.scene.forces.drag import Drag
 from ...laws.friction import power_law
 from ..kinematics.coordinates import Point
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from ....cases.turning import Motor, Torsion, TorsionDamper, Turning
+from ....cases.scene.forces.turning import Motor, Torsion, TorsionDamper, Turning
 from ...laws.force import torsion, torsion_damper
 from ...system import Array
 from ..kinematics.coordinates import Coordinates, Point

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ....cases.signal import Law, Signal
+from ....cases.fields.signal import Law, Signal
 
 
 def signal(law: Signal, t: Any) -> tuple[Any, ...]:

@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from ....cases.drag import Drag
-from ....cases.force import of
+from ....cases.scene.forces.drag import Drag
+from ....cases.scene.forces.force import of
 from ...system import Array, Guard
 from ..kinematics.coordinates import Point
 from .choosing import After, Undetermined

@@ -9,8 +9,8 @@ At λ₀ its force is zero on both sides, so q̇ and q̈ go through the event, a
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ....cases.force import Spring
 from ....cases.scene import Scene
+from ....cases.scene.forces.force import Spring
 from ...system import Array
 from ..forces.action import ends, length
 from ..kinematics.coordinates import Coordinates

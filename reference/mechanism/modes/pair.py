@@ -6,8 +6,8 @@ The body a is touched on its rim or on a face, b touches it with a rim of radius
 
 from collections.abc import Iterator
 
-from ....cases.pair import Pair
 from ....cases.scene import CENTER, Anchor, Scene
+from ....cases.scene.pair import Pair
 from ..constraints.constraint import Constraint
 from ..constraints.rims import Apart, Around
 from ..constraints.rows import FIRST, SECOND, Line, Term, Turning

@@ -6,8 +6,8 @@ It comes taut by an impact, as what lands on a floor without a rebound.
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ....cases.rope import Rope
 from ....cases.scene import Scene
+from ....cases.scene.forces.rope import Rope
 from ..constraints.constraint import Constraint
 from ..constraints.rows import FIRST, SECOND, Distance
 from ..kinematics.coordinates import Coordinates

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ....cases.scene import Scene
-from ....cases.stops import Stops
+from ....cases.scene.forces.stops import Stops
 from ..constraints.constraint import Constraint
 from ..constraints.rows import FIRST, SECOND, Turning
 from ..kinematics.coordinates import Coordinates

@@ -12,9 +12,9 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from ....cases.drag import Viscous
-from ....cases.force import of
 from ....cases.scene import Scene
+from ....cases.scene.forces.drag import Viscous
+from ....cases.scene.forces.force import of
 from ..constraints.constraint import Constraint
 from ..constraints.contact import at_rest
 from ..kinematics.coordinates import Coordinates

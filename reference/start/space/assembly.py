@@ -1,7 +1,7 @@
 """The start of a scene in space: positions by Newton's method, rates by linear algebra."""
 
 from ....cases.case import Case
-from ....cases.space.scene import SpatialScene
+from ....cases.scene.space.scene import SpatialScene
 from ...system import Array
 from . import refusal
 from .closure import RANK, SpatialClosure

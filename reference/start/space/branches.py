@@ -9,10 +9,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from ....cases.scene import GROUND
-from ....cases.space.chain import turned_by
-from ....cases.space.joint import SpatialJoint
-from ....cases.space.rotation import UPRIGHT, about, angle_between, matrix, product, turned
-from ....cases.space.scene import SpatialScene
+from ....cases.scene.rotation import UPRIGHT, about, angle_between, matrix, product, turned
+from ....cases.scene.space.chain import turned_by
+from ....cases.scene.space.joint import SpatialJoint
+from ....cases.scene.space.scene import SpatialScene
 from ...system import Array
 from .closure import SpatialClosure
 from .given import attitude

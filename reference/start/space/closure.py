@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ....cases.case import Case
-from ....cases.space.scene import SpatialScene
+from ....cases.scene.space.scene import SpatialScene
 from ...mechanism.modes.space.mode import SpatialMultibody
 from ...system import Array
 from .given import Equation, Given

@@ -10,10 +10,10 @@ import numpy as np
 
 from ....cases.case import Case, Placement
 from ....cases.scene import GROUND, Anchor
-from ....cases.space import chain
-from ....cases.space.counting import counted
-from ....cases.space.joint import Freedom, SpatialJoint, rate_of
-from ....cases.space.rotation import UPRIGHT, about, inverse, matrix, product, turned
+from ....cases.scene.rotation import UPRIGHT, about, inverse, matrix, product, turned
+from ....cases.scene.space import chain
+from ....cases.scene.space.counting import counted
+from ....cases.scene.space.joint import Freedom, SpatialJoint, rate_of
 from ...mechanism.kinematics.space.attitude import skew
 from ...mechanism.modes.space.mode import SpatialMultibody
 from ...system import Array

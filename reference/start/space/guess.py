@@ -6,9 +6,9 @@ import numpy as np
 
 from ....cases.case import Placement
 from ....cases.scene import GROUND, Anchor
-from ....cases.space.joint import SpatialJoint
-from ....cases.space.rotation import UPRIGHT, about, inverse, product, turned
-from ....cases.space.scene import SpatialScene
+from ....cases.scene.rotation import UPRIGHT, about, inverse, product, turned
+from ....cases.scene.space.joint import SpatialJoint
+from ....cases.scene.space.scene import SpatialScene
 from ...mechanism.kinematics.space.coordinates import SpatialCoordinates
 from ...system import Array
 

@@ -4,8 +4,8 @@ import numpy as np
 
 from ....cases.case import Case
 from ....cases.mistake import CaseError
-from ....cases.space.joint import SpatialJoint
-from ....cases.space.scene import SpatialScene
+from ....cases.scene.space.joint import SpatialJoint
+from ....cases.scene.space.scene import SpatialScene
 from ...system import Array
 from .. import messages
 from ..messages import DEGREES

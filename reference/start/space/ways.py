@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 
-from ....cases.frame import SPACE
 from ....cases.mistake import CaseError
 from ....cases.scene import Anchor
-from ....cases.space.rotation import UPRIGHT, angle_between
+from ....cases.scene.frame import SPACE
+from ....cases.scene.rotation import UPRIGHT, angle_between
 from ...system import Array
 from .. import messages
 from ..messages import DEGREES

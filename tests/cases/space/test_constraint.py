@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from textmech.cases.motion import Motion
-from textmech.cases.point import Anchor
-from textmech.cases.space.body import SpatialBody
-from textmech.cases.space.constraint import SpatialEdge
-from textmech.cases.space.rotation import about, product, turned
+from textmech.cases.scene.motion import Motion
+from textmech.cases.scene.point import Anchor
+from textmech.cases.scene.rotation import about, product, turned
+from textmech.cases.scene.space.body import SpatialBody
+from textmech.cases.scene.space.constraint import SpatialEdge
 from textmech.cases.trajectory import Trajectory
 from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import follow

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from given.spatial_motions import Array, Moving, T, rate, states, turn
 
-from textmech.cases.motion import Motion
 from textmech.cases.scene import Anchor, GroundPoint
-from textmech.cases.space.body import SpatialBody
-from textmech.cases.space.chain import Turns
-from textmech.cases.space.contact import SpatialContact
-from textmech.cases.space.counting import far
-from textmech.cases.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.motion import Motion
+from textmech.cases.scene.space.body import SpatialBody
+from textmech.cases.scene.space.chain import Turns
+from textmech.cases.scene.space.contact import SpatialContact
+from textmech.cases.scene.space.counting import far
+from textmech.cases.scene.space.joint import Freedom, SpatialJoint
 from textmech.cases.trajectory import Trajectory
 
 A, B = np.array([0.1, -0.2, 0.3]), np.array([-0.2, 0.1, 0.4])  # the points that are joined

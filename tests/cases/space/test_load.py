@@ -9,15 +9,15 @@ from given.spatial_case import SOUND
 from given.spatial_motions import turn
 
 from textmech.cases.case import Case
-from textmech.cases.frame import SPACE
 from textmech.cases.load import load
-from textmech.cases.quantity import table
 from textmech.cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Push, Signal, Torque
-from textmech.cases.space import shape
-from textmech.cases.space.contact import SpatialContact
-from textmech.cases.space.joint import Freedom, SpatialJoint
-from textmech.cases.space.rotation import matrix
-from textmech.cases.space.scene import SpatialScene
+from textmech.cases.scene.frame import SPACE
+from textmech.cases.scene.quantity import table
+from textmech.cases.scene.rotation import matrix
+from textmech.cases.scene.space import shape
+from textmech.cases.scene.space.contact import SpatialContact
+from textmech.cases.scene.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space.scene import SpatialScene
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 

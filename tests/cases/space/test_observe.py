@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from given.spatial_motions import Array, T, rate, states, turn
 
-from textmech.cases.observe import observe
-from textmech.cases.quantity import table
 from textmech.cases.scene import Anchor, Damper, GroundPoint, Signal, Spring
-from textmech.cases.space.body import SpatialBody
-from textmech.cases.space.contact import SpatialContact
-from textmech.cases.space.joint import Freedom, SpatialJoint
-from textmech.cases.space.scene import SpatialScene
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.quantity import table
+from textmech.cases.scene.space.body import SpatialBody
+from textmech.cases.scene.space.contact import SpatialContact
+from textmech.cases.scene.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Trajectory
 
 G = np.array([0.3, -0.7, -9.0])

@@ -10,13 +10,13 @@ from textmech.cases.language.grammar.space.contact import Rolling
 from textmech.cases.language.grammar.space.scene import SpatialScene as Words
 from textmech.cases.language.grammar.space.start import Start, Turn
 from textmech.cases.load import load
-from textmech.cases.quantity import table
 from textmech.cases.scene import Anchor, Signal, Spring, Torsion
-from textmech.cases.space import shape
-from textmech.cases.space.constraint import SpatialEdge
-from textmech.cases.space.contact import SpatialContact
-from textmech.cases.space.joint import Freedom, SpatialJoint
-from textmech.cases.space.scene import SpatialScene
+from textmech.cases.scene.quantity import table
+from textmech.cases.scene.space import shape
+from textmech.cases.scene.space.constraint import SpatialEdge
+from textmech.cases.scene.space.contact import SpatialContact
+from textmech.cases.scene.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space.scene import SpatialScene
 
 README = Path(find.__file__).with_name("README.md").read_text(encoding="utf-8")
 SPACE = README.partition("## Space\n")[2].partition("## Variants\n")[0]

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from textmech.cases.space import shape
-from textmech.cases.space.body import SpatialBody
+from textmech.cases.scene.space import shape
+from textmech.cases.scene.space.body import SpatialBody
 from textmech.cases.trajectory import Array
 
 N = 60  # pieces a side

@@ -15,8 +15,8 @@ from given import scenes
 from given.models import differing
 from given.planning import CASES, NATIVE, begun, planned
 
-from textmech.cases.frame import PLANE
 from textmech.cases.scene import Scene
+from textmech.cases.scene.frame import PLANE
 from textmech.engines.engine import Plan, Realised, Start
 from textmech.engines.mujoco import MuJoCo, compilation
 from textmech.engines.mujoco.rods import with_rods

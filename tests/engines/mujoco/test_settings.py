@@ -8,7 +8,7 @@ import pytest
 from given.planning import planned
 
 from textmech.cases.scene import Anchor, Contact, GroundPoint, Joint, Scene
-from textmech.cases.shape import bar, disk
+from textmech.cases.scene.shape import bar, disk
 from textmech.engines.engine import Start
 from textmech.engines.mujoco import MuJoCo
 

@@ -4,7 +4,7 @@ from functools import partial
 
 import pytest
 
-from textmech.cases.friction import Bounds, DryFriction, Smooth
+from textmech.cases.fields.friction import Bounds, DryFriction, Smooth
 from textmech.engines.law import smooth_under
 from textmech.engines.pymunk.law.breakaway import bound, mean_friction, smooth_mean
 

@@ -10,7 +10,7 @@ from given.planning import TUNED, begun, every, moved, planned, ways
 from given.scenes import SHIPPED, solved, tail, typed
 
 from textmech.cases.case import Case
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Diverged, Realised
 from textmech.engines.pymunk.law import cold, cut

@@ -11,7 +11,7 @@ from given.scenes import tail, typed
 
 from textmech import engines
 from textmech.cases.case import Case
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import ANGLE, Trajectory
 from textmech.engines.engine import Diverged, Plan, Realised, Start
 from textmech.engines.pymunk.scene import build

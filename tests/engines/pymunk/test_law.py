@@ -12,7 +12,7 @@ from given.planning import TUNED, moved, planned
 from given.swings import generated
 
 from textmech.cases.scene import GROUND, Anchor, Bounds, Damper, Scene
-from textmech.cases.shape import disk
+from textmech.cases.scene.shape import disk
 from textmech.cases.trajectory import ANGLE, OMEGA, VX, Array, X
 from textmech.engines.engine import Start
 from textmech.engines.pymunk.law import present

@@ -10,8 +10,8 @@ from given.planning import TUNED, begun, every, moved
 from given.scenes import SHIPPED
 from given.swings import energy_drift, swing_error
 
-from textmech.cases.observe import observe
 from textmech.cases.scene import Bounds, DryFriction, Joint
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import ANGLE, X, Y
 from textmech.engines.engine import Choice
 from textmech.engines.pymunk import scene as builder

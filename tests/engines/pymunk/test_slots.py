@@ -9,7 +9,7 @@ from given.planning import TUNED, planned
 from scipy.linalg import subspace_angles
 
 from textmech.cases.scene import Scene
-from textmech.cases.shape import bar
+from textmech.cases.scene.shape import bar
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Start
 from textmech.engines.pymunk.read.health import _left

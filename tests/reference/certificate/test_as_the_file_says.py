@@ -16,8 +16,8 @@ from given.certified import certified
 from given.laws_in_time import LAWS
 from given.linkages import LINKAGE
 
-from textmech.cases.point import GroundPoint
-from textmech.cases.signal import Signal
+from textmech.cases.fields.signal import Signal
+from textmech.cases.scene.point import GroundPoint
 from textmech.reference.certificate.prescribed import integral
 from textmech.reference.mechanism.constraints import blades, permanent
 from textmech.reference.mechanism.constraints.space import held as space_held

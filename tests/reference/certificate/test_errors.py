@@ -14,8 +14,8 @@ from given.typed_scenes import PENDULUM
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
-from textmech.cases.observe import observe
-from textmech.cases.quantity import at_event, table
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.quantity import at_event, table
 from textmech.reference.certificate.agreement import Check
 from textmech.reference.certificate.errors import EPS, ERROR, SHARE, beyond
 from textmech.reference.formalisms import lagrange

@@ -13,7 +13,7 @@ from given.certified import certified
 from given.claims import CHAIN, claimed
 from given.mutants import mutant
 
-from textmech.cases.space.joint import SpatialJoint
+from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.reference.certificate import agreement, errors
 from textmech.reference.certificate.agreement import Check
 from textmech.reference.mechanism.modes.space.mode import SpatialMultibody

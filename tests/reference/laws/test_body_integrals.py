@@ -6,7 +6,7 @@ from given.laws import difference
 from given.mass_points import Elements, elements
 from given.turning_bodies import J
 
-from textmech.cases.frame import SPACE
+from textmech.cases.scene.frame import SPACE
 from textmech.reference.formalisms.derivative import along
 from textmech.reference.laws.momentum import angular_momentum
 from textmech.reference.laws.rotation import axes

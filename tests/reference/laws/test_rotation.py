@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from textmech.cases.space import rotation as words
+from textmech.cases.scene import rotation as words
 from textmech.reference.formalisms.derivative import along
 from textmech.reference.laws.rotation import (
     acceleration,

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from given import random_scenes
 
-from textmech.cases import shape
-from textmech.cases.joint import FREEDOMS
-from textmech.cases.scene import GROUND, Anchor, Contact, GroundPoint, Joint, Scene
+from textmech.cases.scene import GROUND, Anchor, Contact, GroundPoint, Joint, Scene, shape
+from textmech.cases.scene.joint import FREEDOMS
 from textmech.reference.formalisms.derivative import along
 from textmech.reference.mechanism.constraints.constraint import Constraint
 from textmech.reference.mechanism.constraints.contact import at_rest, normal, tangent

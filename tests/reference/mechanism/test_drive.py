@@ -7,8 +7,8 @@ import pytest
 from given import scenes
 from scipy.integrate import simpson
 
-from textmech.cases.observe import observe
 from textmech.cases.scene import Scene
+from textmech.cases.scene.observe import observe
 from textmech.reference.mechanism.constraints import permanent
 from textmech.reference.mechanism.constraints.rows import FIRST, SECOND, Given, Turning
 from textmech.reference.solve import solve

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from given import random_scenes
 
-from textmech.cases import shape
 from textmech.cases.scene import (
     Anchor,
     Bounds,
@@ -14,6 +13,7 @@ from textmech.cases.scene import (
     Scene,
     Smooth,
     Spring,
+    shape,
 )
 from textmech.reference.formalisms import lagrange
 from textmech.reference.mechanism.modes.mechanism import Mechanism

@@ -10,8 +10,8 @@ from given import edges, scenes
 from given.multibody_laws import EXACT, balance, lagrangian
 
 from textmech.cases.mistake import CaseError
-from textmech.cases.observe import observe
 from textmech.cases.scene import Signal
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
 from textmech.reference.formalisms import lagrange
 from textmech.reference.mechanism.constraints import blades, permanent

@@ -11,8 +11,8 @@ import pytest
 from given import scenes
 from given.laws_in_time import ALL, LAWS, MOVING, PRESCRIBED, words
 
-from textmech.cases.observe import observe
 from textmech.cases.scene import Signal
+from textmech.cases.scene.observe import observe
 from textmech.reference.mechanism.constraints.space import rolling
 from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import follow

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from given import scenes
 
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.reference.solve import solve
 
 PULSED = """\

@@ -10,8 +10,7 @@ from given import scenes
 from given.refused import refused
 from given.rod import rod
 
-from textmech.cases import shape
-from textmech.cases.scene import Anchor, Contact, Scene
+from textmech.cases.scene import Anchor, Contact, Scene, shape
 from textmech.reference.mechanism.modes.mechanism import Mechanism
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve

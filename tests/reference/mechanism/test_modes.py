@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from given import random_scenes
 
-from textmech.cases import shape
 from textmech.cases.scene import (
     Anchor,
     Contact,
     Joint,
     Scene,
+    shape,
 )
 from textmech.reference.formalisms import energy, lagrange
 from textmech.reference.mechanism.constraints.contact import (

@@ -9,8 +9,7 @@ import pytest
 from given import random_scenes
 from given.multibody_laws import EXACT, Law, balance, lagrangian
 
-from textmech.cases import shape
-from textmech.cases.scene import GROUND, Anchor, Body, GroundPoint, Joint, Scene, Spring
+from textmech.cases.scene import GROUND, Anchor, Body, GroundPoint, Joint, Scene, Spring, shape
 from textmech.reference.mechanism.constraints.assembled import Levers
 from textmech.reference.mechanism.constraints.rows import Line
 from textmech.reference.mechanism.forces.action import pulls

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from given import scenes
 
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.reference.mechanism.modes import choosing
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve

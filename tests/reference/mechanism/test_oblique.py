@@ -8,8 +8,8 @@ import pytest
 from given import scenes
 
 from textmech.cases.case import Case
-from textmech.cases.observe import observe
-from textmech.cases.pair import Pair
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.pair import Pair
 from textmech.reference.mechanism.constraints.constraint import Constraint
 from textmech.reference.mechanism.constraints.rows import Turning
 from textmech.reference.mechanism.kinematics.coordinates import Coordinates

@@ -7,7 +7,7 @@ from given import scenes
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import VX
 from textmech.reference.mechanism.modes import landing
 from textmech.reference.motion.follow import follow

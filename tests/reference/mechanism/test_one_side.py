@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from given import scenes
 
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.reference.formalisms import energy, lagrange
 from textmech.reference.mechanism.modes.mechanism import Mechanism
 from textmech.reference.mechanism.modes.one_side import OneSided

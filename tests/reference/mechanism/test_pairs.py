@@ -10,7 +10,7 @@ from given.pairs import PHI0, S0, TRAY, A, G, I, J, R, m
 from scipy.integrate import solve_ivp
 
 from textmech.cases.case import Case
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import ANGLE, OMEGA, VX, VY, X, Y
 from textmech.reference.mechanism.constraints.rims import Apart, Around
 from textmech.reference.mechanism.constraints.rows import Line

@@ -9,8 +9,8 @@ from given import scenes
 from given.scenes import tail, typed
 
 from textmech.cases.mistake import CaseError
-from textmech.cases.observe import observe
 from textmech.cases.scene import Scene
+from textmech.cases.scene.observe import observe
 from textmech.reference.mechanism.modes import element, landing
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve

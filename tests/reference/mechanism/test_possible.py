@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from given import scenes
 
-from textmech.cases import shape
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
-from textmech.cases.scene import Anchor, Contact, Scene
+from textmech.cases.scene import Anchor, Contact, Scene, shape
 from textmech.reference.mechanism.modes import mechanism
 from textmech.reference.mechanism.modes.mechanism import Mechanism
 from textmech.reference.motion.follow import follow

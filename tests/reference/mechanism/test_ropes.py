@@ -8,7 +8,7 @@ import pytest
 from given import ropes, scenes
 
 from textmech.cases.mistake import CaseError
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.reference.mechanism.modes import rope
 from textmech.reference.solve import Solution, solve
 

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from textmech.cases import shape
-from textmech.cases.scene import GROUND, Anchor, GroundPoint, Scene
+from textmech.cases.scene import GROUND, Anchor, GroundPoint, Scene, shape
 from textmech.reference.mechanism.constraints.assembled import G, Rows
 from textmech.reference.mechanism.constraints.rows import Along, Line, Term, Turning
 from textmech.reference.mechanism.kinematics.coordinates import Coordinates

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from given import scenes
 
-from textmech.cases.observe import observe
-from textmech.cases.signal import Law, Signal
+from textmech.cases.fields.signal import Law, Signal
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Array
 from textmech.reference.mechanism.kinematics import signal as laws
 from textmech.reference.motion.follow import follow

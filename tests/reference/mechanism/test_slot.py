@@ -7,7 +7,7 @@ import pytest
 from given import scenes
 from scipy.integrate import solve_ivp
 
-from textmech.cases.joint import FREEDOMS
+from textmech.cases.scene.joint import FREEDOMS
 from textmech.cases.trajectory import ANGLE, OMEGA, VX, X
 from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.solve import solve

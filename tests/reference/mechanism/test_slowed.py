@@ -9,7 +9,7 @@ import pytest
 from given import scenes, slowed
 from given.multibody_laws import EXACT, balance, lagrangian
 
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.reference.mechanism.forces import drag, magnetic
 from textmech.reference.mechanism.forces.action import dissipation
 from textmech.reference.mechanism.modes.mode import Multibody

@@ -7,7 +7,7 @@ import pytest
 from given import scenes, torsion
 from given.multibody_laws import EXACT, balance, lagrangian
 
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.reference.laws import force
 from textmech.reference.mechanism.forces import turning
 from textmech.reference.mechanism.modes.mode import Multibody

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from given import random_scenes, scenes
 
-from textmech.cases.language.grammar import number
+from textmech.cases.fields import number
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene import Body, Scene
 from textmech.reference.formalisms.energy import power_balance

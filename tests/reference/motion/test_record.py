@@ -9,9 +9,9 @@ import pytest
 from given import scenes
 
 from textmech.cases.case import Case, Event
-from textmech.cases.frame import PLANE
-from textmech.cases.observe import observe
-from textmech.cases.quantity import table
+from textmech.cases.scene.frame import PLANE
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.quantity import table
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve

@@ -12,10 +12,10 @@ import pytest
 from given import scenes
 
 from textmech.cases.case import Case
-from textmech.cases.motion import Motion
-from textmech.cases.observe import observe
 from textmech.cases.scene import Scene
-from textmech.cases.space.joint import SpatialJoint
+from textmech.cases.scene.motion import Motion
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.reference.motion import bodies, turns
 from textmech.reference.motion.follow import Followed
 from textmech.reference.motion.turns import Counted

@@ -14,8 +14,8 @@ from given.claims import CHAIN, claimed
 from textmech.cases.case import Case, Placement
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene import Signal
-from textmech.cases.space.joint import rate_of
-from textmech.cases.space.scene import SpatialScene
+from textmech.cases.scene.space.joint import rate_of
+from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Array
 from textmech.reference.laws import energy, inertia, momentum, rotation
 from textmech.reference.mechanism.kinematics.space.chain import SpatialChain

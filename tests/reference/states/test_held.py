@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from given.claims import CHAIN, claimed
 
-from textmech.cases.space.scene import SpatialScene
+from textmech.cases.scene.space.scene import SpatialScene
 from textmech.reference.mechanism.kinematics.space import chain
 from textmech.reference.mechanism.kinematics.space.chain import Moving, SpatialChain
 from textmech.reference.states.answer import answered

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from given import scenes
 
-from textmech.cases.observe import observe
 from textmech.cases.scene import Bounds, Drag
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
 from textmech.reference.mechanism.forces import drag, scrape
 from textmech.reference.states.answer import LAW, answered

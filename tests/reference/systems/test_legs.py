@@ -15,7 +15,7 @@ from given.mutants import mutant, with_mode
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from textmech.cases.quantity import at_event
+from textmech.cases.scene.quantity import at_event
 from textmech.reference.motion.follow import Followed, either, follow
 from textmech.reference.system import Array, Guard, System
 from textmech.reference.systems.walkers.trunk_on_legs import TrunkOnLegs

@@ -10,7 +10,7 @@ from given import scenes
 from given.events import LOCATED, event_errors
 from given.examples import example
 
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.reference.mechanism.modes import stop
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve

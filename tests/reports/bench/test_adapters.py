@@ -8,7 +8,7 @@ import pytest
 from given.planning import CASES, EVERY, SHIPPED, TUNED, planned
 
 from textmech.cases.case import Case
-from textmech.cases.friction import Bounds
+from textmech.cases.fields.friction import Bounds
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Diverged, Engine, Loop, Plain, Plan, Refusal, Start

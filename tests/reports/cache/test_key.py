@@ -112,7 +112,7 @@ def test_what_is_tried_counts_and_the_code_that_tries_it(code: Path) -> None:
 @pytest.mark.parametrize(
     ("file", "reference", "outcome"),
     [
-        ("cases/observe.py", True, True),
+        ("cases/scene/observe.py", True, True),
         ("reference/laws/friction.py", True, True),
         ("reference/motion/follow.py", True, True),
         ("engines/engine.py", False, True),

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from given.browser import Tab, browser, found
 
-from textmech.cases.space.rotation import turned
+from textmech.cases.scene.rotation import turned
 from textmech.reports.page.pack import packed_by_size
 
 WIDTHS = (390, 900, 1440)

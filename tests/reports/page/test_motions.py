@@ -10,8 +10,8 @@ from given.otherwise import otherwise
 
 from textmech import engines
 from textmech.cases.case import Case
-from textmech.cases.motion import Motion as Looked
-from textmech.cases.observe import observe
+from textmech.cases.scene.motion import Motion as Looked
+from textmech.cases.scene.observe import observe
 from textmech.reports.page import motions
 from textmech.reports.page.motions import FRAMES, POINTS, motion, thinned
 from textmech.reports.page.pack import unpacked, unpacked_by_size

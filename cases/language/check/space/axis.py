@@ -4,11 +4,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ....point import Anchor
-from ....space.body import SpatialBody
-from ....space.joint import SpatialJoint
-from ....space.scene import SpatialScene
-from ....space.tensor import without_inertia
+from ....scene.point import Anchor
+from ....scene.space.body import SpatialBody
+from ....scene.space.joint import SpatialJoint
+from ....scene.space.scene import SpatialScene
+from ....scene.space.tensor import without_inertia
 from ....trajectory import Array
 from ...parse import Finding, Parsed
 

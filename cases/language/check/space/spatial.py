@@ -4,9 +4,9 @@ from collections.abc import Iterator
 from typing import Any
 
 from ....mistake import nearest
-from ....point import FLOOR, GROUND
-from ....space.body import SpatialBody
-from ....space.scene import SpatialScene
+from ....scene.point import FLOOR, GROUND
+from ....scene.space.body import SpatialBody
+from ....scene.space.scene import SpatialScene
 from ...parse import Finding, Parsed
 from ..drive import fits, unknown
 from .axis import turns_freely

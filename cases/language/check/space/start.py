@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator, Mapping
 
+from ....fields.number import Amount, NumberMistake, fitting, shown
 from ....mistake import Path, listed, nearest
-from ....space.body import SpatialBody
-from ....space.joint import SpatialJoint
-from ....space.scene import SpatialScene
-from ...grammar.number import Amount, NumberMistake, fitting, shown
+from ....scene.space.body import SpatialBody
+from ....scene.space.joint import SpatialJoint
+from ....scene.space.scene import SpatialScene
 from ...grammar.space.start import Start, Vector
 from ...parse import Finding, Parsed
 from ..drive import agrees

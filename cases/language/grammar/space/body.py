@@ -4,11 +4,11 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from ....space.shape import SHAPES
+from ....fields.part import Name, OneOf
+from ....fields.vector import Position
+from ....fields.words import wrong
+from ....scene.space.shape import SHAPES
 from ..body import ALIKE, Shaped, body
-from ..part import Name, OneOf
-from ..words import wrong
-from .vector import Position
 
 
 class WithPoints(Shaped):

@@ -4,11 +4,11 @@ from typing import Annotated
 
 from pydantic import Field
 
-from ....point import anchor
-from ....space.constraint import SpatialEdge
-from ..part import OneOf, Part, Point
-from ..text import Word
-from .vector import Direction
+from ....fields.part import OneOf, Part, Point
+from ....fields.text import Word
+from ....fields.vector import Direction
+from ....scene.point import anchor
+from ....scene.space.constraint import SpatialEdge
 
 
 class Blade(Part):

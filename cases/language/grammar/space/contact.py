@@ -5,13 +5,13 @@ from typing import Annotated, Any
 
 from pydantic import Field, model_validator
 
-from ....point import anchor
-from ....space.body import SpatialBody
-from ....space.contact import SpatialContact
-from ..friction import Coefficient
-from ..part import Part
-from ..text import Text, Word
-from ..words import wrong
+from ....fields.friction_grammar import Coefficient
+from ....fields.part import Part
+from ....fields.text import Text, Word
+from ....fields.words import wrong
+from ....scene.point import anchor
+from ....scene.space.body import SpatialBody
+from ....scene.space.contact import SpatialContact
 
 _ONLY = (
     "in space a contact rolls or is a pivot (slipping in two directions has no finite set of modes)"

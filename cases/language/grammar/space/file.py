@@ -2,8 +2,8 @@
 
 from pydantic import Field
 
+from ....fields.part import Name
 from ..file import File
-from ..part import Name
 from .scene import SpatialScene
 from .start import Start
 

@@ -2,10 +2,10 @@
 
 from typing import Annotated
 
-from ....force import FORCES
+from ....fields.part import OneOf
+from ....scene.forces.force import FORCES
 from .. import force as plane
 from ..element import Element, element
-from ..part import OneOf
 
 AS_IN_THE_PLANE = ("spring", "damper", "torsion", "torsion_damper", "motor")
 ALONG_THREE_AXES = ("push", "torque")

@@ -6,12 +6,12 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from pydantic import AfterValidator, Field
 
-from ....space.joint import HELD, Freedom, effort_of, rate_of
-from ....space.rotation import Vector3
-from ..part import OneOf, Part
-from ..text import IDENTIFIER, Text, label
-from ..words import wrong
-from .vector import Direction
+from ....fields.part import OneOf, Part
+from ....fields.text import IDENTIFIER, Text, label
+from ....fields.vector import Direction
+from ....fields.words import wrong
+from ....scene.rotation import Vector3
+from ....scene.space.joint import HELD, Freedom, effort_of, rate_of
 
 PARALLEL = 1e-9  # sine of an angle: axes are typed with up to ten digits
 

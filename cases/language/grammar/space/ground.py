@@ -4,9 +4,9 @@ from typing import Annotated
 
 from pydantic import Tag
 
-from ....point import GroundPoint as Noun
-from ..part import Made, Part, plain_or_map
-from .vector import Position, Velocity
+from ....fields.part import Made, Part, plain_or_map
+from ....fields.vector import Position, Velocity
+from ....scene.point import GroundPoint as Noun
 
 
 class SpatialDrivenPoint(Part):

@@ -4,12 +4,12 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
 
-from ....point import anchor
-from ....space.joint import Freedom, SpatialJoint
-from ..part import OneOf, Pair, Part
-from ..words import wrong
+from ....fields.part import OneOf, Pair, Part
+from ....fields.vector import Direction
+from ....fields.words import wrong
+from ....scene.point import anchor
+from ....scene.space.joint import Freedom, SpatialJoint
 from .freedom import Freedoms, parallel
-from .vector import Direction
 
 
 class SpatialJointed(Part):

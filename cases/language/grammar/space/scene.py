@@ -4,17 +4,17 @@ from typing import Annotated
 
 from pydantic import Field
 
+from ....fields.field import Space
+from ....fields.part import Angle, Name, Part
+from ....fields.vector import Gravity
 from ..drive import Driven, Rate
-from ..field import Space
 from ..file import GRAVITY, INCLINE
-from ..part import Angle, Name, Part
 from .body import Body
 from .constraint import Constraint
 from .contact import Rolling
 from .force import Force
 from .ground import GroundPoint
 from .joint import Joint
-from .vector import Gravity
 
 
 class SpatialScene(Part):

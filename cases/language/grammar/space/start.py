@@ -9,12 +9,12 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import BeforeValidator, ConfigDict, Field, Tag
 
-from ....space.rotation import Quaternion, Vector3, about, product
-from ..field import AnyUnit
-from ..number import Amount, shown
-from ..part import Angle, Made, Part, plain_or_list
-from ..words import wrong
-from .vector import Direction
+from ....fields.field import AnyUnit
+from ....fields.number import Amount, shown
+from ....fields.part import Angle, Made, Part, plain_or_list
+from ....fields.vector import Direction
+from ....fields.words import wrong
+from ....scene.rotation import Quaternion, Vector3, about, product
 
 _Amount = Annotated[Amount, AnyUnit()]
 Vector = tuple[Amount, Amount, Amount]

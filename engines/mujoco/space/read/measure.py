@@ -2,8 +2,8 @@
 
 import mujoco
 
-from .....cases.space.rotation import matrix
-from .....cases.space.scene import SpatialScene
+from .....cases.scene.rotation import matrix
+from .....cases.scene.space.scene import SpatialScene
 from .....cases.trajectory import Array
 from ...force import numbers
 from ...tree import called, driven

@@ -6,8 +6,8 @@ import mujoco
 import numpy as np
 
 from .....cases.scene import Anchor
-from .....cases.space.joint import SpatialJoint
-from .....cases.space.scene import SpatialScene
+from .....cases.scene.space.joint import SpatialJoint
+from .....cases.scene.space.scene import SpatialScene
 from .....cases.trajectory import Array
 from ...force import outer
 from ...tree import Tree, called

@@ -3,9 +3,9 @@
 import mujoco
 import numpy as np
 
-from .....cases.frame import SPACE
-from .....cases.space.rotation import UPRIGHT, inverse, turned
-from .....cases.space.scene import SpatialScene
+from .....cases.scene.frame import SPACE
+from .....cases.scene.rotation import UPRIGHT, inverse, turned
+from .....cases.scene.space.scene import SpatialScene
 from .....cases.trajectory import Array
 from ....engine import Start
 from ...tree import called

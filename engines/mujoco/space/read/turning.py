@@ -2,7 +2,7 @@
 
 import mujoco
 
-from .....cases.space.scene import SpatialScene
+from .....cases.scene.space.scene import SpatialScene
 from .....cases.trajectory import Array
 from ....law import TORQUES, turning
 from ..drive import Drive

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .....cases.fields.signal import Signal
 from .....cases.scene import Anchor
-from .....cases.signal import Signal
-from .....cases.space.chain import across
-from .....cases.space.joint import SpatialJoint, effort_of
-from .....cases.space.rotation import Vector3
-from .....cases.space.scene import SpatialScene
+from .....cases.scene.rotation import Vector3
+from .....cases.scene.space.chain import across
+from .....cases.scene.space.joint import SpatialJoint, effort_of
+from .....cases.scene.space.scene import SpatialScene
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,16 @@ from typing import Any
 
 import numpy as np
 
-from .....cases.force import Damper, Force, Motor, Push, Spring, Torque, Torsion, TorsionDamper
+from .....cases.scene.forces.force import (
+    Damper,
+    Force,
+    Motor,
+    Push,
+    Spring,
+    Torque,
+    Torsion,
+    TorsionDamper,
+)
 from ....laws.force import damper, spring
 from ...kinematics.space.kinematics import Bodies, Layout, Points
 from ..action import SHORT, NoDirection, signal

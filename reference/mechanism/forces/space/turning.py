@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from .....cases.space.chain import across
-from .....cases.space.joint import SpatialJoint
-from .....cases.space.scene import SpatialScene
-from .....cases.turning import Motor, Torsion, TorsionDamper, Turning
+from .....cases.scene.forces.turning import Motor, Torsion, TorsionDamper, Turning
+from .....cases.scene.space.chain import across
+from .....cases.scene.space.joint import SpatialJoint
+from .....cases.scene.space.scene import SpatialScene
 from ....laws.force import torsion, torsion_damper
 from ...kinematics.signal import signal
 from ...kinematics.space.attitude import cross, dot

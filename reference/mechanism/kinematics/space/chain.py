@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 
 from .....cases.scene import GROUND, Anchor
-from .....cases.space.joint import SpatialJoint
-from .....cases.space.scene import SpatialScene
+from .....cases.scene.space.joint import SpatialJoint
+from .....cases.scene.space.scene import SpatialScene
 from ....stated import Stated
 from ....system import Mass, Pose, Vector
 from .attitude import matrices, skew

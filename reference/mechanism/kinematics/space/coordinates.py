@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .....cases.space.scene import SpatialScene
+from .....cases.scene.space.scene import SpatialScene
 from ....system import Pose
 from .attitude import rates
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .....cases.scene import GROUND, Anchor
-from .....cases.space.scene import SpatialScene
+from .....cases.scene.space.scene import SpatialScene
 from .attitude import matrices, skew
 from .coordinates import SpatialCoordinates
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from .....cases.scene import GROUND, Anchor
-from .....cases.space.scene import SpatialScene
+from .....cases.scene.space.scene import SpatialScene
 from ....system import MOVING, Array, System
 from ...constraints.leeway import Leeway
 from .mode import SpatialMultibody

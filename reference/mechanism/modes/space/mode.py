@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from .....cases.space.scene import SpatialScene
+from .....cases.scene.space.scene import SpatialScene
 from ....system import Array, Mass, Mode, Pose, Vector
 from ...constraints.leeway import Leeway, leeway
 from ...constraints.space.assembled import SpatialRows

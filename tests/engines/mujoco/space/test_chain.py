@@ -9,7 +9,7 @@ from given.skew_chain import Q_DOT, N, Q, accelerations, chain, start, wrenches
 from scipy.integrate import solve_ivp
 
 from textmech.cases.scene import Signal
-from textmech.cases.space.rotation import angle_between
+from textmech.cases.scene.rotation import angle_between
 from textmech.cases.trajectory import Array, Trajectory
 
 TIMES = np.linspace(0.0, 0.3, 4)

@@ -11,9 +11,9 @@ from given.planning import SHIPPED, TUNED, moved, refused, ways
 from scipy.integrate import quad
 
 from textmech.cases.scene import Anchor
-from textmech.cases.space.constraint import SpatialEdge
-from textmech.cases.space.contact import SpatialContact
-from textmech.cases.space.rotation import about, product, turned
+from textmech.cases.scene.rotation import about, product, turned
+from textmech.cases.scene.space.constraint import SpatialEdge
+from textmech.cases.scene.space.contact import SpatialContact
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Start
 from textmech.reference.solve import solve

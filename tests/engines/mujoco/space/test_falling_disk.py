@@ -5,9 +5,9 @@ import pytest
 from given.engine_space import STILL, simulated, spatial, state
 
 from textmech.cases.scene import Anchor
-from textmech.cases.space.body import SpatialBody
-from textmech.cases.space.contact import SpatialContact
-from textmech.cases.space.rotation import about, turned
+from textmech.cases.scene.rotation import about, turned
+from textmech.cases.scene.space.body import SpatialBody
+from textmech.cases.scene.space.contact import SpatialContact
 
 R, M = 0.25, 1.3
 J = M * R * R / 4

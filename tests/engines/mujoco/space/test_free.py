@@ -12,9 +12,9 @@ import pytest
 from given.engine_space import LOPSIDED, attitude, hinge, particle, rigid, simulated, spatial, state
 from scipy.integrate import solve_ivp
 
-from textmech.cases.frame import SPACE
-from textmech.cases.space import rotation
-from textmech.cases.space.rotation import angle_between, inverse, product
+from textmech.cases.scene import rotation
+from textmech.cases.scene.frame import SPACE
+from textmech.cases.scene.rotation import angle_between, inverse, product
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Plan
 from textmech.engines.mujoco import MuJoCo

@@ -21,12 +21,12 @@ from given.engine_space import (
     vector,
 )  # fmt: skip
 
-from textmech.cases.frame import SPACE
 from textmech.cases.scene import Anchor, Push, Signal, Torque
-from textmech.cases.space.body import SpatialBody
-from textmech.cases.space.joint import Freedom, SpatialJoint
-from textmech.cases.space.rotation import about, angle_between, turned
-from textmech.cases.space.scene import SpatialScene
+from textmech.cases.scene.frame import SPACE
+from textmech.cases.scene.rotation import about, angle_between, turned
+from textmech.cases.scene.space.body import SpatialBody
+from textmech.cases.scene.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Plan, Start
 from textmech.engines.mujoco import MuJoCo

@@ -18,9 +18,9 @@ from given.engine_space import (
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
-from textmech.cases.motion import Motion
-from textmech.cases.space.joint import Freedom
-from textmech.cases.space.scene import SpatialScene
+from textmech.cases.scene.motion import Motion
+from textmech.cases.scene.space.joint import Freedom
+from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Start
 

@@ -18,9 +18,9 @@ from given.engine_space import (
 )  # fmt: skip
 from scipy.spatial.transform import Rotation
 
-from textmech.cases.space.joint import Freedom, SpatialJoint
-from textmech.cases.space.rotation import angle_between
-from textmech.cases.space.scene import SpatialScene
+from textmech.cases.scene.rotation import angle_between
+from textmech.cases.scene.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space.scene import SpatialScene
 from textmech.engines.engine import Refusal, Start
 from textmech.engines.mujoco import MuJoCo
 

@@ -10,9 +10,9 @@ import pytest
 from given.planning import TUNED
 from given.random_space import machine
 
-from textmech.cases.frame import SPACE
-from textmech.cases.quantity import table
-from textmech.cases.space.scene import SpatialScene
+from textmech.cases.scene.frame import SPACE
+from textmech.cases.scene.quantity import table
+from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Plan, Start
 from textmech.reference.mechanism.modes.space.mode import SpatialMultibody

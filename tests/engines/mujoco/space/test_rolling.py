@@ -22,12 +22,12 @@ from given.engine_space import (
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
-from textmech.cases.motion import Motion
 from textmech.cases.scene import Anchor, Signal
-from textmech.cases.space.body import SpatialBody
-from textmech.cases.space.contact import SpatialContact
-from textmech.cases.space.joint import Freedom
-from textmech.cases.space.rotation import about, angle_between, inverse, product, turned
+from textmech.cases.scene.motion import Motion
+from textmech.cases.scene.rotation import about, angle_between, inverse, product, turned
+from textmech.cases.scene.space.body import SpatialBody
+from textmech.cases.scene.space.contact import SpatialContact
+from textmech.cases.scene.space.joint import Freedom
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Plan, Start
 from textmech.engines.mujoco import MuJoCo

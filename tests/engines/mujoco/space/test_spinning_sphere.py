@@ -4,9 +4,9 @@ import numpy as np
 from given.engine_space import STILL, G, attitude, spatial, state, vector
 
 from textmech.cases.scene import Anchor
-from textmech.cases.space.body import SpatialBody
-from textmech.cases.space.contact import SpatialContact
-from textmech.cases.space.rotation import inverse, turned
+from textmech.cases.scene.rotation import inverse, turned
+from textmech.cases.scene.space.body import SpatialBody
+from textmech.cases.scene.space.contact import SpatialContact
 from textmech.engines.engine import Plan, Start
 from textmech.engines.mujoco import MuJoCo
 

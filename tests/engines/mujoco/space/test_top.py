@@ -22,8 +22,8 @@ from given.engine_space import (
 from scipy.integrate import solve_ivp
 
 from textmech.cases.scene import Anchor, Damper, Push, Signal, Spring, Torque
-from textmech.cases.space.joint import Freedom
-from textmech.cases.space.rotation import angle_between, inverse, product, turned
+from textmech.cases.scene.rotation import angle_between, inverse, product, turned
+from textmech.cases.scene.space.joint import Freedom
 from textmech.cases.trajectory import Array
 
 J, MASS = np.array(LOPSIDED), 1.3

@@ -9,9 +9,9 @@ from given.engine_space import STILL
 from given.planning import TUNED, moved, refused
 
 from textmech.cases.case import Case
-from textmech.cases.observe import observe
-from textmech.cases.quantity import table
-from textmech.cases.space.rotation import UPRIGHT
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.quantity import table
+from textmech.cases.scene.rotation import UPRIGHT
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Start
 from textmech.engines.mujoco.space import run

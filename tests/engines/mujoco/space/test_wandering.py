@@ -14,8 +14,8 @@ import pytest
 from given import scenes
 from given.planning import TUNED, planned
 
-from textmech.cases.difference import apart
-from textmech.cases.observe import observe
+from textmech.cases.scene.difference import apart
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Start
 from textmech.engines.mujoco.law.signal import Control, installed

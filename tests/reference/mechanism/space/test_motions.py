@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from given import scenes
 
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Array
 
 G = 9.80665  # m/s²

@@ -5,8 +5,8 @@ import pytest
 from given import scenes
 from given.refused import refused
 
-from textmech.cases.frame import SPACE
-from textmech.cases.observe import observe
+from textmech.cases.scene.frame import SPACE
+from textmech.cases.scene.observe import observe
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import MOVING
 from textmech.reference.systems import written

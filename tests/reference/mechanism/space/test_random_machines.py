@@ -11,7 +11,7 @@ from given.space_machine import T
 from hypothesis import given
 from hypothesis import strategies as st
 
-from textmech.cases.quantity import table
+from textmech.cases.scene.quantity import table
 from textmech.reference.formalisms import appell, chaplygin, voronets
 from textmech.reports.trial.ladder import wanted_reactions
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from given import scenes
 
-from textmech.cases.space.scene import SpatialScene
+from textmech.cases.scene.space.scene import SpatialScene
 from textmech.reference.formalisms.derivative import along
 from textmech.reference.mechanism.constraints.space import pivots, rolling, rows
 from textmech.reference.mechanism.kinematics.space import attitude

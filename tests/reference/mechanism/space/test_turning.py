@@ -9,7 +9,7 @@ import pytest
 from given import scenes, torsion
 from given.multibody_laws import EXACT, balance, lagrangian
 
-from textmech.cases.observe import observe
+from textmech.cases.scene.observe import observe
 from textmech.reference.mechanism.forces.space import turning
 from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
 from textmech.reference.solve import solve

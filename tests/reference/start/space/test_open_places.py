@@ -7,7 +7,7 @@ from given.otherwise import otherwise
 from given.scenes import typed
 
 from textmech.cases.mistake import CaseError
-from textmech.cases.space.scene import SpatialScene
+from textmech.cases.scene.space.scene import SpatialScene
 from textmech.reference.start.space import refusal
 from textmech.reference.start.space.assembly import assemble_in_space
 

@@ -7,7 +7,7 @@ import pytest
 from given.scenes import typed
 from scipy.spatial.transform import Rotation
 
-from textmech.cases.space.scene import SpatialScene
+from textmech.cases.scene.space.scene import SpatialScene
 from textmech.reference.mechanism.kinematics.space.coordinates import SpatialCoordinates
 from textmech.reference.start.space import given as module
 from textmech.reference.start.space.assembly import assemble_in_space

@@ -8,7 +8,7 @@ import pytest
 from given.scenes import typed
 
 from textmech.cases.mistake import CaseError, Mistake
-from textmech.cases.space.scene import SpatialScene
+from textmech.cases.scene.space.scene import SpatialScene
 from textmech.reference.start.space import positions
 from textmech.reference.start.space.assembly import assemble_in_space
 

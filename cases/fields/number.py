@@ -1,0 +1,225 @@
+"""Numbers of a case: a literal, a parameter's name, `-name`, or a quantity with its unit."""
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from typing import Any
+
+from ..mistake import nearest
+
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_LITERAL = r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?"
+_ARITHMETIC = re.compile(rf"({_LITERAL}|pi)\s*([*/])\s*({_LITERAL}|pi)")
+_TERM = r"(?:[A-Za-zµμ°]{1,12}(?:(?:\^|\*\*)-?[1-4]|[²³⁴])?)"
+_QUANTITY = re.compile(rf"({_LITERAL})\s*({_TERM}(?:\s*[ */·]\s*{_TERM}){{0,5}})")
+
+# The units a case can use. The angle is a dimension of its own here (to pint's own table it is
+# none), so that an angle is no friction coefficient, and 2 Hz, which could mean 2 or 4π rad/s,
+# is no angular frequency. A gram is a gramme by name: pint gives the kgram the name of prefix and
+# unit, and a kilogram of 1000 grams, each 1e-3 of it, would have no end.
+_UNITS = """
+nano- = 1e-9 = n-
+micro- = 1e-6 = µ- = μ-
+milli- = 1e-3 = m-
+centi- = 1e-2 = c-
+kilo- = 1e3 = k-
+mega- = 1e6 = M-
+giga- = 1e9 = G-
+meter = [length] = m = metre
+kilogram = [mass] = kg
+second = [time] = s
+radian = [angle] = rad
+gramme = 1e-3 kilogram = g = gram
+minute = 60 second = min
+hour = 3600 second = h
+degree = 3.141592653589793 / 180 radian = deg = °
+revolution = 360 degree = rev = turn
+rpm = revolution / minute
+hertz = 1 / second = Hz
+newton = kilogram * meter / second**2 = N
+joule = newton * meter = J
+watt = joule / second = W
+ampere = [current] = A
+coulomb = ampere * second = C
+tesla = kilogram / ampere / second**2 = T
+"""
+# In SI: an electron has 9e-31 kg, a molecule 1e-46 kg m². Beyond them squares of products of two
+# leave the doubles, or nearly.
+SMALLEST, LARGEST = 1e-60, 1e30
+TURN = 2 * math.pi
+_KNOWN = ("m", "mm", "cm", "kg", "g", "s", "ms", "rad", "deg", "rpm", "N", "kN", "J", "W")
+
+
+class NumberMistake(ValueError):
+    """What is wrong with a number, in words."""
+
+
+@dataclass(frozen=True)
+class Amount:
+    """A value in SI. `dimension` is None for a plain literal, which fits every field."""
+
+    value: float
+    dimension: str | None = None
+    text: str = ""
+
+
+@dataclass(frozen=True)
+class Names:
+    """The parameters that numbers may name; None is one that is itself mistaken."""
+
+    amounts: Mapping[str, Amount | None] = field(default_factory=dict)
+
+
+def shown(value: object) -> str:
+    """A value of the file as a message shows it: `text 'abc'`, `the number 3`, `a map`."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f"text {value if len(value) <= 40 else value[:40] + '…'!r}"
+    if isinstance(value, int | float):
+        return f"the number {value}"
+    return "a map" if isinstance(value, dict) else "a list"
+
+
+def names(parameters: object) -> Names:
+    """The amounts of a file's parameters; their mistakes are found by the grammar."""
+    amounts: dict[str, Amount | None] = {}
+    for name, value in parameters.items() if isinstance(parameters, dict) else ():
+        try:
+            amounts[name] = amount(value)
+        except NumberMistake:
+            amounts[name] = None
+    return Names(amounts)
+
+
+def amount(value: object) -> Amount:
+    """A literal or a quantity with its unit, in SI."""
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return Amount(_sized(float(value), value))
+    short = isinstance(value, str) and len(value) <= 60  # so that no search is long
+    if short and (match := _QUANTITY.fullmatch(str(value))):
+        return _measured(float(match[1]), match[2], str(value))
+    if isinstance(value, str) and re.fullmatch(_LITERAL, value):
+        raise NumberMistake(f"should be a number, is {shown(value)}; remove the quotes")
+    if short and (match := _ARITHMETIC.fullmatch(str(value).strip())):
+        raise NumberMistake(f"{value!r} is not computed: {_computed(*match.groups())}")
+    raise NumberMistake(f"should be a number, is {shown(value)}")
+
+
+def _computed(a: str, sign: str, b: str) -> str:
+    """What a product or quotient is, for a person to write."""
+    x, y = (math.pi if word == "pi" else float(word) for word in (a, b))
+    if sign == "/" and not y:
+        return "write the number"
+    found = x / y if sign == "/" else x * y
+    angle = f", or {math.degrees(found):g} deg" if "pi" in (a, b) else ""
+    return f"write {found:.10g}{angle}"
+
+
+def number(value: object, unit: str | None, known: Names) -> Amount | None:
+    """Any number of the language, in SI; None where it names a mistaken parameter."""
+    if not isinstance(value, str) or not _NAME.fullmatch(name := value.removeprefix("-")):
+        return turned(fitting(amount(value), unit), unit)
+    if not known.amounts:
+        raise NumberMistake(f"should be a number, is {shown(value)}")
+    if name not in known.amounts:
+        raise NumberMistake(f"unknown parameter {name!r}{nearest(name, known.amounts)}")
+    found = known.amounts[name]
+    if found is None:
+        return None
+    sign = -1.0 if value.startswith("-") else 1.0
+    text = f"{value} = {found.text or f'{sign * found.value:g}'}"
+    return turned(fitting(Amount(sign * found.value, found.dimension, text), unit), unit)
+
+
+def turned(found: Amount, unit: str | None) -> Amount:
+    """The amount; of an angle above one turn it is asked whether it is one in degrees."""
+    if unit == "rad" and found.dimension is None and abs(found.value) > TURN:
+        raise NumberMistake(
+            f"is {found.text or f'{found.value:g}'} rad, which is {found.value / TURN:.2g} turns: "
+            f"write {found.value:g} deg, or {found.value:g} rad"
+        )
+    return found
+
+
+def fitting(found: Amount, unit: str | None) -> Amount:
+    """The amount, if it can be measured in `unit` (None: in anything)."""
+    if unit is None or found.dimension is None or found.dimension == _dimension(unit):
+        return found
+    if found.dimension == _without_angle(_dimension(unit)):  # a radian is 1: N m for N m/rad
+        return found
+    if unit == "1":
+        raise NumberMistake(f"is {found.text!r}, but a plain number was expected")
+    raise NumberMistake(f"is {found.text!r}, but {unit} was expected")
+
+
+def per_second(unit: str, times: int) -> str:
+    """The unit's rate: N once is N/s, m/s once is m/s²."""
+    if not times:
+        return unit
+    exponent = times + unit.endswith("/s")
+    raised = "" if exponent == 1 else str(exponent).translate(_RAISED)
+    return f"{unit.removesuffix('/s')}/s{raised}"
+
+
+_RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def _measured(value: float, unit: str, text: str) -> Amount:
+    converted = _quantity(value, unit)
+    size = _sized(float(converted.magnitude), repr(text))
+    return Amount(size, str(converted.dimensionality), text)
+
+
+def _sized(value: float, said: object) -> float:
+    """The value, if it can be computed with."""
+    if not math.isfinite(value):
+        raise NumberMistake(f"must be finite, is {said}")
+    if value and not SMALLEST <= abs(value) <= LARGEST:
+        raise NumberMistake(f"must be 0 or from {SMALLEST:g} to {LARGEST:g} in SI, is {said}")
+    return value
+
+
+def _without_angle(dimension: str) -> str:
+    """Of what has a mass: 1/s is no rad/s, as it might be turns."""
+    return re.sub(r" [*/] \[angle\]", "", dimension) if "[mass]" in dimension else ""
+
+
+@cache
+def _dimension(unit: str) -> str:
+    return str(_quantity(1.0, unit).dimensionality) if unit != "1" else "dimensionless"
+
+
+def _quantity(value: float, unit: str) -> Any:
+    try:
+        registry = _registry()
+        return registry.Quantity(value, registry.parse_units(unit)).to_base_units()
+    except AttributeError:  # pint's UndefinedUnitError, without importing pint for its name
+        words = re.findall(r"[A-Za-zµμ°]+", unit)
+        apart = _apart(words[0]) if len(words) == 1 else ()
+        # grams come first: kgg is a slip
+        hint = f"; did you mean {' '.join(apart)!r}?" if apart and "g" not in apart[1:] else ""
+        hint = hint or (nearest(words[0], _KNOWN) if len(words) == 1 else "")
+        raise NumberMistake(f"unknown unit {unit!r}{hint}") from None
+
+
+def _apart(word: str) -> tuple[str, ...]:
+    """Units that were written together, as Nm; none where it is no such word."""
+    for known in sorted(_KNOWN, key=len):
+        if word == known:
+            return (known,)
+        if word.startswith(known) and (rest := _apart(word.removeprefix(known))):
+            return known, *rest
+    return ()
+
+
+@cache
+def _registry() -> Any:
+    """pint, imported only when a unit is met."""
+    import pint
+
+    registry = pint.UnitRegistry(None)  # type: ignore[arg-type]  # no table of its own
+    registry.load_definitions(_UNITS.strip().splitlines())
+    return registry

@@ -1,0 +1,227 @@
+"""Laws in time as a case file writes them: one key beside the others of a force.
+
+What is prescribed has such a law as its value, and a plain number is a constant one.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Annotated, Any, ClassVar, get_args
+
+from pydantic import AfterValidator, ConfigDict, GetCoreSchemaHandler, Tag, create_model
+from pydantic_core import CoreSchema
+
+from .field import AnyUnit, Coefficients, In
+from .number import Amount, per_second
+from .part import Angle, Made, Part, plain_or_map, unit
+from .signal import Law as Word
+from .signal import Signal
+from .words import wrong
+
+LAWS: tuple[Word, ...] = get_args(Word)
+JUMPS: tuple[Word, ...] = ("step", "pulse")
+Instant = Annotated[float, In("s", least=0)]
+
+
+@dataclass(frozen=True)
+class InTime:
+    """Marks a signal: the unit of its amplitude, and along how many axes it has one."""
+
+    unit: str
+    axes: int
+
+
+class Numbers(Part):
+    """The numbers of a law that has several; how large it is stands among them."""
+
+    def noun(self) -> dict[str, Any]:
+        """The same as the noun has them."""
+        return dict(self)
+
+
+class Sine(Numbers):
+    """How fast it swings, and where it begins; what it is for adds how far."""
+
+    angular_frequency: Annotated[float, In("rad/s", above=0)]
+    phase: Angle = 0.0
+
+
+class Step(Numbers):
+    """Nothing, and then all of it."""
+
+    at: Instant
+
+    def noun(self) -> dict[str, Any]:
+        return {"amplitude": getattr(self, "amplitude"), "times": (self.at,)}  # noqa: B009
+
+
+class Pulse(Numbers):
+    """Nothing, all of it for a while, and nothing again: `from` one instant `until` another."""
+
+    until: Instant
+
+    def model_post_init(self, context: object) -> None:
+        if not self.begins < self.until:
+            raise wrong(f"`until` should be later than `from`, {self.begins:g}, is {self.until:g}")
+
+    @property
+    def begins(self) -> float:
+        """`from`, which is no name in Python."""
+        return getattr(self, "from")
+
+    def noun(self) -> dict[str, Any]:
+        return {"amplitude": getattr(self, "amplitude"), "times": (self.begins, self.until)}  # noqa: B009
+
+
+class Polynomial(Numbers):
+    """c₀ + c₁ t + c₂ t² …"""
+
+    coefficients: tuple[Any, ...]
+
+    def noun(self) -> dict[str, Any]:
+        return {"amplitude": getattr(self, "along", 1.0), "values": self.coefficients}
+
+
+class Table(Numbers):
+    """Values at times, lines between them, and outside the nearest value."""
+
+    times: tuple[Instant, ...]
+    values: tuple[Any, ...]
+
+    def model_post_init(self, context: object) -> None:
+        if len(self.times) < 2:
+            raise wrong(f"`times` should be at least 2, are {len(self.times)}")
+        if len(self.times) != len(self.values):
+            raise wrong(f"has {len(self.times)} times and {len(self.values)} values")
+        for before, after in pairwise(self.times):
+            if not before < after:
+                raise wrong(f"`times` should rise, but {after:g} follows {before:g}")
+
+    def noun(self) -> dict[str, Any]:
+        along = getattr(self, "along", 1.0)
+        return {"amplitude": along, "times": self.times, "values": self.values}
+
+
+class Following(Part):
+    """What follows exactly one law in time."""
+
+    laws: ClassVar[tuple[Word, ...]] = LAWS
+    model_config = ConfigDict(json_schema_extra={"oneOf": [{"required": [law]} for law in LAWS]})
+
+    def model_post_init(self, context: object) -> None:
+        given = [law for law in self.laws if getattr(self, law) is not None]
+        if len(given) != 1:
+            has = f"has {' and '.join(given)}" if given else "has none"
+            raise wrong(f"needs exactly one of {', '.join(self.laws)}; {has}")
+
+    @property
+    def law(self) -> Word:
+        """The one that is given."""
+        return next(law for law in self.laws if getattr(self, law) is not None)
+
+    @property
+    def signal(self) -> Signal:
+        """The law that is given."""
+        given = getattr(self, self.law)
+        noun = given.noun() if isinstance(given, Numbers) else {"amplitude": given}
+        numbers = {key: _plain(number) for key, number in noun.items()}
+        amplitude = numbers.pop("amplitude")
+        entries = amplitude if isinstance(amplitude, tuple) else (amplitude,)
+        return Signal(self.law, entries, **numbers)
+
+    def amounts(self) -> Iterator[tuple[tuple[str | int, ...], Amount, int]]:
+        """Where numbers stand whose unit is known later: each with how often it is "per second"."""
+        given = getattr(self, self.law)
+        numbers = dict(given) if isinstance(given, Numbers) else {None: given}
+        for key, number in numbers.items():
+            path = (self.law,) if key is None else (self.law, key)
+            if isinstance(number, Amount):
+                yield path, number, int(self.law == "ramp")
+            elif key in ("coefficients", "values"):
+                for k, entry in enumerate(number):
+                    yield (*path, k), entry, k if key == "coefficients" else 0
+
+
+class Prescribed(Following):
+    """A law in time of what is prescribed: a velocity, which cannot jump."""
+
+    laws: ClassVar[tuple[Word, ...]] = tuple(law for law in LAWS if law not in JUMPS)
+    model_config = ConfigDict(json_schema_extra={"oneOf": [{"required": [law]} for law in laws]})
+    elsewhere = dict.fromkeys(
+        JUMPS, "a velocity that jumps is a blow; a `table` climbs in a time of its own"
+    )
+
+
+class Moving(Following):
+    """A law in time of a place, whose velocity cannot jump either."""
+
+    laws: ClassVar[tuple[Word, ...]] = ("ramp", "sine", "polynomial")
+    model_config = ConfigDict(json_schema_extra={"oneOf": [{"required": [law]} for law in laws]})
+    elsewhere = dict.fromkeys(
+        (*JUMPS, "table"), "a velocity that jumps is a blow; take a `polynomial`"
+    )
+
+
+def law(title: str, signal: Any, axes: int | None = None) -> dict[str, tuple[Any, Any]]:
+    """The keys that give the `signal` of a force, as fields of its model.
+
+    axes: along how many it has an amplitude, if not along as many as it is marked with.
+    """
+    (mark,) = (mark for mark in signal.__metadata__ if isinstance(mark, InTime))
+    return keys(title, mark.unit, mark.axes if axes is None else axes)
+
+
+def keys(title: str, unit: str | None, axes: int, laws: Any = LAWS) -> dict[str, tuple[Any, Any]]:
+    """The keys of laws, for so many axes; unit: None where it is known later."""
+    size = _amount(unit, axes)
+    along = {} if axes == 1 else {"along": (_direction(axes), ...)}
+    numbers: dict[Word, tuple[type[Numbers], dict[str, Any]]] = {
+        "sine": (Sine, {"amplitude": size}),
+        "step": (Step, {"amplitude": size}),
+        "pulse": (Pulse, {"amplitude": size, "from": Instant}),
+        "polynomial": (Polynomial, {"coefficients": Annotated[Any, Coefficients(unit)]}),
+        "table": (Table, {"values": tuple[_amount(unit, 1), ...]}),
+    }
+    kinds: dict[Word, Any] = {"constant": size, "ramp": _amount(unit and per_second(unit, 1), axes)}
+    for word, (base, asked) in numbers.items():
+        fields: dict[str, Any] = {key: (kind, ...) for key, kind in asked.items()}
+        fields |= along if word in ("polynomial", "table") else {}
+        kinds[word] = create_model(
+            f"{title}{word.capitalize()}", __base__=base, __doc__=base.__doc__, **fields
+        )
+    return {word: (kinds[word] | None, None) for word in laws}
+
+
+@dataclass(frozen=True, eq=False)
+class Law:
+    """Marks a signal of one axis that stands as a value: a number, or a map with its law."""
+
+    unit: str
+
+    def __get_pydantic_core_schema__(
+        self, source: object, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        fields: dict[str, Any] = keys("Prescribed", self.unit, 1, Prescribed.laws)
+        model = create_model("Prescribed", __base__=Prescribed, __doc__="A law in time.", **fields)
+        constant = Made(_amount(self.unit, 1), lambda value: Signal("constant", (value,)))
+        number: Any = Annotated[Signal, constant, Tag("<plain>")]
+        law: Any = Annotated[Signal, Made(model, lambda written: written.signal), Tag("<map>")]
+        return handler.generate_schema(Annotated[number | law, plain_or_map()])
+
+
+def _plain(number: Any) -> Any:
+    """In SI, as it is."""
+    if isinstance(number, tuple):
+        return tuple(map(_plain, number))
+    return number.value if isinstance(number, Amount) else number
+
+
+def _amount(unit: str | None, axes: int) -> Any:
+    number: Any = Annotated[Amount, AnyUnit()] if unit is None else Annotated[float, In(unit)]
+    return number if axes == 1 else tuple[(number,) * axes]
+
+
+def _direction(axes: int) -> Any:
+    """A unit vector, along which a law of one number acts."""
+    entries: Any = tuple[(Annotated[float, In("1")],) * axes]
+    return Annotated[entries, AfterValidator(unit)]

@@ -1,0 +1,196 @@
+"""The scene of Definition 2.1 as data: bodies, joints, contacts, forces and points.
+
+Neutral: it names no engine and no method. Planar frame: x right, y up, angles
+counter-clockwise, SI units. What a scene is made of can be imported from here.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+from ..fields.friction import Bounds, DryFriction, Smooth, Stribeck
+from ..fields.kind import WORK, Fields, Kind
+from ..fields.signal import Signal
+from .body import Body
+from .constraint import Edge
+from .contact import Contact
+from .forces.couple import Couple
+from .forces.force import (
+    Damper,
+    Drag,
+    Force,
+    LinearMuscle,
+    Magnetic,
+    Motor,
+    Muscle,
+    Push,
+    Spring,
+    Torque,
+    Torsion,
+    TorsionDamper,
+    Viscous,
+    of,
+)
+from .forces.rope import Rope
+from .forces.stops import Stops
+from .frame import PLANE, Frame
+from .joint import DRIVES, Joint
+from .pair import Pair
+from .point import CENTER, FLOOR, GROUND, Anchor, GroundPoint, Vector
+
+__all__ = [
+    "CENTER",
+    "FLOOR",
+    "GROUND",
+    "STANDARD_GRAVITY",
+    "Anchor",
+    "Body",
+    "Bounds",
+    "Contact",
+    "Damper",
+    "Drag",
+    "DryFriction",
+    "Edge",
+    "Force",
+    "Frame",
+    "GroundPoint",
+    "Joint",
+    "LinearMuscle",
+    "Magnetic",
+    "Motor",
+    "Muscle",
+    "Pair",
+    "Push",
+    "Scene",
+    "Signal",
+    "Smooth",
+    "Spring",
+    "Stribeck",
+    "Torque",
+    "Torsion",
+    "TorsionDamper",
+    "Vector",
+    "Viscous",
+]
+
+STANDARD_GRAVITY = 9.80665  # m/s², the book's value
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Bodies, joints, constraints, contacts and forces by name, in the order of the case file.
+
+    A scene in space is a `SpatialScene`, whose elements are those of space: `scene.frame is SPACE`
+    tells it. Beside `contacts` and `pairs` nothing touches, and what no joint holds is free.
+    """
+
+    gravity: Vector  # m/s², in ground axes; 0 where a scene has none
+    points: Mapping[str, GroundPoint]  # of the ground, by name; they may move
+    bodies: Mapping[str, Body]  # all that has mass
+    joints: Mapping[str, Joint]  # each between two points of bodies or of the ground
+    contacts: Mapping[str, Contact]  # with planes of the ground, as the file has them: see touching
+    forces: Mapping[str, Force]  # all else that acts, of the kinds below
+    constraints: Mapping[str, Edge] = field(default_factory=dict)  # blades that do not slip
+    drives: Mapping[str, Signal] = field(default_factory=dict)
+    """Prescribed rates [rad/s, m/s] of joints' freedoms, by the quantity: `hinge.omega`."""
+    pairs: Mapping[str, Pair] = field(default_factory=dict)
+    """The contacts of two bodies; `contacts` are those with planes of the ground."""
+
+    @property
+    def frame(self) -> Frame:
+        """PLANE or SPACE: what the columns of a body's states are, and which nouns stand here."""
+        return PLANE
+
+    def driven(self) -> Mapping[str, Fields]:
+        """By joint, what prescribed rates exert: `hinge` → `torque`."""
+        found: dict[str, dict[str, tuple[str, Kind]]] = {}
+        for quantity in self.drives:
+            part, _, rate = quantity.rpartition(".")
+            if part in self.joints and rate in DRIVES:
+                effort, unit = DRIVES[rate]
+                found.setdefault(part, {})[effort] = (unit, "force")
+        return found
+
+    def working(self) -> Mapping[str, Fields]:
+        """What has a power: forces, and joints whose rates are prescribed."""
+        names = [force.name for force in self.forces.values() if force.works]
+        return dict.fromkeys((*names, *self.driven()), WORK)
+
+    def coordinates(self) -> Mapping[str, Fields]:
+        """By joint, what its freedoms are observed as."""
+        return {name: joint.coordinates(self.bodies) for name, joint in self.joints.items()}
+
+    def told_by(self, reaction: str) -> tuple[str, ...]:
+        """The reactions of a producer from which one follows; in the plane it gives each.
+
+        But for the tension of a rod, which has a sign, and what drives have done.
+        """
+        part, _, field = reaction.rpartition(".")
+        if part in self.forces:
+            told = self.forces[part].given.get(field, (field,))
+            return tuple(f"{part}.{name}" for name in told)
+        if field in WORK and part in self.joints:
+            return tuple(f"{part}.{effort}" for effort in self.driven()[part])
+        if field == "force" and part in self.joints and self.joints[part].swings:
+            return f"{part}.fx", f"{part}.fy"
+        return (reaction,)
+
+    @property
+    def touching(self) -> dict[str, Contact]:
+        """One contact for every point that may touch the floor: of spokes, `feet.tip0` and on."""
+        return {one.name: one for contact in self.contacts.values() for one in contact.each()}
+
+    @property
+    def pressed(self) -> tuple[str, ...]:
+        """Whatever has a normal force and friction, by name: each point on a plane, each pair."""
+        return (*self.touching, *self.pairs)
+
+    def elements(self) -> Iterator[Body | Joint | Edge | Contact | Pair | Force]:
+        """All that has a name, quantities and numbers."""
+        held = (self.bodies, self.joints, self.constraints)
+        for section in (*held, self.contacts, self.pairs, self.forces):
+            yield from section.values()
+
+    def springs(self) -> Iterator[Spring]:
+        """The springs along a line."""
+        return of(Spring, self.forces.values())
+
+    def one_sided(self) -> Iterator[Spring]:
+        """The springs that only press or only pull."""
+        return (spring for spring in self.springs() if spring.only)
+
+    def ropes(self) -> Iterator[Rope]:
+        """The ropes."""
+        return of(Rope, self.forces.values())
+
+    def stops(self) -> Iterator[Stops]:
+        """The stops of joints."""
+        return of(Stops, self.forces.values())
+
+    def limits(self) -> Iterator[str]:
+        """The reactions of ropes and stops, by quantity: they may be none."""
+        for force in self.forces.values():
+            yield from (f"{force.name}.{name}" for told in force.given.values() for name in told)
+
+    def dampers(self) -> Iterator[Damper]:
+        """The dampers along a line."""
+        return of(Damper, self.forces.values())
+
+    def signals(self) -> Iterator[Push | Torque | Couple | Motor]:
+        """The forces and torques that are given in time."""
+        kinds = (Push, Torque, Couple, Motor)
+        return (f for kind in kinds for f in of(kind, self.forces.values()))
+
+    def inner(self) -> dict[str, Force]:
+        """The forces with an inner state, by the quantity that it is."""
+        return {f"{f.name}.{f.inner}": f for f in self.forces.values() if f.inner}
+
+    def laws(self) -> Iterator[Signal]:
+        """All that is given in time, of forces and of what is prescribed."""
+        yield from (force.signal for force in self.signals())
+        yield from (law for edge in self.constraints.values() if (law := edge.speed) is not None)
+        yield from self.drives.values()
+        yield from (law for point in self.points.values() if (law := point.moves) is not None)
+
+    def ends(self, force: Force) -> tuple[Anchor, ...]:
+        """The points on which a force acts, or those of the joint about which it does."""
+        return force.refers() if force.about is None else self.joints[force.about].refers()

@@ -1,0 +1,92 @@
+"""What every force element answers, so that nobody asks which one it is."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+from ...fields.kind import Fields
+from ...trajectory import Array
+from ..body import Body
+from ..motion import Motion
+from ..point import Anchor
+
+
+@dataclass(frozen=True)
+class Force:
+    """What every force element answers; one without quantities, energy or numbers says nothing.
+
+    Its fields are what a case file gives: what it refers to (`a` and `b`, `at`, or `body`) under
+    its `word`, and beside that its numbers with their units.
+    """
+
+    word: ClassVar[str]
+    freedom: ClassVar[Literal["turn", "shift"]] = "turn"
+    """Which freedom of the joint that it is about lets it act: a turn, or a shift."""
+    stated: ClassVar[bool] = False  # whether it follows from places and rates: states claim it
+    winds: ClassVar[bool] = False  # whether it needs a joint's angle, and not only its rate
+    inner: ClassVar[str] = ""
+    """The quantity that is its inner state, which its producer gives; it begins with `begins`."""
+    given: ClassVar[Mapping[str, tuple[str, ...]]] = {}
+    """Of its quantities, by what reactions of its own a producer tells each."""
+    works: ClassVar[bool] = True  # whether it has a power
+    name: str  # by which the scene has it
+
+    def refers(self) -> tuple[Anchor, ...]:
+        """The points on which it acts, in the order of the file."""
+        raise NotImplementedError
+
+    @property
+    def about(self) -> str | None:
+        """The joint about or along which it acts, between the two parts; or None."""
+        return None
+
+    @property
+    def corner(self) -> bool:
+        """Whether its law has a corner where something comes to rest, which costs steps orders."""
+        return False
+
+    @property
+    def ends(self) -> bool:
+        """Whether it would stop a free body in a finite time, if nothing else moves that."""
+        return False
+
+    @property
+    def turn(self) -> str:
+        """The turn of that joint, by its name where it has one; else empty."""
+        return ""
+
+    @property
+    def begins(self) -> float:
+        """The inner state at the start, of what has one."""
+        raise NotImplementedError
+
+    def unfit(self, bodies: Mapping[str, Body]) -> str | None:
+        """Why it cannot act on what it refers to, in words for the case file."""
+        return None
+
+    def quantities(self) -> dict[str, Fields]:
+        """What can be observed of it, by part."""
+        return {}
+
+    def observe(self, motion: Motion, field: str) -> Array:
+        """(N,) one of its quantities; else KeyError."""
+        raise KeyError(f"{self.name}.{field}")
+
+    def power(self, motion: Motion) -> Array:
+        """(N,) what it does to all that it acts on [W], of what works."""
+        raise NotImplementedError
+
+    def potential(self, motion: Motion) -> Array | float:
+        """(N,) its potential energy [J], its share of U in (2.45)."""
+        return 0.0
+
+    def numbers(self) -> dict[str, float]:
+        """What an engine holds of it, for the equal-physics audit."""
+        return {}
+
+    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
+        """How fast [rad/s] it makes its points swing, and how fast [1/s] it slows them down.
+
+        mobility: how easily [1/kg] a point moves.
+        """
+        return 0.0, 0.0

@@ -1,0 +1,158 @@
+"""Contacts of two bodies: with a rim, a particle or a point, on the rim or a face of another."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..fields.kind import Fields
+from ..trajectory import ANGLE, OMEGA, VX, VY, Array, X, Y
+from .body import Body
+from .motion import Motion
+from .point import CENTER, Anchor, Vector
+
+_PAIR: Fields = {
+    "normal": ("N", "force"),  # on what touches, away from what is touched
+    "tangent": ("N", "force"),  # on what touches, along what has the normal to its left
+    "slip": ("m/s", "residual"),  # of the body that touches, where it does
+    "gap": ("m", "residual"),  # between both
+}
+
+
+ROUNDING = 1e-9  # of a face: two blocks of one width stand on each other with all corners
+
+
+@dataclass(frozen=True)
+class Face:
+    """A side of a block: its ends, which are corners, and the unit normal, in the block's axes."""
+
+    ends: tuple[str, str]
+    normal: Vector
+
+    @property
+    def along(self) -> Vector:
+        """The unit vector with the normal to its left, from the first end to the second."""
+        return (self.normal[1], -self.normal[0])
+
+
+FACES = {
+    "top": Face(("upper_left", "upper_right"), (0.0, 1.0)),
+    "bottom": Face(("lower_right", "lower_left"), (0.0, -1.0)),
+    "left": Face(("lower_left", "upper_left"), (-1.0, 0.0)),
+    "right": Face(("upper_right", "lower_right"), (1.0, 0.0)),
+}
+
+
+@dataclass(frozen=True)
+class Pair:
+    """What touches, and the body that it touches, with a rim or on a face.
+
+    As a contact on a plane it opens, slides and sticks or rolls. Its forces are those on what
+    touches: along the normal, which points to it, and along what has the normal to its left.
+    """
+
+    name: str
+    at: Anchor  # a disk is named by its centre and touches with its rim
+    touched: str  # a body
+    face: str | None  # of a block; None: it is touched on its rim
+    static: float  # coefficient of friction; at least `kinetic`
+    kinetic: float  # coefficient of friction where it slides
+    restitution: float = 0.0  # speed after an impact over that before
+
+    @property
+    def body(self) -> str:
+        return self.at.body
+
+    def refers(self) -> tuple[Anchor, ...]:
+        """What touches, and the centre of what is touched."""
+        return self.at, Anchor(self.touched, CENTER)
+
+    @property
+    def on(self) -> str:
+        """Where it touches, in words."""
+        return f"rim of {self.touched}" if self.face is None else f"{self.face} of {self.touched}"
+
+    @property
+    def switches(self) -> bool:
+        """It may open, slide and stick."""
+        return True
+
+    @property
+    def friction(self) -> float:
+        """The one coefficient that engines know."""
+        return self.kinetic
+
+    @property
+    def side(self) -> Face:
+        """The face that is touched, where it is one."""
+        assert self.face is not None
+        return FACES[self.face]
+
+    @property
+    def corner(self) -> Anchor:
+        """A point of that face."""
+        return Anchor(self.touched, self.side.ends[0])
+
+    def radius(self, bodies: Mapping[str, Body]) -> float:
+        """[m] of the rim that touches; 0 of a particle or a point."""
+        radius = bodies[self.body].radius
+        return radius if radius is not None and self.at.point == CENTER else 0.0
+
+    def reach(self, bodies: Mapping[str, Body]) -> float:
+        """[m] of the rim that is touched; 0 of a face."""
+        return 0.0 if self.face else bodies[self.touched].radius or 0.0
+
+    def quantities(self) -> dict[str, Fields]:
+        """Its reactions, and how the touching point moves against the other body."""
+        return {self.name: _PAIR}
+
+    def numbers(self) -> dict[str, float]:
+        """The coefficient of friction."""
+        return {"friction": self.friction}
+
+    def observe(self, motion: Motion, field: str) -> Array:
+        """(N,) how far both are apart, or how fast one slips on the other; else KeyError."""
+        if field not in ("gap", "slip"):
+            raise KeyError(f"{self.name}.{field}")
+        return self.normal(motion)[1] if field == "gap" else self.moves(motion)[0]
+
+    def place(self, motion: Motion) -> Array:
+        """(N, 2) where it touches, or is nearest."""
+        touching: Array = motion.point(self.at)[:, :2]
+        return touching - self.radius(motion.bodies) * self.normal(motion)[0]
+
+    def moves(self, motion: Motion) -> tuple[Array, Array]:
+        """(N,) how fast [m/s] it slips, and how fast the gap grows."""
+        normal, place, states = self.normal(motion)[0], self.place(motion), motion.trajectory.states
+        moves = _moves(states[self.body], place) - _moves(states[self.touched], place)
+        slip = moves[:, 0] * normal[:, 1] - moves[:, 1] * normal[:, 0]
+        return slip, np.sum(moves * normal, axis=1)
+
+    def normal(self, motion: Motion) -> tuple[Array, Array]:
+        """(N, 2) the unit normal, and (N,) the gap [m]."""
+        place = motion.point(self.at)[:, :2]
+        if self.face is None:
+            apart = place - motion.point(Anchor(self.touched, CENTER))[:, :2]
+            distance = np.hypot(*apart.T)
+            both = self.radius(motion.bodies) + self.reach(motion.bodies)
+            return apart / distance[:, None], distance - both
+        angle = motion.trajectory.states[self.touched][:, ANGLE]
+        (x, y), cos, sin = self.side.normal, np.cos(angle), np.sin(angle)
+        normal = np.stack([cos * x - sin * y, sin * x + cos * y], axis=1)
+        apart = place - motion.point(self.corner)[:, :2]
+        return normal, np.sum(normal * apart, axis=1) - self.radius(motion.bodies)
+
+    def beyond(self, motion: Motion) -> NDArray[np.bool_]:
+        """(N,) whether what touches is past an end of the face."""
+        one, two = (motion.point(Anchor(self.touched, end))[:, :2] for end in self.side.ends)
+        along = two - one
+        share = np.sum((motion.point(self.at)[:, :2] - one) * along, axis=1)
+        share /= np.sum(along * along, axis=1)
+        return (share < -ROUNDING) | (share > 1 + ROUNDING)
+
+
+def _moves(states: Array, place: Array) -> Array:
+    """(N, 2): the velocity of a body where the place is (2.6)."""
+    turn, (x, y) = states[:, OMEGA], (place - states[:, [X, Y]]).T
+    return states[:, [VX, VY]] + np.stack([-turn * y, turn * x], axis=1)

@@ -1,0 +1,115 @@
+"""Where a smooth piece of the reference passes zero from above, as the top of a flight does."""
+
+from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..trajectory import Array, Trajectory
+
+AROUND = 8  # steps in a curve: of seventh degree, as the integrator's eighth order
+ROOT = 1e-15  # s: what the root-finder is asked for
+LOCATED = 1e-12  # s: how well an extremum between two steps is found
+
+Curve = Callable[[float], float]
+"""t → u, through the rows about one of them."""
+
+
+def lasting(record: Trajectory) -> list[NDArray[np.int64]]:
+    """The rows of each phase of a record that lasts: what ends as it begins is none."""
+    assert record.phase is not None  # the reference's record has it
+    phases = np.split(np.arange(len(record.times)), np.flatnonzero(np.diff(record.phase)) + 1)
+    return [rows for rows in phases if record.times[rows[-1]] > record.times[rows[0]]]
+
+
+def passages(
+    times: Array, u: Array, still: float, corners: Sequence[float] = ()
+) -> Iterator[float]:
+    """Times [s] at which u (N,) falls through zero, as `passing` finds them."""
+    return (t for t, _ in passing(times, u, still, corners))
+
+
+def passing(
+    times: Array, u: Array, still: float, corners: Sequence[float] = ()
+) -> Iterator[tuple[float, Curve]]:
+    """When [s] u (N,) falls through zero between rows that are above and below `still`, and by
+    which curve.
+
+    A row at zero lies between the two; what ends at zero is the boundary's. A dip below zero, or a
+    hump above it, may hide between rows: the curve's extremum there is one more row. corners [s]:
+    rows at which u may bend, and no curve goes through both sides of one.
+    """
+    from scipy.optimize import brentq
+
+    times, u, bends, rows = _rows(times, u, still, corners)
+    clear = [row for row in rows if abs(row[1]) > still]
+    for (before, above, i), (after, below, _) in pairwise(clear):
+        if above > 0.0 > below:
+            curve = _curve(times, u, i, bends)
+            yield float(brentq(curve, before, after, xtol=ROOT)), curve
+
+
+def touches(times: Array, u: Array, still: float, corners: Sequence[float] = ()) -> Iterator[float]:
+    """Times [s] at which u (N,) comes as near to zero as `still` and turns back, through it or not.
+
+    Rounding says which.
+    """
+    *_, rows = _rows(times, u, still, corners)
+    clear = [k for k, row in enumerate(rows) if abs(row[1]) > still]
+    for i, k in pairwise(clear):
+        if k > i + 1 and rows[i][1] * rows[k][1] > 0.0:
+            yield min(rows[i + 1 : k], key=lambda row: abs(row[1]))[0]
+
+
+def _rows(
+    times: Array, u: Array, still: float, corners: Sequence[float]
+) -> tuple[Array, Array, list[int], list[tuple[float, float, int]]]:
+    """Each time once, u there, the bends, and the rows: time, u and number, with what hides."""
+    times, kept = np.unique(times, return_index=True)
+    u, bends = u[kept], bent(times, corners)
+    rows = [*zip(times.tolist(), u.tolist(), range(len(u)), strict=True)]
+    return times, u, bends, sorted([*rows, *_hidden(times, u, bends, still)])
+
+
+def bent(times: Array, corners: Sequence[float]) -> list[int]:
+    """The rows at corners; whatever steps to them ends there."""
+    inside = [corner for corner in corners if times[0] < corner < times[-1]]
+    return sorted({int(np.argmin(np.abs(times - corner))) for corner in inside})
+
+
+def _curve(times: Array, u: Array, i: int, bends: Sequence[int]) -> Curve:
+    """Through the rows around i and the next, none of them beyond a bend."""
+    from scipy.interpolate import BarycentricInterpolator
+
+    begin = max((k for k in bends if k <= i), default=0)
+    end = 1 + min((k for k in bends if k > i), default=len(u) - 1)
+    first = min(max(begin, i - AROUND // 2 + 1), max(begin, end - AROUND))
+    rows = slice(first, min(first + AROUND, end))
+    made = BarycentricInterpolator(times[rows], u[rows])
+    return lambda t: float(made(t))
+
+
+def _hidden(
+    times: Array, u: Array, bends: Sequence[int], still: float
+) -> Iterator[tuple[float, float, int]]:
+    """Extrema at zero or beyond, beside a row as near to it as it differs from the others."""
+    from scipy.optimize import minimize_scalar
+
+    signs = np.where(u[1:-1] > 0.0, 1.0, -1.0)
+    left, here, right = signs * u[:-2], signs * u[1:-1], signs * u[2:]
+    near = (here > 0.0) & (here <= np.minimum(left, right))
+    near &= here <= np.maximum(left, right) - here
+    for i in (np.flatnonzero(near) + 1).tolist():
+        sides = ((i - 1, i), (i, i + 1)) if i in bends else ((i - 1, i + 1),)
+        for begin, end in sides:
+            k = begin if i in bends else i
+            sign, curve = float(signs[i - 1]), _curve(times, u, k, bends)
+            turn = minimize_scalar(
+                lambda t, sign=sign, curve=curve: sign * curve(t),
+                bounds=(times[begin], times[end]),
+                method="bounded",
+                options={"xatol": LOCATED},
+            )
+            if turn.fun <= still:
+                yield float(turn.x), float(sign * turn.fun), k

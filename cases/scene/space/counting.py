@@ -1,0 +1,88 @@
+"""Turns of joints in space with their whole turns: attitudes tell an angle but for these.
+
+They are counted from row to row, on rows as close as `far` asks; whoever makes a motion has them.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ...trajectory import Array
+from .chain import Turns
+
+THREE = 3
+LOCKED = 1e-6  # rad from gimbal lock: an arc cosine has lost half of its digits there
+FAR = 1.0  # rad between two rows: a third of the half turn that can be told
+OFF = 0.1  # rad from what both rates say
+
+
+def nearest(ways: Sequence[Turns], expected: Array) -> Turns:
+    """The turns (N, K) of the way, row by row, that is nearest to what is expected (N, K)."""
+    angles = [way.near(expected) for way in ways]
+    if len(ways) == 1:
+        return replace(ways[0], angles=angles[0])
+    first, second = (np.sum((one - expected) ** 2, axis=1) for one in angles)
+    mine = (first <= second)[:, None]
+    return Turns(np.where(mine, *angles), np.where(mine, *(w.rates for w in ways)), ways[0].free)
+
+
+def counted(ways: Sequence[Turns], times: Array, begins: Sequence[float | None]) -> Turns:
+    """The turns with their whole turns counted from row to row, from what they begin near.
+
+    Between two rows a turn goes on by the mean of both rates, to less than half a turn: the rows
+    have to be as close as `far` asks. What begins near nothing begins within half a turn of zero.
+    """
+    way, start = _begun(ways, begins)
+    if len(ways) > 1:
+        return _one_by_one([way, *(other for other in ways if other is not way)], times, start)
+    expected = 0.5 * (way.rates[1:] + way.rates[:-1]) * np.diff(times)[:, None]
+    missing = np.round((expected - np.diff(way.angles, axis=0)) / math.tau)
+    whole = np.vstack([np.round((start - way.angles[:1]) / math.tau), missing])
+    return replace(way, angles=way.angles + math.tau * np.cumsum(whole, axis=0))
+
+
+def _begun(ways: Sequence[Turns], begins: Sequence[float | None]) -> tuple[Turns, Array]:
+    """The way whose first row is nearer to what is said of the start, and its angles (K,) there."""
+    known = np.array([math.nan if begin is None else begin for begin in begins])
+    found = []
+    for way in ways:
+        expected = np.where(np.isnan(known), way.angles[0], known)
+        start = way.near(expected)[0]
+        found.append((float(np.sum((start - expected) ** 2)), way, start))
+    _, way, start = min(found, key=lambda each: each[0])
+    return way, start
+
+
+def _one_by_one(ways: Sequence[Turns], times: Array, start: Array) -> Turns:
+    """Of two ways that of which each row goes on best from the one before it."""
+    angles, rates = np.empty_like(ways[0].angles), np.empty_like(ways[0].rates)
+    angles[0], rates[0] = start, ways[0].rates[0]
+    for i, dt in enumerate(np.diff(times).tolist(), start=1):
+        off = math.inf
+        if ways[0].free[i] < LOCKED:  # their angles are rounding's
+            angles[i], rates[i] = angles[i - 1] + rates[i - 1] * dt, rates[i - 1]
+            continue
+        for way in ways:
+            expected = angles[i - 1] + 0.5 * (rates[i - 1] + way.rates[i]) * dt
+            there = way.angles[i] + math.tau * np.round((expected - way.angles[i]) / math.tau)
+            if (apart := float(np.max(np.abs(there - expected)))) < off:
+                off, angles[i], rates[i] = apart, there, way.rates[i]
+    return Turns(angles, rates, ways[0].free)
+
+
+def far(found: Turns, times: Array) -> Array:
+    """(N − 1,) whether a turn goes so far between two rows that they may not tell how far.
+
+    Or the middle one of three so far as gimbal lock is away, at which the others may go anywhere.
+    """
+    dt = np.diff(times)[:, None]
+    fastest = np.maximum(np.abs(found.rates[1:]), np.abs(found.rates[:-1])) * dt
+    expected = 0.5 * (found.rates[1:] + found.rates[:-1]) * dt
+    off = np.abs(np.diff(found.angles, axis=0) - expected)
+    wide = np.any((fastest > FAR) | (off > OFF), axis=1)
+    if found.angles.shape[1] == THREE:
+        near, away = (end(found.free[1:], found.free[:-1]) for end in (np.minimum, np.maximum))
+        wide = (wide | (fastest[:, 1] > away)) & (near > LOCKED)
+    return wide
