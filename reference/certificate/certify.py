@@ -32,6 +32,7 @@ from .laws import laws
 from .prescribed import prescribed
 from .reading import size
 from .started import started
+from .timed import untimed
 
 OWN_ERROR = 1e-12  # of the motion's size: what a motion is known to that is not sensitive
 ROUNDING = 2.2e-16  # a step: a motion of many steps cannot be known better
@@ -80,7 +81,8 @@ def certify(
         others["closed form"] = written.trajectory(times, closed)
         checks.append(Check("closed form", difference(motion, others["closed form"], inner), own))
     late = apart * float(times[-1] - times[0])
-    apart = max(_looser(late), 2 * system.blurred)  # either way, two answers
+    alone = max(system.blurred, untimed(system, followed))
+    apart = max(_looser(late), 2 * alone)  # either way, two answers
     checks += _events(system, followed, found, apart, float(times[-1]))
     doing("the laws at every sample", float(times[0]), float(times[-1]))
     if written.turns.angles:
@@ -90,7 +92,7 @@ def certify(
     checks += as_the_file_says(case, written, generated, motion, own)
     if len(system.modes) > 1 or any(system.guards(mode) for mode in followed.phases):
         checks.append(Check("modes possible", _impossible(system, followed), 0.0))
-    late = worst([late, system.blurred, *(_apart(followed, other) for other in found.values())])
+    late = worst([late, alone, *(_apart(followed, other) for other in found.values())])
     between = replace(written, followed=closer)
     return (*checks, *errors(case, motion, others, late, lambda: between.trajectory(finer)))
 

@@ -15,6 +15,7 @@ from ...cases.scene.observe import corners, observe
 from ...cases.scene.quantity import at_event, event_quantities
 from ...cases.trajectory import Array, Trajectory
 from .agreement import Check, worst
+from .timed import unread
 
 SHARE = 0.01  # of the smallest tolerance: what the reference's own error may take
 EPS = float(np.finfo(np.float64).eps)
@@ -34,8 +35,8 @@ def errors(
     """The share of the smallest `allow` or `reach` that each quantity's own error takes.
 
     The error is the largest difference to any other answer, and at least the rounding of a double.
-    late: how well the times of events are known [s]. finely: another answer at more samples, from
-    which sums are told better; None: what is asked for has none.
+    late: how well the times are known at which modes change [s]. finely: another answer at more
+    samples, from which sums are told better; None: what is asked for has none.
     """
     known = case.quantities
     sums = [name for name in case.allow if name in known and known[name].field in WORK]
@@ -48,16 +49,26 @@ def errors(
             if name in sums:
                 error = max(error, _summed(case, motion, closer, name))
         elif name in times:
-            error, unit = max(EPS * float(motion.times[-1]), late), times[name].unit
-        elif at is not None:  # known as everywhere in the motion, but the event is `late`
+            off = late + _unread(case, motion, others, times[name].part)
+            error, unit = max(EPS * float(motion.times[-1]), off), times[name].unit
+        elif at is not None:  # known as everywhere in the motion, but the event is late
             own = observe(case.scene, motion, at.quantity)
             fastest = worst(np.abs(np.diff(own))) / case.interval
-            error = _apart(case, motion, others, at.quantity) + fastest * late
+            off = late + _unread(case, motion, others, at.event)
+            error = _apart(case, motion, others, at.quantity) + fastest * off
             unit = known[at.quantity].unit
         else:
             continue  # a count: the changes of mode are compared by name and number
         if least is not None:
             yield Check(f"{ERROR}{name}", error / least, SHARE, error, unit)
+
+
+def _unread(case: Case, motion: Trajectory, others: Mapping[str, Trajectory], name: str) -> float:
+    """By how much [s] an event may be off where its quantity passes through zero in a mode."""
+    event = case.events[name]
+    if motion.record is None or not event.crosses:
+        return 0.0
+    return unread(case.scene, motion.record, event, _apart(case, motion, others, event.quantity))
 
 
 def _summed(case: Case, motion: Trajectory, closer: Trajectory | None, name: str) -> float:

@@ -49,6 +49,7 @@ class Change:
     mode_after: str
     before: Array
     after: Array
+    guard: int | None = None  # which of the mode's fell; None at a corner
 
 
 Kept = tuple[float, int, Array]
@@ -235,7 +236,7 @@ class _Walk:
             self.t, self.now = t, before
             self.fired[name].pop()
             return
-        self._change(Change(guard.event, k, t, ended, mode, before, after))
+        self._change(Change(guard.event, k, t, ended, mode, before, after, i))
 
     def _change(self, change: Change) -> None:
         self.changes.append(change)

@@ -15,10 +15,11 @@ from numpy.typing import NDArray
 from ...cases.case import Case
 from ...cases.mistake import Mistake
 from ...cases.scene.observe import observe
+from ...cases.scene.passages import bent
 from ...cases.scene.quantity import SIDES, AtEvent, at_event
+from ...cases.scene.still import still
 from ...cases.trajectory import Array, Trajectory
-from .passages import bent
-from .times import grazed, never, reference_events, still
+from .times import grazed, never, reference_events
 
 ROWS = 8  # of the reference: of seventh degree, as the integrator's eighth order
 STEPS = 4  # of an engine: of third degree, as the best of their integrators is of fourth order

@@ -14,13 +14,11 @@ from ...cases.case import Case, Event
 from ...cases.mistake import Mistake
 from ...cases.scene import Scene
 from ...cases.scene.observe import observe
-from ...cases.scene.quantity import at_event, table
+from ...cases.scene.passages import lasting, passages, touches
+from ...cases.scene.quantity import at_event
+from ...cases.scene.still import still
 from ...cases.trajectory import Array, Trajectory
-from .passages import passages, touches
 from .rests import LOW, STEPS, rests
-
-STILL = 1e-9  # of the largest value of its kind: what the reference's own rounding leaves of a zero
-
 
 CURVE = 4  # steps in the curve that what falls is continued by: as good as an engine of order 4
 SMALL = 1e-4  # of the largest value: a hump as low as this may be rounding or a soft floor
@@ -48,31 +46,12 @@ def _pieces(
     scene: Scene, record: Trajectory, event: Event
 ) -> tuple[Array, float, list[NDArray[np.int64]]]:
     """What falls to zero where the event happens, what is nothing beside it, the rows of phases."""
-    assert record.phase is not None  # the reference's record has it
     u = event.falling(observe(scene, record, event.quantity))
-    pieces = np.split(np.arange(len(u)), np.flatnonzero(np.diff(record.phase)) + 1)
-    lasting = [p for p in pieces if record.times[p[-1]] > record.times[p[0]]]  # others are none
-    return u, still(scene, record, event.quantity), lasting
+    return u, still(scene, record, event.quantity), lasting(record)
 
 
 def _corners(scene: Scene) -> list[float]:
     return [t for law in scene.laws() for t in law.corners]
-
-
-def still(scene: Scene, record: Trajectory, name: str) -> float:
-    """What is nothing beside a quantity of the reference, in its unit."""
-    u = observe(scene, record, name)
-    return STILL * max(float(np.max(np.abs(u))), _peers(scene, record, name))
-
-
-def _peers(scene: Scene, record: Trajectory, name: str) -> float:
-    """The largest of all places, rates or forces of the scene: what trembles is small beside it."""
-    quantity = table(scene)[name]
-    columns = scene.frame.alike(quantity.unit)
-    peers = [states[:, columns] for states in record.states.values()]
-    if quantity.kind == "force":
-        peers += list(record.reactions.values())
-    return max((float(np.max(np.abs(x), initial=0.0)) for x in peers), default=0.0)
 
 
 _RULES: Mapping[str, Callable[[Array, Array, float], bool]] = {

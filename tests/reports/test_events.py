@@ -9,9 +9,9 @@ from scipy.optimize import brentq
 
 from textmech.cases.case import Event
 from textmech.cases.scene import Body, Scene
+from textmech.cases.scene.passages import passages
 from textmech.cases.trajectory import VX, Array, Trajectory
 from textmech.reports.events import rests as reading
-from textmech.reports.events.passages import passages
 from textmech.reports.events.rests import rests
 from textmech.reports.events.times import engine_events, falls, reference_events
 

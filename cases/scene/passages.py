@@ -4,17 +4,37 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ...cases.trajectory import Array
+from ..trajectory import Array, Trajectory
 
 AROUND = 8  # steps in a curve: of seventh degree, as the integrator's eighth order
+ROOT = 1e-15  # s: what the root-finder is asked for
 LOCATED = 1e-12  # s: how well an extremum between two steps is found
+
+Curve = Callable[[float], float]
+"""t → u, through the rows about one of them."""
+
+
+def lasting(record: Trajectory) -> list[NDArray[np.int64]]:
+    """The rows of each phase of a record that lasts: what ends as it begins is none."""
+    assert record.phase is not None  # the reference's record has it
+    phases = np.split(np.arange(len(record.times)), np.flatnonzero(np.diff(record.phase)) + 1)
+    return [rows for rows in phases if record.times[rows[-1]] > record.times[rows[0]]]
 
 
 def passages(
     times: Array, u: Array, still: float, corners: Sequence[float] = ()
 ) -> Iterator[float]:
-    """Times [s] at which u (N,) falls through zero between rows that are above and below `still`.
+    """Times [s] at which u (N,) falls through zero, as `passing` finds them."""
+    return (t for t, _ in passing(times, u, still, corners))
+
+
+def passing(
+    times: Array, u: Array, still: float, corners: Sequence[float] = ()
+) -> Iterator[tuple[float, Curve]]:
+    """When [s] u (N,) falls through zero between rows that are above and below `still`, and by
+    which curve.
 
     A row at zero lies between the two; what ends at zero is the boundary's. A dip below zero, or a
     hump above it, may hide between rows: the curve's extremum there is one more row. corners [s]:
@@ -26,7 +46,8 @@ def passages(
     clear = [row for row in rows if abs(row[1]) > still]
     for (before, above, i), (after, below, _) in pairwise(clear):
         if above > 0.0 > below:
-            yield float(brentq(_curve(times, u, i, bends), before, after, xtol=1e-14))
+            curve = _curve(times, u, i, bends)
+            yield float(brentq(curve, before, after, xtol=ROOT)), curve
 
 
 def touches(times: Array, u: Array, still: float, corners: Sequence[float] = ()) -> Iterator[float]:
@@ -57,7 +78,7 @@ def bent(times: Array, corners: Sequence[float]) -> list[int]:
     return sorted({int(np.argmin(np.abs(times - corner))) for corner in inside})
 
 
-def _curve(times: Array, u: Array, i: int, bends: Sequence[int]) -> Callable[[float], float]:
+def _curve(times: Array, u: Array, i: int, bends: Sequence[int]) -> Curve:
     """Through the rows around i and the next, none of them beyond a bend."""
     from scipy.interpolate import BarycentricInterpolator
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from textmech.reports.events.passages import passages
+from textmech.cases.scene.passages import passages
 
 STILL = 1e-9
 

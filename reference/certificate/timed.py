@@ -1,0 +1,95 @@
+"""How well the times of events are known: no better than what falls to zero, where it is flat.
+
+What is known to r, and falls through zero with the slope s, does so within r/s of its time; what
+only just reaches zero, as at a graze, within √(2 r/s′).
+"""
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.linalg import LinAlgError
+
+from ...cases.fields.event import Event
+from ...cases.scene import Scene
+from ...cases.scene.observe import observe
+from ...cases.scene.passages import lasting, passing
+from ...cases.scene.still import still
+from ...cases.trajectory import Trajectory
+from ..integrators.march import EPS, sizes
+from ..motion.follow import TOLERANCE, Change, Followed, Kept
+from ..motion.stuck import slope
+from ..system import Array, System
+from .agreement import worst
+
+# Times what is known of what falls: where it dips below zero by just that, it may be there later
+# than it was found to be, by as long as it took to come down from three times that.
+DIP = 3.0
+
+
+def untimed(system: System, followed: Followed) -> float:
+    """By how much [s] the times of a motion's events may be off, each by what its own guard leaves
+    open and by what the events before it are off."""
+    peak = np.max(np.abs([y for *_, y in followed.march]), axis=0)
+    known, off = TOLERANCE * sizes(peak, TOLERANCE), 0.0
+    phases: list[list[Kept]] = [[] for _ in followed.phases]
+    for row in followed.march:
+        phases[row[1]].append(row)
+    for change, rows in zip(followed.changes, phases, strict=False):
+        if change.guard is not None:
+            off += _untimed(system, change, change.guard, rows, known)
+    return off
+
+
+def _untimed(
+    system: System, change: Change, guard: int, rows: Sequence[Kept], known: Array
+) -> float:
+    """How long before its event a guard was already no more than what is known of it.
+
+    rows: the steps of its mode. known: what is known of each component of the state.
+    """
+    mode, t, y = system.modes[change.mode_before], change.time, change.before
+    f, fall = slope(mode), system.guards(change.mode_before)[guard].g
+
+    def g(t: float, y: Array) -> float:
+        return fall(t, *mode.parted(y))
+
+    def earlier(back: float) -> float:
+        middle = y - back / 2 * f(t, y)
+        return g(t - back, y - back * f(t - back / 2, middle))
+
+    begin, _, first = rows[0]
+    try:
+        room = sum(abs(g(t, y + each) - g(t, y)) for each in np.diag(known))
+        room += EPS * abs(g(begin, first))  # it is the difference of two that are as large
+        clear = [at for at, _, there in rows if g(at, there) > DIP * room]
+        return _within(earlier, room, t, t - max(clear, default=begin))
+    except (ArithmeticError, ValueError, LinAlgError):  # it may not be defined beyond its zero
+        return t - begin
+
+
+def unread(scene: Scene, record: Trajectory, event: Event, room: float) -> float:
+    """By how much [s] an event may be off that no guard tells: a passage through zero, read from
+    the record.
+
+    room: what is known of its quantity.
+    """
+    u = event.falling(observe(scene, record, event.quantity))
+    room = max(room, TOLERANCE * worst(np.abs(u)))
+    small = still(scene, record, event.quantity)
+    corners = [t for law in scene.laws() for t in law.corners]
+    off = 0.0
+    for rows in lasting(record):
+        times = record.times[rows]
+        for t, curve in passing(times, u[rows], small, corners):
+            lasted = t - float(times[0])
+            off = max(off, _within(lambda back, t=t, u=curve: u(t - back), room, t, lasted))
+    return off
+
+
+def _within(g: Callable[[float], float], room: float, t: float, most: float) -> float:
+    """How long before its zero at t a function was already as small as that, to a factor of two."""
+    back = math.ulp(t)
+    while back < most and abs(g(back)) <= DIP * room:
+        back *= 2.0
+    return min(back, most)
