@@ -2,8 +2,9 @@
 
 import math
 from collections import defaultdict
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.linalg import LinAlgError
@@ -13,13 +14,11 @@ from ..coverage import look
 from ..integrators.budget import motion, spend
 from ..integrators.explicit import DormandPrince
 from ..integrators.implicit import Radau
-from ..integrators.march import IntegrationError, Method, Slope, march
+from ..integrators.march import IntegrationError, Method, Slope, Step, march
 from ..integrators.radau import radau_table
 from ..system import Array, Guard, Mode, System
 from .crossing import INSIDE, TOGETHER, Fall, Within, clear, first
 from .early import Early
-from .inside import inside
-from .stops import between, on_sample, on_samples, stops
 from .stuck import Stuck, Watched, slope
 from .zeno import MOST, ZenoError, accumulation, ends_here, settles
 
@@ -264,3 +263,65 @@ class _Walk:
 
 def _falling(mode: Mode, guard: Guard) -> Fall:
     return lambda t, y: guard.g(t, *mode.parted(y))
+
+
+# The states inside a step, between its two ends.
+
+
+def inside(step: Step, probe: Method) -> Within:
+    """Those of an accepted step, each by a step of its own, or by several."""
+
+    def state(h: float) -> Array:
+        if h == 0.0 or h == step.t_next - step.t:
+            return step.y_next if h else step.y
+        there = step.y + probe.attempt(step.t, step.y, h, np.maximum(np.abs(step.y), step.floor))
+        if np.isfinite(there).all():
+            return there
+        *_, last = march(probe, (step.t, step.t + h), step.y)  # a part may be harder than the whole
+        return last.y_next
+
+    return state
+
+
+# Where steps end: at samples, at corners of what is given in time, and often enough.
+
+
+AT_ONCE = 256  # ulp: in so little time a force that grows from zero is nothing but rounding
+Timed = Callable[[float, Array], Any]
+"""(t, y) → a slope, or what guards a mode."""
+
+
+def stops(now: float, samples: Array, corner: float, longest: float | None) -> Array:
+    """Now and the samples to come up to the corner, and times between them, none `longest` [s]
+    after the one before."""
+    last = min(corner, samples[-1])
+    found = np.array([now, *samples[(samples > now) & (samples < last)], last])
+    if longest is None:
+        return found
+    pieces = np.ceil(np.diff(found) / longest).astype(int)
+    spans = zip(found[:-1], found[1:], pieces, strict=True)
+    between = [np.linspace(a, b, n, endpoint=False) for a, b, n in spans]
+    return np.append(np.concatenate(between), found[-1])
+
+
+def on_samples(corners: Iterable[float], samples: Array) -> list[float]:
+    """The corners in their order; one that is a sample but for rounding is that sample."""
+    found = []
+    for corner in sorted(set(corners)):
+        near = float(samples[np.argmin(np.abs(samples - corner))])
+        found.append(near if abs(near - corner) <= TOGETHER else corner)
+    return found
+
+
+def on_sample(t: float, samples: Array) -> float:
+    """The time of an event, or the sample that comes at once: no step leads there."""
+    ahead = samples[samples >= t][:1].tolist()
+    return next((sample for sample in ahead if sample - t <= AT_ONCE * math.ulp(sample)), t)
+
+
+def between(passed: float, corner: float) -> Callable[[Timed], Timed]:
+    """A function of t, y as it is between two corners: at the second it may jump."""
+    if passed == -math.inf and corner == math.inf:
+        return lambda g: g
+    last = math.nextafter(corner, -math.inf)
+    return lambda g: lambda t, y: g(min(max(t, passed), last), y)

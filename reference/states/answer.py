@@ -9,6 +9,7 @@ import numpy as np
 
 from ...cases.case import Case
 from ...cases.mistake import CaseError, Mistake
+from ...cases.scene.motion import Motion
 from ...cases.scene.observe import observe
 from ...cases.scene.space.scene import SpatialScene
 from ...cases.trajectory import Trajectory
@@ -18,11 +19,11 @@ from ..coverage import look
 from ..integrators.now import doing, reached
 from ..mechanism.constraints.free import FreeBodies
 from ..mechanism.kinematics.space.chain import SpatialChain
+from ..mechanism.modes.space.mode import SpatialMultibody
 from ..stated import Stated
 from ..system import Array, Pose
 from ..systems.states.stated import STATED
-from .derived import by_virtual_work, derived, efforts
-from .held import misread, unheld
+from .derived import by_virtual_work, derived, efforts, moving
 
 LAW = 1e-12  # of the largest of a quantity: all of it is algebra, only rounding may differ
 VARYING = ("coordinate", "velocity", "acceleration")  # kinds that no claim should leave constant
@@ -156,3 +157,47 @@ def _constant(case: Case, found: Trajectory) -> Iterator[Mistake]:
             samples = observe(case.scene, found, name)
             if np.ptp(samples, axis=0).max() == 0.0:
                 yield case.mistake(("allow", name), "is the same in every state; leave it out")
+
+
+# A chain's places, velocities and accelerations against what its joints hold and leave.
+#
+# The rows of the mechanism in maximal coordinates know nothing of the chain's coordinates, and the
+# joints read these back from the poses alone.
+
+
+Row = tuple[Array, Array, Array]
+THREE = 3  # turns, of which other angles make the same attitude
+
+
+def unheld(mode: Stated, scene: SpatialScene, rows: Iterator[Row]) -> float:
+    """(2.10), (2.15) The largest of f = 0, f_a v = 0 and f_a v̇ = γ, each of its largest term."""
+    base = SpatialMultibody(scene, (np.zeros(0), np.zeros(0)))
+    found: list[float] = []
+    for q, v, a in rows:
+        poses, changes = mode.poses(0.0, q, v), moving(mode, q, v, a)
+        at, rates = base.place(poses)
+        _, accelerations = base.place({name: tuple(x) for name, x in changes.items()})
+        f_a, g, gamma = base.rows(0.0, at, rates)
+        found.append(worst(np.abs(base.f(0.0, at))) / max(1.0, worst(np.abs(at))))
+        for held, right in ((rates, g), (accelerations, gamma)):
+            size = worst(np.abs(f_a * held).ravel()) or 1.0
+            found.append(worst(np.abs(f_a @ held - right)) / size)
+    return worst(found)
+
+
+def misread(scene: SpatialScene, found: Trajectory, drawn: dict[str, Array]) -> float:
+    """How far coordinates and rates that joints read from the poses are from what was drawn."""
+    motion = Motion(scene.bodies, scene.points, found)
+    apart: list[float] = []
+    for joint in scene.joints.values():
+        places, rates = joint.coordinates(motion)
+        for k, freedom in enumerate(joint.freedoms):
+            place, rate, _ = drawn[f"{joint.name}.{freedom.name}"].T
+            if freedom.kind == "turn" and len(joint.turns) == THREE:
+                continue
+            apart.append(relative(rate, rates[:, k], least=1.0))
+            off = place - places[:, k]
+            if freedom.kind == "turn":
+                off = np.remainder(off + np.pi, 2 * np.pi) - np.pi
+            apart.append(worst(np.abs(off)) / max(1.0, worst(np.abs(place))))
+    return worst(apart)

@@ -9,25 +9,25 @@ from importlib.resources import files
 from itertools import groupby
 from typing import Any
 
+import pandas as pd
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
 from ...cases.case import Case
 from ...cases.theme import THEMES, themes
-from ..row import MUTANTS
+from ...reference.certificate.errors import ERROR
+from ..row import FAILS, MUTANTS, Certificate
 from ..selection import BOOK
 from . import beside
 from .advice import advice
+from .beside import records
 from .column import Column, columns
 from .folder import BESIDE, Folder
 from .heat import SHADES, Cell, cells
 from .listed import listed
 from .motions import Motion
-from .mutants import mutants
 from .overview import moving, overview
 from .rows import rows
-from .stick_slip import stick_slip
-from .trust import trust
 from .work import work
 
 SCRIPTS = ("read", "plot", "mechanism", "case", "section", "filter", "start")
@@ -122,3 +122,91 @@ def _line(
         "themes": " ".join(about),
         "cells": [(one, found.get((case.name, one))) for one in shown],
     }
+
+
+# What the project's own tests break on purpose, and which test sees it.
+
+
+COLUMNS = ("room", "planted", "seen_by")
+
+
+def mutants(frame: pd.DataFrame | None) -> dict[str, Any] | None:
+    """The mistakes of each room, by the test that sees them. None where there is no list."""
+    if frame is None:
+        return None
+    rows = sorted(records(frame, COLUMNS), key=lambda row: (row["room"], row["seen_by"]))
+    rooms = [_room(room, list(of)) for room, of in groupby(rows, lambda row: row["room"])]
+    return {
+        "count": len(rows),
+        "tests": sum(len(room["tests"]) for room in rooms),
+        "rooms": rooms,
+    }
+
+
+def _room(name: str, rows: list[dict[str, str]]) -> dict[str, Any]:
+    tests = [
+        {"seen_by": seen_by, "planted": [row["planted"] for row in of]}
+        for seen_by, of in groupby(rows, lambda row: row["seen_by"])
+    ]
+    return {"room": name, "count": len(rows), "tests": tests}
+
+
+# The chapter's pictures of dry friction, of the cases that are its Examples 2.3 and 2.4.
+
+
+APPROXIMATED = (
+    ("growing_force", "block.vx", "tube", "Figures 2.29, 2.30: the speed under a growing force."),
+    ("growing_force", "block.vx", "error", "By how much each law and engine is off that."),
+    ("dynamometer", "block.vx", "tube", "Figures 2.31, 2.32: the speed behind a moving spring."),
+    ("dynamometer", "block.vx", "error", "By how much each law and engine is off that."),
+    ("dynamometer", "block.x", "tube", "Its place: a staircase."),
+    ("dynamometer", "scale.force", "tube", "Figures 2.23, 2.24: what the dynamometer shows."),
+)
+"""The book's Examples 2.3 and 2.4: system, quantity, plot, and what it shows."""
+
+
+def stick_slip(cases: Sequence[Case], motions: Mapping[str, Motion]) -> list[dict[str, str]]:
+    """Which pictures are drawn, each with its words."""
+    by_system = {case.system: case.name for case in cases if case.system and case.name in motions}
+    return [
+        {"case": by_system[system], "quantity": quantity, "plot": plot, "caption": caption}
+        for system, quantity, plot, caption in APPROXIMATED
+        if system in by_system and quantity in motions[by_system[system]]["curves"]["quantities"]
+    ]
+
+
+# What the references' own checks found, and how much of the chapter is executed.
+
+
+NAMED = 8  # cases of an item by name; of more the number tells it
+
+
+def trust(folder: Folder) -> dict[str, Any]:
+    """The checks by their kind, and the items of the chapter."""
+    items = [_item(row) for row in folder.coverage.to_dict("records")]
+    kinds: dict[str, list[Certificate]] = {}
+    for check in folder.certificates:
+        if not check.check.startswith(ERROR):  # what is known of one quantity stands in its case
+            kinds.setdefault(check.check, []).append(check)
+    return {
+        "checks": sum(map(len, kinds.values())),
+        "failing": sum(row.verdict == FAILS for rows in kinds.values() for row in rows),
+        "kinds": [_kind(name, rows) for name, rows in sorted(kinds.items())],
+        "chapter": items,
+        "covered": sum(bool(item["cases"]) for item in items),
+    }
+
+
+def _kind(name: str, rows: list[Certificate]) -> dict[str, Any]:
+    def part(row: Certificate) -> float:
+        return row.difference / row.bound if row.bound else row.difference
+
+    worst = max(rows, key=part)
+    return {"check": name, "cases": len(rows), "part": f"{part(worst):.2g}", "worst": worst.case}
+
+
+def _item(row: Mapping[Any, Any]) -> dict[str, Any]:
+    names = str(row["cases"]).split()
+    told = ", ".join(names[:NAMED])
+    more = len(names) - NAMED
+    return {**row, "cases": f"{told} and {more} more" if more > 0 else told}

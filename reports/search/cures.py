@@ -8,11 +8,79 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
+import numpy as np
+
 from .candidate import Candidate
-from .law import law
+from .errors import of
 from .lever import STEP, Field, Lever, Turned
-from .matter import Setting, that_matter
 from .together import Asking, Known
+
+# Which levers matter to a row: of many most do not, and sets with those need not be tried.
+
+
+SAME = 0.1  # of an error: a change of less than that is none
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What cures are looked for in; elsewhere: whether beside instants anything may be."""
+
+    field: Field
+    known: Known
+    elsewhere: bool
+
+    def error(self, candidate: Candidate, row: str) -> float:
+        """Of the row's quantity, over what is allowed."""
+        return of(self.known[candidate], row, elsewhere=self.elsewhere)
+
+
+def that_matter(search: Setting, rows: Sequence[str]) -> Asking[dict[str, list[Lever]]]:
+    """Of each row the levers that change its error, put in alone or taken out of all.
+
+    Both are asked, the second at a step half-way down: from afar a motion may be as far off with a
+    lever as without it. Alone they have been asked before.
+    """
+    field = search.field
+    step = field.steps[len(field.steps) // 2]
+    knobs = [lever for lever in field.levers if lever is not STEP]
+    every = field.candidate(knobs).at(step)
+    without = {one: field.candidate(k for k in knobs if k is not one).at(step) for one in knobs}
+    yield [every, *without.values()]
+
+    def matters(lever: Lever, row: str) -> bool:
+        if lever is STEP:
+            return True
+        ends = (field.base, field.candidate([lever])), (every, without[lever])
+        return any(_differ(*(search.error(c, row) for c in end)) for end in ends)
+
+    return {row: [lever for lever in field.levers if matters(lever, row)] for row in rows}
+
+
+def _differ(one: float, other: float) -> bool:
+    """Two that are inf tell nothing of a lever: it is kept."""
+    return not abs(one - other) <= SAME * max(one, other)
+
+
+# How an error follows one number: a power law, where there is one.
+
+
+FEWEST, MOST = 3, 5  # values of the number, the finest of those that are known
+FITS = 0.1  # of each error: how far it may be off the line
+FLAT = 0.05  # of a power: below it the number makes no difference
+
+
+def law(name: str, errors: Mapping[float, float]) -> str:
+    """`h^2`, `impratio^-1`: the slope of log error over log number; nothing where none fits.
+
+    errors: by the number, in the order in which a cure is approached.
+    """
+    x, y = np.array(list(errors)[-MOST:]), np.array(list(errors.values())[-MOST:])
+    if len(x) < FEWEST or not np.all(np.isfinite(y)) or np.any(x <= 0) or np.any(y <= 0):
+        return ""
+    power, factor = np.polyfit(np.log(x), np.log(y), 1)
+    off = np.abs(np.exp(factor) * x**power / y - 1)
+    return f"{name}^{power:.2g}" if abs(power) >= FLAT and np.all(off <= FITS) else ""
+
 
 LARGEST = 4  # levers in a set whose smaller ones have all been tried
 LARGEST_FINER = 3  # with a smaller step: each such run takes as long as ten others

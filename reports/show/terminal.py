@@ -1,14 +1,15 @@
 """What a run shows on the terminal at its end: rows, a table, and what fails."""
 
-from collections import Counter
-from collections.abc import Sequence
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Sequence
 from itertools import groupby
 from pathlib import Path
 
+from ...engines import SETTINGS
 from ..promised import unkept
 from ..row import AGREES, FAILS, Comparison
+from ..selection import BOOK
 from ..suite import Report
-from .notes import without_effect
 from .rows import known, rows
 from .say import say
 from .summary import Cures, approximations, summary
@@ -65,3 +66,23 @@ def line(row: Comparison) -> str:
     allowed = "" if row.allowed is None else f"allowed {row.allowed:.1e}"
     number = f"{row.error:9.2e} {row.unit:6} {step:18}"
     return f"{row.quantity:20} {number} {allowed:16} {row.verdict}{reason}"
+
+
+# What a user should know of own settings, and sees in no single row.
+
+
+Numbers = dict[str, tuple[float | None, ...]]
+
+
+def without_effect(rows: Sequence[Comparison]) -> Iterator[str]:
+    """A line for each own setting whose numbers are the shipped ones, all of them, in a case."""
+    found: defaultdict[tuple[str, str], dict[str, Numbers]] = defaultdict(dict)
+    for row in rows:
+        if row.engine != BOOK and row.setting != "tuned":
+            numbers = found[row.case, row.engine].setdefault(row.setting, {})
+            numbers[row.quantity] = (row.step, row.error, row.rms, row.final)
+    for (case, engine), settings in found.items():
+        shipped = settings.get("shipped")
+        for setting in settings:
+            if setting not in SETTINGS and settings[setting] == shipped:
+                yield f"{case}: {engine}.{setting} changes nothing: every number is shipped's"

@@ -17,7 +17,7 @@ from textmech.reports import selection, suite, unit
 from textmech.reports.cache.store import Store
 from textmech.reports.row import BEYOND, FAILS, Comparison
 from textmech.reports.selection import BOOK, choose_book, choose_engines
-from textmech.reports.show.notes import without_effect
+from textmech.reports.show.terminal import without_effect
 from textmech.reports.trial.ladder import judged_step, sampled
 from textmech.reports.trial.rung import climbed
 from textmech.reports.trial.trial import Trial

@@ -11,8 +11,7 @@ from given.lines import refused, row
 
 from textmech.reports.row import DEVIATES, Comparison
 from textmech.reports.show import readme, speed
-from textmech.reports.show.readme import FILES, PARTS, ROOT, Part, filled
-from textmech.reports.show.releases import releases
+from textmech.reports.show.readme import FILES, PARTS, ROOT, Part, filled, releases
 from textmech.reports.show.shares import shares
 from textmech.reports.write import HERE, read
 

@@ -19,7 +19,8 @@ from given.linkages import LINKAGE
 from textmech.cases.fields.signal import Signal
 from textmech.cases.scene.point import GroundPoint
 from textmech.reference.certificate.prescribed import integral
-from textmech.reference.mechanism.constraints import blades, permanent
+from textmech.reference.mechanism.constraints import assembled as blades
+from textmech.reference.mechanism.constraints import permanent
 from textmech.reference.mechanism.constraints.space import held as space_held
 from textmech.reference.mechanism.constraints.space import rolling
 from textmech.reference.mechanism.forces import action

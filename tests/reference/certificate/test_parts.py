@@ -17,7 +17,8 @@ from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.reference.certificate import agreement, errors
 from textmech.reference.certificate.agreement import Check
 from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
-from textmech.reference.states import answer, held
+from textmech.reference.states import answer
+from textmech.reference.states import answer as held
 from textmech.reference.system import System
 from textmech.reference.systems import written
 

@@ -12,8 +12,7 @@ from given.claims import CHAIN, claimed
 from textmech.cases.scene.space.scene import SpatialScene
 from textmech.reference.mechanism.kinematics.space import chain
 from textmech.reference.mechanism.kinematics.space.chain import Moving, SpatialChain
-from textmech.reference.states.answer import answered
-from textmech.reference.states.held import misread
+from textmech.reference.states.answer import answered, misread
 
 CHECKS = ("joints hold (2.10), (2.15)", "coordinates read back")
 AT, SHIFTED, TURNED = Moving.at, Moving.shifted, Moving.turned

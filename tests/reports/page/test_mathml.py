@@ -6,7 +6,7 @@ from xml.etree.ElementTree import fromstring
 import pytest
 
 from textmech.cases.case import Case
-from textmech.reports.page.equations import equations
+from textmech.reports.page.listed import equations
 from textmech.reports.page.mathml import mathml
 from textmech.reports.selection import choose_cases
 

@@ -6,8 +6,7 @@ from types import SimpleNamespace
 import pandas as pd
 import pytest
 
-from textmech.reports.page.mutants import COLUMNS, mutants
-from textmech.reports.page.page import page
+from textmech.reports.page.page import COLUMNS, mutants, page
 from textmech.reports.row import MUTANTS
 
 LAW, ODD = "tests/reference/test_law.py::test_seen", "tests/engines/test_odd.py::test_seen"

@@ -8,7 +8,8 @@ import pytest
 from given.otherwise import otherwise
 from given.report_folders import CERTIFICATE, COVERED, INSTANT, ROW, RUNGS, STEPS
 
-from textmech.reports.page import overview, rows, trust
+from textmech.reports.page import overview, rows
+from textmech.reports.page import page as trust
 from textmech.reports.page.column import column
 from textmech.reports.page.folder import Folder
 from textmech.reports.page.heat import Cell

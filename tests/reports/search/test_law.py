@@ -2,7 +2,7 @@
 
 import pytest
 
-from textmech.reports.search.law import law
+from textmech.reports.search.cures import law
 
 
 @pytest.mark.parametrize(

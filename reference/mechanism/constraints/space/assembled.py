@@ -6,9 +6,8 @@ from typing import Any
 import numpy as np
 
 from ...kinematics.space.kinematics import Bodies, Layout
-from .blades import Blades
+from .blades import Blades, Pivots
 from .held import Blade, Dot, Drive, Held, Line, Pivot, Rim, Together
-from .pivots import Pivots
 from .rolling import Drives, Rims
 from .rows import Dots, Kind, Lines, Points
 

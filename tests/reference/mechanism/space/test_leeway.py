@@ -13,8 +13,7 @@ from scipy.spatial.transform import Rotation
 from textmech.cases.mistake import CaseError
 from textmech.reference import determined
 from textmech.reference.mechanism.modes.space import mode as spatial
-from textmech.reference.mechanism.modes.space.loose import solved, unit_sizes
-from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
+from textmech.reference.mechanism.modes.space.mode import SpatialMultibody, solved, unit_sizes
 from textmech.reference.solve import solve
 from textmech.reference.start.space.closure import SpatialClosure
 
