@@ -6,7 +6,6 @@ from pathlib import Path
 import click
 
 from ..cases.mistake import CaseError
-from . import ending
 from .command.advise import advise
 from .command.answer import BAD_INPUT
 from .command.bench import bench
@@ -23,6 +22,7 @@ from .command.run import run
 from .command.versions import versions
 from .show.progress import aloud
 from .show.say import prepare, say, tell
+from .system import ending
 
 
 def main() -> None:
@@ -126,9 +126,9 @@ def show(case: str, name: str, settings: str | None, allow_long: bool) -> None:
 
     from ..engines import Known
     from ..engines.probe import guarded
-    from .selection import choose_cases, choose_engines
+    from .run.selection import choose_cases, choose_engines
     from .show.script import script
-    from .spelled import why
+    from .system.spelled import why
 
     known = Known([name.partition(".")[0]])  # no other is imported
     chosen = choose_cases([case], known=known, long=allow_long)

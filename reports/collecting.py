@@ -11,17 +11,17 @@ from ..cases.case import Case
 from ..cases.load import load
 from ..cases.mistake import CaseError
 from ..engines.engine import Engine, Plan, Refusal, Start
-from .cache.key import Keys
-from .cache.store import Store
-from .coverage import countable
-from .pool import Died, local, spread
-from .selection import ENGINES, HANDWRITTEN, choose_book, choose_engines
+from .compare.trial.book import producers
+from .compare.trial.start import assembled
+from .compare.trial.states import ways_of
+from .compare.trial.trial import judged_names
+from .compare.trial.work import too_long
+from .data.coverage import countable
+from .run.cache.key import Keys
+from .run.cache.store import Store
+from .run.selection import ENGINES, HANDWRITTEN, choose_book, choose_engines
 from .show.progress import aloud
-from .trial.book import producers
-from .trial.start import assembled
-from .trial.states import ways_of
-from .trial.trial import judged_names
-from .trial.work import too_long
+from .system.pool import Died, local, spread
 
 Key = tuple[str, str, str, str, str]
 """Case, engine, setting, realisation, quantity."""

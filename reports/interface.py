@@ -22,7 +22,7 @@ from ..cases.trajectory import Trajectory
 if TYPE_CHECKING:
     import pandas as pd
 
-    from .results import Progress
+    from .run.results import Progress
 
 OWN = "own"  # how the column of a user's own options is called
 POSES = ("x", "y", "z", "angle")
@@ -69,7 +69,7 @@ def load(word: Word | Sequence[Word] = ()) -> list[Case]:
 
     Raises CaseError with all mistakes of all files.
     """
-    from .selection import choose_cases
+    from .run.selection import choose_cases
 
     words = _words(word)
     given = [case for case in words if isinstance(case, Case)]
@@ -85,8 +85,8 @@ def solve(word: Word) -> Reference:
     import pandas as pd
 
     from ..reference.solve import solve as solved
-    from .events.states import mistaken
-    from .judge.instants import of_reference
+    from .compare.events.states import mistaken
+    from .compare.judge.instants import of_reference
     from .show import progress as shown
 
     cases = load(word)
@@ -133,11 +133,13 @@ def run(
     import pandas as pd
 
     from ..cases.language.read.document import Document
-    from . import committed, pool, suite, write
-    from .asking import asked
-    from .cache.store import usable
-    from .own_settings import made
+    from .data.own_settings import made
+    from .output import committed, write
+    from .run import suite
+    from .run.asking import asked
+    from .run.cache.store import usable
     from .show.summary import summary
+    from .system import pool
 
     found = load(word)
     own = made(Document(Source("options", (), {}), dict(options or {}), []), OWN)
@@ -186,10 +188,10 @@ def advise(
     """
     import pandas as pd
 
-    from .advice.advised import Asked, rows
-    from .advice.session import advised
-    from .asking import asked
-    from .cache.store import usable
+    from .run.advice.advised import Asked, rows
+    from .run.advice.session import advised
+    from .run.asking import asked
+    from .run.cache.store import usable
 
     wanted = asked(load(word), engines, ["shipped"])
     bar = Asked(tolerance, margin)

@@ -23,8 +23,8 @@ from .pytest_options import pytest_addoption as pytest_addoption
 if TYPE_CHECKING:
     from ..cases.case import Case
     from .collecting import Earlier
-    from .row import Comparison
-    from .suite import Report
+    from .data.row import Comparison
+    from .run.suite import Report
 
 _REPORT = pytest.StashKey["Report"]()
 _ROWS = pytest.StashKey[dict[tuple[str, ...], "Comparison"]]()
@@ -40,7 +40,7 @@ _SHARED = "textmech_shared"  # what a worker of xdist is told: the session's own
 def pytest_configure(config: pytest.Config) -> None:
     seconds = config.getoption("textmech_time_limit")
     if seconds is not None:
-        from .limit import choose
+        from .system.limit import choose
 
         choose(seconds)
 
@@ -122,8 +122,8 @@ def _settings(config: pytest.Config) -> list[str]:
 
 def _earlier(session: pytest.Session) -> "Earlier":
     """What the engines need not be asked again, the same for all files of the session."""
-    from .cache.store import usable
     from .collecting import Earlier
+    from .run.cache.store import usable
 
     if _EARLIER not in session.stash:
         cached = not session.config.getoption("textmech_no_cache")
@@ -208,8 +208,8 @@ class ComparisonItem(CaseItem):
         self.key = key
 
     def runtest(self) -> None:
-        from .committed import worse
-        from .row import AGREES, DEVIATES, FAILS, REFUSED
+        from .data.row import AGREES, DEVIATES, FAILS, REFUSED
+        from .output.committed import worse
         from .show.terminal import line
         from .show.text import row_text
 
@@ -237,7 +237,7 @@ class ComparisonItem(CaseItem):
 
     def row(self) -> "Comparison":
         """Its row. Raises RowError where the case has no reference, and so not all rows."""
-        from .committed import key_of
+        from .output.committed import key_of
 
         report, stash = self.report(), self.session.stash
         if _ROWS not in stash:
@@ -268,7 +268,7 @@ def _found(session: pytest.Session) -> "Report":
 
 def _measure(session: pytest.Session) -> "Report":
     """Runs what is collected, or takes it from another worker of xdist, which collects the same."""
-    from .session import rows
+    from .run.session import rows
     from .show.progress import aloud, progress
 
     items = [item for item in session.items if isinstance(item, CaseItem)]

@@ -22,7 +22,7 @@ from typing import Any
 from drawn import Mistake, draw, texts, tool
 from tried import SEEN, SURVIVED, TIMED_OUT, UNDECIDED, Copy, Outcome, Sound, tried
 
-from textmech.reports.row import MUTATION
+from textmech.reports.data.row import MUTATION
 
 ROOT = Path(__file__).parents[1]
 LIST = ROOT / "reports" / MUTATION

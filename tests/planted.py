@@ -15,8 +15,8 @@ from typing import Any
 import pandas as pd
 import pytest
 
-from textmech.reports import write
-from textmech.reports.row import MUTANTS
+from textmech.reports.data.row import MUTANTS
+from textmech.reports.output import write
 
 ROOT = Path(__file__).parents[1]
 MARK = "mutant"

@@ -16,7 +16,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
-from textmech.reports.row import SPEED
+from textmech.reports.data.row import SPEED
 
 ROOT = Path(__file__).parents[1]
 LIST = ROOT / "reports" / SPEED

@@ -15,12 +15,12 @@ import pytest
 from given.report_folders import report
 from given.tree import TESTS
 
-from textmech.reports import write
-from textmech.reports.diff.compare import difference
-from textmech.reports.diff.folder import opened
-from textmech.reports.diff.rule import Rule
+from textmech.reports.data.row import MUTANTS, OF_NO_RUN, Comparison
+from textmech.reports.output import write
+from textmech.reports.output.diff.compare import difference
+from textmech.reports.output.diff.folder import opened
+from textmech.reports.output.diff.rule import Rule
 from textmech.reports.page.folder import folder
-from textmech.reports.row import MUTANTS, OF_NO_RUN, Comparison
 
 COMMITTED = write.HERE / MUTANTS
 LONGEST = 110  # letters of a mistake: it is a name, and no explanation

@@ -1,7 +1,6 @@
-"""A house rule: data flows one way, so no imports among rooms stand in a circle.
+"""A house rule: data flows one way, so no imports among folders stand in a circle.
 
-In `cases`, `engines` and `reference` every folder holds it: its folders and files import one
-another along a tree. In `reports` a table says which room may know which, until it holds it too.
+The folders and files within every folder import one another along a tree.
 """
 
 from collections import defaultdict
@@ -11,58 +10,7 @@ from itertools import takewhile
 import pytest
 from given.tree import FILES, imported, module
 
-TREES = ("cases", "engines", "reference")  # in which no folder has a circle
-
-# Which room may know which: those of a line know all lines above it, and not each other. What is
-# joined by + is one room.
-ROOMS = {
-    "reports": [
-        "limit amount content",
-        "own_settings spelled",
-        "row runs pins selection coverage events lock ending cluster pytest_short pytest_options",
-        "processes child trial replace passing ours promised",
-        "diff",
-        "pool judge asking",
-        "cache",
-        "unit results likely",
-        "grades",
-        "trials search",
-        "suite",
-        "poses",
-        "write keep session",
-        "show",
-        "committed bench page",
-        "versions",
-        "command interface collecting",
-        "cli pytest_plugin",
-        "start",
-    ],
-}
-
-
-def place(name: str) -> tuple[int, str]:
-    """Line and room of a module in the table; before all of them for the folder itself."""
-    package, _, inner = name.partition(".")
-    if package in TREES:
-        return -1, ""
-    for line, rooms in enumerate(ROOMS[package]):
-        for room in rooms.split():
-            for part in room.split("+"):
-                if f"{inner}.".startswith(f"{part}."):
-                    return line, room
-    assert not inner, f"{name} stands in no room"
-    return -1, ""
-
-
-def climbs(one: str, other: str) -> bool:
-    """Whether an import of `other` in `one` runs back up between the rooms of their folder."""
-    if one.split(".")[0] != other.split(".")[0]:
-        return False  # another test's
-    (here, room), (there, other_room) = place(one), place(other)
-    if not room:  # the folder itself knows what is in its first line
-        return there > 0
-    return room != other_room and not there < here
-
+TREES = ("cases", "engines", "reference", "reports")
 
 Arrows = dict[str, dict[str, set[str]]]
 """By folder: what each of its folders and files imports of its others."""
@@ -119,37 +67,3 @@ def test_no_engine_knows_another() -> None:
         if own in engines:
             others = tuple(f"{engine}." for engine in engines - {own})
             assert not [name for name in imported(file) if f"{name}.".startswith(others)], file
-
-
-@pytest.mark.slow
-def test_no_import_runs_back_up_between_rooms() -> None:
-    modules = {module(file) for file in FILES}
-    wrong = [
-        f"{module(file)} imports {name}"
-        for file in FILES
-        for name in sorted(imported(file) & modules)
-        if climbs(module(file), name)
-    ]
-    assert not wrong
-
-
-@pytest.mark.parametrize(
-    ("one", "other"),
-    [
-        ("reports.events.times", "reports.judge.compare"),
-        ("reports.suite", "reports.write"),
-    ],
-)
-def test_an_import_that_runs_back_up_is_seen(one: str, other: str) -> None:
-    assert climbs(one, other)
-
-
-def test_every_room_of_the_table_exists() -> None:
-    modules = {module(file) for file in FILES}
-    listed = [
-        f"{package}.{part}"
-        for package, lines in ROOMS.items()
-        for part in "+".join(lines).replace(" ", "+").split("+")
-    ]
-    assert set(listed) <= modules
-    assert len(listed) == len(set(listed))

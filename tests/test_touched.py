@@ -17,7 +17,7 @@ def mirrored(name: str) -> set[str]:
         ("cases/scene/quantity.py", "tests/cases"),
         ("reference/mechanism/modes/mode.py", "tests/reference/mechanism"),
         ("engines/pymunk/callbacks/friction.py", "tests/engines/pymunk"),  # no folder is its own
-        ("reports/judge/verdict.py", "tests/reports"),
+        ("reports/compare/judge/verdict.py", "tests/reports"),
         ("cases/four_bar.yaml", "tests/cases"),
     ],
 )
@@ -44,14 +44,23 @@ def test_a_test_has_itself_and_one_that_is_gone_nothing() -> None:
 def test_what_differs_is_printed_once_and_by_kind(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    changed = ["README.md", "reports/cache/key.py", "reports/cache/gone.py", "tests/test_rooms.py"]
+    changed = [
+        "README.md",
+        "reports/run/cache/key.py",
+        "reports/run/cache/gone.py",
+        "tests/test_rooms.py",
+    ]
     monkeypatch.setattr(touched, "changed", lambda: [Path(name) for name in changed])
     touched.main()
     tests = capsys.readouterr().out.split()
     assert len(tests) == len(set(tests))
-    assert set(tests) == {*touched.ALWAYS, "tests/test_rooms.py", *mirrored("reports/cache/key.py")}
+    assert set(tests) == {
+        *touched.ALWAYS,
+        "tests/test_rooms.py",
+        *mirrored("reports/run/cache/key.py"),
+    }
     touched.main("--files")
-    assert capsys.readouterr().out.split() == ["reports/cache/key.py", "tests/test_rooms.py"]
+    assert capsys.readouterr().out.split() == ["reports/run/cache/key.py", "tests/test_rooms.py"]
 
 
 def test_where_nothing_differs_there_is_still_something_to_check(

@@ -12,12 +12,12 @@ from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ...engines.engine import Diverged, Engine, Loop, Plain, Plan, Realised, Refusal, Start
 from ...engines.probe import guarded
-from ..selection import choose_cases
-from ..spelled import why
-from ..trial.answers import plans
-from ..trial.ladder import wanted_reactions
-from ..trial.start import assembled
-from ..trial.states import moving
+from ..compare.trial.answers import plans
+from ..compare.trial.ladder import wanted_reactions
+from ..compare.trial.start import assembled
+from ..compare.trial.states import moving
+from ..run.selection import choose_cases
+from ..system.spelled import why
 from .turns import Ratio, Work, ratio, turns
 
 RUNGS = 5  # of the ladder that is built: as many as a shipped setting's

@@ -61,7 +61,7 @@ def bench(
     from ..bench.growth import grown
     from ..bench.integrators import compared
     from ..bench.start import begun
-    from ..selection import choose_cases, choose_engines
+    from ..run.selection import choose_cases, choose_engines
 
     if starts:
         if cases or names or as_csv:

@@ -14,7 +14,7 @@ from .done import finished
 from .options import allow_long, jobs, named_engines, no_cache
 
 if TYPE_CHECKING:
-    from ..row import Cause
+    from ..data.row import Cause
 
 
 @click.command()
@@ -38,11 +38,13 @@ def causes(
     one, the smallest sets that cure, with the step that they need and what they cost. Where a law
     or driver of ours is needed, the engine's own model is another one.
     """
-    from .. import committed, pool, suite
-    from ..cache import store
-    from ..selection import choose_cases, choose_engines
+    from ..compare.trial.work import too_long
+    from ..output import committed
+    from ..run import suite
+    from ..run.cache import store
+    from ..run.selection import choose_cases, choose_engines
     from ..show import cures, document, progress
-    from ..trial.work import too_long
+    from ..system import pool
 
     chosen = choose_cases(cases, long=allow_long)
     with warnings.catch_warnings():

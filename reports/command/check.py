@@ -39,9 +39,9 @@ class Checked:
 @allow_long
 def check(files: tuple[str, ...], jobs: int | None, wants_json: bool, allow_long: bool) -> None:
     """All mistakes of case files, without running an engine."""
-    from ..pool import workers
-    from ..selection import choose_engines
+    from ..run.selection import choose_engines
     from ..show.document import write
+    from ..system.pool import workers
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # an engine that is broken is no mistake of a case
@@ -64,10 +64,10 @@ def _checked(
     files: Sequence[str], engines: "Sequence[Engine]", jobs: int, *, long: bool
 ) -> list[Checked]:
     """Each of the files; solving is spread over processes where there are several."""
-    from ..pool import Died, local, spread
-    from ..selection import choose_cases
+    from ..compare.trial.work import too_long
+    from ..run.selection import choose_cases
     from ..show.progress import progress
-    from ..trial.work import too_long
+    from ..system.pool import Died, local, spread
 
     found: dict[int, Checked] = {}
     tasks: dict[int, tuple[str, Sequence[Case]]] = {}
@@ -97,8 +97,8 @@ def _checked(
 def _solved(task: "tuple[str, Sequence[Case]]") -> Checked:
     """Of a file's cases what only their references tell."""
     from ...reference.solve import solve
-    from ..events.states import mistaken
-    from ..judge.uncertified import otherwise
+    from ..compare.events.states import mistaken
+    from ..compare.judge.uncertified import otherwise
 
     file, cases = task
     try:

@@ -15,7 +15,7 @@ from .options import jobs
 
 if TYPE_CHECKING:
     from ...engines.engine import Engine
-    from ..grades import Mark
+    from ..compare.grades import Mark
 
 WIDTH = 100  # columns: a grade, and what is said of it
 DOCUMENTED = "engines/README.md, The protocol; the fields of a scene: engines/SCENE.md"
@@ -71,7 +71,7 @@ def check_engine(name: str, grades: tuple[str, ...], jobs: int | None, wants_jso
 def _made(name: str) -> "tuple[Engine | None, list[Mark]]":
     """The engine, or why it cannot be made. Raises CaseError where there is no such."""
     from ... import engines
-    from ..grades import Mark
+    from ..compare.grades import Mark
 
     word, _, setting = name.partition(".")
     if word not in engines.names():
@@ -96,10 +96,10 @@ def _unknown(name: str, known: Sequence[str]) -> Mistake:
 
 def _tried(engine: "Engine", words: Sequence[str], jobs: int | None) -> "list[Mark]":
     """Its members, and each grade in a process that may die."""
-    from ..grades import GRADES, Attempt, marked, members
-    from ..pool import Died, local, spread, workers
-    from ..selection import choose_cases
+    from ..compare.grades import GRADES, Attempt, marked, members
+    from ..run.selection import choose_cases
     from ..show.progress import progress
+    from ..system.pool import Died, local, spread, workers
 
     names = {grade.name: grade for grade in GRADES}
     if wrong := [word for word in words if word not in names]:

@@ -111,15 +111,15 @@ def diff(
     \b
     Exit codes: 0 no regression, 1 a regression, 2 a folder that is no report, or a mixed one
     """
-    from ..diff.as_json import as_json as document
-    from ..diff.compare import difference
-    from ..diff.folder import opened
-    from ..diff.junit import junit as as_junit
-    from ..diff.markdown import MOST as LISTED
-    from ..diff.markdown import markdown
-    from ..diff.rule import Rule
-    from ..diff.text import MOST, text
-    from ..ours import unasked
+    from ..data.ours import unasked
+    from ..output.diff.as_json import as_json as document
+    from ..output.diff.compare import difference
+    from ..output.diff.folder import opened
+    from ..output.diff.junit import junit as as_junit
+    from ..output.diff.markdown import MOST as LISTED
+    from ..output.diff.markdown import markdown
+    from ..output.diff.rule import Rule
+    from ..output.diff.text import MOST, text
 
     if wants_json and wants_markdown:
         raise click.UsageError("--json or --markdown, please: both are one document")

@@ -31,7 +31,7 @@ def written(frames: "Mapping[str, pd.DataFrame]", out: Path, *, overwrite: bool 
     Looking whether they are takes as long as writing them, and may be interrupted itself: it is
     asked only where the writing was.
     """
-    from .. import write
+    from ..output import write
 
     there = f"the reports are in {out}"
     try:

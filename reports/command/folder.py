@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from ..passing import taken
+from ..system.passing import taken
 
 
 class Folder(click.Path):

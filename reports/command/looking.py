@@ -9,7 +9,7 @@ from ..show.say import tell
 
 if TYPE_CHECKING:
     from ...cases.case import Case
-    from ..suite import Report
+    from ..run.suite import Report
 
 
 def looked_at(
@@ -31,12 +31,14 @@ def looked_at(
     A file with mistakes is left out: `mistakes` of the report tells them. Raises CaseError where
     nothing is left.
     """
-    from .. import committed, pool, suite
-    from ..asking import asked
-    from ..cache import store
-    from ..selection import sound_cases
+    from ..output import committed
+    from ..run import suite
+    from ..run.asking import asked
+    from ..run.cache import store
+    from ..run.selection import sound_cases
     from ..show.cures import carried
     from ..show.progress import progress
+    from ..system import pool
     from .done import finished
 
     known = committed.known() if causes and cached else None

@@ -5,8 +5,8 @@ from typing import Any
 
 import click
 
-from ..limit import choose
-from ..ours import OVERWRITE
+from ..data.ours import OVERWRITE
+from ..system.limit import choose
 
 Decorated = Callable[[Any], Any]
 

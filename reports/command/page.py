@@ -56,8 +56,8 @@ def page(
       textmech page my_case.yaml --out look        of your own case: reports and page in look/
       textmech page --settings mine.yaml           all cases, with your settings as a column
     """
-    from .. import write
-    from ..ours import unasked
+    from ..data.ours import unasked
+    from ..output import write
     from ..page.folder import Missing
     from ..page.write import NAME, write_committed, write_measured
 

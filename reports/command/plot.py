@@ -11,7 +11,7 @@ from .looking import looked_at
 from .options import allow_long, named_engines, overwrite
 
 if TYPE_CHECKING:
-    from ..suite import Report
+    from ..run.suite import Report
 
 KINDS = (".png", ".svg")
 
@@ -49,7 +49,7 @@ def plot(
         raise click.UsageError(f"{file.name} is no picture that can be drawn: {' or '.join(KINDS)}")
     if not file.parent.is_dir():
         raise click.UsageError(f"there is no folder {file.parent}")
-    from ..ours import unasked
+    from ..data.ours import unasked
     from ..page.motions import motions
     from ..page.paint import save
     from ..page.picture import picture
@@ -71,7 +71,7 @@ def plot(
 
 
 def _one(case: str, long: bool) -> None:
-    from ..selection import choose_cases
+    from ..run.selection import choose_cases
 
     chosen = choose_cases([case], long=long)
     if len(chosen) > 1:

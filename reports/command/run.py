@@ -82,11 +82,11 @@ def run(
 
     A file with mistakes is left out: the other files run, and the exit code is 2.
     """
-    from .. import keep as kept
-    from .. import write
-    from ..cluster import executor
-    from ..ours import unasked
+    from ..data.ours import unasked
+    from ..output import keep as kept
+    from ..output import write
     from ..show import cures, document, terminal
+    from ..system.cluster import executor
 
     full = not (cases or names or settings)
     if out is None and full:

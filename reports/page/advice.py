@@ -7,7 +7,7 @@ from typing import Any
 import pandas as pd
 
 from ...cases.theme import THEMES
-from ..amount import factor, milliseconds
+from ..data.amount import factor, milliseconds
 from .beside import records
 
 COLUMNS = (

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pandas as pd
 
-from .. import runs
-from ..content import text as content
-from ..row import MUTANTS, Certificate, Comparison, Instant, Rungs, StepError
-from ..write import NAMES, read
+from ..data import runs
+from ..data.content import text as content
+from ..data.row import MUTANTS, Certificate, Comparison, Instant, Rungs, StepError
+from ..output.write import NAMES, read
 
 BESIDE = {
     "advice.csv": "textmech advise",

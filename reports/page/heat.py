@@ -4,8 +4,8 @@ from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..amount import milliseconds
-from ..row import (
+from ..data.amount import milliseconds
+from ..data.row import (  # fmt: skip
     AGREES,
     BEYOND,
     CHANGED,
@@ -16,7 +16,7 @@ from ..row import (
     REFUSED,
     Comparison,
     Rungs,
-)  # fmt: skip
+)
 from .column import Column, column
 
 SHADES = (1e-3, 1e-2, 1e-1, 1.0, 10.0, 100.0, 1000.0)

@@ -10,7 +10,7 @@ from typing import Any
 from ...cases.case import Case
 from ...cases.theme import THEMES
 from ...reference.systems import SYSTEMS
-from ..row import REFUSED
+from ..data.row import REFUSED
 from .column import Column
 from .heat import Cell
 from .mathml import mathml

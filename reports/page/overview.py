@@ -5,7 +5,7 @@ from itertools import groupby
 from typing import Any
 
 from ...engines import place
-from ..row import AGREES, REFUSED, Comparison
+from ..data.row import AGREES, REFUSED, Comparison
 from ..show.picture import drawn, worst
 from .column import Column
 from .folder import Folder

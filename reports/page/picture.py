@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from ...cases.trajectory import Array
-from ..row import Comparison, Rungs, StepError
+from ..data.row import Comparison, Rungs, StepError
 from .column import Column, column
 from .heat import short
 from .motions import Motion

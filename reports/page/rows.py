@@ -5,7 +5,7 @@ from typing import Any
 
 import pandas as pd
 
-from ..row import OF_A_LADDER, StepError
+from ..data.row import OF_A_LADDER, StepError
 from .beside import records
 from .column import Column, column
 from .folder import Folder

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from ..row import Comparison, StepError
+from ..data.row import Comparison, StepError
 from .column import Column, column
 
 SHOWN = ("pins", "loops", "springs", "rolling", "friction", "impacts", "space")

@@ -4,11 +4,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ...cases.case import Case
-from .. import runs, write
-from ..ours import unasked
-from ..passing import passing
-from ..replace import replace
-from ..suite import Report
+from ..data import runs
+from ..data.ours import unasked
+from ..output import write
+from ..run.suite import Report
+from ..system.passing import passing
+from ..system.replace import replace
 from .folder import folder
 from .motions import motions
 from .page import page

@@ -3,8 +3,8 @@
 from collections.abc import Mapping, Sequence
 
 from ... import engines
-from ..amount import milliseconds
-from ..row import FAILS, REFUSED, Comparison, Rungs
+from ..data.amount import milliseconds
+from ..data.row import FAILS, REFUSED, Comparison, Rungs
 
 Way = tuple[str, str]
 """A setting, and how it is realised."""

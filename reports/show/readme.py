@@ -14,8 +14,8 @@ from typing import NamedTuple
 from ...cases.find import of_the_book
 from ...cases.load import load
 from ...cases.scene.frame import PLANE
-from ..row import Comparison, Rungs
-from ..write import HERE, read
+from ..data.row import Comparison, Rungs
+from ..output.write import HERE, read
 from . import picture
 from .cures import cures
 from .nouns import nouns

@@ -3,10 +3,10 @@
 from ...cases.case import Case
 from ...cases.mistake import CaseError
 from ...engines.engine import Engine, Refusal
-from ..trial.ladder import judged_step
-from ..trial.start import assembled
-from ..trial.states import moving
-from ..trial.trial import ways
+from ..compare.trial.ladder import judged_step
+from ..compare.trial.start import assembled
+from ..compare.trial.states import moving
+from ..compare.trial.trial import ways
 
 
 def script(case: Case, engine: Engine) -> str:

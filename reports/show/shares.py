@@ -4,8 +4,8 @@ from collections.abc import Iterable, Sequence
 from statistics import mean, median
 
 from ...engines import place
-from ..amount import factor
-from ..row import Comparison
+from ..data.amount import factor
+from ..data.row import Comparison
 from .picture import worst
 
 FAR = 100.0

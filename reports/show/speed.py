@@ -3,8 +3,8 @@
 import csv
 from textwrap import fill
 
-from ..row import SPEED
-from ..write import HERE
+from ..data.row import SPEED
+from ..output.write import HERE
 
 TOLD = {
     "make reports, in a fresh clone, with its set-up": "`make reports` takes {} in a fresh clone",

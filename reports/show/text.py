@@ -2,7 +2,7 @@
 
 from dataclasses import asdict
 
-from ..row import Certificate, Comparison
+from ..data.row import Certificate, Comparison
 
 
 def row_text(row: Comparison) -> str:

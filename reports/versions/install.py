@@ -15,8 +15,8 @@ from importlib import metadata, util
 from pathlib import Path
 
 from ...cases.mistake import CaseError, Mistake
-from .. import child
-from ..passing import passing
+from ..system import child
+from ..system.passing import passing
 from .wanted import Release
 
 PIECE = re.compile(r"([\w.-]+) ?\(?== ?([\w.+!]+)\)?")

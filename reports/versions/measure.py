@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...cases.mistake import CaseError, Mistake
-from .. import child
-from ..cache.store import FOLDER, by_default, usable
-from ..diff.folder import Folder, opened
-from ..passing import passing
-from ..row import CRASHED, REFUSED
+from ..data.row import CRASHED, REFUSED
+from ..output.diff.folder import Folder, opened
+from ..run.cache.store import FOLDER, by_default, usable
+from ..system import child
+from ..system.passing import passing
 from .install import place
 from .wanted import Release
 
@@ -107,11 +107,13 @@ MISTAKEN = 2
 def main(told: str) -> int:
     """told: JSON of the engine, its version, cases, settings, folder, jobs, long."""
     from ...cases.mistake import CaseError
-    from .. import pool, suite, write
-    from ..cache.store import usable
-    from ..selection import choose_cases, choose_engines
+    from ..output import write
+    from ..run import suite
+    from ..run.cache.store import usable
+    from ..run.selection import choose_cases, choose_engines
     from ..show.progress import progress
     from ..show.say import tell
+    from ..system import pool
 
     asked = json.loads(told)
     name, folder = asked["engine"], Path(asked["folder"])
@@ -153,8 +155,8 @@ def _with_parent() -> None:
 
 if __name__ == "__main__":
     threading.Thread(target=_with_parent, daemon=True).start()  # before seconds of imports
-    from .. import ending
     from ..show.say import prepare
+    from ..system import ending
 
     ending.listen()
     prepare()

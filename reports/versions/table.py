@@ -5,12 +5,12 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from ..diff.change import Change, Place
-from ..diff.compare import difference
-from ..diff.errors import ERRORS, place
-from ..diff.rule import Rule
-from ..diff.table import Row
-from ..row import NUMBERS
+from ..data.row import NUMBERS
+from ..output.diff.change import Change, Place
+from ..output.diff.compare import difference
+from ..output.diff.errors import ERRORS, place
+from ..output.diff.rule import Rule
+from ..output.diff.table import Row
 from .measure import Measured
 from .wanted import Release
 

@@ -4,11 +4,11 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
 
-from ..diff.change import Change, Place
-from ..diff.errors import place
-from ..diff.file import number
-from ..diff.table import Row
-from ..diff.text import fitted
+from ..output.diff.change import Change, Place
+from ..output.diff.errors import place
+from ..output.diff.file import number
+from ..output.diff.table import Row
+from ..output.diff.text import fitted
 from .table import Step
 from .wanted import Release
 

@@ -11,7 +11,7 @@ from textmech.cases.case import Case
 from textmech.engines.mujoco.read import readout as read
 from textmech.reference.motion import bodies
 from textmech.reference.solve import solve
-from textmech.reports.trial.start import first
+from textmech.reports.compare.trial.start import first
 
 FIELDS = ("arm.ax", "arm.ay", "arm.alpha", "rod.alpha", "bob.ax", "bob.ay")
 SCENE = """\

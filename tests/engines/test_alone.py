@@ -11,7 +11,7 @@ from given.planning import TUNED
 
 from textmech.engines.engine import Plan
 from textmech.reference.solve import solve
-from textmech.reports.trial.start import first
+from textmech.reports.compare.trial.start import first
 
 Parts = dict[str, str]
 """By section of a scene what stands in it."""

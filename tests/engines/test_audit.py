@@ -27,8 +27,8 @@ from textmech.cases.scene.frame import PLANE
 from textmech.cases.scene.shape import bar, particle
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Engine, Start
-from textmech.reports.trial.audit import EQUAL, audit
-from textmech.reports.trial.trial import Trial
+from textmech.reports.compare.trial.audit import EQUAL, audit
+from textmech.reports.compare.trial.trial import Trial
 
 # Where a scene is handed to what builds it.
 BUILDER = {

@@ -15,9 +15,9 @@ from textmech import engines
 from textmech.cases.case import Case
 from textmech.cases.scene.states import claimable
 from textmech.engines.engine import Claims, Engine
-from textmech.reports.trial.start import assembled
-from textmech.reports.trial.states import ways
-from textmech.reports.trial.trial import Trial
+from textmech.reports.compare.trial.start import assembled
+from textmech.reports.compare.trial.states import ways
+from textmech.reports.compare.trial.trial import Trial
 
 MUJOCO, PYMUNK = (engines.make(name, "shipped") for name in ("mujoco", "pymunk"))
 

@@ -10,7 +10,7 @@ from given.planning import TUNED, moved, refused
 from textmech.engines.mujoco.model import drive
 from textmech.engines.pymunk.stepping import run as told
 from textmech.reference.solve import solve
-from textmech.reports.trial.start import first
+from textmech.reports.compare.trial.start import first
 
 # The knee is named backward, from the shank to the ground, and has all that may act beside a drive.
 LEG = """\

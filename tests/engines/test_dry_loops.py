@@ -13,7 +13,7 @@ from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Realised
 from textmech.engines.mujoco.callbacks import friction, smooth
 from textmech.reference.solve import solve
-from textmech.reports.trial.start import first
+from textmech.reports.compare.trial.start import first
 
 # Two carts on a rod, of which the one that is pulled runs freely.
 TIED = """\

@@ -17,8 +17,8 @@ from textmech.cases.scene.observe import observe
 from textmech.cases.scene.shape import bar
 from textmech.cases.trajectory import Array, Trajectory, Y
 from textmech.reference.solve import solve
-from textmech.reports.events.times import engine_events, reference_events
-from textmech.reports.trial.start import first
+from textmech.reports.compare.events.times import engine_events, reference_events
+from textmech.reports.compare.trial.start import first
 
 DROPPED = """\
 scene:

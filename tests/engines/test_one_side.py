@@ -18,7 +18,7 @@ from textmech.engines.law import TENSIONS
 from textmech.engines.mujoco.callbacks.corner import Corners
 from textmech.engines.mujoco.model.force import ELEMENTS
 from textmech.reference.solve import solve
-from textmech.reports.trial.start import first
+from textmech.reports.compare.trial.start import first
 
 BOTH = """\
 scene:

@@ -12,8 +12,8 @@ from textmech import engines
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Engine, Plan, Tunable
 from textmech.engines.knobs import Options, as_text, merged
-from textmech.reports.own_settings import read_settings
-from textmech.reports.trial.ladder import judged_step, wanted_reactions
+from textmech.reports.compare.trial.ladder import judged_step, wanted_reactions
+from textmech.reports.data.own_settings import read_settings
 
 RUNS = [
     (name, engine)

@@ -21,10 +21,10 @@ from given.planning import begun
 
 from textmech.engines.mujoco import MuJoCo
 from textmech.reference.solve import solve
-from textmech.reports.advice.advised import Advised, Asked
-from textmech.reports.advice.session import advised
-from textmech.reports.cache.store import usable
-from textmech.reports.selection import choose_engines
+from textmech.reports.run.advice.advised import Advised, Asked
+from textmech.reports.run.advice.session import advised
+from textmech.reports.run.cache.store import usable
+from textmech.reports.run.selection import choose_engines
 from textmech.reports.show.advice import told
 from textmech.reports.show.questions import listed
 

@@ -16,7 +16,7 @@ from textmech.engines.engine import Choice, Plan
 from textmech.engines.mujoco.model import contact
 from textmech.engines.mujoco.settings.settings import at_step
 from textmech.reference.systems.walkers.spoke_steps import SpokeSteps
-from textmech.reports.events.times import falls
+from textmech.reports.compare.events.times import falls
 
 L, M = 0.3, 2.0
 RATE = 3.3  # rad/s

@@ -13,7 +13,7 @@ from given.scenes import typed
 from textmech.cases.case import Case
 from textmech.cases.scene.observe import observe
 from textmech.reference.solve import solve
-from textmech.reports.trial.start import first
+from textmech.reports.compare.trial.start import first
 
 TURNED = math.radians(35)
 AT = (0.3, -0.2)  # the point of the plane that is the floor's origin [m]

@@ -34,8 +34,8 @@ from given.planning import (
 from textmech import engines
 from textmech.cases.scene import Bounds, Scene
 from textmech.engines.engine import Engine, Plan, Refusal, Start
-from textmech.reports.trial.trial import NOTHING_OF_ITS_OWN
-from textmech.reports.trial.trial import ways as tried
+from textmech.reports.compare.trial.trial import NOTHING_OF_ITS_OWN
+from textmech.reports.compare.trial.trial import ways as tried
 
 
 @pytest.mark.parametrize("engine", SETTINGS, ids=words)

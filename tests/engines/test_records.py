@@ -23,8 +23,8 @@ from textmech.cases.scene.frame import SPACE
 from textmech.cases.scene.quantity import table
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Engine, Refusal
-from textmech.reports.events.times import engine_events
-from textmech.reports.trial.ladder import wanted_reactions
+from textmech.reports.compare.events.times import engine_events
+from textmech.reports.compare.trial.ladder import wanted_reactions
 
 
 def holds_every_step(motion: Trajectory, bare: Trajectory, step: float) -> None:

@@ -15,7 +15,7 @@ from textmech.engines.mujoco.model import loops
 from textmech.engines.mujoco.model import rods as bars
 from textmech.engines.mujoco.read import readout
 from textmech.reference.solve import solve
-from textmech.reports.trial.start import first
+from textmech.reports.compare.trial.start import first
 
 # Measured at 1 ms: MuJoCo 8e-10 m and of its forces, pymunk 9e-5 m, in the loop 9e-7 m.
 REACHED = {"mujoco": 1e-8, "pymunk": 5e-4}

@@ -14,7 +14,7 @@ from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Realised, Start
 from textmech.engines.mujoco.callbacks import catch, taut
 from textmech.reference.solve import solve
-from textmech.reports.trial.start import first
+from textmech.reports.compare.trial.start import first
 
 END = scenes.tail(1.0, 26)
 STEP = 1e-4

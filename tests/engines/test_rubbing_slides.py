@@ -11,7 +11,7 @@ from textmech.cases.scene.observe import observe
 from textmech.engines.engine import Refusal
 from textmech.engines.mujoco.read import reaction
 from textmech.reference.solve import solve
-from textmech.reports.trial.start import first
+from textmech.reports.compare.trial.start import first
 
 HELD = """\
 scene:

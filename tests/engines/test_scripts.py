@@ -30,7 +30,7 @@ from textmech.engines.mujoco.model.drive import controls
 from textmech.engines.mujoco.model.force import BY_ITSELF
 from textmech.engines.mujoco.model.script import controls as callback
 from textmech.engines.mujoco.model.space.scene import signals as controls_in_space
-from textmech.reports.trial.start import assembled
+from textmech.reports.compare.trial.start import assembled
 
 STEP = 1e-3  # s: whole steps in the 1 s that a script of pymunk's runs
 END = np.array([0.0, 1.0])

@@ -17,7 +17,7 @@ from textmech.engines.mujoco.callbacks import driver as stiction
 from textmech.engines.mujoco.callbacks import smooth, taut
 from textmech.engines.mujoco.model import contact
 from textmech.reference.solve import solve
-from textmech.reports.trial.start import first
+from textmech.reports.compare.trial.start import first
 
 # The third comes taut at 0.044 s, and with the second alone: the first would have to push.
 THREE_ROPES = """\

@@ -9,7 +9,7 @@ from textmech.cases.load import load
 from textmech.engines import make
 from textmech.engines.engine import Plan
 from textmech.engines.law import one_number
-from textmech.reports.trial.start import assembled
+from textmech.reports.compare.trial.start import assembled
 
 
 @pytest.mark.parametrize("name", ["mujoco", "pymunk"])

@@ -12,7 +12,7 @@ from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import ANGLE, Array
 from textmech.engines.engine import Start
 from textmech.reference.solve import solve
-from textmech.reports.trial.start import first
+from textmech.reports.compare.trial.start import first
 
 TAIL = """\
 allow: {rod.angle: 1.0e-2}

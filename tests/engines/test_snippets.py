@@ -27,7 +27,7 @@ from textmech.engines.pymunk.adapter.script import building
 from textmech.engines.pymunk.stepping.run import placed
 from textmech.engines.pymunk.stepping.scene import build
 from textmech.reference.solve import solve
-from textmech.reports.trial.start import first
+from textmech.reports.compare.trial.start import first
 
 STEP = 5e-4
 RECIPE: Options = {}  # stands for the tuned one

@@ -15,7 +15,7 @@ from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Tunable
 from textmech.engines.mujoco.model import stops as of_mujoco
 from textmech.reference.solve import solve
-from textmech.reports.trial.start import first
+from textmech.reports.compare.trial.start import first
 
 # A driven arm that is swung against both stops of its elbow, which names the arm first or last.
 ARM = """\

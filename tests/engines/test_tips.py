@@ -20,7 +20,7 @@ from textmech.cases.scene.shape import bar
 from textmech.cases.trajectory import ANGLE, Array, X
 from textmech.engines.engine import Start
 from textmech.reference.solve import solve
-from textmech.reports.trial.start import first
+from textmech.reports.compare.trial.start import first
 
 RELEASED = math.radians(72.8)
 LENGTH = 1.0  # m

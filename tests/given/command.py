@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from textmech.reports import cli, ending
+from textmech.reports import cli
 from textmech.reports.command import done
+from textmech.reports.system import ending
 
 NEW = """\
 title: A bar that hangs on a cart

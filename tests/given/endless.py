@@ -14,7 +14,9 @@ from typing import Any
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Plan, Start
-from textmech.reports import cli, ending, selection
+from textmech.reports import cli
+from textmech.reports.run import selection
+from textmech.reports.system import ending
 
 CASE = """\
 title: A free body that moves at constant velocity

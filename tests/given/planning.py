@@ -13,7 +13,7 @@ from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Engine, Plan, Realised, Refusal, Start
 from textmech.engines.stride import strides
 from textmech.engines.told import LIVING, TOLD
-from textmech.reports.trial.start import assembled
+from textmech.reports.compare.trial.start import assembled
 
 from .scenes import SHIPPED as EVERY
 

@@ -11,7 +11,7 @@ from textmech.cases.scene.difference import apart
 from textmech.cases.scene.observe import observe
 from textmech.reference.certificate.errors import ERROR
 from textmech.reference.solve import Solution
-from textmech.reports.events.times import reference_events
+from textmech.reports.compare.events.times import reference_events
 
 # Times what both say of their own errors: the size of an error in one run and in another, as the
 # certificate allows two answers to differ by.

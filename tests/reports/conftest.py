@@ -14,13 +14,14 @@ from textmech.cases.load import load
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Choice, Diverged, Plan, Realised, Refusal, Start
-from textmech.reports import pool, suite
-from textmech.reports.cache.store import usable
+from textmech.reports.compare.trial.start import first
+from textmech.reports.compare.trial.trial import Trial, ways
 from textmech.reports.pytest_plugin import CaseItem, measured
-from textmech.reports.selection import choose_cases, choose_engines
-from textmech.reports.suite import Report
-from textmech.reports.trial.start import first
-from textmech.reports.trial.trial import Trial, ways
+from textmech.reports.run import suite
+from textmech.reports.run.cache.store import usable
+from textmech.reports.run.selection import choose_cases, choose_engines
+from textmech.reports.run.suite import Report
+from textmech.reports.system import pool
 
 TEXT = """\
 title: A free body that moves at constant velocity

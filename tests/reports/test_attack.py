@@ -11,10 +11,12 @@ from pathlib import Path
 import pytest
 
 from textmech.cases.case import Case
-from textmech.reports import ending, suite, write
-from textmech.reports.replace import DECIDED
-from textmech.reports.row import Comparison
-from textmech.reports.trial.trial import Trial
+from textmech.reports.compare.trial.trial import Trial
+from textmech.reports.data.row import Comparison
+from textmech.reports.output import write
+from textmech.reports.run import suite
+from textmech.reports.system import ending
+from textmech.reports.system.replace import DECIDED
 
 FORK = multiprocessing.get_context("fork")
 STRIKES = [signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP]

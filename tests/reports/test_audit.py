@@ -19,10 +19,10 @@ from textmech.cases.scene import (
     Scene,
 )
 from textmech.cases.trajectory import Trajectory
-from textmech.reports.judge.compare import Outcome, compare
-from textmech.reports.row import AGREES, FAILS
-from textmech.reports.trial.audit import expected
-from textmech.reports.trial.trial import Trial
+from textmech.reports.compare.judge.compare import Outcome, compare
+from textmech.reports.compare.trial.audit import expected
+from textmech.reports.compare.trial.trial import Trial
+from textmech.reports.data.row import AGREES, FAILS
 
 Make = Callable[..., Trial]
 

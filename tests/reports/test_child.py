@@ -10,13 +10,13 @@ from pathlib import Path
 
 import pytest
 
-from textmech.reports import child
+from textmech.reports.system import child
 
 SOON = 3.0  # s, on a machine that does much else; killing takes milliseconds
 RUNS = """\
 import sys
 from textmech.reports import child, ending
-from textmech.reports.passing import passing
+from textmech.reports.system.passing import passing
 ending.listen()
 try:
     with passing("textmech-run-") as folder:

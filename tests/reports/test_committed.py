@@ -2,16 +2,18 @@
 
 import pytest
 
-from textmech.reports import pool, suite, write
-from textmech.reports.advice.advised import Asked
-from textmech.reports.advice.advised import rows as rows_of
-from textmech.reports.advice.session import advised
-from textmech.reports.cache.store import usable
-from textmech.reports.judge.rounding import EPSILON
-from textmech.reports.row import Advice, Cause, Certificate, Comparison, Instant, Rungs
-from textmech.reports.selection import choose_cases, choose_engines
+from textmech.reports.compare.judge.rounding import EPSILON
+from textmech.reports.data.row import Advice, Cause, Certificate, Comparison, Instant, Rungs
+from textmech.reports.output import write
+from textmech.reports.run import suite
+from textmech.reports.run.advice.advised import Asked
+from textmech.reports.run.advice.advised import rows as rows_of
+from textmech.reports.run.advice.session import advised
+from textmech.reports.run.cache.store import usable
+from textmech.reports.run.selection import choose_cases, choose_engines
+from textmech.reports.run.suite import Report
 from textmech.reports.show import readme
-from textmech.reports.suite import Report
+from textmech.reports.system import pool
 
 QUARTER = 0.25  # what another compiler or processor may change of a number above the floor
 AFTER_EVENTS = 2 / 3  # a factor of three: which step sees an event first may change

@@ -9,11 +9,11 @@ import pytest
 from textmech.cases.case import Case
 from textmech.cases.find import shipped
 from textmech.cases.load import load
-from textmech.reports import committed
-from textmech.reports.committed import WORSE, Key
-from textmech.reports.judge.compare import compare
-from textmech.reports.row import AGREES, BEYOND, DEVIATES, DIVERGED, Comparison
-from textmech.reports.trial.trial import Trial
+from textmech.reports.compare.judge.compare import compare
+from textmech.reports.compare.trial.trial import Trial
+from textmech.reports.data.row import AGREES, BEYOND, DEVIATES, DIVERGED, Comparison
+from textmech.reports.output import committed
+from textmech.reports.output.committed import WORSE, Key
 
 Make = Callable[..., Trial]
 KEY: Key = ("moving", "mujoco", "tuned", "native", "ball.x")

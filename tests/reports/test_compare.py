@@ -8,8 +8,9 @@ import pytest
 from given.lines import said
 
 from textmech.cases.case import Case, Deviation
-from textmech.reports.judge.compare import Outcome, compare, crashed
-from textmech.reports.row import (
+from textmech.reports.compare.judge.compare import Outcome, compare, crashed
+from textmech.reports.compare.trial.trial import Trial, ways
+from textmech.reports.data.row import (
     AGREES,
     BEYOND,
     CHANGED,
@@ -19,7 +20,6 @@ from textmech.reports.row import (
     TEXTBOOK,
     WITHIN,
 )
-from textmech.reports.trial.trial import Trial, ways
 
 Make = Callable[..., Trial]
 

@@ -12,11 +12,11 @@ from given.otherwise import otherwise
 
 from textmech.cases.case import Case, Deviation, Event
 from textmech.cases.trajectory import Trajectory
-from textmech.reports.events.times import never
-from textmech.reports.judge import compare as comparing
-from textmech.reports.judge.compare import Outcome, compare
-from textmech.reports.row import AGREES, BEYOND, DEVIATES, FAILS, INSTANTS
-from textmech.reports.trial.trial import Trial
+from textmech.reports.compare.events.times import never
+from textmech.reports.compare.judge import compare as comparing
+from textmech.reports.compare.judge.compare import Outcome, compare
+from textmech.reports.compare.trial.trial import Trial
+from textmech.reports.data.row import AGREES, BEYOND, DEVIATES, FAILS, INSTANTS
 
 Make = Callable[..., Trial]
 STOPS = (0.3, 0.7)  # s: the reference's

@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 from given.otherwise import otherwise
 
-from textmech.reports import write
-from textmech.reports.judge import convergence
-from textmech.reports.judge.cause import cause
-from textmech.reports.judge.convergence import Convergence, study
-from textmech.reports.row import (
+from textmech.reports.compare.judge import convergence
+from textmech.reports.compare.judge.cause import cause
+from textmech.reports.compare.judge.convergence import Convergence, study
+from textmech.reports.data.row import (
     ANOTHER,
     EXACT,
     FALLS,
@@ -22,6 +21,7 @@ from textmech.reports.row import (
     UNSETTLED,
     WITHIN,
 )
+from textmech.reports.output import write
 
 T = np.linspace(0.0, 1.0, 26)
 REFERENCE = np.sin(T)

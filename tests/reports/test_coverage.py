@@ -10,8 +10,8 @@ from given import scenes
 from given.tree import ROOT
 
 from textmech.reference.coverage import equations
-from textmech.reports import coverage as covering
-from textmech.reports.coverage import coverage, otherwise
+from textmech.reports.data import coverage as covering
+from textmech.reports.data.coverage import coverage, otherwise
 
 # Items that nobody covers yet. One that is covered must be struck off here.
 NOTHING = ("a photograph of ", "a sketch of ")

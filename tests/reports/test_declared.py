@@ -14,7 +14,7 @@ from textmech.cases.case import Case
 from textmech.cases.find import shipped
 from textmech.cases.load import load
 from textmech.cases.scene.observe import observe
-from textmech.reports.events.times import reference_events
+from textmech.reports.compare.events.times import reference_events
 
 Parameters = Mapping[str, float]
 NARROW = 1.03  # high over low: 1 % to either side, and what was rounded

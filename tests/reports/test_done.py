@@ -8,8 +8,8 @@ from typing import Any
 import pandas as pd
 import pytest
 
-from textmech.reports import write
 from textmech.reports.command import done
+from textmech.reports.output import write
 
 FRAMES = {"advice.csv": pd.DataFrame({"case": ["swing"], "cost": [2.0]})}
 LOOKED_AT = (done.__file__, write.__file__)

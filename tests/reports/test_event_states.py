@@ -17,9 +17,9 @@ from textmech.cases.scene import Body, Scene
 from textmech.cases.scene.quantity import SIDES, AtEvent, Side, at_event
 from textmech.cases.trajectory import VX, Array, Trajectory, X
 from textmech.reference.solve import solve
-from textmech.reports.events import times as reading
-from textmech.reports.events.states import engine_states, mistaken, reference_states
-from textmech.reports.events.times import engine_events, reference_events
+from textmech.reports.compare.events import times as reading
+from textmech.reports.compare.events.states import engine_states, mistaken, reference_states
+from textmech.reports.compare.events.times import engine_events, reference_events
 
 SCENE = Scene(
     (0.0, 0.0), {}, {"box": Body("box", "particle", 1.0, None, {"center": (0.0, 0.0)})}, {}, {}, {}

@@ -11,9 +11,9 @@ from textmech.cases.case import Event
 from textmech.cases.scene import Body, Scene
 from textmech.cases.scene.passages import passages
 from textmech.cases.trajectory import VX, Array, Trajectory
-from textmech.reports.events import rests as reading
-from textmech.reports.events.rests import rests
-from textmech.reports.events.times import engine_events, falls, reference_events
+from textmech.reports.compare.events import rests as reading
+from textmech.reports.compare.events.rests import rests
+from textmech.reports.compare.events.times import engine_events, falls, reference_events
 
 SCENE = Scene(
     (0.0, 0.0), {}, {"box": Body("box", "particle", 1.0, None, {"center": (0.0, 0.0)})}, {}, {}, {}

@@ -14,12 +14,12 @@ from given.report_folders import ROW, report
 from given.trees import digest
 from matplotlib.figure import Figure
 
-from textmech.reports import replace as replacing
-from textmech.reports.ours import unasked
+from textmech.reports.data.ours import unasked
+from textmech.reports.data.row import Comparison
+from textmech.reports.output.write import FILES, read
 from textmech.reports.page.paint import save
-from textmech.reports.replace import replace
-from textmech.reports.row import Comparison
-from textmech.reports.write import FILES, read
+from textmech.reports.system import replace as replacing
+from textmech.reports.system.replace import replace
 
 VICTIM = "what must stay\n"
 Hostile = Callable[[Path], None]

@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 from given.command import NEW, textmech
 
-from textmech.reports import write
 from textmech.reports.command.folder import Folder
+from textmech.reports.output import write
 from textmech.reports.show.say import shown
 
 ONE = ("--engine", "mujoco.shipped")

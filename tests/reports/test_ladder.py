@@ -11,12 +11,12 @@ from given.scenes import SHIPPED
 
 from textmech.cases.case import Case
 from textmech.cases.load import load
-from textmech.reports.judge.compare import compare
-from textmech.reports.row import AGREES
+from textmech.reports.compare.judge.compare import compare
+from textmech.reports.compare.trial import ladder as stepping
+from textmech.reports.compare.trial.ladder import USUAL, judged_step, ladders, wanted_reactions
+from textmech.reports.compare.trial.trial import Trial
+from textmech.reports.data.row import AGREES
 from textmech.reports.show import script as showing
-from textmech.reports.trial import ladder as stepping
-from textmech.reports.trial.ladder import USUAL, judged_step, ladders, wanted_reactions
-from textmech.reports.trial.trial import Trial
 
 Make = Callable[..., Trial]
 TEXT = """\

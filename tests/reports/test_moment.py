@@ -9,10 +9,10 @@ import pytest
 
 from textmech.cases.case import Case
 from textmech.cases.trajectory import Trajectory
-from textmech.reports.judge.compare import compare
-from textmech.reports.judge.metric import error
-from textmech.reports.row import BEYOND
-from textmech.reports.trial.trial import Trial
+from textmech.reports.compare.judge.compare import compare
+from textmech.reports.compare.judge.metric import error
+from textmech.reports.compare.trial.trial import Trial
+from textmech.reports.data.row import BEYOND
 
 Make = Callable[..., Trial]
 SHIPPED = {"setting": "shipped", "own_step": 1e-3}

@@ -9,9 +9,9 @@ from given.command import textmech
 from given.lines import said
 from given.swing import SWING
 
-from textmech.reports import write
 from textmech.reports.cli import command
-from textmech.reports.row import Comparison
+from textmech.reports.data.row import Comparison
+from textmech.reports.output import write
 
 GAME = "mujoco: {step: 0.016666666666666666}\npymunk: {step: 0.016666666666666666}\n"
 

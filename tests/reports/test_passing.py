@@ -13,15 +13,15 @@ from subprocess import PIPE, Popen
 import pytest
 from given.trees import digest
 
-from textmech.reports import passing as room
 from textmech.reports.command.folder import Folder
-from textmech.reports.passing import passing
+from textmech.reports.system import passing as room
+from textmech.reports.system.passing import passing
 
 PREFIX = "textmech-run-"
 HELD = """\
 import sys
 from textmech.reports import ending
-from textmech.reports.passing import passing
+from textmech.reports.system.passing import passing
 ending.listen()
 with passing({prefix!r}) as folder:
     (folder / "ab").mkdir()

@@ -131,7 +131,7 @@ def test_two_files_of_one_name_do_not_share_their_rows(project: pytest.Pytester)
 @pytest.mark.slow
 def test_it_takes_a_time_limit(project: pytest.Pytester) -> None:
     project.makepyfile(
-        "from textmech.reports.limit import limit\ndef test_own(): assert limit() == 2.5"
+        "from textmech.reports.system.limit import limit\ndef test_own(): assert limit() == 2.5"
     )
     done = project.runpytest_subprocess("--textmech-time-limit", "2.5")
     done.assert_outcomes(passed=1)

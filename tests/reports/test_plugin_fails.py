@@ -12,7 +12,7 @@ WORSE = """\
 from pathlib import Path
 from dataclasses import fields
 from textmech.reports import committed
-from textmech.reports.row import Comparison
+from textmech.reports.data.row import Comparison
 key = ("swing", "mujoco", "shipped", "native", "rod.angle")
 said = dict.fromkeys(field.name for field in fields(Comparison))
 said |= dict(version={version!r}, step=0.002, error={largest}, verdict={verdict!r})
@@ -38,7 +38,7 @@ def test_a_reference_that_is_not_certified_is_red(pytester: pytest.Pytester) -> 
 
 @pytest.mark.slow
 def test_an_audit_that_fails_is_red(pytester: pytest.Pytester) -> None:
-    done = run(pytester, "import textmech.reports.judge.compare as c; c.EQUAL = -1.0\n")
+    done = run(pytester, "import textmech.reports.compare.judge.compare as c; c.EQUAL = -1.0\n")
     done.assert_outcomes(passed=1, failed=1, xfailed=1)
     done.stdout.fnmatch_lines(["*: audit*", "*FAILS*"])
 

@@ -11,8 +11,8 @@ from given.otherwise import otherwise
 from given.report_folders import CERTIFICATE
 
 from textmech.cases.mistake import Mistake
-from textmech.reports import committed, pytest_plugin
-from textmech.reports.row import (
+from textmech.reports import pytest_plugin
+from textmech.reports.data.row import (
     AGREES,
     BEYOND,
     CRASHED,
@@ -22,6 +22,7 @@ from textmech.reports.row import (
     REFUSED,
     Comparison,
 )
+from textmech.reports.output import committed
 
 PASSED, FAILED, EXPECTED = "passed", "failed", "xfailed"
 

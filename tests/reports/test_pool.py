@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from textmech.reports import pool
+from textmech.reports.system import pool
 
 
 def work(task: int) -> int:

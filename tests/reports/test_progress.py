@@ -8,12 +8,12 @@ from types import SimpleNamespace
 import pytest
 
 from textmech.reference.integrators import now
-from textmech.reports import pool
-from textmech.reports.cache.key import Keys
-from textmech.reports.cache.store import passing
-from textmech.reports.processes import Processes
-from textmech.reports.results import Results
+from textmech.reports.run.cache.key import Keys
+from textmech.reports.run.cache.store import passing
+from textmech.reports.run.results import Results
 from textmech.reports.show import progress, say
+from textmech.reports.system import pool
+from textmech.reports.system.processes import Processes
 
 
 @pytest.mark.parametrize(

@@ -10,9 +10,9 @@ from given.otherwise import otherwise
 
 from textmech.cases.case import Case
 from textmech.cases.load import load
-from textmech.reports import promised
-from textmech.reports.promised import answered, ships, unkept
-from textmech.reports.row import AGREES, BEYOND, DIVERGED, FAILS, Comparison
+from textmech.reports.data import promised
+from textmech.reports.data.promised import answered, ships, unkept
+from textmech.reports.data.row import AGREES, BEYOND, DIVERGED, FAILS, Comparison
 
 BROKEN = replace(
     row("tuned", 1.35), verdict=FAILS, because="0.0135 is above allow 0.01; the step: order 2.0"

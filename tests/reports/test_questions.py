@@ -12,7 +12,7 @@ from textmech.cases.find import of_the_book
 from textmech.cases.find import questions as files
 from textmech.cases.load import load
 from textmech.reports import run
-from textmech.reports.row import AGREES
+from textmech.reports.data.row import AGREES
 from textmech.reports.show import questions as asking
 from textmech.reports.show.questions import WORDS, listed, questions
 

@@ -9,7 +9,7 @@ from textmech.cases.scene import Signal
 from textmech.cases.scene.frame import PLANE
 from textmech.cases.scene.observe import observe
 from textmech.cases.scene.quantity import table
-from textmech.reports.trial.ladder import wanted_reactions
+from textmech.reports.compare.trial.ladder import wanted_reactions
 
 DRIVEN = spatial(
     [rigid("rod", 1.3, LOPSIDED, {"end": (0.2, 0.1, 0.0)})],

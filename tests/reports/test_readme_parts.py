@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 from given.lines import refused, row
 
-from textmech.reports.row import DEVIATES, Comparison
+from textmech.reports.data.row import DEVIATES, Comparison
+from textmech.reports.output.write import HERE, read
 from textmech.reports.show import readme, speed
 from textmech.reports.show.readme import FILES, PARTS, ROOT, Part, filled, releases
 from textmech.reports.show.shares import shares
-from textmech.reports.write import HERE, read
 
 PART = Part("README.md", "one", lambda: "new\n")
 TEXT = "before\n<!-- one: of a table -->\nold\n<!-- /one -->\nafter\n"

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from given.swing import SWING
 
-from textmech.reports import ending
+from textmech.reports.system import ending
 
 pytest_plugins = ["pytester"]
 ONE = "pymunk.tuned"

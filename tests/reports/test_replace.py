@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from textmech.reports.replace import replace
+from textmech.reports.system.replace import replace
 
 NAMES = ("a.csv", "b.csv", "c.csv")
 OLD = {name: f"old {name}\n" for name in NAMES}

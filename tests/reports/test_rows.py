@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from given.lines import refused, row
 
-from textmech.reports.row import FAILS, Certificate
+from textmech.reports.data.row import FAILS, Certificate
 from textmech.reports.show.rows import known, rows
 
 LONG = "the model: 0.346 remains for h → 0; " + "one number for friction where there are two; " * 3

@@ -10,7 +10,7 @@ from given.command import textmech
 from textmech.cases.case import Event
 from textmech.cases.scene import Body, Scene
 from textmech.cases.trajectory import VX, Array, Trajectory
-from textmech.reports.events.times import falls, reference_events, surely
+from textmech.reports.compare.events.times import falls, reference_events, surely
 
 SCENE = Scene(
     (0.0, 0.0), {}, {"box": Body("box", "particle", 1.0, None, {"center": (0.0, 0.0)})}, {}, {}, {}

@@ -7,7 +7,7 @@ import pytest
 from given.lines import ladder, refused, row
 from given.otherwise import otherwise
 
-from textmech.reports.row import CHANGED, DIVERGED, FAILS, Comparison
+from textmech.reports.data.row import CHANGED, DIVERGED, FAILS, Comparison
 from textmech.reports.show import agreement
 from textmech.reports.show import summary as short
 from textmech.reports.show.summary import Line, approximations, summary

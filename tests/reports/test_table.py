@@ -1,7 +1,7 @@
 """Tables for a terminal of 80 columns and for a page."""
 
-from textmech.reports import write
-from textmech.reports.row import Comparison, Rungs
+from textmech.reports.data.row import Comparison, Rungs
+from textmech.reports.output import write
 from textmech.reports.show.summary import Line, approximations, summary
 from textmech.reports.show.table import WIDTH, markdown, narrow, page
 

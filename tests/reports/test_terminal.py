@@ -2,9 +2,9 @@
 
 import pytest
 
-from textmech.reports.row import Certificate
+from textmech.reports.data.row import Certificate
+from textmech.reports.run.suite import Report
 from textmech.reports.show import terminal
-from textmech.reports.suite import Report
 
 
 def test_what_a_reference_is_certified_to_is_told(capsys: pytest.CaptureFixture[str]) -> None:

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from textmech.reports.events import rests as reading
-from textmech.reports.events.rests import rests
+from textmech.reports.compare.events import rests as reading
+from textmech.reports.compare.events.rests import rests
 
 STOP = 0.61803  # s, from as many m/s
 

@@ -11,12 +11,12 @@ import pytest
 from textmech.cases.case import Case, Deviation
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
-from textmech.reports.judge import metric
-from textmech.reports.judge.compare import compare
-from textmech.reports.judge.convergence import Convergence
-from textmech.reports.judge.verdict import verdict
-from textmech.reports.row import ANOTHER, BEYOND, DEVIATES, DIVERGED, FAILS, TEXTBOOK
-from textmech.reports.trial.trial import Trial
+from textmech.reports.compare.judge import metric
+from textmech.reports.compare.judge.compare import compare
+from textmech.reports.compare.judge.convergence import Convergence
+from textmech.reports.compare.judge.verdict import verdict
+from textmech.reports.compare.trial.trial import Trial
+from textmech.reports.data.row import ANOTHER, BEYOND, DEVIATES, DIVERGED, FAILS, TEXTBOOK
 
 Make = Callable[..., Trial]
 SHIPPED = {"setting": "shipped", "own_step": 1e-3}

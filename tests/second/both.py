@@ -14,8 +14,8 @@ from textmech.cases.load import load
 from textmech.cases.scene.observe import observe
 from textmech.cases.scene.quantity import at_event
 from textmech.reference.solve import Solution, solve
-from textmech.reports.events.states import reference_states
-from textmech.reports.events.times import reference_events
+from textmech.reports.compare.events.states import reference_states
+from textmech.reports.compare.events.times import reference_events
 
 FILES = [Path(path) for path in shipped().values()]
 EVERY = scenes.EVERY

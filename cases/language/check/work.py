@@ -1,7 +1,7 @@
 """The work that a case asks of its reference, counted before anything is computed.
 
 A person may allow any amount of it; what nobody expected ends with a message instead of a night.
-The steps of engines are counted where engines are known (reports/trial/work.py).
+The steps of engines are counted where engines are known (reports/compare/trial/work.py).
 """
 
 from collections.abc import Iterator, Mapping

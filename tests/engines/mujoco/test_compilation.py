@@ -23,9 +23,9 @@ from textmech.engines.mujoco.adapter import compilation
 from textmech.engines.mujoco.adapter.space import compilation as space
 from textmech.engines.mujoco.model.rods import with_rods
 from textmech.engines.mujoco.model.tree import called
-from textmech.reports.judge.compare import compare
-from textmech.reports.trial.start import assembled, first
-from textmech.reports.trial.trial import Trial
+from textmech.reports.compare.judge.compare import compare
+from textmech.reports.compare.trial.start import assembled, first
+from textmech.reports.compare.trial.trial import Trial
 
 TUNED = MuJoCo("tuned")
 

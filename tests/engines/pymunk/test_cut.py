@@ -16,8 +16,8 @@ from textmech.engines.engine import Diverged, Realised
 from textmech.engines.pymunk.callbacks import cold, cut
 from textmech.engines.pymunk.callbacks.foot import Foot
 from textmech.reference.solve import solve
-from textmech.reports.events.times import engine_events, reference_events
-from textmech.reports.trial.start import first
+from textmech.reports.compare.events.times import engine_events, reference_events
+from textmech.reports.compare.trial.start import first
 
 PYMUNK = TUNED["pymunk"]
 WHEEL = "rimless_wheel"

@@ -17,7 +17,7 @@ from textmech.engines.engine import Diverged, Plan, Realised, Start
 from textmech.engines.pymunk.model.sweeps import halving
 from textmech.engines.pymunk.stepping.scene import build
 from textmech.reference.solve import solve
-from textmech.reports.trial.start import assembled, first
+from textmech.reports.compare.trial.start import assembled, first
 
 ENGINE = TUNED["pymunk"]
 STEP = 2e-4

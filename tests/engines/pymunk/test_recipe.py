@@ -17,7 +17,7 @@ from textmech.engines.engine import Choice
 from textmech.engines.pymunk.callbacks import breakaway
 from textmech.engines.pymunk.settings.recipe import Recipe
 from textmech.engines.pymunk.stepping import scene as builder
-from textmech.reports.events.times import engine_events
+from textmech.reports.compare.events.times import engine_events
 
 ENGINE = TUNED["pymunk"]
 STEP = 1e-4

@@ -19,7 +19,7 @@ from textmech.engines.pymunk.model import stops
 from textmech.engines.pymunk.model.pair import closed_pairs
 from textmech.engines.pymunk.stepping.run import placed
 from textmech.reference.solve import solve
-from textmech.reports.trial.start import first
+from textmech.reports.compare.trial.start import first
 
 PYMUNK = TUNED["pymunk"]
 Patch = pytest.MonkeyPatch

@@ -15,7 +15,7 @@ from textmech.engines.engine import Realised
 from textmech.engines.pymunk.callbacks import cut
 from textmech.engines.pymunk.callbacks.foot import Foot
 from textmech.reference.solve import solve
-from textmech.reports.trial.start import first
+from textmech.reports.compare.trial.start import first
 
 PYMUNK = TUNED["pymunk"]
 Patch = pytest.MonkeyPatch

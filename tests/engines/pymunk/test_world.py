@@ -14,8 +14,8 @@ from textmech.cases.scene import Bounds
 from textmech.cases.trajectory import Trajectory, X
 from textmech.engines.engine import Diverged
 from textmech.engines.pymunk.stepping import scene as builder
-from textmech.reports.trial.audit import EQUAL, audit
-from textmech.reports.trial.trial import Trial
+from textmech.reports.compare.trial.audit import EQUAL, audit
+from textmech.reports.compare.trial.trial import Trial
 
 
 def heavier(monkeypatch: pytest.MonkeyPatch) -> None:

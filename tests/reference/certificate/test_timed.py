@@ -24,7 +24,7 @@ from textmech.reference.solve import solve
 from textmech.reference.system import Array, Guard, Mode, System
 from textmech.reference.systems.contact.bouncing_disk import BouncingDisk
 from textmech.reference.systems.pendula.stopped_pendulum import G, StoppedPendulum
-from textmech.reports.events.times import reference_events
+from textmech.reports.compare.events.times import reference_events
 
 SAMPLES = 11
 MANY = 20  # random scenes a seed

@@ -14,7 +14,7 @@ from textmech.cases.scene import Anchor, Contact, Scene, shape
 from textmech.reference.mechanism.modes.mechanism import Mechanism
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
-from textmech.reports.events.times import reference_events
+from textmech.reports.compare.events.times import reference_events
 
 G = 9.80665
 SHORT = "duration: 0.25\nsamples: 6\n"

@@ -16,7 +16,7 @@ from textmech.cases.trajectory import Array, Trajectory
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 from textmech.reference.system import Guard, System
-from textmech.reports.events.times import never, reference_events
+from textmech.reports.compare.events.times import never, reference_events
 
 
 def dry(case: Case) -> bool:

@@ -21,7 +21,7 @@ from textmech.reference.motion.follow import Followed
 from textmech.reference.motion.turns import Counted
 from textmech.reference.solve import Solution, solve
 from textmech.reference.system import System
-from textmech.reports.events.times import reference_events
+from textmech.reports.compare.events.times import reference_events
 
 J = 0.5  # kg m²
 SPACE = """\

@@ -19,8 +19,8 @@ from textmech.cases.scene.quantity import at_event
 from textmech.reference.motion.follow import Followed, either, follow
 from textmech.reference.system import Array, Guard, System
 from textmech.reference.systems.walkers.trunk_on_legs import TrunkOnLegs
-from textmech.reports.events.states import reference_states
-from textmech.reports.events.times import reference_events
+from textmech.reports.compare.events.states import reference_states
+from textmech.reports.compare.events.times import reference_events
 
 G = 9.80665
 STANCE = (80.0, 16000.0, 1.0)

@@ -8,7 +8,7 @@ import pytest
 from given.command import NEW, textmech
 
 from textmech import engines
-from textmech.reports import write
+from textmech.reports.output import write
 
 PNG = b"\x89PNG\r\n"
 

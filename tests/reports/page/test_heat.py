@@ -7,10 +7,10 @@ import pytest
 from given.otherwise import otherwise
 from given.report_folders import RUNGS
 
+from textmech.reports.data.row import AGREES, BEYOND, DEVIATES, DIVERGED, FAILS, Comparison
 from textmech.reports.page import heat
 from textmech.reports.page.column import Column, column, columns
 from textmech.reports.page.heat import Cell, cells, short
-from textmech.reports.row import AGREES, BEYOND, DEVIATES, DIVERGED, FAILS, Comparison
 
 ROW = Comparison("c", "", "", "mujoco", "4", "tuned", "native", "", "x", "m", 0.1, 1.0, 0.5, 1.0,
                  1.0, 2.0, 0.5, AGREES, "why")  # fmt: skip

@@ -8,7 +8,7 @@ import pytest
 from textmech.cases.case import Case
 from textmech.reports.page.listed import equations
 from textmech.reports.page.mathml import mathml
-from textmech.reports.selection import choose_cases
+from textmech.reports.run.selection import choose_cases
 
 
 def told(line: str) -> str:

@@ -17,7 +17,7 @@ from textmech.reports.page.motions import FRAMES, POINTS, motion, thinned
 from textmech.reports.page.pack import unpacked, unpacked_by_size
 from textmech.reports.page.sketch import sketch
 from textmech.reports.page.strobe import _frames, _placed
-from textmech.reports.selection import choose_cases
+from textmech.reports.run.selection import choose_cases
 
 LEVEL = 1 / 4096  # of a range: half of it is rounded
 

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import pandas as pd
 import pytest
 
+from textmech.reports.data.row import MUTANTS
 from textmech.reports.page.page import COLUMNS, mutants, page
-from textmech.reports.row import MUTANTS
 
 LAW, ODD = "tests/reference/test_law.py::test_seen", "tests/engines/test_odd.py::test_seen"
 FRAME = pd.DataFrame(

@@ -8,12 +8,12 @@ import pytest
 from given.otherwise import otherwise
 from given.report_folders import CERTIFICATE, COVERED, INSTANT, ROW, RUNGS, STEPS
 
+from textmech.reports.data.row import FAILS
 from textmech.reports.page import overview, rows
 from textmech.reports.page import page as trust
 from textmech.reports.page.column import column
 from textmech.reports.page.folder import Folder
 from textmech.reports.page.heat import Cell
-from textmech.reports.row import FAILS
 
 # No two numbers of a row are the same: one in the place of another is seen.
 COMPARED = replace(

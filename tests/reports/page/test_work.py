@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import pytest
 
+from textmech.reports.data.row import AGREES, Comparison, StepError
 from textmech.reports.page.column import Column
 from textmech.reports.page.work import enough, profile, work, worst
-from textmech.reports.row import AGREES, Comparison, StepError
 
 ROW = Comparison("a", "", "", "mujoco", "4", "tuned", "native", "", "x", "m", 0.1, 1.0, 0.5, 1.0,
                  1.0, 2.0, 0.5, AGREES, "")  # fmt: skip

@@ -11,7 +11,7 @@ from given.otherwise import otherwise
 from given.report_folders import ROW, report
 
 from textmech.cases.mistake import CaseError
-from textmech.reports.diff.folder import opened
+from textmech.reports.output.diff.folder import opened
 from textmech.reports.versions import install, measure, table
 from textmech.reports.versions import measure as one
 from textmech.reports.versions.measure import Measured

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from given.report_folders import ROW, report
 
-from textmech.reports.diff.folder import opened
+from textmech.reports.output.diff.folder import opened
 from textmech.reports.versions.measure import Measured
 from textmech.reports.versions.table import Step, steps, table
 from textmech.reports.versions.text import text

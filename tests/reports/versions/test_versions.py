@@ -8,9 +8,9 @@ import pytest
 from given.command import NEW, textmech
 from given.releases import DYING, HEAVIER, LACKING, SAME, index, wheel
 
-from textmech.reports import write
-from textmech.reports.diff.rule import Rule
-from textmech.reports.diff.table import read
+from textmech.reports.output import write
+from textmech.reports.output.diff.rule import Rule
+from textmech.reports.output.diff.table import read
 from textmech.reports.versions.install import here, place
 from textmech.reports.versions.wanted import Release
 
@@ -153,7 +153,7 @@ def test_this_environments_own_release_is_not_installed(tmp_path: Path) -> None:
 def test_mistakes_are_said_before_anything_is_installed(
     words: list[str], message: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("textmech.reports.child.run", None)
+    monkeypatch.setattr("textmech.reports.system.child.run", None)
     done = textmech("versions", *words)
     assert done.returncode == 2
     assert message in done.stderr

@@ -19,7 +19,7 @@ from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
 from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import either, follow
 from textmech.reference.system import Only
-from textmech.reports.trial.ladder import wanted_reactions
+from textmech.reports.compare.trial.ladder import wanted_reactions
 
 TIMES = np.linspace(0.0, 0.1, 6)
 STEP = 1e-4

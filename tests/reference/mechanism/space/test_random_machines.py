@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from textmech.cases.scene.quantity import table
 from textmech.reference.formalisms import appell, chaplygin, voronets
-from textmech.reports.trial.ladder import wanted_reactions
+from textmech.reports.compare.trial.ladder import wanted_reactions
 
 few = examples(15)
 SEEDS = st.integers(0, 10_000)

@@ -1,0 +1,111 @@
+"""When an engine's quantity comes to rest at zero and leaves it, from steps that creep and tremble.
+
+Steps above 2 % of the motion's largest value move; 4 % are asked where rest ends, so that noise
+does not count twice. The time itself is where the motion, continued, would be zero: a curve
+through the steps next to the rest, of which the nearest is still above 2 %. A straight line
+would be 7e-4 s off in Example 2.4 at any step, since 2 % of its speed last 30 ms; a cubic 1e-6 s.
+Where the steps between it and the rest are smooth themselves, `continued` asks those: 1e-12 s.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ....cases.trajectory import Array
+from .continued import continued
+
+LOW, HIGH = 0.02, 0.04  # of the largest value
+WINDOW = 0.06  # of the largest value in the phase: the curve is laid through 2 % to 6 % of it
+STEPS = 6  # at least, in the curve; and the shortest rest: a shorter one is a passage
+DEGREE = 3
+PLAUSIBLE = 4  # times the way to half of the last value: where the zero can be
+TOUCHES = 0.5  # imaginary over real part: a curve that noise keeps just off zero
+
+
+def rests(times: Array, u: Array) -> list[tuple[float | None, float | None]]:
+    """(stop, start) [s] of every rest of u (N,); None where the record begins or ends in it.
+
+    Where u passes through zero both curves meet, so a rest has to last longer than six steps; or
+    until the end of the record. What starts within six steps rests at no time. What never exceeds
+    4 % of the motion's largest value again counts as rest: an engine's creep is no other.
+    """
+    phases = [_widened(u, *phase) for phase in _phases(u)]
+    if not phases:
+        return []
+    stops = [None, *(_zero(times, u, first, last) for first, last in phases)]
+    starts = [*(_zero(times, u, last, first) for first, last in phases), None]
+    shortest = STEPS * float(times[1] - times[0])
+    if phases[0][0] == 0:
+        del stops[0], starts[0]
+    if phases[-1][1] == len(u) - 1:
+        del stops[-1], starts[-1]
+    return [
+        (stop, start)
+        for stop, start in zip(stops, starts, strict=True)
+        if start is None or start - (times[0] if stop is None else stop) > shortest
+        if stop is None or stop <= times[-1]
+    ]
+
+
+def _phases(u: Array) -> Iterator[tuple[int, int]]:
+    """First and last step of every stretch in which u moves with one sign."""
+    largest = float(np.max(np.abs(u)))
+    if largest == 0:
+        return
+    clear = (np.abs(u) > HIGH * largest) | (np.abs(u) <= LOW * largest)
+    clear[0] = True
+    as_at = np.maximum.accumulate(np.where(clear, np.arange(len(u)), 0))
+    moves = (np.abs(u) > LOW * largest)[as_at]
+    state = np.where(moves, np.sign(u), 0.0)
+    for run in np.split(np.arange(len(u)), np.flatnonzero(np.diff(state)) + 1):
+        if state[run[0]]:
+            yield int(run[0]), int(run[-1])
+
+
+def _widened(u: Array, first: int, last: int) -> tuple[int, int]:
+    """The stretch with the steps beside it that still exceed 2 % of its own largest value."""
+    sign = np.sign(u[first])
+    near = sign * u > LOW * float(np.max(np.abs(u[first : last + 1])))
+    outside = np.flatnonzero(~near)
+    return (
+        int(np.max(outside[outside < first], initial=-1)) + 1,
+        int(np.min(outside[outside > last], initial=len(u))) - 1,
+    )
+
+
+def _zero(times: Array, u: Array, inner: int, edge: int) -> float:
+    """Where u, continued from the steps between `inner` and `edge` beyond `edge`, is zero [s]."""
+    away = 1 if edge >= inner else -1
+    if not 0 <= edge + away < len(u):  # the record ends here: nobody asks for this time
+        return float(times[edge])
+    rows = np.arange(edge, inner - away, -away)
+    high = np.flatnonzero(np.abs(u[rows]) > WINDOW * np.max(np.abs(u[rows])))
+    rows = rows[: max(STEPS, int(high[0]))]
+    h = float(times[edge + away] - times[edge])  # negative where u starts
+    steps, values = (times[rows] - times[edge]) / h, u[rows] / u[edge]
+    half = _half(u[edge + away :: away] / u[edge])
+    for degree in (DEGREE, 1):
+        zero = _first_zero(steps, values, degree)
+        if half is None or half <= zero <= PLAUSIBLE * half:
+            return continued(times, u, float(times[edge]) + h * zero, away)
+    return float(times[edge]) + h * 2 * half  # a corner, or steps too uneven for any curve
+
+
+def _half(beyond: Array) -> float | None:
+    """After how many steps the values, from 1 on, are half of that; None if they never are."""
+    below = np.flatnonzero(beyond <= 0.5)
+    if not len(below):
+        return None
+    i = int(below[0])
+    before = float(beyond[i - 1]) if i else 1.0
+    return i + (before - 0.5) / (before - float(beyond[i]))
+
+
+def _first_zero(steps: Array, u: Array, degree: int) -> float:
+    """The first zero beyond step 0 of the curve through u; inf if there is none."""
+    if len(steps) == 1:
+        return np.inf
+    span = float(np.max(np.abs(steps)))
+    roots = np.roots(np.polyfit(steps / span, u, min(degree, len(steps) - 1)))
+    touches = np.abs(np.imag(roots)) <= np.real(roots) * TOUCHES
+    return float(np.min(np.real(roots[touches]), initial=np.inf)) * span

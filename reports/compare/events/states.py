@@ -1,0 +1,108 @@
+"""What a quantity is right at an event: a curve through the record's rows beside it, at its time.
+
+The rows are of one side only, so that a jump between the sides spoils neither. Where no side is
+said there is no jump, and the side before tells it: a corner of the curve, as a place has at an
+impact, would spoil what goes through rows of both. After the event means the case's `tube` later,
+for reference and engine alike: some engines spread an impact over many steps.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....cases.case import Case
+from ....cases.mistake import Mistake
+from ....cases.scene.observe import observe
+from ....cases.scene.passages import bent
+from ....cases.scene.quantity import SIDES, AtEvent, at_event
+from ....cases.scene.still import still
+from ....cases.trajectory import Array, Trajectory
+from .times import grazed, never, reference_events
+
+ROWS = 8  # of the reference: of seventh degree, as the integrator's eighth order
+STEPS = 4  # of an engine: of third degree, as the best of their integrators is of fourth order
+BESIDE = 1e-6  # of a step: a row so near an event may be before it or after it
+
+Rows = NDArray[np.int64]
+
+
+def reference_states(case: Case, record: Trajectory, at: AtEvent, times: Array) -> Array:
+    """(K,) the quantity at the reference's events; before and after are other smooth pieces."""
+    u = observe(case.scene, record, at.quantity)
+    late = case.tube if at.side == "after" else 0.0
+    read = np.minimum(times + late, record.times[-1])
+    corners = [corner for law in case.scene.laws() for corner in law.corners]
+    return np.array([_in_piece(record, u, t, at.side, corners) for t in read.tolist()], float)
+
+
+def _in_piece(record: Trajectory, u: Array, t: float, side: str, corners: Sequence[float]) -> float:
+    assert record.phase is not None  # the reference's record has it
+    ends = np.flatnonzero(np.diff(record.phase)) + 1
+    pieces = [p for p in np.split(np.arange(len(u)), ends) if np.ptp(record.times[p]) > 0.0]
+    mine = [p for p in pieces if record.times[p[0]] <= t <= record.times[p[-1]]]
+    rows = mine[-1] if side == "after" else mine[0]
+    times = record.times[rows]
+    bends = bent(times, corners)
+    begin = max(
+        (k for k in bends if times[k] < t or (side == "after" and times[k] == t)), default=0
+    )
+    end = min((k for k in bends if k > begin), default=len(rows) - 1)
+    return _curve(record.times, u, rows[begin : end + 1], t, ROWS)
+
+
+def engine_states(case: Case, record: Trajectory, at: AtEvent, times: Array) -> Array:
+    """(K,) the quantity at an engine's events, from the steps beside each.
+
+    Raises KeyError where the record does not hold the quantity.
+    """
+    u, steps = observe(case.scene, record, at.quantity), record.times
+    near = BESIDE * float(steps[1] - steps[0])
+    found = []
+    for t in times.tolist():
+        if at.side == "after":
+            read, rows = min(t + case.tube, float(steps[-1])), np.flatnonzero(steps > t + near)
+        else:
+            read, rows = t, np.flatnonzero(steps < t - near)
+        found.append(_curve(steps, u, rows, read, STEPS) if len(rows) else np.nan)
+    return np.array(found, float)
+
+
+def _curve(times: Array, u: Array, rows: Rows, t: float, most: int) -> float:
+    """At t, of the polynomial through so many of the rows, the nearest; of one time the first."""
+    from scipy.interpolate import BarycentricInterpolator
+
+    at, kept = np.unique(times[rows], return_index=True)
+    nearest = np.argsort(np.abs(at - t), kind="stable")[:most]
+    return float(BarycentricInterpolator(at[nearest], u[rows][kept][nearest])(t))
+
+
+def mistaken(case: Case, reference: Trajectory) -> list[Mistake]:
+    """What the case says of its events and the reference contradicts."""
+    record = reference.record
+    if record is None:
+        return never(case, reference)
+    return list(grazed(case, record)) or never(case, reference) or list(_jumps(case, record))
+
+
+def _jumps(case: Case, record: Trajectory) -> Iterator[Mistake]:
+    """A mistake for every quantity at an event where it jumps and no side is said."""
+    at_once = replace(case, tube=0.0)
+    for name in case.allow:
+        at = at_event(name, case.events)
+        if at is None or at.side:
+            continue
+        times = reference_events(case.scene, record, case.events[at.event])
+        before, after = (
+            reference_states(at_once, record, AtEvent(at.event, at.quantity, side), times)
+            for side in SIDES[1:]
+        )
+        apart = np.abs(after - before)
+        if np.any(apart > still(case.scene, record, at.quantity)):
+            most = int(np.argmax(apart))
+            what = (
+                f"jumps there, from {before[most]:.6g} to {after[most]:.6g}: "
+                f"say {name}.before or {name}.after"
+            )
+            yield case.mistake(("allow", name), what)

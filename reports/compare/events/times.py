@@ -1,0 +1,191 @@
+"""When the events of a case happen: one reading of the reference, one of every engine.
+
+The reference knows its phases, and an event is the boundary of two. An engine only has steps, and
+it creeps: it never rests. So no threshold is a time here; a threshold only tells what is near.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....cases.case import Case, Event
+from ....cases.mistake import Mistake
+from ....cases.scene import Scene
+from ....cases.scene.observe import observe
+from ....cases.scene.passages import lasting, passages, touches
+from ....cases.scene.quantity import at_event
+from ....cases.scene.still import still
+from ....cases.trajectory import Array, Trajectory
+from .rests import LOW, STEPS, rests
+
+CURVE = 4  # steps in the curve that what falls is continued by: as good as an engine of order 4
+SMALL = 1e-4  # of the largest value: a hump as low as this may be rounding or a soft floor
+SURE = 2  # times STEPS and SMALL: no engine near the reference can miss such a hump
+TREMBLE = 1e-6  # steps: two zeros of a curve that touch are not rounding's to lose
+
+
+def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
+    """Times (K,) [s] of the event, from the boundaries of the reference's phases."""
+    u, small, pieces = _pieces(scene, record, event)
+    happens = _RULES[event.rule]
+    times = [
+        float(record.times[before[-1]])
+        for before, after in pairwise(pieces)
+        if happens(u[before], u[after], small)
+    ]
+    if event.crosses:
+        corners = _corners(scene)
+        for piece in pieces:
+            times += passages(record.times[piece], u[piece], small, corners)
+    return np.array(sorted(times), float)
+
+
+def _pieces(
+    scene: Scene, record: Trajectory, event: Event
+) -> tuple[Array, float, list[NDArray[np.int64]]]:
+    """What falls to zero where the event happens, what is nothing beside it, the rows of phases."""
+    u = event.falling(observe(scene, record, event.quantity))
+    return u, still(scene, record, event.quantity), lasting(record)
+
+
+def _corners(scene: Scene) -> list[float]:
+    return [t for law in scene.laws() for t in law.corners]
+
+
+_RULES: Mapping[str, Callable[[Array, Array, float], bool]] = {
+    "stays zero": lambda u, then, still: _leaves(u, still) and not _leaves(then, still),
+    "leaves zero": lambda u, then, still: not _leaves(u, still) and _leaves(then, still),
+    "falls to zero": lambda u, then, still: _leaves(u, still) and _lands(u, still),
+    "rises to zero": lambda u, then, still: _leaves(u, still) and _lands(u, still),
+}
+
+
+def _lands(u: Array, still: float) -> bool:
+    """Whether u ends at zero, and came to it from above."""
+    moving = u[np.abs(u) > still]
+    return bool(abs(u[-1]) <= still and moving[-1] > 0)
+
+
+def _leaves(u: Array, still: float) -> bool:
+    return bool(np.max(np.abs(u)) > still)
+
+
+def engine_events(scene: Scene, record: Trajectory, event: Event) -> Array:
+    """Times (K,) [s] of the event, from every step of an engine.
+
+    Raises KeyError where the record does not hold the quantity.
+    """
+    u = event.falling(observe(scene, record, event.quantity))
+    if event.crosses:
+        return falls(record.times, u)
+    found = rests(record.times, u)
+    times = [stop if event.rule == "stays zero" else start for stop, start in found]
+    return np.array([t for t in times if t is not None], float)
+
+
+def falls(times: Array, u: Array) -> Array:
+    """When u (N,) falls to zero, as `_through` says.
+
+    An impact may turn u back before any step sees it at zero: then it is the zero of the line
+    through the last two falling steps, if that lies within the next and u then rises. What rests on
+    zero trembles around it, so u has to come off between two falls, as `_off` says.
+    """
+    before, now, after, then = u[:-3], u[1:-2], u[2:-1], u[3:]
+    turned = (2 * now <= before) & (now > 0) & (after > 0) & (then > after)
+    through = (u[:-1] > 0) & (u[1:] <= 0)
+    seen = {int(i): _through(times, u, int(i)) for i in np.flatnonzero(through)}
+    seen |= {int(i) + 1: _zero(times, u, int(i)) for i in np.flatnonzero(turned)}
+    largest, last = float(np.max(np.abs(u))), 0
+    found: list[float] = []
+    for i, t in sorted(seen.items()):
+        if _off(u[last : i + 1], largest):
+            found.append(t)
+        last = i + 1
+    return np.array(found, float)
+
+
+def _off(u: Array, largest: float) -> bool:
+    """Whether u exceeds 2 % of the largest value, or for six steps 1e-4 of it: a small bounce."""
+    return bool(np.any(u > LOW * largest)) or int(np.sum(u > SMALL * largest)) >= STEPS
+
+
+def surely(scene: Scene, record: Trajectory, event: Event, happened: Array, step: float) -> int:
+    """How many of the reference's events, at these times (K,), steps of this size tell for sure.
+
+    A ball that comes to rest bounces ever lower: what lasts a few steps, or rises by 1e-4 of the
+    first height, may be seen in an engine's motion or not.
+    """
+    if not event.crosses or not len(happened):
+        return len(happened)
+    u = event.falling(observe(scene, record, event.quantity))
+    largest = float(np.max(np.abs(u)))
+    humps = [
+        (end - start, np.max(u[(record.times >= start) & (record.times <= end)]))
+        for start, end in pairwise([float(record.times[0]), *happened.tolist()])
+    ]
+    long, high = SURE * STEPS * step, SURE * SMALL * largest
+    return sum(bool(lasts >= long and height >= high) for lasts, height in humps)
+
+
+def _through(times: Array, u: Array, i: int) -> float:
+    """The zero between steps i and i + 1: of the curve through the steps before, if it is there.
+
+    What happens then, as an impact or the end of a force, spoils a curve to the steps behind, and
+    already the line to the next. That line tells where steps tremble too much for any curve.
+    """
+    if i < CURVE - 1:
+        return _zero(times, u, i)
+    h = float(times[i + 1] - times[i])
+    rows = slice(i - CURVE + 1, i + 1)
+    roots = np.roots(np.polyfit((times[rows] - times[i]) / h, u[rows], CURVE - 1))
+    zeros = np.real(roots[np.abs(np.imag(roots)) < TREMBLE])
+    inside = zeros[(zeros > 0.0) & (zeros <= 1.0)]
+    return float(times[i]) + h * float(np.min(inside)) if len(inside) else _zero(times, u, i)
+
+
+def _zero(times: Array, u: Array, i: int) -> float:
+    """Of the line through steps i and i + 1."""
+    return float(times[i] + (times[i + 1] - times[i]) * u[i] / (u[i] - u[i + 1]))
+
+
+def never(case: Case, reference: Trajectory) -> list[Mistake]:
+    """A mistake for every event of the case that the reference does not know.
+
+    A contact that starts above the floor may be named and not land in time: that no engine lets it
+    land earlier is a claim too, and only a bound on its time, or on what is then, compares nothing.
+    """
+    record = reference.record
+    found: list[Mistake] = []
+    for name, event in case.events.items():
+        assert record is not None  # of a case with events
+        if len(reference_events(case.scene, record, event)):
+            continue
+        places: list[tuple[str, ...]] = [("events", name)]
+        if _falls_later(case.scene, reference, event):
+            bounds = (b for b in case.allow if b == f"{name}.time" or at_event(b, (name,)))
+            places = [("allow", bound) for bound in bounds]
+        what = f"never happens in {case.duration:g} s: nothing is compared"
+        found += [case.mistake(place, what) for place in places]
+    return found
+
+
+def grazed(case: Case, record: Trajectory) -> Iterator[Mistake]:
+    """A mistake for every event of which rounding says whether it happens."""
+    for name, event in case.events.items():
+        u, small, pieces = _pieces(case.scene, record, event)
+        for piece in pieces if event.crosses else ():
+            for t in touches(record.times[piece], u[piece], small, _corners(case.scene)):
+                what = (
+                    f"{event.quantity} comes to {event.value:g} at t = {t:.6g} s and turns back, "
+                    f"within {small:.1e}: whether it gets there is rounding; give another value"
+                )
+                yield case.mistake(("events", name), what)
+
+
+def _falls_later(scene: Scene, reference: Trajectory, event: Event) -> bool:
+    part, _, field = event.quantity.rpartition(".")
+    touches = part in (*scene.contacts, *scene.pairs)
+    above = touches and field == "gap" and event.rule == "falls to zero"
+    return above and bool(np.all(observe(scene, reference, event.quantity) > 0.0))

@@ -1,0 +1,35 @@
+"""Why there is a difference, as far as a held ladder tells."""
+
+from ...data import row as of
+from .convergence import Convergence
+
+STEPS = (of.EXACT, of.TEXTBOOK, of.WITHIN, of.FALLS)  # verdicts that blame no model
+
+
+def cause(found: Convergence, finer: str = "", simplified: str = "") -> str:
+    """In a few words; finer: why a step below the judged one gave nothing.
+
+    simplified: what the engine leaves out of the scene, named unless the step alone is to blame.
+    """
+    left_out = "" if found.verdict in STEPS else simplified
+    return "; ".join(part for part in (_told(found, finer), left_out) if part)
+
+
+def _told(found: Convergence, finer: str) -> str:
+    if finer:
+        return f"a smaller step diverges ({finer}): neither step nor model can be named"
+    usable = found.usable_step
+    enough = f"within from h = {usable:.3g} s on" if usable else "not within on this ladder"
+    order = "" if found.order is None else f" with order {found.order:.1f}"
+    limit = f"{found.limit or 0.0:.3g}"
+    sizes = found.errors.values()
+    return {
+        of.EXACT: f"the step: {enough}" if usable else "rounding",
+        of.TEXTBOOK: f"the step: it falls{order}, {enough}",
+        of.WITHIN: f"the step: {enough}; the model's own {limit} would be",
+        of.ANOTHER: f"the model: {limit} remains for h → 0",
+        of.FALLS: f"the step: its size falls{order or ', with no clear order'}, {enough}",
+        of.STAYS: f"no smaller step helps: {min(sizes):.3g} to {max(sizes):.3g} on every rung",
+        of.UNSETTLED: "the ladder has not settled: neither step nor model can be named",
+        of.INSTANTS: f"instants of events: {enough}",
+    }[found.verdict]

@@ -1,0 +1,199 @@
+"""A trial's rows: audit, ladders, and a verdict for every observed quantity."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....cases.trajectory import Array
+from ....engines import SETTINGS
+from ....engines.engine import Refusal
+from ...data.row import (
+    AGREES,
+    CRASHED,
+    DIVERGED,
+    FAILS,
+    REFUSED,
+    UNSETTLED,
+    Comparison,
+    Instant,
+    Rungs,
+    StepError,
+)
+from ...system.spelled import why
+from ..trial.audit import EQUAL, audit
+from ..trial.ladder import Ladder
+from ..trial.rung import Climbed, Samples
+from ..trial.simulate import Runs, simulate
+from ..trial.trial import Trial, judged_names
+from . import instants, metric, states
+from .cause import cause
+from .convergence import Convergence, study
+from .metric import told
+from .moment import moment
+from .rounding import floor
+from .rows import judged, row, rungs, steps
+from .verdict import verdict
+
+AWAY = 4  # of a ladder's largest steps: how far from an event a sample tells an order
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What one trial gave: its rows, and the engine's samples at the judged step.
+
+    wanted: the reference's, where the engine's own step misses the case's samples.
+    """
+
+    rows: list[Comparison]
+    rungs: list[Rungs] = field(default_factory=list)
+    steps: list[StepError] = field(default_factory=list)
+    samples: Samples = field(default_factory=dict)
+    instants: list[Instant] = field(default_factory=list)
+    moments: dict[str, str] = field(default_factory=dict)  # of what is off at an instant, in words
+    wanted: Samples = field(default_factory=dict)
+
+
+def compare(trial: Trial, runs: Runs | None = None) -> Outcome:
+    """Judges every observed quantity of the runs; without them it runs the engine."""
+    if isinstance(trial.way, Refusal):
+        names, because = judged_names(trial.case), trial.way.because
+        return Outcome([row(trial, name, REFUSED, because=because) for name in names])
+    rows = [_audit(trial)]
+    rows += [row(trial, name, REFUSED, because=why) for name, why in trial.withheld.items()]
+    motion, events = trial.motion, trial.instants
+    runs = runs or simulate(trial)
+    if runs.judged is None:
+        return Outcome(rows + _diverged(trial, (*motion, *events), runs.lost))
+    moments: dict[str, str] = {}
+    rows += [_judged(trial, name, runs, runs.judged[name], moments) for name in motion]
+    studies = [
+        (ladder, name, found)
+        for ladder, climbed in runs.ladders.items()
+        if climbed
+        for name in motion
+        for found in [_study(trial, ladder, runs, name)]
+    ]
+    told, of_events = instants.judge(trial, events, runs, runs.judged)
+    studies += of_events
+    moments |= {name: words for name in events if (words := instants.spread(trial, name))}
+    listed = instants.listed(trial, runs.judged)
+    wanted = {name: trial.wanted(name) for name in motion} if trial.sampled else {}
+    return Outcome(
+        rows + told,
+        [rungs(trial, *study) for study in studies],
+        [step for study in studies for step in steps(trial, *study)],
+        runs.judged,
+        listed,
+        moments,
+        wanted,
+    )
+
+
+def answered(trial: Trial, found: Climbed) -> Outcome:
+    """Judges every quantity of a claim about states."""
+    rows = [_audit(trial)]
+    rows += [row(trial, name, REFUSED, because=why) for name, why in trial.withheld.items()]
+    if isinstance(found, str):
+        return Outcome(rows + _diverged(trial, trial.motion, found))
+    told = {name: trial.read(name, samples) for name, samples in found.items()}
+    return Outcome(rows + [states.judged(trial, name, told) for name in told], samples=told)
+
+
+def crashed(trial: Trial, because: str) -> Outcome:
+    """Rows of a run whose process died; with a user's own numbers that is a finding."""
+    word, why = (
+        (FAILS, f"crashed: {because}") if trial.engine.setting in SETTINGS else (CRASHED, because)
+    )
+    return Outcome([row(trial, name, word, because=why) for name in judged_names(trial.case)])
+
+
+def _diverged(trial: Trial, names: Iterable[str], because: str) -> list[Comparison]:
+    word = DIVERGED
+    if trial.engine.setting == "tuned":
+        word, because = FAILS, f"{DIVERGED}: {because}"
+    return [row(trial, name, word, because=because) for name in names]
+
+
+def _audit(trial: Trial) -> Comparison:
+    try:
+        worst, because = audit(trial)
+    except Exception as error:  # it costs no other row
+        worst, because = math.inf, why(error)
+    return row(
+        trial,
+        "audit",
+        AGREES if worst <= EQUAL else FAILS,
+        protocol=trial.protocol if trial.case.states is None else "",
+        error=worst,
+        allowed=EQUAL,
+        ratio=worst / EQUAL,
+        because=because,
+    )
+
+
+def _judged(
+    trial: Trial, name: str, runs: Runs, samples: Array, moments: dict[str, str]
+) -> Comparison:
+    """The quantity's row; if it is off at an instant, that is noted too."""
+    wanted, ladders = trial.wanted(name), list(runs.ladders)
+    held = _study(trial, ladders[-1], runs, name)
+    # What is promised for h → 0 is the tuned setting's, whose numbers follow the step.
+    tuned = _study(trial, ladders[0], runs, name) if len(ladders) > 1 else held
+    error = metric.error(samples, wanted)
+    why = cause(_telling(trial, name, runs, error.largest, held), runs.finer, trial.plan.simplified)
+    at = moment(trial, samples, wanted, error)
+    least = floor(trial, name, trial.step)
+    if at is not None:
+        rest = metric.error(samples[at.elsewhere], wanted[at.elsewhere]).largest
+        why = f"{at.words}; elsewhere at most {told(rest, least):.2g}"
+        moments[name] = why
+        if not rest <= (trial.allowed(name) or np.inf):
+            others = _study(trial, list(runs.ladders)[-1], runs, name, at.elsewhere)
+            others = _telling(trial, name, runs, rest, others, at.elsewhere)
+            why = f"{why}: {cause(others, runs.finer, trial.plan.simplified)}"
+    when = float(trial.case.times[error.at])
+    word = verdict(trial, name, error.largest, held, why, tuned)
+    return judged(trial, name, word, error, when)
+
+
+def _telling(
+    trial: Trial,
+    name: str,
+    runs: Runs,
+    largest: float,
+    held: Convergence,
+    among: NDArray[np.bool_] | None = None,
+) -> Convergence:
+    """The ladder that tells a cause: the held one, which parts step and model.
+
+    With the numbers of its coarsest step the model may be further off than the judged run is. That
+    explains nothing, and the ladder whose numbers follow is asked.
+    """
+    if len(runs.ladders) == 1 or not (held.limit or 0.0) > largest:
+        return held
+    return _study(trial, next(iter(runs.ladders)), runs, name, among)
+
+
+def _study(
+    trial: Trial,
+    ladder: Ladder,
+    runs: Runs,
+    name: str,
+    among: NDArray[np.bool_] | None = None,
+) -> Convergence:
+    """One quantity on one ladder; `among`: of these samples (N,) alone."""
+    climbed, case = runs.ladders[ladder], trial.case
+    if not climbed:
+        return Convergence(UNSETTLED, {}, None)
+    keep = np.ones(case.samples, dtype=bool) if among is None else among
+    return study(
+        {h: samples[name][keep] for h, samples in climbed.items()},
+        trial.wanted(name)[keep],
+        exponents=ladder.plan(trial.plan).exponents,
+        allow=trial.allowed(name) or float("inf"),
+        floor=floor(trial, name, min(climbed)),
+        away=trial.away(AWAY * max(climbed))[keep],
+    )

@@ -1,0 +1,184 @@
+"""What a ladder of steps h, 2h, 4h, … says: order, limit for h → 0, verdict, usable step.
+
+The order is that of neighbouring differences u(2h) − u(h), never of errors: a model's error would
+hide it. The limit is Romberg's, with the exponents that the engine's setting declares. Where that
+does not settle, the errors themselves may still fall with the step, and are told to.
+"""
+
+import itertools
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....cases.trajectory import Array
+from ...data.row import ANOTHER, EXACT, FALLS, INSTANTS, STAYS, TEXTBOOK, UNSETTLED, WITHIN
+from . import metric
+
+TEXTBOOK_WITHIN = 3.0  # uncertainties between limit and reference
+TEXTBOOK_BELOW = 1e-6  # of `allow`: nobody can use so small a difference
+ANOTHER_BEYOND = 4.0
+NOISE = 0.7  # a halved step halves a difference of first order; noise keeps it
+FEWEST = 3  # samples away from events, or they say nothing of a motion
+OF_ALLOW = 0.1  # an uncertainty above this part of `allow` decides nothing
+CLEAR = 0.5  # by what the last three orders of the errors' size may differ
+SLOWEST = 0.25  # the least order of a size that falls at every halving: half in four of them
+FALLEN = 2.0  # the factor by which errors fall over a ladder, or within which they stay
+LAST = 3  # orders are the last three's
+TOLD = 30  # floors: below them an order's second digit is rounding's
+
+Orders = tuple[float | None, float | None, float | None]
+"""The finest order, the least and the largest; or none."""
+NO_ORDER: Orders = (None, None, None)
+
+
+@dataclass(frozen=True)
+class Convergence:
+    """One quantity on one ladder: errors by step, smallest first, and what they say.
+
+    The order is that of the differences, or where the verdict is `falls`, of the errors' size.
+    Without either there is none.
+    """
+
+    verdict: str
+    errors: Mapping[float, float]
+    usable_step: float | None  # the largest rung from which on the error stays within `allow`
+    order: float | None = None
+    order_low: float | None = None
+    order_high: float | None = None
+    limit: float | None = None  # largest |limit − reference|
+    uncertainty: float | None = None
+
+
+def study(
+    ladder: Mapping[float, Array],
+    reference: Array,
+    *,
+    exponents: Sequence[int],
+    allow: float,
+    floor: float,
+    away: NDArray[np.bool_] | None = None,
+) -> Convergence:
+    """Judges samples (N,) by step; the steps double from the smallest on.
+
+    floor: the difference that rounding alone can make at the smallest step. away: the samples that
+    are away from events, of which alone order and limit are taken: beside an event a sample is
+    before it on one rung and after it on the next.
+    """
+    steps = sorted(ladder)
+    errors = {h: metric.largest(ladder[h] - reference) for h in steps}
+    usable = _usable(errors, allow)
+    if errors[steps[0]] <= floor:
+        exactly = metric.told_uncertainty(0.0, floor)
+        return Convergence(EXACT, errors, usable, limit=0.0, uncertainty=exactly)
+    keep = np.ones(len(reference), dtype=bool) if away is None else away
+    if np.count_nonzero(keep) < FEWEST:
+        return Convergence(UNSETTLED, errors, usable)
+    rungs, reference = [ladder[h][keep] for h in steps], reference[keep]
+    size = _Size([metric.largest(rung - reference) for rung in rungs])
+    if size.verdict == UNSETTLED:
+        size = _Size(list(errors.values()))  # what is beside events may fall all the same
+    if len(steps) < len(exponents) + 1:
+        return Convergence(size.verdict, errors, usable, *size.orders)
+    value, uncertainty = _romberg(rungs, exponents)
+    enlarged = floor * _amplified(exponents)
+    uncertainty = max(uncertainty, enlarged, _noise(rungs))
+    off = metric.largest(value - reference)
+    settled = _settled(off, uncertainty, allow)
+    limit = metric.told(off, enlarged), metric.told_uncertainty(uncertainty, enlarged)
+    if settled is None:
+        return Convergence(size.verdict, errors, usable, *size.orders, *limit)
+    orders = NO_ORDER if _noise(rungs) else _told(_orders(rungs, TOLD * floor))
+    return Convergence(settled, errors, usable, *orders, *limit)
+
+
+def instants(errors: Mapping[float, float], allow: float) -> Convergence:
+    """What a ladder of events' errors by step says; inf where they happen more or less often."""
+    return Convergence(INSTANTS, errors, _usable(errors, allow))
+
+
+def _usable(errors: Mapping[float, float], allow: float) -> float | None:
+    usable = None
+    for h in sorted(errors):
+        if not errors[h] <= allow:
+            break
+        usable = h
+    return usable
+
+
+def _amplified(exponents: Sequence[int]) -> float:
+    """By how much Romberg's columns with these exponents enlarge the rungs' rounding."""
+    return math.prod((2.0**p + 1) / (2.0**p - 1) for p in exponents)
+
+
+def _settled(off: float, uncertainty: float, allow: float) -> str | None:
+    """The verdict of a limit that is `off` the reference, or None where it tells nothing."""
+    near = off <= TEXTBOOK_WITHIN * uncertainty or off <= TEXTBOOK_BELOW * allow
+    if near and uncertainty <= OF_ALLOW * allow:
+        return TEXTBOOK
+    if off > ANOTHER_BEYOND * uncertainty:
+        return WITHIN if off <= allow else ANOTHER
+    return None
+
+
+@dataclass(frozen=True)
+class _Size:
+    """The largest errors alone, by step, smallest first: what they say without a limit."""
+
+    sizes: Sequence[float]
+
+    @property
+    def orders(self) -> Orders:
+        """log₂ of the ratios of neighbouring errors, where the last three are clear."""
+        if len(self.sizes) <= LAST or not all(size > 0 for size in self.sizes):
+            return NO_ORDER
+        last = [math.log2(b / a) for a, b in itertools.pairwise(self.sizes)][:LAST]
+        clear = min(last) >= SLOWEST and max(last) - min(last) <= CLEAR
+        return _told(last) if clear else NO_ORDER
+
+    @property
+    def verdict(self) -> str:
+        """Whether they fall, or stay what they are, however small the step."""
+        if len(self.sizes) <= LAST:
+            return UNSETTLED
+        finest, coarsest = self.sizes[0], self.sizes[-1]
+        falls = finest <= min(self.sizes) and FALLEN * finest <= coarsest
+        if falls or self.orders != NO_ORDER:
+            return FALLS
+        return STAYS if max(self.sizes) <= FALLEN * min(self.sizes) else UNSETTLED
+
+
+def _told(orders: Sequence[float]) -> Orders:
+    """The finest of the orders, the least and the largest."""
+    return (orders[0], min(orders), max(orders)) if orders else NO_ORDER
+
+
+def _orders(rungs: Sequence[Array], floor: float) -> list[float]:
+    """log₂ of the ratios of neighbouring differences, the last three, finest first.
+
+    Coarse rungs that are the same to the last bit have none, as before an impact.
+    """
+    d = [metric.largest(b - a) for a, b in itertools.pairwise(rungs)]
+    pairs = itertools.pairwise(d)
+    return [math.log2(coarse / fine) for fine, coarse in pairs if fine > floor and coarse][:LAST]
+
+
+def _noise(rungs: Sequence[Array]) -> float:
+    """The finest difference, if it is no smaller than the next: then it is not the step's."""
+    fine, coarse = (metric.largest(b - a) for a, b in itertools.pairwise(rungs[:3]))
+    return fine if fine > NOISE * coarse else 0.0
+
+
+def _romberg(rungs: Sequence[Array], exponents: Sequence[int]) -> tuple[Array, float]:
+    """The limit (N,) for h → 0, and the last minus the last-but-one column."""
+    column = list(rungs[: len(exponents) + 1])
+    before = column[0]
+    for p in exponents:
+        before = column[0]
+        weight = 2.0**p
+        column = [
+            (weight * fine - coarse) / (weight - 1) for fine, coarse in itertools.pairwise(column)
+        ]
+    return column[0], metric.largest(column[0] - before)

@@ -1,0 +1,142 @@
+"""The events of a trial: rows for their times and counts, and the list of all instants."""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from ....cases.case import Case
+from ....cases.scene.quantity import at_event
+from ....cases.trajectory import Array, Trajectory
+from ...data.row import REFUSED, UNSETTLED, Comparison, Instant
+from ..events.times import reference_events
+from ..trial.ladder import Ladder
+from ..trial.rung import Samples
+from ..trial.simulate import Runs
+from ..trial.trial import Trial
+from . import metric
+from .cause import cause
+from .convergence import Convergence, instants
+from .rounding import floor
+from .rows import judged, row
+from .verdict import verdict
+
+Study = tuple[Ladder, str, Convergence]
+"""What a ladder says of a quantity."""
+LATER = "say so by `tube`, as `tube: 2 ms` at the top of the file: it is then read so much later"
+
+
+def judge(
+    trial: Trial, names: tuple[str, ...], runs: Runs, samples: Samples
+) -> tuple[list[Comparison], list[Study]]:
+    """Rows of `event.time`, `event.count` and states at events, and what ladders say of them."""
+    rows: list[Comparison] = []
+    studies: list[Study] = []
+    for name in names:
+        event, field = trial.quantity(name).part, trial.quantity(name).field
+        if (f"{event}.time" if field == "count" else name) not in samples:
+            why = "adapter: its quantity is not kept for every step"
+            rows.append(row(trial, name, REFUSED, because=why))
+        elif field == "count":
+            rows.append(_count(trial, event, samples[f"{event}.time"]))
+        else:
+            rows.append(_each(trial, name, samples[name], runs))
+            studies += _climbed(trial, name, runs)
+    return rows, studies
+
+
+def _count(trial: Trial, event: str, found: Array) -> Comparison:
+    """Whether the event happens as often as in the reference, as far as steps can tell."""
+    name, most = f"{event}.count", len(trial.events[event])
+    least = trial.surely(event, trial.step)
+    off = float(max(least - len(found), len(found) - most, 0))
+    short = f" (of which {least} last long enough for this step)" if least < most else ""
+    why = f"reference {most}{short}, engine {len(found)}"
+    reached = verdict(trial, name, off, instants({trial.step: off}, 0.0), why)
+    return judged(trial, name, reached, metric.Error(off, off, off, 0), None)
+
+
+def _each(trial: Trial, name: str, found: Array, runs: Runs) -> Comparison:
+    """Times or states in their order, as many as both have; the count is another row's matter."""
+    wanted, times = trial.wanted(name), trial.events[trial.quantity(name).part]
+    both = min(len(wanted), len(found))
+    if not both:
+        why = "engine: the event never happens in its motion"
+        return row(trial, name, REFUSED, because=why)
+    error = metric.error(found[:both], wanted[:both])
+    climbs = list(_climbed(trial, name, runs))
+    held = climbs[-1][2] if climbs else Convergence(UNSETTLED, {}, None)
+    why = cause(held, runs.finer, trial.plan.simplified)
+    sure = _first(trial, name, list(runs.ladders.values())[-1]) if climbs else both
+    if error.at >= sure:
+        why = f"number {error.at + 1}, of which the largest step cannot be sure; before it: {why}"
+    words = "; ".join(filter(None, (why, spread(trial, name))))
+    reached = verdict(trial, name, error.largest, held, words)
+    return judged(trial, name, reached, error, float(times[error.at]))
+
+
+def spread(trial: Trial, name: str) -> str:
+    """Tells what else may be wrong with a state just after an event, and what cures it."""
+    at = at_event(name, trial.case.events)
+    if at is None or at.side != "after" or trial.case.tube:
+        return ""
+    return f"if an impact lasts some steps here, {LATER}"
+
+
+def _climbed(trial: Trial, name: str, runs: Runs) -> Iterator[Study]:
+    """What each ladder's errors by step say, inf where the count is another one.
+
+    They compare the events that the largest step of all can tell, or else the first.
+    """
+    wanted, event = trial.wanted(name), trial.quantity(name).part
+    for ladder, climbed in runs.ladders.items():
+        told, first = {h: trial.surely(event, h) for h in climbed}, _first(trial, name, climbed)
+        errors = {
+            h: metric.error(samples[name][:first], wanted[:first]).largest
+            if told[h] <= len(samples[name]) <= len(wanted)
+            else np.inf
+            for h, samples in sorted(climbed.items())
+        }
+        if errors and len(wanted):
+            yield ladder, name, instants(errors, trial.allowed(name) or np.inf)
+
+
+def _first(trial: Trial, name: str, climbed: Mapping[float, Samples]) -> int:
+    """How many of its events are compared on a ladder."""
+    event = trial.quantity(name).part
+    return max(1, min((trial.surely(event, h) for h in climbed), default=1))
+
+
+def listed(trial: Trial, samples: Samples) -> list[Instant]:
+    """Every event of the engine at the judged step."""
+    return [
+        Instant(
+            case=trial.case.name,
+            engine=trial.engine.name,
+            version=trial.engine.version,
+            setting=trial.engine.setting,
+            realised=trial.realised,
+            event=event,
+            k=k,
+            time=_told(trial, event, t),
+            difference=_told(trial, event, t - wanted[k - 1]) if k <= len(wanted) else None,
+        )
+        for event, wanted in ((name, times.tolist()) for name, times in trial.events.items())
+        for k, t in enumerate(samples.get(f"{event}.time", np.zeros(0)).tolist(), start=1)
+    ]
+
+
+def _told(trial: Trial, event: str, number: float) -> float:
+    return metric.told(number, floor(trial, f"{event}.time", trial.step))
+
+
+def of_reference(case: Case, reference: Trajectory) -> list[Instant]:
+    """Every event of the reference."""
+    if reference.record is None:
+        return []
+    return [
+        Instant(case.name, "reference", "", "", "", name, k, t, None)
+        for name, event in case.events.items()
+        for k, t in enumerate(
+            reference_events(case.scene, reference.record, event).tolist(), start=1
+        )
+    ]

@@ -1,0 +1,94 @@
+"""Rows filled with what a trial knows by itself."""
+
+from typing import Any
+
+from ....cases.theme import themes
+from ...data.row import Comparison, Rungs, StepError
+from ..trial.ladder import Ladder
+from ..trial.trial import Trial
+from .convergence import Convergence
+from .metric import Error, told
+from .rounding import floor
+
+
+def row(trial: Trial, name: str, word: str, **values: Any) -> Comparison:
+    """A row of tolerance.csv for the quantity `name` with the verdict `word`."""
+    columns: dict[str, Any] = dict.fromkeys(("step", "error", "when", "rms", "final", "ratio"))
+    columns |= {"protocol": "", "because": "", "allowed": None} | values
+    if name != "audit":
+        columns["allowed"] = trial.allowed(name)
+    return Comparison(
+        case=trial.case.name,
+        theme=" ".join(themes(trial.case)),
+        source=str(trial.case.origin),
+        engine=trial.engine.name,
+        version=trial.engine.version,
+        setting=trial.engine.setting,
+        realised=trial.realised,
+        quantity=name,
+        unit=trial.quantity(name).unit,
+        verdict=word,
+        **columns,
+    )
+
+
+def judged(
+    trial: Trial, name: str, verdict: tuple[str, str], error: Error, when: float | None
+) -> Comparison:
+    """A row of what was measured at the judged step; `when` [s] the error is largest."""
+    word, because = verdict
+    least, allowed = floor(trial, name, trial.step), trial.allowed(name)
+    largest = told(error.largest, least)
+    return row(
+        trial,
+        name,
+        word,
+        protocol=trial.protocol,
+        step=trial.step,
+        error=largest,
+        when=when if largest else None,
+        rms=told(error.rms, least),
+        final=told(error.final, least),
+        ratio=None if allowed is None else largest / allowed,
+        because=because,
+    )
+
+
+def rungs(trial: Trial, ladder: Ladder, name: str, found: Convergence) -> Rungs:
+    """A row of convergence.csv: what the errors by step say."""
+    return Rungs(
+        case=trial.case.name,
+        engine=trial.engine.name,
+        version=trial.engine.version,
+        setting=trial.engine.setting,
+        realised=trial.realised,
+        ladder=ladder.name,
+        quantity=name,
+        unit=trial.quantity(name).unit,
+        order=found.order,
+        order_low=found.order_low,
+        order_high=found.order_high,
+        limit=found.limit,
+        uncertainty=found.uncertainty,
+        usable_step=found.usable_step,
+        verdict=found.verdict,
+    )
+
+
+def steps(trial: Trial, ladder: Ladder, name: str, found: Convergence) -> list[StepError]:
+    """Rows of steps.csv: the error at each step of a ladder, the smallest step first."""
+    least = floor(trial, name, min(found.errors))
+    return [
+        StepError(
+            case=trial.case.name,
+            engine=trial.engine.name,
+            setting=trial.engine.setting,
+            realised=trial.realised,
+            ladder=ladder.name,
+            quantity=name,
+            unit=trial.quantity(name).unit,
+            step=h,
+            error=told(error, least),
+        )
+        for h, error in sorted(found.errors.items())
+    ]

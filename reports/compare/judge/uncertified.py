@@ -1,0 +1,33 @@
+"""Rows without a reference that holds: nothing can be judged by it."""
+
+from dataclasses import replace
+
+from ....reference.solve import Solution
+from ...data.row import FAILS
+from .compare import Outcome
+
+MOVES = tuple(f"generated {what}" for what in ("motion", "accelerations", "reactions", "states"))
+
+
+def uncertified(solution: Solution) -> str:
+    """Why nothing can be judged by it, in words."""
+    broken = next(check for check in solution.checks if not check.holds)
+    differs = f"{broken.name} differs by {broken.difference:.2e}, its bound is {broken.bound:.2e}"
+    return f"the reference is not certified: {otherwise(solution)}{differs}"
+
+
+def otherwise(solution: Solution) -> str:
+    """That the hand-written system is of another scene, if that is what does not hold."""
+    broken = [check.name for check in solution.checks if not check.holds]
+    if solution.system == "generated" or not any(name in MOVES for name in broken):
+        return ""
+    return (
+        f"the system {solution.system!r} moves otherwise than this scene, or by other forces: "
+        "leave out `system`, then the scene alone answers; or undo what has been changed; "
+    )
+
+
+def failing(outcome: Outcome, because: str) -> Outcome:
+    """All rows FAIL."""
+    rows = [replace(row, verdict=FAILS, because=because) for row in outcome.rows]
+    return replace(outcome, rows=rows)

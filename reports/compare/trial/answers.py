@@ -1,0 +1,107 @@
+"""What an engine answers is looked at before it is believed: it may be anybody's."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from numbers import Real
+from typing import Any, get_args
+
+import numpy as np
+
+from ....cases.scene import Scene
+from ....cases.trajectory import Array, Trajectory
+from ....engines.engine import Engine, Plan, Realised, Refusal, Start
+from ...system.spelled import spelled
+
+WAYS = get_args(Realised)
+SAME = 1e-9  # of the duration: times that differ less are the same, rounded otherwise
+
+
+class BadAnswer(Exception):
+    """An engine answered with something else than the protocol says."""
+
+
+def plans(engine: Engine, scene: Scene, start: Start) -> tuple[Plan | Refusal, ...]:
+    """Each way once. Raises BadAnswer."""
+    found: Any = engine.plans(scene, start)
+    if not isinstance(found, Sequence) or isinstance(found, str):
+        raise BadAnswer(f"plans should be a list of plans and refusals, is {_kind(found)}")
+    ways = tuple(map(_way, found))
+    if not ways:
+        raise BadAnswer("plans is empty: a scene that is not run is refused")
+    names = [way.realised for way in ways]
+    for name in names:
+        if names.count(name) > 1:
+            raise BadAnswer(f"plans has {names.count(name)} ways that are realised as {name!r}")
+    return ways
+
+
+def _way(way: Any) -> Plan | Refusal:
+    if not isinstance(way, Plan | Refusal):
+        raise BadAnswer(f"plans should hold plans and refusals, holds {_kind(way)}")
+    if not isinstance(way.realised, str) or way.realised not in WAYS:
+        told = f"one of {', '.join(WAYS)}, is {spelled(repr(way.realised), 50)}"
+        raise BadAnswer(f"realised should be {told}")
+    if isinstance(way, Refusal):
+        return replace(way, because=spelled(way.because))
+    for exponents in (way.held, way.following or ()):
+        if not all(isinstance(one, int | float) and one > 0 for one in exponents):
+            raise BadAnswer(f"exponents should be numbers, are {spelled(repr(exponents), 50)}")
+    if not isinstance(way.withheld, Mapping):
+        raise BadAnswer(f"withheld should say why by quantity, is {_kind(way.withheld)}")
+    withheld = {name: spelled(because) for name, because in way.withheld.items()}
+    return replace(way, withheld=withheld, simplified=spelled(way.simplified))
+
+
+def moved(found: Any, scene: Scene, times: Array) -> Trajectory:
+    """A run's trajectory. Raises BadAnswer where it is another than was asked for."""
+    if not isinstance(found, Trajectory):
+        raise BadAnswer(f"run should give a trajectory, gives {_kind(found)}")
+    _rows("times", found.times, times.shape)
+    if not np.all(np.abs(found.times - times) <= SAME * times[-1]):
+        raise BadAnswer("run gives other times than were asked for")
+    _states("states", found, scene)
+    if found.record is not None:
+        if not isinstance(found.record, Trajectory):
+            raise BadAnswer(f"record should be a trajectory, is {_kind(found.record)}")
+        _states("states of the record", found.record, scene)
+    return found
+
+
+def _states(what: str, found: Trajectory, scene: Scene) -> None:
+    if not isinstance(found.states, Mapping) or set(found.states) != set(scene.bodies):
+        told = ", ".join(scene.bodies)
+        has = spelled(", ".join(map(str, found.states)), 50) if found.states else "nothing"
+        raise BadAnswer(f"{what} should be those of {told}, are of {has}")
+    for body, rows in found.states.items():
+        _rows(f"{what} of {body}", rows, (len(found.times), scene.frame.width))
+    for name, rows in found.reactions.items():
+        _rows(f"{spelled(name, 50)}", rows, (len(found.times),))
+
+
+def _rows(what: str, rows: Any, shape: tuple[int, ...]) -> None:
+    if not isinstance(rows, np.ndarray) or rows.dtype.kind not in "fiu":
+        raise BadAnswer(f"{what} should be an array of numbers, is {_kind(rows)}")
+    if rows.shape != shape:
+        raise BadAnswer(f"{what} should have the shape {shape}, has {rows.shape}")
+
+
+def read_back(found: Any, known: Mapping[str, float]) -> dict[str, float]:
+    """The audit's numbers. Raises BadAnswer for what is none, and where there are none."""
+    if not isinstance(found, Mapping):
+        raise BadAnswer(f"measure should give numbers by name, gives {_kind(found)}")
+    for name, number in found.items():
+        if name not in known:
+            raise BadAnswer(
+                f"measure tells {spelled(repr(name), 50)}, which the case does not have"
+            )
+        if not isinstance(number, Real):
+            raise BadAnswer(f"measure tells {name}, and it is no number: {_kind(number)}")
+    if not found:
+        raise BadAnswer("measure reads no number back: nothing shows that the physics is equal")
+    return {name: float(number) for name, number in found.items()}
+
+
+def _kind(value: Any) -> str:
+    if isinstance(value, np.ndarray):
+        return f"an array of {value.dtype}"
+    return f"{spelled(repr(value), 50)}" if value is None else f"a {type(value).__name__}"

@@ -1,0 +1,215 @@
+"""A trial: one engine, in one realisation, against the reference motion of one case."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....cases.case import Case
+from ....cases.scene import Scene
+from ....cases.scene.difference import from_reference
+from ....cases.scene.observe import observe
+from ....cases.scene.quantity import Quantity, at_event, at_events, event_quantities
+from ....cases.trajectory import Array, Trajectory
+from ....engines.engine import Engine, Plan, Realised, Refusal, Start
+from ...system.spelled import why
+from ..events.states import reference_states
+from ..events.times import reference_events, surely
+from .answers import plans
+from .ladder import judged_step
+from .start import first
+
+NOTHING_OF_ITS_OWN = "engine: it has nothing of its own for this; see the rows of laws and drivers"
+SAME_COUNT = 0.5  # what counts may differ by where the case does not say: they are whole numbers
+
+
+def ways(engine: Engine, scene: Scene, start: Start) -> tuple[Plan | Refusal, ...]:
+    """How a scene is tried: beside a law or driver always a native row, or why there is none."""
+    found = plans(engine, scene, start)
+    native = any(way.realised == "native" for way in found)
+    return found if native else (Refusal("native", NOTHING_OF_ITS_OWN), *found)
+
+
+def with_room(
+    found: tuple[Plan | Refusal, ...], case: Case, engine: Engine
+) -> tuple[Plan | Refusal, ...]:
+    """The ways, refused where three samples are more than the engine's own step leaves room for."""
+    own = engine.own_step
+    if own is None or 2 * own <= case.duration:
+        return found
+    why = f"adapter: {case.duration:g} s are less than two of its steps of {own:g} s"
+    return tuple(Refusal(way.realised, why) for way in found)
+
+
+def planned(engine: Engine, scene: Scene, start: Start) -> tuple[Plan | Refusal, ...]:
+    """As `ways`; what an engine raises is one native way, which fails when it is tried."""
+    try:
+        return ways(engine, scene, start)
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # of an engine's own kind too
+        return (Refusal("native", why(error)),)
+
+
+def judged_names(case: Case) -> tuple[str, ...]:
+    """What is judged: what the case allows, and that every event happens as often."""
+    counts = (f"{event}.count" for event in case.events)
+    return (*case.allow, *(name for name in counts if name not in case.allow))
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A case's reference, and an engine that runs the scene in one way, or refuses to."""
+
+    case: Case
+    reference: Trajectory
+    engine: Engine
+    way: Plan | Refusal
+    sampled: bool = False  # the case's samples are not its own: the engine's step misses those
+
+    @property
+    def realised(self) -> Realised:
+        """`native`, `law` or `driver`."""
+        return self.way.realised
+
+    @property
+    def plan(self) -> Plan:
+        """The plan of a trial that is run."""
+        assert isinstance(self.way, Plan)
+        return self.way
+
+    def wanted(self, quantity: str) -> Array:
+        """The reference's samples (N,), at events (K,); of an attitude no turn, (N, 3)."""
+        if self._dated(quantity):
+            return self._at_events[quantity]
+        if quantity not in self._wanted:
+            samples = observe(self.case.scene, self.reference, quantity)
+            self._wanted[quantity] = from_reference(samples, samples)
+        return self._wanted[quantity]
+
+    @cached_property
+    def _wanted(self) -> dict[str, Array]:
+        """What was asked for already: every rung of every ladder asks again."""
+        return {}
+
+    def read(self, quantity: str, samples: Array) -> Array:
+        """A run's samples beside `wanted`: of an attitude the turn from the reference's."""
+        if samples.ndim == 1 or quantity in self.case.scene.bodies:
+            return samples  # numbers, times of events, and a body's poses
+        return from_reference(samples, observe(self.case.scene, self.reference, quantity))
+
+    @cached_property
+    def withheld(self) -> dict[str, str]:
+        """Those judged that the engine does not tell, or not what an event is of, and why."""
+        whys = self.plan.withheld
+        return {
+            name: whys[told_by]
+            for name in judged_names(self.case)
+            for told_by in self._told_by(name)
+            if told_by in whys
+        }
+
+    def _told_by(self, name: str) -> tuple[str, ...]:
+        """The quantity itself with what it follows from, and that of the event."""
+        if not self._dated(name):
+            return (name, *self.case.scene.told_by(name))
+        event = self.case.events[self.quantity(name).part].quantity
+        found = at_event(name, self.case.events)
+        return (event, found.quantity) if found else (event,)
+
+    def _dated(self, name: str) -> bool:
+        return self.quantity(name).part in self.case.events
+
+    @property
+    def motion(self) -> tuple[str, ...]:
+        """The judged quantities that the engine tells at every sample."""
+        return tuple(name for name in self._told if not self._dated(name))
+
+    @property
+    def instants(self) -> tuple[str, ...]:
+        """What is judged of the events that the engine tells."""
+        return tuple(name for name in self._told if self._dated(name))
+
+    @property
+    def _told(self) -> list[str]:
+        return [name for name in judged_names(self.case) if name not in self.withheld]
+
+    @cached_property
+    def events(self) -> dict[str, Array]:
+        """The reference's times (K,) of every event of the case."""
+        record = self.reference.record
+        if record is None:
+            return {name: np.zeros(0) for name in self.case.events}
+        return {
+            name: reference_events(self.case.scene, record, event)
+            for name, event in self.case.events.items()
+        }
+
+    def surely(self, event: str, step: float) -> int:
+        """How many of the reference's events an engine with this step has to tell."""
+        record, named = self.reference.record, self.case.events[event]
+        if record is None:
+            return 0
+        return surely(self.case.scene, record, named, self.events[event], step)
+
+    @cached_property
+    def _at_events(self) -> dict[str, Array]:
+        """The reference's times (K,) and states (K,) of what is judged of events."""
+        found = {f"{event}.time": times for event, times in self.events.items()}
+        for name in self.case.allow:
+            at, record = at_event(name, self.case.events), self.reference.record
+            if at is not None and record is not None:
+                found[name] = reference_states(self.case, record, at, self.events[at.event])
+        return found
+
+    def away(self, distance: float) -> NDArray[np.bool_]:
+        """Which samples (N,) are at least `distance` [s] from where the reference switches."""
+        return self._from_switches >= distance
+
+    @cached_property
+    def _from_switches(self) -> Array:
+        """How far [s] each sample (N,) is from where the reference switches; every rung asks."""
+        gaps = np.abs(self.case.times[:, None] - self.reference.switches[None, :])
+        nearest: Array = np.min(gaps, axis=1, initial=np.inf)
+        return nearest
+
+    def allowed(self, name: str) -> float | None:
+        """What still counts as textbook mechanics; None: not known yet."""
+        return self.case.allow.get(name, SAME_COUNT)
+
+    def quantity(self, name: str) -> Quantity:
+        """The quantity's unit and kind; the audit has none."""
+        return self._known.get(name) or Quantity(name, "", "", "", "residual")
+
+    @cached_property
+    def _known(self) -> dict[str, Quantity]:
+        seen, events = self.case.quantities, self.case.events
+        return seen | event_quantities(events) | at_events(events, seen)
+
+    def size(self, name: str) -> float:
+        """How large the quantity is; a residual, meant to be zero, has the size of its motion."""
+        wanted = self.wanted(name)
+        size = float(np.max(np.abs(wanted))) if wanted.ndim == 1 else 1.0  # rad
+        if self.quantity(name).kind == "residual":
+            columns = self.case.scene.frame.alike(self.quantity(name).unit)
+            states = np.concatenate(list(self.reference.states.values()))
+            size = max(size, float(np.max(np.abs(states[:, columns]))))
+        return size
+
+    @cached_property
+    def step(self) -> float:
+        """The step at which the trial is judged."""
+        return judged_step(self.case, self.engine)
+
+    @cached_property
+    def protocol(self) -> str:
+        """What was done to start and readout, and the samples where they are not the case's."""
+        base, n = self.plan.protocol(self.step), self.case.samples
+        own = f"{n} samples at whole steps of its own" if self.sampled else ""
+        return "; ".join(part for part in (base, own) if part)
+
+    @property
+    def start(self) -> Start:
+        """Row 0 of the reference: where every engine starts."""
+        return first(self.reference)

@@ -1,0 +1,79 @@
+"""The steps that a run asks of the engines, counted before any is taken."""
+
+from collections.abc import Iterator, Sequence
+
+from ....cases.case import Case
+from ....cases.language.check.cost import LIMIT, about
+from ....cases.language.check.work import GO_ON
+from ....cases.mistake import Mistake
+from ....engines.engine import Engine, Paced
+from ....engines.probe import guarded
+from .ladder import RUNGS_DOWN, judged_step
+
+STEPS = 20_000_000  # of an engine for a file, all of its variants
+STEP, BODY = 25e-6, 1.5e-6  # s: what a step takes, and for each body, if an engine does not say
+KEPT = 5_000_000  # rows of bodies that a run with events holds: 250 MB
+
+UPWARD = 4  # steps of a case: two ladders h, 2h, 4h, … of which none is twice its finest rung
+DOWNWARD = 2**RUNGS_DOWN - 1  # an engine's own step h: h, h/2, …
+
+
+def too_long(cases: Sequence[Case], engines: Sequence[Engine]) -> list[Mistake]:
+    """A mistake for each file and engine with too many steps; none where the case allows it."""
+    files: dict[str, list[Case]] = {}
+    for case in cases:
+        if not case.long:
+            files.setdefault(case.source.file, []).append(case)
+    return [m for group in files.values() for engine in engines for m in _of(group, engine)]
+
+
+def _of(cases: Sequence[Case], engine: Engine) -> Iterator[Mistake]:
+    """At the variant that asks for most."""
+    counts = [_steps(case, engine) for case in cases]
+    steps, most = sum(counts), cases[counts.index(max(counts))]
+    if steps > STEPS:
+        yield _mistake(most, engine, f"{steps:.3g} steps", f"{STEPS:g}")
+        return
+    seconds = [count * pace(case, engine) for count, case in zip(counts, cases, strict=True)]
+    if max(seconds) > LIMIT:
+        most, count = max(zip(cases, counts, strict=True), key=lambda one: one[1])
+        what = f"{count:.3g} steps, which take {about(max(seconds))}"
+        yield _mistake(most, engine, what, f"{LIMIT / 60:g} minutes")
+    kept = [_kept(case, engine) for case in cases]
+    most = cases[kept.index(max(kept))]
+    if max(kept) > KEPT:
+        yield _mistake(most, engine, f"{max(kept):.3g} rows kept for the events", f"{KEPT:g}")
+
+
+def _mistake(case: Case, engine: Engine, what: str, limit: str) -> Mistake:
+    h, who = judged_step(case, engine), f"{engine.name}.{engine.setting}"
+    said = engine.own_step is None and ("step",) in case.source.places
+    return case.mistake(
+        ("step",) if said else ("duration",),
+        f"{case.duration:g} s at {who}'s step {h:.3g} s, with all steps of its ladder, are {what}, "
+        f"and the limit is {limit}: {GO_ON}",
+    )
+
+
+def pace(case: Case, engine: Engine) -> float:
+    """About how long a step takes [s]."""
+    usual = STEP + BODY * len(case.scene.bodies)
+    if not isinstance(engine, Paced):
+        return usual
+    told, _ = guarded(lambda: float(engine.pace(case.scene)))  # it may be anybody's
+    return told if told is not None and 0.0 < told < LIMIT else usual
+
+
+def _steps(case: Case, engine: Engine) -> float:
+    """Of all rungs, one realisation; to a state no step leads."""
+    if case.states is not None:
+        return 0.0
+    rungs = UPWARD if engine.own_step is None else DOWNWARD
+    return rungs * case.duration / judged_step(case, engine)
+
+
+def _kept(case: Case, engine: Engine) -> float:
+    """Rows of bodies at every step of the finest rung, from which events are read."""
+    finest = 1 if engine.own_step is None else 2 ** (RUNGS_DOWN - 1)
+    bodies = len(case.scene.bodies) if case.events else 0
+    return bodies * finest * case.duration / judged_step(case, engine)

@@ -1,0 +1,87 @@
+"""What somebody has promised, and what is only asked: whose rows may fail.
+
+The shipped cases' bars are ours, and a `reach`, a declared deviation and a reference are promised
+by whoever wrote the case. That a recipe of ours keeps the tolerance of a user's own case nobody
+has promised: where it does not, that is the answer to his question.
+"""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from pathlib import Path
+
+from ...cases.case import Case
+from ...cases.find import shipped
+from .row import AGREES, BEYOND, DEVIATES, DIVERGED, FAILS, REFUSED, Comparison
+
+OURS = "tuned"
+
+
+def ships(case: Case) -> bool:
+    """Whether it is a case that comes with the suite, and no file of somebody else's."""
+    file = shipped().get(Path(case.source.file).stem)
+    return file is not None and file.resolve() == Path(case.source.file).resolve()
+
+
+def answered(case: Case, rows: Iterable[Comparison]) -> list[Comparison]:
+    """The case's rows, of which only those fail that something was promised of."""
+    return [*rows] if ships(case) else [_answered(case, row) for row in rows]
+
+
+def _answered(case: Case, row: Comparison) -> Comparison:
+    if row.verdict != FAILS or row.setting != OURS or _promised(case, row):
+        return row
+    broken, _, why = row.because.partition("; ")
+    if case.states is None and row.because.startswith(f"{DIVERGED}: "):  # of states none diverges
+        return replace(row, verdict=DIVERGED, because=row.because.removeprefix(f"{DIVERGED}: "))
+    if row.error is None or row.ratio is None or row.ratio <= 1 or " is above allow " not in broken:
+        return row
+    return replace(row, verdict=BEYOND, because=why)
+
+
+def _promised(case: Case, row: Comparison) -> bool:
+    native = row.realised == "native"
+    key = row.engine if native else f"{row.engine}.{row.realised}"
+    bars = [case.reach.get(key, {}), case.reach.get(f"{row.engine}.limit", {}) if native else {}]
+    declared = case.deviates.get(f"{row.engine}.{row.setting}", {})
+    return row.quantity in declared or any(row.quantity in bar for bar in bars)
+
+
+def unkept(case: Case, rows: Iterable[Comparison]) -> Iterator[str]:
+    """Of a user's own case a line for each engine in which no setting that was run keeps it all.
+
+    Only where our recipe was run: else nobody has tried.
+    """
+    if ships(case):
+        return
+    engines: dict[str, dict[tuple[str, str], list[Comparison]]] = {}
+    for row in rows:
+        if row.case == case.name and row.quantity != "audit":
+            ways = engines.setdefault(row.engine, {})
+            ways.setdefault((row.setting, row.realised), []).append(row)
+    for engine, ways in engines.items():
+        if not any(setting == OURS for setting, _ in ways):
+            continue
+        told = {way: worst for way, found in ways.items() if (worst := _worst(found)) is not None}
+        if told and not any(_kept(found) for found in ways.values()):
+            (setting, how), row = min(told.items(), key=lambda one: one[1].ratio or 0.0)
+            name = f"{engine}.{setting}" if how == "native" else f"{engine}.{setting} ({how})"
+            step = "" if row.step is None else f" at {row.step:g} s"
+            nearest = f"{name}, {row.quantity} ×{row.ratio:.2g}{step}"
+            yield f"{case.name} in {engine}: no recipe of ours keeps it; nearest: {nearest}"
+
+
+def _judged(rows: Iterable[Comparison]) -> list[Comparison]:
+    return [row for row in rows if row.verdict != REFUSED]
+
+
+def _kept(rows: Iterable[Comparison]) -> bool:
+    found = _judged(rows)
+    return bool(found) and all(row.verdict in (AGREES, DEVIATES) for row in found)
+
+
+def _worst(rows: Iterable[Comparison]) -> Comparison | None:
+    """The one farthest off; None where one has no number, as of what diverged."""
+    found = _judged(rows)
+    if not found or any(row.ratio is None or row.ratio != row.ratio for row in found):
+        return None
+    return max(found, key=lambda row: row.ratio or 0.0)

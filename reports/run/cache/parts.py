@@ -1,0 +1,208 @@
+"""What an engine consists of: its adapter, and all that this brings with it, wherever it lies.
+
+Its adapter is the package, or the module with what lies beside it, from which the engine was made.
+With it count the modules that its code imports, wherever in it, as Python finds them now, be it in
+front of what is installed; the distributions of these and of the plug-in, and what they require;
+the files that the adapter's code names; and the variables of the environment that stand in any of
+this code, with the files that they name.
+"""
+
+import os
+import re
+import sys
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass, field
+from importlib.metadata import Distribution, PackageNotFoundError, distribution
+from importlib.util import find_spec
+from pathlib import Path
+from types import ModuleType
+
+from .... import engines
+from ....engines.engine import Engine
+from .digest import CODE, COMPILED, Place, Stat, Told
+from .store import Store
+
+OURS, BASIS = "textmech", ("numpy", "scipy")  # whose digests are in every key
+MANY = 1000  # files beside a module that is alone in its folder: more are nobody's adapter
+LONGEST = 200  # letters of a file's name in code
+INSTALLED = ("site-packages", "dist-packages")
+_QUOTED = re.compile(rb"[\"']([^\"'\n\\]+)[\"']")
+_REQUIRED = re.compile(r"[\w.-]+")
+_FIELD = {
+    name: re.compile(rf"^{name}: *(.+)$", re.MULTILINE)
+    for name in ("Name", "Version", "Requires-Dist")
+}  # `metadata` reads the whole description too
+
+
+@dataclass
+class Parts:
+    """found: its places with what the disk said of them when they were read."""
+
+    memo: Store
+    found: dict[Place, tuple[Stat, ...]] = field(default_factory=dict)
+    words: set[str] = field(default_factory=set)
+    variables: set[str] = field(default_factory=set)
+    _names: set[str] = field(default_factory=set)
+    _distributions: set[str] = field(default_factory=set)
+
+    @staticmethod
+    def of(engine: Engine, memo: Store) -> "Parts":
+        """Everything. Raises OSError and TypeError where that cannot be said."""
+        parts = Parts(memo)
+        home = home_of(type(engine))
+        parts._place(home, beside=True)
+        for name in () if _is_ours(home) else _loaded(type(engine).__module__.partition(".")[0]):
+            parts._module(name)
+        if (provided := engines.distribution(engine.name)) is not None:
+            parts._distribution(provided, every=True)
+        prefix = f"{engine.name.upper()}_"
+        named = {name for name in os.environ if name in parts.variables or name.startswith(prefix)}
+        for name in sorted(named):
+            parts.words.add(f"{name}={os.environ[name]}")
+            with suppress(OSError, ValueError):
+                if (file := Path(os.environ[name])).is_file():
+                    parts._told(Place(file))
+        return parts
+
+    def word(self) -> str:
+        """All of it as one word."""
+        return "\0".join(sorted(self.words))
+
+    def hold(self) -> bool:
+        """Whether all of it is what it was."""
+        with suppress(OSError):
+            return all(place.stats() == stats for place, stats in self.found.items())
+        return False
+
+    def newer(self, than: float) -> bool:
+        """Whether anything has changed after that time [s]."""
+        return any(max(s[2], s[3]) > than * 1e9 for stats in self.found.values() for s in stats)
+
+    def _told(self, place: Place) -> Told:
+        self.found[place] = stats = place.stats()
+        told = place.told(stats, self.memo)
+        self.words.add(f"{place.path.name} {told.digest}")
+        self.variables |= set(told.variables)
+        return told
+
+    def _place(self, path: Path, *, beside: bool = False) -> None:
+        """A folder of code or a module, with what it imports; beside: and what lies there."""
+        if any(place.path == path for place in self.found):
+            return
+        told = self._told(Place(path, code=True))
+        if beside:
+            for file in _beside(path):
+                self._told(Place(file))
+        for name in told.imports:
+            self._module(name)
+
+    def _module(self, name: str) -> None:
+        """Of what is installed as such only itself, and what it requires; of others all."""
+        if name in self._names or name in sys.stdlib_module_names or name in (OURS, *BASIS):
+            return
+        self._names.add(name)
+        with suppress(PackageNotFoundError, ValueError):
+            self._distribution(distribution(name))
+            for path in located(name):
+                self._told(Place(path, code=True, tests=False))
+            return
+        for path in located(name):
+            self._place(path)
+
+    def _distribution(self, found: Distribution, *, every: bool = False) -> None:
+        """Its files where they lie, its modules where they are loaded from, what it requires.
+
+        every: whether modules count that nothing has loaded.
+        """
+        told = (found.read_text("METADATA") or found.read_text("PKG-INFO") or "").partition("\n\n")[
+            0
+        ]
+        name, version = (_FIELD[field].findall(told) for field in ("Name", "Version"))
+        known = name[0].lower().replace("_", "-") if name else str(id(found))
+        if known in self._distributions or known in (OURS, *BASIS):
+            return
+        self._distributions.add(known)
+        self.words.add(f"{known} {version}")
+        for top in sorted(_tops(found)):
+            module = top.partition(".")[0]
+            if top.endswith(".libs"):
+                self._told(Place(Path(str(found.locate_file(top)))))
+            elif module in sys.modules or every:
+                for path in located(module):
+                    self._told(Place(path, code=True, tests=False))
+        for needed in _FIELD["Requires-Dist"].findall(told):
+            if "extra ==" not in needed and (match := _REQUIRED.match(needed)):
+                with suppress(PackageNotFoundError):
+                    self._distribution(distribution(match[0]))
+
+
+def _tops(found: Distribution) -> set[str]:
+    """The first parts of its files' names: packages, modules, what is linked beside them."""
+    listed = found.read_text("RECORD")  # `files` makes a path of each, of thousands
+    names = listed.splitlines() if listed else map(str, found.files or ())
+    tops = {name.partition(",")[0].partition("/")[0] for name in names}
+    return {top for top in tops if top not in ("", "..", COMPILED) and not top.endswith("-info")}
+
+
+def home_of(kind: type) -> Path:
+    """The folder of an engine's package, or its one file. Raises TypeError where it has none."""
+    names = kind.__module__.split(".")
+    own = 3 if names[0] == OURS else 1  # textmech.engines.<name>; theirs from the top
+    for known in (".".join(names[:own]), kind.__module__):
+        file = getattr(sys.modules.get(known), "__file__", None)
+        if file is not None:
+            return Path(file).parent if Path(file).name == "__init__.py" else Path(file)
+    raise TypeError(f"{kind.__module__} has no file")
+
+
+def _loaded(package: str) -> set[str]:
+    """The modules by their first names that the package's own hold, however they were imported."""
+    own = [m for name, m in list(sys.modules.items()) if name.partition(".")[0] == package]
+    held = [thing for module in own for thing in list(vars(module).values())]
+    names = [
+        t.__name__ if isinstance(t, ModuleType) else getattr(t, "__module__", "") for t in held
+    ]
+    return {name.partition(".")[0] for name in names if isinstance(name, str)} - {"", package}
+
+
+def located(name: str) -> list[Path]:
+    """Where a module is: where it was loaded from, else where Python would find it now."""
+    module, spec = sys.modules.get(name), None
+    with suppress(ImportError, ValueError, AttributeError):
+        spec = find_spec(name) if module is None else None
+    folders = getattr(module, "__path__", None) or getattr(spec, "submodule_search_locations", None)
+    if folders:
+        return [Path(folder) for folder in folders if Path(folder).is_dir()]
+    file = getattr(module, "__file__", None) or getattr(spec, "origin", None)
+    return [Path(file)] if file and Path(file).is_file() else []
+
+
+def _beside(home: Path) -> Iterator[Path]:
+    """What its code names in quotes; and of a module with a folder of its own, all files there."""
+    folder = home if home.is_dir() else home.parent
+    if home.is_file() and folder.name not in INSTALLED:
+        there = [Path(found.path) for found in os.scandir(folder) if found.is_file()]
+        if len(there) > MANY:
+            raise TypeError(f"{home.name} is one of {len(there)} files")
+        yield from sorted(there)
+    if _is_ours(home):
+        return
+    files = [home] if home.is_file() else sorted(f for f in home.rglob("*") if f.suffix in CODE)
+    for file in files:
+        yield from _quoted(file, {folder, folder.parent, file.parent})
+
+
+def _quoted(file: Path, folders: Iterable[Path]) -> Iterator[Path]:
+    """Files that are there, by the names in a file of code."""
+    words = {w.decode() for w in _QUOTED.findall(file.read_bytes()) if w.isascii()}
+    for word in sorted(word for word in words if len(word) <= LONGEST and set(word) & {".", "/"}):
+        for folder in sorted(folders):
+            with suppress(OSError, ValueError, RuntimeError):
+                named = folder / Path(word).expanduser()
+                if named.is_file():
+                    yield named
+
+
+def _is_ours(home: Path) -> bool:
+    return home.is_relative_to(Path(__file__).parents[3])

@@ -1,0 +1,119 @@
+"""Results of tasks: from the store, or from the executor and then kept as they come."""
+
+import time
+from collections.abc import Callable, Iterable, Mapping
+from concurrent.futures import Executor
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from ...cases.mistake import CaseError
+from ..system.pool import Died, spread
+from .cache.fits import returned
+from .cache.key import Keys
+from .cache.store import Store
+
+PAUSE = 0.5  # s between two looks at the code
+
+
+class Progress(Protocol):
+    """Is told what is being done, how many tasks of it are done, out of how many.
+
+    last: the task that was done last, by its name. part: how much of the work is done, 0 to 1, of
+    what was left to do; unlike the tasks' number it counts a long one for more.
+    """
+
+    def __call__(
+        self, what: str, done: int, total: int, last: str = "", part: float = 0.0, /
+    ) -> None: ...
+
+
+@dataclass(frozen=True)
+class Results:
+    """What every phase of a run needs."""
+
+    executor: Executor
+    progress: Progress
+    store: Store
+    keys: Keys
+
+    def __post_init__(self) -> None:
+        watch = getattr(self.progress, "watch", None)
+        if watch is not None:
+            watch(self.executor)
+
+    def stored(self, keys: Iterable[str], kind: Any) -> dict[str, Any]:
+        """Those that need not be computed; kind: what they have to be, as an annotation says it."""
+        return {key: kept for key in keys if (kept := self.store.get(key, kind)) is not None}
+
+    def keep(self, results: Mapping[str, Any]) -> None:
+        """By their keys, for the next run, unless they may be of a mixture of code."""
+        if results and self.keys.hold():
+            for key, result in results.items():
+                self.store.put(key, result)
+
+    def of(
+        self, what: str, function: Callable[[Any], Any], tasks: Mapping[str, Any]
+    ) -> dict[str, Any]:
+        """By the tasks' keys: what is stored, and all else computed and kept at once."""
+        found = self.stored(tasks, returned(function))
+        left = {key: task for key, task in tasks.items() if key not in found}
+        gathering = Gathering(self.keep)
+        try:
+            return found | self.anew(what, function, left, len(tasks), gathering.add)
+        finally:  # what was finished before a run is interrupted is kept too
+            gathering.release()
+
+    def anew(
+        self,
+        what: str,
+        function: Callable[[Any], Any],
+        tasks: Mapping[str, Any],
+        of: int | None = None,
+        keep: Callable[[str, Any], None] = lambda key, result: None,
+    ) -> dict[str, Any]:
+        """All computed, whatever is stored; of: so many there are with those that are stored."""
+        total = len(tasks) if of is None else of
+        done, found, keys = total - len(tasks), dict[str, Any](), list(tasks)
+        whole, finished = sum(map(_work, tasks.values())) or 1.0, 0.0
+
+        def tell(last: str = "") -> None:
+            self.progress(what, done + len(found), total, last, finished / whole)
+
+        tell()
+        for index, result in spread(function, list(tasks.values()), self.executor, tell):
+            key = keys[index]
+            found[key] = result
+            finished += _work(tasks[key])
+            if not isinstance(result, Died | CaseError):
+                keep(key, result)
+            tell(getattr(tasks[key], "name", ""))
+        return found
+
+
+@dataclass
+class Gathering:
+    """Results as they come, handed on together every half a second.
+
+    Before any is kept each file of the code is looked at, which takes longer than most results.
+    """
+
+    keep: Callable[[Mapping[str, Any]], None]
+    since: float = field(default_factory=time.monotonic)
+    waiting: dict[str, Any] = field(default_factory=dict)
+
+    def add(self, key: str, result: Any) -> None:
+        """One more."""
+        self.waiting[key] = result
+        if time.monotonic() - self.since >= PAUSE:
+            self.release()
+
+    def release(self) -> None:
+        """All that wait."""
+        together, self.waiting = self.waiting, {}
+        self.keep(together)
+        self.since = time.monotonic()
+
+
+def _work(task: Any) -> float:
+    """How much a task is, among its like: its steps, if it has any."""
+    return float(getattr(task, "steps", 1.0))

@@ -1,0 +1,37 @@
+"""What is tried: options of an engine, and a step."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from .... import engines
+from ....engines.engine import Engine
+from ....engines.knobs import Options
+
+TRIED = "tried"  # the setting's name
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """Options as a user would write them, and the step [s]; equal where these are."""
+
+    told: str  # the options as JSON
+    step: float
+
+    @staticmethod
+    def of(options: Options, step: float) -> "Candidate":
+        return Candidate(json.dumps(options, sort_keys=True), step)
+
+    @property
+    def options(self) -> Mapping[str, Any]:
+        """Without the step."""
+        return json.loads(self.told)
+
+    def engine(self, name: str) -> Engine:
+        """The engine with them. Raises ValueError where it does not take them."""
+        return engines.make(name, TRIED, {**self.options, "step": self.step})
+
+    def at(self, step: float) -> "Candidate":
+        """The same options at another step [s]."""
+        return Candidate(self.told, step)

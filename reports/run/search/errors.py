@@ -1,0 +1,98 @@
+"""One simulation: a case in an engine with given options at a given step, and how far off it is."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from math import inf, isnan
+
+import numpy as np
+
+from ....cases.trajectory import Array
+from ....engines.engine import Plan
+from ...compare.judge import metric
+from ...compare.judge.moment import away_from_instants
+from ...compare.trial.rung import Samples, climbed
+from ...compare.trial.simulate import rung
+from ...compare.trial.start import first
+from ...compare.trial.trial import Trial, judged_names, planned
+from ...compare.trial.work import pace
+from ...system.limit import limit
+from ..unit import Pair
+from .candidate import Candidate
+
+Errors = Mapping[str, tuple[float, float]]
+"""By quantity the largest error over what is allowed: of all samples, and of those that are not
+beside any instant (of events the same). What has none is not in it: see `of`."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """pair: the case with the samples that its engine's own step meets, and that engine."""
+
+    pair: Pair
+    candidate: Candidate
+
+    @property
+    def name(self) -> str:
+        """For progress."""
+        return f"{self.pair.case.name} in {self.pair.engine.name}"
+
+    @property
+    def limit(self) -> float:
+        """How long the engine may take [s], and before it a reference."""
+        steps = self.pair.case.duration / self.candidate.step
+        return self.pair.limit + limit(steps * pace(self.pair.case, self.pair.engine))
+
+
+def of(errors: Errors, name: str, *, elsewhere: bool = False) -> float:
+    """One of them; inf where the run diverged, was refused, or has no such number."""
+    return errors[name][elsewhere] if name in errors else inf
+
+
+def trial_of(pair: Pair, candidate: Candidate) -> Trial | None:
+    """The candidate's native way before the pair's reference; None where it is refused."""
+    engine, reference = candidate.engine(pair.engine.name), pair.reference()
+    ways = planned(engine, pair.case.scene, first(reference))
+    way = next(way for way in ways if way.realised == "native")
+    return Trial(pair.case, reference, engine, way) if isinstance(way, Plan) else None
+
+
+def errors(run: Run) -> Errors:
+    """Of everything that is judged; the pair's reference comes from the store."""
+    case, trial = run.pair.case, trial_of(run.pair, run.candidate)
+    samples = climbed(rung(trial, run.candidate.step)) if trial else ""
+    if trial is None or isinstance(samples, str):
+        return {}
+    found = {name: _off(trial, name, samples) for name in judged_names(case)}
+    elsewhere = away_from_instants(replace(trial, engine=run.pair.engine))
+    return {
+        name: (_ratio(trial, name, off), _ratio(trial, name, off[elsewhere]))
+        if name in trial.motion
+        else (_ratio(trial, name, off), _ratio(trial, name, off))
+        for name, off in found.items()
+        if off is not None
+    }
+
+
+def _off(trial: Trial, name: str, samples: Samples) -> Array | None:
+    """The differences (N,), at events (K,), of a count (1,); None where there is none to take."""
+    if name in trial.withheld:
+        return None
+    if trial.quantity(name).field == "count" and name in trial.instants:
+        event = trial.quantity(name).part
+        found = samples.get(f"{event}.time")
+        counts = None if found is None else float(len(found) - len(trial.events[event]))
+        return None if counts is None else np.array([abs(counts)])
+    if name not in samples:
+        return None
+    wanted = trial.wanted(name)
+    if len(samples[name]) != len(wanted):  # another count: which belongs to which?
+        return np.array([inf])
+    return metric.sizes(trial.read(name, samples[name]) - wanted)
+
+
+def _ratio(trial: Trial, name: str, off: Array) -> float:
+    allowed = trial.allowed(name)
+    if allowed is None:
+        return inf
+    largest = float(np.max(off, initial=0.0))
+    return inf if isnan(largest) else largest / allowed

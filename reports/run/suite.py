@@ -1,0 +1,264 @@
+"""The one path: cases → references → trials → rows."""
+
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
+from contextlib import nullcontext
+from dataclasses import dataclass, field, replace
+from math import inf
+
+from ...cases.case import Case
+from ...cases.mistake import CaseError, Mistake
+from ...cases.trajectory import Trajectory
+from ...engines.engine import Engine, Refusal
+from ...reference.solve import Solution, solve
+from ..compare.events.states import mistaken
+from ..compare.judge.compare import crashed
+from ..compare.judge.instants import of_reference
+from ..compare.judge.metric import told
+from ..compare.judge.uncertified import failing, uncertified
+from ..compare.trial.book import producers
+from ..compare.trial.trial import Trial
+from ..data.coverage import countable
+from ..data.promised import answered
+from ..data.row import (
+    DEVIATES,
+    DIVERGED,
+    FAILS,
+    UNSEARCHED,
+    Cause,
+    Certificate,
+    Comparison,
+    Instant,
+    Rungs,
+    StepError,
+)
+from ..system.pool import Died, local
+from .cache.key import Keys
+from .cache.store import Store, passing
+from .results import Progress, Results
+from .search.causes import Known
+from .search.causes import causes as found_causes
+from .search.told import NONE, NOTHING
+from .search.why import Key, key_of
+from .selection import sound
+from .trials import Tried, tried
+from .unit import Pair
+
+OF_BOUND = 0.1  # of what a check must keep: below it a difference is its rounding
+
+RUNS = 30  # about, of an engine on a case: three ways, two ladders, five rungs
+
+
+@dataclass
+class Report:
+    """The rows of all reports, and the samples behind them."""
+
+    comparisons: list[Comparison] = field(default_factory=list)
+    rungs: list[Rungs] = field(default_factory=list)
+    steps: list[StepError] = field(default_factory=list)
+    certificates: list[Certificate] = field(default_factory=list)
+    instants: list[Instant] = field(default_factory=list)
+    equations: dict[str, set[str]] = field(default_factory=dict)  # case → executed equations
+    cases: list[Case] = field(default_factory=list)
+    solutions: dict[str, Solution] = field(default_factory=dict)
+    causes: list[Cause] = field(default_factory=list)
+    lost: dict[str, str] = field(default_factory=dict)  # case → why it has no reference
+    mistakes: list[Mistake] = field(default_factory=list)  # of files that are left out
+    tried: list[Tried] = field(default_factory=list)
+
+    @property
+    def fails(self) -> bool:
+        """Whether a verdict FAILS, in a row or in a certificate."""
+        return any(row.verdict == FAILS for row in (*self.comparisons, *self.certificates))
+
+
+def measure(
+    cases: Sequence[Case],
+    engines: Sequence[Engine],
+    *,
+    jobs: int = 1,
+    progress: Progress,
+    book: bool = True,
+    causes: bool = False,
+    known: Known | None = None,
+    store: Store | None = None,
+    executor: Executor | None = None,
+) -> Report:
+    """Solves every case once and runs every trial once, on `jobs` processes of this machine.
+
+    book: whether the book's own approximations stand beside the engines. causes: whether what
+    cures each row above its tolerance is searched for, which takes more runs; known: what is
+    carried over where it stands on the same, instead of a search. store: where results are kept as
+    they come, and taken from if nothing that they depend on has changed; None: nowhere. executor:
+    any of `concurrent.futures`, a cluster's for instance, in place of the processes.
+
+    A mistake that only solving finds costs its own file: `mistakes` of the report tells them.
+    Raises CaseError with the mistakes if no file is left.
+    """
+    countable()
+    keys, report = Keys.now(store), Report(cases=list(cases))
+    beside = [(case, e) for case in cases for e in producers(case, engines, book=book)]
+    most = max(len(cases), RUNS * len(beside))
+    with (
+        nullcontext(store) if store else passing() as used,
+        used.alone(keys.run(beside), lambda: progress("another run has these", 0, 1)),
+        nullcontext(executor) if executor else local(min(jobs, most)) as working,
+    ):
+        results = Results(working, progress, used, keys)
+        pairs = [Pair(case, engine, used, keys.solution(case)) for case, engine in beside]
+        _solve(cases, results, report)
+        paired = [pair for pair in pairs if pair.case.name in report.solutions]
+        references = {name: solved.trajectory for name, solved in report.solutions.items()}
+        for one in tried(paired, references, results):
+            _take(one, report)
+        for pair in pairs:
+            if pair.case in report.cases and pair.case.name in report.lost:
+                _without_reference(pair, report)
+        _explain(paired, results, report, search=causes, known=known)
+        return report
+
+
+def _solve(cases: Sequence[Case], results: Results, report: Report) -> None:
+    keys = {case.name: results.keys.solution(case) for case in cases}
+    found = results.of("references", _solved, {keys[case.name]: case for case in cases})
+    answers = {case.name: found[keys[case.name]] for case in cases}
+    report.mistakes += [m for case in cases for m in _wrong(case, answers[case.name])]
+    report.cases = sound(cases, report.mistakes)
+    if not report.cases:
+        raise CaseError(report.mistakes)
+    for case in report.cases:
+        answer = answers[case.name]
+        report.equations[case.name] = set()
+        if isinstance(answer, Died):
+            report.lost[case.name] = answer.because
+            report.certificates.append(_no_certificate(case))
+        else:
+            report.solutions[case.name] = answer
+            report.equations[case.name] = set(answer.equations)
+            report.certificates += _certificates(case, answer)
+            report.instants += of_reference(case, answer.trajectory)
+
+
+def _wrong(case: Case, answer: Solution | CaseError | Died) -> list[Mistake]:
+    """What only solving finds."""
+    if isinstance(answer, CaseError):
+        return answer.mistakes
+    return [] if isinstance(answer, Died) else mistaken(case, answer.trajectory)
+
+
+def _take(one: Tried, report: Report) -> None:
+    solution = report.solutions[one.pair.case.name]
+    outcome = one.outcome
+    if not solution.holds:
+        outcome = failing(outcome, uncertified(solution))
+    outcome = replace(outcome, rows=answered(one.pair.case, outcome.rows))
+    report.comparisons += outcome.rows
+    report.rungs += outcome.rungs
+    report.steps += outcome.steps
+    report.instants += outcome.instants
+    report.tried.append(replace(one, outcome=outcome))
+
+
+def _explain(
+    pairs: Sequence[Pair], results: Results, report: Report, *, search: bool, known: Known | None
+) -> None:
+    moments = {
+        (one.pair.case.name, one.pair.engine.name, one.pair.engine.setting, name): words
+        for one in report.tried
+        if one.realised == "native"
+        for name, words in one.outcome.moments.items()
+    }
+    report.causes = found_causes(
+        report.comparisons, report.steps, pairs, results, search=search, known=known
+    )
+    report.comparisons = with_causes(report.comparisons, report.causes, moments)
+
+
+def _without_reference(pair: Pair, report: Report) -> None:
+    """Its rows say so: nothing can be compared."""
+    because = f"there is no reference: {report.lost[pair.case.name]}"
+    nothing = Trajectory(pair.case.times, {}, {})
+    trial = Trial(pair.case, nothing, pair.engine, Refusal("native", because))
+    report.comparisons += failing(crashed(trial, because), because).rows
+
+
+def _solved(case: Case) -> Solution | CaseError:
+    try:
+        return solve(case)
+    except CaseError as error:
+        return error
+
+
+def _certificates(case: Case, solution: Solution) -> list[Certificate]:
+    return [
+        Certificate(
+            case=case.name,
+            source=str(case.origin),
+            system=solution.system,
+            check=check.name,
+            difference=told(check.difference, OF_BOUND * check.bound),
+            bound=check.bound,
+            certified=check.certified,
+            unit=check.unit,
+            verdict="holds" if check.holds else FAILS,
+        )
+        for check in solution.checks
+    ]
+
+
+def _no_certificate(case: Case) -> Certificate:
+    system = case.system or "generated"
+    return Certificate(
+        case.name, str(case.origin), system, "it is solved", inf, 0.0, None, "", FAILS
+    )
+
+
+# Causes in a row's last column: its instant, what is declared of it, and what cures it.
+
+
+Moments = Mapping[Key, str]
+"""In words, of rows whose error is largest at an instant."""
+MOST = 3  # cures in a sentence: causes.csv has them all
+
+
+def with_causes(
+    rows: Sequence[Comparison], causes: Sequence[Cause], moments: Moments
+) -> list[Comparison]:
+    """The rows, of which each that has causes says them."""
+    found: dict[Key, list[Cause]] = {}
+    for cause in causes:
+        found.setdefault(key_of(cause), []).append(cause)
+    return [
+        _with(row, found[key_of(row)], moments.get(key_of(row), ""))
+        if row.realised == "native" and key_of(row) in found
+        else row
+        for row in rows
+    ]
+
+
+def _with(row: Comparison, causes: Sequence[Cause], moment: str) -> Comparison:
+    """What the ladder told stays where there is nothing better to tell."""
+    first = causes[0].cure
+    if first == UNSEARCHED:
+        return row
+    declared = row.because if row.verdict in (DEVIATES, DIVERGED) else moment
+    if first == NONE:
+        told = [declared or row.because, "none of its options tried cures it"]
+    elif first == NOTHING:
+        told = [declared or row.because, NOTHING]
+    else:
+        told = [declared, f"cured by {_cures(causes)}"]
+    return replace(row, because="; ".join(part for part in told if part))
+
+
+def _cures(causes: Sequence[Cause]) -> str:
+    told = [_cure(cause) for cause in causes[:MOST]]
+    more = len(causes) - len(told)
+    return " or ".join([*told, f"{more} more"] if more else told)
+
+
+def _cure(cause: Cause) -> str:
+    """`RK4 (×4)`: beside it what it costs."""
+    cost = "" if cause.cost is None else f" (×{cause.cost:.2g} the cost)"
+    at = f" {cause.step:.3g} s" if cause.cure.endswith("step") else ""
+    return f"{cause.cure}{at}{cost}"

@@ -1,0 +1,199 @@
+"""Processes of this machine as an executor: a task whose process dies costs nobody but itself.
+
+`concurrent.futures.ProcessPoolExecutor` loses all tasks with one of its processes, and cannot end
+a task. Here each process has a thread that waits for it, knows its task, and replaces it.
+"""
+
+import multiprocessing
+import os
+import pickle
+import signal
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from contextlib import contextmanager
+from multiprocessing.connection import Connection, wait
+from queue import SimpleQueue
+from typing import Any
+
+from ...engines.quiet import silence
+from ...reference.integrators.now import NOW, doing
+from . import ending, limit
+from .spelled import why
+
+WORDS = 300  # bytes of what a process is at
+GLANCE = 0.5  # s
+DAYS = 1e6  # s: no system waits much longer, so no limit is one
+
+_CHILDREN = threading.Lock()  # one looks at them at a time: the system tells each end only once
+
+
+class ProcessDied(Exception):
+    """A task's process ended before the task did."""
+
+
+class Processes(Executor):
+    """So many processes, each with one task at a time."""
+
+    def __init__(self, jobs: int) -> None:
+        self._lock = threading.Lock()
+        self._ended = False
+        self._idle: SimpleQueue[_Process] = SimpleQueue()
+        self._all: set[_Process] = set()
+        self._jobs = jobs
+        for _ in range(jobs):  # before there are threads: a fork copies their locks as they are
+            self._idle.put(self._started())
+        self._threads = ThreadPoolExecutor(jobs)
+
+    def submit(self, fn: Callable, /, *args: Any, **kwargs: Any) -> Future:
+        """As any executor; a future may raise ProcessDied."""
+        return self._threads.submit(self._run, (fn, args, kwargs))
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """Ends all processes; with `cancel_futures` in the middle of their tasks."""
+        if not cancel_futures:
+            self._threads.shutdown(wait=wait)
+        with self._lock:
+            self._ended = True
+            for process in self._all:
+                process.kill()
+        self._threads.shutdown(wait=wait, cancel_futures=True)
+
+    def doing(self) -> list[str]:
+        """What each process is at that works on something with a name."""
+        with self._lock:
+            return [said for process in self._all if (said := process.doing())]
+
+    def _started(self) -> "_Process":
+        with self._lock:
+            if self._ended:
+                raise ProcessDied("the run was ended")
+            process = _Process(self._jobs)
+            self._all.add(process)
+            return process
+
+    def _run(self, call: tuple[Callable, tuple, dict[str, Any]]) -> Any:
+        process = self._idle.get()
+        try:
+            return process.answer(call)
+        except ProcessDied:
+            with self._lock:
+                self._all.discard(process)
+            process = self._started()
+            raise
+        finally:
+            self._idle.put(process)
+
+
+class _Process:
+    """A process that answers one call after the other."""
+
+    def __init__(self, jobs: int) -> None:
+        self._here, there = multiprocessing.Pipe()
+        self._words = multiprocessing.RawArray("c", WORDS)
+        self._task, self._since = "", 0.0
+        serving = there, self._words, jobs
+        self._process = multiprocessing.Process(target=_serve, args=serving, daemon=True)
+        with _CHILDREN, _deaf():
+            self._process.start()  # looks at all others too
+        there.close()
+
+    def answer(self, call: tuple[Callable, tuple, dict[str, Any]]) -> Any:
+        """What the call returns or raises. Raises ProcessDied."""
+        asked = call[1][-1] if call[1] else None
+        self._task = getattr(asked, "name", "")
+        self._since = time.monotonic()
+        try:
+            self._here.send(call)
+            most = min(getattr(asked, "limit", DAYS), DAYS)
+            if not wait([self._here, self._process.sentinel], most) and most < DAYS:
+                self.kill()
+                raise ProcessDied(f"it took longer than {most:.0f} s, and was ended")
+            if not self._here.poll():
+                raise EOFError
+            value, error = self._here.recv()
+        except (EOFError, OSError):
+            self.kill()
+            raise ProcessDied(f"the process died ({self._how()})") from None
+        finally:
+            self._task = ""
+        if error is not None:
+            raise error
+        return value
+
+    def doing(self) -> str:
+        """What it is at, for how long; nothing if that has no name."""
+        if not self._task:
+            return ""
+        said = self._words.value.decode("utf-8", "ignore")
+        return f"{self._task}{said and ': ' + said} ({time.monotonic() - self._since:.0f} s)"
+
+    def kill(self) -> None:
+        """Ends it, whatever it does."""
+        with _CHILDREN:
+            self._process.kill()
+            self._process.join()
+
+    def _how(self) -> str:
+        code = self._process.exitcode
+        assert code is not None  # it has been joined
+        return signal.Signals(-code).name if code < 0 else f"exit code {code}"
+
+
+@contextmanager
+def _deaf() -> Iterator[None]:
+    """A signal waits until the new process knows what to do with it; it inherits the waiting."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, ending.known())
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _serve(calls: Connection, words: Any, jobs: int) -> None:
+    """What runs in the process, one of so many: until its parent is gone."""
+    limit.hold(jobs)
+    threading.Thread(target=_with_parent, daemon=True).start()
+    threading.Thread(target=_tell, args=(words,), daemon=True).start()
+    silence()
+    os.chdir(tempfile.gettempdir())  # engines write logs: let it not be the user's folder
+    for number in ending.known():  # the terminal's reach all: the parent decides
+        signal.signal(number, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, ending.known())
+    while True:
+        try:
+            received = calls.recv_bytes()
+        except EOFError:
+            return
+        doing("")
+        value, error = None, None
+        try:
+            fn, args, kwargs = pickle.loads(received)  # from our own parent
+            value = fn(*args, **kwargs)
+        except BaseException as raised:  # sys.exit too is one task's
+            error = raised
+        try:
+            calls.send((value, error))
+        except BaseException as unsent:  # what cannot be pickled
+            calls.send((None, RuntimeError(why(unsent))))
+
+
+def _tell(words: Any) -> None:
+    """Where its parent looks, what it is at."""
+    while True:
+        words.value = NOW.text().encode()[: WORDS - 1]
+        time.sleep(GLANCE)
+
+
+def _with_parent() -> None:
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+    parent.join()
+    os._exit(1)

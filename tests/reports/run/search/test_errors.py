@@ -1,0 +1,95 @@
+"""One simulation is judged as its row is: the same numbers, whatever asks for them."""
+
+from dataclasses import replace
+from math import inf
+from pathlib import Path
+
+import pytest
+from given import scenes
+
+from textmech import engines
+from textmech.engines.engine import Tunable
+from textmech.reports.compare.trial.ladder import judged_step
+from textmech.reports.compare.trial.start import first
+from textmech.reports.run import suite
+from textmech.reports.run.cache.key import Keys
+from textmech.reports.run.cache.store import Store
+from textmech.reports.run.search.candidate import Candidate
+from textmech.reports.run.search.errors import Errors, Run, errors, of
+from textmech.reports.run.unit import Pair
+
+CUT = 1e-6  # of what is allowed: rows leave out the digits that rounding decides
+
+
+def pair(store: Path, name: str, engine: str, setting: str = "shipped") -> Pair:
+    """A shipped case, whose reference is in the store."""
+    case, found = scenes.SHIPPED[name], Store(store)
+    key = Keys.now(None).solution(case)
+    found.put(key, scenes.solved(name))
+    return Pair(case, engines.make(engine, setting), found, key)
+
+
+def ratios(asked: Pair) -> Errors:
+    """What the rows of the pair say."""
+    report = suite.measure([asked.case], [asked.engine], progress=lambda *_: None, book=False)
+    native = [row for row in report.comparisons if row.realised == "native"]
+    return {r.quantity: (r.ratio, r.ratio) for r in native if r.ratio is not None}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("engine", ["mujoco", "pymunk"])
+@pytest.mark.parametrize("name", ["bar_pendulum", "sliding_block.braking", "bouncing_disk.plastic"])
+def test_a_candidate_without_options_is_the_shipped_row(
+    name: str, engine: str, tmp_path: Path
+) -> None:
+    asked = pair(tmp_path, name, engine)
+    step = asked.engine.own_step or 0.0
+    found, rows = errors(Run(asked, Candidate.of({}, step))), ratios(asked)
+    assert set(found) >= set(rows) - {"audit"}
+    for quantity in set(rows) - {"audit"}:
+        assert of(found, quantity) == pytest.approx(of(rows, quantity), rel=1e-6, abs=CUT)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("engine", ["mujoco", "pymunk"])
+def test_a_candidate_with_the_tuned_options_is_the_tuned_row(engine: str, tmp_path: Path) -> None:
+    asked = pair(tmp_path, "four_bar", engine, "tuned")
+    assert isinstance(asked.engine, Tunable)
+    recipe = asked.engine.recipe(asked.case.scene, first(asked.reference()))
+    step = judged_step(asked.case, asked.engine)
+    found, rows = errors(Run(asked, Candidate.of(recipe, step))), ratios(asked)
+    for quantity in set(rows) - {"audit"}:
+        assert of(found, quantity) == pytest.approx(of(rows, quantity), rel=1e-6, abs=CUT)
+
+
+def test_beside_an_instant_the_error_elsewhere_is_told_too(tmp_path: Path) -> None:
+    """As shipped MuJoCo's contact is not closed at the first sample."""
+    asked = pair(tmp_path, "rolling_wheel.downhill", "mujoco")
+    found = errors(Run(asked, Candidate.of({}, 2e-3)))
+    assert of(found, "touch.normal") > 100
+    assert of(found, "touch.normal", elsewhere=True) < 10
+    settled = errors(Run(asked, Candidate.of({"settled": True}, 2e-3)))
+    assert of(settled, "touch.normal") < 10
+
+
+def test_what_diverges_has_no_errors(tmp_path: Path) -> None:
+    asked = pair(tmp_path, "heavy_top.cusp", "mujoco")
+    assert errors(Run(asked, Candidate.of({}, 2e-3))) == {}
+    assert of({}, "tilt.angle") == inf
+
+
+def test_another_count_of_events_leaves_their_times_without_an_error(tmp_path: Path) -> None:
+    """As shipped MuJoCo's disk bounces once, and not twice: which bounce would it be?"""
+    asked = pair(tmp_path, "bouncing_disk.elastic", "mujoco")
+    found = errors(Run(asked, Candidate.of({}, 2e-3)))
+    assert of(found, "bounces.count") == 2.0
+    assert of(found, "bounces.time") == inf
+
+
+def test_a_tolerance_that_is_not_known_is_never_kept(tmp_path: Path) -> None:
+    asked = pair(tmp_path, "bar_pendulum", "mujoco")
+    allow = {**asked.case.allow, "energy.total": None}
+    found = errors(
+        Run(replace(asked, case=replace(asked.case, allow=allow)), Candidate.of({}, 2e-3))
+    )
+    assert of(found, "energy.total") == inf
