@@ -126,7 +126,7 @@ def show(case: str, name: str, settings: str | None, allow_long: bool) -> None:
 
     from ..engines import Known
     from ..engines.probe import guarded
-    from .run.selection import choose_cases, choose_engines
+    from .batch.selection import choose_cases, choose_engines
     from .show.script import script
     from .system.spelled import why
 

@@ -11,15 +11,15 @@ from ..cases.case import Case
 from ..cases.load import load
 from ..cases.mistake import CaseError
 from ..engines.engine import Engine, Plan, Refusal, Start
+from .batch.cache.key import Keys
+from .batch.cache.store import Store
+from .batch.selection import ENGINES, HANDWRITTEN, choose_book, choose_engines
 from .compare.trial.book import producers
 from .compare.trial.start import assembled
 from .compare.trial.states import ways_of
 from .compare.trial.trial import judged_names
 from .compare.trial.work import too_long
 from .data.coverage import countable
-from .run.cache.key import Keys
-from .run.cache.store import Store
-from .run.selection import ENGINES, HANDWRITTEN, choose_book, choose_engines
 from .show.progress import aloud
 from .system.pool import Died, local, spread
 

@@ -22,7 +22,7 @@ from ..cases.trajectory import Trajectory
 if TYPE_CHECKING:
     import pandas as pd
 
-    from .run.results import Progress
+    from .batch.results import Progress
 
 OWN = "own"  # how the column of a user's own options is called
 POSES = ("x", "y", "z", "angle")
@@ -69,7 +69,7 @@ def load(word: Word | Sequence[Word] = ()) -> list[Case]:
 
     Raises CaseError with all mistakes of all files.
     """
-    from .run.selection import choose_cases
+    from .batch.selection import choose_cases
 
     words = _words(word)
     given = [case for case in words if isinstance(case, Case)]
@@ -133,11 +133,11 @@ def run(
     import pandas as pd
 
     from ..cases.language.read.document import Document
+    from .batch import suite
+    from .batch.asking import asked
+    from .batch.cache.store import usable
     from .data.own_settings import made
     from .output import committed, write
-    from .run import suite
-    from .run.asking import asked
-    from .run.cache.store import usable
     from .show.summary import summary
     from .system import pool
 
@@ -188,10 +188,10 @@ def advise(
     """
     import pandas as pd
 
-    from .run.advice.advised import Asked, rows
-    from .run.advice.session import advised
-    from .run.asking import asked
-    from .run.cache.store import usable
+    from .batch.advice.advised import Asked, rows
+    from .batch.advice.session import advised
+    from .batch.asking import asked
+    from .batch.cache.store import usable
 
     wanted = asked(load(word), engines, ["shipped"])
     bar = Asked(tolerance, margin)

@@ -22,9 +22,9 @@ from .pytest_options import pytest_addoption as pytest_addoption
 
 if TYPE_CHECKING:
     from ..cases.case import Case
+    from .batch.suite import Report
     from .collecting import Earlier
     from .data.row import Comparison
-    from .run.suite import Report
 
 _REPORT = pytest.StashKey["Report"]()
 _ROWS = pytest.StashKey[dict[tuple[str, ...], "Comparison"]]()
@@ -122,8 +122,8 @@ def _settings(config: pytest.Config) -> list[str]:
 
 def _earlier(session: pytest.Session) -> "Earlier":
     """What the engines need not be asked again, the same for all files of the session."""
+    from .batch.cache.store import usable
     from .collecting import Earlier
-    from .run.cache.store import usable
 
     if _EARLIER not in session.stash:
         cached = not session.config.getoption("textmech_no_cache")
@@ -268,7 +268,7 @@ def _found(session: pytest.Session) -> "Report":
 
 def _measure(session: pytest.Session) -> "Report":
     """Runs what is collected, or takes it from another worker of xdist, which collects the same."""
-    from .run.session import rows
+    from .batch.session import rows
     from .show.progress import aloud, progress
 
     items = [item for item in session.items if isinstance(item, CaseItem)]

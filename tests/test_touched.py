@@ -46,8 +46,8 @@ def test_what_differs_is_printed_once_and_by_kind(
 ) -> None:
     changed = [
         "README.md",
-        "reports/run/cache/key.py",
-        "reports/run/cache/gone.py",
+        "reports/batch/cache/key.py",
+        "reports/batch/cache/gone.py",
         "tests/test_rooms.py",
     ]
     monkeypatch.setattr(touched, "changed", lambda: [Path(name) for name in changed])
@@ -57,10 +57,10 @@ def test_what_differs_is_printed_once_and_by_kind(
     assert set(tests) == {
         *touched.ALWAYS,
         "tests/test_rooms.py",
-        *mirrored("reports/run/cache/key.py"),
+        *mirrored("reports/batch/cache/key.py"),
     }
     touched.main("--files")
-    assert capsys.readouterr().out.split() == ["reports/run/cache/key.py", "tests/test_rooms.py"]
+    assert capsys.readouterr().out.split() == ["reports/batch/cache/key.py", "tests/test_rooms.py"]
 
 
 def test_where_nothing_differs_there_is_still_something_to_check(

@@ -12,11 +12,11 @@ from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ...engines.engine import Diverged, Engine, Loop, Plain, Plan, Realised, Refusal, Start
 from ...engines.probe import guarded
+from ..batch.selection import choose_cases
 from ..compare.trial.answers import plans
 from ..compare.trial.ladder import wanted_reactions
 from ..compare.trial.start import assembled
 from ..compare.trial.states import moving
-from ..run.selection import choose_cases
 from ..system.spelled import why
 from .turns import Ratio, Work, ratio, turns
 

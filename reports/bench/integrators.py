@@ -17,7 +17,7 @@ from ...reference.motion.follow import either
 from ...reference.motion.stuck import slope
 from ...reference.system import Mode
 from ...reference.systems import SYSTEMS
-from ..run.selection import choose_cases
+from ..batch.selection import choose_cases
 from .turns import Ratio, Work, ratio, turns
 
 ERRORS = {  # of the case, in its units: what all methods but the slowest reach

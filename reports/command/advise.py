@@ -85,14 +85,14 @@ def advise(
       textmech advise four_bar --engine mujoco --tolerance 1e-3
       textmech advise --all                             the committed reports/advice.csv
     """
+    from ..batch.advice.advised import Asked, rows
+    from ..batch.advice.session import advised
+    from ..batch.cache import store
+    from ..batch.selection import choose_cases, choose_engines
     from ..compare.trial.work import too_long
     from ..data.ours import unasked
     from ..data.row import Advice
     from ..output import write
-    from ..run.advice.advised import Asked, rows
-    from ..run.advice.session import advised
-    from ..run.cache import store
-    from ..run.selection import choose_cases, choose_engines
     from ..show import document, progress
     from ..show.advice import told
 

@@ -56,12 +56,12 @@ def bench(
       textmech bench --start                           what a command costs to start
       textmech bench my_case.yaml --csv > bench.csv    your own scene, for a spreadsheet
     """
+    from ..batch.selection import choose_cases, choose_engines
     from ..bench import table
     from ..bench.adapters import RUNGS, Amount, one_of_each_file, rows
     from ..bench.growth import grown
     from ..bench.integrators import compared
     from ..bench.start import begun
-    from ..run.selection import choose_cases, choose_engines
 
     if starts:
         if cases or names or as_csv:

@@ -38,11 +38,11 @@ def causes(
     one, the smallest sets that cure, with the step that they need and what they cost. Where a law
     or driver of ours is needed, the engine's own model is another one.
     """
+    from ..batch import suite
+    from ..batch.cache import store
+    from ..batch.selection import choose_cases, choose_engines
     from ..compare.trial.work import too_long
     from ..output import committed
-    from ..run import suite
-    from ..run.cache import store
-    from ..run.selection import choose_cases, choose_engines
     from ..show import cures, document, progress
     from ..system import pool
 

@@ -39,7 +39,7 @@ class Checked:
 @allow_long
 def check(files: tuple[str, ...], jobs: int | None, wants_json: bool, allow_long: bool) -> None:
     """All mistakes of case files, without running an engine."""
-    from ..run.selection import choose_engines
+    from ..batch.selection import choose_engines
     from ..show.document import write
     from ..system.pool import workers
 
@@ -64,8 +64,8 @@ def _checked(
     files: Sequence[str], engines: "Sequence[Engine]", jobs: int, *, long: bool
 ) -> list[Checked]:
     """Each of the files; solving is spread over processes where there are several."""
+    from ..batch.selection import choose_cases
     from ..compare.trial.work import too_long
-    from ..run.selection import choose_cases
     from ..show.progress import progress
     from ..system.pool import Died, local, spread
 

@@ -96,8 +96,8 @@ def _unknown(name: str, known: Sequence[str]) -> Mistake:
 
 def _tried(engine: "Engine", words: Sequence[str], jobs: int | None) -> "list[Mark]":
     """Its members, and each grade in a process that may die."""
+    from ..batch.selection import choose_cases
     from ..compare.grades import GRADES, Attempt, marked, members
-    from ..run.selection import choose_cases
     from ..show.progress import progress
     from ..system.pool import Died, local, spread, workers
 

@@ -9,7 +9,7 @@ from ..show.say import tell
 
 if TYPE_CHECKING:
     from ...cases.case import Case
-    from ..run.suite import Report
+    from ..batch.suite import Report
 
 
 def looked_at(
@@ -31,11 +31,11 @@ def looked_at(
     A file with mistakes is left out: `mistakes` of the report tells them. Raises CaseError where
     nothing is left.
     """
+    from ..batch import suite
+    from ..batch.asking import asked
+    from ..batch.cache import store
+    from ..batch.selection import sound_cases
     from ..output import committed
-    from ..run import suite
-    from ..run.asking import asked
-    from ..run.cache import store
-    from ..run.selection import sound_cases
     from ..show.cures import carried
     from ..show.progress import progress
     from ..system import pool

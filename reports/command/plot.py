@@ -11,7 +11,7 @@ from .looking import looked_at
 from .options import allow_long, named_engines, overwrite
 
 if TYPE_CHECKING:
-    from ..run.suite import Report
+    from ..batch.suite import Report
 
 KINDS = (".png", ".svg")
 
@@ -71,7 +71,7 @@ def plot(
 
 
 def _one(case: str, long: bool) -> None:
-    from ..run.selection import choose_cases
+    from ..batch.selection import choose_cases
 
     chosen = choose_cases([case], long=long)
     if len(chosen) > 1:

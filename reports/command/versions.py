@@ -52,9 +52,9 @@ def versions(
     \b
     Exit codes: 0 done, 2 a mistake: no engine, no such release, no network
     """
+    from ..batch.selection import choose_cases, choose_engines
     from ..data.ours import unasked
     from ..output import write
-    from ..run.selection import choose_cases, choose_engines
     from ..versions.measure import measure
     from ..versions.table import NAME, steps, table
     from ..versions.text import text

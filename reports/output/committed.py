@@ -12,9 +12,9 @@ from pathlib import Path
 
 from ...cases.case import Case
 from ...cases.find import shipped
+from ..batch.search.causes import Known
 from ..data.ours import HERE
 from ..data.row import Cause, Comparison, rank
-from ..run.search.causes import Known
 from .write import read
 
 FILE = HERE / "tolerance.csv"

@@ -13,8 +13,8 @@ from ...cases.scene.difference import apart
 from ...cases.scene.observe import observe
 from ...cases.scene.states import MASS_MATRIX
 from ...cases.trajectory import Array
+from ..batch.suite import Report
 from ..data.ours import unasked
-from ..run.suite import Report
 from ..system.replace import replace
 from .poses import COLUMNS, ending, filed, poses
 

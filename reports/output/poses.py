@@ -9,8 +9,8 @@ import pandas as pd
 from ...cases.case import Case
 from ...cases.scene.frame import PLANE, SPACE
 from ...cases.trajectory import Array
+from ..batch.suite import Report
 from ..compare.trial.rung import Samples, seen
-from ..run.suite import Report
 
 COLUMNS = {
     PLANE: [("x", "m", 0), ("y", "m", 1), ("angle", "rad", 2)],

@@ -13,12 +13,12 @@ import pandas as pd
 
 from ...cases.case import Case
 from ...reference.certificate.errors import ERROR
+from ..batch.suite import Report
 from ..data import runs
 from ..data.content import text as content
 from ..data.coverage import coverage
 from ..data.ours import HERE, unasked
 from ..data.row import NUMBERS, Advice, Cause, Certificate, Comparison, Instant, Rungs, StepError
-from ..run.suite import Report
 from ..system.replace import replace
 
 ELSEWHERE = Path("textmech-reports")

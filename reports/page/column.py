@@ -4,8 +4,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ...engines import SETTINGS, place
+from ..batch.selection import BOOK
 from ..data.row import Comparison, Instant, Rungs, StepError
-from ..run.selection import BOOK
 
 WAYS = {"native": 0, "driver": 1, "law": 2}
 

@@ -11,9 +11,9 @@ from ...cases.scene.observe import observe
 from ...cases.scene.point import CENTER, GROUND
 from ...cases.scene.states import MASS_MATRIX
 from ...cases.trajectory import Array, Trajectory
+from ..batch.suite import Report
+from ..batch.trials import Tried
 from ..compare.trial.rung import seen
-from ..run.suite import Report
-from ..run.trials import Tried
 from .pack import Packed, packed, packed_by_size
 from .sketch import extent, sketch
 

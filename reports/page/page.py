@@ -16,8 +16,8 @@ from markupsafe import Markup, escape
 from ...cases.case import Case
 from ...cases.theme import THEMES, themes
 from ...reference.certificate.errors import ERROR
+from ..batch.selection import BOOK
 from ..data.row import FAILS, MUTANTS, Certificate
-from ..run.selection import BOOK
 from . import beside
 from .advice import advice
 from .beside import records

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ...cases.case import Case
+from ..batch.suite import Report
 from ..data import runs
 from ..data.ours import unasked
 from ..output import write
-from ..run.suite import Report
 from ..system.passing import passing
 from ..system.replace import replace
 from .folder import folder

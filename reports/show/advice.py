@@ -4,14 +4,14 @@ from collections.abc import Iterator, Sequence
 
 from ...engines.engine import Diverged, Tunable
 from ...engines.knobs import as_text
+from ..batch.advice.advised import BOTH, Advised, rows, settings, words
+from ..batch.advice.price import ratio
+from ..batch.advice.recipe import Recipe, front
+from ..batch.search.candidate import Candidate
+from ..batch.search.errors import trial_of
 from ..compare.judge.plain import plain
 from ..compare.trial.start import first
 from ..data.amount import factor, milliseconds
-from ..run.advice.advised import BOTH, Advised, rows, settings, words
-from ..run.advice.price import ratio
-from ..run.advice.recipe import Recipe, front
-from ..run.search.candidate import Candidate
-from ..run.search.errors import trial_of
 
 HEADS = {BOTH: "fewest changes, and cheapest"}
 

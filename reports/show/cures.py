@@ -8,10 +8,10 @@ import pandas as pd
 
 from ...cases.case import Case
 from ...cases.find import shipped
+from ..batch.search.why import Key, key_of
 from ..data.amount import milliseconds
 from ..data.row import UNSEARCHED, Cause
 from ..output.write import HERE
-from ..run.search.why import Key, key_of
 from .summary import Cures
 
 NAME = "causes.csv"

@@ -14,8 +14,8 @@ from .summary import Cures, approximations, summary
 
 if TYPE_CHECKING:
     from ...cases.titled import Titled
+    from ..batch.suite import Report
     from ..data.row import Cause
-    from ..run.suite import Report
 
 Document = Mapping[str, Any]
 

@@ -14,8 +14,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, PercentFormatter
 
+from ..batch.selection import BOOK
 from ..data.row import REFUSED, Comparison
-from ..run.selection import BOOK
 
 NAME = "shares.svg"
 SIZE = (7.2, 3.4)  # inches

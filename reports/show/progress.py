@@ -17,7 +17,7 @@ from ...reference.integrators.now import NOW, begun, left
 from .say import draw, tell
 
 if TYPE_CHECKING:
-    from ..run.results import Progress
+    from ..batch.results import Progress
 
 FIRST = 2.0  # s before anything is said: most commands are done by then
 INTERVAL = 10.0  # s between two lines where no bar can be drawn

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from math import inf
 from typing import TypeVar
 
+from ..batch.selection import BOOK
 from ..data.amount import factor
 from ..data.row import CHANGED, REFUSED, Comparison, Rungs
-from ..run.selection import BOOK
 from .agreement import NATIVE, Way, agreement, judged, place
 
 Row = TypeVar("Row", Comparison, Rungs)

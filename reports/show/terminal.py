@@ -6,10 +6,10 @@ from itertools import groupby
 from pathlib import Path
 
 from ...engines import SETTINGS
+from ..batch.selection import BOOK
+from ..batch.suite import Report
 from ..data.promised import unkept
 from ..data.row import AGREES, FAILS, Comparison
-from ..run.selection import BOOK
-from ..run.suite import Report
 from .rows import known, rows
 from .say import say
 from .summary import Cures, approximations, summary

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...cases.mistake import CaseError, Mistake
+from ..batch.cache.store import FOLDER, by_default, usable
 from ..data.row import CRASHED, REFUSED
 from ..output.diff.folder import Folder, opened
-from ..run.cache.store import FOLDER, by_default, usable
 from ..system import child
 from ..system.passing import passing
 from .install import place
@@ -107,10 +107,10 @@ MISTAKEN = 2
 def main(told: str) -> int:
     """told: JSON of the engine, its version, cases, settings, folder, jobs, long."""
     from ...cases.mistake import CaseError
+    from ..batch import suite
+    from ..batch.cache.store import usable
+    from ..batch.selection import choose_cases, choose_engines
     from ..output import write
-    from ..run import suite
-    from ..run.cache.store import usable
-    from ..run.selection import choose_cases, choose_engines
     from ..show.progress import progress
     from ..show.say import tell
     from ..system import pool

@@ -103,7 +103,7 @@ def test_only_what_is_asked_for_is_imported(folder: Path) -> None:
     asked = (
         "import sys\n"
         "from pathlib import Path\n"
-        "from textmech.reports.run.selection import choose_cases, choose_engines\n"
+        "from textmech.reports.batch.selection import choose_cases, choose_engines\n"
         "choose_cases(['ball.yaml'])\n"
         "print('before:', *({'mujoco', 'pymunk', 'failing_engine'} & set(sys.modules)))\n"
         "print([e.setting for e in choose_engines(['pymunk'], [])])\n"

@@ -21,10 +21,10 @@ from given.planning import begun
 
 from textmech.engines.mujoco import MuJoCo
 from textmech.reference.solve import solve
-from textmech.reports.run.advice.advised import Advised, Asked
-from textmech.reports.run.advice.session import advised
-from textmech.reports.run.cache.store import usable
-from textmech.reports.run.selection import choose_engines
+from textmech.reports.batch.advice.advised import Advised, Asked
+from textmech.reports.batch.advice.session import advised
+from textmech.reports.batch.cache.store import usable
+from textmech.reports.batch.selection import choose_engines
 from textmech.reports.show.advice import told
 from textmech.reports.show.questions import listed
 

@@ -9,7 +9,7 @@ import pytest
 
 from textmech import engines
 from textmech.engines import probe
-from textmech.reports.run.selection import choose_engines
+from textmech.reports.batch.selection import choose_engines
 
 SOUND = """\
 from dataclasses import dataclass

@@ -15,7 +15,7 @@ from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Plan, Start
 from textmech.reports import cli
-from textmech.reports.run import selection
+from textmech.reports.batch import selection
 from textmech.reports.system import ending
 
 CASE = """\

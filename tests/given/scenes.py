@@ -9,8 +9,8 @@ from textmech.cases.find import shipped
 from textmech.cases.load import load
 from textmech.reference.solve import Solution, solve
 from textmech.reference.start.mechanism import mechanism as generated
-from textmech.reports.run.cache.key import Keys
-from textmech.reports.run.cache.store import usable
+from textmech.reports.batch.cache.key import Keys
+from textmech.reports.batch.cache.store import usable
 
 EVERY = {case.name: case for path in shipped().values() for case in load(path)}
 SHIPPED = {name: case for name, case in EVERY.items() if case.states is None}

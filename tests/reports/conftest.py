@@ -14,13 +14,13 @@ from textmech.cases.load import load
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Choice, Diverged, Plan, Realised, Refusal, Start
+from textmech.reports.batch import suite
+from textmech.reports.batch.cache.store import usable
+from textmech.reports.batch.selection import choose_cases, choose_engines
+from textmech.reports.batch.suite import Report
 from textmech.reports.compare.trial.start import first
 from textmech.reports.compare.trial.trial import Trial, ways
 from textmech.reports.pytest_plugin import CaseItem, measured
-from textmech.reports.run import suite
-from textmech.reports.run.cache.store import usable
-from textmech.reports.run.selection import choose_cases, choose_engines
-from textmech.reports.run.suite import Report
 from textmech.reports.system import pool
 
 TEXT = """\

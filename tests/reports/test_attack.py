@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 
 from textmech.cases.case import Case
+from textmech.reports.batch import suite
 from textmech.reports.compare.trial.trial import Trial
 from textmech.reports.data.row import Comparison
 from textmech.reports.output import write
-from textmech.reports.run import suite
 from textmech.reports.system import ending
 from textmech.reports.system.replace import DECIDED
 

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import pytest
 
+from textmech.reports.batch.search.told import NONE, NOTHING
+from textmech.reports.batch.suite import with_causes
 from textmech.reports.data.row import BEYOND, DEVIATES, UNSEARCHED, Cause, Comparison
-from textmech.reports.run.search.told import NONE, NOTHING
-from textmech.reports.run.suite import with_causes
 
 ROW = Comparison(
     case="b", theme="pins", source="", engine="mujoco", version="4.0.0", setting="shipped",

@@ -10,8 +10,8 @@ from given.command import NEW, process, textmech
 
 from textmech.cases.case import Case
 from textmech.reference import solve as solving
+from textmech.reports.batch.selection import choose_engines
 from textmech.reports.output import write
-from textmech.reports.run.selection import choose_engines
 
 
 @pytest.fixture(autouse=True)

@@ -8,9 +8,9 @@ from textmech.cases.case import Case
 from textmech.cases.find import shipped
 from textmech.engines.engine import Engine, Plan, Refusal, Start
 from textmech.reports import collecting
+from textmech.reports.batch.cache.key import Keys
+from textmech.reports.batch.cache.store import Store
 from textmech.reports.collecting import Earlier, Key, collected
-from textmech.reports.run.cache.key import Keys
-from textmech.reports.run.cache.store import Store
 
 FILE = shipped()["bar_pendulum"]
 

@@ -2,16 +2,16 @@
 
 import pytest
 
+from textmech.reports.batch import suite
+from textmech.reports.batch.advice.advised import Asked
+from textmech.reports.batch.advice.advised import rows as rows_of
+from textmech.reports.batch.advice.session import advised
+from textmech.reports.batch.cache.store import usable
+from textmech.reports.batch.selection import choose_cases, choose_engines
+from textmech.reports.batch.suite import Report
 from textmech.reports.compare.judge.rounding import EPSILON
 from textmech.reports.data.row import Advice, Cause, Certificate, Comparison, Instant, Rungs
 from textmech.reports.output import write
-from textmech.reports.run import suite
-from textmech.reports.run.advice.advised import Asked
-from textmech.reports.run.advice.advised import rows as rows_of
-from textmech.reports.run.advice.session import advised
-from textmech.reports.run.cache.store import usable
-from textmech.reports.run.selection import choose_cases, choose_engines
-from textmech.reports.run.suite import Report
 from textmech.reports.show import readme
 from textmech.reports.system import pool
 

@@ -7,8 +7,8 @@ import pytest
 from given.swing import SWING
 
 from textmech.cases.load import load
+from textmech.reports.batch.selection import choose_cases
 from textmech.reports.data.row import Cause
-from textmech.reports.run.selection import choose_cases
 from textmech.reports.show import cures
 
 HEAD = "case,engine,setting,quantity,error,allowed,cure,options,step,error_after,cost,law\n"

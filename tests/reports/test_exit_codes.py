@@ -10,8 +10,8 @@ from given.lines import row
 from given.otherwise import otherwise
 
 from textmech.cases.mistake import Mistake
+from textmech.reports.batch.suite import Report
 from textmech.reports.data.row import BEYOND, FAILS
-from textmech.reports.run.suite import Report
 
 RUN = importlib.import_module("textmech.reports.command.run")
 MISTAKE = Mistake("bad.yaml", 1, 1, "title", "missing key 'title'")

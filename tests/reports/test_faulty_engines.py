@@ -9,9 +9,9 @@ from given.faulty import ACTS, ANSWERS, AUDITS, PLANS, Faulty
 
 from textmech.cases.case import Case
 from textmech.engines.engine import Engine
+from textmech.reports.batch import suite
 from textmech.reports.data.row import AGREES, DIVERGED, FAILS, Comparison
 from textmech.reports.output import write
-from textmech.reports.run import suite
 from textmech.reports.show import document
 from textmech.reports.system import limit
 

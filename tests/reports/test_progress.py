@@ -8,9 +8,9 @@ from types import SimpleNamespace
 import pytest
 
 from textmech.reference.integrators import now
-from textmech.reports.run.cache.key import Keys
-from textmech.reports.run.cache.store import passing
-from textmech.reports.run.results import Results
+from textmech.reports.batch.cache.key import Keys
+from textmech.reports.batch.cache.store import passing
+from textmech.reports.batch.results import Results
 from textmech.reports.show import progress, say
 from textmech.reports.system import pool
 from textmech.reports.system.processes import Processes

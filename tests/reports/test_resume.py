@@ -11,15 +11,15 @@ import pytest
 
 from textmech.cases.case import Case
 from textmech.engines.engine import Engine
+from textmech.reports.batch import suite, unit
+from textmech.reports.batch.cache.key import Keys
+from textmech.reports.batch.cache.store import Store
+from textmech.reports.batch.suite import Report
 from textmech.reports.compare.judge.compare import Outcome
 from textmech.reports.compare.trial import rung
 from textmech.reports.compare.trial.trial import Trial
 from textmech.reports.data.row import FAILS
 from textmech.reports.output import write
-from textmech.reports.run import suite, unit
-from textmech.reports.run.cache.key import Keys
-from textmech.reports.run.cache.store import Store
-from textmech.reports.run.suite import Report
 
 Make = Callable[..., Trial]
 

@@ -7,8 +7,8 @@ from given import scenes
 
 from textmech import engines
 from textmech.cases.case import Case
+from textmech.reports.batch import suite
 from textmech.reports.data.row import AGREES, BEYOND, Comparison
-from textmech.reports.run import suite
 
 ROPE = """\
 scene:

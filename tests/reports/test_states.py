@@ -19,12 +19,12 @@ from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Engine, Start
 from textmech.engines.pymunk import Pymunk
+from textmech.reports.batch import suite
 from textmech.reports.bench.adapters import Amount
 from textmech.reports.bench.adapters import rows as rows_of_bench
 from textmech.reports.compare.trial.states import SILENT, ways_of
 from textmech.reports.data.row import AGREES, BEYOND, DEVIATES, FAILS, Comparison
 from textmech.reports.output import keep, write
-from textmech.reports.run import suite
 from textmech.reports.show.script import script
 
 MUJOCO, PYMUNK = (engines.make(name, "tuned") for name in ("mujoco", "pymunk"))

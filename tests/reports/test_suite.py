@@ -18,14 +18,14 @@ from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 from textmech.engines.engine import Engine, Realised
 from textmech.reference.solve import Solution
+from textmech.reports.batch import suite
+from textmech.reports.batch.search.told import NOTHING
+from textmech.reports.batch.suite import Report
+from textmech.reports.batch.trials import Tried
 from textmech.reports.compare.judge.compare import Outcome
 from textmech.reports.compare.trial.trial import Trial
 from textmech.reports.data.row import AGREES, DIVERGED, FAILS, Cause, Comparison
 from textmech.reports.output import write
-from textmech.reports.run import suite
-from textmech.reports.run.search.told import NOTHING
-from textmech.reports.run.suite import Report
-from textmech.reports.run.trials import Tried
 
 Make = Callable[..., Trial]
 

@@ -2,8 +2,8 @@
 
 import pytest
 
+from textmech.reports.batch.suite import Report
 from textmech.reports.data.row import Certificate
-from textmech.reports.run.suite import Report
 from textmech.reports.show import terminal
 
 

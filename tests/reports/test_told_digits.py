@@ -11,11 +11,11 @@ from given.otherwise import otherwise
 from given.report_folders import CERTIFICATE
 
 from textmech.cases.case import Case
+from textmech.reports.batch.suite import Report
 from textmech.reports.compare.judge import metric, rounding
 from textmech.reports.compare.trial.trial import Trial
 from textmech.reports.data.row import FAILS
 from textmech.reports.output import poses, write
-from textmech.reports.run.suite import Report
 
 ERRORS = 10.0 ** np.random.default_rng(5).uniform(-16, 2, 50)
 

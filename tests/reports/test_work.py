@@ -9,12 +9,12 @@ from textmech.cases.case import Case
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 from textmech.engines.engine import Plan
+from textmech.reports.batch.selection import choose_engines
 from textmech.reports.compare.trial.ladder import ladders
 from textmech.reports.compare.trial.start import assembled
 from textmech.reports.compare.trial.trial import planned
 from textmech.reports.compare.trial.work import STEPS, _steps, too_long
 from textmech.reports.data.own_settings import read_settings
-from textmech.reports.run.selection import choose_engines
 
 SLOW = pendulum(duration=3e3, length=2, step=1e-2)
 LANDS = "events: {turns: {rod.omega: falls to zero}}"
@@ -71,7 +71,7 @@ def test_the_count_is_that_of_the_ladders(tmp_path: Path, name: str) -> None:
 
 @pytest.mark.slow
 def test_the_shipped_cases_stay_far_below() -> None:
-    from textmech.reports.run.selection import choose_cases
+    from textmech.reports.batch.selection import choose_cases
 
     most = max(_steps(case, e) for case in choose_cases([]) for e in choose_engines([], []))
     assert 20 * most < STEPS

@@ -11,10 +11,10 @@ import pytest
 from given.otherwise import otherwise
 from given.report_folders import STEPS, report
 
+from textmech.reports.batch.suite import Report
 from textmech.reports.data import runs
 from textmech.reports.data.row import Comparison, Instant, StepError
 from textmech.reports.output import write
-from textmech.reports.run.suite import Report
 
 ROW = Comparison(
     case="b", theme="pins", source="(2.1)", engine="mujoco", version="4.0.0", setting="tuned",

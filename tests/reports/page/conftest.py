@@ -9,14 +9,14 @@ import pytest
 from given.swing import SWING
 
 from textmech.cases.case import Case
+from textmech.reports.batch import suite
+from textmech.reports.batch.selection import choose_cases, choose_engines
+from textmech.reports.batch.suite import Report
 from textmech.reports.output import write
 from textmech.reports.page.folder import folder
 from textmech.reports.page.motions import motions
 from textmech.reports.page.page import page
 from textmech.reports.page.write import NAME
-from textmech.reports.run import suite
-from textmech.reports.run.selection import choose_cases, choose_engines
-from textmech.reports.run.suite import Report
 
 ODD = "hostile? & <b>"  # a file may have any name
 HOSTILE = "<script>window.struck = 1</script></script><b onload=x>& A bar that swings"

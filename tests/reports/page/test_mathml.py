@@ -6,9 +6,9 @@ from xml.etree.ElementTree import fromstring
 import pytest
 
 from textmech.cases.case import Case
+from textmech.reports.batch.selection import choose_cases
 from textmech.reports.page.listed import equations
 from textmech.reports.page.mathml import mathml
-from textmech.reports.run.selection import choose_cases
 
 
 def told(line: str) -> str:

@@ -12,12 +12,12 @@ from textmech import engines
 from textmech.cases.case import Case
 from textmech.cases.scene.motion import Motion as Looked
 from textmech.cases.scene.observe import observe
+from textmech.reports.batch.selection import choose_cases
 from textmech.reports.page import motions
 from textmech.reports.page.motions import FRAMES, POINTS, motion, thinned
 from textmech.reports.page.pack import unpacked, unpacked_by_size
 from textmech.reports.page.sketch import sketch
 from textmech.reports.page.strobe import _frames, _placed
-from textmech.reports.run.selection import choose_cases
 
 LEVEL = 1 / 4096  # of a range: half of it is rounded
 

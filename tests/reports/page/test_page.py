@@ -13,12 +13,12 @@ from urllib.parse import unquote
 import pytest
 
 from textmech.cases.case import Case
+from textmech.reports.batch.suite import Report
 from textmech.reports.output import write
 from textmech.reports.output.write import FILES
 from textmech.reports.page.folder import BESIDE, Missing, folder
 from textmech.reports.page.motions import motions
 from textmech.reports.page.page import embedded, page
-from textmech.reports.run.suite import Report
 
 LARGEST = 3_000_000  # bytes: what a person waits for
 VOID = {"meta", "link", "input", "br", "img", "hr"}

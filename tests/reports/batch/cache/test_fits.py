@@ -12,9 +12,9 @@ from given.report_folders import ROW
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Realised
 from textmech.reference.solve import Solution
+from textmech.reports.batch.cache import store
+from textmech.reports.batch.cache.store import Store
 from textmech.reports.compare.judge.compare import Outcome
-from textmech.reports.run.cache import store
-from textmech.reports.run.cache.store import Store
 
 KEY = "ab" + "0" * 62
 

@@ -6,10 +6,10 @@ from typing import Any
 import pytest
 from given.otherwise import otherwise
 
+from textmech.reports.batch.search import ladder as told
+from textmech.reports.batch.search.candidate import Candidate
+from textmech.reports.batch.search.ladder import climbed
 from textmech.reports.data.row import BEYOND, Comparison, StepError
-from textmech.reports.run.search import ladder as told
-from textmech.reports.run.search.candidate import Candidate
-from textmech.reports.run.search.ladder import climbed
 
 BASE = Candidate.of({}, 2e-3)
 ROW = Comparison(

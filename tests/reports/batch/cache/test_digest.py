@@ -13,9 +13,9 @@ from given import scenes
 
 from textmech.engines import make
 from textmech.engines.engine import Engine
-from textmech.reports.run.cache import digest, key
-from textmech.reports.run.cache.key import Keys
-from textmech.reports.run.cache.store import Store
+from textmech.reports.batch.cache import digest, key
+from textmech.reports.batch.cache.key import Keys
+from textmech.reports.batch.cache.store import Store
 
 CASE = scenes.SHIPPED["bar_pendulum"]
 

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 from given.trees import digest
 
-from textmech.reports.run.cache import store
-from textmech.reports.run.cache.store import Store
+from textmech.reports.batch.cache import store
+from textmech.reports.batch.cache.store import Store
 
 KEY, OTHER = "ab" + "0" * 62, "cd" + "0" * 62
 

@@ -6,9 +6,9 @@ from typing import Any
 import pytest
 from given.otherwise import otherwise
 
+from textmech.reports.batch.advice import advise, bar
+from textmech.reports.batch.search.candidate import Candidate
 from textmech.reports.compare.trial.trial import Trial
-from textmech.reports.run.advice import advise, bar
-from textmech.reports.run.search.candidate import Candidate
 
 ONE = Candidate.of({}, 1e-3)
 

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from given import scenes
 
+from textmech.reports.batch.cache.form import packed, unpacked
 from textmech.reports.compare.judge.compare import Outcome
 from textmech.reports.data.row import Instant
-from textmech.reports.run.cache.form import packed, unpacked
 
 
 def same(one: Any, other: Any) -> bool:

@@ -9,14 +9,14 @@ from given import scenes
 
 from textmech import engines
 from textmech.engines.engine import Tunable
+from textmech.reports.batch import suite
+from textmech.reports.batch.cache.key import Keys
+from textmech.reports.batch.cache.store import Store
+from textmech.reports.batch.search.candidate import Candidate
+from textmech.reports.batch.search.errors import Errors, Run, errors, of
+from textmech.reports.batch.unit import Pair
 from textmech.reports.compare.trial.ladder import judged_step
 from textmech.reports.compare.trial.start import first
-from textmech.reports.run import suite
-from textmech.reports.run.cache.key import Keys
-from textmech.reports.run.cache.store import Store
-from textmech.reports.run.search.candidate import Candidate
-from textmech.reports.run.search.errors import Errors, Run, errors, of
-from textmech.reports.run.unit import Pair
 
 CUT = 1e-6  # of what is allowed: rows leave out the digits that rounding decides
 

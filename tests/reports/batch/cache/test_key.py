@@ -18,9 +18,9 @@ from given.tree import FILES, imported, module
 
 from textmech.cases.case import Case
 from textmech.engines import make
-from textmech.reports.run.cache import key, parts
-from textmech.reports.run.cache.key import Keys, described
-from textmech.reports.run.cache.store import Store, usable
+from textmech.reports.batch.cache import key, parts
+from textmech.reports.batch.cache.key import Keys, described
+from textmech.reports.batch.cache.store import Store, usable
 
 CASE = scenes.SHIPPED["rolling_wheel.pushed"]
 ENGINE = make("pymunk", "tuned")
@@ -122,11 +122,11 @@ def test_what_is_tried_counts_and_the_code_that_tries_it(code: Path) -> None:
         ("reports/compare/trial/ladder.py", False, True),
         ("reports/compare/events/times.py", False, True),
         ("reports/data/row.py", False, True),
-        ("reports/run/unit.py", False, True),
+        ("reports/batch/unit.py", False, True),
         ("reports/data/pins.py", False, True),
         ("reports/system/limit.py", False, True),
         ("reports/system/spelled.py", False, True),
-        ("reports/run/cache/form.py", True, True),
+        ("reports/batch/cache/form.py", True, True),
         ("reports/output/write.py", False, False),
     ],
 )
@@ -144,22 +144,22 @@ def test_the_code_that_makes_it_counts_and_no_other(
 MODULES = {module(file): file for file in FILES}
 PACKAGES = {name for name, file in MODULES.items() if file.name == "__init__.py"}
 COMPUTING = (
-    "reports.run.unit",
+    "reports.batch.unit",
     "reports.compare.trial.rung",
-    "reports.run.search.errors",
-    "reports.run.search.solving",
+    "reports.batch.search.errors",
+    "reports.batch.search.solving",
 )
 CARRYING = (
     *("system.ending", "system.lock", "system.passing", "data.content"),
-    *("run.cache.store", "run.cache.fits", "run.search.solving"),
+    *("batch.cache.store", "batch.cache.fits", "batch.search.solving"),
 )
 """What they import too, and what changes no result: where results lie."""
 HANDING = (
-    *("run.results", "system.pool", "system.processes"),
-    *("run.cache.key", "run.cache.parts", "run.cache.digest", *CARRYING),
+    *("batch.results", "system.pool", "system.processes"),
+    *("batch.cache.key", "batch.cache.parts", "batch.cache.digest", *CARRYING),
 )
 """What a search imports too: who computes what it asks for, and whether it is known already."""
-SEARCH = "reports.run.search.causes"
+SEARCH = "reports.batch.search.causes"
 
 
 @pytest.mark.slow
@@ -181,9 +181,9 @@ def test_a_search_counts_what_it_imports_and_no_other_search() -> None:
     assert missed(tuple(p for p in key.SEARCHING if p != "reports/system/limit.py")) == {
         "reports.system.limit"
     }
-    assert needless([SEARCH], ["reports/run/search"]) == set()
-    assert "reports.run.advice.cuts" in needless(
-        [SEARCH], ["reports/run/search", "reports/run/advice"]
+    assert needless([SEARCH], ["reports/batch/search"]) == set()
+    assert "reports.batch.advice.cuts" in needless(
+        [SEARCH], ["reports/batch/search", "reports/batch/advice"]
     )
 
 
@@ -219,11 +219,11 @@ def needless(names: Iterable[str], places: Iterable[str]) -> set[str]:
     [
         ("engines/pymunk/callbacks/force.py", True),
         ("engines/engine.py", True),
-        ("reports/run/search/cures.py", True),
+        ("reports/batch/search/cures.py", True),
         ("reports/compare/judge/metric.py", True),
         ("engines/mujoco/adapter/run.py", False),
         ("reference/laws/friction.py", False),  # of a reference the rows' own errors tell
-        ("reports/run/advice/cuts.py", False),
+        ("reports/batch/advice/cuts.py", False),
         ("reports/output/write.py", False),
     ],
 )
@@ -277,7 +277,7 @@ def test_code_newer_than_the_process_gives_keys_of_its_own(
     code: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Also where it was given an older date: what the disk says of the change counts."""
-    file = code / "cases" / "observe.py"
+    file = code / "cases" / "scene" / "observe.py"
     assert Keys.now(None).salt == ""
     monkeypatch.setattr(key, "BEGUN", time.time())
     time.sleep(0.02)  # a tick of the disk's clock
@@ -290,10 +290,10 @@ def test_code_newer_than_the_process_gives_keys_of_its_own(
 def test_code_that_changes_meanwhile_is_noticed(code: Path) -> None:
     keys = Keys.now(None)
     assert keys.hold()
-    (code / "cases" / "observe.py").write_text("", encoding="utf-8")
+    (code / "cases" / "scene" / "observe.py").write_text("", encoding="utf-8")
     assert not keys.hold()
     keys = Keys.now(None)
-    (code / "cases" / "observe.py").unlink()
+    (code / "cases" / "scene" / "observe.py").unlink()
     assert not keys.hold()
 
 

@@ -7,12 +7,12 @@ from pathlib import Path
 import pytest
 from given import scenes
 
+from textmech.reports.batch import suite
+from textmech.reports.batch.cache.store import Store
+from textmech.reports.batch.search.causes import Known
+from textmech.reports.batch.search.why import Key, key_of
+from textmech.reports.batch.selection import choose_engines
 from textmech.reports.data.row import Cause, Comparison, as_written
-from textmech.reports.run import suite
-from textmech.reports.run.cache.store import Store
-from textmech.reports.run.search.causes import Known
-from textmech.reports.run.search.why import Key, key_of
-from textmech.reports.run.selection import choose_engines
 from textmech.reports.show.cures import carried
 
 

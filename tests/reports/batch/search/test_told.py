@@ -9,20 +9,20 @@ from given.lines import row
 from given.otherwise import otherwise
 
 from textmech import engines
+from textmech.reports.batch.advice import advised, price
+from textmech.reports.batch.advice.advised import Advised, Asked
+from textmech.reports.batch.advice.bar import Bar
+from textmech.reports.batch.advice.menu import Choice, Menu
+from textmech.reports.batch.advice.recipe import Kitchen, Recipe, Recipes
+from textmech.reports.batch.cache.key import Keys
+from textmech.reports.batch.cache.store import Store
+from textmech.reports.batch.search import told
+from textmech.reports.batch.search.candidate import Candidate
+from textmech.reports.batch.search.cures import Cure, Cured
+from textmech.reports.batch.search.lever import STEP, Field, Lever
+from textmech.reports.batch.unit import Pair
 from textmech.reports.compare.trial.start import first
 from textmech.reports.compare.trial.trial import planned
-from textmech.reports.run.advice import advised, price
-from textmech.reports.run.advice.advised import Advised, Asked
-from textmech.reports.run.advice.bar import Bar
-from textmech.reports.run.advice.menu import Choice, Menu
-from textmech.reports.run.advice.recipe import Kitchen, Recipe, Recipes
-from textmech.reports.run.cache.key import Keys
-from textmech.reports.run.cache.store import Store
-from textmech.reports.run.search import told
-from textmech.reports.run.search.candidate import Candidate
-from textmech.reports.run.search.cures import Cure, Cured
-from textmech.reports.run.search.lever import STEP, Field, Lever
-from textmech.reports.run.unit import Pair
 from textmech.reports.show import advice
 
 OWN = 2e-3  # s: MuJoCo's as shipped

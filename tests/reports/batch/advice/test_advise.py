@@ -6,12 +6,12 @@ import pytest
 from given import scenes
 
 from textmech.reports import advise
+from textmech.reports.batch.advice.advised import FEWEST, Asked, rows
+from textmech.reports.batch.advice.price import ratio
+from textmech.reports.batch.advice.session import advised
+from textmech.reports.batch.cache.store import usable
+from textmech.reports.batch.selection import choose_engines
 from textmech.reports.data.row import Advice
-from textmech.reports.run.advice.advised import FEWEST, Asked, rows
-from textmech.reports.run.advice.price import ratio
-from textmech.reports.run.advice.session import advised
-from textmech.reports.run.cache.store import usable
-from textmech.reports.run.selection import choose_engines
 
 CASES = ("bar_pendulum", "four_bar", "sliding_block.below", "planar_bodies", "heavy_top.cusp")
 

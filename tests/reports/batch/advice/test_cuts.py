@@ -6,16 +6,16 @@ import pytest
 from given import scenes
 from given.otherwise import otherwise
 
-from textmech.reports.run.advice import bar as bars
-from textmech.reports.run.advice import cuts
-from textmech.reports.run.advice.bar import Bar
-from textmech.reports.run.cache.key import Keys
-from textmech.reports.run.cache.store import passing
-from textmech.reports.run.search.candidate import Candidate
-from textmech.reports.run.search.errors import Run, errors
-from textmech.reports.run.search.together import Known
-from textmech.reports.run.selection import choose_engines
-from textmech.reports.run.unit import Pair
+from textmech.reports.batch.advice import bar as bars
+from textmech.reports.batch.advice import cuts
+from textmech.reports.batch.advice.bar import Bar
+from textmech.reports.batch.cache.key import Keys
+from textmech.reports.batch.cache.store import passing
+from textmech.reports.batch.search.candidate import Candidate
+from textmech.reports.batch.search.errors import Run, errors
+from textmech.reports.batch.search.together import Known
+from textmech.reports.batch.selection import choose_engines
+from textmech.reports.batch.unit import Pair
 
 HARD = {"integrator": "RK4", "connect": {"solimp": [0.9999, 0.9999, 0.001]}}
 

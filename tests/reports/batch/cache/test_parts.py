@@ -14,10 +14,10 @@ import pytest
 from given import scenes
 
 from textmech.engines import make
+from textmech.reports.batch.cache import key, parts
+from textmech.reports.batch.cache.key import Keys
+from textmech.reports.batch.cache.store import Store
 from textmech.reports.data import pins
-from textmech.reports.run.cache import key, parts
-from textmech.reports.run.cache.key import Keys
-from textmech.reports.run.cache.store import Store
 
 CASE = scenes.SHIPPED["bar_pendulum"]
 ENGINE = """\

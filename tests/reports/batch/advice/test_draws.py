@@ -11,13 +11,13 @@ from given import scenes
 
 from textmech import engines
 from textmech.reference.certificate.agreement import Check
-from textmech.reports.run.advice import draws
-from textmech.reports.run.advice.draws import APART, DRAWS, drawn, held
-from textmech.reports.run.cache.key import Keys
-from textmech.reports.run.cache.store import Store
-from textmech.reports.run.results import Results
-from textmech.reports.run.search.candidate import Candidate
-from textmech.reports.run.unit import Pair
+from textmech.reports.batch.advice import draws
+from textmech.reports.batch.advice.draws import APART, DRAWS, drawn, held
+from textmech.reports.batch.cache.key import Keys
+from textmech.reports.batch.cache.store import Store
+from textmech.reports.batch.results import Results
+from textmech.reports.batch.search.candidate import Candidate
+from textmech.reports.batch.unit import Pair
 from textmech.reports.system import pool
 
 

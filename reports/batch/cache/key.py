@@ -25,15 +25,15 @@ from .parts import BASIS, Parts, home_of, located
 from .store import Store
 
 ROOT = Path(__file__).parents[3]
-REFERENCE = ("cases", "reference", "reports/run/cache/form.py")
+REFERENCE = ("cases", "reference", "reports/batch/cache/form.py")
 ROWS = tuple(
     f"reports/{name}.py"
-    for name in ("data/row", "data/pins", "run/unit", "system/limit", "system/spelled")
+    for name in ("data/row", "data/pins", "batch/unit", "system/limit", "system/spelled")
 )
 _COMPARING = tuple(f"reports/compare/{room}" for room in ("trial", "judge", "events"))
 JUDGING = ("engines/*.py", *_COMPARING, *ROWS)
-SEARCHING = ("reports/run/search", *JUDGING)  # no file of it that a search of causes does not run
-TRYING = ("reports/run/search/candidate.py", "reports/run/search/errors.py")
+SEARCHING = ("reports/batch/search", *JUDGING)  # no file of it that a search of causes does not run
+TRYING = ("reports/batch/search/candidate.py", "reports/batch/search/errors.py")
 COLLECTING = ("reports/collecting.py",)
 ROUNDING = ("NPY_", "OPENBLAS_", "OMP_", "MKL_", "BLIS_", "GLIBC_TUNABLES", "LD_", "DYLD_")
 """Variables that choose other kernels, or other libraries."""

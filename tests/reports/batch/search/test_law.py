@@ -2,7 +2,7 @@
 
 import pytest
 
-from textmech.reports.run.search.cures import law
+from textmech.reports.batch.search.cures import law
 
 
 @pytest.mark.parametrize(

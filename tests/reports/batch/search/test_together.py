@@ -9,14 +9,14 @@ import pytest
 from given import scenes
 
 from textmech import engines
-from textmech.reports.run.cache.key import Keys
-from textmech.reports.run.cache.store import Store
-from textmech.reports.run.results import Results
-from textmech.reports.run.search import together as tested
-from textmech.reports.run.search.candidate import Candidate
-from textmech.reports.run.search.errors import Errors, Run, errors
-from textmech.reports.run.search.together import Asking, Known, Search, together
-from textmech.reports.run.unit import Pair
+from textmech.reports.batch.cache.key import Keys
+from textmech.reports.batch.cache.store import Store
+from textmech.reports.batch.results import Results
+from textmech.reports.batch.search import together as tested
+from textmech.reports.batch.search.candidate import Candidate
+from textmech.reports.batch.search.errors import Errors, Run, errors
+from textmech.reports.batch.search.together import Asking, Known, Search, together
+from textmech.reports.batch.unit import Pair
 from textmech.reports.system import pool
 
 FATAL = Candidate.of({"fatal": True}, 1.0)

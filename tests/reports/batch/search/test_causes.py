@@ -3,12 +3,12 @@
 import pytest
 from given import scenes
 
+from textmech.reports.batch import suite
+from textmech.reports.batch.search.told import NOTHING
+from textmech.reports.batch.search.why import OURS
+from textmech.reports.batch.selection import choose_engines
+from textmech.reports.batch.suite import Report
 from textmech.reports.data.row import BEYOND, UNSEARCHED, Cause
-from textmech.reports.run import suite
-from textmech.reports.run.search.told import NOTHING
-from textmech.reports.run.search.why import OURS
-from textmech.reports.run.selection import choose_engines
-from textmech.reports.run.suite import Report
 
 CASES = ("bar_pendulum", "four_bar", "sliding_block.below", "growing_force", "planar_bodies")
 
