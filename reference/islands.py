@@ -15,8 +15,8 @@ from ..cases.scene.islands import apart
 from ..cases.scene.quantity import table
 from ..cases.trajectory import Trajectory
 from .certificate.agreement import Check, gravest
-from .certificate.alone import alone
 from .certificate.errors import ERROR
+from .certificate.island_check import alone
 from .mechanism.modes.either import Base
 
 

@@ -21,10 +21,10 @@ from ..cases.scene.islands import apart
 from ..cases.scene.space.scene import SpatialScene
 from .integrators.budget import Endless, budget
 from .laws.rotation import axes
-from .mechanism.modes.choosing import Undetermined
 from .mechanism.modes.either import Generated
 from .mechanism.modes.mechanism import BadStart
-from .mechanism.modes.together import OneInstant
+from .mechanism.modes.mode_selection import Undetermined
+from .mechanism.modes.simultaneous_impacts import OneInstant
 from .motion.stuck import Stuck
 from .motion.zeno import ZenoError
 from .start.closure import Closure

@@ -13,6 +13,7 @@ from ..cases.language.check import cost
 from ..cases.mistake import CaseError, Mistake
 from ..cases.scene.quantity import table, told_by
 from ..cases.trajectory import Trajectory
+from .assumptions import check_premises, check_start, pressed
 from .certificate.agreement import Check
 from .certificate.certify import certify
 from .certificate.errors import beyond
@@ -25,7 +26,6 @@ from .islands import Island, parts, together
 from .mechanism.modes.either import Generated
 from .motion.bodies import Answer, Beside
 from .motion.follow import Followed, follow
-from .premises import check_premises, check_start, pressed
 from .refusal import bounded, refusals
 from .start.mechanism import mechanism
 from .states.answer import answered

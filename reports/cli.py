@@ -20,9 +20,9 @@ from .command.page import page
 from .command.plot import plot
 from .command.run import run
 from .command.versions import versions
+from .show.console import prepare, say, tell
 from .show.progress import aloud
-from .show.say import prepare, say, tell
-from .system import ending
+from .system import termination as ending
 
 
 def main() -> None:
@@ -128,7 +128,7 @@ def show(case: str, name: str, settings: str | None, allow_long: bool) -> None:
     from ..engines.probe import guarded
     from .batch.selection import choose_cases, choose_engines
     from .show.script import script
-    from .system.spelled import why
+    from .system.table_text import why
 
     known = Known([name.partition(".")[0]])  # no other is imported
     chosen = choose_cases([case], known=known, long=allow_long)

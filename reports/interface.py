@@ -22,7 +22,7 @@ from ..cases.trajectory import Trajectory
 if TYPE_CHECKING:
     import pandas as pd
 
-    from .batch.results import Progress
+    from .batch.task_results import Progress
 
 OWN = "own"  # how the column of a user's own options is called
 POSES = ("x", "y", "z", "angle")
@@ -134,9 +134,9 @@ def run(
 
     from ..cases.language.read.document import Document
     from .batch import suite
-    from .batch.asking import asked
     from .batch.cache.store import usable
-    from .data.own_settings import made
+    from .batch.request import asked
+    from .data.user_settings import made
     from .output import committed, write
     from .show.summary import summary
     from .system import pool
@@ -188,10 +188,10 @@ def advise(
     """
     import pandas as pd
 
-    from .batch.advice.advised import Asked, rows
+    from .batch.advice.advice_rows import Asked, rows
     from .batch.advice.session import advised
-    from .batch.asking import asked
     from .batch.cache.store import usable
+    from .batch.request import asked
 
     wanted = asked(load(word), engines, ["shipped"])
     bar = Asked(tolerance, margin)

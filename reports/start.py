@@ -4,7 +4,7 @@ import gc
 import os
 import sys
 
-from .system import ending
+from .system import termination as ending
 
 SELDOM = 50_000
 """New objects, until Python looks for rubbish: of what is imported none is, and to look a hundred

@@ -70,7 +70,7 @@ TENSIONS[Cable] = lambda force, length, rate: force.pull
 
 from textmech.engines.mujoco import MuJoCo
 from textmech.engines.mujoco.model import force as mujoco
-from textmech.engines.mujoco.model.written import written
+from textmech.engines.mujoco.model.number_text import written
 
 
 def write(sections: mujoco.Sections, force: Cable) -> None:
@@ -85,7 +85,7 @@ mujoco.ELEMENTS[Cable] = mujoco.Element(write, signal=lambda force: Signal("cons
 
 from textmech.engines.pymunk import Pymunk
 from textmech.engines.pymunk.callbacks import force as pymunk
-from textmech.engines.pymunk.callbacks.line import pull, told
+from textmech.engines.pymunk.callbacks.line_forces import pull, told
 
 pymunk.ELEMENTS[Cable] = pymunk.Element(
     load=pull, tell=lambda world, force, step, drift: told(world, force, step)

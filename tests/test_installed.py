@@ -132,7 +132,7 @@ def test_it_is_asked_from_python(python: Path, project: Path) -> None:
 
 @pytest.mark.slow
 def test_a_full_run_would_write_where_the_user_stands(python: Path, project: Path) -> None:
-    asked = "from textmech.reports import write; print(write.by_default())"
+    asked = "from textmech.reports.output import write; print(write.by_default())"
     assert run(python, "-c", asked, cwd=project).stdout == "textmech-reports\n"
 
 

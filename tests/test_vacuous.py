@@ -17,8 +17,8 @@ from textmech.cases.mistake import CaseError
 from textmech.cases.scene.frame import PLANE
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Array, Trajectory
-from textmech.reference.mechanism.modes.choosing import Undetermined
 from textmech.reference.mechanism.modes.mechanism import BadStart
+from textmech.reference.mechanism.modes.mode_selection import Undetermined
 from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import either, follow
 from textmech.reference.motion.stuck import Stuck

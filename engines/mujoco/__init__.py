@@ -12,8 +12,8 @@ from ...cases.trajectory import Array, Trajectory
 from ..engine import Plain, Plan, Realised, Refusal, Start
 from ..heading import heading
 from ..knobs import Knob, Options
-from .adapter.claims import answered
 from .adapter.compilation import NOMINAL, timestep
+from .adapter.inverse_dynamics import answered
 from .adapter.plane import PLANE
 from .adapter.refuse import not_native, uncompilable
 from .adapter.space.world import SPACE
@@ -22,8 +22,8 @@ from .model.rods import of_scene
 from .model.script import commented, controls, drawn
 from .settings import options, settings
 from .settings.knobs import STEPS, cost, knobs
-from .settings.own import as_options, unfit
 from .settings.snippet import said, snippet
+from .settings.user_options import as_options, unfit
 
 _WORLDS: Mapping[int, World] = {2: PLANE, 3: SPACE}
 """By the dimension of the scene's frame."""

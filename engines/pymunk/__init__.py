@@ -13,22 +13,22 @@ from ..engine import Plain, Plan, Realised, Refusal, Start
 from ..heading import heading
 from ..knobs import Knob, Options
 from .adapter import plans
+from .adapter.baseline import plain
 from .adapter.claims import answered
-from .adapter.plain import plain
 from .adapter.plans import named
 from .adapter.refuse import not_native, unbuildable
 from .adapter.script import text
-from .callbacks.inner import states
+from .callbacks.inner_state import states
 from .read.health import Left
 from .read.measure import measured
 from .read.record import Record
 from .read.samples import sampled
 from .settings import options
 from .settings.knobs import STEPS, knobs
-from .settings.own import as_options, own
 from .settings.recipe import recipe
 from .settings.settings import SHIPPED_STEP
 from .settings.snippet import snippet
+from .settings.user_options import as_options, own
 from .stepping.run import placed, stepper
 from .stepping.scene import FAR, build
 

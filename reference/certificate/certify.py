@@ -25,14 +25,14 @@ from ..motion.follow import TOLERANCE, Followed, either, follow
 from ..start.sizes import size_of
 from ..system import Array, Mode, System
 from .agreement import Check, difference, times_apart, worst
-from .beside import beside
+from .constraint_check import held
+from .drive_check import prescribed
 from .errors import errors
-from .held import held
+from .event_time_error import untimed
 from .laws import laws
-from .prescribed import prescribed
+from .reaction_check import beside
 from .reading import size
-from .started import started
-from .timed import untimed
+from .start_check import started
 
 OWN_ERROR = 1e-12  # of the motion's size: what a motion is known to that is not sensitive
 ROUNDING = 2.2e-16  # a step: a motion of many steps cannot be known better

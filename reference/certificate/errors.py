@@ -15,7 +15,7 @@ from ...cases.scene.observe import corners, observe
 from ...cases.scene.quantity import at_event, event_quantities
 from ...cases.trajectory import Array, Trajectory
 from .agreement import Check, worst
-from .timed import unread
+from .event_time_error import unread
 
 SHARE = 0.01  # of the smallest tolerance: what the reference's own error may take
 EPS = float(np.finfo(np.float64).eps)

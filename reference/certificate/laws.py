@@ -20,7 +20,7 @@ from ..mechanism.modes.space.mode import SpatialMultibody
 from ..motion.bodies import Answer
 from ..system import Array, Mode
 from .agreement import Check, gravest, worst
-from .drawn import drawn
+from .random_states import drawn
 
 LAW = 1e-12  # of the largest term: the laws are algebra, only rounding may differ
 SOME = 8  # samples: a force that is zero at one of them is none at the others

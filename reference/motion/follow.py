@@ -17,8 +17,8 @@ from ..integrators.implicit import Radau
 from ..integrators.march import IntegrationError, Method, Slope, Step, march
 from ..integrators.radau import radau_table
 from ..system import Array, Guard, Mode, System
-from .crossing import INSIDE, TOGETHER, Fall, Within, clear, first
-from .early import Early
+from .event_location import INSIDE, TOGETHER, Fall, Within, clear, first
+from .mode_onset import Early
 from .stuck import Stuck, Watched, slope
 from .zeno import MOST, ZenoError, accumulation, ends_here, settles
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..system import EARLY, LAST
-from .crossing import TOGETHER
+from .event_location import TOGETHER
 
 MOST = 10_000  # events
 SEEN = 6  # firings of one name from which an accumulation is judged: five distances

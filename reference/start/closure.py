@@ -14,8 +14,8 @@ from ...cases.scene import Anchor, Vector
 from ...cases.scene.pair import Pair
 from ...cases.scene.plane import LEVEL
 from ..mechanism.constraints.constraint import Constraint, assembled
-from ..mechanism.constraints.permanent import constraints, gliding
-from ..mechanism.constraints.rows import FIRST, Along, X, Y
+from ..mechanism.constraints.constraint_terms import FIRST, Along, X, Y
+from ..mechanism.constraints.joint_constraints import constraints, gliding
 from ..mechanism.kinematics.coordinates import ORIGIN, Coordinates
 from ..mechanism.modes.pair import along, apart
 from ..system import Array

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from ...cases.case import Case
 from ...cases.scene import Joint, Signal
 from ..mechanism.constraints.constraint import Constraint
-from ..mechanism.constraints.rows import FIRST, SECOND, Given, Line, Term, Turning
+from ..mechanism.constraints.constraint_terms import FIRST, SECOND, Given, Line, Term, Turning
 from ..mechanism.kinematics.coordinates import Coordinates
 
 Row = tuple[Term, ...]

@@ -17,7 +17,7 @@ from ..certificate.agreement import Check, difference, relative, worst
 from ..certificate.errors import beyond, errors
 from ..coverage import look
 from ..integrators.now import doing, reached
-from ..mechanism.constraints.free import FreeBodies
+from ..mechanism.constraints.free_bodies import FreeBodies
 from ..mechanism.kinematics.space.chain import SpatialChain
 from ..mechanism.modes.space.mode import SpatialMultibody
 from ..stated import Stated

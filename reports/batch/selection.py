@@ -18,7 +18,7 @@ from ...cases.mistake import CaseError, Mistake, nearest
 from ...engines.engine import Engine
 from ...reference.systems import SYSTEMS
 from ...reference.systems.states.stated import STATED
-from ..data.own_settings import SUFFIXES, read_settings
+from ..data.user_settings import SUFFIXES, read_settings
 
 BOOK = "book"
 NAME = re.compile(r"\w[\w-]*", re.ASCII)

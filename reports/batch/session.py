@@ -5,11 +5,12 @@ from pathlib import Path
 
 from ...cases.case import Case
 from ...cases.mistake import CaseError
-from ..system import ending, pool
+from ..system import pool
+from ..system import termination as ending
 from . import suite
 from .cache.store import Store, usable
-from .results import Progress
 from .selection import BOOK, choose_engines
+from .task_results import Progress
 
 
 def rows(

@@ -35,14 +35,14 @@ from ..data.row import (
 from ..system.pool import Died, local
 from .cache.key import Keys
 from .cache.store import Store, passing
-from .results import Progress, Results
+from .search.cause_rows import NONE, NOTHING
 from .search.causes import Known
 from .search.causes import causes as found_causes
-from .search.told import NONE, NOTHING
 from .search.why import Key, key_of
 from .selection import sound
+from .task_results import Progress, Results
+from .tasks import Pair
 from .trials import Tried, tried
-from .unit import Pair
 
 OF_BOUND = 0.1  # of what a check must keep: below it a difference is its rounding
 

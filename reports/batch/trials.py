@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from ...cases.trajectory import Trajectory
 from ...engines.engine import Realised, Refusal
 from ..compare.judge.compare import Outcome, crashed
-from ..compare.trial.rung import Climbed, Rung, climbed
+from ..compare.trial.run import Climbed, Rung, climbed
 from ..compare.trial.simulate import At
 from ..compare.trial.trial import Trial
 from ..system.pool import Died
-from .results import Results
-from .unit import Climb, Pair, Unit, judged, planned
+from .task_results import Results
+from .tasks import Climb, Pair, Unit, judged, planned
 
 References = Mapping[str, Trajectory]
 """By the case's name."""

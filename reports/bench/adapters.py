@@ -17,7 +17,7 @@ from ..compare.trial.answers import plans
 from ..compare.trial.ladder import wanted_reactions
 from ..compare.trial.start import assembled
 from ..compare.trial.states import moving
-from ..system.spelled import why
+from ..system.table_text import why
 from .turns import Ratio, Work, ratio, turns
 
 RUNGS = 5  # of the ladder that is built: as many as a shipped setting's

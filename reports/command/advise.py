@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from ...cases.mistake import CaseError
-from ..show.say import say, tell
+from ..show.console import say, tell
 from .answer import as_json
 from .done import finished
 from .folder import Folder
@@ -85,12 +85,12 @@ def advise(
       textmech advise four_bar --engine mujoco --tolerance 1e-3
       textmech advise --all                             the committed reports/advice.csv
     """
-    from ..batch.advice.advised import Asked, rows
+    from ..batch.advice.advice_rows import Asked, rows
     from ..batch.advice.session import advised
     from ..batch.cache import store
     from ..batch.selection import choose_cases, choose_engines
     from ..compare.trial.work import too_long
-    from ..data.ours import unasked
+    from ..data.ownership import unasked
     from ..data.row import Advice
     from ..output import write
     from ..show import document, progress

@@ -5,7 +5,7 @@ from itertools import chain
 
 import click
 
-from ..show.say import say
+from ..show.console import say
 from .answer import FAILED
 from .options import allow_long, named_cases, named_engines
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ...cases.mistake import CaseError
-from ..show.say import say, tell
+from ..show.console import say, tell
 from .answer import BAD_INPUT, as_json
 from .done import finished
 from .options import allow_long, jobs, named_engines, no_cache

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ...cases.mistake import CaseError, Mistake
-from ..show.say import say
+from ..show.console import say
 from .answer import BAD_INPUT, FAILED, as_json
 from .options import allow_long, processes
 

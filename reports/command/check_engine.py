@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 import click
 
 from ...cases.mistake import CaseError, Mistake, nearest
-from ..show.say import say
+from ..show.console import say
 from .answer import FAILED, as_json
 from .options import jobs
 
 if TYPE_CHECKING:
     from ...engines.engine import Engine
-    from ..compare.grades import Mark
+    from ..compare.adapter_check import Mark
 
 WIDTH = 100  # columns: a grade, and what is said of it
 DOCUMENTED = "engines/README.md, The protocol; the fields of a scene: engines/SCENE.md"
@@ -71,7 +71,7 @@ def check_engine(name: str, grades: tuple[str, ...], jobs: int | None, wants_jso
 def _made(name: str) -> "tuple[Engine | None, list[Mark]]":
     """The engine, or why it cannot be made. Raises CaseError where there is no such."""
     from ... import engines
-    from ..compare.grades import Mark
+    from ..compare.adapter_check import Mark
 
     word, _, setting = name.partition(".")
     if word not in engines.names():
@@ -97,7 +97,7 @@ def _unknown(name: str, known: Sequence[str]) -> Mistake:
 def _tried(engine: "Engine", words: Sequence[str], jobs: int | None) -> "list[Mark]":
     """Its members, and each grade in a process that may die."""
     from ..batch.selection import choose_cases
-    from ..compare.grades import GRADES, Attempt, marked, members
+    from ..compare.adapter_check import GRADES, Attempt, marked, members
     from ..show.progress import progress
     from ..system.pool import Died, local, spread, workers
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from ..show.say import say
+from ..show.console import say
 from .answer import FAILED, as_json
 from .options import overwrite
 
@@ -111,7 +111,7 @@ def diff(
     \b
     Exit codes: 0 no regression, 1 a regression, 2 a folder that is no report, or a mixed one
     """
-    from ..data.ours import unasked
+    from ..data.ownership import unasked
     from ..output.diff.as_json import as_json as document
     from ..output.diff.compare import difference
     from ..output.diff.folder import opened

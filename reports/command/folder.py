@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from ..system.passing import taken
+from ..system.temporary_folder import taken
 
 
 class Folder(click.Path):

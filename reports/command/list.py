@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ..show.say import say
+from ..show.console import say
 from .answer import as_json
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from concurrent.futures import Executor
 from typing import TYPE_CHECKING
 
 from ...cases.mistake import CaseError, Mistake
-from ..show.say import tell
+from ..show.console import tell
 
 if TYPE_CHECKING:
     from ...cases.case import Case
@@ -32,8 +32,8 @@ def looked_at(
     nothing is left.
     """
     from ..batch import suite
-    from ..batch.asking import asked
     from ..batch.cache import store
+    from ..batch.request import asked
     from ..batch.selection import sound_cases
     from ..output import committed
     from ..show.cures import carried

@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from ..data.ours import OVERWRITE
+from ..data.ownership import OVERWRITE
 from ..system.limit import choose
 
 Decorated = Callable[[Any], Any]

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from ...cases.mistake import CaseError
-from ..show.say import say, tell
+from ..show.console import say, tell
 from .answer import BAD_INPUT
 from .folder import Folder
 from .looking import looked_at
@@ -56,7 +56,7 @@ def page(
       textmech page my_case.yaml --out look        of your own case: reports and page in look/
       textmech page --settings mine.yaml           all cases, with your settings as a column
     """
-    from ..data.ours import unasked
+    from ..data.ownership import unasked
     from ..output import write
     from ..page.folder import Missing
     from ..page.write import NAME, write_committed, write_measured

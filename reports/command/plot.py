@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ...cases.mistake import CaseError, nearest
-from ..show.say import say
+from ..show.console import say
 from .looking import looked_at
 from .options import allow_long, named_engines, overwrite
 
@@ -49,7 +49,7 @@ def plot(
         raise click.UsageError(f"{file.name} is no picture that can be drawn: {' or '.join(KINDS)}")
     if not file.parent.is_dir():
         raise click.UsageError(f"there is no folder {file.parent}")
-    from ..data.ours import unasked
+    from ..data.ownership import unasked
     from ..page.motions import motions
     from ..page.paint import save
     from ..page.picture import picture

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ..show.say import tell
+from ..show.console import tell
 from .answer import BAD_INPUT, FAILED, as_json
 from .done import DONE, written
 from .folder import Folder
@@ -82,8 +82,8 @@ def run(
 
     A file with mistakes is left out: the other files run, and the exit code is 2.
     """
-    from ..data.ours import unasked
-    from ..output import keep as kept
+    from ..data.ownership import unasked
+    from ..output import motion_files as kept
     from ..output import write
     from ..show import cures, document, terminal
     from ..system.cluster import executor

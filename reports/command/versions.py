@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from ..show.say import say, tell
+from ..show.console import say, tell
 from .done import DONE
 from .folder import Folder
 from .options import allow_long, jobs, overwrite, own_settings
@@ -53,7 +53,7 @@ def versions(
     Exit codes: 0 done, 2 a mistake: no engine, no such release, no network
     """
     from ..batch.selection import choose_cases, choose_engines
-    from ..data.ours import unasked
+    from ..data.ownership import unasked
     from ..output import write
     from ..versions.measure import measure
     from ..versions.table import NAME, steps, table

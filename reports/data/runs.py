@@ -13,7 +13,7 @@ from hashlib import sha256
 from io import StringIO
 from pathlib import Path
 
-from . import content
+from . import file_content as content
 
 NAME = "runs.csv"
 HEAD = ("file", "rows", "run", "content")

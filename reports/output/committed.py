@@ -13,7 +13,7 @@ from pathlib import Path
 from ...cases.case import Case
 from ...cases.find import shipped
 from ..batch.search.causes import Known
-from ..data.ours import HERE
+from ..data.ownership import HERE
 from ..data.row import Cause, Comparison, rank
 from .write import read
 

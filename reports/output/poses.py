@@ -10,7 +10,7 @@ from ...cases.case import Case
 from ...cases.scene.frame import PLANE, SPACE
 from ...cases.trajectory import Array
 from ..batch.suite import Report
-from ..compare.trial.rung import Samples, seen
+from ..compare.trial.run import Samples, seen
 
 COLUMNS = {
     PLANE: [("x", "m", 0), ("y", "m", 1), ("angle", "rad", 2)],

@@ -15,9 +15,9 @@ from ...cases.case import Case
 from ...reference.certificate.errors import ERROR
 from ..batch.suite import Report
 from ..data import runs
-from ..data.content import text as content
 from ..data.coverage import coverage
-from ..data.ours import HERE, unasked
+from ..data.file_content import text as content
+from ..data.ownership import HERE, unasked
 from ..data.row import NUMBERS, Advice, Cause, Certificate, Comparison, Instant, Rungs, StepError
 from ..system.replace import replace
 

@@ -7,7 +7,7 @@ from typing import Any
 import pandas as pd
 
 from ...cases.theme import THEMES
-from ..data.amount import factor, milliseconds
+from ..data.short_numbers import factor, milliseconds
 from .beside import records
 
 COLUMNS = (

@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 
 from ..data import runs
-from ..data.content import text as content
+from ..data.file_content import text as content
 from ..data.row import MUTANTS, Certificate, Comparison, Instant, Rungs, StepError
 from ..output.write import NAMES, read
 

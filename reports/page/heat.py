@@ -4,7 +4,6 @@ from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..data.amount import milliseconds
 from ..data.row import (  # fmt: skip
     AGREES,
     BEYOND,
@@ -17,6 +16,7 @@ from ..data.row import (  # fmt: skip
     Comparison,
     Rungs,
 )
+from ..data.short_numbers import milliseconds
 from .column import Column, column
 
 SHADES = (1e-3, 1e-2, 1e-1, 1.0, 10.0, 100.0, 1000.0)

@@ -13,7 +13,7 @@ from ...cases.scene.states import MASS_MATRIX
 from ...cases.trajectory import Array, Trajectory
 from ..batch.suite import Report
 from ..batch.trials import Tried
-from ..compare.trial.rung import seen
+from ..compare.trial.run import seen
 from .pack import Packed, packed, packed_by_size
 from .sketch import extent, sketch
 

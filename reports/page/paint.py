@@ -12,7 +12,7 @@ from typing import Any
 import matplotlib
 from matplotlib.figure import Figure
 
-from ..data.ours import OURS
+from ..data.ownership import OURS
 from .column import Column
 
 INK = "#010203"  # replaced by the colour of the page's text

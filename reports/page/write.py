@@ -6,10 +6,10 @@ from pathlib import Path
 from ...cases.case import Case
 from ..batch.suite import Report
 from ..data import runs
-from ..data.ours import unasked
+from ..data.ownership import unasked
 from ..output import write
-from ..system.passing import passing
 from ..system.replace import replace
+from ..system.temporary_folder import passing
 from .folder import folder
 from .motions import motions
 from .page import page

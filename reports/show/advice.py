@@ -4,14 +4,14 @@ from collections.abc import Iterator, Sequence
 
 from ...engines.engine import Diverged, Tunable
 from ...engines.knobs import as_text
-from ..batch.advice.advised import BOTH, Advised, rows, settings, words
+from ..batch.advice.advice_rows import BOTH, Advised, rows, settings, words
 from ..batch.advice.price import ratio
 from ..batch.advice.recipe import Recipe, front
 from ..batch.search.candidate import Candidate
 from ..batch.search.errors import trial_of
-from ..compare.judge.plain import plain
+from ..compare.judge.figures import plain
 from ..compare.trial.start import first
-from ..data.amount import factor, milliseconds
+from ..data.short_numbers import factor, milliseconds
 
 HEADS = {BOTH: "fewest changes, and cheapest"}
 

@@ -9,8 +9,8 @@ import pandas as pd
 from ...cases.case import Case
 from ...cases.find import shipped
 from ..batch.search.why import Key, key_of
-from ..data.amount import milliseconds
 from ..data.row import UNSEARCHED, Cause
+from ..data.short_numbers import milliseconds
 from ..output.write import HERE
 from .summary import Cures
 

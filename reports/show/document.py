@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...cases.find import questions
 from ...cases.mistake import Mistake
-from .say import say
+from .console import say
 from .summary import Cures, approximations, summary
 
 if TYPE_CHECKING:

@@ -14,10 +14,10 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from ...reference.integrators.now import NOW, begun, left
-from .say import draw, tell
+from .console import draw, tell
 
 if TYPE_CHECKING:
-    from ..batch.results import Progress
+    from ..batch.task_results import Progress
 
 FIRST = 2.0  # s before anything is said: most commands are done by then
 INTERVAL = 10.0  # s between two lines where no bar can be drawn

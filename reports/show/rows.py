@@ -4,8 +4,8 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 from textwrap import wrap
 
-from ..data.amount import milliseconds
 from ..data.row import AGREES, FAILS, Certificate, Comparison
+from ..data.short_numbers import milliseconds
 from .table import WIDTH
 
 REASON = " " * 6

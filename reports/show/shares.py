@@ -4,8 +4,8 @@ from collections.abc import Iterable, Sequence
 from statistics import mean, median
 
 from ...engines import place
-from ..data.amount import factor
 from ..data.row import Comparison
+from ..data.short_numbers import factor
 from .picture import worst
 
 FAR = 100.0

@@ -6,9 +6,9 @@ from math import inf
 from typing import TypeVar
 
 from ..batch.selection import BOOK
-from ..data.amount import factor
 from ..data.row import CHANGED, REFUSED, Comparison, Rungs
-from .agreement import NATIVE, Way, agreement, judged, place
+from ..data.short_numbers import factor
+from .best_setting import NATIVE, Way, agreement, judged, place
 
 Row = TypeVar("Row", Comparison, Rungs)
 Cures = Mapping[tuple[str, str, str, str], str]

@@ -10,8 +10,8 @@ from ..batch.selection import BOOK
 from ..batch.suite import Report
 from ..data.promised import unkept
 from ..data.row import AGREES, FAILS, Comparison
+from .console import say
 from .rows import known, rows
-from .say import say
 from .summary import Cures, approximations, summary
 from .table import narrow
 

@@ -7,7 +7,7 @@ import subprocess
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 
-from . import ending
+from . import termination as ending
 
 _WITH_PARENT = 1  # Linux: PR_SET_PDEATHSIG
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .processes import ProcessDied, Processes
-from .spelled import spelled, why
+from .table_text import spelled, why
 
 BEAT = 1.0  # s
 _ONE = threading.Lock()  # engines have one set of callbacks a process

@@ -20,8 +20,9 @@ from typing import Any
 
 from ...engines.quiet import silence
 from ...reference.integrators.now import NOW, doing
-from . import ending, limit
-from .spelled import why
+from . import limit
+from . import termination as ending
+from .table_text import why
 
 WORDS = 300  # bytes of what a process is at
 GLANCE = 0.5  # s

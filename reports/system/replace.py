@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from pathlib import Path
 
-from ..data.content import content
+from ..data.file_content import content
 from .lock import locked
 
 MAKING, DECIDED = ".writing-", ".written-"

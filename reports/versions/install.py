@@ -16,7 +16,7 @@ from pathlib import Path
 
 from ...cases.mistake import CaseError, Mistake
 from ..system import child
-from ..system.passing import passing
+from ..system.temporary_folder import passing
 from .wanted import Release
 
 PIECE = re.compile(r"([\w.-]+) ?\(?== ?([\w.+!]+)\)?")

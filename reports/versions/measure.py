@@ -14,7 +14,7 @@ from ..batch.cache.store import FOLDER, by_default, usable
 from ..data.row import CRASHED, REFUSED
 from ..output.diff.folder import Folder, opened
 from ..system import child
-from ..system.passing import passing
+from ..system.temporary_folder import passing
 from .install import place
 from .wanted import Release
 
@@ -111,8 +111,8 @@ def main(told: str) -> int:
     from ..batch.cache.store import usable
     from ..batch.selection import choose_cases, choose_engines
     from ..output import write
+    from ..show.console import tell
     from ..show.progress import progress
-    from ..show.say import tell
     from ..system import pool
 
     asked = json.loads(told)
@@ -155,8 +155,8 @@ def _with_parent() -> None:
 
 if __name__ == "__main__":
     threading.Thread(target=_with_parent, daemon=True).start()  # before seconds of imports
-    from ..show.say import prepare
-    from ..system import ending
+    from ..show.console import prepare
+    from ..system import termination as ending
 
     ending.listen()
     prepare()

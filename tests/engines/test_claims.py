@@ -147,8 +147,8 @@ def test_light_bars_are_taken(mass: float, tmp_path: Path) -> None:
 def test_shapes_that_mujoco_does_not_take_are_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("textmech.engines.mujoco.adapter.claims.THIN", 1e-11)
-    monkeypatch.setattr("textmech.engines.mujoco.adapter.claims.LEAST", 0.0)
+    monkeypatch.setattr("textmech.engines.mujoco.adapter.inverse_dynamics.THIN", 1e-11)
+    monkeypatch.setattr("textmech.engines.mujoco.adapter.inverse_dynamics.LEAST", 0.0)
     found = told(MUJOCO, claimed(tmp_path, CHAIN))
     assert len(set(found.values())) == 1
     assert found["q1.torque"].startswith("engine: MuJoCo does not take the shapes: ")

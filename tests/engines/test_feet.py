@@ -16,12 +16,12 @@ from given.scenes import SHIPPED, solved
 from textmech.cases.scene import Anchor, Contact
 from textmech.cases.trajectory import ANGLE, OMEGA, X
 from textmech.engines.engine import Engine, Refusal
+from textmech.engines.foot_contact import Stride, stride
 from textmech.engines.mujoco.adapter.compilation import compiled
 from textmech.engines.mujoco.adapter.refuse import unbuildable
-from textmech.engines.mujoco.callbacks import stride as feet
+from textmech.engines.mujoco.callbacks import foot_contact as feet
 from textmech.engines.mujoco.read.poses import poses
 from textmech.engines.pymunk.stepping import run as steps
-from textmech.engines.stride import Stride, stride
 from textmech.reference.systems.walkers.compass_walker import CompassWalker
 
 CASE = SHIPPED["compass_walker"]

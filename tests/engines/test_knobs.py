@@ -10,7 +10,7 @@ from given.scenes import SHIPPED
 from textmech import engines
 from textmech.engines.engine import Engine, Tunable
 from textmech.engines.knobs import Knob, as_text, merged, said
-from textmech.reports.data.own_settings import read_settings
+from textmech.reports.data.user_settings import read_settings
 
 TUNED = [
     (name, engine)

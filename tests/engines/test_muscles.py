@@ -14,8 +14,8 @@ from given import scenes
 from given.planning import CASES, TUNED, begun, moved
 
 from textmech.cases.scene.observe import observe
-from textmech.engines import told
-from textmech.engines.told import Living
+from textmech.engines import point_forces as told
+from textmech.engines.point_forces import Living
 
 NAME, U = "muscle_load", "muscle.contractile_length"
 STEPS = {"mujoco": 1e-3, "pymunk": 2e-4}

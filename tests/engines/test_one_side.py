@@ -15,7 +15,7 @@ from textmech.cases.scene import Scene, Spring
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Realised, Start
 from textmech.engines.law import TENSIONS
-from textmech.engines.mujoco.callbacks.corner import Corners
+from textmech.engines.mujoco.callbacks.spring_switch import Corners
 from textmech.engines.mujoco.model.force import ELEMENTS
 from textmech.reference.solve import solve
 from textmech.reports.compare.trial.start import first

@@ -21,7 +21,7 @@ from given.planning import begun
 
 from textmech.engines.mujoco import MuJoCo
 from textmech.reference.solve import solve
-from textmech.reports.batch.advice.advised import Advised, Asked
+from textmech.reports.batch.advice.advice_rows import Advised, Asked
 from textmech.reports.batch.advice.session import advised
 from textmech.reports.batch.cache.store import usable
 from textmech.reports.batch.selection import choose_engines

@@ -12,7 +12,8 @@ from textmech.cases.case import Case
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Realised, Start
-from textmech.engines.mujoco.callbacks import catch, taut
+from textmech.engines.mujoco.callbacks import rope_impact as catch
+from textmech.engines.mujoco.callbacks import rope_limit as taut
 from textmech.reference.solve import solve
 from textmech.reports.compare.trial.start import first
 

@@ -14,7 +14,8 @@ from textmech.cases.scene import Signal
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Realised
 from textmech.engines.mujoco.callbacks import driver as stiction
-from textmech.engines.mujoco.callbacks import smooth, taut
+from textmech.engines.mujoco.callbacks import rope_limit as taut
+from textmech.engines.mujoco.callbacks import smooth
 from textmech.engines.mujoco.model import contact
 from textmech.reference.solve import solve
 from textmech.reports.compare.trial.start import first

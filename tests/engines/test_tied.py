@@ -2,7 +2,7 @@
 
 import pytest
 
-from textmech.engines.tied import at, tied
+from textmech.engines.step_scaled import at, tied
 
 H = 0.5  # s: every power of it is exact, and another number
 

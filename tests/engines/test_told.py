@@ -12,9 +12,9 @@ from given.planning import SHIPPED, TUNED, moved, refused, ways
 from textmech.cases.case import Case
 from textmech.cases.scene import Anchor, Bounds, Drag, LinearMuscle, Magnetic, Muscle, Viscous
 from textmech.cases.trajectory import Trajectory
-from textmech.engines import told
+from textmech.engines import point_forces as told
 from textmech.engines.engine import Start
-from textmech.engines.told import Place, law_of, living
+from textmech.engines.point_forces import Place, law_of, living
 from textmech.reference.solve import solve
 
 TABLE = json.loads((Path(__file__).parent / "law_table.json").read_text())

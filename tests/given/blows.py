@@ -15,7 +15,7 @@ import numpy as np
 from scipy.optimize import linprog
 
 from given import scenes
-from textmech.reference.mechanism.modes import landing
+from textmech.reference.mechanism.modes import impact_transition as landing
 from textmech.reference.mechanism.modes.blow import Condition, Meeting
 from textmech.reference.mechanism.modes.element import State
 from textmech.reference.mechanism.modes.mechanism import Mechanism

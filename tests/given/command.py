@@ -11,7 +11,7 @@ import pytest
 
 from textmech.reports import cli
 from textmech.reports.command import done
-from textmech.reports.system import ending
+from textmech.reports.system import termination as ending
 
 NEW = """\
 title: A bar that hangs on a cart

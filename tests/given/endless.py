@@ -16,7 +16,7 @@ from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Plan, Start
 from textmech.reports import cli
 from textmech.reports.batch import selection
-from textmech.reports.system import ending
+from textmech.reports.system import termination as ending
 
 CASE = """\
 title: A free body that moves at constant velocity

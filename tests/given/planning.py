@@ -11,8 +11,8 @@ from textmech.cases.scene.forces.force import of
 from textmech.cases.scene.frame import PLANE
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Engine, Plan, Realised, Refusal, Start
-from textmech.engines.stride import strides
-from textmech.engines.told import LIVING, TOLD
+from textmech.engines.foot_contact import strides
+from textmech.engines.point_forces import LIVING, TOLD
 from textmech.reports.compare.trial.start import assembled
 
 from .scenes import SHIPPED as EVERY

@@ -13,8 +13,8 @@ from given import resampled, scenes
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
+from textmech.reference.assumptions import check_premises
 from textmech.reference.motion.follow import follow
-from textmech.reference.premises import check_premises
 from textmech.reference.solve import solve
 from textmech.reference.start.mechanism import mechanism
 from textmech.reference.systems import written

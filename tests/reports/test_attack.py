@@ -15,7 +15,7 @@ from textmech.reports.batch import suite
 from textmech.reports.compare.trial.trial import Trial
 from textmech.reports.data.row import Comparison
 from textmech.reports.output import write
-from textmech.reports.system import ending
+from textmech.reports.system import termination as ending
 from textmech.reports.system.replace import DECIDED
 
 FORK = multiprocessing.get_context("fork")

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from textmech.reports.batch.search.told import NONE, NOTHING
+from textmech.reports.batch.search.cause_rows import NONE, NOTHING
 from textmech.reports.batch.suite import with_causes
 from textmech.reports.data.row import BEYOND, DEVIATES, UNSEARCHED, Cause, Comparison
 

@@ -15,9 +15,9 @@ from textmech.reports.system import child
 SOON = 3.0  # s, on a machine that does much else; killing takes milliseconds
 RUNS = """\
 import sys
-from textmech.reports import child, ending
-from textmech.reports.system.passing import passing
-ending.listen()
+from textmech.reports.system import child, termination
+from textmech.reports.system.temporary_folder import passing
+termination.listen()
 try:
     with passing("textmech-run-") as folder:
         child.run([sys.executable, "-c", {program!r}], told={told})

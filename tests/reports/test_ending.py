@@ -161,7 +161,7 @@ main()
 
 
 @pytest.mark.mutant("what is imported before the command listens prints a traceback")
-@pytest.mark.parametrize("name", ["click", "textmech.cases.load"])
+@pytest.mark.parametrize("name", ["click", "textmech.cases.titled"])
 def test_told_in_its_first_moments_it_says_so(name: str) -> None:
     done = subprocess.run(
         [sys.executable, "-c", EARLY.format(name=name)],

@@ -14,7 +14,7 @@ from given.report_folders import ROW, report
 from given.trees import digest
 from matplotlib.figure import Figure
 
-from textmech.reports.data.ours import unasked
+from textmech.reports.data.ownership import unasked
 from textmech.reports.data.row import Comparison
 from textmech.reports.output.write import FILES, read
 from textmech.reports.page.paint import save

@@ -7,7 +7,7 @@ from given.mistaken import Mistaken
 from textmech import engines
 from textmech.engines.engine import Claims, Engine, Loop, Paced, Tunable, lacking
 from textmech.reports.batch.selection import choose_cases
-from textmech.reports.compare.grades import GRADES, LOST, Attempt, Mark, marked, members
+from textmech.reports.compare.adapter_check import GRADES, LOST, Attempt, Mark, marked, members
 
 BY_NAME = {grade.name: grade for grade in GRADES}
 

@@ -12,7 +12,7 @@ from given.command import NEW, textmech
 
 from textmech.reports.command.folder import Folder
 from textmech.reports.output import write
-from textmech.reports.show.say import shown
+from textmech.reports.show.console import shown
 
 ONE = ("--engine", "mujoco.shipped")
 

@@ -13,11 +13,12 @@ from given.otherwise import otherwise
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
 from textmech.reference.solve import Solution, solve
-from textmech.reports.batch import selection, suite, unit
+from textmech.reports.batch import selection, suite
+from textmech.reports.batch import tasks as unit
 from textmech.reports.batch.cache.store import Store
 from textmech.reports.batch.selection import BOOK, choose_book, choose_engines
 from textmech.reports.compare.trial.ladder import judged_step, sampled
-from textmech.reports.compare.trial.rung import climbed
+from textmech.reports.compare.trial.run import climbed
 from textmech.reports.compare.trial.trial import Trial
 from textmech.reports.data.row import BEYOND, FAILS, Comparison
 from textmech.reports.show.terminal import without_effect

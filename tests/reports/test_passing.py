@@ -14,15 +14,15 @@ import pytest
 from given.trees import digest
 
 from textmech.reports.command.folder import Folder
-from textmech.reports.system import passing as room
-from textmech.reports.system.passing import passing
+from textmech.reports.system import temporary_folder as room
+from textmech.reports.system.temporary_folder import passing
 
 PREFIX = "textmech-run-"
 HELD = """\
 import sys
-from textmech.reports import ending
-from textmech.reports.system.passing import passing
-ending.listen()
+from textmech.reports.system import termination
+from textmech.reports.system.temporary_folder import passing
+termination.listen()
 with passing({prefix!r}) as folder:
     (folder / "ab").mkdir()
     (folder / "ab" / "result").write_text("x")
@@ -45,7 +45,9 @@ def other() -> Iterator[tuple[Popen[str], Path]]:
     text = HELD.format(prefix=PREFIX)
     with Popen([sys.executable, "-c", text], stdin=PIPE, stdout=PIPE, text=True) as process:
         assert process.stdout
-        yield process, Path(process.stdout.readline().strip())
+        line = process.stdout.readline().strip()
+        assert line  # else the folder were the checkout
+        yield process, Path(line)
         process.kill()
 
 

@@ -9,7 +9,7 @@ pytest_plugins = ["pytester"]
 
 # Each task that a worker gives to its processes, as one line.
 COUNTED = """\
-from textmech.reports import results
+from textmech.reports.batch import task_results as results
 spread = results.spread
 
 def counted(function, tasks, executor, beat):

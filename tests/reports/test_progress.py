@@ -10,8 +10,9 @@ import pytest
 from textmech.reference.integrators import now
 from textmech.reports.batch.cache.key import Keys
 from textmech.reports.batch.cache.store import passing
-from textmech.reports.batch.results import Results
-from textmech.reports.show import progress, say
+from textmech.reports.batch.task_results import Results
+from textmech.reports.show import console as say
+from textmech.reports.show import progress
 from textmech.reports.system import pool
 from textmech.reports.system.processes import Processes
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from given.swing import SWING
 
-from textmech.reports.system import ending
+from textmech.reports.system import termination as ending
 
 pytest_plugins = ["pytester"]
 ONE = "pymunk.tuned"
@@ -101,8 +101,8 @@ import sys
 import time
 inner = '''
 import time
-from textmech.reports import ending
-ending.with_parent()
+from textmech.reports.system import termination
+termination.with_parent()
 print("now", flush=True)
 time.sleep(60)
 '''

@@ -11,12 +11,13 @@ import pytest
 
 from textmech.cases.case import Case
 from textmech.engines.engine import Engine
-from textmech.reports.batch import suite, unit
+from textmech.reports.batch import suite
+from textmech.reports.batch import tasks as unit
 from textmech.reports.batch.cache.key import Keys
 from textmech.reports.batch.cache.store import Store
 from textmech.reports.batch.suite import Report
 from textmech.reports.compare.judge.compare import Outcome
-from textmech.reports.compare.trial import rung
+from textmech.reports.compare.trial import run as rung
 from textmech.reports.compare.trial.trial import Trial
 from textmech.reports.data.row import FAILS
 from textmech.reports.output import write

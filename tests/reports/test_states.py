@@ -24,7 +24,8 @@ from textmech.reports.bench.adapters import Amount
 from textmech.reports.bench.adapters import rows as rows_of_bench
 from textmech.reports.compare.trial.states import SILENT, ways_of
 from textmech.reports.data.row import AGREES, BEYOND, DEVIATES, FAILS, Comparison
-from textmech.reports.output import keep, write
+from textmech.reports.output import motion_files as keep
+from textmech.reports.output import write
 from textmech.reports.show.script import script
 
 MUJOCO, PYMUNK = (engines.make(name, "tuned") for name in ("mujoco", "pymunk"))

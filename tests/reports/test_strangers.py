@@ -7,7 +7,7 @@ from given.command import NEW, textmech
 from given.report_folders import report
 from given.trees import digest
 
-from textmech.reports.data import ours
+from textmech.reports.data import ownership as ours
 
 STRANGE = {
     "run": ("tolerance.csv", ("run", "cart.yaml", "--out", "o")),

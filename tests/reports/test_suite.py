@@ -19,7 +19,7 @@ from textmech.cases.mistake import CaseError
 from textmech.engines.engine import Engine, Realised
 from textmech.reference.solve import Solution
 from textmech.reports.batch import suite
-from textmech.reports.batch.search.told import NOTHING
+from textmech.reports.batch.search.cause_rows import NOTHING
 from textmech.reports.batch.suite import Report
 from textmech.reports.batch.trials import Tried
 from textmech.reports.compare.judge.compare import Outcome

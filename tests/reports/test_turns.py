@@ -9,7 +9,7 @@ from given import scenes
 
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Array, Trajectory
-from textmech.reports.compare.trial import rung as turns
+from textmech.reports.compare.trial import run as turns
 
 SCENE = """\
 title: A body that turns evenly

@@ -14,7 +14,7 @@ from textmech.reports.compare.trial.ladder import ladders
 from textmech.reports.compare.trial.start import assembled
 from textmech.reports.compare.trial.trial import planned
 from textmech.reports.compare.trial.work import STEPS, _steps, too_long
-from textmech.reports.data.own_settings import read_settings
+from textmech.reports.data.user_settings import read_settings
 
 SLOW = pendulum(duration=3e3, length=2, step=1e-2)
 LANDS = "events: {turns: {rod.omega: falls to zero}}"

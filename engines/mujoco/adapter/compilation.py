@@ -15,15 +15,15 @@ import mujoco
 from ....cases.scene import Scene
 from ....cases.trajectory import Array
 from ...engine import Choice, Plan, Start
-from ..callbacks.inner import acting
+from ..callbacks.contact_friction import one_touch, touches
+from ..callbacks.inner_state import acting
+from ..callbacks.rope_limit import draw
 from ..callbacks.settle import settle
 from ..callbacks.signal import installed, listening
-from ..callbacks.taut import draw
-from ..callbacks.touch import one_touch, touches
 from ..model.hinge import hinge
+from ..model.number_text import EACH
 from ..model.scene import mjcf
 from ..model.stops import lean
-from ..model.written import EACH
 from ..settings.settings import alone
 from .run import started
 

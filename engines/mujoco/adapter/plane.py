@@ -7,8 +7,8 @@ from ..model.rods import with_rods
 from ..model.scene import mjcf
 from ..read.measure import measured
 from ..settings.settings import best, soft, tuned, with_own
+from .baseline import plain
 from .compilation import compiled, lent, placed
-from .plain import plain
 from .plans import plan, ways
 from .refuse import unbuildable
 from .run import simulate

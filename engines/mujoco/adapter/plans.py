@@ -6,12 +6,12 @@ from functools import partial
 
 from ....cases.scene import CENTER, Contact, Pair, Scene
 from ...engine import Choice, Plan, Realised, Start
+from ...foot_contact import strides
 from ...law import one_number
-from ...stride import strides
-from ..callbacks.catch import catches
-from ..callbacks.corner import has_corners
+from ..callbacks.contact_friction import one_touch
 from ..callbacks.friction import one_slide, smooth_only
-from ..callbacks.touch import one_touch
+from ..callbacks.rope_impact import catches
+from ..callbacks.spring_switch import has_corners
 from ..model.bounce import spread
 from ..model.contact import falls
 from ..model.force import lacking

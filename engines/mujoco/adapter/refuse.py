@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 
 from ....cases.scene import GROUND, Joint, Scene
 from ...engine import Plan, Start
-from ...stride import NO_STRIDE, strides
+from ...foot_contact import NO_STRIDE, strides
 from ..model.bounce import LEAST_BOUNCE
 from ..model.force import ELEMENTS, lacking
 from ..model.hinge import taken

@@ -7,11 +7,11 @@ from ....cases.scene import Scene
 from ....cases.trajectory import Array, Trajectory
 from ...engine import Diverged, Realised, Start
 from ..callbacks.edge import edges
-from ..callbacks.inner import acting, activations, rated
+from ..callbacks.inner_state import acting, activations, rated
+from ..callbacks.point_forces import told
 from ..callbacks.signal import Corners, installed, listening, signals
 from ..callbacks.smooth import smooth
 from ..callbacks.stepping import stepping
-from ..callbacks.told import told
 from ..model.drive import controls
 from ..read.poses import poses
 from ..read.reaction import felt_force

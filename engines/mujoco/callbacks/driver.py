@@ -9,10 +9,10 @@ import mujoco
 import numpy as np
 
 from ....cases.trajectory import Array
+from .contact_friction import Touch
 from .friction import Slide
 from .signal import Control, bound
 from .smooth import alone
-from .touch import Touch
 
 
 def room(model: mujoco.MjModel) -> Array:

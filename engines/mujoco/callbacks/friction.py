@@ -13,7 +13,7 @@ from ....cases.scene import DryFriction, Joint, Scene
 from ....cases.trajectory import Array
 from ...law import braking, dry_friction
 from ..model.hinge import way
-from .closed import closed
+from .loop_inertia import closed
 
 
 @dataclass

@@ -8,7 +8,7 @@ import numpy as np
 
 from ....cases.scene import GROUND, Anchor, Scene
 from ....cases.scene.forces.force import Force
-from ...told import Exerted, Place
+from ...point_forces import Exerted, Place
 
 _SITE = int(mujoco.mjtObj.mjOBJ_SITE)
 

@@ -17,8 +17,8 @@ from ...engine import Start
 from ..model.contact import lies, meet
 from ..model.planes import touching
 from .floor import Floor
+from .point_forces import told
 from .signal import signals
-from .told import told
 
 _DEEPEST = 1.0  # m, of a point; a disk could be as deep as its radius
 _SETTLED = 1e-12  # of a depth: points that share a load have found it

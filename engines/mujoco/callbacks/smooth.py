@@ -9,8 +9,8 @@ from ....cases.scene import DryFriction, Scene
 from ....cases.trajectory import Array
 from ...law import smooth_under
 from ..model.hinge import way
-from .closed import closed
 from .friction import uncoupled
+from .loop_inertia import closed
 from .signal import Control, bound
 
 Acting = Callable[[], float]

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from ....cases.scene import Scene
 from ...engine import Realised
-from .catch import Catching, catches
-from .corner import Corners
+from .contact_friction import Touch, one_touch, touches
 from .driver import bounded, driven_step, falling, room
+from .foot_contact import Feet, feet
 from .friction import Slide, slides, smooth_only
+from .rope_impact import Catching, catches
 from .signal import Control
-from .stride import Feet, feet
-from .touch import Touch, one_touch, touches
+from .spring_switch import Corners
 
 
 @dataclass

@@ -12,8 +12,8 @@ from collections.abc import Callable, Iterator, Mapping
 from ....cases.scene import CENTER, Anchor, Contact, Pair, Scene
 from ...engine import Choice, Start, begun
 from .bounce import dead, springy
+from .number_text import of_one
 from .planes import met, touching
-from .written import of_one
 
 HARDEST = 0.9999  # of d: MuJoCo clamps it
 SOFTEST = 1.01e-4  # of d: MuJoCo clamps it at 1e-4

@@ -13,8 +13,8 @@ from ....cases.scene import GROUND, Joint, Scene
 from ....cases.scene.joint import DRIVES
 from ...signal import derivative
 from .force import signals
+from .number_text import written
 from .tree import coordinate, spanning_tree
-from .written import written
 
 HEAVY = 1e15  # kg m² (kg of a slide): what a scene exerts changes the rate by 1e-15 of it
 

@@ -35,9 +35,9 @@ from ....cases.scene.forces.muscle import Contracting
 from ....cases.scene.forces.turning import Motor, Torsion, TorsionDamper
 from ....cases.trajectory import Array
 from .hinge import Hinge, hinge
+from .number_text import written
 from .rope import rope_length, write_rope
 from .stops import stop_numbers, write_stops
-from .written import written
 
 # Viscous friction along a slide as MuJoCo's damping of a joint: a v + b v|v| + c v³.
 

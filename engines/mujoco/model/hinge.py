@@ -6,10 +6,10 @@ from xml.etree import ElementTree as ET
 from ....cases.scene import Force, Joint, Scene
 from ....cases.scene.joint import Freedom
 from ....cases.scene.space.scene import SpatialScene
+from .number_text import written
 from .spatial_tree import coordinate as coordinate_in_space
 from .spatial_tree import spanning_tree as spanning_tree_in_space
 from .tree import coordinate, spanning_tree
-from .written import written
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from ....cases.scene.joint import Joint
 from ....cases.trajectory import Array
 from ...engine import Choice
 from .contact import HARDEST
-from .written import written
+from .number_text import written
 
 
 def add_loops(

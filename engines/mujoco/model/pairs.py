@@ -7,8 +7,8 @@ import numpy as np
 from ....cases.scene import Scene
 from ....cases.scene.pair import Pair
 from ....cases.trajectory import Array
+from .number_text import written
 from .planes import POINT, Soft, dimensions, touching
-from .written import written
 
 NUMBERS = 9  # of a pair's sensor: its force in the axes of the contact, the normal, the tangent
 DEEP = 1.0  # m, half a block's size along z: a point is nearer to its faces

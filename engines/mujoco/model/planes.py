@@ -6,7 +6,7 @@ from xml.etree import ElementTree as ET
 from ....cases.scene import GROUND, Contact, Scene
 from ....cases.scene.pair import Pair
 from ....cases.scene.plane import Plane
-from .written import written
+from .number_text import written
 
 Soft = Callable[[str], Mapping[str, str]]
 """By a contact's name, the attributes of its pair."""

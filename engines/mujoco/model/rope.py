@@ -10,7 +10,7 @@ from ....cases.scene.forces.rope import Rope
 from ....cases.trajectory import Array
 from ...engine import Choice
 from .contact import HARDEST
-from .written import written
+from .number_text import written
 
 
 def write_rope(sections: Mapping[str, ET.Element], rope: Rope) -> None:

@@ -11,13 +11,14 @@ from xml.etree import ElementTree as ET
 
 from ....cases.scene import GROUND, Anchor, DryFriction, Scene
 from ...engine import Choice, Start
-from ...stride import strode
+from ...foot_contact import strode
 from .contact import lies, place
 from .drive import controls
 from .drive import write as write_drives
 from .edge import write_room
 from .force import BY_ITSELF, begun_with, write
 from .loops import add_loops, add_rods
+from .number_text import attributes, soft, written
 from .pairs import add_geoms, add_pair_sensors, add_pairs
 from .planes import Soft, add_contacts, add_geom, add_planes, add_sensors, touching
 from .rope import finish_ropes
@@ -34,7 +35,6 @@ from .tree import (
     spanning_tree,
     turned,
 )
-from .written import attributes, soft, written
 
 HEAVY = 1e15  # kg of a driven point: 1 N changes its velocity by 1e-15 m/s in a second
 LEAST = 1e-15  # kg m² (mjMINVAL) of a particle: MuJoCo takes no less of a body with a joint

@@ -12,8 +12,8 @@ from ....cases.fields.signal import Signal
 from ....cases.scene import CENTER, Scene
 from ...engine import Start
 from .force import BY_ITSELF
+from .number_text import written
 from .tree import called
-from .written import written
 
 _SAID = (
     "what follows such a law in time is a control, which no MJCF file sets: start at the keyframe, "

@@ -14,8 +14,8 @@ from ...engine import Choice
 from .bounce import dead, springy
 from .contact import HARDEST
 from .hinge import Hinge, hinge
+from .number_text import of_one, written
 from .planes import Soft
-from .written import of_one, written
 
 NEVER = 1e6  # rad: where no turn ends
 AT = 1e-9  # rad: what is nearer to a stop is at it

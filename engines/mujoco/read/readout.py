@@ -12,8 +12,8 @@ import numpy as np
 
 from ....cases.scene import Scene
 from ....cases.trajectory import Array
+from ...foot_contact import strode
 from ...law import TORQUES
-from ...stride import strode
 from ..model.drive import Drive, drives
 from ..model.edge import fields
 from ..model.force import about

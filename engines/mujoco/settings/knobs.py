@@ -9,8 +9,8 @@ from typing import Any
 from ...engine import Choice
 from ...knobs import Knob, Options, Value, said
 from ..model.contact import HARDEST, SOFTEST
-from ..model.written import EACH
-from .own import ELEMENTS, as_options, key, suffix
+from ..model.number_text import EACH
+from .user_options import ELEMENTS, as_options, key, suffix
 
 STEPS = (1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2.5e-4, 1e-4)  # s
 STAGES = {"RK4": 4}  # evaluations of the dynamics in a step; every other integrator takes one

@@ -6,11 +6,11 @@ from typing import Any
 
 import mujoco
 
-from ...tied import FORMS, at, tied
+from ...step_scaled import FORMS, at, tied
 from ..callbacks.signal import installed, listening
 from ..model.contact import RECIPES
+from ..model.number_text import EACH, of_one
 from ..model.space.contact import RECIPES as RECIPES_IN_SPACE
-from ..model.written import EACH, of_one
 
 _WORDS = {
     "integrator": ("Euler", "RK4", "implicit", "implicitfast", "discrete"),

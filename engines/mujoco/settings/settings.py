@@ -9,15 +9,15 @@ from typing import Any
 
 from ....cases.scene import Scene
 from ...engine import Choice, Start
-from ...stride import strides
-from ...tied import at
+from ...foot_contact import strides
+from ...step_scaled import at
 from ..model.contact import HARDEST, RECIPES, chosen, recipe
 from ..model.loops import recipe as rods
 from ..model.planes import met
 from ..model.rope import recipe as ropes
 from ..model.stops import recipe as stops
 from ..model.tree import driven, spanning_tree
-from .own import OWN, key, overlaid
+from .user_options import OWN, key, overlaid
 
 SHIPPED_STEP = 2e-3  # s, the default of <option timestep>
 _DEFAULT = "MuJoCo's default"

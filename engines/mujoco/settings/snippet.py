@@ -5,8 +5,8 @@ from xml.etree import ElementTree as ET
 
 from ...engine import Choice
 from ...knobs import Options
+from ..model.number_text import EACH, attributes, written
 from ..model.script import commented
-from ..model.written import EACH, attributes, written
 
 _ELEMENTS = {
     "connect": "equality", "pair": "geom", "slide": "joint", "rope": "tendon", "stop": "joint",

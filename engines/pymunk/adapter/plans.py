@@ -7,8 +7,8 @@ from typing import Any
 from ....cases.scene import Scene
 from ....cases.scene.quantity import table
 from ...engine import Choice, Plan, Realised, Start
+from ...foot_contact import strides
 from ...law import one_number
-from ...stride import strides
 from ..callbacks.cut import cuts, lands
 from ..callbacks.force import damped, lacking
 from ..callbacks.friction import ruled
@@ -16,8 +16,8 @@ from ..model.contact import closed
 from ..model.edge import alone
 from ..model.pair import closed_pairs
 from ..model.slot import oblique
-from ..settings.own import Own
 from ..settings.recipe import Recipe
+from ..settings.user_options import Own
 
 Numbers = Recipe | Own
 NOMINAL = 1e-3  # s; whether a bias is 0 depends on no step

@@ -4,7 +4,7 @@ import math
 
 from ....cases.scene import GROUND, Scene
 from ....cases.scene.frame import PLANE
-from ...stride import NO_STRIDE, strides
+from ...foot_contact import NO_STRIDE, strides
 from ..callbacks.force import ELEMENTS, lacking
 from ..model.drive import NO_LINE
 from ..model.edge import NO_EDGE

@@ -25,15 +25,15 @@ from ....cases.scene.pair import Pair
 from ....cases.scene.plane import LEVEL, Plane
 from ...engine import Start
 from ..callbacks.force import script
-from ..callbacks.one_side import as_text
+from ..callbacks.unilateral_spring import as_text
 from ..model.contact import ABOVE, GROUP, closed, is_tip
 from ..model.drive import as_lines
 from ..model.edge import joints_as_text, lays_as_text
+from ..model.number_text import written
 from ..model.pair import closed_pairs
+from ..model.script_signals import helpers
 from ..model.slot import LENGTH, carried
-from ..model.wording import helpers
 from ..model.world import World
-from ..model.written import written
 from ..stepping.run import COLD
 from ..stepping.scene import build
 

@@ -8,8 +8,8 @@ about which a body turns then carries it along the floor, by a length of first o
 import math
 
 from ....cases.scene import Contact
+from ..model.chipmunk_state import reading
 from ..model.contact import ABOVE, PASSES, is_tip, over, sink
-from ..model.direct import reading
 from ..model.world import World
 
 BELOW = 1e-12  # m: so deep it has come down for sure

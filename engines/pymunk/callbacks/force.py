@@ -33,16 +33,16 @@ from ....cases.scene.forces.force import (
 )
 from ...engine import Realised
 from ...signal import acting, in_time
-from ..model.direct import State, pushing, reading, turning
+from ..model.chipmunk_state import State, pushing, reading, turning
+from ..model.number_text import written
+from ..model.script_signals import as_text
 from ..model.stops import stop_numbers
-from ..model.wording import as_text
 from ..model.world import World
-from ..model.written import written
-from . import one_side
-from .line import Exerted, Load, drifted, pull, told
-from .one_side import NO_SIDE
-from .told import BY_LAW
+from . import unilateral_spring as one_side
+from .line_forces import Exerted, Load, drifted, pull, told
+from .point_forces import BY_LAW
 from .turning import couple_as_text, motor, motor_load, twist, twisted
+from .unilateral_spring import NO_SIDE
 
 # A torque on a body, given to it before every step.
 

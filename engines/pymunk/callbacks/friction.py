@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from ....cases.scene import GROUND, Bounds, Contact, DryFriction, Joint, Scene, Vector
-from ..model.direct import State, pushing, reading, turning
+from ..model.chipmunk_state import State, pushing, reading, turning
 from ..model.world import World
 from .breakaway import bound, smooth_mean
 from .force import load

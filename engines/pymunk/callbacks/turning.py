@@ -8,10 +8,10 @@ from pymunk.body import Body
 from ....cases.scene.forces.turning import Motor, Turning
 from ...law import TORQUES
 from ...signal import acting, in_time
-from ..model.direct import State, spinning
-from ..model.direct import turning as twisting
+from ..model.chipmunk_state import State, spinning
+from ..model.chipmunk_state import turning as twisting
 from ..model.world import World
-from .line import Exerted, Load
+from .line_forces import Exerted, Load
 
 
 def twist(world: World, force: Turning, name: str) -> Exerted:

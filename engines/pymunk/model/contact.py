@@ -17,8 +17,8 @@ from ....cases.scene import Body as Part
 from ....cases.scene import Contact, Scene, Vector
 from ....cases.scene.plane import Plane
 from ...engine import Start
-from ...stride import Place, Stride
-from .direct import reading
+from ...foot_contact import Place, Stride
+from .chipmunk_state import reading
 
 FLOOR_FRICTION = 1.0  # pymunk multiplies the frictions of two shapes: the circle carries all of µ
 FLOOR_ELASTICITY = 1.0  # likewise the restitution

@@ -7,7 +7,7 @@ is told that of the end of the step; a user who does not know tells the present 
 from collections.abc import Callable, Iterator
 
 from ...signal import derivative, in_time, rate
-from .wording import as_text
+from .script_signals import as_text
 from .world import World
 
 NO_LINE = "engine: pymunk has no motor along a line"

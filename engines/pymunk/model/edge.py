@@ -9,11 +9,11 @@ from pymunk.vec2d import Vec2d
 
 from ....cases.scene import Edge, Scene, Signal, Vector
 from ...signal import in_time
-from .direct import State
+from .chipmunk_state import State
+from .number_text import written
 from .pin import LENGTH, Pin, Way, laid
-from .wording import as_text
+from .script_signals import as_text
 from .world import World
-from .written import written
 
 NO_EDGE = "engine: pymunk has no joint across a line that turns with its own body"
 _REST = Signal("constant", (0.0,))

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from pymunk.constraints import PinJoint
 
-from .direct import State, forced, reading
+from .chipmunk_state import State, forced, reading
 
 LENGTH = 1.0  # m, of the pin joint: of no effect, as it is laid anew
 

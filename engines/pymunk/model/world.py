@@ -16,7 +16,7 @@ from pymunk.shapes import Circle, Segment
 from pymunk.space import Space
 
 from ....cases.scene import GROUND, Anchor, Scene, Vector
-from ...stride import Stride
+from ...foot_contact import Stride
 from .pin import Pin
 from .slot import Line
 

@@ -14,7 +14,7 @@ from pymunk.constraints import GrooveJoint, PinJoint, PivotJoint
 from ....cases.trajectory import Array
 from ...engine import Diverged
 from ..model.slot import line
-from ..model.sweeps import halving
+from ..model.solver_contraction import halving
 from ..model.world import World
 from ..stepping.scene import reach
 

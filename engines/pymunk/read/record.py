@@ -13,7 +13,7 @@ from pymunk.batch import BodyFields, Buffer, get_space_bodies
 
 from ....cases.scene.observe import observe
 from ....cases.trajectory import Array, Trajectory
-from ..model.direct import copier
+from ..model.chipmunk_state import copier
 from ..model.world import World
 from .impulse import impulses
 

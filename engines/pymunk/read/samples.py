@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pymunk.batch import BodyFields, Buffer
 
 from ....cases.trajectory import Array, Trajectory
-from ..model.direct import copier
+from ..model.chipmunk_state import copier
 from ..model.world import World
 from ..stepping.run import Steps
 from .health import sound

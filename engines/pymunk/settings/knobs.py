@@ -10,7 +10,7 @@ from ....cases.scene import Scene
 from ...engine import Start
 from ...knobs import Knob, Options, Value, said
 from .options import BY_THE_SCENE
-from .own import as_options
+from .user_options import as_options
 
 STEPS = (
     0.02,

@@ -12,7 +12,7 @@ from ...engine import Choice, Start
 from ..model.contact import closed, is_tip
 from ..model.rope import eases
 from ..model.slot import oblique
-from .holding import Holding, holding
+from .solver_iterations import Holding, holding
 
 _MIDPOINT = Choice(
     "time.midpoint",

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from ...engine import Choice
-from ..model.written import written
+from ..model.number_text import written
 from ..stepping.run import COLD
 from .settings import defaults
 

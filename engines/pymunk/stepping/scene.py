@@ -15,7 +15,7 @@ from pymunk.space import Space
 
 from ....cases.scene import GROUND, DryFriction, Joint, Scene, Vector
 from ...engine import Realised, Start
-from ...stride import stride
+from ...foot_contact import stride
 from ..callbacks.force import lines
 from ..model.contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle, closed, only, planes
 from ..model.edge import add_edges

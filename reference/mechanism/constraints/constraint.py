@@ -14,9 +14,9 @@ import numpy as np
 
 from ....cases.scene import Anchor
 from ..kinematics.coordinates import Attached, Coordinates, moved
-from .assembled import Places, Rows
-from .banded import MANY
-from .rows import Term
+from .banded_solver import MANY
+from .constraint_jacobian import Places, Rows
+from .constraint_terms import Term
 
 Numbers = Sequence[Any]
 COMPONENTS = {"fx": 0, "fy": 1}  # of a force λ u, u the direction of its row

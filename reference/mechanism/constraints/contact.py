@@ -12,7 +12,7 @@ from typing import Any
 from ....cases.scene import CENTER, Contact, Joint
 from ..kinematics.coordinates import Coordinates
 from .constraint import Constraint
-from .rows import FIRST, SECOND, Along, Line, Term, Turning
+from .constraint_terms import FIRST, SECOND, Along, Line, Term, Turning
 
 
 def normal(contact: Contact, where: Coordinates) -> Constraint:

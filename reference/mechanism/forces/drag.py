@@ -10,7 +10,7 @@ from ....cases.scene.forces.drag import Drag, Viscous
 from ....cases.scene.forces.force import of
 from ...laws.friction import power_law, viscous
 from ..kinematics.coordinates import Coordinates, Point
-from .scrape import one_way, power_loss, scrape_loss, scraped
+from .directional_drag import one_way, power_loss, scrape_loss, scraped
 
 NOISE = 1e-12  # of the speed at the start: what is left of one that falls to zero, or less
 

@@ -12,7 +12,7 @@ from ....cases.scene.forces.drag import Drag
 from ....cases.scene.forces.force import of
 from ...system import Array, Guard
 from ..kinematics.coordinates import Point
-from .choosing import After, Undetermined
+from .mode_selection import After, Undetermined
 from .modes import Modes
 
 SLOW = 1e-6  # of the speed at the start, or of one that forces give within the scene's size

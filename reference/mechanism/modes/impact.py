@@ -17,7 +17,7 @@ from ...integrators.budget import tries
 from ...system import Array
 from .blow import SAME, Blow, Condition, Meeting, blow
 from .element import State
-from .sharing import undecided, ways
+from .shared_friction import undecided, ways
 
 BLOW = 5  # evaluations: of solving for the impulses of a blow (measured 3–6)
 GAIN = 1e-9  # of the kinetic energy: more is no rounding

@@ -14,13 +14,13 @@ from ..constraints.constraint import Constraint
 from ..constraints.leeway import Leeway
 from ..forces.action import act
 from ..forces.drag import blurred
-from .choosing import After, Options, closed, opening, painleve, settled, staying, yielding
 from .element import REST, Element, State, sign
 from .halting import halting
-from .landing import STILL, landed
+from .impact_transition import STILL, landed
+from .mode_selection import After, Options, closed, opening, painleve, settled, staying, yielding
 from .modes import Modes, rate
-from .one_side import HAPPENS, OTHER, OneSided
-from .sharing import beside
+from .shared_friction import beside
+from .unilateral_spring import HAPPENS, OTHER, OneSided
 
 CLOSED = 1e-9  # of the scene's size: a start this close to the floor stands on it
 STEEP = 2.0  # how deep a foot may be for each metre that it is behind

@@ -8,10 +8,10 @@ import numpy as np
 from ....cases.scene import Scene
 from ...system import Array, Mass, Mode, Pose, Vector
 from ..constraints.constraint import Constraint, assembled, residuals
+from ..constraints.constraint_solver import Holding
 from ..constraints.contact import Braking, Coulomb, row
-from ..constraints.factors import Dependent, Held
-from ..constraints.holding import Holding
-from ..constraints.permanent import constraints
+from ..constraints.factorization import Dependent, Held
+from ..constraints.joint_constraints import constraints
 from ..forces.action import (
     act,
     dissipation,
@@ -22,7 +22,7 @@ from ..forces.action import (
     potential,
 )
 from ..kinematics.coordinates import Coordinates
-from .sharing import Shared
+from .shared_friction import Shared
 
 TURNS = 2  # of refinement, each with the digits of the first solution: 10 of 16 may be lost
 UNEVEN = 1e3  # the heaviest mass beside the lightest: up to that one turn is enough

@@ -13,13 +13,13 @@ from ..constraints.leeway import Leeway
 from .element import Element, Smoothed, State, elements
 from .loose import Loose, independent
 from .mode import Multibody
-from .one_side import one_sided
 from .pair import paired
 from .rope import roped
-from .sharing import shares
+from .shared_friction import shares
 from .smooth import SmoothMultibody
 from .stop import stopped
 from .stopping import stopping
+from .unilateral_spring import one_sided
 
 ROUNDING = 1e-10  # of the accelerations that the forces give alone
 KEPT = (

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from ....cases.scene import CENTER, Anchor, Scene
 from ....cases.scene.pair import Pair
 from ..constraints.constraint import Constraint
-from ..constraints.rims import Apart, Around
-from ..constraints.rows import FIRST, SECOND, Line, Term, Turning
+from ..constraints.constraint_terms import FIRST, SECOND, Line, Term, Turning
+from ..constraints.rim_contact import Apart, Around
 from ..kinematics.coordinates import Coordinates
 from .element import Element, Touching
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from ....cases.scene import Scene
 from ....cases.scene.forces.rope import Rope
 from ..constraints.constraint import Constraint
-from ..constraints.rows import FIRST, SECOND, Distance
+from ..constraints.constraint_terms import FIRST, SECOND, Distance
 from ..kinematics.coordinates import Coordinates
-from .limit import Limit
+from .unilateral_limit import Limit
 
 
 @dataclass(frozen=True, kw_only=True)

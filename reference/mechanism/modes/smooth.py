@@ -13,7 +13,7 @@ from ..constraints.constraint import Constraint
 from ..constraints.contact import Braking, Coulomb, row
 from .element import Smoothed, dry
 from .mode import Multibody
-from .sharing import Shared
+from .shared_friction import Shared
 
 
 class SmoothMultibody(Multibody):

@@ -15,7 +15,7 @@ from ....cases.scene.space.joint import SpatialJoint
 from ....cases.scene.space.scene import SpatialScene
 from ...system import Array
 from .closure import SpatialClosure
-from .given import attitude
+from .initial_conditions import attitude
 
 UP, STILL = np.array([UPRIGHT]), np.zeros((1, 3))
 LOCKED = 1e-9  # sine: below, a turn about one axis is not told from one about the other

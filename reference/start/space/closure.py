@@ -11,7 +11,7 @@ from ....cases.case import Case
 from ....cases.scene.space.scene import SpatialScene
 from ...mechanism.modes.space.mode import SpatialMultibody
 from ...system import Array
-from .given import Equation, Given
+from .initial_conditions import Equation, Given
 
 RANK = 1e-9  # singular values below this part of the largest count as zero
 

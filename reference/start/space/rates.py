@@ -9,7 +9,7 @@ from .. import messages
 from ..rates import mechanisms
 from . import refusal
 from .closure import SpatialClosure, least, null, rank
-from .given import Equation
+from .initial_conditions import Equation
 from .positions import CLOSED
 
 

@@ -8,17 +8,17 @@ from ....engines.engine import Plan, Refusal, Tunable, lacking
 from ...compare.trial.start import first
 from ...compare.trial.trial import Trial, judged_names, planned
 from ...system.pool import Died
-from ..results import Results
-from ..search.asked import lost
 from ..search.candidate import Candidate
+from ..search.parallel_search import Asking, Known, Search, together
 from ..search.solving import solved
-from ..search.together import Asking, Known, Search, together
-from ..unit import Pair
-from .advised import Advised, Asked
-from .bar import Bar
-from .cuts import elsewhere
-from .draws import held
-from .menu import NOTHING, Choice, Menu, fitting
+from ..search.tunable import lost
+from ..task_results import Results
+from ..tasks import Pair
+from .advice_rows import Advised, Asked
+from .candidates import NOTHING, Choice, Menu, fitting
+from .criterion import Bar
+from .loop_cuts import elsewhere
+from .parameter_draws import held
 from .recipe import Kitchen, Recipes, recipes, rungs_of
 
 ROUNDS = 12  # of what keeps the bar here, and not where a loop is cut elsewhere

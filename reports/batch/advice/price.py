@@ -7,7 +7,7 @@ import numpy as np
 from ...compare.trial.trial import Trial
 from ..search.candidate import Candidate
 from ..search.errors import trial_of
-from ..unit import Pair
+from ..tasks import Pair
 
 ROUNDS = 3  # in turn; the least of each counts
 LONG = 0.05  # s: what is shorter is run as often as fills it, for its least time to be found

@@ -12,9 +12,9 @@ from typing import Any
 
 from ....engines.knobs import said
 from ..search.candidate import Candidate
-from ..search.together import Asking
-from .bar import Bar, digits
-from .menu import MOST, NOTHING, WHOLE, Choice, Menu, parts
+from ..search.parallel_search import Asking
+from .candidates import MOST, NOTHING, WHOLE, Choice, Menu, parts
+from .criterion import Bar, digits
 
 Cost = Callable[[Candidate], float]
 

@@ -9,10 +9,10 @@ from ....engines.engine import Engine
 from ...system.pool import local, workers
 from ..cache.key import Keys
 from ..cache.store import Store, passing
-from ..results import Progress, Results
-from ..unit import Pair
+from ..task_results import Progress, Results
+from ..tasks import Pair
+from .advice_rows import Advised, Asked
 from .advise import advise
-from .advised import Advised, Asked
 
 
 @contextmanager

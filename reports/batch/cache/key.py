@@ -28,7 +28,7 @@ ROOT = Path(__file__).parents[3]
 REFERENCE = ("cases", "reference", "reports/batch/cache/form.py")
 ROWS = tuple(
     f"reports/{name}.py"
-    for name in ("data/row", "data/pins", "batch/unit", "system/limit", "system/spelled")
+    for name in ("data/row", "data/pins", "batch/tasks", "system/limit", "system/table_text")
 )
 _COMPARING = tuple(f"reports/compare/{room}" for room in ("trial", "judge", "events"))
 JUDGING = ("engines/*.py", *_COMPARING, *ROWS)

@@ -12,8 +12,8 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from ...data.content import content
-from ...system import passing as folder
+from ...data.file_content import content
+from ...system import temporary_folder as folder
 from ...system.lock import locked
 from .fits import fits
 from .form import packed, unpacked

@@ -14,16 +14,16 @@ from ....reference.solve import Solution
 from ...compare.trial.ladder import judged_step
 from ...compare.trial.start import first
 from ...data.row import UNSEARCHED, Cause, Comparison, StepError, as_written
-from ..results import Results
-from ..unit import Pair
-from .asked import lost
+from ..task_results import Results
+from ..tasks import Pair
 from .candidate import Candidate
+from .cause_rows import NONE, NOTHING, Asked, by_ladder, by_ours, searched, without
+from .change import STEP, Field, halved, levers, remainder
 from .cures import Cured, cures
 from .ladder import climbed
-from .lever import STEP, Field, halved, levers, remainder
+from .parallel_search import Search, together
 from .solving import solved
-from .together import Search, together
-from .told import NONE, NOTHING, Asked, by_ladder, by_ours, searched, without
+from .tunable import lost
 from .why import Key, Rows, key_of
 
 LETTERS = 12  # of a word: two searches never share them

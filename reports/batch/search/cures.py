@@ -11,9 +11,9 @@ from itertools import combinations
 import numpy as np
 
 from .candidate import Candidate
+from .change import STEP, Field, Lever, Turned
 from .errors import of
-from .lever import STEP, Field, Lever, Turned
-from .together import Asking, Known
+from .parallel_search import Asking, Known
 
 # Which levers matter to a row: of many most do not, and sets with those need not be tried.
 

@@ -9,14 +9,14 @@ import numpy as np
 from ....cases.trajectory import Array
 from ....engines.engine import Plan
 from ...compare.judge import metric
-from ...compare.judge.moment import away_from_instants
-from ...compare.trial.rung import Samples, climbed
+from ...compare.judge.error_instant import away_from_instants
+from ...compare.trial.run import Samples, climbed
 from ...compare.trial.simulate import rung
 from ...compare.trial.start import first
 from ...compare.trial.trial import Trial, judged_names, planned
 from ...compare.trial.work import pace
 from ...system.limit import limit
-from ..unit import Pair
+from ..tasks import Pair
 from .candidate import Candidate
 
 Errors = Mapping[str, tuple[float, float]]

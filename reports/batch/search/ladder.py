@@ -5,7 +5,7 @@ from itertools import takewhile
 
 from ...data.row import Comparison, StepError
 from .candidate import Candidate
-from .together import Known
+from .parallel_search import Known
 
 
 def usable(

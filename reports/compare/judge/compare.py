@@ -22,17 +22,17 @@ from ...data.row import (
     Rungs,
     StepError,
 )
-from ...system.spelled import why
+from ...system.table_text import why
 from ..trial.audit import EQUAL, audit
 from ..trial.ladder import Ladder
-from ..trial.rung import Climbed, Samples
+from ..trial.run import Climbed, Samples
 from ..trial.simulate import Runs, simulate
 from ..trial.trial import Trial, judged_names
 from . import instants, metric, states
 from .cause import cause
 from .convergence import Convergence, study
+from .error_instant import moment
 from .metric import told
-from .moment import moment
 from .rounding import floor
 from .rows import judged, row, rungs, steps
 from .verdict import verdict

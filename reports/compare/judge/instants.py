@@ -10,7 +10,7 @@ from ....cases.trajectory import Array, Trajectory
 from ...data.row import REFUSED, UNSETTLED, Comparison, Instant
 from ..events.times import reference_events
 from ..trial.ladder import Ladder
-from ..trial.rung import Samples
+from ..trial.run import Samples
 from ..trial.simulate import Runs
 from ..trial.trial import Trial
 from . import metric

@@ -1,7 +1,7 @@
 """Rows of a claim about states: no step, no order, and nothing that happens at a time."""
 
 from ...data.row import UNSETTLED, Comparison
-from ..trial.rung import Samples
+from ..trial.run import Samples
 from ..trial.trial import Trial
 from . import metric
 from .convergence import Convergence

@@ -10,7 +10,7 @@ import numpy as np
 from ....cases.scene import Scene
 from ....cases.trajectory import Array, Trajectory
 from ....engines.engine import Engine, Plan, Realised, Refusal, Start
-from ...system.spelled import spelled
+from ...system.table_text import spelled
 
 WAYS = get_args(Realised)
 SAME = 1e-9  # of the duration: times that differ less are the same, rounded otherwise

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .ladder import Ladder, ladders
-from .rung import Climbed, Rung, Samples, climbed
+from .run import Climbed, Rung, Samples, climbed
 from .trial import Trial
 
 RUNAWAY = 1e6  # × the motion's size: finite, but no motion any more

@@ -6,8 +6,8 @@ from ....cases.case import Case
 from ....cases.mistake import CaseError
 from ....cases.trajectory import Array
 from ....engines.engine import Claims, Engine, Plan, Refusal, Start
-from ...system.spelled import spelled, why
-from .rung import Rung
+from ...system.table_text import spelled, why
+from .run import Rung
 from .trial import Trial, planned
 
 SILENT = "adapter: it offers no answers about states"

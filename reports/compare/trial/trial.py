@@ -13,7 +13,7 @@ from ....cases.scene.observe import observe
 from ....cases.scene.quantity import Quantity, at_event, at_events, event_quantities
 from ....cases.trajectory import Array, Trajectory
 from ....engines.engine import Engine, Plan, Realised, Refusal, Start
-from ...system.spelled import why
+from ...system.table_text import why
 from ..events.states import reference_states
 from ..events.times import reference_events, surely
 from .answers import plans

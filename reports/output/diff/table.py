@@ -8,7 +8,7 @@ from io import StringIO
 from pathlib import Path
 
 from ....cases.mistake import CaseError, Mistake
-from ...data.content import LARGEST, content
+from ...data.file_content import LARGEST, content
 
 Row = Mapping[str, str]
 

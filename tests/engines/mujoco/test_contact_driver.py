@@ -18,7 +18,7 @@ from textmech.cases.scene import Bounds, DryFriction
 from textmech.cases.trajectory import OMEGA, VX, X
 from textmech.engines.mujoco.adapter.compilation import compiled
 from textmech.engines.mujoco.callbacks import stepping
-from textmech.engines.mujoco.callbacks.touch import Touch, touches
+from textmech.engines.mujoco.callbacks.contact_friction import Touch, touches
 
 MUJOCO, STEP = TUNED["mujoco"], 1e-3  # s
 CONES = [name for name in CASES if name.startswith("friction_cone")]

@@ -7,7 +7,7 @@ import pytest
 from pymunk import batch
 from pymunk.batch import BodyFields, Buffer, get_space_bodies
 
-from textmech.engines.pymunk.model import direct
+from textmech.engines.pymunk.model import chipmunk_state as direct
 
 FIELDS = BodyFields.BODY_ID | BodyFields.POSITION | BodyFields.ANGULAR_VELOCITY
 

@@ -14,7 +14,7 @@ from textmech.cases.case import Case
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import ANGLE, Trajectory
 from textmech.engines.engine import Diverged, Plan, Realised, Start
-from textmech.engines.pymunk.model.sweeps import halving
+from textmech.engines.pymunk.model.solver_contraction import halving
 from textmech.engines.pymunk.stepping.scene import build
 from textmech.reference.solve import solve
 from textmech.reports.compare.trial.start import assembled, first

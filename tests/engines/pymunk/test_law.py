@@ -15,8 +15,8 @@ from textmech.cases.scene import GROUND, Anchor, Bounds, Damper, Scene
 from textmech.cases.scene.shape import disk
 from textmech.cases.trajectory import ANGLE, OMEGA, VX, Array, X
 from textmech.engines.engine import Start
-from textmech.engines.pymunk.adapter.plain import acts
-from textmech.engines.pymunk.callbacks.line import drifting
+from textmech.engines.pymunk.adapter.baseline import acts
+from textmech.engines.pymunk.callbacks.line_forces import drifting
 from textmech.engines.pymunk.stepping.scene import build
 
 ENGINE = TUNED["pymunk"]

@@ -12,7 +12,7 @@ from textmech.cases.scene import Scene
 from textmech.cases.scene.shape import bar
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Start
-from textmech.engines.pymunk.model.sweeps import halving
+from textmech.engines.pymunk.model.solver_contraction import halving
 from textmech.engines.pymunk.model.world import World
 from textmech.engines.pymunk.read.health import _left
 from textmech.engines.pymunk.stepping.run import placed

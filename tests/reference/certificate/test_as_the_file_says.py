@@ -18,10 +18,10 @@ from given.linkages import LINKAGE
 
 from textmech.cases.fields.signal import Signal
 from textmech.cases.scene.point import GroundPoint
-from textmech.reference.certificate.prescribed import integral
-from textmech.reference.mechanism.constraints import assembled as blades
-from textmech.reference.mechanism.constraints import permanent
-from textmech.reference.mechanism.constraints.space import held as space_held
+from textmech.reference.certificate.drive_check import integral
+from textmech.reference.mechanism.constraints import constraint_jacobian as blades
+from textmech.reference.mechanism.constraints import joint_constraints as permanent
+from textmech.reference.mechanism.constraints.space import joint_constraints as space_held
 from textmech.reference.mechanism.constraints.space import rolling
 from textmech.reference.mechanism.forces import action
 from textmech.reference.mechanism.forces.space import action as space_action
@@ -30,7 +30,7 @@ from textmech.reference.mechanism.kinematics import coordinates, signal
 from textmech.reference.start import assembly
 from textmech.reference.start import positions as start_positions
 from textmech.reference.start.closure import Closure
-from textmech.reference.start.space import given as space_given
+from textmech.reference.start.space import initial_conditions as space_given
 from textmech.reference.start.space import positions as space_positions
 
 DRIVES, POINTS, FORCES = (

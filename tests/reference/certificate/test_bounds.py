@@ -11,8 +11,8 @@ from given.certified import certified
 from given.mutants import mutant, with_mode
 
 from textmech.cases.case import Case
-from textmech.reference.certificate import beside as at_states
 from textmech.reference.certificate import certify as module
+from textmech.reference.certificate import reaction_check as at_states
 from textmech.reference.certificate.agreement import Check
 from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
 from textmech.reference.motion.follow import TOLERANCE

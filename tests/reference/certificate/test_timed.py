@@ -17,8 +17,9 @@ from given import scenes
 from given.certified import certified
 
 from textmech.cases.case import Case
-from textmech.reference.certificate import certify, errors, timed
-from textmech.reference.certificate.timed import untimed
+from textmech.reference.certificate import certify, errors
+from textmech.reference.certificate import event_time_error as timed
+from textmech.reference.certificate.event_time_error import untimed
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 from textmech.reference.system import Array, Guard, Mode, System

@@ -10,8 +10,8 @@ from given import scenes
 from given.refused import refused
 
 from textmech.cases.mistake import CaseError
-from textmech.reference.mechanism.modes import landing
-from textmech.reference.mechanism.modes.choosing import Undetermined
+from textmech.reference.mechanism.modes import impact_transition as landing
+from textmech.reference.mechanism.modes.mode_selection import Undetermined
 from textmech.reference.motion.follow import follow
 from textmech.reference.refusal import refusals
 from textmech.reference.solve import solve

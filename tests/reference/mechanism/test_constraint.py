@@ -11,7 +11,7 @@ from textmech.cases.scene.joint import FREEDOMS
 from textmech.reference.formalisms.derivative import along
 from textmech.reference.mechanism.constraints.constraint import Constraint
 from textmech.reference.mechanism.constraints.contact import at_rest, normal, tangent
-from textmech.reference.mechanism.constraints.permanent import constraints
+from textmech.reference.mechanism.constraints.joint_constraints import constraints
 from textmech.reference.mechanism.kinematics.coordinates import Coordinates
 from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.system import Array

@@ -9,8 +9,8 @@ from scipy.integrate import simpson
 
 from textmech.cases.scene import Scene
 from textmech.cases.scene.observe import observe
-from textmech.reference.mechanism.constraints import permanent
-from textmech.reference.mechanism.constraints.rows import FIRST, SECOND, Given, Turning
+from textmech.reference.mechanism.constraints import joint_constraints as permanent
+from textmech.reference.mechanism.constraints.constraint_terms import FIRST, SECOND, Given, Turning
 from textmech.reference.solve import solve
 
 LEG = """\

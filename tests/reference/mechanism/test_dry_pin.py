@@ -11,7 +11,7 @@ from given.rubbing import HELD, HUNG
 from textmech.cases.case import Case
 from textmech.reference.mechanism.constraints import contact
 from textmech.reference.mechanism.constraints.constraint import Constraint
-from textmech.reference.mechanism.constraints.rows import FIRST, SECOND, Turning
+from textmech.reference.mechanism.constraints.constraint_terms import FIRST, SECOND, Turning
 from textmech.reference.mechanism.modes import element
 from textmech.reference.motion.follow import Followed, follow
 

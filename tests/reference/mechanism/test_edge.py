@@ -14,9 +14,9 @@ from textmech.cases.scene import Signal
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
 from textmech.reference.formalisms import lagrange
-from textmech.reference.mechanism.constraints import assembled as blades
-from textmech.reference.mechanism.constraints import permanent
-from textmech.reference.mechanism.constraints.rows import FIRST, Carried, Given
+from textmech.reference.mechanism.constraints import constraint_jacobian as blades
+from textmech.reference.mechanism.constraints import joint_constraints as permanent
+from textmech.reference.mechanism.constraints.constraint_terms import FIRST, Carried, Given
 from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.solve import solve
 from textmech.reference.system import Array

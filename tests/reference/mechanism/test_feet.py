@@ -9,8 +9,8 @@ from given.scenes import SHIPPED
 
 from textmech.cases.mistake import CaseError
 from textmech.reference.mechanism.modes import element
-from textmech.reference.mechanism.modes.choosing import Undetermined
 from textmech.reference.mechanism.modes.mechanism import BadStart
+from textmech.reference.mechanism.modes.mode_selection import Undetermined
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 from textmech.reference.systems import written

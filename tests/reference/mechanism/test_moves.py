@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from given import scenes
 
-from textmech.reference.mechanism.constraints import assembled
-from textmech.reference.mechanism.constraints import assembled as blades
+from textmech.reference.mechanism.constraints import constraint_jacobian as assembled
+from textmech.reference.mechanism.constraints import constraint_jacobian as blades
 from textmech.reference.solve import solve
 
 HUNG = """\

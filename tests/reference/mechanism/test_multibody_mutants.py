@@ -10,8 +10,8 @@ from given import random_scenes
 from given.multibody_laws import EXACT, Law, balance, lagrangian
 
 from textmech.cases.scene import GROUND, Anchor, Body, GroundPoint, Joint, Scene, Spring, shape
-from textmech.reference.mechanism.constraints.assembled import Levers
-from textmech.reference.mechanism.constraints.rows import Line
+from textmech.reference.mechanism.constraints.constraint_jacobian import Levers
+from textmech.reference.mechanism.constraints.constraint_terms import Line
 from textmech.reference.mechanism.forces.action import pulls
 from textmech.reference.mechanism.kinematics.coordinates import Point
 from textmech.reference.mechanism.modes import mode as module

@@ -8,7 +8,7 @@ import pytest
 from given import scenes
 
 from textmech.cases.scene.observe import observe
-from textmech.reference.mechanism.modes import choosing
+from textmech.reference.mechanism.modes import mode_selection as choosing
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 from textmech.reference.system import Array

@@ -8,8 +8,9 @@ from given import written_scenes
 
 from textmech.cases.mistake import CaseError
 from textmech.reference.mechanism.constraints.contact import Coulomb
-from textmech.reference.mechanism.modes import blow, landing, mechanism
+from textmech.reference.mechanism.modes import blow, mechanism
 from textmech.reference.mechanism.modes import element as contact_modes
+from textmech.reference.mechanism.modes import impact_transition as landing
 from textmech.reference.mechanism.modes.element import State, Touching, sign
 from textmech.reference.solve import solve
 

@@ -11,7 +11,7 @@ from textmech.cases.case import Case
 from textmech.cases.scene.observe import observe
 from textmech.cases.scene.pair import Pair
 from textmech.reference.mechanism.constraints.constraint import Constraint
-from textmech.reference.mechanism.constraints.rows import Turning
+from textmech.reference.mechanism.constraints.constraint_terms import Turning
 from textmech.reference.mechanism.kinematics.coordinates import Coordinates
 from textmech.reference.mechanism.modes import pair as generated
 from textmech.reference.mechanism.modes.pair import along

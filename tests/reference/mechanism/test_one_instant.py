@@ -9,7 +9,7 @@ from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import VX
-from textmech.reference.mechanism.modes import landing
+from textmech.reference.mechanism.modes import impact_transition as landing
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 

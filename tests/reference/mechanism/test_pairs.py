@@ -12,8 +12,8 @@ from scipy.integrate import solve_ivp
 from textmech.cases.case import Case
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import ANGLE, OMEGA, VX, VY, X, Y
-from textmech.reference.mechanism.constraints.rims import Apart, Around
-from textmech.reference.mechanism.constraints.rows import Line
+from textmech.reference.mechanism.constraints.constraint_terms import Line
+from textmech.reference.mechanism.constraints.rim_contact import Apart, Around
 from textmech.reference.mechanism.modes.mechanism import BadStart
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve

@@ -11,7 +11,8 @@ from given.scenes import tail, typed
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene import Scene
 from textmech.cases.scene.observe import observe
-from textmech.reference.mechanism.modes import element, landing
+from textmech.reference.mechanism.modes import element
+from textmech.reference.mechanism.modes import impact_transition as landing
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 from textmech.reference.systems import written

@@ -10,7 +10,7 @@ from given.multibody_laws import EXACT, balance, lagrangian
 
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene.observe import observe
-from textmech.reference.mechanism.constraints import rows
+from textmech.reference.mechanism.constraints import constraint_terms as rows
 from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.solve import solve
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from textmech.cases.scene import GROUND, Anchor, GroundPoint, Scene, shape
-from textmech.reference.mechanism.constraints.assembled import G, Rows
-from textmech.reference.mechanism.constraints.rows import Along, Line, Term, Turning
+from textmech.reference.mechanism.constraints.constraint_jacobian import G, Rows
+from textmech.reference.mechanism.constraints.constraint_terms import Along, Line, Term, Turning
 from textmech.reference.mechanism.kinematics.coordinates import Coordinates
 from textmech.reference.system import Array
 

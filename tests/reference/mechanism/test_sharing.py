@@ -10,7 +10,7 @@ from given.refused import refused
 
 from textmech.cases.case import Case
 from textmech.reference.mechanism.modes.element import State
-from textmech.reference.mechanism.modes.sharing import ways
+from textmech.reference.mechanism.modes.shared_friction import ways
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 

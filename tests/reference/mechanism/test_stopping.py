@@ -10,7 +10,7 @@ from given import scenes
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
 from textmech.reference.mechanism.modes.stopping import Stopping
-from textmech.reference.motion import crossing
+from textmech.reference.motion import event_location as crossing
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 from textmech.reference.start.mechanism import mechanism

@@ -10,8 +10,8 @@ from scipy.optimize import brentq
 
 from textmech.reference.integrators import march
 from textmech.reference.mechanism.modes.mechanism import Mechanism
-from textmech.reference.motion.early import Early
 from textmech.reference.motion.follow import Followed, follow
+from textmech.reference.motion.mode_onset import Early
 from textmech.reference.motion.stuck import Stuck
 from textmech.reference.system import System
 from textmech.reference.systems.friction.anisotropic_drift import AnisotropicDrift

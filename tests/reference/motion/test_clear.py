@@ -8,9 +8,9 @@ import pytest
 from given.watched import Oscillator, Plain, Watched
 
 from textmech.reference.integrators.explicit import DormandPrince
-from textmech.reference.motion import crossing
+from textmech.reference.motion import event_location as crossing
 from textmech.reference.motion import follow as module
-from textmech.reference.motion.crossing import clear
+from textmech.reference.motion.event_location import clear
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array
 

@@ -8,8 +8,8 @@ import pytest
 from given.otherwise import otherwise
 from given.watched import Oscillator, Still, Watched, events
 
-from textmech.reference.motion import crossing as module
-from textmech.reference.motion.crossing import TOGETHER, crossing
+from textmech.reference.motion import event_location as module
+from textmech.reference.motion.event_location import TOGETHER, crossing
 from textmech.reference.motion.follow import follow
 
 

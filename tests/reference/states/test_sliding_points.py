@@ -9,7 +9,8 @@ from given import scenes
 from textmech.cases.scene import Bounds, Drag
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
-from textmech.reference.mechanism.forces import drag, scrape
+from textmech.reference.mechanism.forces import directional_drag as scrape
+from textmech.reference.mechanism.forces import drag
 from textmech.reference.states.answer import LAW, answered
 from textmech.reference.systems.states import sliding_points
 

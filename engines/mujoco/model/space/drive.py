@@ -11,9 +11,9 @@ from .....cases.fields.signal import Signal
 from .....cases.scene.space.joint import SpatialJoint, rate_of
 from .....cases.scene.space.scene import SpatialScene
 from ....signal import derivative
+from ..number_text import written
 from ..scene import HEAVY
 from ..spatial_tree import coordinate
-from ..written import written
 
 
 @dataclass(frozen=True)

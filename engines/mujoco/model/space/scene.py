@@ -21,10 +21,10 @@ from .....cases.trajectory import Array
 from ....engine import Choice, Start
 from ..force import BY_ITSELF, write
 from ..force import signals as laws
+from ..number_text import attributes, soft, written
 from ..scene import FLOOR, HEAVY, LEAST
 from ..spatial_tree import held_points, natives, spanning_tree
 from ..tree import Branch, called
-from ..written import attributes, soft, written
 from .drive import signals as drives
 from .drive import write as write_drives
 from .edge import write_room

@@ -9,8 +9,8 @@ from ...model.contact import HARDEST
 from ...model.space.contact import RECIPES, chosen, recipe
 from ...model.spatial_tree import spanning_tree
 from ...model.tree import driven
-from ..own import OWN, overlaid
 from ..settings import TO_THE_END, at_step, defaults
+from ..user_options import OWN, overlaid
 
 
 def tuned(scene: SpatialScene, tied_to: float, start: Start | None = None) -> list[Choice]:

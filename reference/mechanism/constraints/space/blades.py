@@ -7,8 +7,8 @@ import numpy as np
 
 from ...kinematics.space.attitude import cross, dot, skew
 from ...kinematics.space.kinematics import Bodies, Fixed, Layout, back
-from .held import Blade, Pivot
-from .rows import Slots, targets
+from .constraint_terms import Slots, targets
+from .joint_constraints import Blade, Pivot
 
 UP = np.array([0.0, 0.0, 1.0])
 

@@ -8,8 +8,8 @@ import numpy as np
 from ...kinematics.signal import signal, slope
 from ...kinematics.space.attitude import cross, dot, skew
 from ...kinematics.space.kinematics import Bodies, Fixed, Layout, back
-from .held import Drive, Rim
-from .rows import Slots, targets
+from .constraint_terms import Slots, targets
+from .joint_constraints import Drive, Rim
 
 UP = np.array([0.0, 0.0, 1.0])
 

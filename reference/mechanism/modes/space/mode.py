@@ -9,9 +9,9 @@ import numpy as np
 from .....cases.scene.space.scene import SpatialScene
 from ....system import Array, Mass, Mode, Pose, Vector
 from ...constraints.leeway import Leeway, leeway
-from ...constraints.space.assembled import SpatialRows
+from ...constraints.space.constraint_jacobian import SpatialRows
 from ...constraints.space.equations import Equations
-from ...constraints.space.held import held
+from ...constraints.space.joint_constraints import held
 from ...forces.space.action import Actions
 from ...forces.space.turning import Turn, wound
 from ...kinematics.space.attitude import cross, spin

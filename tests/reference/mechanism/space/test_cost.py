@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from given.skew_chain import chain
 
-from textmech.reference.mechanism.constraints.space import assembled
+from textmech.reference.mechanism.constraints.space import constraint_jacobian as assembled
 from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
 
 MOST = 100  # it is 83

@@ -14,7 +14,9 @@ from given.random_space import MAKES, machine
 from given.space_machine import Machine, T
 
 from textmech.reference.formalisms import appell, voronets
-from textmech.reference.mechanism.constraints.space import assembled, blades, rolling, rows
+from textmech.reference.mechanism.constraints.space import blades, rolling
+from textmech.reference.mechanism.constraints.space import constraint_jacobian as assembled
+from textmech.reference.mechanism.constraints.space import constraint_terms as rows
 from textmech.reference.mechanism.forces.space import action
 from textmech.reference.mechanism.kinematics.space import attitude, coordinates, kinematics
 from textmech.reference.mechanism.modes.space import mode

@@ -12,7 +12,8 @@ from given import scenes
 from textmech.cases.scene.space.scene import SpatialScene
 from textmech.reference.formalisms.derivative import along
 from textmech.reference.mechanism.constraints.space import blades as pivots
-from textmech.reference.mechanism.constraints.space import rolling, rows
+from textmech.reference.mechanism.constraints.space import constraint_terms as rows
+from textmech.reference.mechanism.constraints.space import rolling
 from textmech.reference.mechanism.kinematics.space import attitude
 from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
 from textmech.reference.start.space.assembly import assemble_in_space

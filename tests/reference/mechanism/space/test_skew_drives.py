@@ -8,7 +8,7 @@ from given import scenes
 from scipy.spatial.transform import Rotation
 
 from textmech.reference.mechanism.constraints.space import rolling
-from textmech.reference.mechanism.constraints.space.held import Drive
+from textmech.reference.mechanism.constraints.space.joint_constraints import Drive
 from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array

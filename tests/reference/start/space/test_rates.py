@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from textmech.cases.scene.space.scene import SpatialScene
 from textmech.reference.mechanism.kinematics.space.coordinates import SpatialCoordinates
-from textmech.reference.start.space import given as module
+from textmech.reference.start.space import initial_conditions as module
 from textmech.reference.start.space.assembly import assemble_in_space
 from textmech.reference.system import Array
 

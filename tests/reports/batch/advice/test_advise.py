@@ -6,7 +6,7 @@ import pytest
 from given import scenes
 
 from textmech.reports import advise
-from textmech.reports.batch.advice.advised import FEWEST, Asked, rows
+from textmech.reports.batch.advice.advice_rows import FEWEST, Asked, rows
 from textmech.reports.batch.advice.price import ratio
 from textmech.reports.batch.advice.session import advised
 from textmech.reports.batch.cache.store import usable

@@ -6,16 +6,16 @@ import pytest
 from given import scenes
 from given.otherwise import otherwise
 
-from textmech.reports.batch.advice import bar as bars
-from textmech.reports.batch.advice import cuts
-from textmech.reports.batch.advice.bar import Bar
+from textmech.reports.batch.advice import criterion as bars
+from textmech.reports.batch.advice import loop_cuts as cuts
+from textmech.reports.batch.advice.criterion import Bar
 from textmech.reports.batch.cache.key import Keys
 from textmech.reports.batch.cache.store import passing
 from textmech.reports.batch.search.candidate import Candidate
 from textmech.reports.batch.search.errors import Run, errors
-from textmech.reports.batch.search.together import Known
+from textmech.reports.batch.search.parallel_search import Known
 from textmech.reports.batch.selection import choose_engines
-from textmech.reports.batch.unit import Pair
+from textmech.reports.batch.tasks import Pair
 
 HARD = {"integrator": "RK4", "connect": {"solimp": [0.9999, 0.9999, 0.001]}}
 

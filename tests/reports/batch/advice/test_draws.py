@@ -11,13 +11,13 @@ from given import scenes
 
 from textmech import engines
 from textmech.reference.certificate.agreement import Check
-from textmech.reports.batch.advice import draws
-from textmech.reports.batch.advice.draws import APART, DRAWS, drawn, held
+from textmech.reports.batch.advice import parameter_draws as draws
+from textmech.reports.batch.advice.parameter_draws import APART, DRAWS, drawn, held
 from textmech.reports.batch.cache.key import Keys
 from textmech.reports.batch.cache.store import Store
-from textmech.reports.batch.results import Results
 from textmech.reports.batch.search.candidate import Candidate
-from textmech.reports.batch.unit import Pair
+from textmech.reports.batch.task_results import Results
+from textmech.reports.batch.tasks import Pair
 from textmech.reports.system import pool
 
 

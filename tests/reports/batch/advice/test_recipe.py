@@ -9,11 +9,11 @@ from given.otherwise import otherwise
 
 from textmech.engines.knobs import Knob, Value
 from textmech.reports.batch.advice import recipe as searching
-from textmech.reports.batch.advice.bar import Bar
-from textmech.reports.batch.advice.menu import Menu, fitting
+from textmech.reports.batch.advice.candidates import Menu, fitting
+from textmech.reports.batch.advice.criterion import Bar
 from textmech.reports.batch.advice.recipe import Kitchen, Recipe, Recipes, best, front, recipes
 from textmech.reports.batch.search.candidate import Candidate
-from textmech.reports.batch.search.together import Known
+from textmech.reports.batch.search.parallel_search import Known
 
 Error = Callable[[Mapping[str, Any], float], float]
 STEPS = [8e-3, 4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4]  # s

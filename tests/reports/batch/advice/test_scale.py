@@ -6,7 +6,8 @@ from typing import Any
 import pytest
 from given.otherwise import otherwise
 
-from textmech.reports.batch.advice import advise, bar
+from textmech.reports.batch.advice import advise
+from textmech.reports.batch.advice import criterion as bar
 from textmech.reports.batch.search.candidate import Candidate
 from textmech.reports.compare.trial.trial import Trial
 

@@ -122,10 +122,10 @@ def test_what_is_tried_counts_and_the_code_that_tries_it(code: Path) -> None:
         ("reports/compare/trial/ladder.py", False, True),
         ("reports/compare/events/times.py", False, True),
         ("reports/data/row.py", False, True),
-        ("reports/batch/unit.py", False, True),
+        ("reports/batch/tasks.py", False, True),
         ("reports/data/pins.py", False, True),
         ("reports/system/limit.py", False, True),
-        ("reports/system/spelled.py", False, True),
+        ("reports/system/table_text.py", False, True),
         ("reports/batch/cache/form.py", True, True),
         ("reports/output/write.py", False, False),
     ],
@@ -144,18 +144,18 @@ def test_the_code_that_makes_it_counts_and_no_other(
 MODULES = {module(file): file for file in FILES}
 PACKAGES = {name for name, file in MODULES.items() if file.name == "__init__.py"}
 COMPUTING = (
-    "reports.batch.unit",
-    "reports.compare.trial.rung",
+    "reports.batch.tasks",
+    "reports.compare.trial.run",
     "reports.batch.search.errors",
     "reports.batch.search.solving",
 )
 CARRYING = (
-    *("system.ending", "system.lock", "system.passing", "data.content"),
+    *("system.termination", "system.lock", "system.temporary_folder", "data.file_content"),
     *("batch.cache.store", "batch.cache.fits", "batch.search.solving"),
 )
 """What they import too, and what changes no result: where results lie."""
 HANDING = (
-    *("batch.results", "system.pool", "system.processes"),
+    *("batch.task_results", "system.pool", "system.processes"),
     *("batch.cache.key", "batch.cache.parts", "batch.cache.digest", *CARRYING),
 )
 """What a search imports too: who computes what it asks for, and whether it is known already."""
@@ -223,7 +223,7 @@ def needless(names: Iterable[str], places: Iterable[str]) -> set[str]:
         ("reports/compare/judge/metric.py", True),
         ("engines/mujoco/adapter/run.py", False),
         ("reference/laws/friction.py", False),  # of a reference the rows' own errors tell
-        ("reports/batch/advice/cuts.py", False),
+        ("reports/batch/advice/loop_cuts.py", False),
         ("reports/output/write.py", False),
     ],
 )

@@ -4,7 +4,7 @@ import pytest
 from given import scenes
 
 from textmech.reports.batch import suite
-from textmech.reports.batch.search.told import NOTHING
+from textmech.reports.batch.search.cause_rows import NOTHING
 from textmech.reports.batch.search.why import OURS
 from textmech.reports.batch.selection import choose_engines
 from textmech.reports.batch.suite import Report

@@ -9,9 +9,9 @@ from given.otherwise import otherwise
 
 from textmech.reports.batch.search import cures as searching
 from textmech.reports.batch.search.candidate import Candidate
+from textmech.reports.batch.search.change import STEP, Field, Lever, halved
 from textmech.reports.batch.search.cures import Cured, cures
-from textmech.reports.batch.search.lever import STEP, Field, Lever, halved
-from textmech.reports.batch.search.together import Known
+from textmech.reports.batch.search.parallel_search import Known
 
 Error = Callable[[Mapping[str, Any], float], float | tuple[float, float]]
 """Of options and a step; or of all samples, and of those away from instants."""

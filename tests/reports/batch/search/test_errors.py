@@ -14,7 +14,7 @@ from textmech.reports.batch.cache.key import Keys
 from textmech.reports.batch.cache.store import Store
 from textmech.reports.batch.search.candidate import Candidate
 from textmech.reports.batch.search.errors import Errors, Run, errors, of
-from textmech.reports.batch.unit import Pair
+from textmech.reports.batch.tasks import Pair
 from textmech.reports.compare.trial.ladder import judged_step
 from textmech.reports.compare.trial.start import first
 

@@ -11,12 +11,12 @@ from given import scenes
 from textmech import engines
 from textmech.reports.batch.cache.key import Keys
 from textmech.reports.batch.cache.store import Store
-from textmech.reports.batch.results import Results
-from textmech.reports.batch.search import together as tested
+from textmech.reports.batch.search import parallel_search as tested
 from textmech.reports.batch.search.candidate import Candidate
 from textmech.reports.batch.search.errors import Errors, Run, errors
-from textmech.reports.batch.search.together import Asking, Known, Search, together
-from textmech.reports.batch.unit import Pair
+from textmech.reports.batch.search.parallel_search import Asking, Known, Search, together
+from textmech.reports.batch.task_results import Results
+from textmech.reports.batch.tasks import Pair
 from textmech.reports.system import pool
 
 FATAL = Candidate.of({"fatal": True}, 1.0)

@@ -9,18 +9,19 @@ from given.lines import row
 from given.otherwise import otherwise
 
 from textmech import engines
-from textmech.reports.batch.advice import advised, price
-from textmech.reports.batch.advice.advised import Advised, Asked
-from textmech.reports.batch.advice.bar import Bar
-from textmech.reports.batch.advice.menu import Choice, Menu
+from textmech.reports.batch.advice import advice_rows as advised
+from textmech.reports.batch.advice import price
+from textmech.reports.batch.advice.advice_rows import Advised, Asked
+from textmech.reports.batch.advice.candidates import Choice, Menu
+from textmech.reports.batch.advice.criterion import Bar
 from textmech.reports.batch.advice.recipe import Kitchen, Recipe, Recipes
 from textmech.reports.batch.cache.key import Keys
 from textmech.reports.batch.cache.store import Store
-from textmech.reports.batch.search import told
+from textmech.reports.batch.search import cause_rows as told
 from textmech.reports.batch.search.candidate import Candidate
+from textmech.reports.batch.search.change import STEP, Field, Lever
 from textmech.reports.batch.search.cures import Cure, Cured
-from textmech.reports.batch.search.lever import STEP, Field, Lever
-from textmech.reports.batch.unit import Pair
+from textmech.reports.batch.tasks import Pair
 from textmech.reports.compare.trial.start import first
 from textmech.reports.compare.trial.trial import planned
 from textmech.reports.show import advice

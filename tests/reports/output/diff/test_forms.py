@@ -164,7 +164,7 @@ def test_one_folder_is_compared_with_the_committed_reports(tmp_path: Path) -> No
 def test_it_loads_nothing_that_takes_long() -> None:
     """So that it answers in a third of a second."""
     rooms = ("as_json", "compare", "folder", "junit", "markdown", "rule", "text")
-    names = ", ".join(f"textmech.reports.diff.{room}" for room in rooms)
+    names = ", ".join(f"textmech.reports.output.diff.{room}" for room in rooms)
     program = f"import sys, textmech.reports.cli, {names}; print(*sys.modules)"
     words = [sys.executable, "-c", program]
     loaded = subprocess.run(words, capture_output=True, text=True, check=True).stdout.split()

@@ -1,0 +1,114 @@
+"""Feet that stand one after the other: what stands is pinned, and a step is cut at a strike.
+
+MuJoCo's floor is soft: it spreads a strike over several steps, an error of first order that every
+further step of a gait multiplies. So a foot stands on a `connect` to where it came down, and the
+strike is one impulse, from MuJoCo's own mass matrix and Jacobian.
+"""
+
+from collections.abc import Mapping
+
+import mujoco
+import numpy as np
+
+from ....cases.scene import Anchor, Scene
+from ...foot_contact import Stride, stride, strode
+from .cut import Cut, Height
+
+Standing = dict[str, tuple[float, ...] | None]
+"""By foot where it stands [m], or None."""
+
+
+class Feet(Cut[str]):
+    """The feet of a scene in a model, and which of them stand."""
+
+    def __init__(
+        self, model: mujoco.MjModel, data: mujoco.MjData, stride: Stride, standing: Standing
+    ) -> None:
+        super().__init__(model, data)
+        self.stride, self.standing = stride, standing
+        self._equalities = {name: model.eq(name).id for name in stride.feet}
+        self._sites = {name: model.site(name).id for name in stride.feet}
+        ends = {end for foot in stride.feet.values() for end in (foot.at, foot.ahead_of) if end}
+        self._places = {end: data.site_xpos[model.site(str(end)).id] for end in ends}
+        self._above: dict[str, float] = {}  # how high [m] the swinging feet were as a part began
+
+    def remember(self) -> Standing:
+        """What a reading of this state needs."""
+        return dict(self.standing)
+
+    def recall(self, noted: Standing) -> None:
+        """The feet as they stood."""
+        self.standing = dict(noted)
+        for name, place in noted.items():
+            self.data.eq_active[self._equalities[name]] = place is not None
+            if place is not None:
+                self.model.site_pos[self._sites[name]] = place
+
+    def _begin(self) -> None:
+        mujoco.mj_kinematics(self.model, self.data)
+        self.stride.look(self._place)
+        heights = {name: self._height(name) for name in self._swinging()}
+        self._above = {name: y for name, y in heights.items() if y > 0.0}
+
+    def _happens(self) -> Mapping[str, tuple[float, Height]]:
+        """Feet that came down."""
+        mujoco.mj_kinematics(self.model, self.data)  # a step leaves places as they were
+        down = [name for name in self._above if self._height(name) <= 0.0]
+        return {name: (self._above[name], lambda name=name: self._after(name)) for name in down}
+
+    def _swinging(self) -> list[str]:
+        """The feet that the floor meets, and that do not stand on it."""
+        return [name for name, meets in self.stride.meets.items() if meets and not self._on(name)]
+
+    def _on(self, name: str) -> bool:
+        return self.standing[name] is not None
+
+    def _place(self, at: Anchor) -> tuple[float, float]:
+        place = self._places[at]
+        return place.item(0), place.item(1)
+
+    def _height(self, name: str) -> float:
+        return self._place(self.stride.feet[name].at)[1]
+
+    def _after(self, name: str) -> float:
+        mujoco.mj_kinematics(self.model, self.data)
+        return self._height(name)
+
+    def _change(self, key: str) -> None:
+        """The foot stands where it is, and the one behind is let go."""
+        mujoco.mj_kinematics(self.model, self.data)
+        foot = self.stride.feet[key]
+        behind = next(n for n, other in self.stride.feet.items() if other.at == foot.ahead_of)
+        place = (*self._place(foot.at), 0.0)
+        self.stride.meets = {**self.stride.meets, key: True, behind: False}
+        self.recall({**self.standing, key: place, behind: None})
+        stop(self.model, self.data)
+
+
+def stop(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """The plastic impact with what holds from now on: M Δv = Jᵀ Λ, J (v + Δv) = 0.
+
+    J is MuJoCo's own, of all equalities that are active: loops stay closed. In the plane one row of
+    each `connect` is empty, so J M⁻¹ Jᵀ has no inverse but a pseudoinverse.
+    """
+    mujoco.mj_forward(model, data)
+    rows = data.efc_J.reshape(-1, model.nv)[: data.ne]
+    moved = np.zeros_like(rows)
+    mujoco.mj_solveM(model, data, moved, np.ascontiguousarray(rows))
+    data.qvel[:] -= moved.T @ (np.linalg.pinv(rows @ moved.T) @ data.efc_vel[: data.ne])
+    data.qacc_warmstart[:] = 0.0  # of another set of constraints
+
+
+def feet(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Feet | None:
+    """At the start of the data, where MJCF says which stand."""
+    standing = [name for name in strode(scene) if data.eq_active[model.eq(name).id]]
+    begun = stride(scene, standing)
+    if begun is None:
+        return None
+    for name in begun.feet:  # a site in its body's origin would stay there: MuJoCo compiles it in
+        model.site_sameframe[model.site(name).id] = mujoco.mjtSameFrame.mjSAMEFRAME_NONE
+    places = {
+        name: tuple(model.site(name).pos.tolist()) if name in standing else None
+        for name in begun.feet
+    }
+    return Feet(model, data, begun, places)

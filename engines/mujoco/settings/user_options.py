@@ -1,0 +1,117 @@
+"""A user's own options as choices of the MJCF file, and choices as such options."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from ...engine import Choice
+from ..model.number_text import EACH, of_one
+from .options import FLAGS, GROUPS, PROTOCOL, SOFT, as_written
+
+OWN = "your own option"
+
+
+def key(group: str, name: str) -> str:
+    """As MJCF spells it: a joint's friction, its stops and a tendon's have names of their own."""
+    return f"{group}.{name}{suffix(group)}"
+
+
+def suffix(group: str) -> str:
+    """What the names of a group's numbers end with."""
+    return _NAMED.get(group, "")
+
+
+_NAMED = {"slide": "friction", "rope": "limit", "stop": "limit"}
+
+
+def overlaid(
+    under: Sequence[Choice],
+    options: Mapping[str, Any],
+    soft: Sequence[str],
+    contacts: Sequence[Choice],
+    *,
+    alone: Mapping[str, str],
+    because: str,
+) -> list[Choice]:
+    """Choices with other options on top.
+
+    contacts: the recipe that they name, which stands between what is for all groups and the rest.
+    alone: what may have numbers of its own, by its name: of which group it is. because: why they
+    are on top.
+    """
+    choices = {choice.name: choice for choice in under}
+    for name in SOFT:
+        for group in soft if name in options else ():
+            named = key(group, name)
+            choices[named] = Choice(named, as_written(name, options[name]), because)
+    choices |= {choice.name: choice for choice in contacts}
+    choices |= {choice.name: choice for choice in _written(options, soft, because)}
+    choices |= {choice.name: choice for choice in _alone(options.get(EACH, {}), alone, because)}
+    return list(choices.values())
+
+
+def _alone(
+    given: Mapping[str, Mapping[str, Any]], alone: Mapping[str, str], because: str
+) -> Iterator[Choice]:
+    """Of one contact or one joint's stops, as far as the scene has it."""
+    for element, numbers in given.items():
+        if group := alone.get(element):
+            yield from (
+                Choice(f"{of_one(element)}.{attribute}", value, because)
+                for attribute, value in numbers.items()
+                if attribute in GROUPS[ELEMENTS[group]] and attribute.endswith(suffix(group))
+            )
+
+
+def _written(options: Mapping[str, Any], soft: Sequence[str], because: str) -> Iterator[Choice]:
+    """What stands in one place only."""
+    for name, value in options.items():
+        if name in GROUPS:
+            yield from (
+                Choice(f"{group}.{attribute}", given, because)
+                for attribute, given in value.items()
+                for group, element in ELEMENTS.items()
+                if group in soft and element == name
+                if attribute.endswith(suffix(group))
+            )
+        elif name in FLAGS:
+            yield Choice(f"flag.{name}", "enable" if value else "disable", because)
+        elif name not in (*SOFT, *PROTOCOL, EACH):
+            yield Choice(f"option.{name}", as_written(name, value), because)
+
+
+ELEMENTS = {
+    "connect": "connect", "pair": "pair", "slide": "joint", "rope": "tendon", "stop": "joint",
+    "rod": "rod",
+}  # fmt: skip
+"""The elements that MJCF has for our groups of soft constraints."""
+
+
+def as_options(choices: Sequence[Choice], *, settled: bool) -> dict[str, Any]:
+    """Choices in terms of h as own options; settled: started as the floor carries what touches."""
+    found: dict[str, Any] = {}
+    for choice in choices:
+        where, _, name = choice.name.rpartition(".")
+        group, _, element = where.partition(".")
+        if group == EACH:
+            found.setdefault(EACH, {}).setdefault(element, {})[name] = choice.value
+        elif where in ELEMENTS:
+            found.setdefault(ELEMENTS[where], {})[name] = choice.value
+        else:
+            found[name] = choice.value == "enable" if where == "flag" else choice.value
+    return found | ({"settled": True} if settled else {})
+
+
+def unfit(options: Mapping[str, Any], recipes: Sequence[str], worth: Sequence[str]) -> str | None:
+    """Why the recipe that is named for contacts has nothing to do with the scene's.
+
+    recipes: all that there are; worth: which may do something for the scene, none without contacts.
+    """
+    word = options.get("contacts")
+    if word in (None, "scene") or not worth:
+        return None
+    if word not in recipes:
+        known = ", ".join(recipes)
+        return f"adapter: contacts: {word} is no recipe for this scene's; known: {known}, scene"
+    if word == "bounce" and word not in worth:
+        return "adapter: contacts: bounce, and no contact of this scene throws anything back"
+    return None

@@ -1,0 +1,208 @@
+"""Which mode comes next: of all that the elements may do, what agrees with every law."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...integrators.budget import tries
+from ...system import Array
+from ..constraints.contact import row
+from ..constraints.leeway import FITS
+from .element import Element, State, sign, sliding
+from .loose import DEPENDENT, rank
+from .mode import SingularPose
+from .modes import Modes
+from .shared_friction import undecided, ways
+
+MODE = 50  # evaluations: of building a mode and asking it, of one to eight bodies (measured 25–45)
+YIELDS = 1e-8  # of the forces: where events are located a margin is 0 to some 1e-10 of them
+
+After = tuple[str, Array, Array]
+"""A mode's name, q and v with which it begins."""
+Options = tuple[State, ...]
+"""What one element may do, the likeliest first."""
+
+
+class Undetermined(Exception):
+    """A motion that the friction law does not determine, from `time` on."""
+
+    def __init__(self, part: str, what: str, time: float) -> None:
+        super().__init__(what)
+        self.part, self.time = part, time
+
+
+def painleve(part: str, which: str, t: float) -> Undetermined:
+    """No motion satisfies the law, or two do."""
+    what = (
+        f"with this friction the motion is not determined: at t = {t:.4g} s {which} "
+        "satisfies the law (Painlevé's paradox)"
+    )
+    return Undetermined(part, what, t)
+
+
+def closed(element: Element, slip: float) -> Options:
+    """What a contact on the floor or a slide may do at this slip [m/s]."""
+    if element.only:
+        return (element.only,)
+    if element.frictionless:
+        return ("slides +", *opening(element))
+    return (*((sliding(slip),) if slip and element.slips else element.rest), *opening(element))
+
+
+def opening(element: Element) -> Options:
+    """What a contact on the floor may also do: leave it."""
+    return () if element.normal is None else ("open",)
+
+
+def staying(modes: Modes, mode: str) -> list[Options]:
+    """What the elements may do that nothing happens to."""
+    found: list[Options] = []
+    for e, state in zip(modes.elements, modes.states[mode], strict=True):
+        opens = opening(e) if state != "open" else ()
+        rests = state == "sticks" and not e.only
+        found.append((*(e.rest if rests else (state,)), *opens))
+    return found
+
+
+def yielding(
+    modes: Modes, mode: str, choices: Sequence[Options], t: float, q: Array, v: Array
+) -> list[Options]:
+    """The choices where the last forces that hold a mode are gone: all that is at its bound slips.
+
+    Of forces that are not determined those that hold are at several bounds at once.
+    """
+    forces, found = modes.forces(mode, t, q, v), list(choices)
+    size = YIELDS * max(map(abs, forces.values()), default=0.0)
+    for i, (e, state) in enumerate(zip(modes.elements, modes.states[mode], strict=True)):
+        if state == "sticks" and e.slips and len(found[i]) > 1:
+            forward, backward = e.margins(forces)
+            if min(forward, backward) <= size:
+                found[i] = (sliding(backward - forward), *opening(e))
+    return found
+
+
+def settled(
+    modes: Modes,
+    choices: Sequence[Options],
+    t: float,
+    q: Array,
+    v: Array,
+) -> After:
+    """The mode among the choices in which all forces and motions agree, and its state.
+
+    What the likeliest of them holds altogether, and with no forces within the laws, none of the
+    others holds: each has a part of its rows, and of its forces those at a bound.
+
+    Raises Undetermined where there is none, or where a contact could as well open as stay, or rub
+    one way as the other.
+    """
+    found: list[After] = []
+    singular: SingularPose | None = None
+    hopeless, known = False, {*modes}
+    free = undecided(modes.elements, choices)
+    for states in tries(lambda: ways(modes.elements, choices), MODE, free):
+        after = _projected(modes, states, t, q, v)
+        try:
+            if (hopeless and _held(modes, after, t)) or (
+                found and modes.loose(found[0][0]) and modes.loose(after[0])
+            ):
+                continue
+            if _agrees(modes, choices, t, *after):
+                found.append(after)
+            elif all(state == choice[0] for state, choice in zip(states, choices, strict=True)):
+                hopeless = modes.loose(after[0]) and _held(modes, after, t)
+        except SingularPose as error:
+            singular = singular or error  # one that agrees needs nothing of it
+        finally:
+            modes.forget(states, {*known, *(name for name, _, _ in found)})
+    if not found and singular:
+        raise Undetermined(_blamed(modes, choices), str(singular), t) from singular
+    if not found:
+        raise painleve(_blamed(modes, choices), "no motion", t)
+    first, *others = found
+    for other in others:
+        pairs = (modes.states[mode] for mode, _, _ in (first, other))
+        for e, one, two in zip(modes.elements, *pairs, strict=True):
+            if (one == "open") != (two == "open") and not _alike(modes, first, other, t):
+                raise painleve(e.name, f"both staying on and leaving the {e.plane}", t)
+            if sign(one) * sign(two) < 0:  # at rest, held by the others whichever way it rubs
+                raise Undetermined(e.name, str(SingularPose(e.name)), t)
+    return first
+
+
+def _held(modes: Modes, after: After, t: float) -> bool:
+    mode, q, v = after
+    return modes.held(mode, t, q, v)
+
+
+def _agrees(
+    modes: Modes, choices: Sequence[Options], t: float, mode: str, q: Array, v: Array
+) -> bool:
+    """Whether the forces are within the laws, and what may move moves the way it should.
+
+    Raises SingularPose where the forces are not determined, and the motion neither.
+    """
+    small, loose = modes.small(t, q, v), modes.loose(mode)
+    if modes.contradicts(mode, t, q, v):
+        return False
+    forces = modes.forces(mode, t, q, v)
+    left = FITS * max(map(abs, forces.values()), default=0.0) if loose else 0.0
+    for e, state, choice in zip(modes.elements, modes.states[mode], choices, strict=True):
+        if e.normal is not None:
+            if state == "open":
+                if len(choice) > 1 and modes.change(e.normal, mode, t, q, v) < -small:
+                    return False
+                continue
+            if forces[e.push] < -small * float(np.max(modes.M)):
+                return False
+        if state == "sticks" and e.slips and min(e.margins(forces)) < -left:
+            return False
+        s = sign(state) if "sticks" in choice else 0
+        if s and s * modes.change(e.tangent, mode, t, q, v) < -small:
+            return False
+    return True
+
+
+def _alike(modes: Modes, one: After, other: After, t: float) -> bool:
+    """Whether both answers are the same motion: the floor neither pushes nor is left."""
+    a, b = (modes[mode].accelerations(t, q, v) for mode, q, v in (one, other))
+    return bool(np.max(np.abs(a - b)) <= modes.small(t, *one[1:]))
+
+
+def _projected(modes: Modes, states: tuple[State, ...], t: float, q: Array, v: Array) -> After:
+    """The mode, the nearest q (in M) on the floor and v that meets the rows: what sticks rests."""
+    mode = modes[modes.name(states)]
+    pairs = zip(modes.elements, states, strict=True)
+    closed = [e.normal for e, s in pairs if e.normal is not None and s != "open"]
+    if closed:
+        gaps = np.concatenate([modes.base.f(t, q), [p.f(t, q.tolist())[0] for p in closed]])
+        f = np.vstack([modes.base.f_a(t, q), *(row(p, t, q, v)[0] for p in closed)])
+        if len(gaps) == len(f):  # rolling is known as a rate only
+            q = placed(modes.M, f, gaps, q)
+    f, g = mode.f_a(t, q), mode.g(t, q)
+    v = v - _nearest(modes.M, f, f @ v - g) if len(f) else v
+    return modes.named(states, t, q, v), q, v
+
+
+def placed(M: Array, f: Array, gaps: Array, q: Array) -> Array:
+    """The nearest q (in M) without the gaps; inner states, behind the coordinates, stay."""
+    n = len(M)
+    return np.append(q[:n] - _nearest(M, f, gaps), q[n:])
+
+
+def _nearest(M: Array, f: Array, residual: Array) -> Array:
+    """The smallest change (n,), in M, with f · change = residual; rows may depend on each other."""
+    root = np.sqrt(M)
+    sizes = np.linalg.norm(f / root, axis=1)
+    sizes = np.where(sizes > 0.0, sizes, 1.0)
+    rows = f / root / sizes[:, None]
+    if rank(rows) < len(rows):
+        return np.linalg.lstsq(rows, residual / sizes, rcond=DEPENDENT)[0] / root
+    by_mass = f / M  # what comes to rest along a line does so exactly
+    return by_mass.T @ np.linalg.lstsq(f @ by_mass.T, residual, rcond=None)[0]
+
+
+def _blamed(modes: Modes, choices: Sequence[Options]) -> str:
+    """The element to blame: the first that is not simply open."""
+    pairs = zip(modes.elements, choices, strict=True)
+    return next((e.name for e, c in pairs if c != ("open",)), modes.elements[0].name)

@@ -1,0 +1,120 @@
+"""What was asked for and what was found, and the row of advice.csv that says so."""
+
+from dataclasses import dataclass, replace
+
+from ....cases.theme import themes
+from ....engines.engine import Plan, Refusal
+from ....engines.knobs import as_text
+from ...data.row import Advice
+from ...data.short_numbers import milliseconds
+from ..search.candidate import Candidate
+from ..tasks import Pair
+from .candidates import NOTHING, Choice
+from .parameter_draws import Held
+from .recipe import Kitchen, Recipe, Recipes, best
+
+
+@dataclass(frozen=True)
+class Asked:
+    """tolerance: of each quantity's own size; None: what the case allows."""
+
+    tolerance: float | None
+    margin: float
+    front: bool = False  # whether cost against error is drawn
+    robust: bool = False  # whether the recipe is tried with other parameters
+
+
+@dataclass(frozen=True)
+class Advised:
+    """way: the native one as shipped, or why there is none. kitchen: with all that was run."""
+
+    pair: Pair
+    asked: Asked
+    way: Plan | Refusal
+    kitchen: Kitchen | None
+    recipes: Recipes | None
+    draws: tuple[Held, ...] = ()  # of each of the two
+
+    @property
+    def shipped(self) -> Candidate:
+        assert self.kitchen is not None
+        return NOTHING.at(self.kitchen.menu.own)
+
+    @property
+    def wanted(self) -> list[tuple[str, Recipe]]:
+        """The recipes by what they are, one that is both once; none where nothing keeps the bar."""
+        if self.recipes is None:
+            return []
+        fewest, cheapest = self.recipes.fewest, self.recipes.cheapest
+        if fewest.candidate == cheapest.candidate:
+            return [(BOTH, fewest)]
+        return [(FEWEST, fewest), (CHEAPEST, cheapest)]
+
+
+FEWEST, CHEAPEST, BOTH = "fewest changes", "cheapest", "both"
+
+
+def rows(one: Advised) -> list[Advice]:
+    """Those of advice.csv: one, or one for each of two recipes."""
+    empty = Advice(
+        one.pair.case.name,
+        " ".join(themes(one.pair.case)),
+        one.pair.engine.name,
+        one.asked.tolerance,
+        one.asked.margin,
+        *("", "none", "", None, None, None, None, "", ""),
+    )
+    if one.kitchen is None:
+        assert isinstance(one.way, Refusal)
+        return [replace(empty, remains=one.way.because)]
+    empty = replace(empty, shipped_cost=one.kitchen.cost(one.shipped))
+    if one.recipes is None:
+        return [replace(empty, **_remains(one))]
+    return [_of(one.kitchen, want, recipe, empty) for want, recipe in one.wanted]
+
+
+def _of(kitchen: Kitchen, want: str, recipe: Recipe, empty: Advice) -> Advice:
+    worst, quantity = kitchen.bar.worst(recipe.candidate)
+    return replace(
+        empty,
+        want=want,
+        recipe=words(recipe.choice),
+        settings=settings(empty.engine, recipe.candidate),
+        step=recipe.step,
+        cost=kitchen.cost(recipe.candidate),
+        ratio=worst,
+        quantity=quantity,
+    )
+
+
+def settings(engine: str, candidate: Candidate) -> str:
+    """A file of settings, whole, on one line."""
+    return f"{engine}: {as_text({**candidate.options, 'step': candidate.step})}"
+
+
+def words(choice: Choice) -> str:
+    """`RK4 + impratio 100`."""
+    return " + ".join(choice.words) or "as shipped"
+
+
+def _remains(one: Advised) -> dict[str, str | float]:
+    """What no recipe brings within the bar, and what the engine leaves out of the scene."""
+    assert one.kitchen is not None
+    assert isinstance(one.way, Plan)
+    found, left_out = best(one.kitchen), one.way.simplified
+    if found is None:
+        return {"remains": "; ".join(filter(None, ("every run diverges", left_out)))}
+    candidate, worst, quantity = found
+    told = f"with {as_text(candidate.options)}" if candidate.options else "as shipped"
+    best_of = f"{told} at {milliseconds(candidate.step)}"
+    what = f"{quantity} stays ×{worst:.2g} {best_of}, the best of all that was tried"
+    if not one.kitchen.bar.elsewhere.get(candidate, 0.0) <= 1.0:
+        what = f"{quantity} is ×{worst:.2g} {best_of}, and not where a loop is cut elsewhere"
+    if one.kitchen.bar.holds(candidate):
+        but = "and the next finer step does not confirm it"
+        what = f"{quantity} is ×{worst:.2g} {best_of}, {but}"
+    return {
+        "ratio": worst,
+        "quantity": quantity,
+        "remains": "; ".join(filter(None, (what, left_out))),
+    }

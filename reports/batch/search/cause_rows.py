@@ -1,0 +1,84 @@
+"""Rows of causes.csv: each cure in words, with its options, its step and its price."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from ....engines.engine import Tunable
+from ....engines.knobs import as_text, merged
+from ...data.row import Cause, Comparison, StepError, as_written
+from ..tasks import Pair
+from .candidate import Candidate
+from .change import STEP, Field
+from .cures import LARGEST, Cure, Cured
+from .ladder import usable
+from .why import OURS
+
+NONE = "none found"
+NOTHING = "nothing can be changed: it is asked of states, without a run"
+
+
+@dataclass(frozen=True)
+class Asked:
+    """The rows of a pair that have to be searched."""
+
+    pair: Pair
+    field: Field
+    rows: Sequence[Comparison]
+
+    def cost(self, candidate: Candidate) -> float:
+        """Over that of the rows' own setting."""
+        engine, scene = self.pair.engine, self.pair.case.scene
+        assert isinstance(engine, Tunable)
+        base = engine.cost(self.field.base.options, self.field.base.step, scene)
+        return engine.cost(candidate.options, candidate.step, scene) / base
+
+
+def searched(asked: Asked, row: Comparison, cured: Cured) -> list[Cause]:
+    """A row for each cure, the cheapest first."""
+    found = sorted(cured.cures, key=lambda cure: asked.cost(cure.candidate))
+    return [_cause(asked, row, cure, cured.elsewhere) for cure in found] or [without(row, NONE)]
+
+
+def _cause(asked: Asked, row: Comparison, cure: Cure, elsewhere: bool) -> Cause:
+    words = " + ".join(lever.words for lever in cure.turned)
+    if len(cure.turned) > LARGEST:
+        words = f"all of {words}"  # fewer may do: not all sets of them were tried
+    return replace(
+        without(row, f"{words}, but for the instant" if elsewhere else words),
+        options=as_text(merged(*(lever.options for lever in cure.turned))),
+        step=cure.candidate.step,
+        # As the report says them: a sentence about a row that is carried over must be the same.
+        error_after=as_written(cure.error * (row.allowed or 0.0)),
+        cost=as_written(asked.cost(cure.candidate)),
+        law=cure.law,
+    )
+
+
+def by_ours(row: Comparison, agreeing: Sequence[Comparison]) -> list[Cause]:
+    """Where only a law or driver of ours agrees."""
+    return [
+        replace(without(row, OURS[one.realised]), step=one.step, error_after=one.error)
+        for one in agreeing
+    ]
+
+
+def by_ladder(rows: Sequence[Comparison], steps: Sequence[StepError]) -> Iterator[Cause]:
+    """The step, where a row's own ladder knows one that is small enough."""
+    for row, step, error in usable(rows, steps):
+        yield replace(
+            without(row, STEP.words), options="{}", step=step, error_after=as_written(error)
+        )
+
+
+def without(row: Comparison, words: str) -> Cause:
+    """Nothing is known but that it is off."""
+    return Cause(
+        row.case,
+        row.engine,
+        row.setting,
+        row.quantity,
+        row.error,
+        row.allowed,
+        words,
+        *("", None, None, None, ""),
+    )

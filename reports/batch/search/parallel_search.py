@@ -1,0 +1,74 @@
+"""Many searches at once: each asks for runs in rounds, which are spread over all cores."""
+
+from collections.abc import Generator, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Generic, TypeVar
+
+from ...system.pool import Died
+from ..task_results import Results
+from ..tasks import Pair
+from .candidate import Candidate
+from .errors import Errors, Run, errors
+
+T = TypeVar("T")
+Known = dict[Candidate, Errors]
+Asking = Generator[Iterable[Candidate], None, T]
+"""It yields what it wants to know, which it then knows, and returns what it found."""
+
+
+@dataclass(frozen=True)
+class Search(Generic[T]):
+    """A search among the runs of a pair, and what is known of them."""
+
+    pair: Pair
+    known: Known
+    asking: Asking[T]
+
+
+@dataclass
+class _Round:
+    """What is asked for, by the results' keys."""
+
+    runs: dict[str, Run] = field(default_factory=dict)
+    wanted: list[tuple[Known, Candidate, str]] = field(default_factory=list)
+
+
+def together(what: str, searches: Mapping[str, Search[T]], results: Results) -> dict[str, T]:
+    """What each found, by its key; a run whose process dies has no errors and costs nobody else."""
+    found: dict[str, T] = {}
+    done = 0
+    while len(found) < len(searches):
+        asked = _Round()
+        for key in [key for key in searches if key not in found]:
+            try:
+                _ask(searches[key], next(searches[key].asking), asked, results)
+            except StopIteration as end:
+                found[key] = end.value
+        counted = _counted(results, done, left=len(searches) - len(found))
+        answers = counted.of(what, errors, asked.runs) if asked.runs else {}
+        done += len(asked.runs)
+        for known, candidate, key in asked.wanted:
+            known[candidate] = {} if isinstance(answers[key], Died) else answers[key]
+    if done:
+        results.progress(what, done, done)
+    return {key: found[key] for key in searches}
+
+
+def _counted(results: Results, done: int, *, left: int) -> Results:
+    """Progress over all rounds: a search that is not at its end asks for one more run at least."""
+
+    def progress(
+        what: str, now: int, of: int, last: str = "", part: float = 0.0, /
+    ) -> None:  # of one round nobody can say how long all of them take
+        results.progress(what, done + now, done + of + left, last)
+
+    return replace(results, progress=progress)
+
+
+def _ask(search: Search, wanted: Iterable[Candidate], asked: _Round, results: Results) -> None:
+    pair = search.pair
+    for candidate in wanted:
+        if candidate not in search.known:
+            key = results.keys.tried(pair.case, pair.engine, candidate.told, candidate.step)
+            asked.runs[key] = Run(pair, candidate)
+            asked.wanted.append((search.known, candidate, key))
