@@ -196,7 +196,7 @@ def _quantity(value: float, unit: str) -> Any:
     try:
         registry = _registry()
         return registry.Quantity(value, registry.parse_units(unit)).to_base_units()
-    except AttributeError:  # pint's UndefinedUnitError, without importing pint for its name
+    except (AttributeError, ValueError):  # pint's UndefinedUnitError, and its word for `nan`
         words = re.findall(r"[A-Za-zµμ°]+", unit)
         apart = _apart(words[0]) if len(words) == 1 else ()
         # grams come first: kgg is a slip

@@ -114,6 +114,8 @@ def _alike(word: str) -> bool:
         ("-90", "rad", "is -90 rad, which is -14 turns: write -90 deg, or -90 rad"),
         ("8 Nm", "N m", "unknown unit 'Nm'; did you mean 'N m'?"),
         ("8 Nms", "N m s/rad", "unknown unit 'Nms'; did you mean 'N m s'?"),
+        ("1 nan", "N", "unknown unit 'nan'"),
+        ("1 m/nan", "m", "unknown unit 'm/nan'"),
         ("pi/6", "rad", "'pi/6' is not computed: write 0.5235987756, or 30 deg"),
         ("2*0.5", "m", "'2*0.5' is not computed: write 1"),
         ("1/0", "m", "'1/0' is not computed: write the number"),
