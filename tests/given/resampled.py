@@ -9,7 +9,6 @@ from textmech.cases.case import Case
 from textmech.cases.fields.kind import WORK
 from textmech.cases.scene.difference import apart
 from textmech.cases.scene.observe import observe
-from textmech.cases.scene.still import still
 from textmech.reference.certificate.errors import ERROR
 from textmech.reference.solve import Solution
 from textmech.reports.compare.events.times import reference_events
@@ -18,7 +17,7 @@ from textmech.reports.compare.events.times import reference_events
 # certificate allows two answers to differ by.
 LOOSER = 100
 ROUNDED = 1e-12  # of a quantity's size: what a sample that lies on an event, or not, may change
-OF_NOTHING = 1e-6  # of `still`, which is 1e-9 of all of its kind: what rounding makes of a zero
+ZERO = 1e-15  # in SI: what rounding makes of what is 0 all along
 LATE = 1e-9  # s: how far apart two solutions have one event, if neither says more
 
 
@@ -59,8 +58,7 @@ def differences(case: Case, one: Solution, other_case: Case, other: Solution) ->
         a = observe(case.scene, one.trajectory, name)[mine]
         b = observe(case.scene, other.trajectory, name)[theirs]
         size = float(np.max(np.abs(observe(case.scene, one.trajectory, name))))
-        nothing = OF_NOTHING * still(case.scene, one.trajectory, name)
-        bar = LOOSER * sum(errors.get(name, 0.0) for errors in sure) + ROUNDED * size + nothing
+        bar = LOOSER * sum(errors.get(name, 0.0) for errors in sure) + ROUNDED * size + ZERO
         if not (worst := float(np.max(apart(a, b)))) <= bar:
             yield f"{name} differs by {worst:.2e}, and {bar:.2e} is allowed"
     yield from _events(case, one, other, sure)
