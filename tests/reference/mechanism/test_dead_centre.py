@@ -97,6 +97,27 @@ def test_a_rocker_turns_back_and_its_crank_goes_on(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("slow", [1.0, 0.1, 0.01])
+def test_however_slowly_it_passes(
+    slow: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Begun so fast that friction leaves the crank so many rad/s at the rocker's dead centre.
+
+    Its time is known the worse the slower it passes: ours by 1e-12 of the energy that is spent.
+    """
+    turn = brentq(lambda theta: slope(theta, 0).real, 3.6, 4.4)
+    spent = 2 * DRY * abs(pose(turn)[0] - pose(BEGIN)[0])
+    begun = math.sqrt((inertia(turn) * slow**2 + spent) / inertia(BEGIN))
+    monkeypatch.setitem(globals(), "OMEGA", begun)
+    passes = until(turn, turn)
+    text = FOUR_BAR.replace("omega: 10.0", f"omega: {begun!r}")
+    found = solve(scenes.typed(tmp_path, text, tail=scenes.tail(round(passes + 0.05, 4), 26)))
+    assert found.holds
+    assert found.trajectory.switches.tolist() == pytest.approx([passes], abs=1e-12 / slow**2)
+    assert found.trajectory.states["crank"][-1, 2] > turn
+
+
+@pytest.mark.slow
 def test_what_a_stop_holds_too_rests_and_leaves_open_who_holds_it(tmp_path: Path) -> None:
     """Of m g cos 30° l/2 the dry pin has 0.5 N m, or as much against it."""
     rests = f"{ON_A_STOP}rests: true\n"
