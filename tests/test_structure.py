@@ -2,6 +2,7 @@
 
 import ast
 import tomllib
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -101,6 +102,35 @@ def test_every_public_function_says_what_it_is() -> None:
         and not ast.get_docstring(node)
     ]
     assert not bare
+
+
+DANGLING = ("Of", "What", "Those")
+"""Words with which a first line opens that nobody understands without the name above it."""
+
+
+def documented(tree: ast.AST) -> Iterator[tuple[str, str]]:
+    """Yields each name of a module with its docstring, and the module's own."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):
+            yield getattr(node, "name", "the module"), ast.get_docstring(node) or ""
+
+
+def dangling(file: Path) -> list[str]:
+    """Returns the names in a file whose docstring opens with a word of DANGLING."""
+    named = documented(ast.parse(file.read_text(encoding="utf-8")))
+    return [f"{file.name}: {name}" for name, text in named if text.split(" ")[0] in DANGLING]
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a docstring that needs the name above it")
+def test_a_docstring_can_be_read_alone(tmp_path: Path) -> None:
+    """A command's help is a paragraph of its own, whose first line the reader finds in a list."""
+    commands = ROOT / "reports" / "command"
+    files = [file for file in FILES if not file.is_relative_to(commands)]
+    assert [name for file in files for name in dangling(file)] == []
+    planted = tmp_path / "planted.py"
+    planted.write_text('def f():\n    """Of all rungs, one realisation."""\n', encoding="utf-8")
+    assert dangling(planted) == ["planted.py: f"]
 
 
 def top_level(file: Path) -> list[ast.stmt]:
