@@ -1,4 +1,4 @@
-"""What a run is asked to do: which cases, in which engines, and what is wrong with the question."""
+"""Says what a run is asked to do: which cases, in which engines, and what is wrong with that."""
 
 import warnings
 from collections.abc import Sequence

@@ -26,7 +26,7 @@ ENGINES = engines.Known()
 
 
 class Parameters(Mapping[str, tuple[str, ...]]):
-    """Those of every hand-written system by its name, for which it is imported."""
+    """The parameters of every hand-written system by its name, for which it is imported."""
 
     def __getitem__(self, name: str) -> tuple[str, ...]:
         system: Any = STATED[name] if name in STATED else SYSTEMS[name]

@@ -140,7 +140,7 @@ def _solve(cases: Sequence[Case], results: Results, report: Report) -> None:
 
 
 def _wrong(case: Case, answer: Solution | CaseError | Died) -> list[Mistake]:
-    """What only solving finds."""
+    """The mistakes of a case that only solving finds."""
     if isinstance(answer, CaseError):
         return answer.mistakes
     return [] if isinstance(answer, Died) else mistaken(case, answer.trajectory)
@@ -237,7 +237,7 @@ def with_causes(
 
 
 def _with(row: Comparison, causes: Sequence[Cause], moment: str) -> Comparison:
-    """What the ladder told stays where there is nothing better to tell."""
+    """The row with its causes in words; what its ladder says stays where nothing is better."""
     first = causes[0].cure
     if first == UNSEARCHED:
         return row

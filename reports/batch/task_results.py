@@ -29,7 +29,7 @@ class Progress(Protocol):
 
 @dataclass(frozen=True)
 class Results:
-    """What every phase of a run needs."""
+    """The means that every phase of a run needs: executor, progress, store and keys."""
 
     executor: Executor
     progress: Progress
@@ -42,7 +42,7 @@ class Results:
             watch(self.executor)
 
     def stored(self, keys: Iterable[str], kind: Any) -> dict[str, Any]:
-        """Those that need not be computed; kind: what they have to be, as an annotation says it."""
+        """The stored results, by key; kind: what they have to be, as an annotation says it."""
         return {key: kept for key in keys if (kept := self.store.get(key, kind)) is not None}
 
     def keep(self, results: Mapping[str, Any]) -> None:
@@ -71,7 +71,7 @@ class Results:
         of: int | None = None,
         keep: Callable[[str, Any], None] = lambda key, result: None,
     ) -> dict[str, Any]:
-        """All computed, whatever is stored; of: so many there are with those that are stored."""
+        """Computes every task, whatever is stored; of: how many there are with those stored."""
         total = len(tasks) if of is None else of
         done, found, keys = total - len(tasks), dict[str, Any](), list(tasks)
         whole, finished = sum(map(_work, tasks.values())) or 1.0, 0.0
@@ -108,7 +108,7 @@ class Gathering:
             self.release()
 
     def release(self) -> None:
-        """All that wait."""
+        """Stores all pending results."""
         together, self.waiting = self.waiting, {}
         self.keep(together)
         self.since = time.monotonic()

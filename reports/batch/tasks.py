@@ -69,7 +69,7 @@ class Unit:
         return self.way.realised
 
     def rungs(self, reference: Trajectory) -> dict[At, Rung]:
-        """What has to be run, each on its own; the reference of the case's own samples will do."""
+        """The unit's runs, each on its own; the reference of the case's own samples will do."""
         if isinstance(self.way, Refusal):
             return {}
         trial = Trial(self.pair.sampled, reference, self.pair.engine, self.way)

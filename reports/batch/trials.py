@@ -1,4 +1,4 @@
-"""All trials: planned, every rung of all of them run on its own, and judged once they are there."""
+"""Plans all trials, runs every rung of all of them on its own, and judges once they are there."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ References = Mapping[str, Trajectory]
 
 @dataclass(frozen=True)
 class Tried:
-    """What an engine gave for a case in one of its ways."""
+    """The outcome of an engine for a case in one of its ways."""
 
     pair: Pair
     realised: Realised
@@ -37,7 +37,7 @@ def tried(pairs: Sequence[Pair], references: References, results: Results) -> li
 
 
 def _stored(key: str, pair: Pair, results: Results) -> list[Tried]:
-    """Of a pair, if all of it is; else nothing."""
+    """The stored outcomes of a pair in every way, if all are stored; else nothing."""
     ways: tuple[Realised, ...] = results.store.get(key, tuple[Realised, ...]) or ()
     names = [results.keys.outcome(key, way) for way in ways]
     outcomes = results.stored(names, Outcome)

@@ -39,7 +39,7 @@ Outcome = Literal["works", "refused", "wrong", "crashed", "not there"]
 
 @dataclass(frozen=True)
 class Grade:
-    """What is tried, by which shipped case, and which reactions are looked at."""
+    """One thing to try: its name, the shipped case for it, and the reactions that are looked at."""
 
     name: str
     case: str
@@ -93,7 +93,7 @@ LOST = {
 
 @dataclass(frozen=True)
 class Mark:
-    """What came of a grade: in words, and the mistakes that would explain it.
+    """The result of a grade: in words, and with the mistakes that would explain it.
 
     off: how far the worst of it is off, over the size of that in the motion.
     """
@@ -112,7 +112,7 @@ class Mark:
 
 
 def members(engine: Engine) -> list[Mark]:
-    """What of the protocol is there, and what one has not where something is missing."""
+    """Marks of the parts of the protocol: whether each is there, and what is lost without it."""
     missing = [name for name in lacking(engine, Engine) if name != SCRIPT]
     told = f"it has no {', '.join(missing)}" if missing else f"version {engine.version}"
     marks = [Mark("protocol", "", "wrong" if missing else "works", told)]
@@ -166,12 +166,12 @@ class Attempt:
         return sampled(short, self.engine)
 
     def mark(self, outcome: Outcome, what: str = "", **values: Any) -> Mark:
-        """What came of it."""
+        """The mark of this attempt, with this outcome and these words."""
         return Mark(self.grade.name, self.given.name, outcome, what, **values)
 
 
 def marked(attempt: Attempt) -> Mark:
-    """What came of it, whatever the engine answers; what it raises is for who runs the task."""
+    """The mark of an attempt, whatever the engine answers; who runs the task handles its errors."""
     try:
         return _states(attempt) if attempt.case.states is not None else _motion(attempt)
     except BadAnswer as bad:
@@ -270,7 +270,7 @@ def _run(attempt: Attempt, trial: Trial, step: float) -> Compared:
 
 
 def _states(attempt: Attempt) -> Mark:
-    """Of a claim about states, where nothing moves."""
+    """The mark of a claim about states, where nothing moves."""
     case, engine = attempt.case, attempt.engine
     reference = solve(case).trajectory
     way = states.ways(engine, case, first(reference))[0]

@@ -105,7 +105,7 @@ def shifted(compared: Compared) -> tuple[str, ...]:
 
 
 def factor(name: str, found: float, wanted: float, scene: Scene) -> str:
-    """What a number is of the one that was wanted, in words; empty where it is nothing simple."""
+    """In words, how a number is related to the wanted one; empty where it is nothing simple."""
     body = scene.bodies.get(name.partition(".")[0])
     if body is not None and name.endswith(".inertia"):
         for point in body.points:
@@ -135,7 +135,7 @@ def _equal(one: float, other: float) -> bool:
 
 
 def _cured(found: Mapping[str, float], worst: float) -> tuple[str, ...]:
-    """Those that leave little, the least first; a mistake that leaves far more is not told."""
+    """Mistakes that leave little error, the least first; one that leaves far more is left out."""
     kept = {what: left for what, left in found.items() if left <= min(ROUGH / 2, worst / CURES)}
     least = min(kept.values(), default=0.0)
     told = sorted(kept, key=kept.__getitem__)
@@ -163,7 +163,7 @@ def _share(found: Array, wanted: Array | float, size: float) -> float:
     return rms / size if np.isfinite(rms) else np.inf
 
 
-# What may be wrong in the readout.
+# Mistakes of the readout, undone in the samples of the engine.
 
 Undone = tuple[str, Callable[[Array], Array]]
 
@@ -236,7 +236,7 @@ IN_SPACE: Sequence[Undone] = (
 
 
 def _read(compared: Compared) -> Iterator[tuple[str, States]]:
-    """What the samples would be without each mistake."""
+    """For each mistake of the readout: its words, and the samples without it."""
     space = compared.case.scene.frame is SPACE
     turns = any(body.turns for body in compared.case.scene.bodies.values())
     for what, undo in IN_SPACE if space else PLANE:
@@ -289,7 +289,7 @@ def _late(compared: Compared) -> Iterator[tuple[str, States]]:
                 yield f"{who} {words} {side}", moved
 
 
-# What may be wrong in the physics.
+# Mistakes of the physics, made in the case of the reference.
 
 
 def _moved(case: Case) -> Trajectory | None:

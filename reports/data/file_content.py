@@ -1,4 +1,4 @@
-"""What a file holds, where it is a file: no pipe, no device and no endless one is waited for."""
+"""Reads a regular file whole: no pipe, no device and no endless file is waited for."""
 
 import errno
 import os
@@ -36,7 +36,7 @@ def content(path: Path, most: int = LARGEST, *, links: bool = True, touched: boo
 
 
 def text(path: Path, most: int = LARGEST) -> str:
-    """The same as text. Raises OSError, and ValueError for bytes that are none."""
+    """The file's content as text. Raises OSError, and ValueError for bytes that are no UTF-8."""
     try:
         return content(path, most).decode("utf-8-sig")
     except UnicodeDecodeError as error:

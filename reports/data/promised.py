@@ -1,4 +1,4 @@
-"""What somebody has promised, and what is only asked: whose rows may fail.
+"""Which rows may fail: those of what somebody has promised, not those of what is only asked.
 
 The shipped cases' bars are ours, and a `reach`, a declared deviation and a reference are promised
 by whoever wrote the case. That a recipe of ours keeps the tolerance of a user's own case nobody
@@ -47,7 +47,7 @@ def _promised(case: Case, row: Comparison) -> bool:
 
 
 def unkept(case: Case, rows: Iterable[Comparison]) -> Iterator[str]:
-    """Of a user's own case a line for each engine in which no setting that was run keeps it all.
+    """A line for each engine in which no setting that was run keeps all of a user's own case.
 
     Only where our recipe was run: else nobody has tried.
     """

@@ -30,7 +30,7 @@ NUMBERS = ".3g"  # three digits: more would be noise from one machine to the nex
 
 
 def as_written(number: float | None) -> float | None:
-    """What a report says of it."""
+    """The number as a report writes it, to three significant digits; None stays None."""
     return None if number is None else float(format(number, NUMBERS))
 
 

@@ -23,7 +23,7 @@ _CELLS = (r"[^\r\n]{1,255}", r"\d{1,12}", r"[0-9a-f]{1,100}", r"[0-9a-f]{1,100}"
 
 @dataclass(frozen=True)
 class Written:
-    """What a table was when it was written. run: the same of all tables of one run."""
+    """A table when it was written: rows, run, digest. run: the same of all tables of one run."""
 
     rows: int
     run: str

@@ -54,7 +54,7 @@ def _kill(process: subprocess.Popen[bytes]) -> None:
 
 
 def _tied() -> Callable[[], object] | None:
-    """What the new process does first, where the system has it: it asks to be killed with us."""
+    """The call by which a new process asks to be killed with us; None where the system has none."""
     with suppress(OSError, AttributeError, TypeError):
         ask = ctypes.CDLL(None).prctl
         return lambda: ask(_WITH_PARENT, int(signal.SIGKILL))

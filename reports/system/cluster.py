@@ -10,7 +10,7 @@ from ...cases.mistake import CaseError, Mistake
 
 @contextmanager
 def executor(address: str | None) -> Iterator[Executor | None]:
-    """Of the Dask scheduler at the address; None: of no cluster. Raises CaseError."""
+    """Yields the Dask scheduler's executor at the address; None without one. Raises CaseError."""
     if address is None:
         yield None
         return

@@ -63,7 +63,7 @@ class Processes(Executor):
         self._threads.shutdown(wait=wait, cancel_futures=True)
 
     def doing(self) -> list[str]:
-        """What each process is at that works on something with a name."""
+        """For each process that works on a named task: the task, what it is at, for how long."""
         with self._lock:
             return [said for process in self._all if (said := process.doing())]
 
@@ -102,7 +102,7 @@ class _Process:
         there.close()
 
     def answer(self, call: tuple[Callable, tuple, dict[str, Any]]) -> Any:
-        """What the call returns or raises. Raises ProcessDied."""
+        """The call's value from the process; its own error is raised here. Raises ProcessDied."""
         asked = call[1][-1] if call[1] else None
         self._task = getattr(asked, "name", "")
         self._since = time.monotonic()
@@ -125,7 +125,7 @@ class _Process:
         return value
 
     def doing(self) -> str:
-        """What it is at, for how long; nothing if that has no name."""
+        """The task's name, what the process is at, for how long [s]; empty without a named task."""
         if not self._task:
             return ""
         said = self._words.value.decode("utf-8", "ignore")
@@ -157,7 +157,7 @@ def _deaf() -> Iterator[None]:
 
 
 def _serve(calls: Connection, words: Any, jobs: int) -> None:
-    """What runs in the process, one of so many: until its parent is gone."""
+    """Answers calls in a worker process, one of `jobs`, until its parent is gone."""
     limit.hold(jobs)
     threading.Thread(target=_with_parent, daemon=True).start()
     threading.Thread(target=_tell, args=(words,), daemon=True).start()

@@ -58,7 +58,7 @@ def _decide(folder: Path, texts: Texts) -> None:
 
 
 def _copied(file: Path, kept: Path) -> None:
-    """What stands there, if anything does. Raises OSError for what is neither file nor link."""
+    """Copies the file or link to `kept`, if one stands there. Raises OSError for anything else."""
     with suppress(FileNotFoundError):
         found = file.lstat()
         if stat.S_ISLNK(found.st_mode):
@@ -111,7 +111,7 @@ def _left(folder: Path, prefix: str) -> Iterator[Path]:
 
 
 def _names(made: Path) -> list[str] | None:
-    """Of its files; None where it was not made here, or killed before it said."""
+    """The names of its files; None where it was not made here, or was killed before it said."""
     with suppress(OSError, ValueError):
         for part in (NEW, OLD):
             if (made / part).is_symlink():

@@ -1,4 +1,4 @@
-"""What others say, made fit for a table: one line, short, and nothing that no file can hold."""
+"""Makes others' text fit for a table: one line, short, and nothing that no file can hold."""
 
 from . import limit
 
@@ -18,7 +18,7 @@ def spelled(text: object, most: int = MOST) -> str:
 
 
 def why(error: BaseException) -> str:
-    """What an error is called, and what it says, whatever that is."""
+    """The error's type and message in one line, whatever they are, with the limit of memory."""
     held = limit.held() if isinstance(error, MemoryError) else ""
     most = f"its process may take {held}" if held else ""
     return spelled(f"{type(error).__name__}: {', '.join(filter(None, (_said(error), most)))}")

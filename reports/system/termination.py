@@ -34,7 +34,7 @@ def deaf() -> None:
 
 @contextmanager
 def at_once(last: Callable[[], object]) -> Iterator[None]:
-    """What is done too if the process ends inside without anything else: soon, or not at all."""
+    """Calls `last` too if the process ends inside without anything else: soon, or not at all."""
     _LAST.append(last)
     try:
         yield
@@ -56,7 +56,7 @@ def with_parent() -> None:
 
 
 def known() -> list[signal.Signals]:
-    """Those of the signals that this system has."""
+    """The signals among `SIGNALS` that this system has."""
     return [getattr(signal, name) for name in SIGNALS if hasattr(signal, name)]
 
 

@@ -1,1 +1,1 @@
-"""What a user needs: for each case and engine the settings with which it keeps what is asked."""
+"""Finds what a user needs: for each case and engine the settings that keep what is asked."""

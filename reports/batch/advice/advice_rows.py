@@ -1,4 +1,4 @@
-"""What was asked for and what was found, and the row of advice.csv that says so."""
+"""Makes the rows of advice.csv from what was asked for and what was found."""
 
 from dataclasses import dataclass, replace
 
@@ -55,7 +55,7 @@ FEWEST, CHEAPEST, BOTH = "fewest changes", "cheapest", "both"
 
 
 def rows(one: Advised) -> list[Advice]:
-    """Those of advice.csv: one, or one for each of two recipes."""
+    """The rows of advice.csv: one, or one for each of two recipes."""
     empty = Advice(
         one.pair.case.name,
         " ".join(themes(one.pair.case)),
@@ -98,7 +98,7 @@ def words(choice: Choice) -> str:
 
 
 def _remains(one: Advised) -> dict[str, str | float]:
-    """What no recipe brings within the bar, and what the engine leaves out of the scene."""
+    """Columns: what no recipe brings within the bar, what the engine leaves out of the scene."""
     assert one.kitchen is not None
     assert isinstance(one.way, Plan)
     found, left_out = best(one.kitchen), one.way.simplified

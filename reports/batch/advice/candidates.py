@@ -1,4 +1,4 @@
-"""What a recipe may be made of: the closed list of an engine's options, and steps for a case."""
+"""Lists what a recipe may be made of: an engine's options, a closed list, and steps for a case."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -55,7 +55,7 @@ class Menu:
     tuned: Options
 
     def choices(self, size: int) -> Iterator[Choice]:
-        """All of that many options."""
+        """Every choice of `size` options."""
         single = [[_choice(knob, v) for v in knob.values] for knob in self._knobs(bundle=False)]
         for among in combinations(single, size):
             for chosen in product(*among):
@@ -110,7 +110,7 @@ def parts(options: Options) -> Iterator[tuple[str, ...]]:
 
 
 def fitting(steps: Sequence[float], own: float, interval: float) -> list[float]:
-    """Of a list, and the own one, those that meet every sample: as round as they stand there."""
+    """The own step and those of a list that meet every sample, unchanged, the largest first."""
     met = [step for step in steps if abs(interval / step - round(interval / step)) <= WHOLE]
     others = [step for step in met if abs(step - own) > WHOLE * own and step <= interval]
     return sorted([own, *others], reverse=True)

@@ -1,4 +1,4 @@
-"""What a recipe has to keep: every quantity within its tolerance, with a margin."""
+"""The bar that a recipe has to keep: every quantity within its tolerance, with a margin."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -39,9 +39,10 @@ class Bar:
         return max(found, default=(inf, ""), key=lambda one: one[0])
 
     def leave_out(self, elsewhere: Mapping[Candidate, float]) -> None:
-        """What does not hold elsewhere; and with it, at its step, whatever is just as far off here.
+        """Records the errors elsewhere; what is like a candidate that fails there fails with it.
 
-        Options that change nothing here change nothing there: each would be asked after the other.
+        Two are alike if at one step the worst error here is the same, of the same quantity. Options
+        that change nothing here change nothing there: each would be asked after the other.
         """
         self.elsewhere.update(elsewhere)
         here = {candidate: self._here(candidate) for candidate in self.known}

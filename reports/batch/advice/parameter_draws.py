@@ -93,7 +93,7 @@ def drawn(case: Case, seed: int) -> Case | None:
 
 
 def _varied(data: Mapping[str, Any], rng: np.random.Generator) -> dict[str, Any]:
-    """Of the file and of each variant."""
+    """The file's data with the parameters drawn anew, its own and those of each variant."""
     told = dict(data)
     if isinstance(parameters := told.get("parameters"), Mapping):
         told["parameters"] = {

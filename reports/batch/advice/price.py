@@ -1,4 +1,4 @@
-"""What a simulated second of a candidate costs beside another, in CPU time."""
+"""Measures what a simulated second of a candidate costs over another's, in CPU time."""
 
 import time
 
@@ -14,7 +14,7 @@ LONG = 0.05  # s: what is shorter is run as often as fills it, for its least tim
 
 
 def ratio(pair: Pair, candidate: Candidate, over: Candidate) -> float | None:
-    """Of all steps of the candidate's run over the other's; None: one of them is refused."""
+    """CPU time of all steps of the candidate's run over the other's; None where one is refused."""
     one, other = (trial_of(pair, each) for each in (candidate, over))
     if one is None or other is None:
         return None
@@ -28,7 +28,7 @@ def _whole(trial: Trial) -> float:
 
 
 def _begun(trial: Trial) -> float:
-    """Of building alone, and one step: to be taken off."""
+    """CPU time [s] of building alone, and one step: to be taken off."""
     return _seconds(trial, trial.step)
 
 

@@ -33,7 +33,7 @@ class Recipe:
 
 @dataclass(frozen=True)
 class Kitchen:
-    """What is cooked with: what there is, what is asked for, and what a candidate costs."""
+    """The input of a search for recipes: its menu, the bar to keep, and what a candidate costs."""
 
     menu: Menu
     bar: Bar
@@ -159,7 +159,7 @@ def _lean(kitchen: Kitchen, whole: Recipe) -> Asking[Recipe]:
 
 
 def _left(options: Mapping[str, Any]) -> tuple[str, ...]:
-    """What is left of a recipe, as the options are called, with what is one number or word."""
+    """Names of the options left of a recipe, with a value where that is one number or word."""
     return tuple(_called(part, options) for part in parts(options))
 
 
@@ -183,7 +183,7 @@ def _without(options: Mapping[str, Any], part: tuple[str, ...]) -> dict[str, Any
 
 
 def best(kitchen: Kitchen) -> tuple[Candidate, float, str] | None:
-    """Of all that was run the least worst, where nothing keeps the bar."""
+    """The least bad of all runs, where nothing keeps the bar: candidate, worst ratio, quantity."""
     told = [(candidate, *kitchen.bar.worst(candidate)) for candidate in kitchen.bar.known]
     finite = [one for one in told if one[1] < inf]
     return min(finite, key=lambda one: (digits(one[1]), kitchen.cost(one[0])), default=None)

@@ -26,7 +26,7 @@ def advised(
     store: Store | None = None,
     executor: Executor | None = None,
 ) -> Iterator[list[Advised]]:
-    """What is found for each case in each engine as shipped; the references stay until the end.
+    """Yields the advice for each case in each engine as shipped; references stay until the end.
 
     jobs, store and executor as of `suite.measure`. Raises CaseError for what only solving finds.
     """

@@ -35,7 +35,7 @@ Stat = tuple[str, int, int, int, int, int]
 
 
 def told(name: str, found: os.stat_result) -> Stat:
-    """What the disk says of a file, as one."""
+    """The `Stat` of a file, one tuple: name, size, both times [ns], number and disk."""
     times = found.st_mtime_ns, found.st_ctime_ns
     return name, found.st_size, *times, found.st_ino, found.st_dev
 
@@ -62,11 +62,11 @@ class Place:
     tests: bool = True
 
     def stats(self) -> tuple[Stat, ...]:
-        """What the disk says of its files, sorted. Raises OSError."""
+        """The `Stat` of each of its files, sorted. Raises OSError."""
         return tuple(sorted(self._stats(str(self.path.resolve()), "")))
 
     def told(self, stats: tuple[Stat, ...], memo: Store) -> Told:
-        """Of its contents. Raises OSError."""
+        """The digest of its contents, with the names in its code. Raises OSError."""
         if not _settled(stats):
             return self._read(stats)
         return _remembered(self, stats, memo)

@@ -40,7 +40,7 @@ def fits(value: Any, kind: Any) -> bool:
 
 
 def returned(function: Any) -> Any:
-    """What a function says it returns; anything, where it does not say."""
+    """The type that a function says it returns; Any where it does not say."""
     try:
         return get_type_hints(function).get("return", Any)
     except (TypeError, NameError):  # a partial, or something of a test's

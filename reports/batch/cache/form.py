@@ -34,7 +34,7 @@ def packed(value: Any) -> bytes:
 
 
 def unpacked(data: bytes) -> Any:
-    """What was packed; every float is the same to the last bit. Raises ValueError."""
+    """The value that was packed; every float is the same to the last bit. Raises ValueError."""
     end = SIZE + int.from_bytes(data[:SIZE])
     tree, told = json.loads(data[SIZE:end])
     arrays: list[np.ndarray] = []

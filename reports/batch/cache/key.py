@@ -1,4 +1,4 @@
-"""What a result depends on, as one word: the case, the code, the engine, the machine's rounding."""
+"""Makes one word of what a result depends on: case, code, engine, and the machine's rounding."""
 
 import os
 import platform
@@ -66,17 +66,17 @@ class Keys:
         return seen and all(parts.hold() for parts in self._parts.values())
 
     def solution(self, case: Case) -> str:
-        """Of a case's reference."""
+        """The key of a case's reference."""
         of = self._once(case, _case), self._code(REFERENCE)
         return _word("solution", self.salt, *of, machine(), self.libraries)
 
     def ways(self, case: Case, engine: Engine) -> str:
-        """Of how an engine would run it."""
+        """The key of the ways in which an engine would run the case."""
         of = self._once(engine, self._engine)
         return _word("ways", self.solution(case), of, self._code(JUDGING))
 
     def collected(self, case: Case, engine: Engine) -> str:
-        """Of which ways pytest collects."""
+        """The key of which ways pytest collects."""
         return _word("collected", self.ways(case, engine), self._code(COLLECTING))
 
     def _once(self, thing: Any, describe: Callable[[Any], str]) -> str:
@@ -110,20 +110,20 @@ class Keys:
         return _code(places, self.files)
 
     def outcome(self, ways: str, realised: str) -> str:
-        """Of what it gave in one of the ways under that key."""
+        """The key of what the engine gave in one of the ways under the key `ways`."""
         return _word("outcome", ways, realised)
 
     def rung(self, outcome: str, ladder: str, step: float) -> str:
-        """Of one run behind that outcome."""
+        """The key of one run behind the outcome with the key `outcome`."""
         return _word("rung", outcome, ladder, repr(step))
 
     def tried(self, case: Case, engine: Engine, options: str, step: float) -> str:
-        """Of one simulation with other options of the engine."""
+        """The key of one simulation with other options of the engine."""
         ways = self.ways(case, engine)
         return _word("tried", ways, options, repr(step), self._code(TRYING))
 
     def search(self, case: Case, engine: Engine) -> str:
-        """Of a search for what cures the engine's rows: the same on every machine.
+        """The key of a search for what cures the engine's rows: the same on every machine.
 
         Without the reference's code, which the rows' own errors tell of. Nothing where that cannot
         be said: of an engine that cannot be described, or of code that is newer than the process.
@@ -138,7 +138,7 @@ class Keys:
         return _word("search", engine.version, *of, self._code((*SEARCHING, str(adapter))))
 
     def run(self, pairs: Iterable[tuple[Case, Engine]]) -> str:
-        """Of all together: two runs with this key compute the same."""
+        """The key of all pairs together: two runs with this key compute the same."""
         return _word("run", *(self.ways(case, engine) for case, engine in pairs))
 
 
@@ -147,7 +147,7 @@ def _word(*parts: str) -> str:
 
 
 def _case(case: Case) -> str:
-    """All of it but its text: a comment changes nothing."""
+    """Describes the case by all but its text: a comment changes nothing."""
     return described({f.name: getattr(case, f.name) for f in fields(case) if f.name != "source"})
 
 
@@ -186,7 +186,7 @@ def _modules(place: Path) -> Iterable[Path]:
 
 @cache
 def _code(places: tuple[str, ...], seen: tuple[tuple[Path, Stat], ...]) -> str:
-    """Of code that was seen so: read once in a run."""
+    """One word for the code of these places, as it was seen: read once in a run."""
     paths = [path for place in places for path in _modules(ROOT / place)]
     return _word(*(f"{path.name} {sha256(path.read_bytes()).hexdigest()}" for path in paths))
 
@@ -220,7 +220,7 @@ def basis(memo: Store) -> str:
 
 @cache
 def machine() -> str:
-    """What decides the last digits: interpreter, libraries, the processor's vector units.
+    """Describes what decides the last digits: interpreter, libraries, the processor's vector units.
 
     Not how many cores it has: nothing here multiplies matrices so large that a library would share
     them out, and rows of one and of many were always the same.

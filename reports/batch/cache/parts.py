@@ -1,4 +1,4 @@
-"""What an engine consists of: its adapter, and all that this brings with it, wherever it lies.
+"""Collects the parts of an engine: its adapter, and all that this brings with it, wherever it lies.
 
 Its adapter is the package, or the module with what lies beside it, from which the engine was made.
 With it count the modules that its code imports, wherever in it, as Python finds them now, be it in
@@ -66,7 +66,7 @@ class Parts:
         return parts
 
     def word(self) -> str:
-        """All of it as one word."""
+        """One word for all parts together: their own words, sorted."""
         return "\0".join(sorted(self.words))
 
     def hold(self) -> bool:
@@ -98,7 +98,7 @@ class Parts:
             self._module(name)
 
     def _module(self, name: str) -> None:
-        """Of what is installed as such only itself, and what it requires; of others all."""
+        """Adds a module: an installed one with what it requires, others with all they import."""
         if name in self._names or name in sys.stdlib_module_names or name in (OURS, *BASIS):
             return
         self._names.add(name)
@@ -179,7 +179,7 @@ def located(name: str) -> list[Path]:
 
 
 def _beside(home: Path) -> Iterator[Path]:
-    """What its code names in quotes; and of a module with a folder of its own, all files there."""
+    """Files that its code names in quotes; of a module with a folder of its own, all there."""
     folder = home if home.is_dir() else home.parent
     if home.is_file() and folder.name not in INSTALLED:
         there = [Path(found.path) for found in os.scandir(folder) if found.is_file()]

@@ -133,7 +133,7 @@ class Store:
 
 
 def _digest(key: str, data: bytes) -> bytes:
-    """Of both: what was computed for one key is never taken for another's."""
+    """The digest of key and data: what was computed for one key is never taken for another's."""
     return sha256(key.encode() + b"\0" + data).digest()
 
 

@@ -1,1 +1,1 @@
-"""What cures a row: a search over an engine's options, which knows nothing of any advice."""
+"""Searches an engine's options for what cures a row; the search knows nothing of any advice."""

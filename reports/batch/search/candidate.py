@@ -1,4 +1,4 @@
-"""What is tried: options of an engine, and a step."""
+"""A candidate in a search: options of an engine, and a step."""
 
 import json
 from collections.abc import Mapping
@@ -33,5 +33,5 @@ class Candidate:
         return engines.make(name, TRIED, {**self.options, "step": self.step})
 
     def at(self, step: float) -> "Candidate":
-        """The same options at another step [s]."""
+        """The candidate with the same options at another step [s]."""
         return Candidate(self.told, step)

@@ -31,7 +31,7 @@ LETTERS = 12  # of a word: two searches never share them
 
 @dataclass(frozen=True)
 class Known:
-    """What an earlier run has found: causes, by the row that they explain, and all verdicts.
+    """The findings of an earlier run: causes, by the row that they explain, and all verdicts.
 
     verdicts: by case, engine, setting, realisation and quantity.
     """
@@ -49,7 +49,7 @@ def causes(
     search: bool,
     known: Known | None = None,
 ) -> list[Cause]:
-    """Of every row above its tolerance: what brings it within; search: whether runs are made.
+    """For every row above its tolerance: what brings it within; search: whether runs are made.
 
     known: what is carried over where it stands on the same.
     """
@@ -85,7 +85,7 @@ def _where(row: Comparison) -> tuple[str, str, str]:
 def _words(
     rows: Sequence[Comparison], pairs: Iterable[Pair], results: Results
 ) -> dict[tuple[str, str, str], str]:
-    """What a search of each of the rows' pairs stands on."""
+    """For each of the rows' pairs: engine version and key of a search; empty where it has none."""
     asked = {_where(row) for row in rows}
     words: dict[tuple[str, str, str], str] = {}
     for pair in pairs:
@@ -111,7 +111,7 @@ def _carried(
     words: Mapping[tuple[str, str, str], str],
     known: Mapping[Key, Sequence[Cause]],
 ) -> dict[Key, list[Cause]]:
-    """Of the rows that are as the known causes found them, all of their causes."""
+    """For each row that is as the known causes found it: all of its causes."""
     found: dict[Key, list[Cause]] = {}
     for row in rows:
         word, before = words[_where(row)], known.get(key_of(row), ())
@@ -173,7 +173,7 @@ def _referenced(
     }
 
 
-# What lies between a row's own setting and the tuned one: its levers, and its steps.
+# The levers and the steps that lie between a row's own setting and the tuned one.
 
 
 ALONE = 16  # times finer: as far as an engine's own ladder goes, or to the tuned setting's step

@@ -1,4 +1,4 @@
-"""What can be changed between two recipes, each as a whole: knobs of the engine, and the step."""
+"""Lists the changes between two recipes, each as a whole: knobs of the engine, and the step."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -32,7 +32,7 @@ Turned = tuple[Lever, ...]
 
 @dataclass(frozen=True)
 class Field:
-    """All levers between two recipes, and where they begin.
+    """Every lever between two recipes, and where they begin.
 
     base: options and step before any is changed. steps: from the base's down to the finest, each
     half of the one before; alone: the same where nothing but the step is changed. rest: what else
@@ -78,7 +78,7 @@ def halved(step: float, least: float) -> list[float]:
 
 
 def levers(knobs: Iterable[Knob], base: Options) -> Iterator[Lever]:
-    """What the tuned setting has otherwise than the options, each knob as a whole."""
+    """A lever for each knob, as a whole, that the tuned setting has otherwise than the options."""
     for knob in knobs:
         if knob.tuned is None or merged(base, knob.tuned.options) == merged(base):
             continue
@@ -95,7 +95,7 @@ def levers(knobs: Iterable[Knob], base: Options) -> Iterator[Lever]:
 
 
 def remainder(knobs: Iterable[Knob], recipe: Options) -> Lever | None:
-    """What of a recipe is no knob: how exactly to solve, say."""
+    """A lever for what of a recipe is no knob: how exactly to solve, say; None for nothing."""
     turned = merged(*(knob.tuned.options for knob in knobs if knob.tuned))
     rest = {name: value for name, value in recipe.items() if name not in turned}
     words = " + ".join(f"{name} {said(value)}" for name, value in rest.items())

@@ -23,19 +23,19 @@ SAME = 0.1  # of an error: a change of less than that is none
 
 @dataclass(frozen=True)
 class Setting:
-    """What cures are looked for in; elsewhere: whether beside instants anything may be."""
+    """Levers and runs of a search for cures; elsewhere: whether beside instants anything may be."""
 
     field: Field
     known: Known
     elsewhere: bool
 
     def error(self, candidate: Candidate, row: str) -> float:
-        """Of the row's quantity, over what is allowed."""
+        """The error of the row's quantity, over what is allowed."""
         return of(self.known[candidate], row, elsewhere=self.elsewhere)
 
 
 def that_matter(search: Setting, rows: Sequence[str]) -> Asking[dict[str, list[Lever]]]:
-    """Of each row the levers that change its error, put in alone or taken out of all.
+    """For each row the levers that change its error, put in alone or taken out of all.
 
     Both are asked, the second at a step half-way down: from afar a motion may be as far off with a
     lever as without it. Alone they have been asked before.
@@ -100,7 +100,7 @@ class Cure:
 
 @dataclass(frozen=True)
 class Cured:
-    """Of one row: its cures of the smallest size, or none.
+    """The cures of one row, of the smallest size, or none.
 
     elsewhere: they cure what is not beside an instant; with the instant nothing does.
     """
@@ -148,7 +148,7 @@ def _smallest(search: Setting, rows: Sequence[str]) -> Asking[dict[str, Sequence
 def _cured(
     search: Setting, sets: Mapping[str, Sequence[Turned]], *, finer: bool
 ) -> Asking[dict[str, Sequence[Cure]]]:
-    """Of the rows' sets with or without the step those that cure for good."""
+    """For each row the smallest of its sets, with or without the step, that cure for good."""
     field = search.field
     among = {
         row: [turned for turned in of if (STEP in turned) == finer] for row, of in sets.items()
@@ -164,13 +164,13 @@ def _cured(
 
 
 def _fewest(cures: Sequence[Cure]) -> list[Cure]:
-    """Of sets beyond the largest, which are not all of one size."""
+    """The cures with the fewest levers: sets beyond the largest are not all of one size."""
     least = min(len(cure.turned) for cure in cures)
     return [cure for cure in cures if len(cure.turned) == least]
 
 
 def _sets(field: Field, matter: Sequence[Lever], size: int) -> list[Turned]:
-    """All of that size; beyond the largest, all levers that matter, and all there are."""
+    """Every set of that size; beyond the largest, all levers that matter, and all there are."""
     if size <= LARGEST:
         sets = combinations(matter, size)
         return [turned for turned in sets if size <= LARGEST_FINER or STEP not in turned]
@@ -197,7 +197,7 @@ def _asked(field: Field, turned: Turned) -> list[Candidate]:
 
 
 def _lasting(search: Setting, row: str, sets: Iterable[Turned]) -> Iterator[Cure]:
-    """Those that keep the bound from a step on, at the largest such step."""
+    """The cures that keep the bound from a step on, each at the largest such step."""
     for turned in sets:
         rungs, usable = _rungs(search.field, turned), None
         for candidate in reversed(rungs):

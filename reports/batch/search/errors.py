@@ -57,7 +57,7 @@ def trial_of(pair: Pair, candidate: Candidate) -> Trial | None:
 
 
 def errors(run: Run) -> Errors:
-    """Of everything that is judged; the pair's reference comes from the store."""
+    """The errors of everything that is judged; the pair's reference comes from the store."""
     case, trial = run.pair.case, trial_of(run.pair, run.candidate)
     samples = climbed(rung(trial, run.candidate.step)) if trial else ""
     if trial is None or isinstance(samples, str):

@@ -1,4 +1,4 @@
-"""What the ladder of a row's own setting tells already: its errors at smaller steps."""
+"""Reads the ladder that a row's own setting has already: its errors at smaller steps."""
 
 from collections.abc import Iterator, Sequence
 from itertools import takewhile

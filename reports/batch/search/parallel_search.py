@@ -27,14 +27,14 @@ class Search(Generic[T]):
 
 @dataclass
 class _Round:
-    """What is asked for, by the results' keys."""
+    """The runs that all searches ask for in one round, by the results' keys."""
 
     runs: dict[str, Run] = field(default_factory=dict)
     wanted: list[tuple[Known, Candidate, str]] = field(default_factory=list)
 
 
 def together(what: str, searches: Mapping[str, Search[T]], results: Results) -> dict[str, T]:
-    """What each found, by its key; a run whose process dies has no errors and costs nobody else."""
+    """Each search's result by key; a run whose process dies has no errors and costs nobody else."""
     found: dict[str, T] = {}
     done = 0
     while len(found) < len(searches):

@@ -21,7 +21,7 @@ def key_of(row: Comparison | Cause) -> Key:
 
 @dataclass(frozen=True)
 class Rows:
-    """All rows of a run."""
+    """Every row of a run."""
 
     comparisons: Sequence[Comparison]
 
@@ -33,7 +33,7 @@ class Rows:
                 yield row
 
     def ours(self, row: Comparison) -> list[Comparison]:
-        """Those that agree with a law or driver of ours, if only such do: its model is another."""
+        """Rows that agree with a law or driver of ours, if only such do: its model is another."""
         agree = self._tuned.get((row.case, row.engine, row.quantity), {})
         return [] if "native" in agree else [agree[way] for way in OURS if way in agree]
 

@@ -1,4 +1,4 @@
-"""What a quantity is right at an event: a curve through the record's rows beside it, at its time.
+"""The value of a quantity at an event: a curve through the record's rows next to it, at its time.
 
 The rows are of one side only, so that a jump between the sides spoils neither. Where no side is
 said there is no jump, and the side before tells it: a corner of the curve, as a place has at an
@@ -79,7 +79,7 @@ def _curve(times: Array, u: Array, rows: Rows, t: float, most: int) -> float:
 
 
 def mistaken(case: Case, reference: Trajectory) -> list[Mistake]:
-    """What the case says of its events and the reference contradicts."""
+    """The mistakes in what the case says of its events, where the reference contradicts it."""
     record = reference.record
     if record is None:
         return never(case, reference)

@@ -45,7 +45,7 @@ def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
 def _pieces(
     scene: Scene, record: Trajectory, event: Event
 ) -> tuple[Array, float, list[NDArray[np.int64]]]:
-    """What falls to zero where the event happens, what is nothing beside it, the rows of phases."""
+    """The u (N,) that falls to zero at the event, the size that counts as zero, rows by phase."""
     u = event.falling(observe(scene, record, event.quantity))
     return u, still(scene, record, event.quantity), lasting(record)
 
@@ -146,7 +146,7 @@ def _through(times: Array, u: Array, i: int) -> float:
 
 
 def _zero(times: Array, u: Array, i: int) -> float:
-    """Of the line through steps i and i + 1."""
+    """The zero [s] of the line through steps i and i + 1."""
     return float(times[i] + (times[i + 1] - times[i]) * u[i] / (u[i] - u[i + 1]))
 
 

@@ -42,7 +42,7 @@ AWAY = 4  # of a ladder's largest steps: how far from an event a sample tells an
 
 @dataclass(frozen=True)
 class Outcome:
-    """What one trial gave: its rows, and the engine's samples at the judged step.
+    """The result of one trial: its rows, and the engine's samples at the judged step.
 
     wanted: the reference's, where the engine's own step misses the case's samples.
     """

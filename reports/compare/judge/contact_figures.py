@@ -69,7 +69,7 @@ def friction(
 def restitution(
     scene: Scene, contact: Any, reference: Trajectory, motion: Trajectory
 ) -> Iterator[Plain]:
-    """Of the first impact: the fastest way back over the fastest approach.
+    """Yields the restitution of the first impact: the fastest way back over the fastest approach.
 
     An engine may take a while for it: from the start to half the way to the next event.
     """

@@ -1,4 +1,4 @@
-"""What a ladder of steps h, 2h, 4h, … says: order, limit for h → 0, verdict, usable step.
+"""Judges a ladder of steps h, 2h, 4h, …: order, limit for h → 0, verdict, usable step.
 
 The order is that of neighbouring differences u(2h) − u(h), never of errors: a model's error would
 hide it. The limit is Romberg's, with the exponents that the engine's setting declares. Where that
@@ -95,7 +95,7 @@ def study(
 
 
 def instants(errors: Mapping[float, float], allow: float) -> Convergence:
-    """What a ladder of events' errors by step says; inf where they happen more or less often."""
+    """The convergence of events' errors by step; inf where they happen more or less often."""
     return Convergence(INSTANTS, errors, _usable(errors, allow))
 
 

@@ -7,7 +7,7 @@ ROUNDING = 1e-12  # in any unit: nobody asks for less
 
 @dataclass(frozen=True)
 class Plain:
-    """What a number is of, such as `creep of touch`; wanted: the textbook's, where it is not 0."""
+    """A number with its name, as `creep of touch`; wanted: the textbook's, where it is not 0."""
 
     what: str
     value: float

@@ -19,7 +19,7 @@ RESTS = 1e-12  # J: what has less kinetic energy all along has none to lose
 
 
 def plain(trial: Trial) -> list[Plain]:
-    """Of the trial's engine at its judged step: one run, of which every step is looked at.
+    """Plain numbers of the trial's engine at its judged step: one run, with every step looked at.
 
     Raises Diverged.
     """
@@ -34,7 +34,7 @@ def plain(trial: Trial) -> list[Plain]:
 
 
 def numbers(scene: Scene, reference: Trajectory, motion: Trajectory) -> Iterator[Plain]:
-    """Of a motion at the reference's samples; of impacts and of depths in its record."""
+    """Plain numbers of a motion at the reference's samples; impacts and depths in its record."""
     yield from _energy(scene, reference, motion)
     yield from _gap(scene, motion)
     for contact in (*scene.contacts.values(), *scene.pairs.values()):
@@ -47,7 +47,10 @@ def numbers(scene: Scene, reference: Trajectory, motion: Trajectory) -> Iterator
 
 
 def _energy(scene: Scene, reference: Trajectory, motion: Trajectory) -> Iterator[Plain]:
-    """Of the reference's largest kinetic energy, by the line through 0 that fits best."""
+    """Yields the energy lost or gained per second, in % of the reference's largest kinetic energy.
+
+    It is the slope of the line through 0 that fits best.
+    """
     size = float(np.max(observe(scene, reference, "energy.kinetic")))
     if size <= RESTS:
         return

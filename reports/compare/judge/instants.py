@@ -83,7 +83,7 @@ def spread(trial: Trial, name: str) -> str:
 
 
 def _climbed(trial: Trial, name: str, runs: Runs) -> Iterator[Study]:
-    """What each ladder's errors by step say, inf where the count is another one.
+    """For each ladder: the convergence of the errors by step, inf where the count is another one.
 
     They compare the events that the largest step of all can tell, or else the first.
     """

@@ -21,7 +21,7 @@ class Error:
 
 
 def error(samples: Array, reference: Array) -> Error:
-    """Of samples (N,) against the reference (N,); of attitudes (N, 3) each."""
+    """The error of samples (N,) against the reference (N,); for attitudes (N, 3) each."""
     d = sizes(samples - reference)
     largest = float(np.max(d))
     first = int(np.argmax(~(d < AS_LARGE * largest)))  # of NaN nothing is smaller
@@ -46,7 +46,7 @@ def told(number: float, floor: float) -> float:
 
 
 def told_uncertainty(number: float, floor: float) -> float:
-    """The same, but never less than the last digit that is told."""
+    """The number to the digits above the floor, but never less than one unit of the last digit."""
     return told(max(number, 10.0 ** -_digits(floor)), floor) if 0 < floor < math.inf else number
 
 

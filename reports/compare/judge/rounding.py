@@ -1,4 +1,4 @@
-"""What rounding alone can do to a number: digits below it are another machine's, and not written.
+"""Bounds what rounding alone does to a number: digits below it are another machine's, not written.
 
 Two machines with the same versions differ by the last bit of a sine or of a sum of products. Over
 a run it grows: by one unit a step in what is integrated, and in a force that a step makes of
@@ -26,7 +26,7 @@ def floor(trial: Trial, name: str, step: float) -> float:
 
 
 def _size(trial: Trial, name: str) -> float:
-    """Of what the quantity is made: of all places, if it is one, and of both kinds of energy."""
+    """The size of what the quantity is made of: all places, if it is one; both kinds of energy."""
     quantity = trial.quantity(name)
     if quantity.part == "energy":
         parts = ("energy.kinetic", "energy.potential")
@@ -38,7 +38,7 @@ def _size(trial: Trial, name: str) -> float:
 
 
 def _largest(trial: Trial, unit: str) -> float:
-    """Of all places or rates of the motion that have the unit; 0 for any other unit."""
+    """The largest place or rate of the reference's motion with the unit; 0 for any other unit."""
     columns = trial.case.scene.frame.alike(unit)
     states = trial.reference.states.values()
     return max((float(np.max(np.abs(s[:, columns]), initial=0.0)) for s in states), default=0.0)

@@ -12,7 +12,7 @@ from .verdict import verdict
 
 
 def judged(trial: Trial, name: str, samples: Samples) -> Comparison:
-    """Of all states the largest difference."""
+    """The quantity's row, judged by its largest difference over all states."""
     error = metric.error(samples[name], trial.wanted(name))
     least, allowed = floor(trial, name, trial.case.duration), trial.allowed(name)
     largest = told(error.largest, least)

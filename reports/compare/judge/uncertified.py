@@ -17,7 +17,7 @@ def uncertified(solution: Solution) -> str:
 
 
 def otherwise(solution: Solution) -> str:
-    """That the hand-written system is of another scene, if that is what does not hold."""
+    """Words for a hand-written system of another scene, if that is what does not hold."""
     broken = [check.name for check in solution.checks if not check.holds]
     if solution.system == "generated" or not any(name in MOVES for name in broken):
         return ""
@@ -28,6 +28,6 @@ def otherwise(solution: Solution) -> str:
 
 
 def failing(outcome: Outcome, because: str) -> Outcome:
-    """All rows FAIL."""
+    """The outcome with the verdict FAILS in every row, for the reason `because`."""
     rows = [replace(row, verdict=FAILS, because=because) for row in outcome.rows]
     return replace(outcome, rows=rows)

@@ -1,4 +1,4 @@
-"""What an engine answers is looked at before it is believed: it may be anybody's."""
+"""Checks each answer of an engine before it is believed: the engine may be anybody's."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace

@@ -15,7 +15,7 @@ NOTHING = EQUAL / 10  # its last bits are another machine's
 
 
 def expected(scene: Scene, start: Trajectory) -> dict[str, float]:
-    """What `Engine.measure` should find, from the scene and the start."""
+    """The numbers that `Engine.measure` should find, by name, from the scene and the start."""
     axes = scene.frame.axes
     numbers = {f"gravity.{axis}": g for axis, g in zip(axes, scene.gravity, strict=True)}
     for element in scene.elements():
@@ -57,7 +57,7 @@ def _relative(difference: float, size: float) -> float:
 
 
 def _sizes(scene: Scene, wanted: Mapping[str, float]) -> dict[str, float]:
-    """Of vectors, whose components may cancel to nothing: g, and p ≤ √(2 m T)."""
+    """Sizes of vectors, whose components may cancel to nothing: g, and p ≤ √(2 m T); of tensors."""
     mass = sum(body.mass for body in scene.bodies.values())
     momentum = math.sqrt(2 * mass * wanted["energy.kinetic"])
     gravity = math.hypot(*scene.gravity)
@@ -67,7 +67,7 @@ def _sizes(scene: Scene, wanted: Mapping[str, float]) -> dict[str, float]:
 
 
 def _tensors(scene: Scene) -> dict[str, float]:
-    """Of a tensor's entries the largest: products of inertia may be zero."""
+    """For each entry of a tensor: the largest of its entries; products of inertia may be zero."""
     if not isinstance(scene, SpatialScene):
         return {}
     return {

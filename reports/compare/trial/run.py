@@ -101,7 +101,7 @@ def seen(trajectory: Trajectory) -> Samples:
 
 
 def _answers(rung: Rung) -> Samples:
-    """Of a claim about states: all of them at once, in the engine's own numbers."""
+    """Samples of a claim about states: all of them at once, in the engine's own numbers."""
     case, engine = rung.case, rung.engine
     assert case.states is not None
     assert isinstance(engine, Claims)
@@ -115,9 +115,9 @@ def _answers(rung: Rung) -> Samples:
 
 
 def _events(case: Case, trajectory: Trajectory) -> Samples:
-    """What can be read from the engine's record of every event: its times (K,), as `event.time`,
+    """Times (K,) of every event, as `event.time`, and states (K,) at it, from the engine's record.
 
-    and what the case bounds of its states (K,).
+    The states are those that the case bounds; what cannot be read from the record is left out.
     """
     found: dict[str, Array] = {}
     if trajectory.record is None:

@@ -1,4 +1,4 @@
-"""All runs of a trial: each rung of each ladder once."""
+"""Makes the runs of a trial: each rung of each ladder once."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -29,7 +29,7 @@ class Runs:
 
 
 def rungs(trial: Trial) -> dict[At, Rung]:
-    """All that has to be run, from the reference's first row."""
+    """Every run of the trial, by ladder and step, from the reference's first row."""
     case, engine, start, bounds = trial.case, trial.engine, trial.start, _bounds(trial)
     climbs = list(ladders(case, engine, trial.plan))
     return {
@@ -57,7 +57,7 @@ def rung(trial: Trial, step: float) -> Rung:
 
 
 def _bounds(trial: Trial) -> dict[str, float]:
-    """What a motion's numbers stay below."""
+    """For each quantity of the motion: the bound that its numbers stay below."""
     return {
         name: RUNAWAY * max(1.0, float(np.max(np.abs(trial.wanted(name))))) for name in trial.motion
     }
@@ -90,5 +90,5 @@ def gathered(trial: Trial, found: Mapping[At, Climbed]) -> Runs:
 
 
 def simulate(trial: Trial) -> Runs:
-    """All rungs, one after the other."""
+    """Runs every rung, one after the other, and gathers them by ladder."""
     return gathered(trial, {at: climbed(rung) for at, rung in rungs(trial).items()})

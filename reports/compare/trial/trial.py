@@ -53,7 +53,7 @@ def planned(engine: Engine, scene: Scene, start: Start) -> tuple[Plan | Refusal,
 
 
 def judged_names(case: Case) -> tuple[str, ...]:
-    """What is judged: what the case allows, and that every event happens as often."""
+    """The names that are judged: those in the case's `allow`, and the count of every event."""
     counts = (f"{event}.count" for event in case.events)
     return (*case.allow, *(name for name in counts if name not in case.allow))
 
@@ -90,7 +90,7 @@ class Trial:
 
     @cached_property
     def _wanted(self) -> dict[str, Array]:
-        """What was asked for already: every rung of every ladder asks again."""
+        """The reference's samples asked for so far: every rung of every ladder asks again."""
         return {}
 
     def read(self, quantity: str, samples: Array) -> Array:
@@ -101,7 +101,7 @@ class Trial:
 
     @cached_property
     def withheld(self) -> dict[str, str]:
-        """Those judged that the engine does not tell, or not what an event is of, and why."""
+        """For each judged name that the engine withholds, or whose event it withholds: why."""
         whys = self.plan.withheld
         return {
             name: whys[told_by]
@@ -128,7 +128,7 @@ class Trial:
 
     @property
     def instants(self) -> tuple[str, ...]:
-        """What is judged of the events that the engine tells."""
+        """The judged names of events, for times, counts and states, that the engine gives."""
         return tuple(name for name in self._told if self._dated(name))
 
     @property
@@ -175,7 +175,7 @@ class Trial:
         return nearest
 
     def allowed(self, name: str) -> float | None:
-        """What still counts as textbook mechanics; None: not known yet."""
+        """The largest error that still counts as textbook mechanics; None: not known yet."""
         return self.case.allow.get(name, SAME_COUNT)
 
     def quantity(self, name: str) -> Quantity:
@@ -204,7 +204,7 @@ class Trial:
 
     @cached_property
     def protocol(self) -> str:
-        """What was done to start and readout, and the samples where they are not the case's."""
+        """Says what is done to start and readout, and the samples where they are not the case's."""
         base, n = self.plan.protocol(self.step), self.case.samples
         own = f"{n} samples at whole steps of its own" if self.sampled else ""
         return "; ".join(part for part in (base, own) if part)

@@ -65,7 +65,7 @@ def pace(case: Case, engine: Engine) -> float:
 
 
 def _steps(case: Case, engine: Engine) -> float:
-    """Of all rungs, one realisation; to a state no step leads."""
+    """Number of engine steps over all ladders of one realisation; 0 for a claim about states."""
     if case.states is not None:
         return 0.0
     rungs = UPWARD if engine.own_step is None else DOWNWARD
