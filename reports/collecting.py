@@ -1,4 +1,4 @@
-"""What pytest collects of a case file: its cases, and in which ways each engine runs them."""
+"""Collects for pytest the cases of a case file, and in which ways each engine runs them."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -43,7 +43,7 @@ class _Asked:
 
 @dataclass(frozen=True)
 class Earlier:
-    """What earlier sessions have asked of the engines, in a store; of none each is asked anew."""
+    """The engines' answers to earlier sessions, in a store; without one each is asked anew."""
 
     store: Store | None
     keys: Keys
@@ -51,7 +51,7 @@ class Earlier:
 
     @staticmethod
     def of(store: Store | None) -> "Earlier":
-        """What lies in a store, for the code and the engines as they are now."""
+        """Returns the answers in a store, for the code and the engines as they are now."""
         return Earlier(store, Keys.now(store))
 
     def ways(self, asked: Callable[[], _Asked], case: Case, engine: Engine) -> Ways:
@@ -67,7 +67,7 @@ class Earlier:
         return self.new[key]
 
     def keep(self) -> None:
-        """What was asked now, for the next session."""
+        """Puts the answers of this session into the store, for the next one."""
         if self.store and self.new and self.keys.hold():
             for key, ways in self.new.items():
                 self.store.put(key, ways)

@@ -31,7 +31,7 @@ Word = str | Path | Case
 
 @dataclass(frozen=True)
 class Reference:
-    """What the textbook says of a case.
+    """The textbook's solution of a case: its motion, its events, and its checks.
 
     motion: by time [s] each quantity that the case bounds, and where its bodies are; of an attitude
     the angle [rad] from where it began. units: of its columns. events: the name, the number from 1
@@ -47,7 +47,7 @@ class Reference:
 
 @dataclass(frozen=True)
 class Comparisons:
-    """What engines make of cases: the frames of the reports of the same names.
+    """The results of engines on cases: the frames of the reports of the same names.
 
     summary: of each case and engine the worst quantity over what is allowed, and what agrees.
     causes: what cures each row above its tolerance, as far as it was asked for. fails: whether a

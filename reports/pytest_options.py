@@ -1,4 +1,4 @@
-"""What pytest may be told: each of our options has a name that is nobody else's."""
+"""Adds our options to pytest's: each has a name that is nobody else's."""
 
 from argparse import ArgumentTypeError
 from contextlib import suppress

@@ -121,7 +121,7 @@ def _settings(config: pytest.Config) -> list[str]:
 
 
 def _earlier(session: pytest.Session) -> "Earlier":
-    """What the engines need not be asked again, the same for all files of the session."""
+    """Returns the engines' answers to earlier sessions, the same for all files of the session."""
     from .batch.cache.store import usable
     from .collecting import Earlier
 
@@ -156,7 +156,10 @@ class CaseItem(pytest.Item):
         self.case = case
 
     def report(self) -> "Report":
-        """All rows. Raises RowError with the mistakes of its own file, if solving found some."""
+        """Returns the report of all collected rows.
+
+        Raises RowError with the mistakes of the item's own file, if solving found some.
+        """
         from ..cases.mistake import CaseError
 
         report = _found(self.session)
@@ -252,7 +255,7 @@ class ComparisonItem(CaseItem):
 
 
 def measured(session: pytest.Session) -> "Report":
-    """All rows that were collected. Raises RowError where a file has mistakes."""
+    """Returns the report of all collected rows. Raises RowError where a file has mistakes."""
     report = _found(session)
     if report.mistakes:
         raise RowError("\n".join(map(str, report.mistakes)))
@@ -260,7 +263,10 @@ def measured(session: pytest.Session) -> "Report":
 
 
 def _found(session: pytest.Session) -> "Report":
-    """All rows that were collected, each simulation once in the session, and what could not be."""
+    """Returns the report of all collected rows, each simulated once in the session.
+
+    It also says what could not be simulated.
+    """
     if _REPORT not in session.stash:
         session.stash[_REPORT] = _measure(session)
     return session.stash[_REPORT]

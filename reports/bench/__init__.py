@@ -1,1 +1,1 @@
-"""What the adapters and the reference cost, each over what a user would write without them."""
+"""Measures what the adapters and the reference cost over what a user would write without them."""

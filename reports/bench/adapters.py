@@ -1,4 +1,4 @@
-"""What an engine's adapter costs over the plainest loop, which must make the same motion."""
+"""Measures an engine's adapter against the plainest loop, which must make the same motion."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -136,7 +136,10 @@ class Pair:
         return self.case.duration / self.count
 
     def plain(self) -> Callable[[float], Plain] | None:
-        """What begins the plain loop, and has built nothing yet."""
+        """Returns a function that builds the plain loop for a step [s]; None: nobody wrote it.
+
+        Nothing is built before the function is called.
+        """
         return self.engine.plain(self.case.scene, self.start, self.h, self.plan)
 
     def apart(self, coarser: int) -> float:
@@ -166,7 +169,7 @@ class Pair:
         return self._work(k, record=False)
 
     def record(self, k: int) -> Work:
-        """The same, with every step."""
+        """The adapter's run, with every step recorded."""
         return self._work(k, record=True)
 
     def _work(self, k: int, *, record: bool) -> Work:
@@ -191,7 +194,7 @@ class Pair:
         return [self.h * 2**k for k in range(RUNGS)]
 
     def unseen(self, k: int) -> Scene:
-        """The same scene but for a rounding of gravity: building it anew cannot be hidden."""
+        """Returns the scene with gravity changed by a rounding: no cache can hide its building."""
         scene = self.case.scene
         x, y = scene.gravity
         return replace(scene, gravity=(x, y * (1 + (k + 1) * 2.0**-52) if y else (k + 1) * 1e-300))

@@ -1,4 +1,4 @@
-"""What scenes of many bodies or samples take: seconds, or a refusal that names its bound."""
+"""Measures scenes of many bodies or samples: CPU seconds, or a refusal that names its bound."""
 
 import json
 import time

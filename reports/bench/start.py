@@ -1,4 +1,4 @@
-"""What a command costs before its work begins: CPU time of processes of its own, and its bound.
+"""Measures the CPU time of commands before their work begins, each in own processes, with bounds.
 
 A person waits for it each time, so what is imported at the top of a module that all commands read
 is paid for by all of them.
@@ -39,7 +39,7 @@ def begun(rounds: int) -> Iterator[Begun]:
 
 
 def lines() -> dict[str, list[str]]:
-    """What Python is told for each."""
+    """Returns for each of BOUNDS the arguments with which Python is started."""
     return {
         "--help": ["-c", COMMAND, "--help"],
         "list": ["-c", COMMAND, "list"],

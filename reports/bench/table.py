@@ -31,7 +31,7 @@ HEAD = (
 
 
 def head(amount: Amount, rungs: int, engines: Iterable[Engine]) -> str:
-    """What is compared, each engine's plain loop in its own words, and the columns."""
+    """Returns the head: what is compared, each engine's plain loop in its words, the columns."""
     count = amount.steps * amount.samples
     loops = {e.name: cleandoc(e.plain.__doc__ or "") for e in engines if isinstance(e, Loop)}
     told = [fill(f"  {name}: {text}", 80, subsequent_indent="    ") for name, text in loops.items()]
@@ -90,7 +90,7 @@ def reference(rows: Iterable[Compared]) -> Iterator[str]:
 
 
 def start(rows: Iterable[Begun]) -> Iterator[str]:
-    """What commands cost before their work begins."""
+    """Yields the lines of the table of what commands cost before their work begins."""
     yield f"{'the start of':24}{'CPU time':>10}{'bound':>10}{f'over {UNIT}':>20}"
     for row in rows:
         above = "  above" if row.seconds > row.bound else ""

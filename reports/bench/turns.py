@@ -13,7 +13,7 @@ Work = Callable[[], object]
 
 @dataclass(frozen=True)
 class Ratio:
-    """Of one work over another: the median of the rounds, and half of what the middle half spans.
+    """CPU time of one work over another's: median of the rounds, half the interquartile range.
 
     A round's own ratio counts, for its two works had the same machine.
     """
@@ -26,7 +26,7 @@ class Ratio:
 
 
 def ratio(ours: Array, plain: Array) -> Ratio:
-    """Of the seconds (rounds,) of two works."""
+    """Returns the ratio of two works from their CPU seconds (rounds,), `ours` over `plain`."""
     low, middle, high = np.quantile(ours / plain, (0.25, 0.5, 0.75)).tolist()
     return Ratio(middle, (high - low) / 2)
 

@@ -95,7 +95,7 @@ def _checked(
 
 
 def _solved(task: "tuple[str, Sequence[Case]]") -> Checked:
-    """Of a file's cases what only their references tell."""
+    """Solves a file's cases: finds the mistakes and failed checks that only references show."""
     from ...reference.solve import solve
     from ..compare.events.states import mistaken
     from ..compare.judge.uncertified import otherwise

@@ -1,4 +1,4 @@
-"""What a run has written so far: said if it is ended before the rest."""
+"""Notes what a run has written so far, which is said if it is ended before the rest."""
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager

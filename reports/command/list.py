@@ -66,7 +66,7 @@ def _has(text: str, words: Sequence[str]) -> bool:
 
 @cache
 def _held(file: str) -> str:
-    """What a case file says, but for its comments."""
+    """Returns the text of a case file without its comments."""
     return re.sub(r"(?m)(^|\s)#.*$", "", Path(file).read_text(encoding="utf-8"))
 
 

@@ -1,4 +1,4 @@
-"""What a command measures in order to show it: the cases and engines that were named."""
+"""Measures the cases and engines that were named, for a command that shows the results."""
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
@@ -71,7 +71,7 @@ def looked_at(
 
 
 def left_out(mistakes: Sequence[Mistake]) -> str:
-    """All of them, and how many files have some."""
+    """Returns all mistakes in words, and how many files have some and are left out."""
     files = len({mistake.file for mistake in mistakes})
     what = "1 file has mistakes and is" if files == 1 else f"{files} files have mistakes and are"
     return f"{CaseError(mistakes)}\n{what} left out"

@@ -80,7 +80,10 @@ def _one(case: str, long: bool) -> None:
 
 
 def _quantity(asked: str | None, report: "Report") -> str:
-    """What was asked for if it is observed; else the worst."""
+    """Returns the quantity that was asked for, or without one the worst.
+
+    Raises click.UsageError where the case does not observe it.
+    """
     rows = [row for row in report.comparisons if row.quantity != "audit"]
     known = list(dict.fromkeys(row.quantity for row in rows))
     if asked is None:

@@ -1,1 +1,1 @@
-"""What a run leaves: its tables, trajectories and poses, and what changed between two of them."""
+"""Writes the tables, trajectories and poses of a run, and finds what changed between two runs."""

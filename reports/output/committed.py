@@ -36,7 +36,7 @@ def rows() -> Mapping[Key, Comparison]:
 
 
 def key_of(row: Comparison) -> Key:
-    """What names a row."""
+    """Returns the cells that name a row: case, engine, setting, realised, quantity."""
     return row.case, row.engine, row.setting, row.realised, row.quantity
 
 
@@ -52,7 +52,7 @@ def known() -> Known:
 
 
 def before(case: Case, key: Key, version: str, step: float | None) -> Comparison | None:
-    """What was committed of the same question, or None: another case, version or step."""
+    """Returns the committed row of the same question; None: another case, version or step."""
     found = rows().get(key)
     file = shipped().get(case.name.partition(".")[0])
     if found is None or file is None or found.version != version:

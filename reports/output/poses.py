@@ -22,7 +22,10 @@ HEAD = ["engine", "setting", "realised", "body", "field", "unit", "t [s]", "valu
 
 
 def poses(report: Report, case: Case) -> pd.DataFrame:
-    """Of the reference, `reference` without a setting, and of every run that has samples."""
+    """Returns the poses of a case's bodies: of the reference, and of every run that has samples.
+
+    The reference is called `reference`, without a setting.
+    """
     reference = seen(report.solutions[case.name].trajectory)
     parts = list(_rows(("reference", "", ""), case, case.times, reference))
     for one in report.tried:
@@ -33,12 +36,12 @@ def poses(report: Report, case: Case) -> pd.DataFrame:
 
 
 def ending() -> str:
-    """Of their file: Parquet where pyarrow is installed, else CSV."""
+    """Returns the ending of the file of poses: Parquet where pyarrow is installed, else CSV."""
     return "csv" if find_spec("pyarrow") is None else "parquet"
 
 
 def filed(frame: pd.DataFrame) -> str | bytes:
-    """What the file holds."""
+    """Returns the content of the file of poses: the bytes of Parquet, or the text of CSV."""
     if ending() == "csv":
         return frame.to_csv(index=False)
     out = BytesIO()

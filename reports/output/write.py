@@ -104,7 +104,7 @@ def advice(rows: Sequence[Advice], folder: Path, *, overwrite: bool = False) -> 
 
 
 def texts(frames: Mapping[str, pd.DataFrame], folder: Path | None = None) -> dict[str, str]:
-    """What is written, by file name; what else the folder's runs.csv names stays in it."""
+    """Returns the text of each file by name; what else the folder's runs.csv names stays in it."""
     bodies = {
         name: _rounded(frame).to_csv(index=False, lineterminator="\n")
         for name, frame in frames.items()

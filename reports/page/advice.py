@@ -1,4 +1,4 @@
-"""What do I need? The advice of each case, and by theme what most of its cases need."""
+"""Prepares the advice for the page: of each case, and by theme what most of its cases need."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -23,7 +23,7 @@ Themes = Mapping[str, tuple[str, ...]]
 
 
 def advice(frame: pd.DataFrame | None, themes: Themes) -> dict[str, Any] | None:
-    """All rows, what they can be chosen by, and the rows by theme; None where there is no file."""
+    """Returns all rows, what filters them, and the rows by theme; None where there is no file."""
     if frame is None:
         return None
     rows = [

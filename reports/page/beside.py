@@ -1,4 +1,4 @@
-"""What other commands add to a folder of reports: causes, versions. Text as it is there."""
+"""Prepares what other commands add to reports: causes, versions. Text stays as it is there."""
 
 from typing import Any
 

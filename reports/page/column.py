@@ -41,7 +41,7 @@ def column(row: Comparison | Rungs | StepError | Instant) -> Column:
 
 
 def columns(rows: Iterable[Comparison]) -> list[Column]:
-    """All, the book's approximations last."""
+    """Returns every column of the rows in order, the book's approximations last."""
     return sorted({column(row) for row in rows}, key=_place)
 
 

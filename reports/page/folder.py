@@ -38,7 +38,7 @@ class Folder:
 
 
 def folder(path: Path, beside: Path | None = None) -> Folder:
-    """All that is there; what other commands add may lie in another folder too, `beside`.
+    """Reads a folder; what other commands add may lie in another one too, `beside`.
 
     Raises Missing where there are no reports, ValueError where a file is cut or of another run.
     """

@@ -27,7 +27,7 @@ WORD = {DEVIATES: "declared"}
 
 @dataclass(frozen=True)
 class Cell:
-    """What a case says of a column. kind: a word that colours and filters it."""
+    """The result of a case in a column. kind: a word that colours and filters it."""
 
     kind: str
     text: str
@@ -52,7 +52,7 @@ class Cell:
 
     @property
     def words(self) -> str:
-        """All of it, for who cannot see colours."""
+        """The cell in words, for people who cannot see colours."""
         if self.why:
             return self.why
         most = f"{self.beyond} of {self.judged} beyond" if self.beyond else "all within"

@@ -79,7 +79,10 @@ class Equation:
 
 
 def equations(case: Case) -> list[Equation]:
-    """Of its hand-written system; none where the mechanism is generated from the scene."""
+    """Returns the equations of a case's hand-written system.
+
+    There are none where the mechanism is generated from the scene.
+    """
     if case.system is None or case.system not in SYSTEMS:  # generated, or a claim about states
         return []
     system: Any = SYSTEMS[case.system](**case.parameters)
@@ -94,7 +97,10 @@ def _of(system: type) -> list[Equation]:
 
 
 def _stated(method: Any) -> Iterator[Equation]:
-    """What its docstring opens with, and of the motion's own equation the lines that follow."""
+    """Yields the equation that opens a method's docstring.
+
+    For the motion's own equation, the equations in the lines below come after it.
+    """
     lines = [line.strip() for line in (inspect.getdoc(method) or "").splitlines()]
     found = NUMBERS.match(lines[0]) if lines else None
     if found is None:

@@ -124,7 +124,7 @@ def _line(
     }
 
 
-# What the project's own tests break on purpose, and which test sees it.
+# The mutants that the project's own tests make on purpose, and which test sees each.
 
 
 COLUMNS = ("room", "planted", "seen_by")
@@ -175,7 +175,7 @@ def stick_slip(cases: Sequence[Case], motions: Mapping[str, Motion]) -> list[dic
     ]
 
 
-# What the references' own checks found, and how much of the chapter is executed.
+# The results of the references' own checks, and how much of the chapter is executed.
 
 
 NAMED = 8  # cases of an item by name; of more the number tells it

@@ -30,7 +30,7 @@ WAYS = {"law": (0, (1, 1.5)), "driver": (0, (5, 1.5, 1, 1.5))}
 
 
 def colour(engine: str) -> str:
-    """Of an engine; of one that nobody knew, one of the rest by its name."""
+    """Returns the colour of an engine; of an unknown one, one of the rest by its name."""
     return ENGINES.get(engine) or OTHERS[sum(map(ord, engine)) % len(OTHERS)]
 
 

@@ -28,7 +28,10 @@ def picture(
     rungs: Sequence[Rungs],
     steps: Sequence[StepError],
 ) -> Figure:
-    """Of the rows of one case; what has no curve, as the time of an event, has a ladder alone."""
+    """Draws a quantity of one case, from the rows of that case.
+
+    What has no curve, as the time of an event, has a ladder alone beside the mechanism.
+    """
     own = [row for row in rows if row.quantity == quantity]
     allowed = next((row.allowed for row in own if row.allowed), 1.0)
     figure = Figure(figsize=(10, 7.2), layout="constrained")

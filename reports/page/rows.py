@@ -26,7 +26,7 @@ class Words:
         self.told: dict[str, int] = {}
 
     def number(self, text: str) -> int:
-        """Of a text, the same for equal ones."""
+        """Returns the number of a text, the same for equal texts."""
         return self.told.setdefault(text, len(self.told))
 
 
@@ -73,7 +73,7 @@ def rows(folder: Folder, columns: Sequence[Column]) -> dict[str, Any]:
 
 
 def _few(number: float | None, digits: str = DIGITS) -> float | str | None:
-    """What JSON has a number for; an infinite one as a word."""
+    """Rounds a number for JSON; one that is not finite becomes a word."""
     if number is None:
         return None
     few = float(format(number, digits))

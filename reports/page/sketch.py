@@ -21,7 +21,7 @@ Sketch = dict[str, Any]
 
 
 def sketch(scene: Scene, size: float) -> Sketch:
-    """All that is drawn of it; size: how far [m] its motion reaches."""
+    """Returns all that is drawn of a scene; size: how far [m] its motion reaches."""
     joints = scene.joints.values()
     return {
         "bodies": {name: outline(body, size) for name, body in scene.bodies.items()},
@@ -41,7 +41,7 @@ def extent(scene: Scene, poses: Mapping[str, Array]) -> float:
 
 
 def _forces(scene: Scene) -> list[dict[str, Any]]:
-    """Those along a line through two points or more."""
+    """Returns the links of forces that act along a line through two points or more."""
     found = [(force, force.refers()) for force in scene.forces.values()]
     return [
         {"kind": _kind(force.word), "ends": [_end(scene, end) for end in ends], **_one_sided(force)}
@@ -105,7 +105,7 @@ def _blade(scene: Scene, edge: Any, arm: float) -> dict[str, Any]:
 
 
 def _planes(scene: Scene) -> list[dict[str, Any]]:
-    """What is stood on: a place and a direction of each plane, or of space its floor."""
+    """Returns the planes of contact, each with a place and a direction; in space the floor."""
     if scene.frame.dimension == 3:
         return [{"floor": True}] if scene.contacts or scene.constraints else []
     planes = {getattr(contact, "plane", None) for contact in scene.contacts.values()} - {None}

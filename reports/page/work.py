@@ -37,7 +37,10 @@ def work(
 
 
 def worst(rows: Iterable[Comparison], steps: Iterable[StepError]) -> Steps:
-    """Of each case's first ladder: tuned numbers follow the step, where any are tied to it."""
+    """Returns the worst error over allowed at each step [s] of each case's first ladder.
+
+    There tuned numbers follow the step, where any are tied to it.
+    """
     allowed = {(row.case, column(row), row.quantity): row.allowed for row in rows}
     found: dict[tuple[str, Column], dict[str, dict[float, float]]] = {}
     for one in steps:
@@ -63,7 +66,7 @@ def enough(ladder: Mapping[float, float], precision: float) -> float | None:
 
 
 def _kinds(ladders: Steps) -> list[Column]:
-    """Of every engine the settings by themselves, and those with our laws where there are any."""
+    """Returns each engine's settings by themselves, and those with our laws where there are any."""
     seen = {of for _, of in ladders}
     native = {of for of in seen if of.realised == "native"}
     helped = {Column(of.engine, of.setting, ANY) for of in seen - native}

@@ -1,1 +1,1 @@
-"""What a person sees: terminal, summary, scripts."""
+"""Shows results to a person: on the terminal, as a summary, as scripts."""

@@ -1,4 +1,4 @@
-"""What `textmech advise` prints: plain numbers, two recipes, their price, and what to paste."""
+"""Lines of `textmech advise`: plain numbers, two recipes, their price, and what to paste."""
 
 from collections.abc import Iterator, Sequence
 
@@ -17,7 +17,7 @@ HEADS = {BOTH: "fewest changes, and cheapest"}
 
 
 def told(one: Advised) -> Iterator[str]:
-    """Of one case in one engine, line by line."""
+    """Yields the advice on one case in one engine, line by line."""
     case, engine = one.pair.case, one.pair.engine
     tolerance, margin = one.asked.tolerance, one.asked.margin
     within = "its tolerances" if tolerance is None else f"{tolerance:g} of its size"
@@ -61,7 +61,7 @@ def _recipe(one: Advised, recipe: Recipe, place: int) -> Iterator[str]:
 
 
 def _found(one: Advised, candidate: Candidate) -> Iterator[str]:
-    """What a person asks for, in words, and the worst of what is judged."""
+    """Yields the numbers that a person asks for, in words, and the worst judged quantity."""
     assert one.kitchen is not None
     trial = trial_of(one.pair, candidate)
     try:

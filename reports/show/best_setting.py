@@ -18,16 +18,16 @@ def place(way: Way) -> tuple[float, str, str]:
 
 
 def judged(rows: Sequence[Comparison]) -> list[Comparison]:
-    """Those that the engine answers."""
+    """Returns the rows that the engine answers and does not refuse."""
     return [row for row in rows if row.verdict != REFUSED]
 
 
 def agreement(
     rows: Mapping[Way, Sequence[Comparison]], ladders: Mapping[Way, Sequence[Rungs]]
 ) -> str:
-    """What agrees at the largest step, the engine's own elements before a law or a driver of ours.
+    """Names what agrees at the largest step, the engine's own elements before our law or driver.
 
-    What fails is named beside it. Where nothing agrees and the best recipe was not asked for,
+    What fails is named too. Where nothing agrees and the best recipe was not asked for,
     nothing is said.
     """
     failing = sorted({way[0] for way, found in rows.items() if _fails(found)})

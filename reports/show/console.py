@@ -1,4 +1,4 @@
-"""What is printed: on any stream, in any encoding, and never a terminal's own commands."""
+"""Prints text: on any stream, in any encoding, and never a terminal's own commands."""
 
 import os
 import sys
@@ -50,7 +50,7 @@ def draw(line: str) -> None:
 
 
 def _clear() -> None:
-    """What was drawn stands in nobody's way."""
+    """Erases the line that was drawn last, so that it stands in nobody's way."""
     if _DRAWN:
         click.echo(f"\r{' ' * _DRAWN.pop()}\r", nl=False, err=True)
 

@@ -1,4 +1,4 @@
-"""What cures a row, from the report of causes, where there is one."""
+"""Finds what cures a row, in the report of causes, where there is one."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -21,7 +21,7 @@ OURS = ("our force law", "our driver")  # which go on in the report
 
 
 def committed(cases: Sequence[Case]) -> Cures:
-    """Of those of the cases that are shipped ones, from the committed report."""
+    """Returns the cures of those cases that are shipped ones, from the committed report."""
     files = {path.resolve() for path in shipped().values()}
     ours = {case.name for case in cases if Path(case.source.file).resolve() in files}
     return {key: cure for key, cure in cures(HERE).items() if key[0] in ours}
@@ -40,13 +40,13 @@ def cures(folder: Path) -> Cures:
 
 
 def found(causes: Iterable[Cause]) -> Cures:
-    """The same of causes that a run has just searched for."""
+    """Returns the cures, as `cures` does, of causes that a run has just searched for."""
     rows = ((c.case, c.engine, c.setting, c.quantity, c.cure, c.step) for c in causes)
     return _joined(rows)
 
 
 def carried(causes: Iterable[Cause], known: Mapping[Key, Sequence[Cause]]) -> str:
-    """Of how many rows the causes are those that were known, in words; nothing where none is."""
+    """Says of how many rows the causes are those that were known; nothing where of none."""
     searched: dict[Key, list[Cause]] = {}
     for cause in causes:
         if cause.searched_with:

@@ -1,4 +1,4 @@
-"""What a command says as one JSON document, for scripts."""
+"""Prints what a command says as one JSON document, for scripts."""
 
 import json
 import math
@@ -33,7 +33,7 @@ def of_run(
     written: Path | None,
     exit_code: int,
 ) -> Document:
-    """Of `textmech run`: its rows as they are, with all their digits."""
+    """Returns the document of `textmech run`: its rows as they are, with all their digits."""
     lines = (*summary(report.comparisons, report.rungs, cures),)
     book = approximations(report.comparisons, report.rungs)
     return {
@@ -51,13 +51,13 @@ def of_run(
 
 
 def of_causes(causes: "Sequence[Cause]", wrong: Sequence[Mistake], *, exit_code: int) -> Document:
-    """Of `textmech causes`."""
+    """Returns the document of `textmech causes`."""
     found = [asdict(cause) for cause in causes]
     return {"causes": found, "mistakes": mistakes(wrong), "exit_code": exit_code}
 
 
 def of_cases(cases: "Sequence[Titled]") -> Document:
-    """Of `textmech list`."""
+    """Returns the document of `textmech list`."""
     asked = questions()
     return {
         "cases": [

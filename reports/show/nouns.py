@@ -94,7 +94,7 @@ def _noun(kind: type) -> Iterator[str]:
 
 
 def described(kind: type) -> list[tuple[str, str, str, str]]:
-    """Of each field of a noun its name, type, unit, and meaning: empty where nobody says it."""
+    """Returns name, type, unit and meaning of each field of a noun: empty where nobody says it."""
     told: dict[str, tuple[str, str, str]] = {}
     for base in reversed(kind.__mro__[:-1]):
         own = _fields(base) if base.__module__.startswith("textmech") else {}
@@ -120,7 +120,7 @@ def _fields(kind: type) -> dict[str, tuple[str, str, str]]:
 
 
 def _comments(lines: list[str], node: ast.AST) -> Iterator[str]:
-    """What stands behind the lines of a field."""
+    """Yields the comments that stand behind the lines of a field."""
     for line in lines[node.lineno - 1 : node.end_lineno]:  # type: ignore[attr-defined]
         _, mark, said = line.partition("  # ")
         if mark and not said.startswith(("pyright", "type:", "fmt")):
@@ -149,7 +149,7 @@ def _unit(said: str) -> str:
 
 
 def _named(kind: type) -> dict[str, str]:
-    """What the docstring says of fields by their names: `along: unit vector in body axes.`"""
+    """Returns what a docstring says of fields by name: `along: unit vector in body axes.`"""
     text = " ".join(_text(kind).split())
     names = "|".join(f.name for f in fields(kind)) if hasattr(kind, "__dataclass_fields__") else ""
     if not names:
@@ -159,7 +159,7 @@ def _named(kind: type) -> dict[str, str]:
 
 
 def _members(kind: type) -> Iterator[tuple[str, str]]:
-    """Of a protocol all; of a noun what can be observed of it, and what it answers."""
+    """Yields the members: a protocol's all; of a noun what can be observed and what it answers."""
     protocol = getattr(kind, "_is_protocol", False)
     tree, _ = _source(kind)
     wanted = protocol or kind.__name__ in TOLD
@@ -191,7 +191,10 @@ def _joints() -> str:
 
 
 def _quantities() -> str:
-    """What can be observed of the elements that have fields of their own; of forces see there."""
+    """Returns the table of what can be observed of elements, and of the scene.
+
+    The elements are those that have fields of their own; of forces see there.
+    """
     rows = [["of", "quantity", "unit", "what it is"]]
     for kind in (kind for kinds in PARTS.values() for kind in kinds):
         module = inspect.getmodule(kind)
@@ -226,7 +229,7 @@ def _told(source: str, only: str = "") -> Iterator[list[str]]:
 
 
 def _frames() -> str:
-    """What the columns of a body's states are."""
+    """Returns the table of the columns of a body's states, in the plane and in space."""
     rows = [[name, *_columns(frame)] for name, frame in (("PLANE", PLANE), ("SPACE", SPACE))]
     head = ["`scene.frame`", "place", "attitude", "velocity", "turning"]
     return f"{markdown([head, *rows])}\n{_frame_text()}\n"

@@ -1,4 +1,4 @@
-"""What a command shows while it works: how much is done, of what, and how long the rest may take.
+"""Shows while a command works how much is done, of what, and how long the rest may take.
 
 A phase tells its tasks as they are done; from a thread it is said what the work is at meanwhile, so
 that whatever takes longer than two seconds has a line that moves.
@@ -110,7 +110,7 @@ def _terminal() -> bool:
 
 
 def _tell_on(ended: threading.Event, write: Callable[[str], object] | None) -> None:
-    """What runs in the thread."""
+    """Runs in the thread: prints now and then what the work is at, until `ended` is set."""
     began, said, terminal = time.monotonic(), 0.0, write is None and _terminal()
     while not ended.wait(BEAT):
         now = time.monotonic()
@@ -128,7 +128,7 @@ def _tell_on(ended: threading.Event, write: Callable[[str], object] | None) -> N
 
 
 def _at() -> str:
-    """What is being worked on: by the processes of a phase, or by this one."""
+    """Returns what is being worked on: by the processes of a phase, or by this one."""
     if not _PHASES or not (working := _PHASES[-1].working()):
         return (_PHASES[-1].line.strip() if _PHASES else "") or f"{NOW.task}{NOW.text()}"
     phase = _PHASES[-1]

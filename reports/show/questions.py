@@ -1,4 +1,4 @@
-"""What people ask in public: the case that answers, in a line, and the setting that it takes."""
+"""Lists what people ask in public: the case that answers, in a line, and the setting it takes."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What is generated in the READMEs: tables of cases and of the committed reports, and a picture.
+"""Generates parts of the READMEs: tables of cases and of the committed reports, and a picture.
 
 `python -m textmech.reports.show.readme` writes all of it anew.
 """
@@ -54,7 +54,7 @@ def releases(rows: Sequence[Row]) -> str:
 
 
 def _told(rows: Sequence[Row], swept: Sequence[str]) -> Iterator[str]:
-    """Of each release that moved numbers which the one before it had: how many, and where."""
+    """For each release that moved numbers which the one before had: how many moved, and where."""
     for before, now in pairwise(swept):
         had = {_place(row) for row in rows if row["version"] == before and row["error"]}
         moved = [

@@ -59,7 +59,7 @@ def known(certificates: Sequence[Certificate]) -> Iterator[str]:
 
 
 def _reason(row: Comparison) -> tuple[str, bool, str]:
-    """What rows share, one below another, that are told one reason; each that agrees has none."""
+    """Returns the key of neighbouring rows that share one reason; a row that agrees has none."""
     because = "" if row.verdict == AGREES else row.because
     return (row.verdict if because or row.error is None else ""), row.error is None, because
 

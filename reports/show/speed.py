@@ -1,4 +1,4 @@
-"""What the README says of the time that people wait, from the committed speed.csv."""
+"""Says for the README how long people wait, from the committed speed.csv."""
 
 import csv
 from textwrap import fill

@@ -17,7 +17,7 @@ Cures = Mapping[tuple[str, str, str, str], str]
 
 @dataclass(frozen=True)
 class Line:
-    """Of a case in an engine's setting: its worst quantity over what is allowed, or a verdict.
+    """The result of a case in a setting: its worst quantity over what is allowed, or a verdict.
 
     agrees: with which of the engine's settings, and up to which step, everything is within its
     tolerance. cured: what brings the worst quantity within, as far as that is known.
@@ -33,9 +33,9 @@ class Line:
 def summary(
     comparisons: Sequence[Comparison], rungs: Sequence[Rungs], cures: Cures | None = None
 ) -> list[Line]:
-    """Of every engine a line as shipped, and one for each of the user's own settings.
+    """Returns for each case and engine a line as shipped, and one for each own setting of the user.
 
-    The tuned setting has one of its own only where nothing else was run.
+    The tuned setting has a line of its own only where nothing else was run.
     """
     return [
         Line(
@@ -52,7 +52,7 @@ def summary(
 
 
 def approximations(comparisons: Sequence[Comparison], rungs: Sequence[Rungs]) -> list[Line]:
-    """Of each of the book's own approximations of dry friction a line."""
+    """Returns a line for each of the book's own approximations of dry friction."""
     return [
         Line(
             case,

@@ -49,9 +49,9 @@ def narrow(lines: Sequence[Line]) -> str:
 
 
 def _widths(rows: Sequence[Sequence[str]]) -> list[int]:
-    """What the cells need; where that is more than there is room, the widest ones are broken.
+    """Returns the width of each column: what its cells need, as far as there is room.
 
-    But for the first: a name is not.
+    Where there is not, the widest columns are broken, but for the first: a name is not.
     """
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
     room = WIDTH - GAP * (len(widths) - 1)

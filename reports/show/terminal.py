@@ -1,4 +1,4 @@
-"""What a run shows on the terminal at its end: rows, a table, and what fails."""
+"""Shows on the terminal, at the end of a run: rows, a table, and what fails."""
 
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
@@ -68,7 +68,7 @@ def line(row: Comparison) -> str:
     return f"{row.quantity:20} {number} {allowed:16} {row.verdict}{reason}"
 
 
-# What a user should know of own settings, and sees in no single row.
+# Notes on own settings, which a user should know and sees in no single row.
 
 
 Numbers = dict[str, tuple[float | None, ...]]

@@ -92,7 +92,7 @@ def _installer(release: Release) -> list[str]:
 
 
 def _pieces(folder: Path) -> Iterator[str]:
-    """What its packages need in one version only, and not just for an extra."""
+    """Yields what a folder's packages pin to one version, and not just for an extra."""
     for package in metadata.distributions(path=[str(folder)]):
         for needed in package.requires or []:
             if piece := PIECE.fullmatch(needed.strip()):
@@ -100,7 +100,7 @@ def _pieces(folder: Path) -> Iterator[str]:
 
 
 def _because(release: Release, said: str) -> str:
-    """What pip or uv said, in a sentence."""
+    """Says why a release cannot be installed, in a sentence, from the output of pip or uv."""
     if any(sign in said for sign in UNREACHED):
         return "cannot be installed: the package index is not reached; is there a network?"
     if listed := LISTED.search(said):

@@ -33,7 +33,7 @@ class Step:
 
     @property
     def rows(self) -> Sequence[Row]:
-        """What it was measured to, as tolerance.csv has it."""
+        """The rows of tolerance.csv for the release; none where it could not be run."""
         return self.now.folder.errors.rows if self.now.folder else ()
 
 

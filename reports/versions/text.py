@@ -53,7 +53,7 @@ def _lacking(step: Step) -> Mapping[str, int]:
 
 
 def _numbers(step: Step) -> list[Change]:
-    """Those where both releases have one."""
+    """Returns the changes where both releases have a number."""
     return [
         change
         for change in step.changes

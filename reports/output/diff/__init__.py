@@ -1,1 +1,1 @@
-"""What changed between two report folders: read, compared row by row, and told in four forms."""
+"""Compares two report folders row by row, and writes what changed in four forms."""

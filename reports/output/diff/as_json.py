@@ -11,7 +11,7 @@ from .folder import Folder
 
 
 def as_json(found: Difference) -> str:
-    """All of it; a number that is not finite, which JSON has not, is null."""
+    """Returns the whole difference as JSON text; a number that JSON has not (inf, NaN) is null."""
     document = {
         "old": _folder(found.old),
         "new": _folder(found.new),

@@ -9,7 +9,7 @@ KINDS = (WORSE, BETTER, CHANGED, LOST, NEW)
 
 @dataclass(frozen=True)
 class Seen:
-    """What one of the folders says: a verdict or other words, and a number."""
+    """The content of a row in one of the folders: a verdict or other words, and a number."""
 
     words: str
     number: float | None = None
@@ -17,7 +17,10 @@ class Seen:
 
 @dataclass(frozen=True)
 class Place:
-    """What it is about: `four_bar`, `mujoco.tuned (law)`, `crank.angle`; empty where it is none."""
+    """Case, column and subject of a change; empty where it has none.
+
+    So `four_bar`, `mujoco.tuned (law)`, `crank.angle`.
+    """
 
     case: str
     column: str

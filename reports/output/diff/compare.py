@@ -34,7 +34,10 @@ class Counts:
 
 @dataclass(frozen=True)
 class Difference:
-    """All that differs. scope: what both look at; counts: by file; alone: files of one folder."""
+    """Every difference between two report folders.
+
+    scope: what both look at; counts: by file; alone: files of one folder.
+    """
 
     old: Folder
     new: Folder
@@ -45,7 +48,7 @@ class Difference:
     alone: tuple[str, ...]
 
     def of(self, kind: str) -> tuple[Change, ...]:
-        """Those of a kind."""
+        """Returns the changes of one kind."""
         return tuple(change for change in self.changes if change.kind == kind)
 
     @property

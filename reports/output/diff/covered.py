@@ -26,7 +26,7 @@ def compared(old: Row, new: Row, rule: Rule, allowed: float | None) -> Change | 
 
 
 def within(row: Row, scope: Scope) -> Row:
-    """Of the cases those that both runs have."""
+    """Returns the row with those of its cases that both runs have."""
     names = [name for name in row["cases"].split() if name in scope.cases]
     return {**row, "cases": " ".join(names)}
 

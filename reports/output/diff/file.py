@@ -1,4 +1,4 @@
-"""What is known of a report's file: what names a row, what is compared, and what that means."""
+"""Describes a report's file: what names a row, what is compared, and what a change means."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

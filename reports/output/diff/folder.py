@@ -30,12 +30,12 @@ class Folder:
 
     @property
     def scope(self) -> Scope:
-        """What it looks at."""
+        """The cases, and the engines with their settings, that tolerance.csv has rows of."""
         return Scope.of(self.errors.rows)
 
     @property
     def versions(self) -> dict[str, str]:
-        """Of every engine; where a folder has two, both."""
+        """The version of every engine by its name; where a folder has two, both."""
         found = {(row["engine"], row["version"]) for row in self.errors.rows if row["version"]}
         names = sorted({engine for engine, _ in found})
         return {name: " and ".join(sorted(v for e, v in found if e == name)) for name in names}
@@ -82,7 +82,7 @@ def _opened(name: str, path: Path) -> Folder:
 
 
 def _written(path: Path) -> Mapping[str, Written]:
-    """What the folder's own list says. Raises CaseError where it cannot be read."""
+    """Reads the folder's own list of its tables. Raises CaseError where it cannot be read."""
     try:
         if found := runs.read(path):
             return found

@@ -48,7 +48,7 @@ def _by_cell(found: Difference) -> dict[Cell, list[Change]]:
 
 
 def _rows(folder: Folder, found: Difference) -> dict[Cell, list[Row]]:
-    """Of tolerance.csv, those that are looked at."""
+    """Returns by case and column the rows of tolerance.csv that are compared."""
     cells: dict[Cell, list[Row]] = defaultdict(list)
     for row in folder.errors.rows:
         if found.scope.within(row) is not None:

@@ -16,7 +16,7 @@ def place(row: Row) -> Place:
 
 
 def seen(row: Row) -> Seen:
-    """What the ladder shows, and the usable step [s]."""
+    """Returns the verdict on a ladder of steps, and its usable step [s]."""
     return Seen(row["verdict"], number(row, "usable_step"))
 
 

@@ -34,7 +34,10 @@ def unknown(old: Table, new: Table) -> File:
 
 
 def _naming(shared: Sequence[str], tables: Sequence[Table]) -> tuple[str, ...]:
-    """All that is shared, where nothing less tells the rows apart: then none of them changes."""
+    """Returns the shared columns that name a row, as few as tell the rows apart.
+
+    Where nothing less does, these are all shared columns: then no row changes.
+    """
     keys = [name for name in shared if name in NAMING]
     for further in ("", *FURTHER):
         keys += [further] if further in shared else []
@@ -48,7 +51,7 @@ def _apart(table: Table, keys: Sequence[str]) -> bool:
 
 
 def place(named: Sequence[str], keys: Sequence[str], row: Row) -> Place:
-    """Of the columns that every report has their own place, all others in one."""
+    """Returns a row's place: the columns of every report by themselves, all others in one."""
     column = ".".join(row[name] for name in named if name != "case" and row[name])
     what = ", ".join(row[key] for key in keys if key not in named and row[key])
     return Place(row["case"] if "case" in named else "", column, what)

@@ -1,4 +1,4 @@
-"""What both folders look at: the others' cases and engines are counted, and not compared."""
+"""Cases and engines that both folders look at: all others are counted, and not compared."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -20,7 +20,10 @@ class Scope:
 
     @staticmethod
     def of(rows: Iterable[Row]) -> "Scope":
-        """Of the rows of tolerance.csv: each engine has one on each case, if it refuses it."""
+        """Returns the scope of rows of tolerance.csv.
+
+        Each engine has one on each case, even if it refuses it.
+        """
         told = [*rows]
         return Scope(
             frozenset(row["case"] for row in told),

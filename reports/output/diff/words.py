@@ -72,14 +72,14 @@ def numbers(change: Change) -> str:
 
 
 def note(change: Change) -> str:
-    """What else is to be said, and whether only one folder has the row."""
+    """Returns what else is to be said of a change, and whether only one folder has its row."""
     if change.now is None:
         return "no such row any more"
     return change.note or ("not in OLD" if change.was is None else "")
 
 
 def sentence(change: Change) -> str:
-    """All but its name: `agrees → beyond; 0.0021 → 0.0042 rad ×2, allowed 0.001`."""
+    """Says a change without its name: `agrees → beyond; 0.0021 → 0.0042 rad ×2, allowed 0.001`."""
     if change.now is None:
         return note(change)
     if change.was is not None and change.was.words != change.now.words:
@@ -91,7 +91,7 @@ def sentence(change: Change) -> str:
 
 
 def alike(changes: Iterable[Change]) -> list[tuple[str, str]]:
-    """What is said of each: its name and a sentence; names of which the same is said together."""
+    """Returns each change as its name and a sentence; names of one sentence stand together."""
     names: dict[str, list[str]] = {}
     for change in changes:
         names.setdefault(sentence(change), []).append(change.place.what)
