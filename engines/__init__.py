@@ -31,7 +31,7 @@ def foreign(name: str) -> bool:
 
 
 def settings(name: str) -> tuple[str, ...]:
-    """What the engine offers, in its order. Raises KeyError, Broken."""
+    """The names of the settings that the engine offers, in its order. Raises KeyError, Broken."""
     return _maker(name).offers
 
 
@@ -58,7 +58,7 @@ def make(name: str, setting: str, options: Mapping[str, Any] | None = None) -> E
 
 
 def distribution(name: str) -> Distribution | None:
-    """What was installed with the engine, as its package says; None where there is no such."""
+    """The installed distribution with the engine's entry point; None where there is none."""
     point = _found().get(name)
     return None if point is None else point.dist
 

@@ -35,7 +35,7 @@ class Choice:
 
 
 def no_numbers(step: float) -> Sequence[Choice]:
-    """Of an engine without numbers to choose."""
+    """No choices at any step [s]: the numbers of an engine that has none to choose."""
     return ()
 
 
@@ -46,7 +46,7 @@ def as_it_is(step: float) -> str:
 
 @dataclass(frozen=True)
 class Plan:
-    """All that a setting decides about one scene and its start before it runs. It is pickled.
+    """The decisions of a setting about one scene and its start before it runs. It is pickled.
 
     held: exponents of h in the error's expansion while every other number stays the same.
     following: the same while numbers tied to the step follow it; None: no number is tied.
@@ -72,12 +72,12 @@ class Plan:
         return self.numbers(step if self.kept is None else self.kept)
 
     def held_at(self, step: float) -> "Plan":
-        """The same plan with tied numbers kept at what they are for the step [s]."""
+        """A copy of the plan in which tied numbers are kept at what they are for the step [s]."""
         return replace(self, kept=step)
 
     @property
     def exponents(self) -> tuple[int, ...]:
-        """Those of the ladder that is climbed with this plan."""
+        """The exponents of h in the error's expansion on the ladder climbed with this plan."""
         return self.held if self.following is None or self.kept is not None else self.following
 
 
@@ -176,7 +176,7 @@ class Plain:
 
 @runtime_checkable
 class Loop(Protocol):
-    """What an engine may offer beside the protocol: the yardstick of `textmech bench`."""
+    """An optional extension of the protocol: a plain loop, the yardstick of `textmech bench`."""
 
     def plain(
         self, scene: Scene, start: Start, step: float, plan: Plan
@@ -192,14 +192,14 @@ class Loop(Protocol):
 
 @runtime_checkable
 class Claims(Protocol):
-    """What an engine may offer beside the protocol: answers about states that no step leads to."""
+    """An optional extension of the protocol: answers about states that no step leads to."""
 
     def answer(
         self, scene: Scene, start: Start, states: Mapping[str, Array], wanted: Sequence[str]
     ) -> Mapping[str, Array | str]:
-        """Of each wanted quantity its samples (N,), or why it has none: `engine: …`, `adapter: …`.
+        """For each wanted quantity its samples (N,), or why it has none: `engine: …`, `adapter: …`.
 
-        Of an attitude (N, 4), of `mass_matrix` all entries of all states (N n²,). states: by
+        An attitude has (N, 4), `mass_matrix` all entries of all states (N n²,). states: by
         coordinate (N, 3) places, rates and accelerations, in the order of the mass matrix; start:
         the first of them. Masses and inertias are those that the engine finds by itself from the
         shapes of bodies, as far as they have any.
@@ -209,7 +209,7 @@ class Claims(Protocol):
 
 @runtime_checkable
 class Tunable(Protocol):
-    """What an engine may offer beside the protocol: what of it can be turned, and at what cost.
+    """An optional extension of the protocol: which options of the engine to tune, and at what cost.
 
     Whatever the setting; options are the user's own, under which the engine is then made.
     """
@@ -226,7 +226,7 @@ class Tunable(Protocol):
         ...
 
     def cost(self, options: Options, step: float, scene: Scene) -> float:
-        """What a simulated second costs at the step [s], to compare options with: no seconds."""
+        """The cost of a simulated second at the step [s], to compare options with: no seconds."""
         ...
 
     def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
@@ -236,7 +236,7 @@ class Tunable(Protocol):
 
 @runtime_checkable
 class Paced(Protocol):
-    """What an engine may offer beside the protocol: how long it takes, for the limits of work."""
+    """An optional extension of the protocol: how long a step takes, for the limits of work."""
 
     def pace(self, scene: Scene) -> float:
         """About how long one step of the scene takes [s], in its dearest way, on one core."""
@@ -244,7 +244,7 @@ class Paced(Protocol):
 
 
 class Maker(Protocol):
-    """What an entry point names, usually the engine's class."""
+    """The callable that an entry point names and that makes an engine, usually its class."""
 
     offers: tuple[str, ...]
     """Its settings: of `shipped`, `recommended` and `tuned` those it has."""

@@ -1,4 +1,4 @@
-"""What heads an engine's file or script: which scene, which setting, and each number's reason."""
+"""The heading of an engine's file or script: the scene, the setting, and each number's reason."""
 
 from .engine import Engine, Plan
 from .knobs import Options, as_text
@@ -23,5 +23,5 @@ def heading(
 
 
 def _printable(word: str) -> str:
-    """What is no character of a text would end a comment, or the file."""
+    """A text with � for each unprintable character, which would end a comment, or the file."""
     return "".join(character if character.isprintable() else "�" for character in word)

@@ -1,4 +1,4 @@
-"""What of an engine can be turned: a closed list for each scene, as the user's own options."""
+"""Knobs of an engine: a closed list of what to turn for each scene, as the user's own options."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -34,7 +34,7 @@ class Knob:
 
 
 def merged(*options: Options) -> dict[str, Any]:
-    """All options in one; of two that are the same the later, in groups too."""
+    """One mapping of all options; where two have the same name the later wins, in groups too."""
     found: dict[str, Any] = {}
     for some in options:
         for name, value in some.items():

@@ -49,7 +49,7 @@ def _torsion_damper(force: TorsionDamper, angle: float, rate: float) -> float:
 
 
 def one_number(scene: Scene) -> str:
-    """What an engine that knows one number of friction leaves out, in words; or nothing."""
+    """The friction that an engine with one number leaves out, in words; an empty text if none."""
     told = [
         f"{contact.name} by its kinetic {contact.kinetic:g} (static {contact.static:g})"
         for contact in (*scene.contacts.values(), *scene.pairs.values())

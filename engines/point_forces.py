@@ -147,7 +147,7 @@ TOLD: dict[type[Force], Callable[[Scene, Any], Law]] = {
 
 
 def law_of(scene: Scene, force: Force) -> Law:
-    """What a force of the scene exerts."""
+    """The law of a force of the scene: what it exerts at the points where it acts."""
     return TOLD[type(force)](scene, force)
 
 

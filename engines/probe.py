@@ -39,7 +39,7 @@ def why_not(point: EntryPoint, settings: tuple[str, ...]) -> str:
 
 
 def unsound(engine: Any, name: str, setting: str) -> str:
-    """What of its description is none, in words; nothing if all of it is."""
+    """The first fault in the engine's description, in words; an empty text if there is none."""
     for word, wanted in (("name", name), ("setting", setting)):
         if (found := getattr(engine, word)) != wanted or not isinstance(found, str):
             return f"its {word} should be {wanted!r}, is {_short(found)}"
@@ -55,12 +55,12 @@ def unsound(engine: Any, name: str, setting: str) -> str:
 
 
 def said(error: BaseException | None) -> str:
-    """What it is called, and what it says, in a short line."""
+    """The error's type and its message, in a short line."""
     return f"{type(error).__name__}: {_short(error, str)}"
 
 
 def guarded(call: Callable[[], Any]) -> tuple[Any, BaseException | None]:
-    """What the call gives, or raises, whatever that is but an interruption; nothing is printed."""
+    """The call's result, or the error that it raises but an interruption; nothing is printed."""
     try:
         with quiet():
             return call(), None
@@ -71,7 +71,7 @@ def guarded(call: Callable[[], Any]) -> tuple[Any, BaseException | None]:
 
 
 def _try(there: Connection, point: EntryPoint, settings: tuple[str, ...]) -> None:
-    """What runs in the process."""
+    """Make the engine with each setting in the process, and send the error, or an empty text."""
     silence()
     try:
         maker: Any = point.load()

@@ -1,4 +1,4 @@
-"""What engines print goes to the error stream: the output is a document, or a table."""
+"""Redirects what engines print to the error stream: the output is a document, or a table."""
 
 import os
 import sys

@@ -52,9 +52,9 @@ def in_time(signal: Signal) -> Callable[[float], tuple[float, ...]]:
 
 
 def acting(signal: Signal, step: float) -> Callable[[float], tuple[float, ...]]:
-    """What acts in the step [s] that begins at t [s]: of one with a corner the mean.
+    """The law's value in the step [s] that begins at t [s]: of one with a corner the mean.
 
-    Else what acts in its middle: of a jump that would be all or nothing. step: 0 for the present.
+    Else the value in its middle: of a jump that would be all or nothing. step: 0 for the present.
     """
     usual, share = in_time(signal), mean(signal, step)
     corners, amplitude = signal.corners, signal.amplitude
@@ -84,7 +84,7 @@ def mean(signal: Signal, step: float) -> Factor:
 
 
 def factor(signal: Signal) -> Factor:
-    """What the amplitude is multiplied by, at t [s]; on a jump what it is after it."""
+    """The factor of the amplitude, by the time t [s]; on a jump what it is after it."""
     return FACTORS[signal.law](signal)
 
 

@@ -89,7 +89,7 @@ def _told(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Take:
     pushes = [f for f in of(Push, scene.forces.values()) if f.at.body == joint.b.body]
 
     def pushed() -> float:
-        """All but friction along the slide [N]; at a stage MuJoCo does not know its pushes yet."""
+        """Force along the slide but friction [N]; at a stage MuJoCo does not know pushes yet."""
         force = data.qfrc_passive[dof] - data.qfrc_bias[dof]
         for push in pushes:
             fx, fy = value(push.signal, data.time)

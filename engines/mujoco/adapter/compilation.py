@@ -40,7 +40,7 @@ _HELD = {
     "stop.solreflimit": "jnt_solref",
 }
 _EQUALITIES = {"connect": mujoco.mjtEq.mjEQ_CONNECT, "rod": mujoco.mjtEq.mjEQ_TENDON}
-# What else a run writes: friction by our laws, and the start in the floor.
+# Other fields that a run writes: friction by our laws, and the start in the floor.
 _WRITTEN = (*_HELD.values(), "dof_frictionloss", "pair_friction", "site_pos", "tendon_limited")
 _WRITTEN += ("key_qpos", "key_qvel")
 
@@ -61,8 +61,10 @@ def compiled(
 def placed(
     scene: Scene, start: Start, step: float, plan: Plan, *, settles: bool
 ) -> tuple[mujoco.MjModel, mujoco.MjData, dict[str, float]]:
-    """The same with its start, the keyframe; how deep [m] it settles in the
-    floor, and how much too long its ropes are."""
+    """The model and data of `compiled` with the start as keyframe, settled if `settles`.
+
+    By name, how deep [m] it settles in the floor, and how much too long [m] its ropes are.
+    """
     model, data = compiled(scene, start, step, plan)
     return model, data, _settle(scene, model, data, start, plan) if settles else {}
 
@@ -84,7 +86,7 @@ _SHELF: list[_Built] = []  # one at most, while nobody runs it
 def lent(
     scene: Scene, start: Start, step: float, plan: Plan, *, settles: bool
 ) -> Iterator[tuple[mujoco.MjModel, mujoco.MjData]]:
-    """What `compiled` gives, or `placed`, for one run: the next rung is lent the same.
+    """Lend the model and data of `compiled`, or `placed`, to one run: the next rung gets the same.
 
     A copy of a model and new data cost as much as compiling it. What a failing run leaves behind
     is not used again.

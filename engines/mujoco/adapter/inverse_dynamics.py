@@ -42,7 +42,7 @@ _ENTRIES = {
 def answered(
     scene: Scene, text: str, states: Mapping[str, Array], wanted: Sequence[str]
 ) -> dict[str, Array | str]:
-    """Of each wanted quantity its samples, or why there are none. text: the scene as MJCF."""
+    """For each wanted quantity its samples, or why there are none. text: the scene as MJCF."""
     with listening(), installed(None):
         try:
             model, data = started(mujoco.MjModel.from_xml_string(shaped(text, scene)))
@@ -103,7 +103,7 @@ def _reader(
     states: Mapping[str, Array],
     dofs: list[int],
 ) -> Read:
-    """What reads one quantity of the present state."""
+    """A function that reads one quantity of MuJoCo's present state."""
     part, _, field = name.rpartition(".")
     if name == MASS_MATRIX:
         return partial(_mass_matrix, model, data, dofs)
@@ -164,7 +164,7 @@ SENSORS = ("framepos", "framequat", "framelinvel", "gyro", "framelinacc", "frame
 
 
 def shaped(text: str, scene: Scene) -> str:
-    """The same with geoms in place of the inertials of ideal shapes, and sensors at all points."""
+    """The MJCF with geoms in place of the inertials of ideal shapes, and sensors at all points."""
     root = ET.fromstring(text)
     elements = {element.attrib["name"]: element for element in root.iter("body")}
     sensors = ET.SubElement(root, "sensor")

@@ -1,4 +1,4 @@
-"""What MuJoCo does with planar scenes."""
+"""The functions with which MuJoCo's adapter handles planar scenes."""
 
 from ..model.contact import RECIPES, closed, worth
 from ..model.drive import controls

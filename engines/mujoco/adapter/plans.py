@@ -1,4 +1,4 @@
-"""What a setting of MuJoCo decides about a scene: ways, exponents, and the protocol's words."""
+"""Plans of MuJoCo's settings for a scene: ways, exponents, and the protocol's words."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace

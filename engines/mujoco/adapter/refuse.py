@@ -102,7 +102,7 @@ def _slide(scene: Scene, tree: Tree, branch: Branch, joint: Joint) -> str | None
 def uncompilable(
     compiled: Callable[..., object], scene: Scene, start: Start, plan: Plan
 ) -> str | None:
-    """What MuJoCo's compiler says of the scene."""
+    """The reason why MuJoCo's compiler does not take the scene; None if it does."""
     try:
         compiled(scene, start, NOMINAL, plan)
     except ValueError as refusal:

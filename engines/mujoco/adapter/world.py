@@ -1,4 +1,4 @@
-"""What MuJoCo's plane and its space do otherwise, as functions; `MuJoCo` has the verbs."""
+"""The functions that differ between MuJoCo's plane and its space; `MuJoCo` has the verbs."""
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager

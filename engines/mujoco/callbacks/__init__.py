@@ -1,1 +1,1 @@
-"""What MuJoCo has no element for: laws that it calls back, and loops around its step."""
+"""Laws that MuJoCo has no element for and calls back, and loops around its step."""

@@ -76,7 +76,7 @@ class Touch:
             self.hold()
 
     def halt(self) -> None:
-        """What has stopped does not slip, to the last bit: by an impulse where it touches."""
+        """Stop the slip, to the last bit, by an impulse where the body touches."""
         impulse = -self.speed * self.mass
         self.data.qvel[self.x] += impulse / self.heavy
         if self.turn is not None:
@@ -88,7 +88,7 @@ class Touch:
         self.normal = self.normal_before = normal
 
     def remember(self) -> tuple[int, float]:
-        """What a reading of this state needs."""
+        """Sense of the slip and normal force [N], by which a reading restores this state."""
         return self.sense, self.normal
 
     def recall(self, noted: tuple[int, float]) -> None:

@@ -65,15 +65,15 @@ class Cut(ABC, Generic[Key]):
         mujoco.mj_step(self.model, self.data)
 
     def _begin(self) -> None:
-        """What has to be known of a part before it."""
+        """Store what has to be known before a part of the step is taken."""
 
     @abstractmethod
     def _happens(self) -> Mapping[Key, tuple[float, Height]]:
-        """What happens in the part that was just taken: its height at the beginning, and now."""
+        """By key, each event in the part just taken: its height at the beginning, and now."""
 
     @abstractmethod
     def _change(self, key: Key) -> None:
-        """What is different from then on."""
+        """Set the model and its data to what holds from the event `key` on."""
 
     def _uncut(self) -> None:
-        """What a part tells in which nothing happens."""
+        """Update what is known after a part in which nothing happens."""

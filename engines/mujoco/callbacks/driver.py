@@ -80,7 +80,10 @@ _HALVINGS = 45  # 3e-14 of a step
 
 
 def _switch(slide: Slide | Touch) -> None:
-    """What has stopped rests, or goes on the way that the force points; what broke loose slides."""
+    """Set the sense of a slide after an event: 0, or the way that the force points.
+
+    What has stopped rests, or goes on the way that the force points; what broke loose slides.
+    """
     if slide.sense:
         slide.halt()
         mujoco.mj_forward(slide.model, slide.data)

@@ -26,7 +26,7 @@ Way = Callable[[Array, Array], tuple[Array, Array]]
 
 @dataclass(frozen=True)
 class Row:
-    """What an edge holds: its point, a direction, and how the speed along it changes."""
+    """A constraint row of an edge: its point, a direction, and how the speed along it changes."""
 
     body: int
     site: int

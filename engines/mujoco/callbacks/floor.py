@@ -1,4 +1,4 @@
-"""What touches in MuJoCo does when it is so deep in a plane or a body, and creeps so fast."""
+"""Motion of touching points in MuJoCo at given depths in a plane or a body, and given creeps."""
 
 from collections.abc import Sequence
 
@@ -65,7 +65,7 @@ class Floor:
         self.data.qvel[:] = self._qvel + self._creeps @ self.creeps
 
     def acceleration(self, i: int) -> tuple[float, float]:
-        """Of what touches there [m/s²]: how its slip grows, and how its height does."""
+        """Accelerations [m/s²] at contact i: how its slip grows, and how its height does."""
         self._look()
         return self._touching[i].acceleration()
 
@@ -86,7 +86,7 @@ def _falling(scene: Scene, model: mujoco.MjModel) -> list[int]:
     return [int(model.joint(f"{body}.{axis}").dofadr[0]) for body in free for axis in ("x", "y")]
 
 
-# What touches in MuJoCo at a start: how it moves with all rates, and how its gap and slip grow.
+# Points that touch in MuJoCo at a start: how they move with all rates, how gap and slip grow.
 
 
 _GEOM, _BODY = int(mujoco.mjtObj.mjOBJ_GEOM), int(mujoco.mjtObj.mjOBJ_BODY)
@@ -121,7 +121,7 @@ class OnPlane:
         return np.array([self._along @ found, self._normal @ found])
 
     def acceleration(self) -> tuple[float, float]:
-        """Of the lowest point [m/s²]: how its slip grows, and how its height does."""
+        """Accelerations [m/s²] of the lowest point: how its slip grows, and how its height does."""
         found = np.zeros(6)
         mujoco.mj_objectAcceleration(self._model, self._data, _GEOM, self._geom, found, 0)
         real = found[3:] + self._gravity  # MuJoCo counts what holds as −g
@@ -130,7 +130,7 @@ class OnPlane:
 
 
 class OnBody:
-    """What touches another body."""
+    """A point or rim of a body that touches another body."""
 
     def __init__(
         self, scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, pair: Pair

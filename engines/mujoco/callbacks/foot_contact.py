@@ -33,7 +33,7 @@ class Feet(Cut[str]):
         self._above: dict[str, float] = {}  # how high [m] the swinging feet were as a part began
 
     def remember(self) -> Standing:
-        """What a reading of this state needs."""
+        """A copy of which feet stand, by which a reading restores this state."""
         return dict(self.standing)
 
     def recall(self, noted: Standing) -> None:

@@ -71,12 +71,12 @@ class Slide:
         self._pushed[self.dof] = 0.0
 
     def halt(self) -> None:
-        """What has stopped is at rest, to the last bit."""
+        """Set the speed to zero, to the last bit, and take the push away."""
         self._qvel[self.dof] = 0.0
         self._pushed[self.dof] = 0.0
 
     def remember(self) -> int:
-        """What a reading of this state needs."""
+        """The sense of the sliding, by which a reading restores this state."""
         return self.sense
 
     def recall(self, noted: int) -> None:

@@ -11,7 +11,7 @@ _LEAST = 1e-15  # 1/kg: in a dead centre nothing moves the freedom
 def closed(
     model: mujoco.MjModel, data: mujoco.MjData, dof: int, free: Array
 ) -> tuple[float, float]:
-    """What accelerates a freedom [m/s²] while all loops stay closed, and the mass [kg] it moves.
+    """Acceleration of a freedom [m/s²] while all loops stay closed, and the mass [kg] it moves.
 
     M a = M a₀ + Jᵀ f with J a + R f = a_ref of MuJoCo's equalities, and nothing else that gives
     way. free: a₀ (nv,). Of the state that MuJoCo was last asked for.

@@ -44,7 +44,7 @@ class Catching(Cut[int]):
         return self.taut.copy()
 
     def recall(self, taut: Any) -> None:
-        """What `remember` gave: limits hold what is taut."""
+        """Restore which ropes are taut, as `remember` gave them: MuJoCo's limits hold these."""
         self.taut = taut.copy()
         self.model.tendon_limited[self._tendons.numbers] = self.taut
 
@@ -63,7 +63,7 @@ class Catching(Cut[int]):
         }
 
     def _uncut(self) -> None:
-        """What is shorter than its length is slack."""
+        """Mark as slack each rope whose ends are closer than its length."""
         self.recall(self.taut & (self._over() >= 0.0))
 
     def _calm(self, step: float) -> bool:

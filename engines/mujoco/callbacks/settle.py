@@ -98,7 +98,7 @@ def _zero(slips: Callable[[float], float], before: float, now: float, h: float) 
     return float(brentq(slips, before, before + reach, xtol=xtol, maxiter=_MOST))
 
 
-# All depths and creeps of a start at once, by Newton's method from where they nearly are.
+# Newton's method for all depths and creeps of a start at once, from where they nearly are.
 #
 # One after the other they settle as slowly as contacts share their load: blocks on blocks took a
 # thousand evaluations of MuJoCo, and this takes fifty.

@@ -35,7 +35,7 @@ class Corners:
         return any(law.corners for law in self.laws)
 
     def held(self, take: Take) -> Take:
-        """What takes n steps, so that one with a corner is taken alone."""
+        """A function that takes n steps, so that one with a corner is taken alone."""
         alone = sorted(set(self._touched()))
         done = 0
 
@@ -69,7 +69,7 @@ def signals(
 
 
 def together(wanted: Sequence[Control | None]) -> AbstractContextManager[None]:
-    """All of them, one after the other, as the one callback that there is."""
+    """Install all controls, called one after the other, as the one callback that there is."""
     controls = [control for control in wanted if control is not None]
     if len(controls) < 2:
         return installed(controls[0] if controls else None)
@@ -126,7 +126,7 @@ def _nothing() -> None:
 
 
 def following(laws: Sequence[Signal], corners: Corners | None = None) -> Control | None:
-    """What sets the controls of the actuators, in their order, that do not follow by themselves."""
+    """A callback for the actuators' controls, in their order, that do not follow by themselves."""
     told = [(i, law, factor(law)) for i, law in enumerate(laws) if law.law not in BY_ITSELF]
 
     def bind(data: mujoco.MjData) -> Callable[[], None]:

@@ -81,7 +81,7 @@ def _among(model: mujoco.MjModel, data: mujoco.MjData, dof: int) -> Acting:
 
 
 def _among_loops(model: mujoco.MjModel, data: mujoco.MjData, dof: int) -> Acting:
-    """The same, and through what holds the loops closed."""
+    """The force along the slide [N] but its friction, also through what holds the loops closed."""
     free = np.zeros((1, model.nv))
 
     def acting() -> float:

@@ -46,7 +46,7 @@ class Steps:
             self.noted.append(tuple([slide.remember() for slide in self.slides]))
 
     def keep(self, rows: NDArray[np.int64]) -> None:
-        """Of all notes only some."""
+        """Keep only the notes of the samples `rows`."""
         if self.noted:
             self.noted = [self.noted[row] for row in rows.tolist()]
 

@@ -1,4 +1,4 @@
-"""What a contact of MuJoCo's throws back: its spring and its damper, in terms of the step h.
+"""Spring and damper with which a contact of MuJoCo's throws back, in terms of the step h.
 
 `springy` and `dead` return k [1/s²] as a text, b [1/h], and what they do.
 """

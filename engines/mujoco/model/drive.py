@@ -21,7 +21,7 @@ HEAVY = 1e15  # kg m² (kg of a slide): what a scene exerts changes the rate by 
 
 @dataclass(frozen=True)
 class Drive:
-    """What one prescribed rate is to MuJoCo; effort: what it exerts, such as `hinge.torque`.
+    """One prescribed rate as MuJoCo has it; effort: what it exerts, such as `hinge.torque`.
 
     way: 1.0 if MuJoCo's joint counts as the scene's does, from the first part to the second.
     """

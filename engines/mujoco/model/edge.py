@@ -1,4 +1,4 @@
-"""What edges hold in MuJoCo, row by row, in the order in which `userdata` has their forces."""
+"""Constraint rows of edges in MuJoCo, in the order in which `userdata` has their forces."""
 
 from collections.abc import Iterator
 from xml.etree import ElementTree as ET

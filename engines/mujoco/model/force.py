@@ -74,7 +74,7 @@ def viscous_numbers(model: mujoco.MjModel, force: Viscous, along: Hinge) -> dict
     return {"forward": d, "backward": d}
 
 
-# What acts about a joint: MuJoCo's own of the joint, or an actuator.
+# Forces about a joint: MuJoCo's own of the joint, or an actuator.
 
 
 def torsion(sections: Mapping[str, ET.Element], force: Torsion, about: Hinge) -> None:
@@ -84,7 +84,7 @@ def torsion(sections: Mapping[str, ET.Element], force: Torsion, about: Hinge) ->
 
 
 def torsion_numbers(model: mujoco.MjModel, force: Torsion, about: Hinge) -> dict[str, float]:
-    """What the joint holds of it."""
+    """Stiffness and rest angle of a torsion spring, as the compiled joint holds them."""
     number = model.joint(about.name).id
     rest = about.way * model.qpos_spring[model.jnt_qposadr[number]]
     return {"stiffness": np.ravel(model.jnt_stiffness[number])[0], "rest_angle": rest}
@@ -96,7 +96,7 @@ def torsion_damper(sections: Mapping[str, ET.Element], force: TorsionDamper, abo
 
 
 def torsion_damping(model: mujoco.MjModel, force: TorsionDamper, about: Hinge) -> dict[str, float]:
-    """What the joint holds of it."""
+    """The damping of a torsion damper, as the compiled joint holds it."""
     dof = model.jnt_dofadr[model.joint(about.name).id]
     return {"damping": np.ravel(model.dof_damping[dof])[0]}
 
@@ -205,7 +205,7 @@ def begun_with(scene: Scene) -> list[float]:
 
 
 def numbers(scene: Scene, model: mujoco.MjModel) -> dict[str, float]:
-    """What the compiled model holds of the forces, as `Force.numbers` names it."""
+    """The numbers of all forces that the compiled model holds, as `Force.numbers` names them."""
     return {
         f"{force.name}.{key}": number
         for force in scene.forces.values()
@@ -224,7 +224,7 @@ def _about(scene: Scene, force: Force, root: ET.Element | None = None) -> Iterat
 
 
 def outer(scene: Scene, model: mujoco.MjModel, sizes: Array) -> Iterator[Outer]:
-    """What the actuators exert on bodies, when their forces are `sizes` (N, actuators)."""
+    """Forces and torques of the actuators on bodies, when theirs are `sizes` (N, actuators)."""
     for i, (force, _) in enumerate(_actuated(scene)):
         gear = model.actuator_gear[i]
         yield from ELEMENTS[type(force)].outer(force, sizes[:, i], gear)

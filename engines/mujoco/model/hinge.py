@@ -31,7 +31,7 @@ class Hinge:
 
 
 def hinge(scene: Scene, force: Force, root: ET.Element | None = None) -> Hinge:
-    """That about which a force acts. Raises KeyError of a joint that closes a loop."""
+    """The joint about which a force acts. Raises KeyError of a joint that closes a loop."""
     if isinstance(scene, SpatialScene):
         name, way = _spatial(scene, force)
     else:
@@ -48,7 +48,10 @@ def _flat(scene: Scene, joint: str, freedom: Freedom) -> tuple[str, float]:
 
 
 def _spatial(scene: SpatialScene, force: Force) -> tuple[str, float]:
-    """Of a body that is the first part MuJoCo's axis is the opposite, and the angle the same."""
+    """The name of MuJoCo's joint, and its way, 1.0. Raises KeyError of a joint that closes a loop.
+
+    Of a body that is the first part MuJoCo's axis is the opposite, and the angle the same.
+    """
     if force.about in {joint.name for joint in spanning_tree_in_space(scene).loops}:
         raise KeyError(force.about)
     joint = scene.joints[force.about or ""]

@@ -1,4 +1,4 @@
-"""What closes loops: a pin by `connect`, a massless rod by a tendon whose length is held."""
+"""Constraints that close loops: `connect` for a pin, a tendon of held length for a massless rod."""
 
 import math
 from collections.abc import Sequence

@@ -10,7 +10,7 @@ def written(*values: object) -> str:
 
 
 def attributes(numbers: Mapping[str, object], group: str) -> dict[str, str]:
-    """Those of one element: of `connect.solref` the `solref`, where the group is `connect`."""
+    """Attributes of one element: of `connect.solref` the `solref`, if the group is `connect`."""
     parts = ((name.rpartition("."), value) for name, value in numbers.items())
     return {
         name: value if isinstance(value, str) else written(value)
@@ -20,7 +20,7 @@ def attributes(numbers: Mapping[str, object], group: str) -> dict[str, str]:
 
 
 def soft(numbers: Mapping[str, object], group: str, element: str) -> dict[str, str]:
-    """What one of a group gives way with: the group's numbers, and what it has instead."""
+    """The softness of one element: its group's numbers, and those that it has instead."""
     return attributes(numbers, group) | attributes(numbers, of_one(element))
 
 

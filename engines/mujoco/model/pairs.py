@@ -15,7 +15,7 @@ DEEP = 1.0  # m, half a block's size along z: a point is nearer to its faces
 
 
 def add_geoms(element: ET.Element, scene: Scene, body: str) -> None:
-    """What of the body touches, and what is touched: a sphere, a point, a box."""
+    """Add geoms for what touches on the body, and for what is touched: a sphere, a point, a box."""
     for pair in scene.pairs.values():
         if pair.body == body:
             at = scene.bodies[body].points[pair.at.point]
@@ -47,7 +47,7 @@ def add_pairs(contacts: ET.Element, scene: Scene, soft: Soft) -> None:
 
 
 def add_pair_sensors(sensors: ET.Element, scene: Scene) -> None:
-    """Of each pair its force; the normal and the tangent, in whose axes it is, turn."""
+    """Add sensors of each pair's force; the normal and the tangent, in whose axes it is, turn."""
     for pair in scene.pairs.values():
         ET.SubElement(
             sensors, "contact", geom1=touched(pair), geom2=pair.name, data="force normal tangent",

@@ -15,12 +15,12 @@ POINT = 1e-12  # m, radius of a point that touches: too small to be an arm or a 
 
 
 def touching(scene: Scene) -> dict[str, Contact]:
-    """What MuJoCo's planes meet: every point that may touch, but for feet, which are pinned."""
+    """The contacts with MuJoCo's planes: every point that may touch but feet, which are pinned."""
     return {name: one for name, one in scene.touching.items() if one.ahead_of is None}
 
 
 def met(scene: Scene) -> list[Contact | Pair]:
-    """What MuJoCo's own contacts hold: on planes, and of two bodies."""
+    """The contacts that MuJoCo has as its own: on planes, and of two bodies."""
     return [*touching(scene).values(), *scene.pairs.values()]
 
 
@@ -66,7 +66,7 @@ def add_sensors(sensors: ET.Element, scene: Scene) -> None:
 
 
 def dimensions(friction: float) -> str:
-    """What is smooth gets no friction at all: MuJoCo knows no coefficient below 1e-5."""
+    """The `condim` of a contact: 1 if it is smooth, for MuJoCo knows no coefficient below 1e-5."""
     return "3" if friction else "1"
 
 

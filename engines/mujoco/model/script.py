@@ -65,7 +65,7 @@ _SEEN = {"contype": "0", "conaffinity": "0", "mass": "0", "group": "1", "rgba": 
 
 
 def drawn(text: str, scene: Scene, start: Start) -> str:
-    """The same motion: every body has its mass and inertia in numbers, which stay."""
+    """The MJCF with a geom drawn for each body, whose mass and inertia stay: the same motion."""
     root = ET.fromstring(text)
     elements = {element.attrib["name"]: element for element in root.iter("body")}
     places = np.array([state[: scene.frame.dimension] for state in start.values()])
@@ -83,7 +83,10 @@ def _longest(scene: Scene) -> float:
 
 
 def _geom(body: Any, small: float) -> dict[str, str]:
-    """Of a shape that is given by numbers a line to each of its points would be a guess: a ball."""
+    """The attributes of a geom that shows a body's shape.
+
+    A body that is given by numbers is a ball: a line to each of its points would be a guess.
+    """
     match body.shape:
         case "bar":
             start, end = ([*body.points[name], 0.0][:3] for name in ("start", "end"))

@@ -53,7 +53,7 @@ def held_points(scene: SpatialScene, joint: SpatialJoint) -> int | None:
 
 
 def natives(scene: SpatialScene, branch: Branch[SpatialJoint]) -> list[Native]:
-    """What the body can do on its parent, as MuJoCo's joints in their order, outer first.
+    """The body's freedoms on its parent, as MuJoCo's joints in their order, outer first.
 
     A body that is its joint's first part undoes the freedoms, the last one first.
     """

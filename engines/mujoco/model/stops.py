@@ -89,7 +89,7 @@ def recipe(all_of_them: Sequence[Stops]) -> list[Choice]:
 
 
 def _spring(whose: str, bounce: float) -> Choice:
-    """What throws back with a part of the speed."""
+    """The spring and damper of a stop that throws back with a part of the speed, or with none."""
     if bounce:
         k, b, because = springy(bounce, BEAT)
     else:

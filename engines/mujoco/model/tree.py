@@ -69,14 +69,14 @@ class Left:
 
 
 def built_as(scene: Scene, joint: Joint) -> Left:
-    """What the joint leaves: welded to a particle, which has no angle to hold, it is a pin."""
+    """The freedoms that the joint leaves; welded to a particle, which has no angle, it is a pin."""
     ends = (joint.a.body, joint.b.body)
     held = all(end == GROUND or scene.bodies[end].turns for end in ends)
     return Left(joint.turns or not (held or joint.shifts), joint.shifts)
 
 
 def freedoms(scene: Scene, branch: Branch) -> list[Freedom]:
-    """What the body can do on its parent, in the order of MuJoCo's joints, outer first.
+    """The body's freedoms on its parent, in the order of MuJoCo's joints, outer first.
 
     The line of a shift stands in the joint's first part: it turns with the body, or does not.
     """

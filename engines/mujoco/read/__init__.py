@@ -1,1 +1,1 @@
-"""What MuJoCo tells: physics before a step, and states and forces after each."""
+"""Readings from MuJoCo: physics before a step, and states and forces after each."""

@@ -54,7 +54,7 @@ def joint_force(
 
 
 def damped(scene: Scene, joint: Joint) -> list[Callable[[Array], Array]]:
-    """What MuJoCo has as the joint's damping, by the slip."""
+    """For each force that MuJoCo has as the joint's damping: what it exerts, by the slip."""
     return [
         partial(element.damping, force)
         for force in scene.forces.values()

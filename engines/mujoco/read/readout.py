@@ -1,4 +1,4 @@
-"""What MuJoCo knows of recorded states, read when the run is over and its `MjData` is free.
+"""MuJoCo's quantities at recorded states, read when the run is over and its `MjData` is free.
 
 MuJoCo's arrays are copied row by row and turned into forces for all rows at once: reading costs a
 few percent of the stepping.

@@ -1,4 +1,4 @@
-"""What is kept of a run: positions, velocities and activations, at samples or at every step."""
+"""The record of a run: positions, velocities and activations, at samples or at every step."""
 
 from dataclasses import dataclass
 

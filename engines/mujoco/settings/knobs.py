@@ -1,4 +1,4 @@
-"""What of MuJoCo can be turned for a scene: a closed list, each value measured in some case.
+"""MuJoCo's knobs for a scene: a closed list, each value measured in some case.
 
 A group's solref, solimp and solreffriction are one knob: they spoil each other alone.
 """
@@ -29,7 +29,7 @@ def knobs(
     lies: bool,
     rubs: bool,
 ) -> list[Knob]:
-    """Those that matter for the scene. best: the tuned recipe; soft: its groups.
+    """The knobs that matter for the scene. best: the tuned recipe; soft: its groups.
 
     bundles: the recipes for contacts that fit it. lies: whether something starts on the floor;
     rubs: whether what touches has friction.
@@ -118,7 +118,7 @@ def _softness(group: str, tuned: Options) -> Knob:
 
 
 def _own(tuned: Options, group: str) -> dict[str, Any]:
-    """What the tuned recipe gives one contact, or one joint's stops, alone."""
+    """By name, the numbers that the tuned recipe gives one contact, or one joint's stops, alone."""
     pushes = key(group, "solref").partition(".")[2]
     given = tuned.get(EACH, {}).items() if group in ("pair", "stop") else ()
     return {element: numbers for element, numbers in given if pushes in numbers}

@@ -141,7 +141,7 @@ def _tried(options: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
 
 
 def _refused(options: Mapping[str, Any]) -> list[str]:
-    """What MuJoCo itself says of the values, when a pin, a contact and a slide step with them."""
+    """MuJoCo's own objections to the values, when a pin, a contact and a slide step with them."""
     with listening() as warnings, installed(None):
         try:
             model = mujoco.MjModel.from_xml_string(_trial(options))

@@ -36,7 +36,7 @@ TO_THE_END = Choice(
 
 
 def shipped(scene: Scene, tied_to: float) -> list[Choice]:
-    """What a user gets who changes nothing."""
+    """MuJoCo's defaults for the scene, which a user gets who changes nothing."""
     return defaults(soft(scene), _solver(scene))
 
 
@@ -61,7 +61,7 @@ def tuned(scene: Scene, tied_to: float, start: Start | None = None) -> list[Choi
 
 
 def best(scene: Scene, start: Start | None = None) -> list[Choice]:
-    """The same in terms of h, as a user writes it."""
+    """The best recipe for the scene and its start in terms of h, as a user writes it."""
     choices = [
         Choice("option.integrator", "RK4", "fourth order; every other integrator is of the first"),
         Choice("option.jacobian", "dense", "small scenes; keeps 4.0.0's sparse solver out"),
@@ -149,6 +149,6 @@ def with_own(
 
 
 def alone(scene: Scene) -> dict[str, str]:
-    """What may have numbers of its own, by its name: of which group it is."""
+    """By name, the group of each contact or joint's stops that may have numbers of its own."""
     touching = {one.name: "pair" for one in met(scene)}
     return touching | {stops.name: "stop" for stops in scene.stops()}

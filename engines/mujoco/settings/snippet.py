@@ -39,7 +39,7 @@ def snippet(
     *,
     friction: float | None = None,
 ) -> str:
-    """What is not as MuJoCo has it by itself, for a model in which geoms touch.
+    """MJCF elements for choices that differ from MuJoCo's own, for a model in which geoms touch.
 
     notes: what no element says. friction: of the scene's contacts, where it has any. Numbers that
     need a solreffriction beside them are for a <pair> alone: a geom has none, and hops with them.
@@ -81,7 +81,7 @@ def snippet(
 
 
 def said(options: Options, *, contacts: bool, plane: bool) -> list[str]:
-    """What of the options no element says."""
+    """Notes on those of the options that no element says."""
     notes = []
     if contacts and options.get("settled"):
         notes.append("starts as deep in the floor as it is carried there: the keyframe of `show`")

@@ -16,7 +16,7 @@ def key(group: str, name: str) -> str:
 
 
 def suffix(group: str) -> str:
-    """What the names of a group's numbers end with."""
+    """The ending of the names of a group's numbers."""
     return _NAMED.get(group, "")
 
 
@@ -52,7 +52,7 @@ def overlaid(
 def _alone(
     given: Mapping[str, Mapping[str, Any]], alone: Mapping[str, str], because: str
 ) -> Iterator[Choice]:
-    """Of one contact or one joint's stops, as far as the scene has it."""
+    """The choices for one contact or one joint's stops alone, as far as the scene has it."""
     for element, numbers in given.items():
         if group := alone.get(element):
             yield from (
@@ -63,7 +63,7 @@ def _alone(
 
 
 def _written(options: Mapping[str, Any], soft: Sequence[str], because: str) -> Iterator[Choice]:
-    """What stands in one place only."""
+    """The choices for options that stand in one place only."""
     for name, value in options.items():
         if name in GROUPS:
             yield from (

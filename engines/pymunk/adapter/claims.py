@@ -20,7 +20,7 @@ _KINEMATIC = ("x", "y", "vx", "vy")
 def answered(
     world: World, states: Mapping[str, Array], wanted: Sequence[str]
 ) -> dict[str, Array | str]:
-    """Of each wanted quantity its samples, or why there are none."""
+    """For each wanted quantity its samples, or why there are none."""
     scene = world.scene
     for name, body in world.bodies.items():
         if (moment := _moment(scene.bodies[name])) is not None:

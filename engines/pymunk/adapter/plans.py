@@ -1,4 +1,4 @@
-"""What a setting of pymunk decides about a scene: ways, exponents, and the protocol's words."""
+"""Plans of pymunk's settings for a scene: ways, exponents, and the protocol's words."""
 
 from collections.abc import Sequence
 from functools import partial

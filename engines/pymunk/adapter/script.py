@@ -104,7 +104,7 @@ def text(
 
 
 def building(world: World, start: Start, numbers: Mapping[str, Any]) -> list[str]:
-    """What builds `space`, `bodies` and `wheels`, where h is the step [s]."""
+    """Lines that build `space`, `bodies` and `wheels`, where h is the step [s]."""
     of = partial(_of, world)
     lines = [
         "space = pymunk.Space()",
@@ -132,7 +132,7 @@ def building(world: World, start: Start, numbers: Mapping[str, Any]) -> list[str
 
 
 def before_each(world: World, numbers: Mapping[str, Any]) -> list[str]:
-    """What is done before step n, indented."""
+    """Indented lines that are run before step n."""
     midpoint = bool(numbers.get("time.midpoint"))
     lines = script(world, lambda body: _of(world, body), midpoint=midpoint)
     turned = as_lines(world, midpoint=midpoint)
@@ -262,7 +262,7 @@ def shapes(world: World, of: Of) -> Iterator[str]:
 
 
 def pair_seeds(world: World, start: Start, seed: float) -> Iterator[str]:
-    """What touches at the start does so a little deeper."""
+    """Lines that let two bodies which touch at the start do so a little deeper."""
     for pair in closed_pairs(world.scene, start):
         grown = world.pairs[pair.name][0].radius + seed
         yield f"pairs[{pair.name!r}].unsafe_set_radius({grown!r})"
@@ -283,7 +283,7 @@ def followed(world: World, of: Of, numbers: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _over(world: World, pair: Pair, body: str, other: str) -> Iterator[str]:
-    """What `above` finds for the end of the step."""
+    """Lines that place the pair's circle where `above` finds it for the end of the step."""
     point = f"pymunk.Vec2d{written(world.local(pair.at))}"
     yield f"    turned = {body}.angle + h * {body}.angular_velocity"
     if pair.face:
@@ -307,7 +307,7 @@ def _gap(world: World, pair: Pair, body: str, other: str) -> str:
     return f"{other}.world_to_local({point}).dot({written(pair.side.normal)}) - {level!r}"
 
 
-# What touches, as lines of the script; `of` is how a body is called there.
+# Contacts as lines of the script; `of` is how a body is called there.
 
 
 def planes(world: World, of: Of, *, reflects: bool) -> Iterator[str]:

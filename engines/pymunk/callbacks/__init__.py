@@ -1,1 +1,1 @@
-"""What pymunk has to be told before each step: forces, friction, landings."""
+"""Functions to call before each step for what pymunk has not: forces, friction, landings."""

@@ -1,4 +1,4 @@
-"""What a dry friction law (2.89) gives on the average over one step.
+"""The mean force of a dry friction law (2.89) over one step.
 
 pymunk takes one force for the whole step. A part that stops or breaks loose within the step feels
 several; with their mean its velocity at the end of the step is right to h², and no event costs a
@@ -19,7 +19,7 @@ AT_REST = 1e-9
 def bound(
     friction: DryFriction, speed: float, mass: float, applied: Applied, step: float
 ) -> tuple[float, float]:
-    """What friction may do in the step at most, and what must push in its place [N].
+    """The largest friction force [N] in the step, and the force [N] that must push in its place.
 
     pymunk uses as much of the bound as would stop the part: with the static bound where the law
     holds it, and the law's mean where it brakes. Only in a step that turns back without a rest
@@ -48,7 +48,7 @@ def mean_friction(
 def _mean(
     friction: DryFriction, speed: float, mass: float, middle: float, applied: Applied, step: float
 ) -> float:
-    """The same, for a force in the middle that is known already."""
+    """Mean friction force [N] over the step, for a force in its middle that is known already."""
     holding = max(friction.static.forward, friction.static.backward)
     if abs(speed) * mass <= AT_REST * holding * step:
         return _from_rest(friction, middle, applied(step))
@@ -68,7 +68,9 @@ def _mean(
 
 
 def _from_rest(friction: DryFriction, middle: float, end: float) -> float:
-    """What else acts grows from 2 middle − end to `end`; it slips from where it passes the bound.
+    """The mean friction force [N] over a step that begins at rest.
+
+    What else acts grows from 2 middle − end to `end`; it slips from where it passes the bound.
 
     Over the slipping share s of the step the mean of the force left over is
     s (static − kinetic) + s² |end − middle|.

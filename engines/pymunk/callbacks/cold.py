@@ -67,7 +67,7 @@ class Lengths:
 
 
 def forget(space: Space) -> None:
-    """All impulses of the last step: contacts that are taken out, joints that may exert nothing."""
+    """Forget all impulses of the last step: take contacts out, and let joints exert nothing."""
     shapes = [shape for body in space.bodies for shape in body.shapes]
     space.remove(*shapes)
     if space.constraints:

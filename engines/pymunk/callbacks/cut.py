@@ -38,7 +38,7 @@ def lands(scene: Scene, start: Start) -> bool:
 
 
 class Landings:
-    """What may come down in a world; `step` takes its steps in place of `space.step`."""
+    """The feet that may come down in a world; `step` takes its steps in place of `space.step`."""
 
     def __init__(self, world: World, seed: float) -> None:
         self.world, self.space = world, world.space
@@ -67,7 +67,7 @@ class Landings:
         self._moved()
 
     def _begin(self, step: float) -> None:
-        """What strikes at the start does so before the first step."""
+        """Take the impacts at the start before the first step."""
         self._begun = True
         if any(foot.stands for foot in self.feet):
             self._drift(step / 2)
@@ -116,7 +116,7 @@ class Landings:
             foot.bounce()
 
     def _stand(self, foot: Foot) -> None:
-        """Of feet that stand one after the other the one behind is let go."""
+        """Let the foot behind go, of feet that stand one after the other."""
         if self.world.stride:
             self.world.stride.come_down(foot.contact.name)
             self._meet()

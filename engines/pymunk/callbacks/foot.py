@@ -1,4 +1,4 @@
-"""What may come down on a plane of the ground, by a driver that cuts the step there.
+"""Contacts that may come down on a plane of the ground, by a driver that cuts the step there.
 
 As `contact.follower` has it, but for steps of any length; and what never slips is reflected along
 the plane too. Friction holds the velocity at the new place alone, and the curved path of a tip
@@ -149,7 +149,7 @@ class Foot:
             self._sink(self.gap(0.0) + self._seed)
 
     def bounce(self) -> None:
-        """What has been thrown back touches no longer."""
+        """Let the foot touch no longer after it has been thrown back."""
         if self.contact.restitution:
             self.stands = False
             if self._is_disk:

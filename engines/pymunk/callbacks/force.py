@@ -54,7 +54,7 @@ def torque(world: World, force: Torque, step: float, drift: float) -> Callable[[
 
 
 def torque_load(world: World, force: Torque, name: str) -> Exerted:
-    """What it exerts on its body."""
+    """The load of a torque on its body, as a function of the time."""
     turned = in_time(force.signal)
     return lambda t, drift, state: (0.0, 0.0, turned(t)[0])
 
@@ -84,7 +84,7 @@ def couple(world: World, force: Couple, step: float, drift: float) -> Callable[[
 
 
 def couple_load(world: World, force: Couple, name: str) -> Exerted:
-    """What it exerts on the body `name`."""
+    """The load of a couple on the body `name`, one of its two, as a function of the time."""
     way = 1.0 if name == force.second else -1.0
     torque = in_time(force.signal)
     return lambda t, drift, state: (0.0, 0.0, way * torque(t)[0])
@@ -109,7 +109,7 @@ Apply = Callable[[float], None]
 
 @dataclass(frozen=True)
 class Element:
-    """What pymunk has, or is told, of one kind; called with the world and the force element.
+    """One kind of force, as pymunk has it or is told; called with the world and the force element.
 
     line: the numbers of its DampedSpring, about a joint its DampedRotarySpring, and back: what the
     audit reads of one. by_length: its force [N] by that, if not as pymunk has it. tell: the force
@@ -155,7 +155,7 @@ def damped(scene: Scene) -> bool:
 
 
 def tells(world: World, step: float, *, midpoint: bool) -> list[Apply]:
-    """What has to be called before each step, for all that is not built."""
+    """The functions to call before each step, for all forces that pymunk has no object for."""
     drift = step if midpoint else 0.0
     return [
         tell(world, force, step, drift)
@@ -165,7 +165,7 @@ def tells(world: World, step: float, *, midpoint: bool) -> list[Apply]:
 
 
 def numbers(world: World) -> dict[str, float]:
-    """What pymunk's lines, ropes and stops hold, as `Force.numbers` names it."""
+    """The numbers of pymunk's lines, ropes and stops, as `Force.numbers` names them."""
     ropes = {f"{name}.length": joint.max for name, joint in world.ropes.items()}
     for stops in world.scene.stops():
         held = stop_numbers(world.stops[stops.name], stops)
@@ -178,7 +178,7 @@ def numbers(world: World) -> dict[str, float]:
 
 
 def load(world: World, name: str, step: float) -> Callable[[float, float, State], Load]:
-    """All that forces and gravity do to a body, at t + ahead as seen between steps at the time t.
+    """The load of all forces and gravity on a body, at t + ahead as seen between steps at t.
 
     By the body's state at t, with positions of the midpoint protocol, h/2 behind.
     """
@@ -199,7 +199,7 @@ def load(world: World, name: str, step: float) -> Callable[[float, float, State]
 
 
 def script(world: World, of: Callable[[Body], str], *, midpoint: bool) -> Iterator[str]:
-    """What has to be called before each step as lines of Python; `of` is how a body is called."""
+    """Lines of Python that are run before each step; `of` is how a body is called."""
     found = []
     for force in world.scene.forces.values():
         if (text := ELEMENTS[type(force)].script) and force.name not in world.lines:
@@ -306,7 +306,7 @@ ELEMENTS: dict[type[Force], Element] = {
 }  # fmt: skip
 
 
-# What of a scene pymunk has no element for.
+# Forces of a scene that pymunk has no element for.
 
 
 def lacking(scene: Scene) -> list[tuple[Force, str]]:

@@ -15,7 +15,7 @@ from ..model.world import World
 from .breakaway import bound, smooth_mean
 from .force import load
 
-# What slips in a joint of the ground, as the law of friction sees it: a mass, a speed, a force.
+# The slip in a joint of the ground, as the law of friction sees it: a mass, a speed, a force.
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ def ruled(scene: Scene) -> bool:
 
 
 def laws(world: World, step: float) -> list[Told]:
-    """What has to be called before each step where friction goes by its law."""
+    """The functions to call before each step where friction goes by its law."""
     found: list[Told] = []
     for joint in world.scene.joints.values():
         if joint.dry_friction:

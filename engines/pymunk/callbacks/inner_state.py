@@ -18,7 +18,7 @@ from .force_points import Point
 def taken_along(
     world: World, force: Force, step: float, points: Sequence[Point]
 ) -> Callable[[Sequence[Place]], None]:
-    """What takes the state on to the middle of each step, and keeps it in the world."""
+    """A function that takes the state on to the middle of each step, and keeps it in the world."""
     law = living(world.scene, force)
     kept = world.inner[f"{force.name}.{force.inner}"] = [law.begins]
     before = [point.begun for point in points]

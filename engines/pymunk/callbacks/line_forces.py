@@ -52,7 +52,7 @@ def _rests(world: World, anchor: Anchor) -> bool:
 
 
 def pull(world: World, line: Line, name: str) -> Exerted:
-    """What the line exerts on the body `name` at one of its ends."""
+    """The load of the line on the body `name` at one of its ends."""
     near, far = (line.a, line.b) if line.a.body == name else (line.b, line.a)
     here, there = drifted(*world.local(near)), drifting(world, far)
     pulls = partial(TENSIONS[type(line)], line)

@@ -38,7 +38,7 @@ def told_at_points(world: World, force: Force, step: float) -> Callable[[float],
 
 
 def exerted_at_points(world: World, force: Force, name: str) -> Acting:
-    """What it exerts on the body `name`, `drift` s ahead at the present velocities."""
+    """The load of the force on the body `name`, `drift` s ahead at the present velocities."""
     law, ends = _law(world, force), world.scene.ends(force)
     looks = [(reading(world.body(at)), world.local(at)) for at in ends]
 

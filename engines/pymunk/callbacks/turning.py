@@ -15,7 +15,7 @@ from .line_forces import Exerted, Load
 
 
 def twist(world: World, force: Turning, name: str) -> Exerted:
-    """What a torsion spring or damper exerts on the body `name`, which is the second part.
+    """The load of a torsion spring or damper on the body `name`, which is the second part.
 
     Friction by law knows loads of what one joint alone holds, to the ground.
     """
@@ -59,7 +59,7 @@ def motor(world: World, force: Motor, step: float, drift: float) -> Callable[[fl
 
 
 def motor_load(world: World, force: Motor, name: str) -> Exerted:
-    """What it exerts on the body `name`, the second part as in `twist`."""
+    """The load of a motor on the body `name`, the second part as in `twist`."""
     assert _parts(world, force)[1] is world.bodies[name]
     torque = in_time(force.signal)
     return lambda t, drift, state: (0.0, 0.0, torque(t)[0])

@@ -19,7 +19,10 @@ def pushed(spring: Spring) -> Callable[[DampedSpring, float], float] | None:
 
 
 def numbers(line: DampedSpring) -> dict[str, float]:
-    """What it holds, and on which sides it acts: both, by pymunk's own, which cannot be called."""
+    """The numbers of a spring, and on which sides it acts.
+
+    On both by pymunk's own function, which cannot be called.
+    """
     rest, force = line.rest_length, getattr(line, "force_func", None)
     held = {"stiffness": line.stiffness, "rest_length": rest}
     if force is None:  # before 7.2 it takes a function, and does not tell it

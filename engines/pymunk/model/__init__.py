@@ -1,1 +1,1 @@
-"""What pymunk has for each body, joint and contact, as objects and as lines of a script."""
+"""Bodies, joints and contacts as pymunk has them: objects, and lines of a script."""

@@ -1,4 +1,4 @@
-"""What touches a plane of the ground, as pymunk's circles.
+"""Contacts with a plane of the ground, as pymunk's circles.
 
 A point of a body (a particle, a bar's end) is a circle whose lowest point is the point: placed
 above it before every step, at the angle after the drift, so that the plane finds the contact and
@@ -68,7 +68,7 @@ def above(plane: Plane, point: Vector, angle: float) -> Vector:
 
 
 def over(normal: Vector, point: Vector, cos: float, sin: float) -> Vector:
-    """The same by the normal in ground axes, and the angle's cosine and sine."""
+    """The circle's centre by the normal in ground axes, and the angle's cosine and sine."""
     nx, ny = normal
     return (point[0] + (cos * nx + sin * ny) * ABOVE, point[1] + (cos * ny - sin * nx) * ABOVE)
 

@@ -14,7 +14,7 @@ NO_LINE = "engine: pymunk has no motor along a line"
 
 
 def tells(world: World, step: float, *, midpoint: bool) -> list[Callable[[float], None]]:
-    """What is called before the step that starts at t [s]."""
+    """The functions to call before the step that starts at t [s], which set prescribed rates."""
     ahead = step if midpoint else 0.0
     points = [name for name in world.driven if world.scene.points[name].moves]
     moved = [_moved(world, name) for name in points]
@@ -43,7 +43,7 @@ def _told(world: World, name: str, ahead: float) -> Callable[[float], None]:
 
 
 def as_lines(world: World, *, midpoint: bool) -> Iterator[str]:
-    """The same as lines of Python."""
+    """Lines of Python that set prescribed rates before step n, as the functions of `tells` do."""
     for name in world.driven:
         if law := world.scene.points[name].moves:
             parts = zip(*(as_text(part) for part in derivative(law)), strict=True)

@@ -35,7 +35,7 @@ _LAID = [
 
 
 def rows(edge: Edge) -> Iterator[tuple[str, Vector, Signal]]:
-    """What is held: its reaction, the direction in the axes of the body, the law of the speed."""
+    """Constraint rows of an edge: reaction, direction in body axes, law of the speed."""
     yield "force", edge.across, _REST
     if edge.speed is not None:
         yield "drive", edge.along, edge.speed
@@ -59,7 +59,7 @@ def add_edges(world: World) -> None:
 
 
 def joints_as_text(world: World, of: Callable[[Body], str]) -> Iterator[str]:
-    """What builds their joints, as lines of Python; `of` is how a body is called."""
+    """Lines of Python that build the edges' pin joints; `of` is how a body is called."""
     if not world.pins:
         return
     yield from ("", *_LAID, "pins, before = {}, {}")
@@ -75,7 +75,7 @@ def joints_as_text(world: World, of: Callable[[Body], str]) -> Iterator[str]:
 
 
 def lays_as_text(world: World) -> Iterator[str]:
-    """What lays them before step n, as lines of Python."""
+    """Lines of Python that lay the edges' pin joints before step n."""
     if world.pins:
         yield "    t = (n + 1) * h"
     for edge in world.scene.constraints.values():
@@ -89,7 +89,7 @@ def lays_as_text(world: World) -> Iterator[str]:
 
 
 def driver(world: World, step: float) -> list[Callable[[float], None]]:
-    """What lays them before the step that starts at t [s]."""
+    """The function that lays the edges' pin joints before the step that starts at t [s], if any."""
     gravity = world.space.gravity
 
     def lay(t: float) -> None:

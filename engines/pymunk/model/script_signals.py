@@ -15,7 +15,7 @@ def as_text(law: Signal, *, midpoint: bool = False) -> list[str]:
 
 
 def helpers(laws: Iterable[Signal]) -> list[str]:
-    """What a script has to define for them."""
+    """Lines with the functions that a script has to define for the laws."""
     if all(law.law != "table" for law in laws):
         return []
     found = ["from bisect import bisect_right", "from itertools import pairwise"]

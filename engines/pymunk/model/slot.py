@@ -49,7 +49,7 @@ def pinned(a: Body, b: Body, cut: Line, anchor: tuple[float, float]) -> PinJoint
 
 
 def carried(point: Vec2d, along: Vec2d) -> Callable[[Constraint, Space], None]:
-    """What pymunk calls once the bodies of a step have moved, before it solves the joints."""
+    """The function that pymunk calls when a step has moved bodies, before it solves joints."""
     end = point + LENGTH * along.perpendicular()
 
     def carry(joint: Constraint, space: Space) -> None:

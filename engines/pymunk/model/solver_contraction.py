@@ -55,8 +55,10 @@ def halving(world: World) -> float:
 
 
 def _steps(world: World) -> Iterator[tuple[Array, Array, Array]]:
-    """Of each contact and joint in pymunk's order: the rows that it measures, what it makes of
-    them, and the rows along which it acts. Velocities are multiplied by the roots of the masses.
+    """The arrays of a sweep's step for each contact and joint, in pymunk's order.
+
+    The rows that it measures, what it makes of them, and the rows along which it acts. Velocities
+    are multiplied by the roots of the masses.
     """
     columns, weights = _columns(world)
     for contact in _together(world):
@@ -90,7 +92,7 @@ def _parting(world: World, pair: Pair, columns: Columns, n: int) -> Array:
 
 
 def _together(world: World) -> Iterator[Contact]:
-    """What may touch at once: of spokes the two lowest tips, of two feet the one that stands."""
+    """Contacts closed at once: of spokes the two lowest tips, of two feet the one that stands."""
     stands = world.stride and world.stride.stands(world.place)
     for contact in world.scene.contacts.values():
         if contact.ahead_of is not None and contact.name != stands:

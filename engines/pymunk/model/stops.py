@@ -32,7 +32,7 @@ def stop_numbers(joint: RotaryLimitJoint, stops: Stops) -> dict[str, float]:
 
 
 def throws_back(scene: Scene) -> str | None:
-    """What pymunk's joint cannot do."""
+    """Why pymunk's joint cannot throw back as the scene's stops do; None if none of them does."""
     for stops in scene.stops():
         if stops.restitution:
             return (

@@ -1,1 +1,1 @@
-"""What pymunk tells: physics before a step, and every step of a run."""
+"""Readings from pymunk: physics before a step, and every step of a run."""

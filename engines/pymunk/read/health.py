@@ -45,7 +45,10 @@ def sound(world: World, rows: Array, times: Array, step: float) -> None:
 
 
 def _ways(world: World, rows: Array) -> Iterator[tuple[str, float, Array, Array]]:
-    """What ends somewhere: its name, its reach [m], where along it a body is and how fast (N,)."""
+    """The planes and grooves along which bodies move, for each of them ends somewhere.
+
+    Of each its name, its reach [m], where along it a body is and how fast (N,).
+    """
     states = np.moveaxis(rows[:, :, [0, 1, 3, 4]], 1, 0).reshape(-1, len(rows), 2, 2)
     found = dict(zip(world.bodies, states, strict=True))
     still = np.zeros((len(rows), 2, 2))

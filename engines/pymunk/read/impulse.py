@@ -63,7 +63,7 @@ def _size(joint: Sequence[Constraint]) -> float:
 
 
 def _along(x: float, y: float, names: Sequence[str], felt: Planes) -> float:
-    """Of what touches, what is felt that way."""
+    """The impulse [N s] along (x, y), in sum over the named contacts that are felt."""
     total = 0.0
     for name in names:
         if name in felt:
@@ -73,7 +73,7 @@ def _along(x: float, y: float, names: Sequence[str], felt: Planes) -> float:
 
 
 def _holding(world: World, name: str) -> list[Constraint]:
-    """What a joint's or a rope's force is of: in a slide of what holds it and what rubs across."""
+    """Constraints that exert a joint's or a rope's force: in a slide one holds, one rubs across."""
     if name not in world.joints:
         return [world.ropes[name]] if name in world.ropes else []
     rubs = name in world.brakes and world.scene.joints[name].shifts
@@ -81,14 +81,14 @@ def _holding(world: World, name: str) -> list[Constraint]:
 
 
 def _points(scene: Scene, name: str) -> list[str]:
-    """What touches: of a contact each of its points, of a joint nothing."""
+    """The names of what touches: of a contact each of its points, of a joint nothing."""
     if name in scene.pairs:
         return [name]
     return [c.name for c in scene.contacts[name].each()] if name in scene.contacts else []
 
 
 def _way(world: World, name: str, what: str) -> Vector:
-    """Of a contact's force, the direction in which it counts; a pair's is told in its own axes."""
+    """The direction in which a contact's force counts; a pair's is given in its own axes."""
     if name in world.scene.pairs:
         return (1.0, 0.0) if what == "tangent" else (0.0, 1.0)
     if name not in world.scene.contacts:

@@ -1,4 +1,4 @@
-"""What of pymunk can be turned for a scene: a closed list, each value measured in some case.
+"""pymunk's knobs for a scene: a closed list, each value measured in some case.
 
 Left out are collision_persistence, max_bias and damping: inert, or another physics.
 """
@@ -24,7 +24,7 @@ STEPS = (
 
 
 def knobs(scene: Scene, start: Start) -> list[Knob]:
-    """Those that matter for the scene."""
+    """The knobs that matter for the scene."""
     tuned = as_options(scene, start)
     found = [Knob("midpoint", (_ON["midpoint"],), _ON["midpoint"], "protocol")]
     if "error_bias" in tuned:

@@ -29,7 +29,7 @@ space.iterations = {usual}  # from here on step as you do"""
 
 
 def snippet(choices: Sequence[Choice], step: float) -> str:
-    """What is not as pymunk has it by itself, to stand between building and stepping."""
+    """Lines for choices that differ from pymunk's own, to stand between building and stepping."""
     before = defaults()
     changed = {c.name: c.value for c in choices if before.get(c.name) != c.value}
     sweeps = int(changed.get(_SWEEPS, before[_SWEEPS]))
@@ -59,7 +59,7 @@ def _lines(changed: Mapping[str, Any], sweeps: int) -> Iterator[str]:
 
 
 def _said(changed: Mapping[str, Any]) -> Iterator[str]:
-    """What takes more than a line: the script of `show` has it."""
+    """Comments on options that take more than a line: the script of `show` has them."""
     if changed.get("contact.reflects"):
         yield "# a tip on the floor gets elasticity 1 before each step: see `stays` in the script"
     if changed.get("slot.across"):

@@ -29,7 +29,7 @@ SMALLEST = 1e-300  # of error_bias: a double below is 0, which is the other reci
 
 @dataclass(frozen=True)
 class Holding:
-    """What holds a scene's joints. halving: sweeps that halve an error of theirs.
+    """The numbers that hold a scene's joints. halving: sweeps that halve an error of theirs.
 
     impacts: whether something may strike the floor, where cached impulses are of no use.
     """

@@ -62,7 +62,7 @@ def _shipped(scene: Scene, options: Mapping[str, Any]) -> Iterator[Choice]:
 
 
 def _around(scene: Scene, options: Mapping[str, Any]) -> Iterator[Choice]:
-    """What is done around the engine, which nobody does who does not ask for it."""
+    """Choices of what is done around the engine, which nobody does who does not ask for it."""
     for option, name in PROTOCOL.items():
         value = options.get(option)
         if value not in (None, False, BY_THE_SCENE) and _matters(name, scene):

@@ -118,7 +118,7 @@ def _between(
 def _cutting(
     landings: Landings, step: float, keep: Callable[[], None] | None
 ) -> Callable[[int, int], None]:
-    """The same by our driver, which cuts a step where something lands."""
+    """A function that takes steps by our driver, which cuts a step where something lands."""
 
     def cut(first: int, last: int) -> None:
         for _ in repeat(None, last - first):
@@ -129,14 +129,14 @@ def _cutting(
     return cut
 
 
-# All that is done before every step: forces that pymunk has to be told, friction, circles.
+# The functions called before every step: forces that pymunk has to be told, friction, circles.
 
 
 Apply = Callable[[float], None]  # at time t [s]
 
 
 def forces(world: World, step: float, *, midpoint: bool, law: bool, reflects: bool) -> list[Apply]:
-    """What has to be called before each step; law: whether friction is ours too.
+    """The functions to call before each step; law: whether friction is ours too.
 
     reflects: whether a point stays on the floor as `follower` says.
     """

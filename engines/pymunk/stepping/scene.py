@@ -128,7 +128,7 @@ def _rub(brake: GrooveJoint | SimpleMotor, friction: DryFriction) -> None:
 
 
 def _across(world: World, joint: Joint) -> GrooveJoint:
-    """What rubs in a slide; in a pin it is a motor that stands still.
+    """The groove joint that rubs in a slide; in a pin it is a motor that stands still.
 
     A groove across the slide, because a pivot would take part of the load that the slide holds;
     through both centres, where pymunk solves it alone (see `groove`). What that shifts the force

@@ -1,1 +1,1 @@
-"""The same for scenes in space."""
+"""MuJoCo's adapter for scenes in space: plans, compilation, runs and refusals."""

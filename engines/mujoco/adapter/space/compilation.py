@@ -30,7 +30,7 @@ def compiled(
 def placed(
     scene: SpatialScene, start: Start, step: float, plan: Plan, *, settles: bool
 ) -> tuple[mujoco.MjModel, mujoco.MjData, dict[str, tuple[float, float]]]:
-    """The same, started as the floor carries it: depths [m] and creeps [m/s] by body."""
+    """Model and data, started as the floor carries it; depths [m] and creeps [m/s] by body."""
     model, data = compiled(scene, start, step, plan)
     with listening():
         return model, data, settle(scene, model, data, start) if settles else {}
@@ -40,6 +40,6 @@ def placed(
 def lent(
     scene: SpatialScene, start: Start, step: float, plan: Plan, *, settles: bool
 ) -> Iterator[tuple[mujoco.MjModel, mujoco.MjData]]:
-    """The same for one run; each compiles its own."""
+    """Lend the model and data of `placed` to one run; each run compiles its own."""
     model, data, _ = placed(scene, start, step, plan, settles=settles)
     yield model, data

@@ -1,4 +1,4 @@
-"""What a setting of MuJoCo decides about a scene in space: exponents, and the protocol's words."""
+"""Plans of MuJoCo's settings for a scene in space: exponents, and the protocol's words."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -48,7 +48,7 @@ def plan(
 
 
 def _words(scene: SpatialScene, start: Start, plan: Plan, settles: bool, step: float) -> str:
-    """What is heavy, what is light, and how what rolls is started."""
+    """The protocol in words: what is heavy, what is light, and how what rolls is started."""
     words = []
     if any(driven(scene)):
         words.append(f"driven points are masses of {HEAVY:g} kg")

@@ -1,4 +1,4 @@
-"""What MuJoCo does with scenes in space."""
+"""The functions with which MuJoCo's adapter handles scenes in space."""
 
 from ...model.space.contact import RECIPES, closed, met, worth
 from ...model.space.scene import mjcf, signals

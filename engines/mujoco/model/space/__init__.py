@@ -1,1 +1,1 @@
-"""What is written otherwise of scenes in space."""
+"""Parts of MuJoCo's file that are written otherwise for scenes in space."""

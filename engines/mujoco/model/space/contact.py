@@ -26,7 +26,7 @@ def chosen(scene: SpatialScene, start: Start | None = None) -> str:
 
 
 def met(scene: SpatialScene) -> list[SpatialContact]:
-    """What MuJoCo's own contacts hold."""
+    """The contacts that MuJoCo has as its own: all of the scene."""
     return list(scene.contacts.values())
 
 

@@ -18,7 +18,7 @@ from ..spatial_tree import coordinate
 
 @dataclass(frozen=True)
 class Drive:
-    """What one prescribed rate is to MuJoCo; quantity: what it exerts, such as `q1.torque`."""
+    """One prescribed rate as MuJoCo has it; quantity: what it exerts, such as `q1.torque`."""
 
     joint: SpatialJoint
     number: int  # of the freedom

@@ -1,4 +1,4 @@
-"""What edges hold in space, row by row, in the order in which `userdata` has their forces."""
+"""Constraint rows of edges in space, in the order in which `userdata` has their forces."""
 
 from collections.abc import Iterator
 from xml.etree import ElementTree as ET

@@ -274,7 +274,7 @@ def _possible(moments: Array) -> tuple[float, float, float]:
 
 
 def _quaternion(axes: Array) -> Quaternion:
-    """Of a rotation matrix."""
+    """The unit quaternion (w, x, y, z) of a rotation matrix."""
     found = np.empty(4)
     mujoco.mju_mat2Quat(found, axes.ravel())
     w, x, y, z = found.tolist()

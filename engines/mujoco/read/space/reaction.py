@@ -90,7 +90,7 @@ def _site(model: mujoco.MjModel, seen: Seen, name: str) -> Array:
     return seen["site_xpos"][:, mujoco.mj_name2id(model, _OBJECT.mjOBJ_SITE, name)]
 
 
-# What force elements exert about a turn, which MuJoCo counts as the joint's own.
+# Torques of force elements about a turn, which MuJoCo counts as the joint's own.
 
 
 ABOUT = ("qpos", "qvel", "actuator_force")

@@ -1,4 +1,4 @@
-"""What MuJoCo knows of recorded states, read when the run is over and its `MjData` is free."""
+"""MuJoCo's arrays at recorded states, read when the run is over and its `MjData` is free."""
 
 from collections.abc import Mapping
 

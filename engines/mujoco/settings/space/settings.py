@@ -19,7 +19,7 @@ def tuned(scene: SpatialScene, tied_to: float, start: Start | None = None) -> li
 
 
 def best(scene: SpatialScene, start: Start | None = None) -> list[Choice]:
-    """The same in terms of h, as a user writes it."""
+    """The best recipe for the scene in terms of h, as a user writes it."""
     choices = [
         Choice("option.integrator", "RK4", "fourth order; every other integrator is of the first"),
         Choice("option.jacobian", "dense", "small scenes; keeps 4.0.0's sparse solver out"),
