@@ -21,7 +21,7 @@ ROUNDED = 1e-14  # of the duration: a time nearer than this is the same but for 
 
 @dataclass(frozen=True)
 class Placement:
-    """What the case file gives of the start of one body, or in space of one joint.
+    """The start of one body, or in space of one joint, as far as the case file gives it.
 
     given: coordinates and rates by name, as x, vx, omega_1 of a body, angle and omega of a hinge.
     attitude: a unit quaternion, of a body in space or of a ball's second part against its first.
@@ -90,7 +90,7 @@ class Case:
 
     @property
     def quantities(self) -> dict[str, Quantity]:
-        """What can be bounded, but for events."""
+        """Every quantity that can be bounded, by name; those of events are not among them."""
         return table(self.scene) if self.states is None else claimable(self.scene)
 
     @property

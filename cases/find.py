@@ -1,4 +1,4 @@
-"""What a person may call a case: the path of a YAML file, or the name of one that is shipped."""
+"""Finds a case by what a person calls it: the path of a YAML file, or the name of a shipped one."""
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -16,12 +16,12 @@ def shipped() -> dict[str, Path]:
 
 
 def of_the_book() -> dict[str, Path]:
-    """Those of the textbook's chapter."""
+    """The case files of the textbook's chapter, by name."""
     return _in(Path(__file__).parent)
 
 
 def questions() -> dict[str, Path]:
-    """Those that answer what people ask in public."""
+    """The case files that answer what people ask in public, by name."""
     return _in(Path(__file__).parent / QUESTIONS)
 
 
@@ -57,12 +57,12 @@ def find(words: Sequence[str]) -> list[Path]:
 
 
 def named(path: Path, variant: str) -> str:
-    """What a variant of the file is called; "" is that of a file that has none."""
+    """The name of a variant of the file; with "" the name of a file that has none."""
     return f"{path.stem}.{variant}" if variant else path.stem
 
 
 def misnamed(path: Path) -> Iterator[Mistake]:
-    """What is wrong with the file's name, which is the case's in every report."""
+    """Yields the mistake in the file's name, which is the case's name in every report."""
     stem = path.stem
     if len(stem) > LONGEST:
         what = f"has a name of {len(stem)} letters; a case has at most {LONGEST}"

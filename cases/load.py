@@ -57,7 +57,7 @@ def load(
 
 
 def _once(found: Mapping[str, list[Mistake]]) -> list[Mistake]:
-    """What all variants share is said once; the rest names its variant."""
+    """Mistakes of all variants: one that all share once, any other with its variant's name."""
     shared = set.intersection(*(set(mistakes) for mistakes in found.values()))
     return [
         m if m in shared else replace(m, what=f"{m.what} (variant {variant!r})")

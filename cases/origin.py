@@ -25,7 +25,7 @@ class Origin:
         return ", ".join([*words, *(f"({number})" for number in self.equations), *asked])
 
     def places(self, kind: str) -> tuple[str, ...]:
-        """Of a kind, as `figure`: there may be several figures, and one of any other."""
+        """The numbers of one kind, as `figure`: there may be several figures, one of any other."""
         if kind == "figure":
             return self.figures
         number = getattr(self, kind)

@@ -1,4 +1,4 @@
-"""What a case is about, told from its scene: the themes by which a person looks for an answer."""
+"""The themes of a case, read from its scene: by them a person looks for an answer."""
 
 from .case import Case
 from .scene import Scene

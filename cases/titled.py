@@ -1,4 +1,4 @@
-"""What a list says of the cases of a file, for which neither grammar nor nouns are imported."""
+"""Reads what a list says of the cases of a file; neither grammar nor nouns are imported."""
 
 from dataclasses import dataclass
 from itertools import chain
@@ -14,7 +14,7 @@ SAID = ("title", "source", "variants")  # what is read of a file
 
 @dataclass(frozen=True)
 class Titled:
-    """What a list says of a case."""
+    """A case as a list shows it."""
 
     name: str
     title: str

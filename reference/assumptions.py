@@ -1,4 +1,4 @@
-"""What a case takes for granted and only its motion can tell: that it rolls, moves, lands.
+"""Checks what a case takes for granted and only its motion can tell: it rolls, moves, lands.
 
 And what only its start can: that a hand-written system starts as the scene does.
 """
@@ -116,7 +116,7 @@ def _unsaid(case: Case, motion: Trajectory, happened: Collection[str | None]) ->
 
 
 def _past_ends(case: Case, motion: Trajectory) -> Iterator[Mistake]:
-    """What is pushed by a face is between its ends, at every step."""
+    """Yields a mistake where what a face pushes is past the face's end, at any step."""
     for pair in case.scene.pairs.values():
         if pair.face is None:
             continue
@@ -218,7 +218,7 @@ def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:
 
 
 def _floor(case: Case, unit: str) -> float:
-    """What carries through the mechanism's size, or 1 rad, in the duration: also of all at rest."""
+    """The scale of a unit, also at rest: the mechanism's size or 1 rad, of rates per duration."""
     through = size_of(case) if "m" in unit else 1.0
     return through / case.duration if unit.endswith("/s") else through
 

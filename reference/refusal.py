@@ -84,7 +84,7 @@ def _where(case: Case, among: Sequence[str]) -> tuple[str, ...]:
 
 
 def _fewer(among: Sequence[str]) -> str:
-    """What a person can do about very many ways, as the end of a sentence."""
+    """Advice to a person with very many ways, as the end of a sentence."""
     left = len(among) - NAMED
     names = ", ".join(among[:NAMED]) + (f" and {left} more" if left > 0 else "")
     return (
@@ -161,7 +161,7 @@ def _dependent(case: Case, q: Array) -> str | None:
 
 
 def _uneven(case: Case) -> str:
-    """What a person can do about numbers that lie far apart, as the end of a sentence."""
+    """Advice to a person with numbers that lie far apart, as the end of a sentence."""
     bodies = sorted(case.scene.bodies.values(), key=lambda body: body.mass)
     light, heavy = bodies[0], bodies[-1]
     if heavy.mass > UNEVEN * light.mass:

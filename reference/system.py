@@ -1,4 +1,4 @@
-"""What is followed: a system of modes, and the guards that lead from one to the next.
+"""A system that is followed: its modes, and the guards that lead from one to the next.
 
 A mode answers with its explicit accelerations, derived by hand, and with its ingredients (T, U, V,
 D, Q₄, constraints, free bodies), from which the chapter's formalisms derive them again without
@@ -191,7 +191,7 @@ class System:
         raise NotImplementedError
 
     def guards(self, mode: str) -> Sequence[Guard]:
-        """What ends the mode; of guards that fall together, the first."""
+        """The guards that end the mode; of those that fall together, the first counts."""
         return ()
 
     def beyond(self, mode: str, t: float, q: Array, v: Array) -> tuple[str, Array, Array]:

@@ -1,1 +1,1 @@
-"""What stands behind a key of a case file: numbers with units, texts, names, laws in time."""
+"""Types of the values in a case file: numbers with units, texts, names, laws in time."""

@@ -107,7 +107,10 @@ class AnyUnit(Plain):
 
 @dataclass(frozen=True)
 class Coefficients(Plain):
-    """Those of a polynomial in time: the unit, then each "per second" once more (None: any)."""
+    """Coefficients of a polynomial in time, as a list [c0, c1, …].
+
+    The first is in `unit`, each next one "per second" once more (None: in any unit).
+    """
 
     unit: str | None
 

@@ -14,7 +14,7 @@ Coefficient = Annotated[float, In("1", least=0)]
 
 
 class Coefficients(Part):
-    """What holds at rest, and what brakes in motion."""
+    """Coefficients of friction: `static` holds at rest, `kinetic` brakes in motion."""
 
     static: Coefficient
     kinetic: Coefficient
@@ -36,7 +36,7 @@ Friction = Annotated[
 
 
 class DryFriction(Part):
-    """Of a slide; of a pin it has the same keys in other units, see `dry`."""
+    """Dry friction of a slide; that of a pin has the same keys in other units, see `dry`."""
 
     static: Any = Field(None, description="as `kinetic` if not given")
     kinetic: Any
@@ -76,7 +76,7 @@ def dry(force: str, speed: str, slowness: str, of: str) -> Any:
 
 
 def _bounds(force: str, of: str) -> Any:
-    """What acts forward and backward, in this unit; one number stands for both."""
+    """Type of the friction bounds forward and backward, in this unit; one number gives both."""
     size = Annotated[float, In(force, least=0)]
     both = _map(noun.Bounds, of, forward=size, backward=size)
     return Annotated[

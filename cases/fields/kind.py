@@ -1,4 +1,4 @@
-"""What can be observed of an element: its fields, each with a unit and a kind."""
+"""Types of what can be observed of an element: its fields, each with a unit and a kind."""
 
 from collections.abc import Mapping
 from typing import Literal
@@ -11,6 +11,6 @@ Fields = Mapping[str, tuple[str, Kind]]
 """field → unit, kind."""
 
 WORK: Fields = {"work": ("J", "energy")}
-"""Of what has a power: what it has done since the start, as `power` sums it up."""
+"""The field of what has a power: the work it has done since the start, as `power` sums it up."""
 
 RESERVED = ("energy", "momentum", "ground")  # parts that no element can be called

@@ -53,7 +53,7 @@ _KNOWN = ("m", "mm", "cm", "kg", "g", "s", "ms", "rad", "deg", "rpm", "N", "kN",
 
 
 class NumberMistake(ValueError):
-    """What is wrong with a number, in words."""
+    """Raised for a number that is wrong; its text says in words what is wrong."""
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,7 @@ def amount(value: object) -> Amount:
 
 
 def _computed(a: str, sign: str, b: str) -> str:
-    """What a product or quotient is, for a person to write."""
+    """Advice to write a product or quotient as its value, in words for a person."""
     x, y = (math.pi if word == "pi" else float(word) for word in (a, b))
     if sign == "/" and not y:
         return "write the number"
@@ -183,7 +183,7 @@ def _sized(value: float, said: object) -> float:
 
 
 def _without_angle(dimension: str) -> str:
-    """Of what has a mass: 1/s is no rad/s, as it might be turns."""
+    """The dimension of what has a mass, without its angle; else empty: 1/s may be of turns."""
     return re.sub(r" [*/] \[angle\]", "", dimension) if "[mass]" in dimension else ""
 
 

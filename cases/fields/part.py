@@ -1,4 +1,4 @@
-"""What every part of a case file is: a map with certain keys, whose mistakes speak plainly."""
+"""The base of every part of a case file: a map with certain keys and mistakes in plain words."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -49,7 +49,7 @@ class Part(BaseModel):
 
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True, defer_build=True)
     elsewhere: ClassVar[Mapping[str, str]] = {}
-    """What to say of keys that are none here, but stand in other places."""
+    """For keys that are none here, but stand in other places: what to say of each."""
 
     @model_validator(mode="wrap")
     @classmethod

@@ -35,7 +35,7 @@ class Numbers(Part):
     """The numbers of a law that has several; how large it is stands among them."""
 
     def noun(self) -> dict[str, Any]:
-        """The same as the noun has them."""
+        """The numbers as arguments of the noun, by name."""
         return dict(self)
 
 
@@ -103,7 +103,7 @@ class Table(Numbers):
 
 
 class Following(Part):
-    """What follows exactly one law in time."""
+    """A part that follows exactly one law in time."""
 
     laws: ClassVar[tuple[Word, ...]] = LAWS
     model_config = ConfigDict(json_schema_extra={"oneOf": [{"required": [law]} for law in LAWS]})

@@ -66,33 +66,33 @@ class Word(Plain):
 
 
 def label(word: str) -> str | None:
-    """What is wrong with the name of a parameter."""
+    """The mistake in the name of a parameter, in words; None if it is sound."""
     if not re.fullmatch(IDENTIFIER, word):
         return f"{word!r} is not a name: letters, digits and _, not starting with a digit"
     return "the name 'unknown' is taken" if word == "unknown" else None
 
 
 def name(word: str) -> str | None:
-    """What is wrong with the name of a part."""
+    """The mistake in the name of a part, in words; None if it is sound."""
     return f"the name {word!r} is taken" if word in RESERVED else label(word)
 
 
 def equation(number: str) -> str | None:
-    """What is wrong with the number of an equation."""
+    """The mistake in the number of an equation, in words; None if the chapter has it."""
     if re.fullmatch(r"2\.([1-9]|[1-8][0-9]|9[0-8])", number):
         return None
     return f"no equation {number!r}: the chapter has 2.1 to 2.98"
 
 
 def reference(word: str) -> str | None:
-    """What is wrong with the form of a reference to a point."""
+    """The mistake in the form of a reference to a point, in words; None if it is sound."""
     if re.fullmatch(rf"{IDENTIFIER}\.{IDENTIFIER}", word):
         return None
     return f"should be body.point or ground.point, is {word!r}"
 
 
 def rate(word: str) -> str | None:
-    """What is wrong with the form of a reference to a rate."""
+    """The mistake in the form of a reference to a rate, in words; None if it is sound."""
     if re.fullmatch(rf"{IDENTIFIER}\.{IDENTIFIER}", word):
         return None
     return f"should be joint.rate (`q1.omega`), is {word!r}"
@@ -102,7 +102,7 @@ TURN = rf"^{IDENTIFIER}(\.{IDENTIFIER})?$"
 
 
 def turn(word: str) -> str | None:
-    """What is wrong with the form of a reference to a joint's turn."""
+    """The mistake in the form of a reference to a joint's turn, in words; None if it is sound."""
     if re.fullmatch(TURN, word):
         return None
     return f"should be a joint's name, or joint.turn (`arm.theta`), is {word!r}"
@@ -112,14 +112,14 @@ THREAD = r"^[A-Za-z0-9-]+/[A-Za-z0-9._-]+#[1-9][0-9]*$"
 
 
 def asked(word: str) -> str | None:
-    """What is wrong with the name of a public thread."""
+    """The mistake in the name of a public thread, in words; None if it is sound."""
     if re.fullmatch(THREAD, word):
         return None
     return f"should be owner/repository#number, is {word!r}"
 
 
 def no_formula(words: str) -> str | None:
-    """What is wrong with words that fill a cell of a report."""
+    """The mistake in words that fill a cell of a report; None unless they begin as a formula."""
     if words[0] in "=+-@":
         return f"begins with {words[0]!r}, as a formula of a spreadsheet does"
     return None

@@ -27,7 +27,7 @@ def wrong(what: str) -> PydanticCustomError:
 def in_words(
     error: ValidationError, keys: Sequence[str], given: object, elsewhere: Mapping[str, str]
 ) -> ValidationError:
-    """The same error of a model with these keys, in plain words; `given` is what it was given.
+    """The error of a model with these keys, in plain words; `given` is what it was given.
 
     elsewhere: what to say of keys that stand in other places.
     """

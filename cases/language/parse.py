@@ -17,7 +17,7 @@ Finding = tuple[Path, str]  # where, and what is wrong there
 _DEPTH = {"scene": 3, "parameters": 2, "initial": 2, "near": 2, "allow": 2, "reach": 3}
 _DEPTH |= {"deviates": 3, "events": 2}
 
-# What stands in for a key that is missing or was cut out; `Parsed.broken` says so.
+# Values that stand in for a key that is missing or was cut out; `Parsed.broken` says so.
 _HOLLOW: dict[str, Any] = {
     "title": "-",
     "scene": {"bodies": {}},
@@ -28,11 +28,11 @@ _HOLLOW: dict[str, Any] = {
 }
 
 
-# What a claim about states has nothing of, and what stands in for what every other file needs.
+# Keys that a claim about states does not have, and values for those that every other file needs.
 _MOVES = ("initial", "near", "events", "duration", "samples", "step", "rests", "stays")
 _STILL: dict[str, Any] = {"initial": {}, "duration": 1.0, "samples": 3}
 
-# Of the scene: none names a part.
+# Keys of the scene that name no part.
 _ALONE = (("gravity",), ("incline",), ("seen",), ("space",), ("drive",))
 
 # One set of names: they address quantities.

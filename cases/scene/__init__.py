@@ -111,7 +111,7 @@ class Scene:
         return found
 
     def working(self) -> Mapping[str, Fields]:
-        """What has a power: forces, and joints whose rates are prescribed."""
+        """The field `work` of each part with a power: forces, and joints with prescribed rates."""
         names = [force.name for force in self.forces.values() if force.works]
         return dict.fromkeys((*names, *self.driven()), WORK)
 
@@ -145,7 +145,7 @@ class Scene:
         return (*self.touching, *self.pairs)
 
     def elements(self) -> Iterator[Body | Joint | Edge | Contact | Pair | Force]:
-        """All that has a name, quantities and numbers."""
+        """Yields each part that has a name, quantities and numbers."""
         held = (self.bodies, self.joints, self.constraints)
         for section in (*held, self.contacts, self.pairs, self.forces):
             yield from section.values()
@@ -185,7 +185,7 @@ class Scene:
         return {f"{f.name}.{f.inner}": f for f in self.forces.values() if f.inner}
 
     def laws(self) -> Iterator[Signal]:
-        """All that is given in time, of forces and of what is prescribed."""
+        """Yields each law in time, of forces and of what is prescribed."""
         yield from (force.signal for force in self.signals())
         yield from (law for edge in self.constraints.values() if (law := edge.speed) is not None)
         yield from self.drives.values()

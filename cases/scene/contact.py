@@ -55,7 +55,7 @@ class Contact:
         return self.plane.name
 
     def refers(self) -> tuple[Anchor, ...]:
-        """What touches, and what it has to be ahead of."""
+        """The point that touches, and the point that it has to be ahead of."""
         return (self.at,) if self.ahead_of is None else (self.at, self.ahead_of)
 
     @property

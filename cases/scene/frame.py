@@ -20,7 +20,7 @@ class Frame:
 
     @property
     def dimension(self) -> int:
-        """Of places: 2 or 3."""
+        """Number of coordinates of a place: 2 or 3."""
         return len(self.axes)
 
     @property

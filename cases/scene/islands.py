@@ -30,7 +30,7 @@ def islands(scene: Scene) -> tuple[Scene, ...]:
 
 
 def _acting(scene: Scene) -> Iterator[tuple[str, tuple[Anchor, ...]]]:
-    """What is between bodies, or between a body and the ground, and its points."""
+    """Yields what is between bodies, or between a body and the ground: its name and its points."""
     for section in (scene.joints, scene.constraints, scene.contacts, scene.pairs):
         yield from ((element.name, element.refers()) for element in section.values())
     for force in scene.forces.values():

@@ -56,7 +56,7 @@ _DRY_TURN: Fields = {
 
 @dataclass(frozen=True)
 class Joint:
-    """What joins a point of one part to a point of another, and leaves the kind's freedoms.
+    """A joint between a point of one part and a point of another; it leaves the kind's freedoms.
 
     A swing is that of the second point about the first, on a massless rod.
     along: unit vector in the axes of the first part; a shift is along that line.
@@ -94,7 +94,7 @@ class Joint:
         return "swing" in FREEDOMS[self.kind]
 
     def coordinates(self, bodies: Mapping[str, Body]) -> Fields:
-        """Those of its freedoms: a turn needs two parts that have an angle."""
+        """The fields of the freedoms that it leaves: a turn needs two parts that have an angle."""
         ends = [bodies[at.body] for at in self.refers() if at.body in bodies]
         turns = self.turns and not self.swings and all(body.turns for body in ends)
         return {**(TURN if turns else {}), **(SHIFT if self.shifts else {})}

@@ -46,7 +46,7 @@ FACES = {
 
 @dataclass(frozen=True)
 class Pair:
-    """What touches, and the body that it touches, with a rim or on a face.
+    """A contact of two bodies: what touches, and the body that it touches, on its rim or a face.
 
     As a contact on a plane it opens, slides and sticks or rolls. Its forces are those on what
     touches: along the normal, which points to it, and along what has the normal to its left.
@@ -65,7 +65,7 @@ class Pair:
         return self.at.body
 
     def refers(self) -> tuple[Anchor, ...]:
-        """What touches, and the centre of what is touched."""
+        """The point that touches, and the centre of the body that is touched."""
         return self.at, Anchor(self.touched, CENTER)
 
     @property

@@ -69,7 +69,7 @@ GENTLE = 10.0  # distances of two samples in which what moves may change much: i
 
 @dataclass(frozen=True)
 class Piece:
-    """What lies between two corners, or one of them and the first or last sample.
+    """The part of a motion between two corners, or one of them and the first or last sample.
 
     motion: the samples in it, and its ends where no sample is near; at its later end as it is just
     before. own: which of all samples are in it; the one on its later end is the next piece's.
@@ -183,7 +183,7 @@ def _rows(motion: Trajectory, part: slice, begin: float) -> Trajectory:
 
 
 def _before(row: Trajectory) -> Trajectory:
-    """The same, told at the last time before: what follows a law has not jumped there."""
+    """The row at the last time before its own: what follows a law has not jumped there."""
     return Trajectory(np.nextafter(row.times, -np.inf), row.states, row.reactions, near=row.near)
 
 

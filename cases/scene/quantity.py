@@ -69,7 +69,7 @@ def _made(scene: Scene) -> dict[str, Quantity]:
 
 
 def event_quantities(events: Iterable[str]) -> dict[str, Quantity]:
-    """What can be bounded of each named event."""
+    """The quantities that can be bounded of each named event, by name."""
     return _named(dict.fromkeys(events, _EVENT))
 
 
@@ -83,7 +83,7 @@ class AtEvent:
 
 
 def at_event(name: str, events: Container[str]) -> AtEvent | None:
-    """What `takes_off.jumper.vx` or `strikes.wheel.omega.after` means; None of anything else."""
+    """Reads `takes_off.jumper.vx` or `strikes.wheel.omega.after`; None of anything else."""
     event, _, rest = name.partition(".")
     if event not in events or rest in EVENT_FIELDS:
         return None

@@ -98,7 +98,7 @@ def _drawn(scene: Scene, quantity: Quantity) -> bool:
 
 
 def _more(scene: Scene) -> Iterator[tuple[str, Fields]]:
-    """What only states have: accelerations, inertias, and what accelerations need."""
+    """Yields the fields that only states have: accelerations, inertias, and efforts for them."""
     linear: Fields = {f"a{axis}": ("m/s²", "acceleration") for axis in scene.frame.axes}
     spatial = scene.frame.dimension == 3
     for body in scene.bodies.values():

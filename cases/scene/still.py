@@ -1,4 +1,4 @@
-"""What of a quantity is nothing: all that the reference's own rounding leaves of a zero."""
+"""The bound below which a quantity is zero: all that the reference's own rounding leaves of one."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ STILL = 1e-9  # of the largest value of its kind: what the reference's own round
 
 
 def still(scene: Scene, record: Trajectory, name: str) -> float:
-    """What is nothing beside a quantity of the reference, in its unit."""
+    """The bound below which values of a quantity of the reference are zero, in its unit."""
     u = observe(scene, record, name)
     return STILL * max(float(np.max(np.abs(u))), _peers(scene, record, name))
 

@@ -1,1 +1,1 @@
-"""What the reference says of its own error: every answer that shares no algebra, compared."""
+"""Certifies the reference's own error: every answer that shares no algebra is compared."""

@@ -34,7 +34,7 @@ def worst(values: Iterable[float]) -> float:
 
 
 def gravest(checks: Sequence[Check]) -> Check:
-    """Of checks of one name the one that is nearest to failing; one of NaN if there is any."""
+    """The check that is nearest to failing, of checks of one name; one of NaN if there is any."""
 
     def near(check: Check) -> float:
         if check.holds and not check.bound:

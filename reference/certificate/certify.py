@@ -1,4 +1,4 @@
-"""What the reference says of its own error: every answer that shares no algebra, compared.
+"""Certifies the reference's own error: every answer that shares no algebra is compared.
 
 The laws are asked at states, and their bounds are those of rounding. Two motions are also as far
 apart as the motion is sensitive: what that may be is a share of what the case asks (`errors`), and
@@ -55,7 +55,7 @@ def certify(
     generated: Generated,
     motion: Trajectory,
 ) -> tuple[Check, ...]:
-    """All checks that apply to the case.
+    """The results of every check that applies to the case.
 
     written: the answer, and `motion` its bodies; built: the generated mechanism's. They are one
     where there is no hand-written system.
@@ -100,7 +100,7 @@ def certify(
 def as_the_file_says(
     case: Case, answer: Answer, generated: Generated, motion: Trajectory, own: float
 ) -> Iterator[Check]:
-    """What all answers might share: laws, joints and the start, read from the states alone."""
+    """Checks what all answers might share: laws, joints and the start, from the states alone."""
     lengths = size_of(case)
     large = size(case.scene.frame, motion, lengths, case.duration)
     yield from prescribed(case, motion, generated, large, own)
@@ -109,12 +109,12 @@ def as_the_file_says(
 
 
 def _looser(apart: float) -> float:
-    """What another answer may be off, in whole powers of ten: its digits would be rounding's."""
+    """The bound on another answer's difference, a power of ten: its digits are rounding's."""
     return 10.0 ** math.ceil(math.log10(LOOSER * apart)) if 0.0 < apart < math.inf else 0.0
 
 
 def _own(followed: Followed) -> float:
-    """What a motion is known to that is not sensitive, of its size."""
+    """The error to which a motion that is not sensitive is known, as a share of its size."""
     return SWITCHED if followed.changes else max(OWN_ERROR, ROUNDING * followed.steps)
 
 

@@ -1,4 +1,4 @@
-"""What joints, blades and rolling hold, read from the states of the bodies alone.
+"""Checks the constraints of joints, blades and rolling, from the states of the bodies alone.
 
 The mechanism has rows for all of it; here nothing but the nouns of the file is asked.
 """
@@ -31,7 +31,7 @@ def held(case: Case, motion: Trajectory, size: Size, own: float) -> Iterator[Che
 
 
 def _gaps(case: Case, motion: Trajectory) -> Iterator[Array]:
-    """Of joints, of blades whose height is kept, and of what only rolls."""
+    """Yields the gaps of joints, of blades whose height is kept, and of contacts that only roll."""
     held = [name for name, edge in case.scene.constraints.items() if edge.kept]
     for name in (*case.scene.joints, *held, *_rolling(case)):
         yield observe(case.scene, motion, f"{name}.gap")

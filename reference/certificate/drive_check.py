@@ -1,4 +1,4 @@
-"""What a file prescribes in time, read from the states of the bodies and from the file alone.
+"""Checks what a file prescribes in time, from the states of the bodies and from the file alone.
 
 No row, force or law of the mechanism has a part in what is read: places and rates are the joints'
 own reading of the states, and a law is its number in `cases.signal`, its integral by quadrature.
@@ -57,7 +57,7 @@ def integral(law: Signal, times: Array) -> Array:
 
 
 def _drives(case: Case, motion: Trajectory, size: Size) -> Iterator[float]:
-    """Of each driven freedom its rate, and how far it went since the start."""
+    """For each driven freedom: the errors of its way since the start and of its rate, relative."""
     known = table(case.scene)
     for quantity, law in case.scene.drives.items():
         part, _, rate = quantity.rpartition(".")

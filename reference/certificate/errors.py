@@ -1,4 +1,4 @@
-"""What the reference knows of each observed quantity, against what the case asks of it."""
+"""The reference's own error in each observed quantity, against what the case asks of it."""
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence

@@ -53,7 +53,7 @@ def _whole(case: Case, start: Mapping[str, Pose]) -> Base:
 
 
 def _accelerations(base: Base, t: float, poses: Mapping[str, Pose]) -> dict[str, Array]:
-    """Of each body, as the rates in its pose."""
+    """The acceleration of each body by its name, as the rates in its pose."""
     q, v = base.place(poses)
     rates, frame = base.poses(t, q, base.accelerations(t, q, v)), base.scene.frame
     return {name: np.array(rates[name][frame.velocity.start :]) for name in base.scene.bodies}

@@ -35,7 +35,7 @@ ELIMINATED = {
 
 @dataclass(frozen=True)
 class Scale:
-    """The same bodies in maximal coordinates, and how fast each coordinate is in the motion."""
+    """The scale of a motion: its bodies in maximal coordinates, and how fast each coordinate is."""
 
     base: Base
     speeds: Array  # (n,) m/s or rad/s
@@ -65,7 +65,7 @@ class Scale:
 
     @property
     def least(self) -> float:
-        """What would change the speeds of the motion in its time, as forces do that do anything."""
+        """The acceleration that would change the motion's speeds in its time, as real forces do."""
         return worst(self.speeds) / self.duration
 
     def turn(self, mode: Mode, t: float, q: Array, v: Array) -> float:
@@ -188,7 +188,7 @@ def eliminated(mode: Mode, scale: Scale, times: Array, y: Array) -> Iterator[Che
 
 
 def _rounding(mode: Mode, condition: float) -> float:
-    """What reduced equations lose, in whole powers of ten: beside a body 1e4 times heavier, 1e-10.
+    """Rounding error of reduced equations, a power of ten: 1e-10 if masses differ by a factor 1e4.
 
     The heaviest body rounds what the lightest adds to T, and their condition what follows of it;
     ten times that, since a right side is a sum of some ten terms.

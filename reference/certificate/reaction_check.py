@@ -107,12 +107,12 @@ def _steep(of: Callable[..., Array], t: float, q: Array, v: Array) -> float:
 
 
 def lost(condition: float) -> float:
-    """What equations of this condition lose of their digits, in whole powers of ten."""
+    """Relative error of equations with this condition number, in whole powers of ten."""
     return _power(DIGITS * EPS * condition)  # their digits would be rounding's
 
 
 def condition(rows: Array, base: Base) -> float:
-    """Of the equations for the multipliers, in units in which each row has the size 1."""
+    """Condition number of the equations for the multipliers, in units where each row has size 1."""
     if not len(rows):
         return 1.0
     by_mass = rows / np.sqrt(np.array(base.where.masses))

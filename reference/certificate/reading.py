@@ -34,7 +34,10 @@ class Size:
 
 
 def size(frame: Frame, motion: Trajectory, lengths: float, duration: float) -> Size:
-    """Of all bodies; lengths [m]: on them. A point of a body is as fast as its arm makes it."""
+    """The size of a motion, over all bodies.
+
+    lengths [m]: on the bodies. A point of a body is as fast as its arm makes it.
+    """
     states = np.concatenate(list(motion.states.values()))
     largest: Any = lambda columns: worst(np.abs(states[:, columns]).ravel())  # noqa: E731
     m, rate = max(largest(frame.place), lengths), max(largest(frame.spin), 1.0 / duration)

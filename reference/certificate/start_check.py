@@ -1,4 +1,4 @@
-"""What a file gives of the start and says is near it, read back from the motion's first states.
+"""Checks the start that a file gives, and what it says is near, by the motion's first states.
 
 The search for the start has no part in it: the nouns of the file read the states of the bodies.
 """
@@ -27,7 +27,7 @@ AT_ONCE = 1e-12  # s: what happens at the start leaves the first sample as it is
 
 
 def started(case: Case, answer: Answer, motion: Trajectory, lengths: float) -> Iterator[Check]:
-    """All of `initial`, turns of angles too; and all of `near`. lengths [m]: on the bodies."""
+    """Checks all of `initial`, turns of angles too, and of `near`. lengths [m]: on the bodies."""
     first = _first(case, answer, motion)
     begins = Trajectory(first.times[:1], {b: rows[:1] for b, rows in first.states.items()}, {})
     large = size(case.scene.frame, begins, lengths, case.duration)

@@ -58,7 +58,7 @@ def velocity(pose: Pose) -> tuple[Any, ...]:
 
 
 def rows(system: Mode, wrenches: Mapping[str, Array]) -> Array:
-    """All bodies' rows below each other: a particle has none of moments."""
+    """The rows of all bodies below each other: a particle has none of moments."""
     found = []
     for name, mass in system.masses.items():
         d = (len(wrenches[name]) + 1) // 2

@@ -72,7 +72,7 @@ class _Purse:
         self.marks = tuple((spent + seconds, t) for spent, t in self.marks)
 
     def needs(self, time: float) -> float | None:
-        """What all takes [s] if the motion goes on like that; None: it is too early to say."""
+        """Seconds that all takes if the motion goes on like that; None: it is too early to say."""
         marks = self.marks
         if self.spent >= marks[-1][0] + WINDOW:
             self.marks = (*marks[-1:], (self.spent, time))

@@ -1,4 +1,4 @@
-"""What the explicit and the implicit integrator share: step control, samples, errors.
+"""The parts that explicit and implicit integrators share: step control, samples, errors.
 
 A method only has to try one step and to judge it.  `march` picks the steps, so that each sample
 time is the end of a step (nothing is interpolated), and yields them one by one; `integrate` keeps

@@ -1,4 +1,4 @@
-"""What this process is at, for whoever waits for it: written by the work, read from a thread.
+"""The work that this process is at, for whoever waits: written by the work, read from a thread.
 
 One task is worked on at a time in a process, so there is one of it.
 """
@@ -23,7 +23,7 @@ class Now:
     since: float = field(default_factory=time.monotonic)
 
     def text(self) -> str:
-        """The same in one line, with how long this part of the work still takes."""
+        """The work that is being done in one line, with how long this part of it still takes."""
         span = self.end - self.begin
         if not (self.what and span > 0.0):
             return self.what

@@ -1,4 +1,4 @@
-"""What is integrated: a slope, and how well it is known."""
+"""The slope that is integrated, and how well it is known."""
 
 import math
 from collections.abc import Callable
@@ -72,7 +72,10 @@ def leaps(f: Slope, t: float, y: Vector, h: float) -> Vector:
 
 
 def _leap(felt: Callable[[float], Vector], coarse: int) -> Vector:
-    """What is felt of the least power of two, up to 2^coarse, of which anything is; 0 if any is."""
+    """The change at the least power of two, up to 2^coarse, at which there is any, over √12.
+
+    0 where there is one at the finest as well, or none at the coarsest.
+    """
     low, high = FINE, coarse
     if felt(math.ldexp(1.0, low)).any() or not felt(math.ldexp(1.0, high)).any():
         return 0.0 * felt(0.0)

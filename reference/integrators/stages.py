@@ -41,7 +41,7 @@ class Whole:
 
 
 class ByEigenvalues:
-    """The same as one matrix 1 − h λ J for each eigenvalue λ of A.
+    """Solver of the equations of all stages: one matrix 1 − h λ J for each eigenvalue λ of A.
 
     One matrix of s n rows would cost s³ n³; these are s n³ in all, half of them by conjugation.
     """
@@ -63,6 +63,6 @@ class ByEigenvalues:
 
 
 def stage_factors(table: Collocation, scaled: Matrix) -> Whole | ByEigenvalues:
-    """What solves the equations of all stages together."""
+    """A solver of the equations of all stages together."""
     few = len(table.c) * len(scaled) <= FEW
     return Whole(table, scaled) if few else ByEigenvalues(table, scaled)

@@ -34,7 +34,7 @@ def one_thread() -> Iterator[None]:
 
 @cache
 def _libraries() -> list[tuple[Callable[[], int], Callable[[int], Any]]]:
-    """What asks and sets the number of threads, of each library; other BLAS stay as they are."""
+    """For each library: what asks and what sets its number of threads; other BLAS stay as is."""
     return [found for file in _files() if (found := _calls(file)) is not None]
 
 

@@ -1,4 +1,4 @@
-"""What a muscle's contractile element does (figure 2.17): how fast it shortens under a force."""
+"""Laws of a muscle's contractile element (figure 2.17): how fast it shortens under a force."""
 
 from typing import Any
 

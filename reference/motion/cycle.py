@@ -68,7 +68,7 @@ def derivative(step: Map, x: Array, *, part: float = FINE) -> Array:
 
 
 def _raw(step: Map, x: Array) -> Array:
-    """The same by a plain difference, which is enough for Newton's method."""
+    """∂ step/∂x (n, n) by a plain difference, which is enough for Newton's method."""
     columns = []
     for h in np.eye(len(x)) * RAW * np.max(np.abs(x)):
         columns.append((step(x + h) - step(x - h)) / (2 * np.max(h)))

@@ -269,7 +269,7 @@ def _falling(mode: Mode, guard: Guard) -> Fall:
 
 
 def inside(step: Step, probe: Method) -> Within:
-    """Those of an accepted step, each by a step of its own, or by several."""
+    """A function for the states in an accepted step, each by a step of its own, or by several."""
 
     def state(h: float) -> Array:
         if h == 0.0 or h == step.t_next - step.t:

@@ -48,7 +48,7 @@ class Early:
                 return None
 
     def rounding(self, t: float, points: Sequence[float]) -> Rounding | None:
-        """That of a guard in a step from t; None where it is early no more, or not known."""
+        """A function for a guard's rounding in a step from t; None: early no more, or not known."""
         began = self.times[0]
         if t - began > self.lasts or self.noise is None:
             return None

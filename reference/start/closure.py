@@ -67,7 +67,7 @@ class Closure:
     def numbers(
         self, placements: Mapping[str, Placement], fields: Mapping[str, int]
     ) -> dict[int, float]:
-        """Those of `fields` that are given, by their column in q or v."""
+        """The values of `fields` that are given, by their column in q or v."""
         return {
             self.where.columns[body][0] + fields[key]: value
             for body, placement in placements.items()

@@ -16,7 +16,7 @@ def initial(case: Case, what: str) -> CaseError:
 def stays_open(
     case: Case, why: str, part: str, gap: float, unit: float, *, turns: bool
 ) -> CaseError:
-    """What is left of a part's equation: `gap` in rad, if it is about turns, or in units [m]."""
+    """The mistake that a part's equation stays open by `gap`: in rad, of turns, or in units [m]."""
     size = f"{gap * DEGREES:.3g} deg" if turns else f"{gap * unit:.3g} m"
     return initial(case, f"{why}: {part} stays open by {size}")
 

@@ -42,7 +42,7 @@ def silent(case: Case, where: Coordinates) -> Iterator[Constraint]:
 def _of_joints(
     case: Case, fields: tuple[str, str]
 ) -> Iterator[tuple[Joint, list[tuple[Row, float]]]]:
-    """Of each joint the rows for a turn and for a shift that are given, with their numbers."""
+    """For each joint: the rows for a turn and for a shift that are given, with their numbers."""
     for name, joint in case.scene.joints.items():
         start = case.initial.get(name)
         terms: tuple[Row, Row] = turned(), shifted(joint)

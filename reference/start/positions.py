@@ -85,7 +85,7 @@ class _Near:
         return max((abs(off) for _, off, _ in self.apart(q)), default=0.0)
 
     def apart(self, q: Array) -> Iterator[tuple[str, float, str]]:
-        """Of all that is said its name, how far q is from it, in rad or sizes, and what q has."""
+        """For all that is said: its name, how far q is from it, in rad or sizes, and what q has."""
         c = self.closure
         for i, value in self.numbers.items():
             off = _turned(c, i, q[i] - value) / c.units[i]
@@ -186,7 +186,7 @@ def rank(jacobian: Array, below: float) -> int:
 
 
 def undetermined(jacobian: Array, names: list[str], below: float) -> list[str]:
-    """Those of the unknowns that linear equations leave open."""
+    """The names of the unknowns that linear equations leave open."""
     if not jacobian.size:
         return names
     _, s, vt = np.linalg.svd(jacobian)

@@ -68,7 +68,7 @@ def _of_one(closure: Closure, q: Array, v: Array, columns: list[int], free: list
 
 
 def _open(rows: Array, g: Array, v: Array) -> tuple[Array, bool]:
-    """What is left of (2.15), and whether that is more than rounding."""
+    """The residual of (2.15), and whether it is more than rounding."""
     residual = rows @ v - g
     scale = max(np.max(np.abs(rows * v), initial=0.0), np.max(np.abs(g), initial=0.0))
     return residual, bool(np.max(np.abs(residual), initial=0.0) > CLOSED * scale)

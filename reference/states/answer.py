@@ -59,7 +59,7 @@ def first_state(case: Case) -> dict[str, Pose]:
 
 
 def generated_mode(case: Case) -> Stated:
-    """Of the scene alone."""
+    """The mode that is built from the scene alone."""
     scene = case.scene
     return SpatialChain(scene) if isinstance(scene, SpatialScene) else FreeBodies(scene)
 

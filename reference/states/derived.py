@@ -1,4 +1,4 @@
-"""What follows of a mode's poses and energies for given q, q̇ and q̈, by the chapter's formalisms."""
+"""Quantities derived from a mode's poses and energies at q, q̇, q̈, by the chapter's formalisms."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Set
@@ -72,7 +72,7 @@ def changing(
 
 
 def moving(mode: Stated, q: Array, v: Array, a: Array) -> dict[str, Array]:
-    """The same of every pose."""
+    """d/dt of every body's pose by name, along q̇ = v and q̈ = a, by the complex step."""
 
     def flat(q: Any, v: Any) -> Array:
         return np.array(list(mode.poses(0.0, q, v).values()))
@@ -103,7 +103,7 @@ def resisting(mode: Stated, scene: SpatialScene, q: Array, v: Array, a: Array) -
 
 
 def efforts(scene: SpatialScene) -> Iterator[tuple[str, str]]:
-    """Of each coordinate, what moves it: `q1.angle`, `q1.torque`."""
+    """For each coordinate: its name, and that of what moves it: `q1.angle`, `q1.torque`."""
     for joint in scene.joints.values():
         for freedom in joint.freedoms:
             yield f"{joint.name}.{freedom.name}", f"{joint.name}.{effort_of(freedom)}"

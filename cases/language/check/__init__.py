@@ -1,1 +1,1 @@
-"""What must fit together between the sound parts of a file."""
+"""Checks that the sound parts of a file fit together."""

@@ -1,4 +1,4 @@
-"""What acts about or along a joint, or rubs in it: parts that may turn, or that may shift."""
+"""Checks of what acts about or along a joint, or rubs in it: its parts may turn, or may shift."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -10,7 +10,7 @@ from ..parse import Finding, Parsed
 
 
 def about(parsed: Parsed, scene: Scene, path: Path, force: Force) -> Iterator[Finding]:
-    """What is wrong with the joint's name, with the joint, or with the turn that is meant."""
+    """Yields what is wrong with the joint's name, the joint, or the turn that is meant."""
     name = force.about
     assert name is not None
     if name not in scene.joints:
@@ -52,7 +52,7 @@ def turning(scene: Scene, path: Path, joint: Joint) -> Iterator[Finding]:
             yield path, f"{joint.name!r} joins {at.body!r}, which is a particle and cannot turn"
 
 
-# What acts about a joint in space: which of its turns is meant.
+# Forces about a joint in space: which of its turns is meant.
 
 
 def no_turn(joint: Any, force: Force) -> str | None:

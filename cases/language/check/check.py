@@ -1,4 +1,4 @@
-"""What must fit together in a case: links, claims, samples, parameters, system."""
+"""Checks that a case fits together: links, claims, samples, parameters, system."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -81,7 +81,7 @@ def _words(data: object) -> set[str]:
 
 
 def slowing(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
-    """What would stop a motion's points wherever they go; the rest the motion itself tells."""
+    """Yields drags that would stop a motion's points anywhere; the motion itself shows the rest."""
     if parsed.file.states is not None:
         return
     for force in of(Drag, scene.forces.values()):

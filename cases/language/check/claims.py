@@ -149,7 +149,7 @@ ALIKE = {
     "normal_force": ("normal",),
     **dict.fromkeys(("tangential", "friction_force"), ("tangent", "friction")),
 }
-"""What others call a quantity, and what it is here: the first that there is."""
+"""For each word that others use for a quantity: its names here, of which the first found counts."""
 
 
 def _forces(parsed: Parsed, body: str, known: Mapping[str, Quantity]) -> Iterator[str]:

@@ -33,7 +33,7 @@ def pairs(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
 def _between(
     parsed: Parsed, scene: Scene, path: Path, pair: Pair, words: tuple[str, str]
 ) -> Iterator[Finding]:
-    """What is wrong with the two that touch."""
+    """Yields what is wrong with the two bodies of a pair that touch."""
     if pair.body == GROUND:
         yield path, f"the ground stands second: [{words[1]}, {words[0]}]"
     elif pair.body not in scene.bodies:

@@ -1,4 +1,4 @@
-"""What a claim about states is about: free bodies of the plane, or an open chain in space.
+"""Checks the scene of a claim about states: free bodies of the plane, or an open chain in space.
 
 What slows a body of the plane by its velocity may act on it: it is claimed, and moves nothing.
 """

@@ -62,7 +62,7 @@ def _plane(parsed: Parsed, path: Path, word: str) -> Iterator[Finding]:
 
 
 def _other_foot(parsed: Parsed, scene: Scene, name: str) -> Iterator[Finding]:
-    """What is wrong with the point that a foot has to be ahead of."""
+    """Yields what is wrong with the point that a foot has to be ahead of."""
     path, other = ("scene", "contacts", name, "ahead_of"), scene.contacts[name].ahead_of
     assert other is not None
     body = scene.bodies.get(other.body)

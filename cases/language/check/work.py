@@ -25,14 +25,14 @@ GO_ON = "if that is meant, go on with --allow-long (pytest: --textmech-allow-lon
 
 
 def too_many_variants(data: Mapping[str, Any]) -> str | None:
-    """What is wrong with so many variants in a file's data, or None."""
+    """The mistake of too many variants in a file's data, in words; None if they are few enough."""
     given = data.get("variants")
     count = len(given) if isinstance(given, Mapping) else 0
     return _above(count, VARIANTS, f"{count} variants")
 
 
 def work(file: File, scene: Scene) -> Iterator[Finding]:
-    """What is above its limit: parts, samples, and how much swings in the time."""
+    """Yields what is above its limit: parts, samples, and how much swings in the time."""
     parts = len([*scene.elements()])
     if what := _above(parts, PARTS, f"{parts} bodies, joints, constraints, contacts and forces"):
         yield ("scene",), what
@@ -62,7 +62,7 @@ def work(file: File, scene: Scene) -> Iterator[Finding]:
 
 
 def _swings(file: File, scene: Scene) -> tuple[float, str]:
-    """What its swings cost [s], and the fastest in words."""
+    """Cost of the scene's swings [s], and the fastest of them in words."""
     found = (each for each in (*_rates(scene), *_spins(file, scene)) if not isnan(each[0]))
     rate, path = max(found, default=(0.0, ()))  # of a spoiled number its own mistake is said
     swing, count = rate * file.duration, len(scene.bodies)

@@ -62,7 +62,7 @@ ALIKE = {
     **dict.fromkeys(("box", "rectangle"), "did you mean 'block'?"),
     **dict.fromkeys(("point", "mass", "point_mass"), "did you mean 'particle'?"),
 }
-"""What others call a shape."""
+"""For each word that others use for a shape: the question whether ours is meant."""
 Body = Annotated[
     Shaped,
     OneOf(

@@ -15,7 +15,7 @@ from ...fields.signal_grammar import Following, law
 from ...scene.point import anchor
 
 REFERS = ("a", "b", "at", "body", "first", "second", "joint")
-"""What nouns call that to which they refer: two points, a point, a body, two bodies or a joint."""
+"""Fields by which nouns refer: to two points, a point, a body, two bodies or a joint."""
 BY_NAME = ("body", "first", "second", "joint")
 
 
@@ -32,7 +32,7 @@ class Element(Part):
         return type(self).makes(**numbers | self.referred() | {"name": name})
 
     def referred(self) -> dict[str, Any]:
-        """What the noun refers to, by its fields."""
+        """The points, the bodies or the joint to which the noun refers, by its fields."""
         fields = [key for key in signature(type(self).makes).parameters if key in REFERS]
         given = getattr(self, self.word)
         words = given if isinstance(given, tuple) else (given,)
@@ -90,7 +90,7 @@ def _said(makes: Callable[..., Any]) -> str:
 
 
 def keys(makes: Callable[..., Any]) -> dict[str, Any]:
-    """What `makes` asks for, as fields of a model: type and default."""
+    """Fields of a model for all that `makes` asks for: type and default by name."""
     hints = get_type_hints(makes, include_extras=True)
     return {
         key: (hints[key], ... if asked.default is Parameter.empty else asked.default)

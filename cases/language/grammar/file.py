@@ -1,4 +1,4 @@
-"""What may stand in a case file. cases/README.md explains every key by an example."""
+"""The keys that may stand in a case file. cases/README.md explains every one by an example."""
 
 from typing import Annotated, Any
 
@@ -87,7 +87,7 @@ class Near(Part):
 
     @property
     def keys(self) -> set[str]:
-        """All that is given, as it is written."""
+        """The keys that are given, as they are written."""
         fields = written(type(self)).items()
         return {key for key, name in fields if name in self.model_fields_set} | {*self.places}
 

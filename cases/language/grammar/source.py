@@ -28,5 +28,5 @@ class Source(Part):
 
     @property
     def figures(self) -> tuple[str, ...]:
-        """All that are given."""
+        """The figures that are given."""
         return (self.figure,) if isinstance(self.figure, str) else self.figure or ()

@@ -47,7 +47,7 @@ def read(path: FilePath, *, only: Collection[str] = ()) -> Document:
 
 @lru_cache(AT_HAND)
 def _parsed(file: str, text: str) -> Document:
-    """What the text says. Parsing is most of what reading costs, and a test session reads twice."""
+    """Parses the text; that is most of what reading costs, and a test session reads twice."""
     lines = tuple(text.splitlines())
     tree = Tree(file, lines)
     try:

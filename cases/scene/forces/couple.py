@@ -39,5 +39,5 @@ class Couple(Force):
         return np.sum(self.signal.at(motion.trajectory.times) * rate, axis=1)
 
     def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
-        """That of a sine."""
+        """The angular frequency of its law in time [rad/s], and 0 [1/s]: it slows nothing down."""
         return self.signal.angular_frequency, 0.0

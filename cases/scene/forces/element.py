@@ -1,4 +1,4 @@
-"""What every force element answers, so that nobody asks which one it is."""
+"""The questions that every force element answers, so that nobody asks which one it is."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from ..point import Anchor
 
 @dataclass(frozen=True)
 class Force:
-    """What every force element answers; one without quantities, energy or numbers says nothing.
+    """A force element; one without quantities, energy or numbers says nothing of them.
 
     Its fields are what a case file gives: what it refers to (`a` and `b`, `at`, or `body`) under
     its `word`, and beside that its numbers with their units.
@@ -27,7 +27,7 @@ class Force:
     inner: ClassVar[str] = ""
     """The quantity that is its inner state, which its producer gives; it begins with `begins`."""
     given: ClassVar[Mapping[str, tuple[str, ...]]] = {}
-    """Of its quantities, by what reactions of its own a producer tells each."""
+    """For each of its quantities: the reactions of its own by which a producer gives it."""
     works: ClassVar[bool] = True  # whether it has a power
     name: str  # by which the scene has it
 
@@ -65,7 +65,7 @@ class Force:
         return None
 
     def quantities(self) -> dict[str, Fields]:
-        """What can be observed of it, by part."""
+        """The fields that can be observed of it, by part."""
         return {}
 
     def observe(self, motion: Motion, field: str) -> Array:
@@ -81,7 +81,7 @@ class Force:
         return 0.0
 
     def numbers(self) -> dict[str, float]:
-        """What an engine holds of it, for the equal-physics audit."""
+        """The numbers that an engine has of it, for the equal-physics audit."""
         return {}
 
     def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:

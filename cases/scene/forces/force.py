@@ -138,7 +138,7 @@ class Push(Force):
         return np.sum(self.signal.at(motion.trajectory.times) * velocity, axis=1)
 
     def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
-        """That of a sine."""
+        """The angular frequency of its law in time [rad/s], and 0 [1/s]: it slows nothing down."""
         return self.signal.angular_frequency, 0.0
 
 
@@ -165,7 +165,7 @@ class Torque(Force):
         return np.sum(given * motion.spin(self.body), axis=1)
 
     def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
-        """That of a sine."""
+        """The angular frequency of its law in time [rad/s], and 0 [1/s]: it slows nothing down."""
         return self.signal.angular_frequency, 0.0
 
 
@@ -194,5 +194,5 @@ Kind = TypeVar("Kind", bound=Force)
 
 
 def of(kind: type[Kind], forces: Iterable[Force]) -> Iterator[Kind]:
-    """Those of a kind, in their order."""
+    """Yields the forces of a kind, in their order."""
     return (force for force in forces if isinstance(force, kind))

@@ -15,7 +15,7 @@ from .element import Force
 
 @dataclass(frozen=True)
 class Contracting(Force):
-    """What contracts has the length u, an inner state: it starts with one, and has its own rate.
+    """A muscle; the length u of what contracts is an inner state, with a start and its own rate.
 
     The spring in series has the rest of the length λ between the two points, unstretched at 0, and
     pulls with c_s (λ − u), as what contracts does; beside both c_p (λ − λ₀) pulls or pushes.

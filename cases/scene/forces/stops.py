@@ -40,7 +40,7 @@ class Stops(Turning):
 
     @property
     def sides(self) -> dict[str, tuple[float, float]]:
-        """Of each that there is, the sense in which it pushes and the angle at which it is."""
+        """For each stop that there is: the sense in which it pushes and the angle where it is."""
         found = {"low": (1.0, self.low), "high": (-1.0, self.high)}
         return {side: (sense, at) for side, (sense, at) in found.items() if at is not None}
 

@@ -111,5 +111,5 @@ class Motor(Turning):
         return self.signal.at(motion.trajectory.times)[:, 0] * rate
 
     def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
-        """That of a sine."""
+        """The angular frequency of its law in time [rad/s], and 0 [1/s]: it slows nothing down."""
         return self.signal.angular_frequency, 0.0

@@ -69,7 +69,7 @@ class Turns:
 def turned_by(
     axes: Sequence[Vector3], q_a: Array, omega_a: Array, q_b: Array, omega_b: Array
 ) -> list[Turns]:
-    """All ways in which up to three successive turns make the attitude of b against a: one or two.
+    """The ways in which up to three successive turns make the attitude of b against a: one or two.
 
     Each axis stands in the axes that the turns before it leave. Three turns make an attitude in two
     ways, which meet at gimbal lock; first the one whose middle turn is nearer to zero.

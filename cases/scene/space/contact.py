@@ -46,7 +46,7 @@ class SpatialContact:
         return self.at.body
 
     def refers(self) -> tuple[Anchor, ...]:
-        """What touches."""
+        """The point that touches."""
         return (self.at,)
 
     def each(self) -> "tuple[SpatialContact, ...]":

@@ -56,7 +56,7 @@ def _begun(ways: Sequence[Turns], begins: Sequence[float | None]) -> tuple[Turns
 
 
 def _one_by_one(ways: Sequence[Turns], times: Array, start: Array) -> Turns:
-    """Of two ways that of which each row goes on best from the one before it."""
+    """For each row the way, of two, that goes on best from the row before it."""
     angles, rates = np.empty_like(ways[0].angles), np.empty_like(ways[0].rates)
     angles[0], rates[0] = start, ways[0].rates[0]
     for i, dt in enumerate(np.diff(times).tolist(), start=1):

@@ -30,7 +30,7 @@ _MOMENTS: Fields = {
     "moment": ("N m", "force"),
 }
 HELD = (*_FORCES, *_MOMENTS, *WORK)
-"""What can be observed of any joint: no freedom has these names."""
+"""Names of what can be observed of any joint: no freedom has these names."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class Freedom:
 
 @dataclass(frozen=True)
 class SpatialJoint:
-    """What joins a point of one part to a point of another, and leaves some freedoms.
+    """A joint in space between points of two parts; it leaves some freedoms.
 
     Shifts come before turns; without a turn the axes of both parts are parallel. What is not left
     free is held. begins: by the name of a turn, the angle [rad] near which the start has it: an
@@ -89,7 +89,7 @@ class SpatialJoint:
 
     @property
     def named(self) -> tuple[Freedom, ...]:
-        """Those that can be observed and started by their names."""
+        """The freedoms that can be observed and started by their names."""
         return tuple(f for f in self.freedoms if f.name)
 
     @property
@@ -202,7 +202,7 @@ def rate_of(name: str) -> str:
 
 
 def effort_of(freedom: Freedom) -> str:
-    """What a drive exerts along a freedom: `torque` of a hinge, `theta_torque`, `x_force`.
+    """Name of what a drive exerts on a freedom: `torque` of a hinge, `theta_torque`, `x_force`.
 
     On the second part, along the freedom [N, N m].
     """

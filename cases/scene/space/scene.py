@@ -34,11 +34,11 @@ class SpatialScene(Scene):
 
     @property
     def frame(self) -> Frame:
-        """Of space."""
+        """The frame of space."""
         return SPACE
 
     def laws(self) -> Iterator[Signal]:
-        """All that is given in time, of forces and of what is prescribed."""
+        """Yields each law in time, of forces and of what is prescribed."""
         yield from (force.signal for force in self.signals())
         yield from self.drives.values()
 

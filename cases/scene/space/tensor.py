@@ -21,7 +21,7 @@ def matrix(tensor: Tensor) -> Array:
 
 
 def possible(tensor: Tensor) -> Tensor:
-    """The same tensor (2.32), if any distribution of mass has it.
+    """The tensor (2.32) as it is given, if any distribution of mass has it.
 
     Raises a mistake in plain words: a principal moment is negative, or above the sum of the other
     two, though J₁ + J₂ − J₃ = 2 ∫ x₃² dm ≥ 0.

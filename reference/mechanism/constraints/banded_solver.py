@@ -76,7 +76,7 @@ class Banded:
 
 
 def band(rows: Rows, M: Array) -> Band | None:
-    """What is banded of these rows; None where a full matrix is as good."""
+    """The banded form of these rows; None where a full matrix is as good."""
     row, column = rows.pattern
     r = rows.size
     if r < MANY:
@@ -113,7 +113,7 @@ def _order(shared: Any) -> tuple[Index, int]:
 
 
 def _pairs(column: Index) -> tuple[Index, Index]:
-    """All pairs of entries that stand in one column, each in both orders."""
+    """Two arrays of indices: every pair of entries that stand in one column, in both orders."""
     pairs = [
         (one, two)
         for k in np.unique(column)

@@ -49,7 +49,7 @@ class Constraint:
         return tuple(all(term.angular for term in terms) for terms in self.rows)
 
     def places(self, t: Any, q: Numbers) -> list[Any]:
-        """What each row is the rate of [m or rad], (r,)."""
+        """The place [m or rad] that each row is the rate of, (r,)."""
         ends = [moved(end, t, q, q) for end in self.attached]
         return [sum(term.place(ends) for term in terms) for terms in self.rows]
 

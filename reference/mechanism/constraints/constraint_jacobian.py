@@ -141,7 +141,7 @@ class Rows:
 
 
 class Places:
-    """What rows of points along fixed directions and of turns are the rate of, all at once.
+    """Places that rows of points along fixed directions and of turns are the rates of, at once.
 
     A chain has nothing else, and one point after the other is most of what its residuals cost.
     """
@@ -205,7 +205,7 @@ class Places:
 
 
 class Levers:
-    """What `Along` has beside its constants, for all points p with a lever d = E x from c to p."""
+    """The changing numbers of `Along`, for all points p with a lever d = E x from c to p."""
 
     def __init__(self, levers: Sequence[Lever], width: int) -> None:
         rows, points, directions = zip(*levers, strict=True)
@@ -249,7 +249,7 @@ class Lines:
 
 
 def _bent(numbers: tuple[Any, ...], t: Any, a: Attached, b: Attached) -> tuple[Any, ...]:
-    """The same with u·r̈ of points of the ground that move by a law; u stands in f of b."""
+    """The numbers of a row, γ with u·r̈ of ground points that move by a law; u stands in f of b."""
     if a.moves is None and b.moves is None:
         return numbers
     *others, gamma = numbers
@@ -265,11 +265,11 @@ def _next(column: int | None) -> int | None:
     return None if column is None else column + 1
 
 
-# What changes in the rows of blades: their directions, and speeds that are prescribed.
+# The numbers that change in the rows of blades: their directions, and prescribed speeds.
 
 
 class Blades:
-    """What `Carried` has beside its constants, for all points p; u in the axes of their bodies."""
+    """The changing numbers of `Carried`, for all points p; u in the axes of their bodies."""
 
     def __init__(self, blades: Sequence[tuple[int, Attached, Vector]], width: int) -> None:
         rows, points, directions = zip(*blades, strict=True)
@@ -290,7 +290,7 @@ class Blades:
 
 
 class Laws:
-    """What `Given` prescribes, for all of them."""
+    """The right sides that `Given` prescribes, for all laws."""
 
     def __init__(self, laws: Sequence[tuple[int, Signal]], width: int) -> None:
         self._laws = [law for _, law in laws]
@@ -303,7 +303,7 @@ class Laws:
 
 
 class Moves:
-    """What `Along` has of points of the ground that move by a law."""
+    """The share in `Along` of points of the ground that move by a law."""
 
     def __init__(self, moves: Sequence[tuple[int, Signal, Vector]], width: int) -> None:
         self._moves = [(law, u) for _, law, u in moves]

@@ -34,7 +34,7 @@ class Holding:
         return found
 
     def columns(self, t: float, q: Array, v: Array, rows: Array) -> Array:
-        """What a unit of each multiplier exerts, (r, n): its row and its friction.
+        """Generalized force of a unit of each multiplier, (r, n): its row and its friction.
 
         With λ_t = factor λ_n (2.87) the force of a normal row leans against the slip.
         """

@@ -34,7 +34,7 @@ class Assembly(Protocol):
 
 
 class Way(Protocol):
-    """What tells a direction that turns with two points."""
+    """A direction that turns with two points."""
 
     def numbers(self, a: Point, b: Point) -> tuple[Any, ...]:
         """(2.15) f of a and of b (x, y and φ of each), g, and γ."""
@@ -50,11 +50,11 @@ class Term(Protocol):
         ...
 
     def place(self, ends: Ends) -> Any:
-        """What it is the rate of; TypeError where there is nothing."""
+        """The place that the term is the rate of; TypeError where there is none."""
         ...
 
     def direction(self, ends: Ends) -> Direction:
-        """Of the force that its multiplier is, in ground axes."""
+        """The direction of the force that the term's multiplier is, in ground axes."""
         ...
 
     def enter(self, i: int, ends: Sequence[Attached], rows: Assembly) -> None:

@@ -1,4 +1,4 @@
-"""What a contact on a plane or a joint at rest holds, and its friction when it does not rest.
+"""Constraints of a contact on a plane or a joint at rest, and friction when it does not rest.
 
 A plane of the ground has the unit normal n, and u along it with n to its left; of the floor they
 are y and x. R is the radius of a rim (0 for a particle or a point of a bar), whose lowest point

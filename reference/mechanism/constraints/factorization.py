@@ -1,4 +1,4 @@
-"""What the rows of a mode hold at one state: f_a M⁻¹ (f_bᵀ λ_b) = right side (r,), factored."""
+"""The rows of a mode at one state, factored: f_a M⁻¹ (f_bᵀ λ_b) = right side (r,)."""
 
 from dataclasses import dataclass
 from typing import Any, Protocol

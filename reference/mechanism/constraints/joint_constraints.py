@@ -1,4 +1,4 @@
-"""What a scene holds for good: its joints, its edges, and contacts that only roll.
+"""The constraints that a scene has for good: its joints, its edges, and contacts that only roll.
 
 A joint is read through what it leaves free: to turn, to shift along one line.
 """
@@ -32,7 +32,7 @@ Held = tuple[tuple[Term, ...], tuple[str, ...], float]  # a row, its reactions, 
 def constraints(
     scene: Scene, where: Coordinates, start: Sequence[float] | None = None
 ) -> list[Constraint]:
-    """All constraints that always hold; without a start, rolling is known as a rate only."""
+    """The constraints that always hold; without a start, rolling is known as a rate only."""
     found = []
     for joint in scene.joints.values():
         held = jointed(joint, where)

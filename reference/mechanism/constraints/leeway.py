@@ -1,4 +1,4 @@
-"""What equilibrium leaves open of the forces: all that the laws allow, by linear programmes.
+"""The forces that equilibrium leaves open: all that the laws allow, by linear programmes.
 
 Forces are one + z₁ way₁ + …: each way exerts nothing in sum.  The laws (a contact only pushes,
 friction stays within its cone) are margins, affine in the forces and so in z, that are not to be
@@ -21,7 +21,7 @@ FITS = 1e-10  # of the forces' size: as well as a linear programme's bounds are 
 UNBOUNDED = 3  # HiGHS: as far as one likes
 
 Margins = Callable[[Mapping[str, float]], list[float]]
-"""What forces leave until a law is broken, each negative where one is: affine in the forces."""
+"""Margins that forces leave until a law is broken, negative where one is: affine in the forces."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,10 @@ class Leeway:
         return self.spanned(self.one[name], [way[name] for way in self.ways])
 
     def spanned(self, own: float, others: Sequence[float]) -> tuple[float, float]:
-        """The same of anything linear in the forces, which is `own` of one and others of ways."""
+        """The least and the largest value that the laws allow anything linear in the forces.
+
+        It is `own` for the forces `one`, and `others` for those of each way.
+        """
         along = (np.array(others) - own) / self.size
         if np.max(np.abs(along)) <= LEANS:
             return own, own
@@ -116,7 +119,7 @@ EXACT = {"primal_feasibility_tolerance": FITS, "dual_feasibility_tolerance": FIT
 def leeway(
     told: Callable[[Array], Mapping[str, float]], multipliers: Array, ways: Array, margins: Margins
 ) -> Leeway:
-    """What ways (k, r) that move nothing leave open of the forces told of multipliers (r,)."""
+    """The forces left open by ways (k, r) that move nothing, from those of multipliers (r,)."""
     one = told(multipliers)
     size = max(map(abs, one.values()), default=0.0) or 1.0
     others = [told(multipliers + way) for way in sized(ways, size)]

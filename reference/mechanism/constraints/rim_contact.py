@@ -1,4 +1,4 @@
-"""What two rims hold: how fast their centres part, and how fast one goes around the other.
+"""Terms of two rims: how fast their centres part, and how fast one goes around the other.
 
 Δ = r_b − r_a from one centre to the other, λ = √(Δ·Δ), u = Δ/λ, and w with u to its left.
 """

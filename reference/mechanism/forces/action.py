@@ -1,4 +1,4 @@
-"""All that the reference knows of force elements, in maximal coordinates: one table, ACTIONS.
+"""Force elements as the reference knows them, in maximal coordinates: one table, ACTIONS.
 
 A kind of element says what it exerts on which points, and beside that, derived by itself, its
 potential U (2.45), its generalized potential V (2.48), its dissipation D (2.46) or its generalized

@@ -1,4 +1,4 @@
-"""What acts between the two parts of a joint: torsion springs, their dampers, and motors."""
+"""Torques between the two parts of a joint: torsion springs, their dampers, and motors."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any

@@ -1,1 +1,1 @@
-"""What holds at a time: modes, what ends one, which follows, and impacts between them."""
+"""Modes of a scene: what holds in one, what ends it, which follows, and impacts between them."""

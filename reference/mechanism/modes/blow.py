@@ -85,7 +85,7 @@ def blow(
 
 
 def _fast(rows: _Rows, v: Array) -> float:
-    """What rates of the rows are small against."""
+    """The scale against which rates of the rows are small."""
     sizes = np.abs(rows.f) @ np.abs(v)
     return float(max(np.max(sizes), np.max(np.abs(rows.after))))
 
@@ -145,7 +145,7 @@ def _allowed(
     ways: Array,
     fast: float,
 ) -> Blow | None:
-    """The same, if there are impulses that keep the laws: one + z₁ way₁ + …"""
+    """The velocities after the blow, if impulses one + z₁ way₁ + … can keep the laws; else None."""
     v, v_after, impulse = found
     size = float(np.max(np.abs(impulse), initial=0.0)) or 1.0
 

@@ -1,4 +1,4 @@
-"""What contacts and joints with dry friction can do: open, slide either way, stick.
+"""States of contacts and joints with dry friction: open, slide either way, stick.
 
 | element       | state    | what holds                      | what ends it, falling to zero      |
 | contact, pair | open     | nothing                         | gap: lands                         |
@@ -32,7 +32,7 @@ REST: tuple[State, ...] = ("sticks", "slides +", "slides -")  # at slip 0: first
 
 
 def sign(state: State) -> int:
-    """Of the slip: 0 unless it slides."""
+    """The sign of the slip: 0 unless it slides."""
     return {"slides +": 1, "slides -": -1}.get(state, 0)
 
 
@@ -76,11 +76,11 @@ class Element:
 
     @property
     def pulls(self) -> str:
-        """What a normal force below zero would mean, in words."""
+        """The meaning of a normal force below zero, in words."""
         return f"the {self.plane} would have to pull at {self.name}"
 
     def amiss(self, depth: float, speed: float) -> str:
-        """What a start so deep [m] in the plane, or else with this speed into it, is in words."""
+        """Words for a start so deep [m] in the plane, or else with this speed [m/s] into it."""
         if depth:
             return f"{self.name} starts {depth * 1e3:.3g} mm in the {self.plane}"
         return f"{self.name} starts into the {self.plane}, with {speed:.3g} m/s"
@@ -103,7 +103,7 @@ class Element:
 
     @property
     def together(self) -> tuple[str, str]:
-        """What has one slip with all its points: a body on a plane."""
+        """The body and the plane on which all its points have one slip."""
         return self.body, self.plane
 
     def behind(self, t: float, q: Numbers, size: float) -> float:
@@ -126,7 +126,7 @@ class Element:
         return ()
 
     def slowing(self, speed: float) -> float:
-        """What falls through zero as a slip [m/s] does, and has a slope there."""
+        """The value that falls through zero as a slip [m/s] does, and has a slope there."""
         return speed
 
     def braking(self, state: State) -> list[Braking]:
@@ -208,7 +208,7 @@ class Sliding(Element):
 
 
 def elements(scene: Scene, where: Coordinates) -> Iterator[Element]:
-    """All that has states, in the order of the scene."""
+    """Yields each element that has states, in the order of the scene."""
     for contact in scene.touching.values():
         if contact.ideal == "rolling":
             yield Rolling(name=contact.name, slip=tangent(contact, where))

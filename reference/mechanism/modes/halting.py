@@ -20,7 +20,7 @@ OTHERS = 2.0  # times what the friction does: then it goes through rest, and doe
 
 
 def halting(modes: Modes, mode: str, size: float) -> Iterator[Guard]:
-    """What ends at a stop: a message, since a point that is held so has no law to be set off by."""
+    """Yields guards where drags stop their points: a message, as no law sets such a point off."""
     for force in of(Drag, modes.scene.forces.values()):
         if force.exponent < 1.0 and force.coefficient:
             slow = SLOW * _speed(modes, size)
@@ -47,7 +47,10 @@ def _over(modes: Modes, force: Drag, slow: float) -> Callable[[float, Array, Arr
 def _stops(
     modes: Modes, mode: str, force: Drag, slow: float
 ) -> Callable[[float, Array, Array], After]:
-    """The same mode, where others move the point through its rest. Raises Undetermined."""
+    """A function for the guard: the same mode, where others move the point through its rest.
+
+    It raises Undetermined where they do not.
+    """
 
     def then(t: float, q: Array, v: Array) -> After:
         p = _point(modes, force, t, q, v)

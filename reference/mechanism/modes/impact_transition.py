@@ -100,7 +100,7 @@ def _needed(
 
 
 def _after(m: Meeting, state: State, v: Array, still: float, flies: float) -> Options:
-    """What a contact may do that has done this in the blow; what rises no faster may stay."""
+    """States that a contact may take after this one in the blow; what rises no faster may stay."""
     if m.after > m.normal.g or (state == "open" and m.normal.rate(v) > flies):
         return ("open",)
     if state == "open":  # it has taken no part, and is first asked to take none now
@@ -127,7 +127,7 @@ def _meetings(
 
 
 def _condition(part: Constraint | None, t: float, q: Array, v: Array) -> Condition:
-    """Of what has no such row, as a rope slips along nothing, a row of zeros."""
+    """The condition of a row; where there is none, as a rope slips along nothing, zeros."""
     return Condition(np.zeros(len(v)), 0.0) if part is None else Condition(*row(part, t, q, v)[:2])
 
 

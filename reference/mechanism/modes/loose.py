@@ -134,7 +134,7 @@ class Loose(Multibody):
         return self.leeway(t, q, v).inmost.forces
 
     def leeway(self, t: float, q: Array, v: Array) -> Leeway:
-        """All forces that there may be."""
+        """The forces that the laws allow at this state, with all that is left open of them."""
         multipliers, ways = self.solve(t, q, v)[1], self.idle(t, q, v)
         return leeway(
             lambda each: self.told(t, q, v, each.tolist()), multipliers, ways, self.margins

@@ -152,7 +152,7 @@ class Mechanism(System):
         return then
 
     def _stops_too(self, mode: str, choices: list[Options], t: float, q: Array, v: Array) -> None:
-        """What stops at the same instant may rest as well, as both ends of a ladder do."""
+        """Lets what stops at the same instant rest as well, as both ends of a ladder do."""
         still = self.built.still(t, q, v, part=STILL)
         for k, (e, state) in enumerate(zip(self.elements, self.built.states[mode], strict=True)):
             rubs = sign(state) and e.slips and not e.frictionless and not e.only
@@ -175,7 +175,7 @@ class Mechanism(System):
         return then
 
     def leeway(self, mode: str, t: float, q: Array, v: Array) -> Leeway | None:
-        """All forces that the laws allow in a mode here; None where there is one of each."""
+        """The forces that the laws allow in a mode here; None where there is one of each."""
         return self.built.leeway(mode, t, q, v)
 
     def driven_point(self, name: str, t: float) -> tuple[float, ...]:
@@ -194,7 +194,7 @@ class Mechanism(System):
         return found
 
     def beyond(self, mode: str, t: float, q: Array, v: Array) -> After:
-        """What holds by friction, and what touches, may do another thing under another force."""
+        """The mode and state under another force: what rubs, and what touches, may change."""
         if all(e.only for e in self.elements):
             return mode, q, v
         return settled(self.built, staying(self.built, mode), t, q, v)

@@ -20,7 +20,7 @@ YIELDS = 1e-8  # of the forces: where events are located a margin is 0 to some 1
 After = tuple[str, Array, Array]
 """A mode's name, q and v with which it begins."""
 Options = tuple[State, ...]
-"""What one element may do, the likeliest first."""
+"""States that one element may take, the likeliest first."""
 
 
 class Undetermined(Exception):
@@ -41,7 +41,7 @@ def painleve(part: str, which: str, t: float) -> Undetermined:
 
 
 def closed(element: Element, slip: float) -> Options:
-    """What a contact on the floor or a slide may do at this slip [m/s]."""
+    """States that a contact on the floor or a slide may take at this slip [m/s]."""
     if element.only:
         return (element.only,)
     if element.frictionless:
@@ -50,12 +50,12 @@ def closed(element: Element, slip: float) -> Options:
 
 
 def opening(element: Element) -> Options:
-    """What a contact on the floor may also do: leave it."""
+    """The state to which a contact on the floor may also change: open; none of other elements."""
     return () if element.normal is None else ("open",)
 
 
 def staying(modes: Modes, mode: str) -> list[Options]:
-    """What the elements may do that nothing happens to."""
+    """For each element without an event: the states it may take next."""
     found: list[Options] = []
     for e, state in zip(modes.elements, modes.states[mode], strict=True):
         opens = opening(e) if state != "open" else ()

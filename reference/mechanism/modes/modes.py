@@ -89,7 +89,7 @@ class Modes(Mapping[str, Multibody]):
         return isinstance(mode, Loose) and mode.contradicts(t, q, v)
 
     def leeway(self, mode: str, t: float, q: Array, v: Array) -> Leeway | None:
-        """All forces that the laws allow in a mode here; None where there is one of each."""
+        """The forces that the laws allow in a mode here; None where there is one of each."""
         rows, rank = self._unshared(self.states[mode], t, q, v)
         if rank == rows:
             return None
@@ -179,7 +179,7 @@ class Modes(Mapping[str, Multibody]):
         return float(f @ self[mode].accelerations(t, q, v)) - gamma
 
     def small(self, t: float, q: Array, v: Array) -> float:
-        """What rounding makes of an acceleration here [m/s²]."""
+        """An acceleration [m/s²] that may be nothing but rounding here."""
         return ROUNDING * self.base.terms(t, q, v)[0]
 
     def still(self, t: float, q: Array, v: Array, *, part: float) -> float:

@@ -1,4 +1,4 @@
-"""What two bodies hold that touch each other, and what they may do: as a contact on a plane.
+"""Constraints and states of two bodies that touch each other: as a contact on a plane.
 
 The body a is touched on its rim or on a face, b touches it with a rim of radius R or a point (R is
 0). n is the normal, from a to b, and u has n to its left.
@@ -16,7 +16,7 @@ from .element import Element, Touching
 
 
 def paired(scene: Scene, where: Coordinates) -> Iterator[Element]:
-    """All pairs of the scene."""
+    """Yields an element for each pair of the scene."""
     for pair in scene.pairs.values():
         yield Touching(
             name=pair.name,

@@ -37,7 +37,7 @@ def taut(rope: Rope, where: Coordinates) -> Constraint:
 
 
 def roped(scene: Scene, where: Coordinates) -> Iterator[Roped]:
-    """All of the scene."""
+    """Yields an element for each rope of the scene."""
     for rope in scene.ropes():
         yield Roped(
             name=rope.name, quantity=f"{rope.name}.force", normal=taut(rope, where),

@@ -38,7 +38,7 @@ class Shared:
 def ways(
     elements: Sequence[Element], choices: Sequence[Sequence[State]]
 ) -> Iterator[tuple[State, ...]]:
-    """All that the elements may do together, the likeliest first; the last changes fastest.
+    """Yields all states of the elements together, the likeliest first; the last changes fastest.
 
     What a body has closed on a plane does alike; without friction there is no choice.
     """

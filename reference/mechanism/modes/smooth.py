@@ -94,7 +94,7 @@ def _dry(friction: DryFriction) -> tuple[Dry, Smooth]:
 
 
 def _split(rows: Array, M: Array) -> tuple[Array, Array]:
-    """What makes q̈ of γ, (n, r), and of any q̈ its part where the rows leave it free, (n, n)."""
+    """Matrices from γ to q̈, (n, r), and from any q̈ to the part the rows leave free, (n, n)."""
     free = np.linalg.svd(rows)[2][len(rows) :]
     weighed = free * M
     by_rows: Any = rows.T @ np.linalg.inv(rows @ rows.T)

@@ -29,7 +29,7 @@ class Stopped(Limit):
 
 
 def stopped(scene: Scene, where: Coordinates) -> Iterator[Stopped]:
-    """All of the scene."""
+    """Yields an element for each side of each stop of the scene."""
     for stops in scene.stops():
         for side, (sense, at) in stops.sides.items():
             name = f"{stops.name}.{side}"

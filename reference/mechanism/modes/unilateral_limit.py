@@ -1,4 +1,4 @@
-"""What holds on one side and slips along nothing: the end of a rope, and the stops of a joint.
+"""Limits that hold on one side and slip along nothing: a rope's end, and the stops of a joint.
 
 | limit | open | nothing        | its gap: it is struck        |
 | limit | acts | the gap stays 0 | its force, the multiplier: it lets go |

@@ -51,11 +51,11 @@ class OneSided(Element):
         return "slack" if self.slackens(0.0, q, v) >= 0.0 else "acts"
 
     def ends(self, state: State, t: float, q: Array) -> float:
-        """What falls through zero where the state ends [m]."""
+        """The length [m] that falls through zero where the state ends."""
         return self.slack(t, q) if state == "slack" else -self.slack(t, q)
 
 
 def one_sided(scene: Scene, where: Coordinates) -> Iterator[OneSided]:
-    """All of the scene."""
+    """Yields an element for each one-sided spring of the scene."""
     for spring in scene.one_sided():
         yield OneSided(name=spring.name, spring=spring, where=where)

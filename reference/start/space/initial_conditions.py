@@ -1,4 +1,4 @@
-"""What a case gives of a start in space, as equations: each a residual and its row of velocities.
+"""Equations of the start in space that a case gives: each a residual and its row of velocities.
 
 Places and attitudes of bodies and points, and coordinates of joints.
 """
@@ -40,7 +40,7 @@ class Given:
         self.n = mode.where.size
 
     def places(self, placements: Mapping[str, Placement], q: Array) -> Iterator[Equation]:
-        """Of what is given of positions."""
+        """Yields the equations of given positions."""
         for name, placement in placements.items():
             if name in self.scene.joints:
                 yield from self._joint(self.scene.joints[name], placement, q)
@@ -171,7 +171,7 @@ class Given:
         return np.zeros((3, self.n)), np.array(self.scene.points[anchor.point].state(0.0)[:3])
 
     def rates(self, placements: Mapping[str, Placement], q: Array) -> Iterator[Equation]:
-        """Of what is given of velocities: row · v = the residual's opposite."""
+        """Yields the equations of given velocities: row · v = the residual's opposite."""
         for name, placement in placements.items():
             given = placement.given
             if name in self.scene.joints:

@@ -87,12 +87,12 @@ def nearest_ways(closure: SpatialClosure, ways: list[Array]) -> list[Array]:
 
 
 def _least(ways: list[Array], sizes: Sequence[float]) -> list[Array]:
-    """Those of the smallest size."""
+    """The ways of the smallest size."""
     return [q for q, size in zip(ways, sizes, strict=True) if size < min(sizes) + SAME]
 
 
 def _together(case: Case) -> dict[str, Placement]:
-    """What is given, and beside it what is near."""
+    """The placements by name: what is given, and what is near where nothing is given."""
     both = {**case.near, **case.initial}
     for name in case.near.keys() & case.initial.keys():
         near, given = case.near[name], case.initial[name]

@@ -87,7 +87,7 @@ def _joints(closure: SpatialClosure, q: Array) -> Iterator[Equation]:
 
 
 def _still(closure: SpatialClosure, found: Sequence[Equation]) -> Array:
-    """What is given of bodies, and 0."""
+    """The velocities (n,) that are given of bodies, and 0 elsewhere."""
     v = np.zeros(closure.where.size)
     for equation in found:
         at = np.flatnonzero(equation.row)

@@ -87,7 +87,7 @@ def _open(closure: SpatialClosure, q: Array, loose: Array) -> list[str]:
 
 
 def _open_places(closure: SpatialClosure, loose: Array) -> list[str]:
-    """Of bodies that hang on each other and nowhere else."""
+    """The open coordinates of bodies that hang on each other and nowhere else."""
     columns = _open_columns(closure, loose, closure.where.rate_names)
     parts = (name.partition(".") for name in columns)
     fields = {"vx": "x", "vy": "y", "vz": "z"}

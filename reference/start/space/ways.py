@@ -56,7 +56,7 @@ def distance(closure: SpatialClosure, q: Array) -> float:
 
 
 def _apart(closure: SpatialClosure, q: Array) -> dict[str, float]:
-    """The same of all that is said, by name: of an attitude, and of a point, in all directions."""
+    """How far q is from all that `near` says, by name: attitudes and points in all directions."""
     found: dict[str, float] = {}
     for equation in closure.given.places(closure.case.near, q):
         off = equation.residual / (1.0 if closure.about_turn(equation) else closure.size)
@@ -78,7 +78,7 @@ def none_near(closure: SpatialClosure, ways: list[Array]) -> CaseError:
 
 
 def _told(closure: SpatialClosure, q: Array, name: str) -> str:
-    """What a way has of a name, as a file says it."""
+    """The value that q has of a name, as a file says it."""
     if name in (known := _coordinates(closure, q)):
         return _shown(*known[name])
     part, _, field = name.partition(".")
@@ -91,7 +91,7 @@ def _told(closure: SpatialClosure, q: Array, name: str) -> str:
 
 
 def _coordinates(closure: SpatialClosure, q: Array) -> dict[str, tuple[float, bool]]:
-    """Of joints by their names: each with whether it is a turn."""
+    """The coordinates of joints by their names: each with whether it is a turn."""
     return {
         f"{joint.name}.{freedom.name}": (value, freedom.kind == "turn")
         for joint in closure.scene.joints.values()
@@ -111,7 +111,7 @@ def _shown(value: float, turns: bool) -> str:
 
 
 def _attitudes(closure: SpatialClosure, ways: list[Array]) -> tuple[str, list[str]]:
-    """Of the body whose attitudes differ most."""
+    """The name, and each way's attitude in words, of the body whose attitudes differ most."""
     still = np.zeros(closure.where.size)
     poses = [closure.where.poses(q, still) for q in ways]
     known = {body: np.array([pose[body][SPACE.attitude] for pose in poses]) for body in poses[0]}

@@ -55,5 +55,5 @@ class AnisotropicDrift(BlockOnGuide):
 
     @property
     def pull(self) -> Pull:
-        """What acts on the block but friction."""
+        """The forces on the block but friction."""
         return _Shake(self.A, self.w)

@@ -1,4 +1,4 @@
-"""What a block with dry friction on a guide is, whatever pulls it: (2.88) with (2.89)."""
+"""A block with dry friction on a guide, whatever pulls it: (2.88) with (2.89)."""
 
 from collections.abc import Sequence
 
@@ -23,7 +23,7 @@ class BlockOnGuide(System):
 
     @property
     def pull(self) -> Pull:
-        """What acts on the block but friction."""
+        """The forces on the block but friction."""
         raise NotImplementedError
 
     @property

@@ -34,7 +34,7 @@ class Dynamometer(BlockOnGuide):
 
     @property
     def pull(self) -> Pull:
-        """What acts on the block but friction."""
+        """The forces on the block but friction."""
         return Drawn(self.c, self.u)
 
     def spring(self, t: float, q: Array) -> tuple[float, float]:

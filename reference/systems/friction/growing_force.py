@@ -52,7 +52,7 @@ class GrowingForce(BlockOnGuide):
 
     @property
     def pull(self) -> Pull:
-        """What acts on the block but friction."""
+        """The forces on the block but friction."""
         return _Ramp(self.b)
 
     def closed_form(self, t: float) -> tuple[Array, Array]:

@@ -12,7 +12,7 @@ from ...system import Array, Cut, Guard, Load, Mass, Mode, Pose, Vector
 
 
 class Pull(Protocol):
-    """What acts on the block but friction, written three times over."""
+    """The forces on the block but friction, written three times over."""
 
     def F_a(self, t: float, x: float) -> float:
         """(2.88) F_a [N], the sum."""

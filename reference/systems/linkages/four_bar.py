@@ -149,7 +149,7 @@ class FourBar(Mode):
         return [Load(name, pose[:2], down) for name, pose in self.poses(t, q, v).items()]
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
-        """All four pins."""
+        """The cuts at all four pins."""
         B = (self.a * math.cos(q[0]), self.a * math.sin(q[0]))
         C = (self.d + self.c * math.cos(q[2]), self.c * math.sin(q[2]))
         return [

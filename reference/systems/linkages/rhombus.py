@@ -100,7 +100,7 @@ class Rhombus(Mode):
         return [*weights, Load("left", left, (fx, fy)), Load("right", right, (-fx, -fy))]
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
-        """All five pins; the two at the top hold each its own bar."""
+        """The cuts at all five pins; the two at the top hold each its own bar."""
         left, right = self._knees(q)
         foot = (left[0] + right[0], left[1] + right[1])
         return [

@@ -1,4 +1,4 @@
-"""What a sleigh on a smooth level plane is, seen from above, whatever drives its blade.
+"""A sleigh on a smooth level plane, seen from above, whatever drives its blade.
 
 q = (x, y, θ): the point P of the blade and its heading; the centre of mass C lies at a ahead of P.
 """

@@ -1,4 +1,4 @@
-"""What a wheel that rolls upright on a plane (Example 2.2) is, whatever drives it.
+"""A wheel that rolls upright on a plane (Example 2.2), whatever drives it.
 
 q = (x, y, θ, φ): the centre, the heading θ about z, and φ about the axle. Unit vectors
 e = (cos θ, sin θ, 0) forward and n = (−sin θ, cos θ, 0) along the axle, to the left. With the axle

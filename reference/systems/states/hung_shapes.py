@@ -84,7 +84,7 @@ class HungShapes(Stated):
         return found
 
     def told(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
-        """What each hinge needs beside the weight's moment; tensors about C, M and T."""
+        """Torque of each hinge in addition to the weight's moment; tensors about C, M and T."""
         found: dict[str, Any] = {}
         M = np.zeros((4, 4))
         for k, ((name, body), angle) in enumerate(zip(self.bodies().items(), q, strict=True)):
@@ -121,7 +121,10 @@ def cuboid(e1: float, e2: float, e3: float) -> Iterator[tuple[float, Array]]:
 
 
 def sphere(R: float) -> Iterator[tuple[float, Array]]:
-    """The same in r, cos of the polar angle, and five equal steps around."""
+    """Yields weights and places of Gauss' rule in r and in cos of the polar angle.
+
+    There are five equal steps around.
+    """
     turns = 2 * np.pi * np.arange(5) / 5
     for i, s in enumerate(NODES):
         r = R * (1 + s) / 2

@@ -141,7 +141,7 @@ def _about(axis: int, angle: Any, *, slope: bool = False) -> Any:
 
 
 def quaternion(psi: Any, theta: Any, phi: Any) -> tuple[Any, Any, Any, Any]:
-    """The same attitude as products of half angles: smooth in all of them."""
+    """The unit quaternion of three turns as products of half angles: smooth in all of them."""
     (a, b, c), (d, e, f) = ([f(x / 2) for x in (psi, theta, phi)] for f in (np.cos, np.sin))
     return (
         a * b * c + d * e * f,

@@ -19,7 +19,9 @@ from ...system import Array, Pose, Vector
 
 @dataclass(frozen=True)
 class SlidingPoints(Stated):
-    """Of each the mass m [kg]. Of the ball F = mu F_N [N], and d [N at 1 m/s] and alpha of its air.
+    """A ball and a sled that slide on a plane, each of the mass m [kg].
+
+    Of the ball F = mu F_N [N], and d [N at 1 m/s] and alpha of its air.
 
     Of the sled P and Q at p and s [m]; at P dry F_plus, F_minus, F_across [N]; at Q viscous d_plus,
     d_minus, d_across [N at 1 m/s] to the power beta.
@@ -46,7 +48,7 @@ class SlidingPoints(Stated):
         return {"ball": (*q[:2], 0.0, *v[:2], 0.0), "sled": (*q[2:], *v[2:])}
 
     def told(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
-        """Of each friction its components in ground axes, and its size; and p of both."""
+        """For each friction: its components in ground axes, and its size; and p of both bodies."""
         ball, sled = complex(v[0], v[1]), complex(v[2], v[3])
         axis = cmath.exp(1j * q[4])
         at_P, at_Q = (sled + 1j * v[4] * r * axis for r in (self.p, self.s))

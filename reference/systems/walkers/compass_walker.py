@@ -39,7 +39,7 @@ class _Stance(Mode):
         return q[1 + self.k], q[2 - self.k]
 
     def _entries(self, x: Any, s: Any, w: Any) -> list[Any]:
-        """The same put together again."""
+        """The entries of q or v in their order, from those of the standing and swinging leg."""
         return [x, s, w] if self.k == 0 else [x, w, s]
 
     def accelerations(self, t: float, q: Array, v: Array) -> Array:

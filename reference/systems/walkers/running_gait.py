@@ -62,7 +62,7 @@ class RunningGait(SpringMassJump):
         return 0.0, self.x2, self.x3, self.x4
 
     def start(self) -> tuple[str, Array, Array]:
-        """That of the jump, on the first foot."""
+        """The start of the jump, in the mode on the first foot."""
         _, q, v = super().start()
         return "stance 1", q, v
 

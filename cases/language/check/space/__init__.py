@@ -1,1 +1,1 @@
-"""What must fit together in a scene in space, where it is not as in the plane."""
+"""Checks that a scene in space fits together, where it is not as in the plane."""

@@ -1,4 +1,4 @@
-"""All that must fit together in a scene in space beside what must in the plane."""
+"""Checks that a scene in space fits together, in addition to what is checked in the plane."""
 
 from collections.abc import Iterator
 from typing import Any

@@ -1,4 +1,4 @@
-"""What may stand in the file of a case in space: its scene and its start have their own words."""
+"""The keys that may stand in the file of a case in space: scene and start have their own words."""
 
 from pydantic import Field
 

@@ -35,7 +35,7 @@ class Turn(Part):
 
 
 def _attitude(turns: tuple[Any, ...]) -> Quaternion:
-    """Of successive turns, each about an axis in the axes that the ones before it leave."""
+    """Unit quaternion of successive turns, each about an axis in the axes left by those before."""
     q = reduce(product, [np.array(about(turn.axis, turn.angle)) for turn in turns])
     w, x, y, z = (float(entry) for entry in q)
     return w, x, y, z
@@ -68,7 +68,7 @@ class Start(Part):
 
     @property
     def entries(self) -> dict[str, Amount | Vector]:
-        """All but the attitude, as written."""
+        """Every entry but the attitude, as written."""
         return self.__pydantic_extra__
 
     @property

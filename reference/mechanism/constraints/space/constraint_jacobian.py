@@ -46,7 +46,7 @@ class SpatialRows:
 
     @property
     def sources(self) -> list[str]:
-        """The same, but of a prescribed rate its own name: `q1.omega`."""
+        """The source of each row: its part, or of a prescribed rate its own name (`q1.omega`)."""
         return [
             part.quantity if isinstance(part, Drive) else part.part
             for part in self.parts
@@ -134,7 +134,7 @@ def _told(kind: Any, parts: list[Any], bodies: Bodies, forces: Any) -> Iterator[
 def _driving(
     kind: Drives, parts: list[Drive], bodies: Bodies, forces: Any
 ) -> Iterator[tuple[str, Any]]:
-    """What the drive exerts, by itself, and as a part of all that the joint does."""
+    """Yields what a drive exerts: by itself, and as a part of all that the joint does."""
     for part, m, u, force in zip(
         parts, kind.axes(bodies)[0], kind.direction(bodies), forces, strict=True
     ):

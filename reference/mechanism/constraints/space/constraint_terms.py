@@ -28,7 +28,7 @@ class Kind(Protocol):
         ...
 
     def values(self, t: Any, bodies: Bodies) -> tuple[list[Any], Any, Any]:
-        """What stands at the targets, g and γ (size,)."""
+        """The numbers at the targets, g and γ (size,)."""
         ...
 
     def places(self, t: Any, bodies: Bodies) -> Any:
@@ -45,7 +45,7 @@ class Slots:
 
     @classmethod
     def of(cls, layout: Layout) -> "Slots":
-        """Of a scene's bodies by number, the ground last."""
+        """The slots of a scene's bodies by number, the ground last."""
         at = list(layout.where.columns.values())
         omegas = [-1 if c.omega is None else c.omega for c in at]
         return cls(np.array([*(c.r_dot for c in at), -1]), np.array([*omegas, -1]))

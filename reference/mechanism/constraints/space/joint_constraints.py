@@ -1,4 +1,4 @@
-"""What joints, contacts and drives hold in space, as data: rows of constraints by kind.
+"""Constraints of joints, contacts and drives in space, as data: rows of constraints by kind.
 
 A joint is read through what it leaves free: shifts along lines of its first part, then up to
 three turns. Axes are those that `SpatialJoint` states.
@@ -106,7 +106,7 @@ Held = Together | Line | Dot | Rim | Pivot | Drive | Blade
 
 
 def held(scene: SpatialScene) -> list[Held]:
-    """All that a scene holds, in its order."""
+    """List of all constraints of a scene, in its order."""
     found: list[Held] = []
     for joint in scene.joints.values():
         found += jointed(joint, scene)

@@ -122,7 +122,7 @@ class Drives:
 
 
 def _weights(drive: Drive) -> tuple[float, float]:
-    """Of the first and the last axis in m."""
+    """Weights of the first and the last axis in m."""
     if drive.shift is not None:
         return 0.0, 0.0
     if len(drive.turns) == 1:

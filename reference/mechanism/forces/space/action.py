@@ -1,4 +1,4 @@
-"""All that the reference knows of force elements in space, in maximal coordinates: one table.
+"""Force elements in space as the reference knows them, in maximal coordinates: one table.
 
 A kind says what it exerts on which points, and beside that, derived by itself, its U (2.45), its
 D (2.46) or its Q₄ (2.50), as in the plane.
@@ -92,7 +92,7 @@ class Actions:
         return sum(action.D(f, attached.at(t, bodies)) for f, action, attached, _ in self._each)
 
     def moments(self, t: Any, bodies: Bodies) -> Iterator[tuple[str, Any]]:
-        """What acts about joints, by joint: its moment (3,) on the second part, in ground axes."""
+        """Yields a joint and the moment (3,) about it on its second part, in ground axes."""
         for force, action, attached, numbers in self._each:
             if force.about is not None:
                 _, (_, _, M) = action.wrenches(force, t, numbers, attached.at(t, bodies))

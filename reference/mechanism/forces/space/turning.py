@@ -1,4 +1,4 @@
-"""What acts between the two parts of a joint in space, about one of its turns.
+"""Torques between the two parts of a joint in space, about one of its turns.
 
 Of two turns about n₁, fixed in a, and n₂, fixed in b, with n₁·n₂ = c, ω_b − ω_a = θ̇₁ n₁ + θ̇₂ n₂.
 A torque M about the first is the moment M m₁ on b, m₁ = (n₁ − c n₂)/(1 − c²): it turns nothing
@@ -69,7 +69,7 @@ class Turned:
         return self.way * (c * s_dot - s * c_dot) / (c * c + s * s)
 
     def _shadow(self, along: Any) -> tuple[Any, Any]:
-        """Of the pointer along a vector, and its rate."""
+        """The component of the pointer along a vector, and its rate."""
         (p, p_dot), (u, u_dot) = self.pointer, along
         return dot(p, u), dot(p_dot, u) + dot(p, u_dot)
 

@@ -34,7 +34,7 @@ class SpatialCoordinates:
 
     @cached_property
     def columns(self) -> dict[str, Columns]:
-        """Of each body by its name."""
+        """The columns of each body by its name."""
         columns, m, n = {}, 0, 0
         for body in self.scene.bodies.values():
             turns = body.turns
@@ -83,7 +83,7 @@ class SpatialCoordinates:
 
     @cached_property
     def masses(self) -> list[float]:
-        """What resists along each velocity alone, (n,): m, and of a turn the largest of J."""
+        """Inertia along each velocity alone, (n,): m, and of a turn the largest of J."""
         return [
             entry
             for body in self.scene.bodies.values()

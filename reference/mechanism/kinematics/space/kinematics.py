@@ -17,7 +17,7 @@ UPRIGHT, NONE = np.array([1.0, 0.0]), np.zeros(1)  # behind q and v, for what do
 
 @dataclass(frozen=True)
 class Bodies:
-    """Of each body, and last of the ground: R (K, 3, 3), r, ṙ, ω in its own axes (K, 3).
+    """The state of each body, and last of the ground: R (K, 3, 3), r, ṙ, ω in its own axes (K, 3).
 
     wound: what counts the turns of joints, behind the bodies' coordinates.
     """

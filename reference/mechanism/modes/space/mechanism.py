@@ -22,7 +22,7 @@ class SpatialMechanism(System):
         return MOVING, *self.base.start()
 
     def leeway(self, mode: str, t: float, q: Array, v: Array) -> Leeway | None:
-        """All forces that the laws allow in a mode here; None where there is one of each."""
+        """The forces that the laws allow in a mode here; None where there is one of each."""
         return self.base.leeway(t, q, v)
 
     def driven_point(self, name: str, t: float) -> tuple[float, ...]:

@@ -110,7 +110,7 @@ class SpatialMultibody(Mode):
         return self._told(t, self.layout.bodies(q, v), self.solve(t, q, v)[1])
 
     def leeway(self, t: float, q: Array, v: Array) -> Leeway | None:
-        """All forces that the rows leave open, and floors that only push; None: one of each."""
+        """The forces that rows, and floors that only push, leave open; None: one of each."""
         bodies = self.layout.bodies(q, v)
         rows, _, gamma = self.constraints.at(t, bodies)
         if not len(rows) or independent(rows, self._sizes) == len(rows):
