@@ -56,7 +56,7 @@ def find(words: Sequence[str]) -> list[Path]:
     return paths
 
 
-def named(path: Path, variant: str) -> str:
+def case_name(path: Path, variant: str) -> str:
     """The name of a variant of the file; with "" the name of a file that has none."""
     return f"{path.stem}.{variant}" if variant else path.stem
 

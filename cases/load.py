@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path as FilePath
 
 from .case import Case
-from .find import misnamed, named
+from .find import case_name, misnamed
 from .language.check.check import check
 from .language.check.engines import Engines
 from .language.check.work import too_many_variants, work
@@ -49,7 +49,7 @@ def load(
             for where, what in findings
             if what != NO_VALUE  # the document has said so
         ]
-        cases.append(resolve_case(named(path, variant), parsed.file, scene, source, long=long))
+        cases.append(resolve_case(case_name(path, variant), parsed.file, scene, source, long=long))
     mistakes += _once(found)
     if mistakes:
         raise CaseError(mistakes)

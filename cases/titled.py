@@ -5,7 +5,7 @@ from itertools import chain
 from pathlib import Path
 from typing import Any
 
-from .find import named
+from .find import case_name
 from .language.read.document import read
 from .origin import Origin
 
@@ -40,7 +40,7 @@ def titled(path: Path) -> list[Titled]:
         from .load import load  # it alone can say what is wrong, and is half of a list's start
 
         return [Titled(c.name, c.title, c.origin, c.source.file) for c in load(path)]
-    return [Titled(named(path, each), title, origin, str(path)) for each in variants or [""]]
+    return [Titled(case_name(path, each), title, origin, str(path)) for each in variants or [""]]
 
 
 def _origin(source: Any) -> Origin | None:

@@ -9,7 +9,7 @@ from importlib.metadata import Distribution, EntryPoint, entry_points
 from typing import Any, cast
 
 from .engine import Engine, Maker
-from .probe import guarded, said, unsound, why_not
+from .probe import error_text, guarded, unsound, why_not
 
 GROUP = "textmech.engines"
 SETTINGS = ("shipped", "recommended", "tuned")  # what an engine may offer
@@ -50,10 +50,10 @@ def make(name: str, setting: str, options: Mapping[str, Any] | None = None) -> E
     if isinstance(error, ValueError):
         raise error
     if error is not None:
-        raise Broken(f"{name} cannot be made: {said(error)}") from error
+        raise Broken(f"{name} cannot be made: {error_text(error)}") from error
     what, error = guarded(lambda: unsound(engine, name, setting))
     if what or error is not None:
-        raise Broken(f"{name} cannot be used: {what or said(error)}") from error
+        raise Broken(f"{name} cannot be used: {what or error_text(error)}") from error
     return engine
 
 
@@ -103,7 +103,7 @@ def _maker(name: str) -> Maker:
     why = why_not(point, SETTINGS) if foreign(name) else ""
     maker, error = (None, None) if why else guarded(point.load)
     if why or error is not None:
-        why = why or said(error)
+        why = why or error_text(error)
         raise Broken(f"{name} ({point.value}) cannot be imported: {why}") from error
     offers, _ = guarded(lambda: getattr(maker, "offers", None))
     sound = isinstance(offers, tuple) and all(isinstance(offer, str) for offer in offers)

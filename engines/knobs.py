@@ -46,10 +46,10 @@ def merged(*options: Options) -> dict[str, Any]:
     return found
 
 
-def said(value: Any) -> str:
+def short_value(value: Any) -> str:
     """A number, or several, in the shortest words: 1e6, `-0.04/h2 0`."""
     if isinstance(value, list | tuple):
-        return " ".join(map(said, value))
+        return " ".join(map(short_value, value))
     text = f"{value:g}" if isinstance(value, float) else str(value)
     return text.replace("e+0", "e").replace("e-0", "e-").replace("e+", "e")
 

@@ -54,7 +54,7 @@ def unsound(engine: Any, name: str, setting: str) -> str:
     return ""
 
 
-def said(error: BaseException | None) -> str:
+def error_text(error: BaseException | None) -> str:
     """The error's type and its message, in a short line."""
     return f"{type(error).__name__}: {_short(error, str)}"
 
@@ -83,7 +83,7 @@ def _try(there: Connection, point: EntryPoint, settings: tuple[str, ...]) -> Non
                 unsound(engine, point.name, setting)
         there.send("")
     except BaseException as error:
-        there.send(said(error))
+        there.send(error_text(error))
 
 
 def _how(code: int | None) -> str:

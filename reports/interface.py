@@ -153,7 +153,7 @@ def run(
             progress=told,
             book=wanted.book,
             causes=causes,
-            known=committed.known() if causes and cache else None,
+            known=committed.committed_causes() if causes and cache else None,
             store=store,
         )
     if mistakes := [*wanted.mistakes, *report.mistakes]:

@@ -85,10 +85,10 @@ mujoco.ELEMENTS[Cable] = mujoco.Element(write, signal=lambda force: Signal("cons
 
 from textmech.engines.pymunk import Pymunk
 from textmech.engines.pymunk.callbacks import force as pymunk
-from textmech.engines.pymunk.callbacks.line_forces import pull, told
+from textmech.engines.pymunk.callbacks.line_forces import midpoint_force, pull
 
 pymunk.ELEMENTS[Cable] = pymunk.Element(
-    load=pull, tell=lambda world, force, step, drift: told(world, force, step)
+    load=pull, tell=lambda world, force, step, drift: midpoint_force(world, force, step)
 )
 
 # The rest is used as it is.

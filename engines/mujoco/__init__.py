@@ -22,7 +22,7 @@ from .model.rods import of_scene
 from .model.script import commented, controls, drawn
 from .settings import options, settings
 from .settings.knobs import STEPS, cost, knobs
-from .settings.snippet import said, snippet
+from .settings.snippet import option_notes, snippet
 from .settings.user_options import as_options, unfit
 
 _WORLDS: Mapping[int, World] = {2: PLANE, 3: SPACE}
@@ -116,7 +116,7 @@ class MuJoCo:
         world = _world(scene)
         scene, start = world.built(scene, start)
         with_own = partial(world.with_own, scene=scene, start=start, tied_to=step)
-        notes = said(options, contacts=bool(world.worth(scene)), plane=world is PLANE)
+        notes = option_notes(options, contacts=bool(world.worth(scene)), plane=world is PLANE)
         rubs = max((contact.friction for contact in world.met(scene)), default=None)
         return snippet(with_own(options), with_own({}), step, notes, friction=rubs)
 

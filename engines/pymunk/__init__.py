@@ -15,7 +15,7 @@ from ..knobs import Knob, Options
 from .adapter import plans
 from .adapter.baseline import plain
 from .adapter.claims import answered
-from .adapter.plans import named
+from .adapter.plans import numbers_by_name
 from .adapter.refuse import not_native, unbuildable
 from .adapter.script import text
 from .callbacks.inner_state import states
@@ -118,7 +118,7 @@ class Pymunk:
         duration: float = 1.0,
     ) -> str:
         """A Python script that needs only pymunk."""
-        numbers = named(plan.choices(step))
+        numbers = numbers_by_name(plan.choices(step))
         options = self.recipe(scene, start) if self._tuned and plan.realised == "native" else {}
         head = heading(self, title, step, plan, options)
         return text(scene, start, step, numbers, head, duration)
@@ -135,7 +135,7 @@ class Pymunk:
         record: bool = False,
     ) -> Trajectory:
         """The motion, by `space.step(h)` between samples; once more where the floor was short."""
-        numbers = named(plan.choices(step))
+        numbers = numbers_by_name(plan.choices(step))
         wanted = tuple(name for name in reactions if name not in plan.withheld)
         again = partial(_run, scene, start, times, step, plan.realised, wanted, record)
         try:

@@ -25,12 +25,12 @@ from ..motion.follow import TOLERANCE, Followed, either, follow
 from ..start.sizes import size_of
 from ..system import Array, Mode, System
 from .agreement import Check, difference, times_apart, worst
-from .constraint_check import held
+from .constraint_check import constraint_checks
 from .drive_check import prescribed
 from .errors import errors
 from .event_time_error import untimed
 from .laws import laws
-from .reaction_check import beside
+from .reaction_check import reaction_checks
 from .reading import size
 from .start_check import started
 
@@ -75,7 +75,7 @@ def certify(
         others["generated"], found["generated events"] = built.trajectory(times), built.followed
         far = difference(motion, others["generated"], inner)
         checks.append(Check("generated motion", far, max(GENERATED, _looser(apart))))
-        checks += beside(written, built, generated, times)
+        checks += reaction_checks(written, built, generated, times)
     own = max(_own(followed), _looser(apart))
     if (closed := _closed_form(system, times)) is not None:
         others["closed form"] = written.trajectory(times, closed)
@@ -104,7 +104,7 @@ def as_the_file_says(
     lengths = size_of(case)
     large = size(case.scene.frame, motion, lengths, case.duration)
     yield from prescribed(case, motion, generated, large, own)
-    yield from held(case, motion, large, own)
+    yield from constraint_checks(case, motion, large, own)
     yield from started(case, answer, motion, lengths)
 
 

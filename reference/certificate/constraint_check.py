@@ -19,7 +19,7 @@ from .agreement import Check, worst
 from .reading import Size
 
 
-def held(case: Case, motion: Trajectory, size: Size, own: float) -> Iterator[Check]:
+def constraint_checks(case: Case, motion: Trajectory, size: Size, own: float) -> Iterator[Check]:
     """How far joints come apart or turn where they may not, and what slips that must not."""
     gaps = [size.apart("m", gap, 0.0) for gap in _gaps(case, motion)]
     seen, joints = motion_of(case.scene, motion), case.scene.joints.values()

@@ -22,7 +22,9 @@ ULPS, DRAWS, SEED = 2, 8, 2  # what a sum of some terms, each rounded, is off
 DIGITS = 100  # times ε and the condition of its equations: what these lose
 
 
-def beside(written: Answer, built: Answer, generated: Generated, times: Array) -> Iterator[Check]:
+def reaction_checks(
+    written: Answer, built: Answer, generated: Generated, times: Array
+) -> Iterator[Check]:
     """Accelerations, and reactions where the system knows its own; phase by phase.
 
     With another count of phases there is nothing to compare: the events say so.

@@ -7,7 +7,7 @@ import numpy as np
 from ..system import Array, Mode
 from .derivative import along
 from .lagrange import derivative, gradient, momentum, multipliers
-from .lagrangian import left
+from .lagrangian import left_side
 
 
 def power_balance(system: Mode, t: float, q: Array, v: Array) -> float:
@@ -40,5 +40,5 @@ def power_terms(system: Mode, t: float, q: Array, v: Array) -> Array:
     if g.any():
         drives.append(multipliers(system, t, q, v)[1] * g)
     if q_dot is not v and (n_0 := np.asarray(system.rates(t, q, np.zeros(len(v))))).any():
-        drives.append(n_0 * left(system, t, q, v, a))
+        drives.append(n_0 * left_side(system, t, q, v, a))
     return np.concatenate([np.atleast_1d(change), -Q * v, *(-each for each in drives)])

@@ -13,7 +13,7 @@ from .derivative import along
 from .lagrange import gradient, inertia, rate_matrix, slope
 
 
-def left(system: Mode, t: float, q: Array, v: Array, a: Array) -> Array:
+def left_side(system: Mode, t: float, q: Array, v: Array, a: Array) -> Array:
     """The left side of (2.51), d/dt ∂L/∂q̇ᵃ − ∂L/∂qᵃ (m,), at v̇ = a."""
     q_dot = system.rates(t, q, v)
 
@@ -31,7 +31,7 @@ def unbalanced(system: Mode, t: float, q: Array, v: Array, a: Array) -> Array:
 
     Of coordinates that nothing binds.
     """
-    N, missed = rate_matrix(system, t, q, v), left(system, t, q, v, a)
+    N, missed = rate_matrix(system, t, q, v), left_side(system, t, q, v, a)
     if N is not None:
         missed = N.T @ missed
     missed = missed + gradient(lambda v: system.D(t, q, v), v) - system.Q4(t, q, v)

@@ -31,7 +31,7 @@ def balance(system: Mode, t: float, q: Array, v: Array, a: Array) -> tuple[float
     parts = [abs(change).max(), abs(turning).max(), abs(reacting * unknown).max(initial=0.0)]
     terms = max(*parts, *single)
     unbalanced = change - applied - reacting @ unknown
-    return float(abs(unbalanced).max() / (terms or 1.0)), named(system, t, q, unknown)
+    return float(abs(unbalanced).max() / (terms or 1.0)), reactions_by_name(system, t, q, unknown)
 
 
 def accelerations(system: Mode, t: float, q: Array, v: Array) -> tuple[Array, dict[str, float]]:
@@ -54,7 +54,7 @@ def accelerations(system: Mode, t: float, q: Array, v: Array) -> tuple[Array, di
     free = load_forces(system, t, q, v) - (still + gyroscopic_moments(system, t, q, v))
     needed = constraint_acceleration(system, t, q, v)
     unknown = least_squares(matrix, np.concatenate([free, needed]))
-    return unknown[:n], named(system, t, q, unknown[n:])
+    return unknown[:n], reactions_by_name(system, t, q, unknown[n:])
 
 
 def accelerated(system: Mode, t: float, q: Array, v: Array, a: Array) -> Array:
@@ -114,7 +114,7 @@ def least_squares(matrix: Array, right: Array) -> Array:
     return solution
 
 
-def named(system: Mode, t: float, q: Array, values: Array) -> dict[str, float]:
+def reactions_by_name(system: Mode, t: float, q: Array, values: Array) -> dict[str, float]:
     """Reactions by quantity, in the order of the cuts."""
     cuts: list[Cut] = system.cuts(t, q)
     names = [name for cut in cuts for name in cut.names]

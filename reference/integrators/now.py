@@ -29,7 +29,7 @@ class Now:
             return self.what
         part = min(max((self.at - self.begin) / span, 0.0), 1.0)
         unit = f" {self.unit}" if self.unit else ""
-        rest = left(time.monotonic() - self.since, part)
+        rest = time_left(time.monotonic() - self.since, part)
         return f"{self.what}, at {self.at:.4g} of {self.end:.4g}{unit}{rest and ', ' + rest}"
 
 
@@ -54,7 +54,7 @@ def reached(at: float) -> None:
     NOW.at = at
 
 
-def left(seconds: float, part: float) -> str:
+def time_left(seconds: float, part: float) -> str:
     """How long the rest takes if it goes on like that, in words; or nothing, if nobody knows."""
     if part < SURE:
         return ""

@@ -56,7 +56,7 @@ class Closure:
         self.gliding += moving(case, self.where)
         self.still = [part for anchor in standing for part in _still(anchor, self.where)]
         self.locks = [lock for c in (*self.parts, *self.posed) for lock in self._locks(c)]
-        self.given = held(self.locks, self.numbers(case.initial, POSITIONS))
+        self.given = held_angles(self.locks, self.numbers(case.initial, POSITIONS))
         self.free = np.array([i for i in range(self.n) if i not in self.given], int)
         self.turning = self.where.turning
         self.reach = self._reach()
@@ -158,7 +158,7 @@ def _pairs(anchor: Anchor, where: Coordinates) -> list[Pair]:
     return [pair for pair in where.scene.pairs.values() if pair.at == anchor]
 
 
-def held(locks: Sequence[Lock], known: Mapping[int, float]) -> dict[int, float]:
+def held_angles(locks: Sequence[Lock], known: Mapping[int, float]) -> dict[int, float]:
     """The known angles, and those that slides and welds hold against them, on the same turn."""
     found = dict(known)
     for _ in locks:  # the longest chain

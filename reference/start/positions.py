@@ -7,7 +7,7 @@ import numpy as np
 
 from ..system import Array
 from . import messages, refusal
-from .closure import POSITIONS, Closure, held, placed
+from .closure import POSITIONS, Closure, held_angles, placed
 
 CLOSED = 1e-12  # residual relative to the largest length; Newton reaches rounding or fails
 RANK = 1e-9  # singular values below this part of the largest count as zero
@@ -149,7 +149,7 @@ def _wrapped(closure: Closure, q: Array) -> Array:
             base = near.get(i, 0.0)
             turned = math.remainder(q[i] - base, math.tau)
             known[i] = base + (turned if turned > FULL_TURN - math.pi else turned + math.tau)
-            known = held(closure.locks, known)
+            known = held_angles(closure.locks, known)
     q = q.copy()
     q[list(known)] = list(known.values())
     return q

@@ -14,7 +14,7 @@ from ...reference.solve import Solution, solve
 from ..compare.events.states import mistaken
 from ..compare.judge.compare import crashed
 from ..compare.judge.instants import of_reference
-from ..compare.judge.metric import told
+from ..compare.judge.metric import round_to_floor
 from ..compare.judge.uncertified import failing, uncertified
 from ..compare.trial.book import producers
 from ..compare.trial.trial import Trial
@@ -196,7 +196,7 @@ def _certificates(case: Case, solution: Solution) -> list[Certificate]:
             source=str(case.origin),
             system=solution.system,
             check=check.name,
-            difference=told(check.difference, OF_BOUND * check.bound),
+            difference=round_to_floor(check.difference, OF_BOUND * check.bound),
             bound=check.bound,
             certified=check.certified,
             unit=check.unit,

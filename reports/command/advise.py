@@ -94,7 +94,7 @@ def advise(
     from ..data.row import Advice
     from ..output import write
     from ..show import document, progress
-    from ..show.advice import told
+    from ..show.advice import advice_lines
 
     if bool(cases) == every:
         raise click.UsageError("name a CASE, or say --all")
@@ -117,7 +117,7 @@ def advise(
                 for one in found:
                     table += (mine := rows(one))
                     draws += [asdict(held) for held in one.draws] or [{} for _ in mine]
-                    for line in told(one) if front else ():
+                    for line in advice_lines(one) if front else ():
                         say(line)
         if wants_json:
             told_rows = [asdict(one) | more for one, more in zip(table, draws, strict=True)]

@@ -52,7 +52,7 @@ def causes(
         engines = choose_engines([name.partition(".")[0] for name in names], [])
     if long := too_long(chosen, engines):
         raise CaseError(long)
-    used, known = (None, None) if no_cache else (store.usable(), committed.known())
+    used, known = (None, None) if no_cache else (store.usable(), committed.committed_causes())
     with progress.progress() as told, finished(used is not None):
         report = suite.measure(
             chosen,

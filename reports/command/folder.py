@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from ..system.temporary_folder import taken
+from ..system.temporary_folder import adopt
 
 
 class Folder(click.Path):
@@ -23,7 +23,7 @@ class Folder(click.Path):
         try:
             folder.mkdir(parents=True, exist_ok=True)
             _tried(folder)
-            taken(folder)
+            adopt(folder)
         except OSError as error:
             self.fail(f"cannot write to {folder}: {error.strerror}", param, ctx)
         return folder

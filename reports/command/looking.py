@@ -41,7 +41,7 @@ def looked_at(
     from ..system import pool
     from .done import finished
 
-    known = committed.known() if causes and cached else None
+    known = committed.committed_causes() if causes and cached else None
     found, mistakes = sound_cases(words, long=long)
     wanted = asked(found, names, settings, mistakes=mistakes, named=bool(words), long=long)
     if wanted.mistakes:

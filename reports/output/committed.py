@@ -40,7 +40,7 @@ def key_of(row: Comparison) -> Key:
     return row.case, row.engine, row.setting, row.realised, row.quantity
 
 
-def known() -> Known:
+def committed_causes() -> Known:
     """The causes, and the verdicts that they belong to; nothing where they cannot be read."""
     found: dict[tuple[str, str, str, str], list[Cause]] = {}
     with suppress(OSError, ValueError):  # cut, or half of a merge: then all are searched anew

@@ -10,7 +10,7 @@ from ...cases.case import Case
 from ...cases.scene.frame import PLANE, SPACE
 from ...cases.trajectory import Array
 from ..batch.suite import Report
-from ..compare.trial.run import Samples, seen
+from ..compare.trial.run import Samples, sample_columns
 
 COLUMNS = {
     PLANE: [("x", "m", 0), ("y", "m", 1), ("angle", "rad", 2)],
@@ -26,7 +26,7 @@ def poses(report: Report, case: Case) -> pd.DataFrame:
 
     The reference is called `reference`, without a setting.
     """
-    reference = seen(report.solutions[case.name].trajectory)
+    reference = sample_columns(report.solutions[case.name].trajectory)
     parts = list(_rows(("reference", "", ""), case, case.times, reference))
     for one in report.tried:
         if one.pair.case.name == case.name:

@@ -13,7 +13,7 @@ from ...cases.scene.states import MASS_MATRIX
 from ...cases.trajectory import Array, Trajectory
 from ..batch.suite import Report
 from ..batch.trials import Tried
-from ..compare.trial.run import seen
+from ..compare.trial.run import sample_columns
 from .pack import Packed, packed, packed_by_size
 from .sketch import extent, sketch
 
@@ -44,7 +44,7 @@ def way(one: Tried) -> str:
 
 def motion(case: Case, reference: Trajectory, tried: Sequence[Tried]) -> Motion:
     """The drawing, the poses of the reference and of what differs from it, and all curves."""
-    poses = seen(reference)
+    poses = sample_columns(reference)
     size = extent(case.scene, poses)
     ran = [one for one in tried if one.outcome.samples]
     frames = thinned(case.samples, FRAMES)

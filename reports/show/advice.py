@@ -16,7 +16,7 @@ from ..data.short_numbers import factor, milliseconds
 HEADS = {BOTH: "fewest changes, and cheapest"}
 
 
-def told(one: Advised) -> Iterator[str]:
+def advice_lines(one: Advised) -> Iterator[str]:
     """Yields the advice on one case in one engine, line by line."""
     case, engine = one.pair.case, one.pair.engine
     tolerance, margin = one.asked.tolerance, one.asked.margin

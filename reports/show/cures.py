@@ -39,7 +39,7 @@ def cures(folder: Path) -> Cures:
     return _joined(rows[[*KEY, "cure", "step"]].itertuples(index=False))
 
 
-def found(causes: Iterable[Cause]) -> Cures:
+def found_cures(causes: Iterable[Cause]) -> Cures:
     """Returns the cures, as `cures` does, of causes that a run has just searched for."""
     rows = ((c.case, c.engine, c.setting, c.quantity, c.cure, c.step) for c in causes)
     return _joined(rows)

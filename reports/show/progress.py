@@ -13,7 +13,7 @@ from concurrent.futures import Executor
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from ...reference.integrators.now import NOW, begun, left
+from ...reference.integrators.now import NOW, begun, time_left
 from .console import draw, tell
 
 if TYPE_CHECKING:
@@ -82,7 +82,7 @@ class _Shown:
         if what != self.what:
             self.what, self.began, self.last = what, now, ""
         self.last = last or self.last
-        rest = "" if done == total else left(now - self.began, part)
+        rest = "" if done == total else time_left(now - self.began, part)
         if self.terminal:
             self.line = bar(what, done, total, rest, self.last)
             if done == total:

@@ -42,7 +42,7 @@ def head(group: Sequence[Comparison]) -> str:
     return f"{first.case} in {first.engine} {first.version} {first.setting}{how}{step}"
 
 
-def known(certificates: Sequence[Certificate]) -> Iterator[str]:
+def certificate_lines(certificates: Sequence[Certificate]) -> Iterator[str]:
     """Lines: what each reference is known to, of all that its case bounds; of one that holds."""
     for case, rows in groupby(certificates, key=lambda row: row.case):
         found = [*rows]

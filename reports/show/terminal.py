@@ -11,7 +11,7 @@ from ..batch.suite import Report
 from ..data.promised import unkept
 from ..data.row import AGREES, FAILS, Comparison
 from .console import say
-from .rows import known, rows
+from .rows import certificate_lines, rows
 from .summary import Cures, approximations, summary
 from .table import narrow
 
@@ -21,7 +21,7 @@ def show(
 ) -> None:
     """The rows of named cases, the summary, what fails, and where it was written."""
     if detailed:
-        for told in (*rows(report.comparisons), *known(report.certificates)):
+        for told in (*rows(report.comparisons), *certificate_lines(report.certificates)):
             say(told)
     _summary(report, cures or {})
     for check in report.certificates:

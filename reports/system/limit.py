@@ -48,7 +48,7 @@ def hold(jobs: int) -> None:
             resource.setrlimit(resource.RLIMIT_DATA, (most, hard))
 
 
-def held() -> str:
+def memory_limit_text() -> str:
     """How much memory this process may take, in words; nothing where nobody limits it."""
     with suppress(ImportError, AttributeError, OSError):
         import resource

@@ -149,7 +149,7 @@ def _deaf() -> Iterator[None]:
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, ending.known())
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, ending.known_signals())
     try:
         yield
     finally:
@@ -163,11 +163,11 @@ def _serve(calls: Connection, words: Any, jobs: int) -> None:
     threading.Thread(target=_tell, args=(words,), daemon=True).start()
     silence()
     os.chdir(tempfile.gettempdir())  # engines write logs: let it not be the user's folder
-    for number in ending.known():  # the terminal's reach all: the parent decides
+    for number in ending.known_signals():  # the terminal's reach all: the parent decides
         signal.signal(number, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     if hasattr(signal, "pthread_sigmask"):
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, ending.known())
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, ending.known_signals())
     while True:
         try:
             received = calls.recv_bytes()

@@ -19,7 +19,7 @@ def spelled(text: object, most: int = MOST) -> str:
 
 def why(error: BaseException) -> str:
     """The error's type and message in one line, whatever they are, with the limit of memory."""
-    held = limit.held() if isinstance(error, MemoryError) else ""
+    held = limit.memory_limit_text() if isinstance(error, MemoryError) else ""
     most = f"its process may take {held}" if held else ""
     return spelled(f"{type(error).__name__}: {', '.join(filter(None, (_said(error), most)))}")
 

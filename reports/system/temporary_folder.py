@@ -41,7 +41,7 @@ def passing(prefix: str, among: Path | None = None) -> Iterator[Path]:
             shutil.rmtree(folder, ignore_errors=True)
 
 
-def taken(folder: Path) -> None:
+def adopt(folder: Path) -> None:
     """Whatever was left there is a person's from now on, who has named the folder."""
     if _ours(folder):
         (folder / MARK).unlink(missing_ok=True)

@@ -18,7 +18,7 @@ GRACE = 1.5  # s: workers are killed within milliseconds, and a set of reports i
 
 def listen() -> None:
     """Each of the signals is an interruption from now on, unless the caller ignores it."""
-    for number in known():
+    for number in known_signals():
         if signal.getsignal(number) != signal.SIG_IGN:  # nohup
             signal.signal(number, _interrupt)
 
@@ -28,7 +28,7 @@ def deaf() -> None:
 
     After an interruption, what hangs then is still ended after the time of grace.
     """
-    for number in known():
+    for number in known_signals():
         signal.signal(number, signal.SIG_IGN)
 
 
@@ -55,14 +55,14 @@ def with_parent() -> None:
         _WATCHED[0].start()
 
 
-def known() -> list[signal.Signals]:
+def known_signals() -> list[signal.Signals]:
     """The signals among `SIGNALS` that this system has."""
     return [getattr(signal, name) for name in SIGNALS if hasattr(signal, name)]
 
 
 def _interrupt(*_: Any) -> None:
     """Ends as an error does; at once if nobody hears it, or if it is said again."""
-    for number in known():
+    for number in known_signals():
         signal.signal(number, _at_once)
     timer = threading.Timer(GRACE, _at_once)
     timer.daemon = True

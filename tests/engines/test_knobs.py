@@ -9,7 +9,7 @@ from given.scenes import SHIPPED
 
 from textmech import engines
 from textmech.engines.engine import Engine, Tunable
-from textmech.engines.knobs import Knob, as_text, merged, said
+from textmech.engines.knobs import Knob, as_text, merged, short_value
 from textmech.reports.data.user_settings import read_settings
 
 TUNED = [
@@ -131,4 +131,4 @@ def test_text() -> None:
     assert (
         as_text(options) == "{pair: {solref: [2h, 1.0e-09]}, settled: true, max_bias: .inf, n: 3}"
     )
-    assert said([1e6, 1e-9, "-1/h", 0.0]) == "1e6 1e-9 -1/h 0"
+    assert short_value([1e6, 1e-9, "-1/h", 0.0]) == "1e6 1e-9 -1/h 0"

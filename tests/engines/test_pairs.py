@@ -23,7 +23,7 @@ from textmech.engines.mujoco.adapter.compilation import compiled
 from textmech.engines.mujoco.callbacks import settle as settling
 from textmech.engines.mujoco.callbacks.floor import Floor
 from textmech.engines.pymunk.adapter import refuse
-from textmech.engines.pymunk.adapter.plans import named
+from textmech.engines.pymunk.adapter.plans import numbers_by_name
 from textmech.engines.pymunk.adapter.script import before_each, building
 from textmech.engines.pymunk.stepping.run import placed, stepper
 from textmech.engines.pymunk.stepping.scene import build
@@ -96,7 +96,7 @@ def test_another_friction_is_seen(engine: str) -> None:
 def test_pymunks_script_makes_the_same_steps(what: str) -> None:
     """Bit for bit, over 200 steps: points over rims and over sides that turn."""
     case, _, start = known(what)
-    numbers = named(planned(TUNED["pymunk"], case.scene, start).choices(STEP))
+    numbers = numbers_by_name(planned(TUNED["pymunk"], case.scene, start).choices(STEP))
     world = build(case.scene, start, numbers, "native")
     lines = [
         "import math", "import pymunk", *building(world, start, numbers), "def take(n):",

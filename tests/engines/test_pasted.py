@@ -25,7 +25,7 @@ from textmech.reports.batch.advice.advice_rows import Advised, Asked
 from textmech.reports.batch.advice.session import advised
 from textmech.reports.batch.cache.store import usable
 from textmech.reports.batch.selection import choose_engines
-from textmech.reports.show.advice import told
+from textmech.reports.show.advice import advice_lines
 from textmech.reports.show.questions import listed
 
 pytestmark = pytest.mark.slow
@@ -42,7 +42,7 @@ def handed_over(name: str, engine: str) -> list[str]:
 
 
 def below(one: Advised) -> Sequence[str]:
-    lines, texts = list(told(one)), list[str]()
+    lines, texts = list(advice_lines(one)), list[str]()
     for place, line in enumerate(lines):
         if line.strip() == "to paste":
             end = lines.index("    as a file of --settings", place)

@@ -22,7 +22,7 @@ from textmech.engines.mujoco.adapter.compilation import timestep
 from textmech.engines.mujoco.adapter.plane import PLANE
 from textmech.engines.mujoco.adapter.space.world import SPACE
 from textmech.engines.pymunk import Pymunk
-from textmech.engines.pymunk.adapter.plans import named
+from textmech.engines.pymunk.adapter.plans import numbers_by_name
 from textmech.engines.pymunk.adapter.script import building
 from textmech.engines.pymunk.stepping.run import placed
 from textmech.engines.pymunk.stepping.scene import build
@@ -188,7 +188,7 @@ def test_lines_for_pymunk(name: str, options: Options) -> None:
     before = held(space)
     pasted, *_ = engine.snippet(scene, start, options, STEP).partition("for n in range")
     exec(pasted, names)
-    numbers = named(planned(engine, scene, start).choices(STEP))
+    numbers = numbers_by_name(planned(engine, scene, start).choices(STEP))
     wanted = placed(scene, start, STEP, numbers, "native").space
     assert names["h"] == STEP
     assert held(space) == held(wanted)

@@ -57,7 +57,7 @@ class Endless:
 
 def main() -> None:
     """The command, which finds this engine and no other."""
-    for number in ending.known():  # of tests that run in the background some are ignored
+    for number in ending.known_signals():  # of tests that run in the background some are ignored
         signal.signal(number, signal.SIG_DFL)
     engine = Endless(Path(sys.argv.pop(1)))
     selection.choose_engines = lambda *_, **__: [engine]

@@ -24,7 +24,7 @@ def backward(scene: Scene) -> Scene:
     for part in (f.name for f in fields(scene)):
         elements = getattr(scene, part)
         if part in PARTS and isinstance(elements, Mapping):
-            turned[part] = dict(reversed(elements.items()))
+            turned[part] = {name: elements[name] for name in reversed([*elements])}
     return replace(scene, **turned)
 
 

@@ -27,7 +27,7 @@ SOON = 4.0  # s, as for a command that is told to end
 def runs(case: Case, trial: Callable[..., Trial], folder: Path) -> None:
     """One run after the other, each with other numbers, until somebody ends it."""
     os.setsid()
-    for number in ending.known():  # of tests that run in the background some are ignored
+    for number in ending.known_signals():  # of tests that run in the background some are ignored
         signal.signal(number, signal.SIG_DFL)
     ending.listen()
     (folder / "out").mkdir(exist_ok=True)

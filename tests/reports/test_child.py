@@ -127,7 +127,7 @@ def test_what_it_says_and_how_it_ended_is_told() -> None:
 def test_a_release_is_not_measured_for_nobody() -> None:
     """Its stdin has ended: whoever asked for it is gone."""
     done = subprocess.run(
-        [sys.executable, "-P", "-m", "textmech.reports.versions.measure", "{}"],
+        [sys.executable, "-P", "-m", "textmech.reports.versions.one", "{}"],
         stdin=subprocess.DEVNULL,
         capture_output=True,
         timeout=60,

@@ -50,6 +50,6 @@ def test_what_a_run_has_searched_is_told_alike() -> None:
     one = Cause("mine", "mujoco", "shipped", "b.x", 2.0, 1.0, "step", "{}", 5e-4, 0.6, 4.0, "h^1")
     none = replace(one, quantity="b.y", cure="not searched", step=None)
     both = replace(one, cure="RK4", options="{integrator: RK4}", step=2e-3)
-    assert cures.found([both, one, none]) == {
+    assert cures.found_cures([both, one, none]) == {
         ("mine", "mujoco", "shipped", "b.x"): "RK4 or step 0.5 ms"
     }

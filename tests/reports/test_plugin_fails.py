@@ -11,7 +11,7 @@ FORKED = "import multiprocessing; multiprocessing.set_start_method('fork', force
 WORSE = """\
 from pathlib import Path
 from dataclasses import fields
-from textmech.reports import committed
+from textmech.reports.output import committed
 from textmech.reports.data.row import Comparison
 key = ("swing", "mujoco", "shipped", "native", "rod.angle")
 said = dict.fromkeys(field.name for field in fields(Comparison))

@@ -27,7 +27,7 @@ from textmech.reports.system.processes import Processes
     ],
 )
 def test_how_long_the_rest_takes(seconds: float, part: float, said: str) -> None:
-    assert progress.left(seconds, part) == said
+    assert progress.time_left(seconds, part) == said
 
 
 def test_a_bar_is_as_wide_as_the_terminal(monkeypatch: pytest.MonkeyPatch) -> None:

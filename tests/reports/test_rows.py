@@ -5,7 +5,7 @@ from dataclasses import replace
 from given.lines import refused, row
 
 from textmech.reports.data.row import FAILS, Certificate
-from textmech.reports.show.rows import known, rows
+from textmech.reports.show.rows import certificate_lines, rows
 
 LONG = "the model: 0.346 remains for h → 0; " + "one number for friction where there are two; " * 3
 
@@ -63,9 +63,11 @@ def test_what_a_reference_is_certified_to() -> None:
     angle = "error of rod.angle"
     certified = Certificate("swing", "", "generated", angle, 3e-10, 0.01, 3e-12, "rad", "holds")
     law = Certificate("swing", "", "generated", "power balance", 1e-16, 1e-12, None, "", "holds")
-    assert list(known([law])) == []
+    assert list(certificate_lines([law])) == []
     said = "swing: the reference is certified: rod.angle to 3e-12 rad"
-    assert list(known([law, certified])) == ["", said]
-    assert max(map(len, known([certified] * 9))) <= 80
+    assert list(certificate_lines([law, certified])) == ["", said]
+    assert max(map(len, certificate_lines([certified] * 9))) <= 80
     broken = replace(law, verdict=FAILS)
-    assert list(known([broken, certified])) == []  # of one that does not hold nothing is known
+    assert (
+        list(certificate_lines([broken, certified])) == []
+    )  # of one that does not hold nothing is known

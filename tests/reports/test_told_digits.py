@@ -49,8 +49,8 @@ def test_what_rounding_makes_of_a_motion_is_no_digit(trial: Callable[..., Trial]
     chance = np.random.default_rng(1)
     walks = np.cumsum(chance.choice([-1, 1], (200, 1000)), axis=1) * rounding.EPSILON
     assert np.max(np.abs(walks)) < floor < 100 * np.max(np.abs(walks))
-    assert metric.told(1 / 3, floor) == pytest.approx(1 / 3, abs=10 * floor)
-    assert metric.told(floor / 3, floor) == 0.0
+    assert metric.round_to_floor(1 / 3, floor) == pytest.approx(1 / 3, abs=10 * floor)
+    assert metric.round_to_floor(floor / 3, floor) == 0.0
     bare = otherwise(rounding, "MARGIN * EPSILON * made", "EPSILON * made / MARGIN")
     assert bare.floor(made, "ball.x", 1e-3) < np.max(np.abs(walks))
 

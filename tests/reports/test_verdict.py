@@ -103,8 +103,8 @@ def test_the_size_of_an_error_typed() -> None:
     ],
 )
 def test_digits_below_the_floor_are_not_told(number: float, floor: float, told: float) -> None:
-    assert metric.told(number, floor) == pytest.approx(told, rel=1e-9)
+    assert metric.round_to_floor(number, floor) == pytest.approx(told, rel=1e-9)
 
 
 def test_an_uncertainty_is_never_told_as_none() -> None:
-    assert metric.told_uncertainty(1e-15, 2e-12) == pytest.approx(1e-11)
+    assert metric.round_up_to_floor(1e-15, 2e-12) == pytest.approx(1e-11)

@@ -7,7 +7,7 @@ from ...engine import Plan, Start
 from ...foot_contact import NO_STRIDE, strides
 from ..model.bounce import LEAST_BOUNCE
 from ..model.force import ELEMENTS, lacking
-from ..model.hinge import taken
+from ..model.hinge import attribute_conflict
 from ..model.tree import Branch, Tree, built_as, spanning_tree
 from .compilation import NOMINAL
 
@@ -71,7 +71,7 @@ def unbuilt(scene: Scene, soft: Sequence[str]) -> str | None:
     for force in scene.forces.values():
         if type(force) not in ELEMENTS:
             return f"adapter: {force.name} is a {force.word}, which it does not build"
-    if what := taken(scene):
+    if what := attribute_conflict(scene):
         return f"adapter: {what}"
     for edge in scene.constraints.values():
         if soft:

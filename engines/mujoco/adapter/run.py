@@ -8,7 +8,7 @@ from ....cases.trajectory import Array, Trajectory
 from ...engine import Diverged, Realised, Start
 from ..callbacks.edge import edges
 from ..callbacks.inner_state import acting, activations, rated
-from ..callbacks.point_forces import told
+from ..callbacks.point_forces import point_force_callbacks
 from ..callbacks.signal import Corners, installed, listening, signals
 from ..callbacks.smooth import smooth
 from ..callbacks.stepping import stepping
@@ -47,7 +47,7 @@ def simulate(
     grid = all_steps(times, model.opt.timestep) if every else times
     steps = stepping(scene, model, data, realised)
     laws = [*smooth(scene, model), *edges(scene, model)] if realised == "law" else steps.controls
-    laws = [*laws, *told(scene, model)]
+    laws = [*laws, *point_force_callbacks(scene, model)]
     given = (force.name for force in scene.forces.values() if force.given)
     felt_by = {*scene.contacts, *scene.pairs, *given}
     touching = tuple(name for name in reactions if name.partition(".")[0] in felt_by)

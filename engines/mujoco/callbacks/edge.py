@@ -15,7 +15,7 @@ import numpy as np
 from ....cases.scene import Edge, Scene, Vector
 from ....cases.trajectory import Array
 from ...signal import rate
-from ..model.edge import held
+from ..model.edge import edge_forces
 from ..model.tree import called
 from .signal import Control, bound
 from .smooth import actuated
@@ -36,7 +36,7 @@ class Row:
 
 def edges(scene: Scene, model: mujoco.MjModel) -> list[Control]:
     """One callback for all edges: they may feel each other."""
-    return holding(model, [_row(model, edge, field) for edge, field in held(scene)])
+    return holding(model, [_row(model, edge, field) for edge, field in edge_forces(scene)])
 
 
 def holding(model: mujoco.MjModel, rows: Sequence[Row]) -> list[Control]:

@@ -19,7 +19,7 @@ from .signal import Control, bound
 Exerts = Callable[[float, Sequence[Place]], Exerted]
 
 
-def told(scene: Scene, model: mujoco.MjModel) -> list[Control]:
+def point_force_callbacks(scene: Scene, model: mujoco.MjModel) -> list[Control]:
     """One callback for all of them, or none."""
     forces = [force for force, _ in lacking(scene)]
     if not forces:

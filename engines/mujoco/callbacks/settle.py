@@ -17,7 +17,7 @@ from ...engine import Start
 from ..model.contact import lies, meet
 from ..model.planes import touching
 from .floor import Floor
-from .point_forces import told
+from .point_forces import point_force_callbacks
 from .signal import signals
 
 _DEEPEST = 1.0  # m, of a point; a disk could be as deep as its radius
@@ -38,7 +38,7 @@ def settle(
     both: list[Contact | Pair] = [*contacts, *pairs]
     if not both:
         return {}
-    with signals(scene, told(scene, model)):
+    with signals(scene, point_force_callbacks(scene, model)):
         floor = Floor(scene, model, data, contacts, pairs)
         for sweep in range(_SWEEPS):  # Gauss and Seidel
             if len(both) > 2 and sweep in _ALL_AT_ONCE and together(floor):

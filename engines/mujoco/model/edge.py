@@ -8,7 +8,7 @@ from ....cases.scene import Edge, Scene
 
 def fields(scene: Scene) -> list[str]:
     """The reactions of the scene's edges, as quantities."""
-    return [f"{edge.name}.{field}" for edge, field in held(scene)]
+    return [f"{edge.name}.{field}" for edge, field in edge_forces(scene)]
 
 
 def write_room(root: ET.Element, scene: Scene) -> None:
@@ -17,7 +17,7 @@ def write_room(root: ET.Element, scene: Scene) -> None:
         ET.SubElement(root, "size", nuserdata=str(len(fields(scene))))
 
 
-def held(scene: Scene) -> Iterator[tuple[Edge, str]]:
+def edge_forces(scene: Scene) -> Iterator[tuple[Edge, str]]:
     """Each edge's force across, and its drive where its speed is prescribed."""
     for edge in scene.constraints.values():
         yield edge, "force"

@@ -63,7 +63,7 @@ def way(scene: Scene, joint: Joint) -> float:
     return 1.0 if joint.shifts else _flat(scene, joint.name, "turn")[1]
 
 
-def taken(scene: Scene) -> str | None:
+def attribute_conflict(scene: Scene) -> str | None:
     """The first torsion spring or damper for which its joint has no attribute left, or no hinge."""
     spatial = isinstance(scene, SpatialScene)
     found = spanning_tree_in_space(scene) if spatial else spanning_tree(scene)

@@ -35,7 +35,7 @@ def spanning_tree(scene: SpatialScene) -> Tree[SpatialJoint]:
     return spanned(scene, sorted(scene.joints.values(), key=closes))
 
 
-def left(scene: SpatialScene, joint: SpatialJoint) -> tuple[Freedom, ...]:
+def freedoms_left(scene: SpatialScene, joint: SpatialJoint) -> tuple[Freedom, ...]:
     """The freedoms that the joint leaves here: a particle has no axes, so none are held."""
     ends = (joint.a.body, joint.b.body)
     rigid = all(end == GROUND or scene.bodies[end].turns for end in ends)
@@ -44,7 +44,7 @@ def left(scene: SpatialScene, joint: SpatialJoint) -> tuple[Freedom, ...]:
 
 def held_points(scene: SpatialScene, joint: SpatialJoint) -> int | None:
     """By how many points `connect` can hold what the joint holds; None: by no number."""
-    freedoms = left(scene, joint)
+    freedoms = freedoms_left(scene, joint)
     if any(freedom.kind == "shift" for freedom in freedoms):
         return None
     if len(freedoms) == 3 or any(freedom.kind == "ball" for freedom in freedoms):
@@ -65,7 +65,7 @@ def natives(scene: SpatialScene, branch: Branch[SpatialJoint]) -> list[Native]:
         return [Native(f"{body.name}.{name}", "slide", axis) for name, axis in axes]
     freedoms = [
         (number, freedom)
-        for number, freedom in enumerate(left(scene, joint))
+        for number, freedom in enumerate(freedoms_left(scene, joint))
         if body.turns or freedom.kind == "shift"
     ]
     sign = 1.0 if branch.forward else -1.0

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from ...engine import Choice
-from ...knobs import Knob, Options, Value, said
+from ...knobs import Knob, Options, Value, short_value
 from ..model.contact import HARDEST, SOFTEST
 from ..model.number_text import EACH
 from .user_options import ELEMENTS, as_options, key, suffix
@@ -78,7 +78,7 @@ def _of(name: str, value: Any) -> Value:
         return Value(name.partition("_")[0], {name: value})
     if isinstance(value, str):
         return Value(value if name == "integrator" else f"{value} {name}", {name: value})
-    return Value(f"{name} {said(value)}", {name: value})
+    return Value(f"{name} {short_value(value)}", {name: value})
 
 
 _WHOSE = {
@@ -93,7 +93,9 @@ def _softness(group: str, tuned: Options) -> Knob:
     whose, element = _WHOSE[group], ELEMENTS[group]
 
     def value(**numbers: Any) -> Value:
-        words = (f"d = {n[0]:g}" if k == holds else f"{k} {said(n)}" for k, n in numbers.items())
+        words = (
+            f"d = {n[0]:g}" if k == holds else f"{k} {short_value(n)}" for k, n in numbers.items()
+        )
         return Value(f"{whose}: {', '.join(words)}", {element: numbers})
 
     springs: list[list[Any]] = [[text, 1.0] for text in _STIFF]

@@ -80,7 +80,7 @@ def snippet(
     )
 
 
-def said(options: Options, *, contacts: bool, plane: bool) -> list[str]:
+def option_notes(options: Options, *, contacts: bool, plane: bool) -> list[str]:
     """Notes on those of the options that no element says."""
     notes = []
     if contacts and options.get("settled"):

@@ -19,7 +19,7 @@ from ..callbacks.cut import cuts
 from ..callbacks.force import lacking
 from ..stepping.run import COLD
 from ..stepping.scene import build
-from .plans import named
+from .plans import numbers_by_name
 from .script import before_each, building
 
 
@@ -30,7 +30,7 @@ def plain(scene: Scene, start: Start, step: float, plan: Plan) -> Callable[[floa
         return None
     if plan.realised == "driver" and cuts(scene):
         return None  # the script cuts no step
-    numbers = named(plan.choices(step))
+    numbers = numbers_by_name(plan.choices(step))
     world = build(scene, start, numbers, plan.realised)
     if law:
         world.brakes.clear()  # the law's force is all the friction there is

@@ -58,14 +58,14 @@ def plan(
     )
 
 
-def named(choices: Sequence[Choice]) -> dict[str, Any]:
+def numbers_by_name(choices: Sequence[Choice]) -> dict[str, Any]:
     """The numbers without their reasons."""
     return {choice.name: choice.value for choice in choices}
 
 
 def _second(scene: Scene, realised: Realised, numbers: Numbers) -> bool:
     """Whether errors are of second order: by the midpoint protocol, with whole gaps closed."""
-    known = named(numbers(NOMINAL))
+    known = numbers_by_name(numbers(NOMINAL))
     closes = not scene.joints or numbers.biased or known.get("constraint.error_bias") == 0.0
     touches = not scene.pressed or bool(known.get("start.seed"))
     midpoint = bool(known.get("time.midpoint"))
@@ -117,7 +117,7 @@ def _withheld(scene: Scene, realised: Realised) -> dict[str, str]:
 
 def _words(scene: Scene, start: Start, realised: Realised, numbers: Numbers, step: float) -> str:
     """The half step along the velocities, contacts' depth at the start, and what holds a slot."""
-    known, words = named(numbers(step)), []
+    known, words = numbers_by_name(numbers(step)), []
     if known.get("time.midpoint"):
         words.append(f"started {step / 2:g} s back, positions read {step / 2:g} s ahead")
     seed, touching = known.get("start.seed"), [*closed(scene, start), *closed_pairs(scene, start)]

@@ -39,7 +39,7 @@ from ..model.script_signals import as_text
 from ..model.stops import stop_numbers
 from ..model.world import World
 from . import unilateral_spring as one_side
-from .line_forces import Exerted, Load, drifted, pull, told
+from .line_forces import Exerted, Load, drifted, midpoint_force, pull
 from .point_forces import BY_LAW
 from .turning import couple_as_text, motor, motor_load, twist, twisted
 from .unilateral_spring import NO_SIDE
@@ -280,7 +280,7 @@ ELEMENTS: dict[type[Force], Element] = {
     ),
     Damper: Element(
         load=pull, **_named("damping"),
-        tell=lambda world, damper, step, drift: told(world, damper, step),
+        tell=lambda world, damper, step, drift: midpoint_force(world, damper, step),
     ),
     Push: Element(load=_push_load, tell=_push, script=_push_script),
     Torque: Element(load=torque_load, tell=torque, script=torque_script),

@@ -66,7 +66,7 @@ def pull(world: World, line: Line, name: str) -> Exerted:
     return exerted
 
 
-def told(world: World, line: Line, step: float) -> Callable[[float], None]:
+def midpoint_force(world: World, line: Line, step: float) -> Callable[[float], None]:
     """The line's force at the midpoint, with the velocities extrapolated to 3/2 vₙ − 1/2 vₙ₋₁.
 
     Of second order, explicit, and indifferent to joints: their forces are in the velocities.

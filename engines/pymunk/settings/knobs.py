@@ -8,7 +8,7 @@ from typing import Any
 
 from ....cases.scene import Scene
 from ...engine import Start
-from ...knobs import Knob, Options, Value, said
+from ...knobs import Knob, Options, Value, short_value
 from .options import BY_THE_SCENE
 from .user_options import as_options
 
@@ -57,7 +57,7 @@ def _sweeps(tuned: Options) -> Knob:
 def _contacts(tuned: Options) -> Iterator[Knob]:
     """The seed, and what helps beside others only."""
     if "seed" in tuned:
-        seed = Value(f"a seed of {said(tuned['seed'])} m", {"seed": tuned["seed"]})
+        seed = Value(f"a seed of {short_value(tuned['seed'])} m", {"seed": tuned["seed"]})
         yield Knob("seed", (seed,), seed, "protocol")
     for name in ("collision_slop", "collision_bias"):
         if name in tuned:
@@ -72,4 +72,4 @@ def _slots(tuned: Options) -> Iterator[Knob]:
 
 
 def _number(name: str, value: Any) -> Value:
-    return Value(f"{name} {said(value)}", {name: value})
+    return Value(f"{name} {short_value(value)}", {name: value})

@@ -19,7 +19,7 @@ from .halting import halting
 from .impact_transition import STILL, landed
 from .mode_selection import After, Options, closed, opening, painleve, settled, staying, yielding
 from .modes import Modes, rate
-from .shared_friction import beside
+from .shared_friction import alike_contacts
 from .unilateral_spring import HAPPENS, OTHER, OneSided
 
 CLOSED = 1e-9  # of the scene's size: a start this close to the floor stands on it
@@ -141,7 +141,7 @@ class Mechanism(System):
 
         def then(t: float, q: Array, v: Array) -> After:
             choices = staying(self.built, mode)
-            for k in beside(self.elements, self.built.states[mode], i):
+            for k in alike_contacts(self.elements, self.built.states[mode], i):
                 choices[k] = (*choice, *opening(self.elements[k])) if choice == REST else choice
             if choice == REST:
                 self._stops_too(mode, choices, t, q, v)

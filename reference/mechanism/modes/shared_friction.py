@@ -68,7 +68,7 @@ def _alike(elements: Sequence[Element], states: Sequence[State], state: State) -
     return all(e.together != mine.together or s == state for e, s in before if _rubs(e, s))
 
 
-def beside(elements: Sequence[Element], states: Sequence[State], i: int) -> list[int]:
+def alike_contacts(elements: Sequence[Element], states: Sequence[State], i: int) -> list[int]:
     """Element i, and the contacts of its body on its plane that slip or stick with it."""
     mine = elements[i]
     if not _rubs(mine, states[i]):

@@ -18,7 +18,7 @@ from .advice_rows import Advised, Asked
 from .candidates import NOTHING, Choice, Menu, fitting
 from .criterion import Bar
 from .loop_cuts import elsewhere
-from .parameter_draws import held
+from .parameter_draws import tried_in_draws
 from .recipe import Kitchen, Recipes, recipes, rungs_of
 
 ROUNDS = 12  # of what keeps the bar here, and not where a loop is cut elsewhere
@@ -82,7 +82,7 @@ def _drawn(one: Advised, results: Results) -> Advised:
     if one.kitchen is None:
         return one
     scale = one.kitchen.bar.scale
-    tried = (held(one.pair, recipe.candidate, scale, results) for _, recipe in one.wanted)
+    tried = (tried_in_draws(one.pair, recipe.candidate, scale, results) for _, recipe in one.wanted)
     return replace(one, draws=tuple(tried))
 
 

@@ -47,7 +47,9 @@ class Held:
         return "; ".join([told, *left_out])
 
 
-def held(pair: Pair, candidate: Candidate, scale: Mapping[str, float], results: Results) -> Held:
+def tried_in_draws(
+    pair: Pair, candidate: Candidate, scale: Mapping[str, float], results: Results
+) -> Held:
     """The candidate in every draw, each before a reference of its own; without any margin."""
     cases = [case for seed in range(DRAWS) if (case := drawn(pair.case, seed)) is not None]
     keys = [results.keys.solution(case) for case in cases]

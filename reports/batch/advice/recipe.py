@@ -10,7 +10,7 @@ from itertools import takewhile
 from math import inf
 from typing import Any
 
-from ....engines.knobs import said
+from ....engines.knobs import short_value
 from ..search.candidate import Candidate
 from ..search.parallel_search import Asking
 from .candidates import MOST, NOTHING, WHOLE, Choice, Menu, parts
@@ -170,7 +170,7 @@ def _called(part: tuple[str, ...], options: Mapping[str, Any]) -> str:
     if part == ("integrator",):
         return str(value)
     alone = isinstance(value, int | float | str) and not isinstance(value, bool)
-    return f"{'.'.join(part)} {said(value)}" if alone else ".".join(part)
+    return f"{'.'.join(part)} {short_value(value)}" if alone else ".".join(part)
 
 
 def _without(options: Mapping[str, Any], part: tuple[str, ...]) -> dict[str, Any]:

@@ -34,7 +34,7 @@ Stat = tuple[str, int, int, int, int, int]
 """Of a file: its name in the folder, size, when written and when changed [ns], number, disk."""
 
 
-def told(name: str, found: os.stat_result) -> Stat:
+def file_stat(name: str, found: os.stat_result) -> Stat:
     """The `Stat` of a file, one tuple: name, size, both times [ns], number and disk."""
     times = found.st_mtime_ns, found.st_ctime_ns
     return name, found.st_size, *times, found.st_ino, found.st_dev
@@ -74,7 +74,7 @@ class Place:
     def _stats(self, path: str, name: str) -> Iterator[Stat]:
         found = os.stat(path)
         if stat.S_ISREG(found.st_mode):
-            yield told(name, found)
+            yield file_stat(name, found)
         elif stat.S_ISDIR(found.st_mode):
             for inner in os.scandir(path):
                 if inner.name == COMPILED or (inner.name == TESTS and not self.tests):

@@ -12,11 +12,11 @@ from ....cases.trajectory import Trajectory
 from ....reference.certificate.agreement import Check
 from ....reference.solve import Solution
 from ...compare.judge.compare import Outcome
-from ...data.row import Comparison, Instant, Rungs
+from ...data.row import Comparison, Instant, Rungs, StepError
 
 KINDS = {
     kind.__name__: kind
-    for kind in (Solution, Trajectory, Check, Outcome, Comparison, Rungs, Instant)
+    for kind in (Solution, Trajectory, Check, Outcome, Comparison, Rungs, StepError, Instant)
 }
 SIZE = 8  # bytes, in which the length of the JSON is told
 NUMBERS = "biuf"  # numpy's kinds: booleans, integers, floats

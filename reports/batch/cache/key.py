@@ -20,7 +20,7 @@ from ....cases.case import Case
 from ....engines.engine import Engine
 from ... import BEGUN
 from ...data import pins
-from .digest import Place, Stat, told
+from .digest import Place, Stat, file_stat
 from .parts import BASIS, Parts, home_of, located
 from .store import Store
 
@@ -194,14 +194,14 @@ def _code(places: tuple[str, ...], seen: tuple[tuple[Path, Stat], ...]) -> str:
 def _is(path: Path, stat: Stat) -> bool:
     """Whether the file is what was seen."""
     with suppress(OSError):
-        return told("", path.stat()) == stat
+        return file_stat("", path.stat()) == stat
     return False
 
 
 def _seen() -> Iterable[tuple[Path, Stat]]:
     for room in ("cases", "reference", "engines", "reports"):
         for path in _modules(ROOT / room):
-            yield path, told("", path.stat())
+            yield path, file_stat("", path.stat())
 
 
 def basis(memo: Store) -> str:

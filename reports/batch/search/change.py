@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from math import ceil, log2
 from typing import Any
 
-from ....engines.knobs import Knob, Options, merged, said
+from ....engines.knobs import Knob, Options, merged, short_value
 from .candidate import Candidate
 
 NEAR = 1e-9  # of a halving: a ratio of two steps that is a power of two up to rounding
@@ -98,7 +98,7 @@ def remainder(knobs: Iterable[Knob], recipe: Options) -> Lever | None:
     """A lever for what of a recipe is no knob: how exactly to solve, say; None for nothing."""
     turned = merged(*(knob.tuned.options for knob in knobs if knob.tuned))
     rest = {name: value for name, value in recipe.items() if name not in turned}
-    words = " + ".join(f"{name} {said(value)}" for name, value in rest.items())
+    words = " + ".join(f"{name} {short_value(value)}" for name, value in rest.items())
     return Lever(words, rest) if rest else None
 
 

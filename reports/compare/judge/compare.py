@@ -32,7 +32,7 @@ from . import instants, metric, states
 from .cause import cause
 from .convergence import Convergence, study
 from .error_instant import moment
-from .metric import told
+from .metric import round_to_floor
 from .rounding import floor
 from .rows import judged, row, rungs, steps
 from .verdict import verdict
@@ -148,7 +148,7 @@ def _judged(
     least = floor(trial, name, trial.step)
     if at is not None:
         rest = metric.error(samples[at.elsewhere], wanted[at.elsewhere]).largest
-        why = f"{at.words}; elsewhere at most {told(rest, least):.2g}"
+        why = f"{at.words}; elsewhere at most {round_to_floor(rest, least):.2g}"
         moments[name] = why
         if not rest <= (trial.allowed(name) or np.inf):
             others = _study(trial, list(runs.ladders)[-1], runs, name, at.elsewhere)

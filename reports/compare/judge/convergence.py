@@ -71,7 +71,7 @@ def study(
     errors = {h: metric.largest(ladder[h] - reference) for h in steps}
     usable = _usable(errors, allow)
     if errors[steps[0]] <= floor:
-        exactly = metric.told_uncertainty(0.0, floor)
+        exactly = metric.round_up_to_floor(0.0, floor)
         return Convergence(EXACT, errors, usable, limit=0.0, uncertainty=exactly)
     keep = np.ones(len(reference), dtype=bool) if away is None else away
     if np.count_nonzero(keep) < FEWEST:
@@ -87,7 +87,7 @@ def study(
     uncertainty = max(uncertainty, enlarged, _noise(rungs))
     off = metric.largest(value - reference)
     settled = _settled(off, uncertainty, allow)
-    limit = metric.told(off, enlarged), metric.told_uncertainty(uncertainty, enlarged)
+    limit = metric.round_to_floor(off, enlarged), metric.round_up_to_floor(uncertainty, enlarged)
     if settled is None:
         return Convergence(size.verdict, errors, usable, *size.orders, *limit)
     orders = NO_ORDER if _noise(rungs) else _told(_orders(rungs, TOLD * floor))

@@ -126,7 +126,7 @@ def listed(trial: Trial, samples: Samples) -> list[Instant]:
 
 
 def _told(trial: Trial, event: str, number: float) -> float:
-    return metric.told(number, floor(trial, f"{event}.time", trial.step))
+    return metric.round_to_floor(number, floor(trial, f"{event}.time", trial.step))
 
 
 def of_reference(case: Case, reference: Trajectory) -> list[Instant]:

@@ -38,16 +38,20 @@ def largest(d: Array) -> float:
     return float(np.max(sizes(d)))
 
 
-def told(number: float, floor: float) -> float:
+def round_to_floor(number: float, floor: float) -> float:
     """The number to the digits above the floor's power of ten; below it 0."""
     if not (math.isfinite(number) and 0 < floor < math.inf):
         return number
     return round(number, _digits(floor)) + 0.0  # a zero has no sign: rounding alone decides it
 
 
-def told_uncertainty(number: float, floor: float) -> float:
+def round_up_to_floor(number: float, floor: float) -> float:
     """The number to the digits above the floor, but never less than one unit of the last digit."""
-    return told(max(number, 10.0 ** -_digits(floor)), floor) if 0 < floor < math.inf else number
+    return (
+        round_to_floor(max(number, 10.0 ** -_digits(floor)), floor)
+        if 0 < floor < math.inf
+        else number
+    )
 
 
 def _digits(floor: float) -> int:

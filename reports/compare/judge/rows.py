@@ -7,7 +7,7 @@ from ...data.row import Comparison, Rungs, StepError
 from ..trial.ladder import Ladder
 from ..trial.trial import Trial
 from .convergence import Convergence
-from .metric import Error, told
+from .metric import Error, round_to_floor
 from .rounding import floor
 
 
@@ -38,7 +38,7 @@ def judged(
     """A row of what was measured at the judged step; `when` [s] the error is largest."""
     word, because = verdict
     least, allowed = floor(trial, name, trial.step), trial.allowed(name)
-    largest = told(error.largest, least)
+    largest = round_to_floor(error.largest, least)
     return row(
         trial,
         name,
@@ -47,8 +47,8 @@ def judged(
         step=trial.step,
         error=largest,
         when=when if largest else None,
-        rms=told(error.rms, least),
-        final=told(error.final, least),
+        rms=round_to_floor(error.rms, least),
+        final=round_to_floor(error.final, least),
         ratio=None if allowed is None else largest / allowed,
         because=because,
     )
@@ -88,7 +88,7 @@ def steps(trial: Trial, ladder: Ladder, name: str, found: Convergence) -> list[S
             quantity=name,
             unit=trial.quantity(name).unit,
             step=h,
-            error=told(error, least),
+            error=round_to_floor(error, least),
         )
         for h, error in sorted(found.errors.items())
     ]

@@ -88,11 +88,11 @@ def _run(rung: Rung) -> Samples:
     for name, most in rung.bounds.items():
         if not np.all(np.abs(samples[name]) < most):
             raise Diverged(f"{name} reaches {np.max(np.abs(samples[name])):.1g}")
-    poses = seen(trajectory) if rung.poses else {}
+    poses = sample_columns(trajectory) if rung.poses else {}
     return {**samples, **poses, **_events(case, trajectory)}
 
 
-def seen(trajectory: Trajectory) -> Samples:
+def sample_columns(trajectory: Trajectory) -> Samples:
     """By body, the columns (N, 3), in space (N, 7), that tell where it is and how it is turned."""
     return {
         body: states[:, : frame_of(states.shape[1]).attitude.stop]

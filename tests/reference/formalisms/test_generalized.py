@@ -102,7 +102,7 @@ def test_by_a_force_and_by_the_lagrangian(name: str) -> None:
     d = mode.d if isinstance(mode, Damped) else 0.0
     for t, q, v in drawn(5):
         a = mode.accelerations(t, q, v)
-        found = lagrangian.left(mode, t, q, v, a)
+        found = lagrangian.left_side(mode, t, q, v, a)
         assert np.abs(found + d * v).max() < 1e-12 * np.abs(a).max() * 2
 
 

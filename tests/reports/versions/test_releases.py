@@ -12,8 +12,7 @@ from given.report_folders import ROW, report
 
 from textmech.cases.mistake import CaseError
 from textmech.reports.output.diff.folder import opened
-from textmech.reports.versions import install, measure, table
-from textmech.reports.versions import measure as one
+from textmech.reports.versions import install, measure, one, table
 from textmech.reports.versions.measure import Measured
 from textmech.reports.versions.wanted import Release
 

@@ -4,7 +4,7 @@ from .....cases.scene import GROUND
 from .....cases.scene.space.joint import SpatialJoint
 from .....cases.scene.space.scene import SpatialScene
 from ...model.space.drive import drives
-from ...model.spatial_tree import held_points, left, natives, spanning_tree
+from ...model.spatial_tree import freedoms_left, held_points, natives, spanning_tree
 from ...model.tree import Tree
 from ..refuse import touching_twice, unbuilt
 
@@ -30,8 +30,8 @@ def unbuildable(scene: SpatialScene) -> str | None:
         if drive.joint in loops:
             what = f"{drive.joint.name} is driven, and closes a loop of driven joints"
             return f"adapter: {what}: drive fewer"
-        if drive.number >= len(left(scene, drive.joint)) or (
-            left(scene, drive.joint)[drive.number].kind == "ball"
+        if drive.number >= len(freedoms_left(scene, drive.joint)) or (
+            freedoms_left(scene, drive.joint)[drive.number].kind == "ball"
         ):
             return f"adapter: {drive.joint.name} would have to turn a particle, which has no axes"
     return touching_twice(scene)

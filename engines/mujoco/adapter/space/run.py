@@ -17,7 +17,7 @@ from ...model.space.scene import signals
 from ...model.spatial_tree import spanning_tree
 from ...read.record import Counts, Record, all_steps, counted, sampled, whole
 from ...read.space.reaction import ABOUT, acting, contact_force, effort, joint_wrench
-from ...read.space.seen import EDGES, JOINTS, LOOPS, TOUCHING, Seen, seen, states
+from ...read.space.seen import EDGES, JOINTS, LOOPS, TOUCHING, Seen, recorded_arrays, states
 from ..run import check
 
 _WRENCH = ("fx", "fy", "fz", "mx", "my", "mz")
@@ -52,9 +52,13 @@ def simulate(
             record = _sampled(model, data, np.arange(len(grid)) if every else counts, corners)
         check(warnings, grid, record)
         rows = record.at(counts) if every else record
-        known = seen(model, data, times, rows, _needed(scene, reactions))
+        known = recorded_arrays(model, data, times, rows, _needed(scene, reactions))
         alone = record.felt is None  # our loop kept it, and not MuJoCo's, which keeps its sensors
-        each = seen(model, data, grid, record, {*TOUCHING} if alone else set()) if every else known
+        each = (
+            recorded_arrays(model, data, grid, record, {*TOUCHING} if alone else set())
+            if every
+            else known
+        )
         check(warnings, grid, record)
     forces = read(scene, model, known, reactions)
     found = states(scene, model, each, start)

@@ -7,7 +7,7 @@ from .....cases.scene.rotation import Vector3
 from .....cases.scene.space.constraint import SpatialEdge
 from .....cases.scene.space.scene import SpatialScene
 from .....cases.trajectory import Array
-from ...model.space.edge import held
+from ...model.space.edge import edge_forces
 from ...model.tree import called
 from ..edge import Row, Way, holding, still
 from ..signal import Control
@@ -17,7 +17,7 @@ UP = np.array([0.0, 0.0, 1.0])
 
 def edges(scene: SpatialScene, model: mujoco.MjModel) -> list[Control]:
     """One callback for all edges, or none."""
-    return holding(model, [_row(model, edge, field) for edge, field in held(scene)])
+    return holding(model, [_row(model, edge, field) for edge, field in edge_forces(scene)])
 
 
 def _row(model: mujoco.MjModel, edge: SpatialEdge, field: str) -> Row:

@@ -9,7 +9,7 @@ from .....cases.scene.space.scene import SpatialScene
 
 def fields(scene: SpatialScene) -> list[str]:
     """The reactions of the scene's edges, as quantities."""
-    return [f"{edge.name}.{field}" for edge, field in held(scene)]
+    return [f"{edge.name}.{field}" for edge, field in edge_forces(scene)]
 
 
 def write_room(root: ET.Element, scene: SpatialScene) -> None:
@@ -18,7 +18,7 @@ def write_room(root: ET.Element, scene: SpatialScene) -> None:
         ET.SubElement(root, "size", nuserdata=str(len(fields(scene))))
 
 
-def held(scene: SpatialScene) -> Iterator[tuple[SpatialEdge, str]]:
+def edge_forces(scene: SpatialScene) -> Iterator[tuple[SpatialEdge, str]]:
     """Each edge's force to its side, and the one on its height where that is kept."""
     for edge in scene.constraints.values():
         yield edge, "force"

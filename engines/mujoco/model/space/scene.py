@@ -187,7 +187,7 @@ def _contacts(root: ET.Element, scene: SpatialScene, numbers: dict[str, object])
         )  # fmt: skip
 
 
-def held(scene: SpatialScene, joint: SpatialJoint) -> list[Vector3]:
+def connect_points(scene: SpatialScene, joint: SpatialJoint) -> list[Vector3]:
     """The points, from each of the joint's own in the axes of both parts, that `connect` holds.
 
     A hinge's lie on its axis. As far apart as the parts are large, for softness is one of length.
@@ -214,7 +214,7 @@ def _loops(root: ET.Element, scene: SpatialScene, given: dict[str, str]) -> None
     elements = {e.attrib["name"]: e for e in root.iter("body")}
     (world,) = root.iter("worldbody")
     for joint in spanning_tree(scene).loops:
-        for number, offset in enumerate(held(scene, joint)):
+        for number, offset in enumerate(connect_points(scene, joint)):
             name = f"{joint.name}.{number}"
             for side, anchor in (("a", joint.a), ("b", joint.b)):
                 home = str(anchor) if str(anchor) in elements else called(anchor.body)

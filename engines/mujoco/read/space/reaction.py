@@ -12,7 +12,7 @@ from .....cases.trajectory import Array
 from ....law import TORQUES, turning
 from ...model.force import outer
 from ...model.space.drive import Drive
-from ...model.space.scene import held
+from ...model.space.scene import connect_points
 from ...model.tree import Tree, called
 from .seen import Seen
 
@@ -64,7 +64,7 @@ def _loop(
 ) -> Array:
     """The forces of the points that hold the joint; MuJoCo counts those on the first part."""
     found = np.zeros((len(at), 6))
-    for number in range(len(held(scene, joint))):
+    for number in range(len(connect_points(scene, joint))):
         name = f"{joint.name}.{number}"
         first = 3 * mujoco.mj_name2id(model, _OBJECT.mjOBJ_EQUALITY, name)
         force = -seen["efc_force"][:, first : first + 3]

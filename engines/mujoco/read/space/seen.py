@@ -28,7 +28,7 @@ _STATE = int(
 )
 
 
-def seen(
+def recorded_arrays(
     model: mujoco.MjModel,
     probe: mujoco.MjData,  # any of the model: it is moved through the record
     times: Array,

@@ -105,7 +105,7 @@ class Pivot:
 Held = Together | Line | Dot | Rim | Pivot | Drive | Blade
 
 
-def held(scene: SpatialScene) -> list[Held]:
+def scene_constraints(scene: SpatialScene) -> list[Held]:
     """List of all constraints of a scene, in its order."""
     found: list[Held] = []
     for joint in scene.joints.values():

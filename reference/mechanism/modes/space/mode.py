@@ -11,7 +11,7 @@ from ....system import Array, Mass, Mode, Pose, Vector
 from ...constraints.leeway import Leeway, leeway
 from ...constraints.space.constraint_jacobian import SpatialRows
 from ...constraints.space.equations import Equations
-from ...constraints.space.joint_constraints import held
+from ...constraints.space.joint_constraints import scene_constraints
 from ...forces.space.action import Actions
 from ...forces.space.turning import Turn, wound
 from ...kinematics.space.attitude import cross, spin
@@ -44,7 +44,7 @@ class SpatialMultibody(Mode):
         self._start = start
         if len(start[0]) == len(self.where.names):  # where there is a start, and nobody counts yet
             self._start = np.append(start[0], self._begun(*start)), start[1]
-        self.constraints = SpatialRows(held(scene), self.layout)
+        self.constraints = SpatialRows(scene_constraints(scene), self.layout)
         self._actions = Actions(self.layout)
         self._m = np.array([mass.m for mass in self.masses.values()])
         begins = [at.r for at in self.where.columns.values()]

@@ -12,7 +12,7 @@ from given import scenes
 from textmech import engines
 from textmech.reference.certificate.agreement import Check
 from textmech.reports.batch.advice import parameter_draws as draws
-from textmech.reports.batch.advice.parameter_draws import APART, DRAWS, drawn, held
+from textmech.reports.batch.advice.parameter_draws import APART, DRAWS, drawn, tried_in_draws
 from textmech.reports.batch.cache.key import Keys
 from textmech.reports.batch.cache.store import Store
 from textmech.reports.batch.search.candidate import Candidate
@@ -49,8 +49,8 @@ def test_a_recipe_holds_in_some_and_one_that_does_not_help_in_none(tmp_path: Pat
     store.put(pair.key, scenes.solved(case.name))
     with pool.local(2) as working:
         results = Results(working, lambda *_: None, store, keys)
-        good = held(pair, Candidate.of({"integrator": "RK4"}, 4e-3), {}, results)
-        bad = held(pair, Candidate.of({}, 4e-3), {}, results)
+        good = tried_in_draws(pair, Candidate.of({"integrator": "RK4"}, 4e-3), {}, results)
+        bad = tried_in_draws(pair, Candidate.of({}, 4e-3), {}, results)
     assert (good.held, bad.held) == (good.tried, 0)
     assert good.tried == bad.tried >= DRAWS - 1
     assert str(good) == f"holds in {good.tried} of {good.tried} draws of its parameters ± 10%"
@@ -74,11 +74,11 @@ def test_a_draw_that_goes_through_other_phases_is_another_case(
         key: (sound, other, unsure)[k % 3] for k, key in enumerate(tasks)
     }
     results.anew = lambda what, function, tasks: {key: {"x": (0.5, 0.5)} for key in tasks}
-    found = held(pair, Candidate.of({}, 4e-3), {}, results)
+    found = tried_in_draws(pair, Candidate.of({}, 4e-3), {}, results)
     assert (found.held, found.tried) == (DRAWS // 3, DRAWS // 3)
     assert str(found).endswith(
         "; 2 had no reference (as a loop that does not close)"
         "; 2 passed other phases (more or fewer impacts, stops or slips)"
     )
     monkeypatch.setattr(draws, "_phases", lambda reference: 0)
-    assert held(pair, Candidate.of({}, 4e-3), {}, results).tried == 2 * DRAWS // 3
+    assert tried_in_draws(pair, Candidate.of({}, 4e-3), {}, results).tried == 2 * DRAWS // 3

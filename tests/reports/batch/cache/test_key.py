@@ -101,7 +101,7 @@ def test_what_is_tried_counts_and_the_code_that_tries_it(code: Path) -> None:
     assert len({word(), word('{"iterations": 30}'), word(step=1e-3 * (1 + 2**-52))}) == 3
     before, row = word(), words()[1]
     for file in ("candidate.py", "errors.py"):
-        with (code / "reports" / "search" / file).open("a", encoding="utf-8") as text:
+        with (code / "reports" / "batch" / "search" / file).open("a", encoding="utf-8") as text:
             text.write("# changed\n")
         assert word() != before
         before = word()
@@ -182,7 +182,7 @@ def test_a_search_counts_what_it_imports_and_no_other_search() -> None:
         "reports.system.limit"
     }
     assert needless([SEARCH], ["reports/batch/search"]) == set()
-    assert "reports.batch.advice.cuts" in needless(
+    assert "reports.batch.advice.loop_cuts" in needless(
         [SEARCH], ["reports/batch/search", "reports/batch/advice"]
     )
 
