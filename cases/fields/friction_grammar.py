@@ -1,4 +1,8 @@
-"""Friction as a case file writes it: of a contact by coefficients, of a joint by what it exerts."""
+"""Grammar of dry friction: coefficients of a contact, friction forces or moments of a joint.
+
+The models here are what a case file may write; from them the nouns of `friction` are made, which
+all of the project calculates with. A slide and a pin have the same keys in other units.
+"""
 
 from collections.abc import Callable
 from typing import Annotated, Any
@@ -32,11 +36,14 @@ Friction = Annotated[
     | Annotated[Coefficients, Tag("<map>")],
     plain_or_map(),
 ]
-"""One coefficient stands for both."""
+"""Friction of a contact: a plain number, which is both coefficients, or a map of the two."""
 
 
 class DryFriction(Part):
-    """Dry friction of a slide; that of a pin has the same keys in other units, see `dry`."""
+    """The keys of a joint's dry friction and what must fit together in them.
+
+    Their types are Any since they differ in their units: `dry` makes a model for each.
+    """
 
     static: Any = Field(None, description="as `kinetic` if not given")
     kinetic: Any
@@ -54,14 +61,18 @@ class DryFriction(Part):
                 raise wrong("`stribeck` needs a `static` friction above the kinetic: it falls")
 
     def law(self) -> noun.DryFriction:
-        """The law, with what was left out."""
+        """Returns the noun: the static friction is the kinetic one where it is left out."""
         return noun.DryFriction(
             self.static or self.kinetic, self.kinetic, self.smooth, self.stribeck
         )
 
 
 def dry(force: str, speed: str, slowness: str, of: str) -> Any:
-    """The law with what it exerts, and how fast it slips, in these units; of: a slide or a pin."""
+    """Returns the type of a field that holds the dry friction of a joint, in these units.
+
+    force: the unit of what it exerts; speed: of how fast it slips; slowness: of one over that, as
+    the sharpness of the smooth law has it; of: what the models' names end with.
+    """
     swift, sharp = Annotated[float, In(speed, above=0)], Annotated[float, In(slowness, above=0)]
     bounds = _bounds(force, of)
     fields: dict[str, Any] = {
@@ -76,7 +87,7 @@ def dry(force: str, speed: str, slowness: str, of: str) -> Any:
 
 
 def _bounds(force: str, of: str) -> Any:
-    """Type of the friction bounds forward and backward, in this unit; one number gives both."""
+    """Returns the type of the bounds forward and backward, in this unit; one number gives both."""
     size = Annotated[float, In(force, least=0)]
     both = _map(noun.Bounds, of, forward=size, backward=size)
     return Annotated[
@@ -87,17 +98,19 @@ def _bounds(force: str, of: str) -> Any:
 
 
 def _map(law: Callable[..., object], of: str, **units: Any) -> Any:
-    """A law as a map of its numbers."""
+    """Returns the type of a noun that is written as a map of its numbers, each in its unit."""
     fields: dict[str, Any] = {key: (unit, ...) for key, unit in units.items()}
     written = create_model(f"{law.__name__}{of}", __base__=Part, __doc__=law.__doc__, **fields)
     return Annotated[law, Made(written, lambda written: law(**dict(written)))]
 
 
+# Annotations for the fields of the models: of a slide, a pin, and a drag without `static`.
 OF_SLIDE = dry("N", "m/s", "s/m", "OfSlide")
 OF_PIN = dry("N m", "rad/s", "s/rad", "OfPin")
 FrictionForce = Made(_bounds("N", "OfGuide"), lambda bounds: bounds)
 
 
 def _holds_as_well_as_it_brakes(static: float, kinetic: float) -> None:
-    if kinetic > static:  # at rest it would both stick and slide
+    """Raises a mistake if the static friction is less than the kinetic one."""
+    if kinetic > static:  # with a force between them it could neither stay at rest nor slide
         raise wrong(f"kinetic friction {kinetic:g} is above static friction {static:g}")

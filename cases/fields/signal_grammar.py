@@ -1,6 +1,9 @@
-"""Laws in time as a case file writes them: one key beside the others of a force.
+"""Grammar of laws in time: what a force, a prescribed velocity or a moved point follows.
 
-What is prescribed has such a law as its value, and a plain number is a constant one.
+A force has the law as one key among its others (`sine: {…}`). What is prescribed has a map with
+that one key as its value, and a plain number there is a constant. From what is written the noun
+`Signal` is made. The models are built by `keys`, since an amplitude's unit and its number of axes
+depend on what follows the law.
 """
 
 from collections.abc import Iterator
@@ -19,23 +22,26 @@ from .signal import Signal
 from .words import wrong
 
 LAWS: tuple[Word, ...] = get_args(Word)
-JUMPS: tuple[Word, ...] = ("step", "pulse")
+JUMPS: tuple[Word, ...] = ("step", "pulse")  # laws that no velocity can follow
 Instant = Annotated[float, In("s", least=0)]
 
 
 @dataclass(frozen=True)
 class InTime:
-    """Marks a signal: the unit of its amplitude, and along how many axes it has one."""
+    """Marks a field that holds a signal: the unit of its amplitude, and along how many axes."""
 
     unit: str
     axes: int
 
 
 class Numbers(Part):
-    """The numbers of a law that has several; how large it is stands among them."""
+    """Base of the laws that have several numbers; to each `keys` adds how large it is.
+
+    That is its amplitude, or of a law with values of its own the unit vector `along`.
+    """
 
     def noun(self) -> dict[str, Any]:
-        """The numbers as arguments of the noun, by name."""
+        """Returns the numbers as arguments of `Signal`, by name."""
         return dict(self)
 
 
@@ -52,6 +58,7 @@ class Step(Numbers):
     at: Instant
 
     def noun(self) -> dict[str, Any]:
+        # `keys` adds the amplitude: by its plain name a type checker would not find it here.
         return {"amplitude": getattr(self, "amplitude"), "times": (self.at,)}  # noqa: B009
 
 
@@ -79,6 +86,7 @@ class Polynomial(Numbers):
     coefficients: tuple[Any, ...]
 
     def noun(self) -> dict[str, Any]:
+        # Along one axis there is no key `along`.
         return {"amplitude": getattr(self, "along", 1.0), "values": self.coefficients}
 
 
@@ -103,7 +111,7 @@ class Table(Numbers):
 
 
 class Following(Part):
-    """A part that follows exactly one law in time."""
+    """Base of what follows exactly one law in time: it has a field for each, and one is given."""
 
     laws: ClassVar[tuple[Word, ...]] = LAWS
     model_config = ConfigDict(json_schema_extra={"oneOf": [{"required": [law]} for law in LAWS]})
@@ -116,12 +124,12 @@ class Following(Part):
 
     @property
     def law(self) -> Word:
-        """The one that is given."""
+        """The name of the law that is given."""
         return next(law for law in self.laws if getattr(self, law) is not None)
 
     @property
     def signal(self) -> Signal:
-        """The law that is given."""
+        """The law that is given, as the noun, with all numbers in SI."""
         given = getattr(self, self.law)
         noun = given.noun() if isinstance(given, Numbers) else {"amplitude": given}
         numbers = {key: _plain(number) for key, number in noun.items()}
@@ -130,8 +138,13 @@ class Following(Part):
         return Signal(self.law, entries, **numbers)
 
     def amounts(self) -> Iterator[tuple[tuple[str | int, ...], Amount, int]]:
-        """Where numbers stand whose unit is known later: each with how often it is "per second"."""
+        """Yields the numbers whose unit is known later, when the scene is.
+
+        Each with its place below this part, and how often it is "per second" more than the rest:
+        once in a ramp, k times as the coefficient of tᵏ.
+        """
         given = getattr(self, self.law)
+        # A constant and a ramp are one number, which has no key of its own.
         numbers = dict(given) if isinstance(given, Numbers) else {None: given}
         for key, number in numbers.items():
             path = (self.law,) if key is None else (self.law, key)
@@ -143,7 +156,7 @@ class Following(Part):
 
 
 class Prescribed(Following):
-    """A law in time of what is prescribed: a velocity, which cannot jump."""
+    """Base of a law for a prescribed velocity: no law that jumps, for a jump is a blow."""
 
     laws: ClassVar[tuple[Word, ...]] = tuple(law for law in LAWS if law not in JUMPS)
     model_config = ConfigDict(json_schema_extra={"oneOf": [{"required": [law]} for law in laws]})
@@ -163,16 +176,21 @@ class Moving(Following):
 
 
 def law(title: str, signal: Any, axes: int | None = None) -> dict[str, tuple[Any, Any]]:
-    """The keys that give the `signal` of a force, as fields of its model.
+    """Returns the keys that give the `signal` of a force, as fields of its model.
 
-    axes: along how many it has an amplitude, if not along as many as it is marked with.
+    signal: the noun's annotated field, marked with InTime. axes: along how many it has an
+    amplitude, if not along as many as the mark says. title: what the models' names begin with.
     """
     (mark,) = (mark for mark in signal.__metadata__ if isinstance(mark, InTime))
     return keys(title, mark.unit, mark.axes if axes is None else axes)
 
 
 def keys(title: str, unit: str | None, axes: int, laws: Any = LAWS) -> dict[str, tuple[Any, Any]]:
-    """The keys of laws, for so many axes; unit: None where it is known later."""
+    """Returns a field for each of the laws, None by default: its key, its model and the default.
+
+    axes: along how many the amplitude has entries. unit: of the amplitude; None where it is known
+    later, with the scene, as of a prescribed rate.
+    """
     size = _amount(unit, axes)
     along = {} if axes == 1 else {"along": (_direction(axes), ...)}
     numbers: dict[Word, tuple[type[Numbers], dict[str, Any]]] = {
@@ -182,6 +200,7 @@ def keys(title: str, unit: str | None, axes: int, laws: Any = LAWS) -> dict[str,
         "polynomial": (Polynomial, {"coefficients": Annotated[Any, Coefficients(unit)]}),
         "table": (Table, {"values": tuple[_amount(unit, 1), ...]}),
     }
+    # A ramp's number is a rate; a unit that is not known yet stays None.
     kinds: dict[Word, Any] = {"constant": size, "ramp": _amount(unit and per_second(unit, 1), axes)}
     for word, (base, asked) in numbers.items():
         fields: dict[str, Any] = {key: (kind, ...) for key, kind in asked.items()}
@@ -194,7 +213,7 @@ def keys(title: str, unit: str | None, axes: int, laws: Any = LAWS) -> dict[str,
 
 @dataclass(frozen=True, eq=False)
 class Law:
-    """Marks a signal of one axis that stands as a value: a number, or a map with its law."""
+    """Marks a field with a signal of one axis, written as a number or as a map with its law."""
 
     unit: str
 
@@ -210,18 +229,19 @@ class Law:
 
 
 def _plain(number: Any) -> Any:
-    """In SI, as it is."""
+    """Returns the number, or the tuple of them, in SI, without its unit."""
     if isinstance(number, tuple):
         return tuple(map(_plain, number))
     return number.value if isinstance(number, Amount) else number
 
 
 def _amount(unit: str | None, axes: int) -> Any:
+    """Returns the type of a number, or along several axes of a tuple; unit None: any for now."""
     number: Any = Annotated[Amount, AnyUnit()] if unit is None else Annotated[float, In(unit)]
     return number if axes == 1 else tuple[(number,) * axes]
 
 
 def _direction(axes: int) -> Any:
-    """A unit vector, along which a law of one number acts."""
+    """Returns the type of a direction, made a unit vector, along which a law of one number acts."""
     entries: Any = tuple[(Annotated[float, In("1")],) * axes]
     return Annotated[entries, AfterValidator(unit)]

@@ -1,4 +1,9 @@
-"""Contacts of two bodies: with a rim, a particle or a point, on the rim or a face of another."""
+"""Contacts of two bodies: a rim, a particle or a point of one, on the rim or a face of another.
+
+The geometry of the contact is here (gap, normal, slip), as it follows from a motion; its forces
+are known to whoever computes the motion. "Touching" is the body of the point `at`, "touched" the
+other one, which has the rim or the face.
+"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -20,12 +25,15 @@ _PAIR: Fields = {
 }
 
 
-ROUNDING = 1e-9  # of a face: two blocks of one width stand on each other with all corners
+ROUNDING = 1e-9  # of a face's length: a corner exactly at its end, as of equal blocks, is on it
 
 
 @dataclass(frozen=True)
 class Face:
-    """A side of a block: its ends, which are corners, and the unit normal, in the block's axes."""
+    """A side of a block: its corners by name, and its outward unit normal in the block's axes.
+
+    The ends stand so that the normal is to the left of the way from the first to the second.
+    """
 
     ends: tuple[str, str]
     normal: Vector
@@ -62,75 +70,77 @@ class Pair:
 
     @property
     def body(self) -> str:
+        """The name of the body that touches."""
         return self.at.body
 
     def refers(self) -> tuple[Anchor, ...]:
-        """The point that touches, and the centre of the body that is touched."""
+        """Returns the point that touches, and the centre of the body that is touched."""
         return self.at, Anchor(self.touched, CENTER)
 
     @property
     def on(self) -> str:
-        """Where it touches, in words."""
+        """Where it touches, in words: `rim of drum`, `top of table`."""
         return f"rim of {self.touched}" if self.face is None else f"{self.face} of {self.touched}"
 
     @property
     def switches(self) -> bool:
-        """It may open, slide and stick."""
+        """Whether it has states, which change: open, sliding, sticking. Every pair has."""
         return True
 
     @property
     def friction(self) -> float:
-        """The one coefficient that engines know."""
+        """The coefficient of an engine that has only one for rest and motion: the kinetic one."""
         return self.kinetic
 
     @property
     def side(self) -> Face:
-        """The face that is touched, where it is one."""
+        """The face that is touched; only where `face` is not None."""
         assert self.face is not None
         return FACES[self.face]
 
     @property
     def corner(self) -> Anchor:
-        """A point of that face."""
+        """The first end of the face that is touched: a point of its line."""
         return Anchor(self.touched, self.side.ends[0])
 
     def radius(self, bodies: Mapping[str, Body]) -> float:
-        """[m] of the rim that touches; 0 of a particle or a point."""
+        """Radius [m] of the rim that touches; 0 of a particle or a point."""
         radius = bodies[self.body].radius
         return radius if radius is not None and self.at.point == CENTER else 0.0
 
     def reach(self, bodies: Mapping[str, Body]) -> float:
-        """[m] of the rim that is touched; 0 of a face."""
+        """Radius [m] of the rim that is touched; 0 of a face."""
         return 0.0 if self.face else bodies[self.touched].radius or 0.0
 
     def quantities(self) -> dict[str, Fields]:
-        """Its reactions, and how the touching point moves against the other body."""
+        """Its reactions, how fast it slips on the other body, and the gap between both."""
         return {self.name: _PAIR}
 
     def numbers(self) -> dict[str, float]:
-        """The coefficient of friction."""
+        """The coefficient of friction: what the audit reads back from an engine."""
         return {"friction": self.friction}
 
     def observe(self, motion: Motion, field: str) -> Array:
-        """(N,) how far both are apart, or how fast one slips on the other; else KeyError."""
+        """(N,) the `gap` [m] or the `slip` [m/s] along a motion; of any other field KeyError."""
         if field not in ("gap", "slip"):
             raise KeyError(f"{self.name}.{field}")
         return self.normal(motion)[1] if field == "gap" else self.moves(motion)[0]
 
     def place(self, motion: Motion) -> Array:
-        """(N, 2) where it touches, or is nearest."""
+        """(N, 2) where it touches [m], in ground axes; while open, its point that is nearest."""
         touching: Array = motion.point(self.at)[:, :2]
         return touching - self.radius(motion.bodies) * self.normal(motion)[0]
 
     def moves(self, motion: Motion) -> tuple[Array, Array]:
-        """(N,) how fast [m/s] it slips, and how fast the gap grows."""
+        """(N,) each: how fast [m/s] it slips along the tangent, and how fast the gap grows."""
         normal, place, states = self.normal(motion)[0], self.place(motion), motion.trajectory.states
         moves = _moves(states[self.body], place) - _moves(states[self.touched], place)
+        # The tangent is (n_y, −n_x), which has the normal to its left.
         slip = moves[:, 0] * normal[:, 1] - moves[:, 1] * normal[:, 0]
         return slip, np.sum(moves * normal, axis=1)
 
     def normal(self, motion: Motion) -> tuple[Array, Array]:
-        """(N, 2) the unit normal, and (N,) the gap [m]."""
+        """(N, 2) the unit normal in ground axes, to what touches, and (N,) the gap [m]."""
         place = motion.point(self.at)[:, :2]
         if self.face is None:
             apart = place - motion.point(Anchor(self.touched, CENTER))[:, :2]
@@ -144,7 +154,7 @@ class Pair:
         return normal, np.sum(normal * apart, axis=1) - self.radius(motion.bodies)
 
     def beyond(self, motion: Motion) -> NDArray[np.bool_]:
-        """(N,) whether what touches is past an end of the face."""
+        """(N,) whether the touching point or centre is past an end of the face, along its line."""
         one, two = (motion.point(Anchor(self.touched, end))[:, :2] for end in self.side.ends)
         along = two - one
         share = np.sum((motion.point(self.at)[:, :2] - one) * along, axis=1)
@@ -153,6 +163,6 @@ class Pair:
 
 
 def _moves(states: Array, place: Array) -> Array:
-    """(N, 2): the velocity of a body where the place is (2.6)."""
+    """(N, 2): the velocity [m/s] that a body's states (N, 6) have at the place (N, 2) (2.6)."""
     turn, (x, y) = states[:, OMEGA], (place - states[:, [X, Y]]).T
     return states[:, [VX, VY]] + np.stack([-turn * y, turn * x], axis=1)

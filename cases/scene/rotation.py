@@ -1,7 +1,7 @@
-"""Attitudes as unit quaternions (w, x, y, z) that turn body axes into ground axes.
+"""Quaternion algebra of attitudes: q = (w, x, y, z) takes body components to ground components.
 
-For derived quantities and for engines; the reference has its own (reference/laws/rotation.py).
-All take any number of rows: (…, 4), (…, 3).
+For derived quantities and for engines. The reference has its own (reference/laws/rotation.py), so
+that a mistake here is not made twice. Functions of arrays take any number of rows: (…, 4), (…, 3).
 """
 
 import math
@@ -14,14 +14,17 @@ from ..trajectory import Array
 Vector3 = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
 
-UPRIGHT: Quaternion = (1.0, 0.0, 0.0, 0.0)
+UPRIGHT: Quaternion = (1.0, 0.0, 0.0, 0.0)  # the identity: body axes along ground axes
 
 
 def matrix(q: Array) -> Array:
-    """(…, 3, 3) whose columns are the body axes in ground axes, whatever the length of q."""
+    """(…, 3, 3) the rotation matrix of q: its columns are the body axes in ground axes.
+
+    Any length of q but zero will do, for it is normalised here.
+    """
     q = np.asarray(q, dtype=float)
     q = q / np.linalg.norm(q, axis=-1, keepdims=True)
-    w, x, y, z = (q[..., i] for i in range(4))  # moveaxis costs more than all the rest
+    w, x, y, z = (q[..., i] for i in range(4))  # views: moving an axis costs more than all the rest
     found = np.empty((*q.shape[:-1], 3, 3))
     found[..., 0, 0], found[..., 1, 1] = 1 - 2 * (y * y + z * z), 1 - 2 * (x * x + z * z)
     found[..., 2, 2] = 1 - 2 * (x * x + y * y)
@@ -32,12 +35,12 @@ def matrix(q: Array) -> Array:
 
 
 def turned(q: Array, vector: Any) -> Array:
-    """(…, 3) in ground axes of a vector (3,) or (…, 3) in body axes."""
+    """(…, 3) the components in ground axes of a vector (3,) or (…, 3) given in body axes."""
     return np.einsum("...ij,...j->...i", matrix(q), np.asarray(vector, dtype=float))
 
 
 def product(a: Array, b: Array) -> Array:
-    """(…, 4): first turned by b, then by a."""
+    """(…, 4) the quaternion product a ∘ b: the attitude that is turned by b first, then by a."""
     a, b = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
     aw, ax, ay, az = (a[..., i] for i in range(4))
     bw, bx, by, bz = (b[..., i] for i in range(4))
@@ -53,18 +56,19 @@ def product(a: Array, b: Array) -> Array:
 
 
 def inverse(q: Array) -> Array:
-    """(…, 4) of a unit quaternion."""
+    """(…, 4) the inverse attitude: the conjugate, so q must be of unit length."""
     return np.asarray(q, dtype=float) * np.array([1.0, -1.0, -1.0, -1.0])
 
 
 def about(axis: Vector3, angle: float) -> Quaternion:
-    """Turned by an angle [rad] about an axis of any length but zero."""
+    """Returns the attitude turned by an angle [rad] about an axis, of any length but zero."""
     size = math.sqrt(sum(x * x for x in axis))
     sin = math.sin(angle / 2) / size
     return math.cos(angle / 2), axis[0] * sin, axis[1] * sin, axis[2] * sin
 
 
 def angle_between(a: Array, b: Array) -> Array:
-    """(…,) [rad] from 0 to π: of the turn that leads from one attitude to the other."""
+    """(…,) the angle [rad], from 0 to π, of the turn that leads from one attitude to the other."""
     d = product(inverse(a), b)
+    # |w|: q and −q are one attitude. The tangent keeps small angles, which a cosine loses.
     return 2 * np.arctan2(np.linalg.norm(d[..., 1:], axis=-1), np.abs(d[..., 0]))

@@ -1,4 +1,8 @@
-"""The benchmark as a table of 80 columns, and as CSV."""
+"""Writes the benchmark's results as tables of 80 columns, and the adapters' rows as CSV.
+
+The tables: adapters against plain loops (`head`, `line`, `summary`), our integrators against
+scipy's (`reference`), large scenes (`growth`), and the start of commands (`start`).
+"""
 
 import csv
 import io
@@ -18,8 +22,12 @@ from .start import UNIT, Begun
 from .turns import Ratio
 
 AIMS = {"native": 1.05, "law": 1.05, "driver": 1.05, "recorded": 1.3, "building": 1.3}
-"""Ratios of a run's ways, of recording every step, and of building a ladder."""
-REFERENCE_AIM = 0.5
+"""The ratios of CPU time to the plain loop's that are aimed at, by what is measured.
+
+native, law, driver: a run that reads at samples, by how its plan is realised; recorded: one that
+reads every step; building: scenes for a ladder of steps.
+"""
+REFERENCE_AIM = 0.5  # of our integrator's CPU time over that of the best of scipy's methods
 
 HEAD = (
     "CPU time over the plainest loop a user would write for the same motion: in turns, the median "
@@ -31,7 +39,7 @@ HEAD = (
 
 
 def head(amount: Amount, rungs: int, engines: Iterable[Engine]) -> str:
-    """Returns the head: what is compared, each engine's plain loop in its words, the columns."""
+    """Returns the table's head: what is compared, each plain loop in its words, the columns."""
     count = amount.steps * amount.samples
     loops = {e.name: cleandoc(e.plain.__doc__ or "") for e in engines if isinstance(e, Loop)}
     told = [fill(f"  {name}: {text}", 80, subsequent_indent="    ") for name, text in loops.items()]
@@ -41,7 +49,7 @@ def head(amount: Amount, rungs: int, engines: Iterable[Engine]) -> str:
 
 
 def line(row: Row) -> str:
-    """One plan."""
+    """Returns the line of one plan: its ratios, or why there are none."""
     name = f"  {row.engine}.{row.setting}"
     name += "" if row.realised == "native" else f" ({row.realised})"
     if row.because:
@@ -53,7 +61,7 @@ def line(row: Row) -> str:
 
 
 def summary(rows: Sequence[Row]) -> Iterator[str]:
-    """By engine: the median, and the largest, of each kind of ratio."""
+    """Yields the lines of the summary: by engine, the median and the largest of each of AIMS."""
     yield f"{'median (most)':15}" + "".join(f"{kind:>13}" for kind in AIMS)
     yield f"{'aim':15}" + "".join(f"{f'{aim:.2f}':>13}" for aim in AIMS.values())
     measured = [row for row in rows if not row.because]
@@ -68,20 +76,25 @@ def _engine(row: Row) -> str:
 
 
 def _kind(rows: Iterable[Row], kind: str) -> Iterator[Ratio]:
+    """Yields the ratios of one kind of AIMS.
+
+    native, law and driver are no fields of a row: there it is the samples' ratio of such a plan.
+    """
     for row in rows:
         if kind == "recorded" and row.realised != "native":
-            continue  # there it would be the law's cost again
+            continue  # else the cost of the law or the driver would be counted here again
         found = getattr(row, kind, row.samples if row.realised == kind else None)
         if found is not None:
             yield found
 
 
 def _cell(ratios: list[float]) -> str:
+    """Returns `1.03 (1.10)`, the median and the largest, or a dash if there is none."""
     return f"{np.median(ratios):.2f} ({max(ratios):.2f})" if ratios else "–"
 
 
 def reference(rows: Iterable[Compared]) -> Iterator[str]:
-    """Our integrators beside scipy's."""
+    """Yields the lines of the table of our integrators' CPU time against scipy's, to one error."""
     yield f"{'the reference':24}{'error':>8}{'ours':>12}{'over the best of scipy':>32}"
     yield f"{'aim':24}{'':20}{REFERENCE_AIM:>25.2f}"
     for row in rows:
@@ -98,7 +111,7 @@ def start(rows: Iterable[Begun]) -> Iterator[str]:
 
 
 def growth(rows: Iterable[Grown]) -> Iterator[str]:
-    """Scenes of many bodies or samples, as they are measured, with the refusals in words."""
+    """Yields the lines of the table of large scenes, as they are measured, with the refusals."""
     yield f"{'reading and certifying':32}{'CPU s':>8}{'bound':>8}"
     for row in rows:
         yield f"  {row.scene:30}{row.seconds:8.1f}{row.bound:8.0f}"
@@ -109,7 +122,7 @@ _RATIOS = ("samples", "recorded", "building")
 
 
 def as_csv(rows: Iterable[Row]) -> str:
-    """The adapters' rows, each ratio as its median and its spread."""
+    """Returns the adapters' rows as CSV, each ratio in two columns: its median and its spread."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     names = [field.name for field in fields(Row)]
@@ -121,6 +134,7 @@ def as_csv(rows: Iterable[Row]) -> str:
 
 
 def _cells(value: object, name: str) -> Sequence[object]:
+    """Returns the cells of a field: two of a ratio, empty if it was not measured, else one."""
     if name in _RATIOS:
         return [f"{x:.3g}" for x in astuple(value)] if isinstance(value, Ratio) else ["", ""]
     return [f"{value:.3g}" if isinstance(value, float) else value]

@@ -1,4 +1,8 @@
-"""`textmech bench`."""
+"""The command `textmech bench`: measures what adapters and integrators cost, and prints tables.
+
+What is measured is in the package `bench`; it is imported when the command runs, for its imports
+would slow down the start of all commands.
+"""
 
 import warnings
 from itertools import chain
@@ -71,7 +75,7 @@ def bench(
         return
     chosen = choose_cases(cases, long=allow_long) if cases else one_of_each_file()
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # an engine that is broken costs nothing
+        warnings.simplefilter("ignore")  # of an engine that cannot be imported: it is only left out
         engines = choose_engines(names, [])
     if not engines:
         raise click.UsageError("the book's approximations have no engine below them")

@@ -1,6 +1,7 @@
-"""The outline of a body: lines in its own axes, whatever its shape. Lengths in m.
+"""Makes the lines with which the page draws a body, in its own axes, whatever its shape.
 
-A place of the plane has two numbers, one of space three.
+Lengths in m. A place in the plane has two numbers, one in space three. A body in space of which
+only mass, inertia and points are known is drawn as a disk, sphere or box with that inertia.
 """
 
 from typing import Any
@@ -10,16 +11,16 @@ import numpy as np
 from ...cases.scene.point import CENTER
 from ...cases.trajectory import Array
 
-ROUND = 72  # corners of a circle: on a large disk fewer are seen
-DIGITS = 4  # of a length: a picture has some hundred points
-ALIKE = 1e-6  # of the largest moment of inertia: nearer than that, two are one
+ROUND = 72  # corners of a circle: with fewer they can be seen on a large disk
+DIGITS = 4  # significant ones of a length: a picture is some hundred points wide
+ALIKE = 1e-6  # of the largest moment of inertia: nearer than that, two are taken as equal
 CROSS = 0.08  # of what the motion reaches: the axes of a body that has neither shape nor points
 
 Line = list[list[float]]
 
 
 def outline(body: Any, size: float) -> dict[str, Any]:
-    """Its lines, and whether its centre is marked; size: how far [m] the motion reaches."""
+    """Returns `lines`, and as `dot` whether its centre is marked; size: the motion's extent [m]."""
     if body.shape == "particle":
         return {"lines": [], "dot": True}
     lines: list[Line] = []
@@ -35,7 +36,7 @@ def outline(body: Any, size: float) -> dict[str, Any]:
 
 
 def reach(body: Any) -> float:
-    """How far [m] it reaches from its centre."""
+    """Returns how far [m] the body, as it is drawn, reaches from its centre."""
     own = [body.radius or 0.0, _farthest(body)]
     half = 0.5 * float(np.linalg.norm(body.size)) if body.size else 0.0
     drawn = [np.linalg.norm(p) for line in _as_heavy(body) for p in line] if _solid(body) else []
@@ -43,12 +44,12 @@ def reach(body: Any) -> float:
 
 
 def rounded(place: Any) -> list[float]:
-    """A place with few digits."""
+    """Returns a place with DIGITS significant digits."""
     return [float(f"{float(x):.{DIGITS}g}") for x in place]
 
 
 def _round(body: Any) -> list[Line]:
-    """A disk with a spoke, so that its turning is seen; a sphere by three circles."""
+    """Returns a disk with a spoke, by which its turning is seen; of a sphere three circles."""
     if len(body.points[CENTER]) == 2:
         return [_circle(body.radius, np.eye(2)), [[0.0, 0.0], rounded((body.radius, 0.0))]]
     if getattr(body, "axle", None) is None:
@@ -64,13 +65,17 @@ def _solid(body: Any) -> bool:
 
 
 def _farthest(body: Any) -> float:
+    """Returns how far [m] its farthest point is from its centre."""
     return max(float(np.linalg.norm(p)) for p in body.points.values())
 
 
 def _as_heavy(body: Any) -> list[Line]:
-    """Returns the lines of a disk, sphere or box that is as hard to turn, and rays to its points.
+    """Returns the lines of the disk, sphere or box of its mass and moments, and rays to its points.
 
-    It is a picture: where the body has points, it is no larger than they reach.
+    A sphere if all three moments are equal, a disk if two are, else a box: J = ⅖ m r², ½ m r²
+    about the axle, or ⅓ m (b² + c²) with half edges. Where the body has points, it is drawn no
+    larger than they reach: it is a picture, not a measure. A disk with a point on its axle is a
+    top, and gets lines from there to its rim.
     """
     moments, axes = np.linalg.eigh(body.tensor)  # ascending
     alike = np.diff(moments) <= ALIKE * moments[-1]
@@ -80,7 +85,7 @@ def _as_heavy(body: Any) -> list[Line]:
         radius = min(most, float(np.sqrt(2.5 * moments[0] / body.mass)))
         return [*(_circle(radius, _across(axle)) for axle in np.eye(3)), *rays]
     if any(alike):
-        k = 2 if alike[0] else 0  # which is another one: the axle's
+        k = 2 if alike[0] else 0  # the moment that differs from the other two: the axle's
         radius = min(most, float(np.sqrt(2.0 * max(moments[k], 0.0) / body.mass)))
         rim = _across(axes[:, k])
         stays = [radius * sign * arm for arm in rim for sign in (1, -1)]
@@ -93,13 +98,13 @@ def _as_heavy(body: Any) -> list[Line]:
 
 
 def _on(axle: Array, place: Any) -> bool:
-    """Says whether a place lies on the axis, off the centre: then the body is a top."""
+    """Says whether a place lies on the axle through the centre, but not at the centre itself."""
     length = float(np.linalg.norm(place))
     return length > 0.0 and abs(float(axle @ np.asarray(place))) >= (1 - ALIKE) * length
 
 
 def _rays(body: Any, size: float) -> list[Line]:
-    """From the centre to every point of a body that has no shape; else a cross of its axes."""
+    """Returns lines from the centre to each point of a body, or without any a cross of its axes."""
     n = len(body.points[CENTER])
     points = [p for name, p in body.points.items() if name != CENTER and np.any(p)]
     if points:
@@ -108,7 +113,7 @@ def _rays(body: Any, size: float) -> list[Line]:
 
 
 def _box(half: Array) -> list[Line]:
-    """The outline of a rectangle, or the edges of a cuboid."""
+    """Returns the outline of a rectangle, or the edges of a cuboid, with these half edges."""
     signs = [(-1, -1), (1, -1), (1, 1), (-1, 1), (-1, -1)]
     if len(half) == 2:
         return [[rounded(half * s) for s in signs]]
@@ -117,12 +122,14 @@ def _box(half: Array) -> list[Line]:
 
 
 def _circle(radius: float, axes: Array) -> Line:
+    """Returns a closed circle about the centre, in the plane of two unit vectors."""
     turns = np.linspace(0.0, 2 * np.pi, ROUND + 1)
     return [rounded(radius * (np.cos(t) * axes[0] + np.sin(t) * axes[1])) for t in turns]
 
 
 def _across(axle: Array) -> Array:
-    """(2, 3) two unit vectors that span the plane of a disk with this axle."""
+    """(2, 3) two orthogonal unit vectors that span the plane across this axle, a unit vector."""
+    # Across the axis of the body from which the axle is farthest: no product of near parallels.
     first: Array = np.cross(axle, np.eye(3)[int(np.argmin(np.abs(axle)))]).astype(float)
     first = first / np.linalg.norm(first)
     return np.array([first, np.cross(axle, first)])

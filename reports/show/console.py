@@ -1,4 +1,8 @@
-"""Prints text: on any stream, in any encoding, and never a terminal's own commands."""
+"""Prints text and the progress line, so that no stream, encoding or content breaks a command.
+
+Streams may be closed, or lack letters; text may hold control characters that a terminal obeys.
+Every print first erases the progress line, which stands in the terminal's last line.
+"""
 
 import os
 import sys
@@ -7,14 +11,16 @@ from contextlib import suppress
 
 import click
 
-KEPT = "\n\t\r"
-_STREAM = threading.RLock()  # a thread draws what is being done
-_DRAWN: list[int] = []  # the width of the line that the next one replaces
+KEPT = "\n\t\r"  # control characters that may stand in text
+_STREAM = threading.RLock()  # a thread of its own draws the progress line meanwhile
+_DRAWN: list[int] = []  # the width of the progress line that stands there; empty: none does
 
 
 def prepare() -> None:
-    """Streams that a caller closed lead nowhere; letters that one lacks are spelled out."""
-    while (free := os.open(os.devnull, os.O_RDWR)) <= 2:  # or a file of ours becomes the stream
+    """Makes both streams safe: one the caller closed leads nowhere, missing letters are escaped."""
+    # Descriptors 0 to 2 that are closed are taken first: else the next file that we open would be
+    # given one of them, and what is printed would be written into it.
+    while (free := os.open(os.devnull, os.O_RDWR)) <= 2:
         pass
     os.close(free)
     for stream in (sys.stdout, sys.stderr):
@@ -23,7 +29,7 @@ def prepare() -> None:
 
 
 def say(text: str = "", *, nl: bool = True) -> None:
-    """To the output. Raises OSError if it takes nothing more, but not if nobody reads on."""
+    """Prints to the output. Raises OSError if it takes no more, but not if its reader has gone."""
     try:
         with _STREAM:
             _clear()
@@ -36,32 +42,35 @@ def say(text: str = "", *, nl: bool = True) -> None:
 
 
 def tell(text: str = "", *, nl: bool = True) -> None:
-    """To the error stream; one that is gone is no reason to end."""
+    """Prints to the error stream; one that is gone is no reason to end."""
     with suppress(OSError), _STREAM:
         _clear()
         click.echo(shown(text), nl=nl, err=True)
 
 
 def draw(line: str) -> None:
-    """To the terminal of the error stream: a line in the place of the one drawn before."""
+    """Draws the progress line on the error stream's terminal, over the one drawn before.
+
+    It must be at least as wide as that, for nothing is erased first.
+    """
     with suppress(OSError), _STREAM:
         click.echo(f"\r{shown(line)}", nl=False, err=True)
         _DRAWN[:] = [len(line)]
 
 
 def _clear() -> None:
-    """Erases the line that was drawn last, so that it stands in nobody's way."""
+    """Erases the progress line, if one stands there."""
     if _DRAWN:
         click.echo(f"\r{' ' * _DRAWN.pop()}\r", nl=False, err=True)
 
 
 def shown(text: str) -> str:
-    """The text with its control characters spelled out."""
+    """Returns the text with its control characters spelled out, as \\x1b, but for those of KEPT."""
     if text.isprintable():
         return text
     return "".join(c if c.isprintable() or c in KEPT else repr(c)[1:-1] for c in text)
 
 
 def _silence() -> None:
-    """The interpreter flushes at its end, and must not fail again."""
+    """Lets the output lead nowhere: the interpreter flushes it at its end, and must not fail."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)

@@ -1,4 +1,8 @@
-"""Variants: the file once more, each time overlaid by a few changed keys."""
+"""Makes the data of each variant of a case file: the file's own, overlaid by the changed keys.
+
+A file without variants has one, whose name is empty. Only the data are merged here; whether they
+are a sound case is asked later, of each variant by itself.
+"""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -11,12 +15,17 @@ from .document import Document
 
 
 def overlay(document: Document) -> tuple[dict[str, tuple[dict[str, Any], Source]], list[Mistake]]:
-    """Data and places of each variant by its name ("" where the file has none)."""
+    """Returns the variants, and what is wrong with the way in which they are written.
+
+    The variants are by name ("" where the file has none): the merged data, and the source that
+    says where in the file each of their keys is written.
+    """
     base = {key: value for key, value in document.data.items() if key != "variants"}
     given = document.data.get("variants", {})
     source = document.source
     if not isinstance(given, dict):
         what = f"should be a map of names, is {shown(given)}"
+        # A key without a value is among the mistakes of the document already.
         return {"": (base, source)}, [] if given is None else [source.mistake(("variants",), what)]
     if not given:
         return {"": (base, source)}, []
@@ -29,10 +38,12 @@ def overlay(document: Document) -> tuple[dict[str, tuple[dict[str, Any], Source]
             mistakes += wrong
         else:
             variants[name] = (_merged(base, changes), _places(source, path))
+    # Where no variant is sound the rest is still looked at, so that all mistakes are said at once.
     return variants or {"": (base, source)}, mistakes
 
 
 def _mistakes(name: str, changes: object) -> Iterator[tuple[Path, str]]:
+    """Yields what is wrong with a variant's form: the place below its name, and the words."""
     if not name.isidentifier():
         yield (), f"{name!r} is not a name: letters, digits and _, not starting with a digit"
     if not isinstance(changes, dict):
@@ -44,6 +55,7 @@ def _mistakes(name: str, changes: object) -> Iterator[tuple[Path, str]]:
 
 
 def _merged(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+    """Returns the base with the changes: map into map, key by key; anything else is replaced."""
     merged = dict(base)
     for key, value in changes.items():
         old = base.get(key)
@@ -53,7 +65,7 @@ def _merged(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
 
 
 def _places(source: Source, path: Path) -> Source:
-    """Places of the merged data: a changed key is where the variant writes it."""
+    """Returns the source with the places of the merged data: a changed key's is in its variant."""
     depth = len(path)
     changed = {p[depth:]: at for p, at in source.places.items() if p[:depth] == path}
     return replace(source, places={**source.places, **changed})

@@ -1,4 +1,9 @@
-"""Where a contact lands: the impact, and what every contact and slide may do after it."""
+"""Finds the mode after a contact closes: the impact, and the states all elements take after it.
+
+A mode names the state of each contact, slide and pin (`element`). The impact law gives the
+velocities after the blow; from these follow the states each element may take, and of those the
+combination is chosen with which all forces and accelerations agree (`mode_selection`).
+"""
 
 import math
 from dataclasses import replace
@@ -15,8 +20,8 @@ from .mode_selection import After, Options, Undetermined, closed, settled, stayi
 from .modes import Modes, rate
 from .simultaneous_impacts import check_alone
 
-ANY = 1e9  # friction that lets nothing slip; an infinite one times no impulse would be no number
-STILL = 1e-12  # of the largest rate: what a projection or an assembly leaves of a zero
+ANY = 1e9  # coefficient that lets nothing slip; an infinite one times a zero impulse would be nan
+STILL = 1e-12  # of the largest velocity: what a projection or an assembly leaves of a zero rate
 
 
 def landed(
@@ -30,21 +35,23 @@ def landed(
     near: float = 0.0,
     rests: bool = False,
 ) -> After:
-    """The mode after contact i has struck the floor, and its state; `rests`: it stays there.
+    """Returns the mode after contact i has struck the floor or another body, with its q and v.
 
-    near [m]: what strikes in a contact with no larger gap strikes at the same instant.
+    rests: it does not rebound, as in the limit of ever lower bounces. near [m]: another open
+    contact with no larger gap strikes at the same instant, if it closes.
 
     Raises Undetermined where the impact law has no answer.
     """
     if rests and not modes.elements[i].slips:
         return _at_rest(modes, mode, i, t, q, v)
+    # touching: the numbers of the closed contacts, and i; met: their rows, in the same order.
     touching, met = _meetings(modes, mode, i, t, q, v, rests=rests)
     still = modes.still(t, q, v, part=STILL)
     if strikes := any(m.strikes and m.normal.rate(v) < -still for m in met):
         v, states = _struck(modes, mode, i, met, t, q, v, near)
         flies = math.inf if rests else still  # what the last blow throws up, falls back at once
         found = [_after(m, state, v, still, flies) for m, state in zip(met, states, strict=True)]
-    else:  # at rest by rounding, or on its way up in a flight that is none, it strikes nothing
+    else:  # nothing approaches: it rests but for rounding, or rises from a gap that rounding made
         found = [closed(m.element, _clear(m.tangent.rate(v), still)) for m in met]
     choices: list[Options] = [
         closed(e, _clear(rate(e.slip, t, q, v), still)) if e.slip is not None else (state,)
@@ -54,13 +61,13 @@ def landed(
         if e.normal is not None:
             choices[k] = found[touching.index(k)] if k in touching else ("open",)
     after = settled(modes, choices, t, q, v)
-    return (mode, q, v) if after[0] == mode and not strikes else after  # then nothing has happened
+    return (mode, q, v) if after[0] == mode and not strikes else after  # no blow: q, v as given
 
 
 def _struck(
     modes: Modes, mode: str, i: int, met: list[Meeting], t: float, q: Array, v: Array, near: float
 ) -> tuple[Array, tuple[State, ...]]:
-    """q̇⁺ (n,), and what each of the contacts does in the blow. Raises Undetermined."""
+    """Returns q̇⁺ (n,), and the state of each of the contacts in the blow. Raises Undetermined."""
     base = modes.base
     held = [Condition(f, g) for f, g in zip(base.f_a(t, q), base.g(t, q), strict=True)]
     check_alone(modes, mode, i, met, held, t, q, v, near)
@@ -74,7 +81,7 @@ def _struck(
 
 
 def _at_rest(modes: Modes, mode: str, i: int, t: float, q: Array, v: Array) -> After:
-    """The limit of a rocking that dies away: all pivots that take part in it stay on the floor."""
+    """Returns the limit of a rocking that dies away: all pivots in it stay on the floor."""
     choices = staying(modes, mode)
     for k, e in enumerate(modes.elements):
         if k == i or (not e.slips and modes.states[mode][k] != "open"):
@@ -85,7 +92,7 @@ def _at_rest(modes: Modes, mode: str, i: int, t: float, q: Array, v: Array) -> A
 def _needed(
     modes: Modes, held: list[Condition], met: list[Meeting], v: Array, t: float
 ) -> str | None:
-    """With what friction a pivot would not slip in the impact, if that is what is missing."""
+    """Says with what friction a pivot would not slip in the impact; None if more is missing."""
     if any(m.element.slips for m in met):
         return None
     holds = [replace(m, element=replace(m.element, kinetic=ANY)) for m in met]
@@ -93,6 +100,8 @@ def _needed(
         after, _ = impact(modes.M, held, holds, v)
     except NoImpact:
         return None
+    # M is diagonal. By what the momenta of all bodies change the floor has given, as long as
+    # nothing else joins them to the ground.
     impulse = modes.M * (after - v)
     places = [xy for xy, _ in modes.base.where.columns.values()]
     along, up = (sum(impulse[xy + i] for xy in places) for i in (0, 1))
@@ -100,10 +109,14 @@ def _needed(
 
 
 def _after(m: Meeting, state: State, v: Array, still: float, flies: float) -> Options:
-    """States that a contact may take after this one in the blow; what rises no faster may stay."""
+    """Returns the states a contact may take after the one it had in the blow.
+
+    still [m/s]: slip that is zero but for rounding. flies [m/s]: what rises no faster may stay.
+    """
+    # m.after is above g where the restitution makes it rebound.
     if m.after > m.normal.g or (state == "open" and m.normal.rate(v) > flies):
         return ("open",)
-    if state == "open":  # it has taken no part, and is first asked to take none now
+    if state == "open":  # it bore no impulse: that it bears no force either is tried first
         stays = closed(m.element, _clear(m.tangent.rate(v), still))
         return ("open", *(state for state in stays if state != "open"))
     if m.element.frictionless or state == "sticks":
@@ -114,23 +127,23 @@ def _after(m: Meeting, state: State, v: Array, still: float, flies: float) -> Op
 def _meetings(
     modes: Modes, mode: str, i: int, t: float, q: Array, v: Array, *, rests: bool
 ) -> tuple[list[int], list[Meeting]]:
-    """The contacts that are closed or strike, and their rows."""
+    """Returns the numbers of the contacts that are closed or strike, and each one's Meeting."""
     touching, met = [], []
     for k, (e, state) in enumerate(zip(modes.elements, modes.states[mode], strict=True)):
         if e.normal is not None and (k == i or state != "open"):
             normal, tangent = _condition(e.normal, t, q, v), _condition(e.slip, t, q, v)
             back = e.restitution * normal.rate(v) if k == i and not rests else 0.0
-            after = normal.g - back
+            after = normal.g - back  # Newton: the approach times the restitution, reversed
             touching.append(k)
             met.append(Meeting(e, normal, tangent, after, k == i))
     return touching, met
 
 
 def _condition(part: Constraint | None, t: float, q: Array, v: Array) -> Condition:
-    """The condition of a row; where there is none, as a rope slips along nothing, zeros."""
+    """Returns f_a and g of a row; zeros where there is none, as of a rope, which has no slip."""
     return Condition(np.zeros(len(v)), 0.0) if part is None else Condition(*row(part, t, q, v)[:2])
 
 
 def _clear(slip: float, still: float) -> float:
-    """Zero, if it is rounding."""
+    """Returns the slip [m/s], exactly zero where it is no more than rounding."""
     return slip if abs(slip) > still else 0.0

@@ -1,7 +1,9 @@
-"""Block thrown along a guide that slows it by a power of its speed (2.86): no other force acts.
+"""Hand-derived motion of a block along a guide whose drag is a power α of its speed (2.86).
 
-q = (x,). With α ≥ 1 it never stops; with α < 1 it does, in a finite time, and then rests: viscous
-friction has no stiction, but nothing moves it (erratum 14).
+No other force acts along the guide, and there is no weight. q = (x,), along the guide.
+
+With α ≥ 1 it never stops; with α < 1 it does, in a finite time, and then rests: viscous friction
+has no stiction, but nothing moves it (erratum 14).
 """
 
 import math
@@ -13,12 +15,12 @@ import numpy as np
 
 from ...system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 
-NOISE = 1e-12  # of the start: what two integrators differ by where the speed falls to zero, or more
+NOISE = 1e-12  # of v₀: two integrators differ by no more in a speed that falls to zero
 
 
 @dataclass(frozen=True)
 class Slowing(Mode):
-    """m [kg] against d |v|^α [N], d [N] being the force at 1 m/s; or at rest, if it `rests`."""
+    """Block of m [kg] against d |v|^α [N], d [N] being the force at 1 m/s; held, if it `rests`."""
 
     m: float
     d: float
@@ -35,6 +37,7 @@ class Slowing(Mode):
         return np.array([0.0 if self.rests else self._force(float(v[0])) / self.m])
 
     def _force(self, v: float) -> float:
+        """Returns the drag [N] along the guide at this velocity."""
         return -self.d * math.copysign(abs(v) ** self.alpha, v)
 
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
@@ -46,9 +49,9 @@ class Slowing(Mode):
         return self.m * v[0] ** 2 / 2
 
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
-        """(2.46) D = d |ẋ|^{α+1}/(α + 1) [W], Q = −∂D/∂ẋ: a root of ẋ² has its derivative."""
+        """(2.46) D = d |ẋ|^{α+1}/(α + 1) [W], Q = −∂D/∂ẋ; |ẋ| is √ẋ², for ẋ may be complex."""
         if self.rests:
-            return 0.0 * v[0]
+            return 0.0 * v[0]  # of the type of v: complex while a derivative is taken
         return self.d * (v[0] * v[0]) ** ((self.alpha + 1) / 2) / (self.alpha + 1)
 
     def f_a(self, t: Any, q: Vector) -> Vector:
@@ -68,7 +71,7 @@ class Slowing(Mode):
         return [Load("block", (float(q[0]), 0.0), (self._force(float(v[0])), 0.0))]
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
-        """The guide: across it always, along it where the block rests."""
+        """Returns the guide's cut: it holds the block across itself, at rest also along itself."""
         at = (float(q[0]), 0.0)
         if self.rests:
             return [Cut(("guide.fx", "guide.fy"), None, "block", at)]
@@ -77,7 +80,10 @@ class Slowing(Mode):
 
 @dataclass(frozen=True)
 class DragStops(System):
-    """m [kg], d [N] at 1 m/s, α > 0, thrown with v0 > 0 [m/s] from x = 0."""
+    """Block of m [kg], drag d [N] at 1 m/s, exponent α > 0, thrown with v0 > 0 [m/s] from x = 0.
+
+    Its mode `moves` ends, where α < 1, with the event `stops`, after which it is at `rest`.
+    """
 
     m: float
     d: float
@@ -90,6 +96,7 @@ class DragStops(System):
         modes = {"moves": Slowing(self.m, self.d, self.alpha)}
         if self.stops:
             modes["rest"] = Slowing(self.m, self.d, self.alpha, rests=True)
+            # How far apart in time two answers have the stop: the speed has no slope there.
             object.__setattr__(self, "blurred", self._until(NOISE * self.v0))
         object.__setattr__(self, "modes", modes)
 
@@ -99,11 +106,11 @@ class DragStops(System):
         return self.alpha < 1.0
 
     def _until(self, v: float) -> float:
-        """(2.88) v^{1−α} = (1 − α) (d/m) (t_s − t): how long before it rests it is so fast [s]."""
+        """(2.88) v^{1−α} = (1 − α) (d/m) (t_s − t): t_s − t [s], from the speed v to rest."""
         return v ** (1 - self.alpha) * self.m / (self.d * (1 - self.alpha))
 
     def start(self) -> tuple[str, Array, Array]:
-        """At x = 0 with v₀."""
+        """The mode `moves`, x = 0 and v₀."""
         return "moves", np.zeros(1), np.array([self.v0])
 
     def guards(self, mode: str) -> Sequence[Guard]:

@@ -1,6 +1,6 @@
-"""Ball that falls from rest through air that slows it by the square of its speed (2.86).
+"""Hand-derived fall of a ball from rest against air drag that grows as its speed squared (2.86).
 
-q = (y,), height above the start.
+q = (y,), height above the start. Its speed tends to v∞, at which the drag bears the weight.
 """
 
 import math
@@ -16,7 +16,7 @@ G = 9.80665  # m/s²
 
 @dataclass(frozen=True)
 class FallingDrag(Mode):
-    """m [kg] against d |v|² [N], d [N] being the force at 1 m/s; it tends to v∞ = √(m g/d)."""
+    """Ball of m [kg] against d |v|² [N], d [N] being that at 1 m/s; |v| tends to v∞ = √(m g/d)."""
 
     m: float
     d: float
@@ -39,7 +39,8 @@ class FallingDrag(Mode):
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.86) v = −v∞ tanh(g t/v∞), y = −(v∞²/g) ln cosh(g t/v∞), v∞² = m g/d.
 
-        ln cosh s = s − ln 2 + ln(1 + e^{−2s}), or ½ ln(1 + sinh² s), which keeps small s.
+        ln cosh s = s − ln 2 + ln(1 + e^{−2s}), which cannot overflow as cosh does, or for small s
+        ½ ln(1 + sinh² s), which loses no digits there, as the difference would.
         """
         limit = math.sqrt(self.m * G / self.d)
         s = G * t / limit
@@ -56,7 +57,7 @@ class FallingDrag(Mode):
         return self.m * G * q[0]
 
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
-        """(2.46) D = d |ẏ|³/3 [W]: falling, |ẏ| is −ẏ."""
+        """(2.46) D = d |ẏ|³/3 [W]: falling, |ẏ| is −ẏ, also of a complex ẏ, where abs() fails."""
         return self.d * v[0] ** 3 / (3.0 if np.real(v[0]) > 0.0 else -3.0)
 
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
@@ -70,5 +71,5 @@ class FallingDrag(Mode):
         return [Load("ball", (0.0, y), (0.0, force)) for force in (-self.m * G, drag)]
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
-        """Nothing holds it."""
+        """Returns none: nothing holds the ball."""
         return []

@@ -1,6 +1,8 @@
-"""A ball on a rope: thrown, caught by the rope's end, swung, and let go where the rope slackens.
+"""Hand-derived motion of a ball on a rope: in flight while the rope is slack, else on a circle.
 
-q = (x, y) of the ball, from the point to which the rope is tied.
+q = (x, y) of the ball, from the fixed point to which the rope is tied, y upward. The rope has no
+mass, does not stretch and only pulls. Where it tightens, the ball loses its velocity along the
+rope, in an impact without rebound; where its force falls to zero the ball flies again.
 """
 
 import math
@@ -14,13 +16,13 @@ from ...system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 from ..quadrature import integral
 
 G = 9.80665  # m/s²
-PANELS = 8  # of the time to the place where the rope slackens
-BELOW = 1e-9  # of the length: what is nearer to its end is there
+PANELS = 8  # of the quadrature that gives the time at which the rope slackens
+BELOW = 1e-9  # of the length, or of the weight for a force: what rounding may be off by
 
 
 @dataclass(frozen=True)
 class _Ball(Mode):
-    """In flight, or on the circle that a taut rope leaves."""
+    """One mode of a ball of m [kg] on a rope of L [m]: in flight, or on its circle if `taut`."""
 
     m: float
     L: float
@@ -74,7 +76,7 @@ class _Ball(Mode):
         return [Load("ball", (float(q[0]), float(q[1])), (0.0, -self.m * G))]
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
-        """The rope, if it is taut."""
+        """Returns the cut through the rope, whose force is along it, if it is taut."""
         x, y = q.tolist()
         away = math.hypot(x, y)
         pull = (-x / away, -y / away)
@@ -83,7 +85,10 @@ class _Ball(Mode):
 
 @dataclass(frozen=True)
 class BallOnRope(System):
-    """m [kg] on a rope of L [m], starts at (x0, y0) [m] with (vx0, vy0) [m/s]."""
+    """Ball of m [kg] on a rope of L [m] that starts at (x0, y0) [m] with (vx0, vy0) [m/s].
+
+    Its modes are `flies` and `swings`, and its events `tightens` and `slackens`.
+    """
 
     m: float
     L: float
@@ -99,13 +104,13 @@ class BallOnRope(System):
         object.__setattr__(self, "modes", modes)
 
     def start(self) -> tuple[str, Array, Array]:
-        """As it is thrown: at the rope's end it swings."""
+        """The given place and velocity: in `swings` at the rope's end, else in `flies`."""
         at_its_end = math.hypot(self.x0, self.y0) > self.L * (1 - BELOW)
         state = np.array([self.x0, self.y0]), np.array([self.vx0, self.vy0])
         return "swings" if at_its_end else "flies", *state
 
     def guards(self, mode: str) -> Sequence[Guard]:
-        """`tightens` where |r| = L, `slackens` where F = 0."""
+        """Returns what ends the mode: `tightens`, where |r| = L, or `slackens`, where F = 0."""
         if mode == "flies":
             slack = lambda t, q, v: self.L - math.sqrt(float(q @ q))  # noqa: E731
             return (Guard("tightens", slack, self._caught),)
@@ -118,25 +123,30 @@ class BallOnRope(System):
         return "swings", self.L * n, v - (v @ n) * n
 
     def closed_events(self, until: float) -> list[tuple[str, float]] | None:
-        """Dropped from rest beside the point, or struck where it hangs; None of other throws."""
+        """Names and times [s] of the events if it is dropped from rest, or struck where it hangs.
+
+        None of other throws, which have no such form here.
+        """
         if (self.vx0, self.vy0) == (0.0, 0.0):
             return _until(until, [("tightens", self._dropped())])
         hangs = self.x0 == self.vy0 == 0.0 and abs(self.y0 + self.L) <= BELOW * self.L
         return self._struck(until) if hangs else None
 
     def _dropped(self) -> float:
-        """y₀ − ½ g t² = −√(L² − x₀²): it then swings below the point, and stays taut."""
+        """When [s] it tightens, y₀ − ½ g t² = −√(L² − x₀²); it then swings low, and stays taut."""
         return math.sqrt(2 * (self.y0 + math.sqrt(self.L**2 - self.x0**2)) / G)
 
     def _struck(self, until: float) -> list[tuple[str, float]] | None:
-        """With θ from hanging: F = 0 where cos θ = (2 g − v₀²/L)/(3 g), |r| = L 4 v_y/g later.
+        """The events after it is struck with v₀ where it hangs; None if more follow than these two.
 
-        For F = 0 is r̈ = g: |r|² − L² begins with t³ there, (ṙ·g) t³ + ¼ g² t⁴.
+        With θ from hanging: F = 0 where cos θ = (2 g − v₀²/L)/(3 g), and |r| = L again 4 v_y/g
+        later, v_y being upward where it slackens.  For there, F = 0 makes r̈ = g also along the
+        rope: |r|² − L² begins with t³, (ṙ·g) t³ + ¼ g² t⁴.
         """
         square = self.vx0**2 / self.L
         if not 2 * G < square < 5 * G:  # it swings below the point, or goes round for ever
             return []
-        top = math.acos((2 * G - square) / (3 * G))
+        top = math.acos((2 * G - square) / (3 * G))  # θ where it slackens, above the point
         slack = float(
             integral(
                 lambda theta: 1 / np.sqrt((square - 2 * G * (1 - np.cos(theta))) / self.L),
@@ -144,18 +154,18 @@ class BallOnRope(System):
                 PANELS,
             )
         )
-        speed = math.sqrt(-G * self.L * math.cos(top))  # F = 0
+        speed = math.sqrt(-G * self.L * math.cos(top))  # of F = 0: m v²/L = −m g cos θ
         v_x, v_y = speed * math.cos(top), speed * math.sin(top)
         flight = 4 * v_y / G
         x, y = self.L * math.sin(top) + v_x * flight, -self.L * math.cos(top) - v_y * flight
         events = [("slackens", slack), ("tightens", slack + flight)]
         swings = (v_x * y + 3 * v_y * x) / self.L  # across the rope, v_y − g t being −3 v_y
         if swings**2 / 2 + G * y > 0 and until > slack + flight:
-            return None  # it comes above the point again
+            return None  # it has the energy to come above the point again, and may slacken there
         return _until(until, events)
 
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
-        """λ ≤ L and F ≥ 0, but for rounding."""
+        """Why it cannot be so: in flight |r| ≤ L must hold, on the rope F ≥ 0, but for rounding."""
         if mode == "flies":
             longer = math.sqrt(float(q @ q)) - self.L
             return f"the rope is {longer:.3g} m too long" if longer > BELOW * self.L else None
@@ -164,4 +174,5 @@ class BallOnRope(System):
 
 
 def _until(until: float, events: list[tuple[str, float]]) -> list[tuple[str, float]]:
+    """Returns the events whose time [s] is not after `until`."""
     return [(name, t) for name, t in events if t <= until]

@@ -1,21 +1,24 @@
-"""Unit quaternions (w, x, y, z) and what turns with them; real, or complex while differentiated.
+"""Quaternion kinematics of bodies in space: rotation matrices, angular velocity, cross products.
+
+Quaternions are q = (w, x, y, z), from body to ground axes; ∘ is their product, q̄ the conjugate.
+All functions take real entries, or complex ones while a derivative is taken by the complex step.
 
 A quaternion's length plays no part: R is that of q/|q|.  So nothing has to be normalised on the
 way, and normalising changes neither a place nor an energy.
 
-All products of two vectors' entries at once, times a constant table: on a few vectors numpy's calls
-cost far more than what they compute, and these are the fewest.
+A bilinear function is computed as all products a_i b_j at once, times a constant table: on a few
+vectors numpy's calls cost far more than what they compute, and these are the fewest.
 """
 
 from typing import Any
 
 import numpy as np
 
-ONES = np.ones(3)
+ONES = np.ones(3)  # a product with it is a sum over three entries, and costs less than one
 
 
 def _levi_civita() -> Any:
-    """(9, 3): a × b of the products a_i b_j."""
+    """(9, 3): the table that makes a × b of the products a_i b_j."""
     table = np.zeros((3, 3, 3))
     for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
         table[i, j, k], table[j, i, k] = 1.0, -1.0
@@ -23,7 +26,8 @@ def _levi_civita() -> Any:
 
 
 def _quadratic() -> Any:
-    """(16, 10): the entries of |q|² R, row by row, and |q|², of the products q_i q_j."""
+    """(16, 10): the table that makes the entries of |q|² R, row by row, and |q|² of the q_i q_j."""
+    # Column i of the identity picks one product; q_i q_j and q_j q_i are the same, and one is used.
     ww, wx, wy, wz, _, xx, xy, xz, _, _, yy, yz, _, _, _, zz = np.eye(16)
     entries = [
         ww + xx - yy - zz, 2 * (xy - wz), 2 * (xz + wy),
@@ -35,7 +39,7 @@ def _quadratic() -> Any:
 
 
 def _halved() -> Any:
-    """(12, 4): ½ q ∘ (0, ω) of the products q_i ω_j."""
+    """(12, 4): the table that makes ½ q ∘ (0, ω) of the products q_i ω_j; ω = (a, b, c)."""
     wa, wb, wc, xa, xb, xc, ya, yb, yc, za, zb, zc = np.eye(12)
     return np.stack([-xa - yb - zc, wa + yc - zb, wb + za - xc, wc + xb - ya], axis=1) / 2
 
@@ -44,7 +48,8 @@ LEVI_CIVITA, QUADRATIC, HALVED = _levi_civita(), _quadratic(), _halved()
 
 
 def _product_rule() -> Any:
-    """(36, 6): a × b, and ȧ × b + a × ḃ, of the products of (a, ȧ) and (b, ḃ)."""
+    """(36, 6): the table that makes a × b, and ȧ × b + a × ḃ, of products of (a, ȧ) and (b, ḃ)."""
+    # Axes in pairs, for a, b and the result: the value or its rate, and the entry.
     table, E = np.zeros((2, 3, 2, 3, 2, 3)), LEVI_CIVITA.reshape(3, 3, 3)
     table[0, :, 0, :, 0] = table[1, :, 0, :, 1] = table[0, :, 1, :, 1] = E
     return table.reshape(36, 6)
@@ -77,18 +82,18 @@ def spin(q: Any, q_dot: Any) -> Any:
 
 
 def cross(a: Any, b: Any) -> Any:
-    """(…, 3) a × b."""
+    """(…, 3): a × b of a and b (…, 3)."""
     return _products(a, b) @ LEVI_CIVITA
 
 
 def crossed(a: Any, b: Any) -> tuple[Any, Any]:
-    """(K, 3) a × b, and its rate; a and b (K, 6) with their rates behind them."""
+    """(K, 3) each: a × b, and its rate; a and b (K, 6) with their rates as last three entries."""
     found = _products(a, b) @ PRODUCT_RULE
     return found[:, :3], found[:, 3:]
 
 
 def dot(a: Any, b: Any) -> Any:
-    """(…,) a·b."""
+    """(…,): a·b of a and b (…, 3), not conjugated where they are complex."""
     return (a * b) @ ONES
 
 
@@ -98,9 +103,9 @@ def skew(x: Any) -> Any:
 
 
 def _products(a: Any, b: Any) -> Any:
-    """(…, n m): a_i b_j of a (…, n) and b (…, m)."""
+    """(…, n m): all products a_i b_j of a (…, n) and b (…, m), in the order of i, then j."""
     found = a[..., :, None] * b[..., None, :]
     return found.reshape(*found.shape[:-2], -1)
 
 
-SKEW = -LEVI_CIVITA.reshape(3, 9)
+SKEW = -LEVI_CIVITA.reshape(3, 9)  # makes [x]×, row by row, of x
