@@ -53,11 +53,11 @@ CHECKS = {
 }
 # By the function that tells them.
 PREMISES = {
-    "premises.py::_otherwise": "test_premises.py::test_a_written_system_starts_as_the_scene",
-    "premises.py::_unsaid": "test_premises.py::test_a_contact_above_the_floor_has_to_say_so",
-    "premises.py::_past_ends": "mechanism/test_one_instant.py",
-    "premises.py::_slipping": "test_premises.py::test_rolling_needs_enough_friction",
-    "premises.py::_still": "test_premises.py::test_what_rests_has_to_say_so",
+    "assumptions.py::_otherwise": "test_premises.py::test_a_written_system_starts_as_the_scene",
+    "assumptions.py::_unsaid": "test_premises.py::test_a_contact_above_the_floor_has_to_say_so",
+    "assumptions.py::_past_ends": "mechanism/test_one_instant.py",
+    "assumptions.py::_slipping": "test_premises.py::test_rolling_needs_enough_friction",
+    "assumptions.py::_still": "test_premises.py::test_what_rests_has_to_say_so",
     "determined.py::check_determined": (
         "test_determined.py::test_its_forces_are_refused_with_their_interval"
     ),
@@ -71,7 +71,7 @@ PREMISES = {
         "states/test_answer.py::test_what_is_the_same_in_every_state_is_no_claim"
     ),
 }
-JUDGES = ("premises.py", "determined.py", "certificate/*.py", "states/*.py")
+JUDGES = ("assumptions.py", "determined.py", "certificate/*.py", "states/*.py")
 """The files of the reference that say what a motion, or states, contradict."""
 
 
