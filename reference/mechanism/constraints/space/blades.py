@@ -43,8 +43,10 @@ class Blades:
         """u and u̇ (size, 3) each, in ground axes."""
         h, h_dot, _ = self._along.at(bodies).swapaxes(0, 1)
         (x, y, _), (x_dot, y_dot, _) = h.T, h_dot.T
-        size = np.sqrt(x * x + y * y)
-        turning = (x * y_dot - y * x_dot) / (x * x + y * y)
+        # A row that goes upward has no heading: its stand-in may be upright, and have no shadow.
+        squared = np.where(self._level[:, 0], x * x + y * y, 1.0)
+        size = np.sqrt(squared)
+        turning = (x * y_dot - y * x_dot) / squared
         nil = np.zeros_like(x)
         u = np.stack([-y / size, x / size, nil], axis=1)
         u_dot = np.stack([-turning * x / size, -turning * y / size, nil], axis=1)

@@ -3,6 +3,7 @@
 Both by the complex step, at rates that do not obey the rows.
 """
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -86,3 +87,21 @@ def test_the_slip_of_a_centre_is_not_that_of_the_rim(monkeypatch: pytest.MonkeyP
     """The height of the lowest point does not change as the rows of the centre would have it."""
     monkeypatch.setattr(rolling, "skew", lambda rho: 0.0 * attitude.skew(rho))
     assert left_of_rates("tilting_disk.circle") > 1e-3
+
+
+@pytest.mark.mutant("a row that goes upward is divided by the shadow of its stand-in")
+def test_a_height_is_kept_while_the_x_axis_of_its_body_stands_upright() -> None:
+    """The blade's long axis is another one, and lies level then."""
+    case = scenes.SHIPPED["robot_knife"]
+    (name, edge), *_ = case.scene.constraints.items()
+    turned = {name: replace(edge, along=(0.0, 1.0, 0.0))}
+    scene = replace(case.scene, constraints=turned)
+    assert isinstance(scene, SpatialScene)
+    mode = SpatialMultibody(scene, assemble_in_space(case, case.scene))
+    q, v = mode.start()
+    first = 7 * [*scene.bodies].index(edge.at.body)
+    q[first + 3 : first + 7] = np.sqrt([0.5, 0.0, 0.5, 0.0])  # about y, by a right angle
+    with np.errstate(all="raise"):
+        f_a, _, gamma = mode.rows(T, q, v)
+    assert np.isfinite(f_a).all()
+    assert np.isfinite(gamma).all()
