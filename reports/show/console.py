@@ -32,7 +32,8 @@ def say(text: str = "", *, nl: bool = True) -> None:
     """Prints to the output. Raises OSError if it takes no more, but not if its reader has gone."""
     try:
         with _STREAM:
-            _clear()
+            with suppress(OSError):  # of the error stream, which may be gone though this one is not
+                _clear()
             click.echo(shown(text), nl=nl)
     except BrokenPipeError:
         _silence()

@@ -139,3 +139,15 @@ def test_a_line_that_was_drawn_stands_in_nobodys_way(capsys: pytest.CaptureFixtu
     say.tell("another")
     wiped = " " * len("half a line")
     assert capsys.readouterr().err == f"\rhalf a line\r{wiped}\ra whole one\nanother\n"
+
+
+@pytest.mark.mutant("an error stream that is gone silences the output")
+def test_what_is_printed_comes_though_the_error_stream_has_gone(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def gone() -> None:
+        raise BrokenPipeError
+
+    monkeypatch.setattr(say, "_clear", gone)
+    say.say("agrees")
+    assert capsys.readouterr().out == "agrees\n"
