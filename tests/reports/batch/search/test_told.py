@@ -111,7 +111,7 @@ def test_what_holds_at_one_step_alone_is_said_to(found: Advised) -> None:
 def printed(found: Advised, module: Any = advice) -> str:
     """The line of the price."""
     patched: Any = module
-    (line,) = [line for line in patched.told(found) if "costs ×" in line]
+    (line,) = [line for line in patched.advice_lines(found) if "costs ×" in line]
     return line
 
 
