@@ -93,11 +93,11 @@ def test_the_slip_of_a_centre_is_not_that_of_the_rim(monkeypatch: pytest.MonkeyP
 def test_a_height_is_kept_while_the_x_axis_of_its_body_stands_upright() -> None:
     """The blade's long axis is another one, and lies level then."""
     case = scenes.SHIPPED["robot_knife"]
-    (name, edge), *_ = case.scene.constraints.items()
-    turned = {name: replace(edge, along=(0.0, 1.0, 0.0))}
-    scene = replace(case.scene, constraints=turned)
-    assert isinstance(scene, SpatialScene)
-    mode = SpatialMultibody(scene, assemble_in_space(case, case.scene))
+    own = case.scene
+    assert isinstance(own, SpatialScene)
+    (name, edge), *_ = own.constraints.items()
+    scene = replace(own, constraints={name: replace(edge, along=(0.0, 1.0, 0.0))})
+    mode = SpatialMultibody(scene, assemble_in_space(case, own))
     q, v = mode.start()
     first = 7 * [*scene.bodies].index(edge.at.body)
     q[first + 3 : first + 7] = np.sqrt([0.5, 0.0, 0.5, 0.0])  # about y, by a right angle
