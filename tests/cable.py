@@ -7,7 +7,6 @@ of the suite is as it is. Prints the largest differences of a motion between its
 # ruff: noqa: E402 - each part has its imports beside it, and the last must come after the others
 
 import sys
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
@@ -43,22 +42,30 @@ FORCES["cable"] = Cable
 
 # reference/mechanism/forces/action.py
 
-from textmech.reference.mechanism.forces.action import ACTIONS, Action, ends, length
+from textmech.reference.mechanism.forces.action import ACTIONS, Lined, Load, pulled
+from textmech.reference.mechanism.kinematics.kinematics import Kinematics
 
 
-def exerts(force: Cable, where: Any, t: float, q: Any, v: Any) -> Iterator[Any]:
-    a, b = ends(force, where, t, q, v)
-    d = np.subtract(b.r, a.r)
-    F = force.pull * d / np.hypot(*d)
-    yield F, a
-    yield -F, b
+@dataclass(frozen=True)
+class Pulled(Lined):
+    """T along the line."""
+
+    force: Cable
+
+    @property
+    def line(self) -> bool:
+        return True
+
+    def loads(self, k: Kinematics) -> list[Load]:
+        """T along Δ on the first end."""
+        return pulled(k, *self.ends(k), self.gap(k) * (self.force.pull / self.length(k)))
+
+    def U(self, k: Kinematics) -> Any:
+        """U = T λ."""
+        return self.force.pull * self.length(k)
 
 
-ACTIONS[Cable] = Action(
-    exerts,
-    U=lambda force, where, t, q: force.pull * length(force, where, t, q),
-    line=lambda force: True,
-)
+ACTIONS[Cable] = Pulled
 
 # engines/law.py
 

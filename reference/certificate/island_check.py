@@ -8,10 +8,10 @@ from ...cases.case import Case
 from ...cases.scene.space.scene import SpatialScene
 from ...cases.trajectory import Array, Trajectory
 from ..mechanism.kinematics.coordinates import Coordinates
-from ..mechanism.kinematics.space.coordinates import SpatialCoordinates
+from ..mechanism.kinematics.spatial_coordinates import SpatialCoordinates
 from ..mechanism.modes.either import Base
 from ..mechanism.modes.mode import Multibody
-from ..mechanism.modes.space.mode import SpatialMultibody
+from ..mechanism.modes.spatial_mode import SpatialMultibody
 from ..system import Pose
 from .agreement import Check, worst
 from .reaction_check import AGREE, condition, lost

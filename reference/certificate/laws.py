@@ -16,7 +16,7 @@ from ..formalisms import appell, chaplygin, energy, lagrange, lagrangian, newton
 from ..formalisms.dependent import dependent
 from ..integrators.now import reached
 from ..mechanism.modes.either import Base, Generated
-from ..mechanism.modes.space.mode import SpatialMultibody
+from ..mechanism.modes.spatial_mode import SpatialMultibody
 from ..motion.bodies import Answer
 from ..system import Array, Mode
 from .agreement import Check, gravest, worst

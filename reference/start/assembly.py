@@ -3,14 +3,12 @@
 Positions by Newton's method from a guess, rates by linear algebra.
 """
 
-import math
-
 import numpy as np
 
 from ...cases.case import Case
 from ...cases.scene.space.scene import SpatialScene
 from ..mechanism.kinematics.coordinates import Coordinates
-from ..mechanism.kinematics.space.coordinates import SpatialCoordinates
+from ..mechanism.kinematics.spatial_coordinates import SpatialCoordinates
 from ..system import Array, Pose
 from . import refusal
 from .closure import Closure
@@ -44,13 +42,10 @@ def start_poses(case: Case) -> dict[str, Pose]:
 
 def _long(closure: Closure, q: Array) -> None:
     """Refuses a rod without length: it would have no direction."""
-    for joint in closure.case.scene.joints.values():
-        if joint.swings:
-            a, b = (
-                closure.where.point(at, 0.0, q.tolist(), q.tolist()) for at in (joint.a, joint.b)
-            )
-            if math.hypot(b.r[0] - a.r[0], b.r[1] - a.r[1]) < SHORT * closure.size:
-                raise refusal.without_length(closure, joint.name)
+    rods = [joint.name for joint in closure.case.scene.joints.values() if joint.swings]
+    for part in closure.parts:
+        if part.part in rods and abs(part.places(0.0, q.tolist())[0]) < SHORT * closure.size:
+            raise refusal.without_length(closure, part.part)
 
 
 def _independent(closure: Closure, q: Array) -> None:

@@ -5,6 +5,7 @@ Lengths are counted in the mechanism's size, so that a watch and a crane are tre
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -13,10 +14,11 @@ from ...cases.case import Case, Placement
 from ...cases.scene import Anchor, Vector
 from ...cases.scene.pair import Pair
 from ...cases.scene.plane import LEVEL
-from ..mechanism.constraints.constraint import Constraint, assembled
-from ..mechanism.constraints.constraint_terms import FIRST, Along, X, Y
+from ..mechanism.constraints.constraint import Constraint, tracked
+from ..mechanism.constraints.constraint_terms import FIRST, Along
 from ..mechanism.constraints.joint_constraints import constraints, gliding
-from ..mechanism.kinematics.coordinates import ORIGIN, Coordinates
+from ..mechanism.constraints.equation_table import Table
+from ..mechanism.kinematics.coordinates import Coordinates
 from ..mechanism.modes.pair import along, apart
 from ..system import Array
 from .posed import moving, posed
@@ -40,6 +42,7 @@ class Closure:
         self.case = case
         self.where = Coordinates(case.scene)
         self.n = len(self.where.names)
+        self._tables: dict[tuple[int, ...], Table] = {}
         self.parts = constraints(case.scene, self.where)
         self.placed = placed(case.initial)
         self.places = [c for c in self.parts if c.holonomic]  # C₁ of (2.17) is free
@@ -89,8 +92,8 @@ class Closure:
 
     def _locks(self, part: Constraint) -> Iterator[Lock]:
         for angle, angular in zip(part.held or (), part.angular, strict=part.holonomic):
-            if angular:
-                a, b = (self.where.attached[end.body, end.point].phi for end in part.ends)
+            if angular and angle is not None:
+                a, b = (self.where.columns.get(end.body, (0, None))[1] for end in part.ends)
                 yield Lock(a, b, angle)
 
     def rows(self, parts: Sequence[Constraint], q: Array) -> Array:
@@ -102,7 +105,10 @@ class Closure:
 
         What a residual of 1 means: 1 rad for a held angle, else the mechanism's size [m].
         """
-        f, g, _ = assembled(parts, self.where)(0.0, q, np.zeros(self.n))
+        key = tuple(map(id, parts))
+        if key not in self._tables:  # Newton asks for the same rows again and again
+            self._tables[key] = Table(self.where, parts)
+        f, g, _ = self._tables[key].rows(0.0, q, np.zeros(self.n))
         units = np.array([1.0 if angle else self.size for c in parts for angle in c.angular])
         return f * self.units / units[:, None], g / units
 
@@ -133,8 +139,7 @@ def placed(placements: Mapping[str, Placement]) -> list[tuple[Anchor, tuple[floa
 
 def _at(anchor: Anchor, place: Vector, where: Coordinates) -> Constraint:
     """r_P = place, for the search only: nothing holds the point there later."""
-    rows = ((Along(FIRST, X),), (Along(FIRST, Y),))
-    return Constraint(str(anchor), (anchor,), rows, ((), ()), place, where)
+    return replace(tracked(anchor, where), held=place)
 
 
 def _on_plane(anchor: Anchor, where: Coordinates) -> Constraint:
@@ -151,7 +156,7 @@ def _still(anchor: Anchor, where: Coordinates) -> list[Constraint]:
     """Neither slips nor rises where it stands: on the ground, or on another body that may move."""
     for pair in _pairs(anchor, where):
         return [apart(pair, where), along(pair, where)]
-    return [_at(anchor, ORIGIN, where)]
+    return [_at(anchor, (0.0, 0.0), where)]
 
 
 def _pairs(anchor: Anchor, where: Coordinates) -> list[Pair]:

@@ -6,7 +6,7 @@ from ...cases.case import Case
 from ...cases.scene.space.scene import SpatialScene
 from ..mechanism.modes.either import Generated
 from ..mechanism.modes.mechanism import Mechanism
-from ..mechanism.modes.space.mechanism import SpatialMechanism
+from ..mechanism.modes.spatial_mechanism import SpatialMechanism
 from .assembly import assemble
 from .sizes import size_of
 from .space.assembly import assemble_in_space

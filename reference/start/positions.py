@@ -5,6 +5,7 @@ from collections.abc import Collection, Iterator
 
 import numpy as np
 
+from ..mechanism.constraints.constraint import tracked
 from ..system import Array
 from . import messages, refusal
 from .closure import POSITIONS, Closure, held_angles, placed
@@ -68,7 +69,8 @@ class _Near:
     def __init__(self, closure: Closure) -> None:
         self.closure = closure
         self.numbers = closure.numbers(closure.case.near, POSITIONS)
-        self.points = placed(closure.case.near)
+        near = placed(closure.case.near)
+        self.points = [(tracked(anchor, closure.where), at) for anchor, at in near]
         self.given = bool(self.numbers or self.points)
 
     def guess(self) -> Array:
@@ -90,10 +92,10 @@ class _Near:
         for i, value in self.numbers.items():
             off = _turned(c, i, q[i] - value) / c.units[i]
             yield c.where.names[i], off, refusal.shown(q[i], turns=bool(c.turning[i]))
-        for anchor, at in self.points:
-            r = c.where.point(anchor, 0.0, q.tolist(), q.tolist()).r
+        for point, at in self.points:
+            r = point.places(0.0, q.tolist())
             off = math.hypot(r[0] - at[0], r[1] - at[1]) / c.size
-            yield str(anchor), off, f"[{r[0]:.4g}, {r[1]:.4g}]"
+            yield point.part, off, f"[{r[0]:.4g}, {r[1]:.4g}]"
 
 
 def _seeds(closure: Closure, count: int, around: _Near | None = None) -> Iterator[Array]:

@@ -17,13 +17,13 @@ from ..certificate.agreement import Check, difference, relative, worst
 from ..certificate.errors import beyond, errors
 from ..coverage import look
 from ..integrators.now import doing, reached
-from ..mechanism.constraints.free_bodies import FreeBodies
-from ..mechanism.kinematics.space.chain import SpatialChain
-from ..mechanism.modes.space.mode import SpatialMultibody
+from ..mechanism.modes.spatial_mode import SpatialMultibody
 from ..stated import Stated
 from ..system import Array, Pose
 from ..systems.states.stated import STATED
 from .derived import by_virtual_work, derived, efforts, moving
+from .free_bodies import FreeBodies
+from .spatial_chain import SpatialChain
 
 LAW = 1e-12  # of the largest of a quantity: all of it is algebra, only rounding may differ
 VARYING = ("coordinate", "velocity", "acceleration")  # kinds that no claim should leave constant

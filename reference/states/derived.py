@@ -15,7 +15,8 @@ from ...cases.scene.states import MASS_MATRIX
 from ..formalisms import lagrange
 from ..formalisms.derivative import along
 from ..laws.rotation import axes
-from ..mechanism.forces.action import dissipation
+from ..mechanism.forces.action import actions
+from ..mechanism.forces.ingredients import Ingredients
 from ..mechanism.kinematics.coordinates import Coordinates
 from ..stated import Stated
 from ..system import Array, Pose
@@ -57,7 +58,7 @@ def slowed(scene: Scene, q: Array, v: Array) -> dict[str, float]:
         (at,) = force.refers()
         xy, _ = where.columns[at.body]
         ways = np.eye(len(v))[xy : xy + 2]
-        D = partial(dissipation, force, where, 0.0, q.tolist())
+        D = partial(Ingredients(where, actions([force])).D, 0.0, q)
         fx, fy = (-along(D, (v,), (way,)).item() for way in ways)
         found |= {f"{name}.fx": fx, f"{name}.fy": fy, f"{name}.force": math.hypot(fx, fy)}
     return found

@@ -12,7 +12,7 @@ import numpy as np
 
 from textmech.cases.scene import GROUND, Anchor, Damper, Push, Spring, Torque
 from textmech.reference.formalisms import appell, chaplygin, lagrange, voronets
-from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
+from textmech.reference.mechanism.modes.spatial_mode import SpatialMultibody
 from textmech.reference.system import Array
 
 from .free_cut import matrix
@@ -46,7 +46,7 @@ def bodies(mode: Machine, t: float, q: Array, v: Array) -> float:
     a, forces, worst = mode.accelerations(t, q, v), mode.reactions(t, q, v), 0.0
     poses = mode.poses(t, q, v)
     for name, body in mode.scene.bodies.items():
-        at = mode.where.columns[name]
+        at = mode.where.slots[name]
         acting = np.array(list(_acting(mode, name, t, poses, forces)))
         change = np.zeros(6)
         change[:3] = body.mass * a[at.r_dot : at.r_dot + 3]
@@ -68,7 +68,7 @@ def lowest_points(mode: Machine, t: float, q: Array, v: Array) -> float:
     poses = mode.poses(t, q, free)
     worst, slips = 0.0, rows @ free - g
     for name, contact in mode.scene.contacts.items():
-        mine = [owner == name for owner in mode.constraints.owners]
+        mine = [owner == name for owner in mode.owners]
         pose, at = poses[contact.body], _touching(mode, name, poses)
         arm, omega = at - pose[:3], matrix(pose) @ pose[10:]
         slip = np.array(pose[7:10]) + np.cross(omega, arm)

@@ -12,7 +12,7 @@ from textmech.cases.scene.space.constraint import SpatialEdge
 from textmech.cases.scene.space.contact import SpatialContact
 from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.cases.scene.space.scene import SpatialScene
-from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
+from textmech.reference.mechanism.modes.spatial_mode import SpatialMultibody
 from textmech.reference.system import Array
 
 from .engine_space import point, unit, vector

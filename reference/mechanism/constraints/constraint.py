@@ -4,22 +4,19 @@ With the rows as written, the multipliers are the force (and moment) of the firs
 second.
 """
 
-from collections.abc import Callable, Sequence
-from contextlib import suppress
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-
 from ....cases.scene import Anchor
-from ..kinematics.coordinates import Attached, Coordinates, moved
-from .banded_solver import MANY
-from .constraint_jacobian import Places, Rows
-from .constraint_terms import Term
+from ..kinematics.kinematics import Kinematics, Layout, Point, Row
+from .constraint_terms import Along, Term
+from .equation_table import Table
 
 Numbers = Sequence[Any]
-COMPONENTS = {"fx": 0, "fy": 1}  # of a force λ u, u the direction of its row
+COMPONENTS = {"fx": 0, "fy": 1, "fz": 2, "mx": 0, "my": 1, "mz": 2}
+"""Of a force λ u, or a moment, u the direction of its row."""
 
 
 @dataclass(frozen=True)
@@ -30,8 +27,10 @@ class Constraint:
     ends: tuple[Anchor, ...]  # the points that the terms name by their place here
     rows: tuple[tuple[Term, ...], ...]  # the first term of each is about the second part
     names: tuple[tuple[str, ...], ...]  # of the reactions that each row's multiplier makes
-    held: tuple[float, ...] | None  # the places of the rows [m or rad]; None: only rates are known
-    where: Coordinates
+    held: tuple[float | None, ...] | None
+    """The places of the rows [m or rad]; None where only the rate is known, or all are rates."""
+    where: Layout
+    source: str = ""  # what asks for it, where that is not the part: `q1.omega` of a drive
 
     @property
     def size(self) -> int:
@@ -40,7 +39,7 @@ class Constraint:
 
     @property
     def holonomic(self) -> bool:
-        """Whether it has a residual (2.14), not only a rate (2.15)."""
+        """Whether it has residuals (2.14), not only rates (2.15)."""
         return self.held is not None
 
     @cached_property
@@ -49,52 +48,75 @@ class Constraint:
         return tuple(all(term.angular for term in terms) for terms in self.rows)
 
     def places(self, t: Any, q: Numbers) -> list[Any]:
-        """The place [m or rad] that each row is the rate of, (r,)."""
-        ends = [moved(end, t, q, q) for end in self.attached]
-        return [sum(term.place(ends) for term in terms) for terms in self.rows]
+        """The place [m or rad] that each row is the rate of, (r,); nan where it is of none."""
+        return self.alone.places(t, q)
 
     def f(self, t: Any, q: Numbers) -> list[Any]:
-        """(2.14) f = places − where they are held [m or rad], (r,); () if only rates are known."""
+        """(2.14) f = places − where they are held [m or rad], (≤ r,); () if all are rates."""
         if self.held is None:
             return []
-        return [place - at for place, at in zip(self.places(t, q), self.held, strict=True)]
+        pairs = zip(self.places(t, q), self.held, strict=True)
+        return [place - at for place, at in pairs if at is not None]
 
     def reactions(self, t: float, q: Numbers, multipliers: Numbers) -> dict[str, float]:
         """(2.60) R_a = λ_b f_aᵇ: a force λ u along the direction of its row, or a moment λ."""
-        ends = [moved(end, t, q, q) for end in self.attached]
-        found: dict[str, float] = {}
-        for terms, names, force in zip(self.rows, self.names, multipliers, strict=True):
-            u = terms[0].direction(ends)
-            for name in names:
-                component = u[COMPONENTS[name]] if name in COMPONENTS else 1.0
-                found[f"{self.part}.{name}"] = force * component
+        return self.alone.reactions(t, q, dict(enumerate(multipliers)))
+
+    @cached_property
+    def alone(self) -> Table:
+        """Its rows without those of others."""
+        return Table(self.where, [self])
+
+    # What a table asks, to write its rows down.
+
+    def written(self, k: Kinematics) -> list[Row]:
+        """(2.15) Its rows."""
+        ends = self._ends(k)
+        return [sum((term.row(k, ends) for term in terms), Row()) for terms in self.rows]
+
+    def located(self, k: Kinematics) -> list[Any]:
+        """The place of each row; None where a term has none."""
+        ends = self._ends(k)
+        each = [[term.place(k, ends) for term in terms] for terms in self.rows]
+        return [None if None in found else sum(found) for found in each]
+
+    def exerted(self, k: Kinematics) -> list[dict[str, Any]]:
+        """For each row its reactions, of a multiplier 1."""
+        ends, found = self._ends(k), []
+        for terms, names in zip(self.rows, self.names, strict=True):
+            u = terms[0].direction(k, ends)
+            found.append(
+                {
+                    f"{self.part}.{name}": u[COMPONENTS[name]] if name in COMPONENTS else 1.0
+                    for name in names
+                }
+            )
         return found
 
-    @cached_property
-    def alone(self) -> Rows:
-        """Its rows without those of others."""
-        return assembled([self], self.where)
-
-    @cached_property
-    def attached(self) -> list[Attached]:
-        """The points of `ends` on their bodies."""
-        return [self.where.attached[end.body, end.point] for end in self.ends]
+    def _ends(self, k: Kinematics) -> list[Point]:
+        return [k.point(end) for end in self.ends]
 
 
-def residuals(parts: Sequence[Constraint], where: Coordinates) -> Callable[[Any, Any], Any]:
-    """f (r,) of t and q, of all parts in their order.
+def tracked(point: Anchor, where: Layout) -> Constraint:
+    """A point along each axis of the ground: its place, and by f_a v − g its velocity.
 
-    All at once, where they are many and of the kind; few cost less one by one.
+    Nothing holds it there.
     """
-    rows = [(c.attached, terms) for c in parts if c.holonomic for terms in c.rows]
-    if len(rows) >= MANY:
-        with suppress(TypeError):
-            places = Places(rows, len(where.masses))
-            held = np.array([at for c in parts for at in c.held or ()])
-            return lambda t, q: places(t, q) - held
-    return lambda t, q: np.array([entry for c in parts for entry in c.f(t, q.tolist())])
+    rows = tuple((Along(0, tuple(e)),) for e in where.frame.axes)
+    return Constraint(str(point), (point,), rows, ((),) * len(rows), (0.0,) * len(rows), where)
 
 
-def assembled(parts: Sequence[Constraint], where: Coordinates) -> Rows:
-    """The rows of all parts, in their order."""
-    return Rows([(c.attached, terms) for c in parts for terms in c.rows], len(where.masses))
+def row(part: Constraint, t: float, q: Any, v: Any) -> tuple[Any, float, float]:
+    """f_a (n,), g and γ of a constraint of one row."""
+    f, g, gamma = part.alone.rows(t, q, v)
+    return f[0], g[0], gamma[0]
+
+
+def residuals(table: Table, parts: Sequence[Constraint], t: Any, q: Numbers) -> list[Any]:
+    """(2.14) f of those of the parts that are holonomic, (≤ r,), from a table that has them."""
+    places, found = table.places(t, q), []
+    for part in parts:
+        if part.held is not None:
+            at = zip(table.places_of([part]).tolist(), part.held, strict=True)
+            found += [places[i] - where for i, where in at if where is not None]
+    return found

@@ -6,9 +6,10 @@ import numpy as np
 
 from ...system import Array
 from .banded_solver import band
-from .constraint_jacobian import Rows
-from .contact import Coulomb, row
+from .constraint import row
+from .contact import Coulomb
 from .factorization import Held, full
+from .equation_table import Rows
 
 
 class Holding:
@@ -17,7 +18,9 @@ class Holding:
     def __init__(self, rows: Rows, M: Array, coulomb: Sequence[tuple[int, Coulomb]]) -> None:
         self.rows, self.M, self._coulomb = rows, M, coulomb
         self.band = None if coulomb else band(rows, M)
-        self._constant = all(r.constant for r in (rows, *(law.tangent.alone for _, law in coulomb)))
+        self._constant = rows.constant and all(
+            law.tangent.alone.constant(np.arange(law.tangent.size)) for _, law in coulomb
+        )
         self._always: Held | None = None
 
     def at(self, t: float, q: Array, v: Array) -> Held:

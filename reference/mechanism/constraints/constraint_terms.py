@@ -1,44 +1,26 @@
-"""The terms that rows of constraints are sums of.
+"""The terms that rows of constraints are sums of, in the plane and in space.
 
-`Along`, `Turning`, `Line`, `Distance`, `Carried`, `Given`, and in `rims` `Apart` and `Around`.
+Each is a rate, written as f_a q̇ᵃ − g (2.15), and mostly that of a `place`; what a blade holds, what
+goes around a rim and what is prescribed is the rate of none. Terms are linear in their direction
+or axis: its opposite makes a difference of two terms, a factor weighs them.
 
-Each is a rate, written in the coordinates as f_a q̇ᵃ − g (2.15); `assembled` adds them up.  The
-first four are the rate of a `place`; what a blade holds, and what is prescribed, has none.  Terms
-are linear in their direction or axis: its opposite makes a difference of two terms, a factor weighs
-them.
+Δ = r_b − r_a is what lies between two points, λ = √(Δ·Δ), and u = Δ/λ.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from ....cases.scene import Signal, Vector
-from ..kinematics.coordinates import Attached, Point, trigonometry
+from ....cases.scene import Signal
+from ..kinematics import signal
+from ..kinematics.frame import Vec
+from ..kinematics.kinematics import Direction, Kinematics, Point, Row
 
 Ends = Sequence[Point]  # the points of one constraint; its terms name them by their place here
-Direction = tuple[Any, Any]
-G, GAMMA = -2, -1  # where g and γ stand in a row of n + 2 numbers
+Numbers = Sequence[float]
 FIRST, SECOND = 0, 1  # the ends of a joint; a contact has one
 X, Y = (1.0, 0.0), (0.0, 1.0)
-
-
-class Assembly(Protocol):
-    """Rows that terms are added to, each of the i-th at the points on their bodies."""
-
-    def along(self, i: int, p: Attached, u: Vector) -> None: ...
-    def turning(self, i: int, p: Attached, axis: float) -> None: ...
-    def line(self, i: int, a: Attached, b: Attached, u: Vector) -> None: ...
-    def between(self, i: int, a: Attached, b: Attached, way: "Way") -> None: ...
-    def carried(self, i: int, p: Attached, u: Vector) -> None: ...
-    def given(self, i: int, law: Signal) -> None: ...
-
-
-class Way(Protocol):
-    """A direction that turns with two points."""
-
-    def numbers(self, a: Point, b: Point) -> tuple[Any, ...]:
-        """(2.15) f of a and of b (x, y and φ of each), g, and γ."""
-        ...
 
 
 class Term(Protocol):
@@ -49,16 +31,16 @@ class Term(Protocol):
         """Whether it is a turn [rad/s], and no velocity [m/s]."""
         ...
 
-    def place(self, ends: Ends) -> Any:
-        """The place that the term is the rate of; TypeError where there is none."""
+    def row(self, k: Kinematics, ends: Ends) -> Row:
+        """(2.15) f_a, g and γ."""
         ...
 
-    def direction(self, ends: Ends) -> Direction:
-        """The direction of the force that the term's multiplier is, in ground axes."""
+    def place(self, k: Kinematics, ends: Ends) -> Any:
+        """The place that the term is the rate of; None where there is none."""
         ...
 
-    def enter(self, i: int, ends: Sequence[Attached], rows: Assembly) -> None:
-        """Adds it to the i-th row."""
+    def direction(self, k: Kinematics, ends: Ends) -> Vec:
+        """The direction of the force, or moment, that its multiplier is, in ground axes."""
         ...
 
 
@@ -67,149 +49,159 @@ class Along:
     """The velocity of a point along a direction fixed to the ground: u·ṙ_p [m/s]."""
 
     p: int
-    u: Vector
+    u: Numbers
     angular = False
 
-    def place(self, ends: Ends) -> Any:
+    def row(self, k: Kinematics, ends: Ends) -> Row:
+        """(2.15) f = (u, d × u)."""
+        return k.along(ends[self.p], k.fixed(self.u))
+
+    def place(self, k: Kinematics, ends: Ends) -> Any:
         """u·r_p [m]."""
-        r = ends[self.p].r
-        return self.u[0] * r[0] + self.u[1] * r[1]
+        return Vec(self.u) @ ends[self.p].r
 
-    def direction(self, ends: Ends) -> Direction:
-        """u, in ground axes."""
-        return self.u
-
-    def enter(self, i: int, ends: Sequence[Attached], rows: Assembly) -> None:
-        """Adds it to the i-th row."""
-        rows.along(i, ends[self.p], self.u)
+    def direction(self, k: Kinematics, ends: Ends) -> Vec:
+        """u."""
+        return Vec(self.u)
 
 
 @dataclass(frozen=True)
 class Turning:
-    """The turn of a body about an axis, in the plane a number: ω times it [rad/s]."""
+    """The turn of a body of the plane, times a factor: that of ω [rad/s]."""
 
     p: int
     axis: float = 1.0  # about +z; with a radius R the term is the velocity R ω [m/s]
     angular = True
 
-    def place(self, ends: Ends) -> Any:
-        """φ times the axis [rad], or R φ [m]."""
-        return self.axis * ends[self.p].angle
+    def row(self, k: Kinematics, ends: Ends) -> Row:
+        """(2.15) ω = φ̇; γ = 0."""
+        return Row([(ends[self.p].part, None, Vec((self.axis,)))])
 
-    def direction(self, ends: Ends) -> Direction:
+    def place(self, k: Kinematics, ends: Ends) -> Any:
+        """φ times the factor [rad], or R φ [m]."""
+        return self.axis * ends[self.p].part.angle
+
+    def direction(self, k: Kinematics, ends: Ends) -> Vec:
         """A moment has no direction in the plane."""
-        return 0.0, 0.0
-
-    def enter(self, i: int, ends: Sequence[Attached], rows: Assembly) -> None:
-        """Adds it to the i-th row."""
-        rows.turning(i, ends[self.p], self.axis)
+        return Vec((0.0, 0.0))
 
 
 @dataclass(frozen=True)
 class Line:
-    """The rate of the distance of b from a along u, u turning with a: d/dt u·Δ, Δ = r_b − r_a."""
+    """The rate of the distance of b from a along u, u turning with a: d/dt u·Δ [m/s]."""
 
     a: int
     b: int
-    u: Vector  # in the axes of a
+    u: Numbers  # in the axes of a
     angular = False
 
-    def place(self, ends: Ends) -> Any:
+    def _carried(self, k: Kinematics, ends: Ends) -> Direction:
+        return k.carried(ends[self.a].part, self.u)
+
+    def row(self, k: Kinematics, ends: Ends) -> Row:
+        """(2.15) u·Δ̇ + ω_a·(u × Δ)."""
+        return k.line(ends[self.a], ends[self.b], self._carried(k, ends))
+
+    def place(self, k: Kinematics, ends: Ends) -> Any:
         """u·Δ [m]."""
-        a, b, u = ends[self.a].r, ends[self.b].r, self.direction(ends)
-        return u[0] * (b[0] - a[0]) + u[1] * (b[1] - a[1])
+        return self._carried(k, ends).u @ (ends[self.b].r - ends[self.a].r)
 
-    def direction(self, ends: Ends) -> Direction:
-        """u = E_a u', in ground axes."""
-        cos, sin = trigonometry(ends[self.a].angle)
-        return cos * self.u[0] - sin * self.u[1], sin * self.u[0] + cos * self.u[1]
+    def direction(self, k: Kinematics, ends: Ends) -> Vec:
+        """u."""
+        return self._carried(k, ends).u
 
-    def enter(self, i: int, ends: Sequence[Attached], rows: Assembly) -> None:
-        """Adds it to the i-th row."""
-        rows.line(i, ends[self.a], ends[self.b], self.u)
 
-    def numbers(self, a: Point, b: Point) -> tuple[Any, ...]:
-        """(2.15) u·Δ̇ + u̇·Δ: f of a and of b (x, y and φ of each), g, and γ.
+@dataclass(frozen=True)
+class Apart:
+    """How fast b parts from a: d/dt λ [m/s]; the multiplier pushes both apart."""
 
-        They are f of b less that of a as `Along` u has it, (u, d × u), and u × Δ at φ_a, since
-        u̇ = ω_a × u.  Differentiated again that is u·Δ̈ + 2 u̇·Δ̇ + ü·Δ, with u̇·Δ̇ = ω_a (u × Δ̇)
-        and ü = ω̇_a × u − ω_a² u: γ has −2 ω_a (u × Δ̇) + ω_a² u·Δ beside the ω² u·d of `Along`.
-        """
-        x, y = self.direction((a, b))
-        gap = b.r[0] - a.r[0], b.r[1] - a.r[1]
-        gap_dot = b.r_dot[0] - a.r_dot[0], b.r_dot[1] - a.r_dot[1]
-        f_a = a.d[1] * x - a.d[0] * y + x * gap[1] - y * gap[0]
-        f_b = b.d[0] * y - b.d[1] * x
-        g = 0.0 if b.xy is not None else -(x * b.r_dot[0] + y * b.r_dot[1])
-        turning = a.omega * a.omega * (x * (gap[0] - a.d[0]) + y * (gap[1] - a.d[1]))
-        gamma = turning - 2 * a.omega * (x * gap_dot[1] - y * gap_dot[0])
-        return -x, -y, f_a, x, y, f_b, g, gamma + b.omega * b.omega * (x * b.d[0] + y * b.d[1])
+    a: int
+    b: int
+    angular = False
+
+    def row(self, k: Kinematics, ends: Ends) -> Row:
+        """(2.15) u·Δ̇, and u̇ = (Δ̇ − (u·Δ̇) u)/λ."""
+        a, b = ends[self.a], ends[self.b]
+        c = _between(k, a, b)
+        return k.along(b, c) - k.along(a, c)
+
+    def place(self, k: Kinematics, ends: Ends) -> Any:
+        """λ [m]."""
+        d = ends[self.b].r - ends[self.a].r
+        return (d @ d) ** 0.5
+
+    def direction(self, k: Kinematics, ends: Ends) -> Vec:
+        """u."""
+        return _between(k, ends[self.a], ends[self.b]).u
 
 
 @dataclass(frozen=True)
 class Distance:
-    """How fast b nears a: −d/dt λ of their distance λ = √(Δ·Δ), Δ = r_b − r_a.
-
-    The force on b is then along −u, u = Δ/λ, and the multiplier pulls both together.
-    """
+    """How fast b nears a: −d/dt λ [m/s]; the multiplier pulls both together."""
 
     a: int
     b: int
     angular = False
 
-    def place(self, ends: Ends) -> Any:
+    @property
+    def _apart(self) -> Apart:
+        return Apart(self.a, self.b)
+
+    def row(self, k: Kinematics, ends: Ends) -> Row:
+        """(2.15) −u·Δ̇."""
+        return -self._apart.row(k, ends)
+
+    def place(self, k: Kinematics, ends: Ends) -> Any:
         """−λ [m]."""
-        return -_length(*_apart(ends[self.a].r, ends[self.b].r))
+        return -self._apart.place(k, ends)
 
-    def direction(self, ends: Ends) -> Direction:
-        """−u, in ground axes; any where there is none, of which only a guess can be."""
-        x, y = _apart(ends[self.a].r, ends[self.b].r)
-        length = _length(x, y)
-        return (-x / length, -y / length) if length else (-1.0, 0.0)
+    def direction(self, k: Kinematics, ends: Ends) -> Vec:
+        """−u."""
+        return -self._apart.direction(k, ends)
 
-    def enter(self, i: int, ends: Sequence[Attached], rows: Assembly) -> None:
-        """Adds it to the i-th row."""
-        rows.between(i, ends[self.a], ends[self.b], self)
 
-    def numbers(self, a: Point, b: Point) -> tuple[Any, ...]:
-        """(2.15) w·Δ̇, w = −u: f of a and of b (x, y and φ of each), g, and γ.
+@dataclass(frozen=True)
+class Around:
+    """How fast b goes around a in the plane: w·Δ̇ [m/s], w with u to its left."""
 
-        They are f of b less that of a as `Along` w has it.  Differentiated again that is
-        w·Δ̈ + ẇ·Δ̇, with u̇·Δ̇ = (Δ̇² − (u·Δ̇)²)/λ: γ has that beside the ω² w·d of `Along`.
-        """
-        x, y = self.direction((a, b))
-        rate = _apart(a.r_dot, b.r_dot)
-        along, speed = x * rate[0] + y * rate[1], rate[0] * rate[0] + rate[1] * rate[1]
-        length = _length(*_apart(a.r, b.r)) or 1.0
-        g = (x * a.r_dot[0] + y * a.r_dot[1]) if a.xy is None else 0.0
-        g = g - (x * b.r_dot[0] + y * b.r_dot[1]) if b.xy is None else g
-        gamma = (speed - along * along) / length
-        gamma = gamma + b.omega * b.omega * (x * b.d[0] + y * b.d[1])
-        gamma = gamma - a.omega * a.omega * (x * a.d[0] + y * a.d[1])
-        f_a, f_b = a.d[1] * x - a.d[0] * y, b.d[0] * y - b.d[1] * x
-        return -x, -y, f_a, x, y, f_b, g, gamma
+    a: int
+    b: int
+    angular = False
+
+    def row(self, k: Kinematics, ends: Ends) -> Row:
+        """(2.15) w·Δ̇, and ẇ turns with u̇."""
+        a, b = ends[self.a], ends[self.b]
+        c = _between(k, a, b)
+        c = Direction(_right(c.u), _right(c.u_dot))
+        return k.along(b, c) - k.along(a, c)
+
+    def place(self, k: Kinematics, ends: Ends) -> None:
+        """None: unless λ stays, it is the rate of no place."""
+
+    def direction(self, k: Kinematics, ends: Ends) -> Vec:
+        """w."""
+        return _right(_between(k, ends[self.a], ends[self.b]).u)
 
 
 @dataclass(frozen=True)
 class Carried:
-    """The velocity of a point along a direction that its body carries: u·ṙ_p [m/s], u = E u'."""
+    """The velocity of a point along a direction that its body carries: u·ṙ_p [m/s]."""
 
     p: int
-    u: Vector  # in the axes of the body
+    u: Numbers  # in the axes of the body
     angular = False
 
-    def place(self, ends: Ends) -> Any:
-        """(2.15) There is none. Raises TypeError."""
-        raise TypeError("the velocity of a point along a blade is the rate of no place")
+    def row(self, k: Kinematics, ends: Ends) -> Row:
+        """(2.15) f = (u, d × u), d × u being the same in body axes at all times."""
+        p = ends[self.p]
+        return k.along(p, k.carried(p.part, self.u))
 
-    def direction(self, ends: Ends) -> Direction:
-        """u = E u', in ground axes."""
-        cos, sin = trigonometry(ends[self.p].angle)
-        return cos * self.u[0] - sin * self.u[1], sin * self.u[0] + cos * self.u[1]
+    def place(self, k: Kinematics, ends: Ends) -> None:
+        """None: it is the rate of no place."""
 
-    def enter(self, i: int, ends: Sequence[Attached], rows: Assembly) -> None:
-        """Adds it to the i-th row."""
-        rows.carried(i, ends[self.p], self.u)
+    def direction(self, k: Kinematics, ends: Ends) -> Vec:
+        """u."""
+        return k.carried(ends[self.p].part, self.u).u
 
 
 @dataclass(frozen=True)
@@ -219,27 +211,181 @@ class Given:
     law: Signal
     angular: bool = False
 
-    def place(self, ends: Ends) -> Any:
-        """(2.15) There is none. Raises TypeError."""
-        raise TypeError("a prescribed velocity holds no place")
+    def row(self, k: Kinematics, ends: Ends) -> Row:
+        """(2.15) g = s(t), and γ = ṡ(t)."""
+        (size,) = self.law.amplitude
+        slope = size * k.signal(self.law, signal.SLOPES)
+        return Row([], size * k.signal(self.law), slope)
 
-    def direction(self, ends: Ends) -> Direction:
+    def place(self, k: Kinematics, ends: Ends) -> None:
+        """None: a prescribed velocity holds no place."""
+
+    def direction(self, k: Kinematics, ends: Ends) -> Vec:
         """No force has its direction."""
-        return 0.0, 0.0
-
-    def enter(self, i: int, ends: Sequence[Attached], rows: Assembly) -> None:
-        """Adds it to the i-th row."""
-        rows.given(i, self.law)
+        return k.still
 
 
-def opposite(u: Direction) -> Direction:
+@dataclass(frozen=True)
+class Dot:
+    """The rate of u·w, u fixed in a and w in b: (ω_b − ω_a)·(w × u) [rad/s], in space."""
+
+    a: int
+    b: int
+    u: Numbers
+    w: Numbers
+    angular = True
+
+    def _axes(self, k: Kinematics, ends: Ends) -> tuple[Direction, Direction]:
+        a, b = ends[self.a].part, ends[self.b].part
+        return k.carried(a, self.u), k.carried(b, self.w)
+
+    def row(self, k: Kinematics, ends: Ends) -> Row:
+        """(2.15) The moment w × u on b, and its rate by u̇ = ω_a × u and ẇ = ω_b × w."""
+        u, w = self._axes(k, ends)
+        cross = k.frame.cross
+        m, m_dot = cross(w.u, u.u), cross(w.u_dot, u.u) + cross(w.u, u.u_dot)
+        return k.turn(ends[self.a].part, ends[self.b].part, m, m_dot)
+
+    def place(self, k: Kinematics, ends: Ends) -> Any:
+        """u·w."""
+        u, w = self._axes(k, ends)
+        return u.u @ w.u
+
+    def direction(self, k: Kinematics, ends: Ends) -> Vec:
+        """w × u."""
+        u, w = self._axes(k, ends)
+        return k.frame.cross(w.u, u.u)
+
+
+@dataclass(frozen=True)
+class Turn:
+    """The rate of one turn of a joint in space, m·(ω_b − ω_a) [rad/s].
+
+    Of two turns about n₁, fixed in a, and n₂, fixed in b, with n₁·n₂ = c, ω_rel = θ̇₁ n₁ + θ̇₂ n₂
+    and m₁ = (n₁ − c n₂)/(1 − c²), m₂ = (n₂ − c n₁)/(1 − c²); of one m = n.
+    """
+
+    a: int
+    b: int
+    first: Numbers
+    last: Numbers
+    weights: tuple[float, float]  # of n₁ and n₂ in m
+    angular = True
+
+    def _axis(self, k: Kinematics, ends: Ends) -> tuple[Vec, Vec]:
+        one = k.carried(ends[self.a].part, self.first)
+        other = k.carried(ends[self.b].part, self.last)
+        own, beside = self.weights
+        return one.u * own + other.u * beside, one.u_dot * own + other.u_dot * beside
+
+    def row(self, k: Kinematics, ends: Ends) -> Row:
+        """(2.15) m·(ω_b − ω_a), and γ = −ṁ·(ω_b − ω_a)."""
+        return k.turn(ends[self.a].part, ends[self.b].part, *self._axis(k, ends))
+
+    def place(self, k: Kinematics, ends: Ends) -> None:
+        """None: turns are told by the joint."""
+
+    def direction(self, k: Kinematics, ends: Ends) -> Vec:
+        """m."""
+        return self._axis(k, ends)[0]
+
+
+@dataclass(frozen=True)
+class Lowest:
+    """The velocity of the lowest point of a rim or a sphere along a direction of the ground.
+
+    ρ = −R (z − (z·n) n)/√(1 − (z·n)²) from the centre (2.19), n the axle; of a sphere ρ = −R z.
+    """
+
+    p: int
+    radius: float
+    axle: Numbers | None  # None: a sphere
+    u: Numbers
+    angular = False
+
+    def _point(self, k: Kinematics, ends: Ends) -> Point:
+        part, z = ends[self.p].part, k.frame.axes[-1]
+        if self.axle is None:
+            return k.armed(part, z * -self.radius, k.still)
+        c = k.carried(part, self.axle)
+        n, n_dot, s, s_dot = c.u, c.u_dot, c.u @ z, c.u_dot @ z
+        each = k.tape.call(slanted, 1.0 - s * s)  # 1/√(1 − s²)
+        steep = (z - n * s) * each
+        steep_dot = -(n * s_dot + n_dot * s) * each + steep * (s * s_dot * each * each)
+        return k.armed(part, steep * -self.radius, steep_dot * -self.radius)
+
+    def row(self, k: Kinematics, ends: Ends) -> Row:
+        """(2.19) u·(ṙ_c + ω × ρ); its rate has ω × ρ̇ beside accelerations."""
+        return k.along(self._point(k, ends), k.fixed(self.u))
+
+    def place(self, k: Kinematics, ends: Ends) -> Any:
+        """u·(r_c + ρ) [m]: along the floor the rate is not that of it."""
+        return Vec(self.u) @ self._point(k, ends).r
+
+    def direction(self, k: Kinematics, ends: Ends) -> Vec:
+        """u."""
+        return Vec(self.u)
+
+
+@dataclass(frozen=True)
+class Heading:
+    """The velocity of a point to the left of a blade's heading [m/s], in space.
+
+    The heading h is the shadow of the long axis along z: u = (−h_y, h_x, 0)/|h|, and so
+    u̇ = −ψ̇ (h_x, h_y, 0)/|h| with ψ̇ = (h_x ḣ_y − h_y ḣ_x)/|h|².
+    """
+
+    p: int
+    along: Numbers  # the long axis, in the axes of the body
+    angular = False
+
+    def _left(self, k: Kinematics, ends: Ends) -> Direction:
+        h = k.carried(ends[self.p].part, self.along)
+        (x, y, _), (x_dot, y_dot, _) = h.u, h.u_dot
+        each = k.tape.call(slanted, x * x + y * y)  # 1/|h|
+        x, y, turning = x * each, y * each, (x * y_dot - y * x_dot) * each * each
+        return Direction(Vec((-y, x, 0.0)), Vec((-(turning * x), -(turning * y), 0.0)))
+
+    def row(self, k: Kinematics, ends: Ends) -> Row:
+        """(2.15) u·ṙ_P."""
+        return k.along(ends[self.p], self._left(k, ends))
+
+    def place(self, k: Kinematics, ends: Ends) -> None:
+        """None: it is the rate of no place."""
+
+    def direction(self, k: Kinematics, ends: Ends) -> Vec:
+        """u."""
+        return self._left(k, ends).u
+
+
+def opposite(u: Numbers) -> Numbers:
     """−u."""
-    return -u[0], -u[1]
+    return tuple(-x for x in u)
 
 
-def _apart(a: Direction, b: Direction) -> Direction:
-    return b[0] - a[0], b[1] - a[1]
+def _between(k: Kinematics, a: Point, b: Point) -> Direction:
+    """u, with its rate (Δ̇ − (u·Δ̇) u)/λ."""
+    d, d_dot = b.r - a.r, b.r_dot - a.r_dot
+    squared = d @ d
+    each = k.tape.call(per, squared)
+    u = Vec((k.tape.call(ahead, d[0], squared), *(x * each for x in d[1:])))
+    return Direction(u, (d_dot - u * (u @ d_dot)) * each)
 
 
-def _length(x: Any, y: Any) -> Any:
-    return (x * x + y * y) ** 0.5
+def per(squared: Any) -> Any:
+    """1/λ of λ²; 0 where two points are one, as only those of a guess can be."""
+    return 1.0 / squared**0.5 if squared != 0.0 else 0.0
+
+
+def slanted(squared: Any) -> Any:
+    """1/√x; nan where x is 0: a rim that lies flat has no lowest point, a mast no heading."""
+    return 1.0 / squared**0.5 if squared.real > 0.0 else math.nan
+
+
+def ahead(x: Any, squared: Any) -> Any:
+    """x/λ; where two points are one, any direction: this one."""
+    return x / squared**0.5 if squared != 0.0 else 1.0
+
+
+def _right(u: Vec) -> Vec:
+    return Vec((u[1], -u[0]))

@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from ....cases.scene import CENTER, Contact, Joint
-from ..kinematics.coordinates import Coordinates
+from ..kinematics.kinematics import Layout
 from .constraint import Constraint
 from .constraint_terms import FIRST, SECOND, Along, Line, Term, Turning
 
 
-def normal(contact: Contact, where: Coordinates) -> Constraint:
+def normal(contact: Contact, where: Layout) -> Constraint:
     """A closed contact: the lowest point stays on the plane, n·r_P − R = n·r₀; λ is its force."""
     (x, y), plane = contact.plane.at, contact.plane
     held = (plane.normal[0] * x + plane.normal[1] * y + _radius(contact, where),)
@@ -23,20 +23,20 @@ def normal(contact: Contact, where: Coordinates) -> Constraint:
     return Constraint(contact.name, (contact.at,), (row,), (("normal",),), held, where)
 
 
-def tangent(contact: Contact, where: Coordinates) -> Constraint:
+def tangent(contact: Contact, where: Layout) -> Constraint:
     """(2.16) u·ṙ_P + R ω = 0: it sticks, a rim: it rolls, somewhere; λ is the friction force."""
     row = (Along(FIRST, contact.plane.along), Turning(FIRST, _radius(contact, where)))
     return Constraint(contact.name, (contact.at,), (row,), (("tangent",),), None, where)
 
 
-def foot(contact: Contact, where: Coordinates) -> Constraint:
+def foot(contact: Contact, where: Layout) -> Constraint:
     """Where along its plane the point is that a foot has to be ahead of; nothing holds it."""
     assert contact.ahead_of is not None
     at, row = contact.ahead_of, (Along(FIRST, contact.plane.along),)
     return Constraint(str(at), (at,), (row,), ((),), None, where)
 
 
-def at_rest(joint: Joint, where: Coordinates) -> Constraint:
+def at_rest(joint: Joint, where: Layout) -> Constraint:
     """A slide at rest, somewhere: d/dt u·(r_B − r_A) = 0, u fixed in the first part; λ along u.
 
     A pin at rest: φ̇_B − φ̇_A = 0; λ is a moment.
@@ -48,7 +48,7 @@ def at_rest(joint: Joint, where: Coordinates) -> Constraint:
     return Constraint(joint.name, (joint.a, joint.b), (row,), (names,), None, where)
 
 
-def _radius(contact: Contact, where: Coordinates) -> float:
+def _radius(contact: Contact, where: Layout) -> float:
     """[m] of the rim: a disk named by its centre touches with it."""
     radius = where.scene.bodies[contact.body].radius
     return radius if radius is not None and contact.at.point == CENTER else 0.0
@@ -69,9 +69,3 @@ class Braking:
 
     along: Constraint  # that would hold it at rest
     force: Callable[[float, Any, Any], float]
-
-
-def row(part: Constraint, t: float, q: Any, v: Any) -> tuple[Any, float, float]:
-    """f_a (n,), g and γ of a constraint of one row."""
-    f, g, gamma = part.alone(t, q, v)
-    return f[0], g[0], gamma[0]

@@ -1,7 +1,6 @@
 """The rows of a mode at one state, factored: f_a M⁻¹ (f_bᵀ λ_b) = right side (r,)."""
 
-from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from ... import lapack
 from ...system import Array
@@ -36,8 +35,7 @@ class Held(Protocol):
         ...
 
 
-@dataclass(frozen=True)
-class Full:
+class Full(NamedTuple):  # made at every state: a frozen dataclass costs three times as much
     """By a full matrix; symmetric, unless forces lean against the slip (2.87)."""
 
     rows: Array

@@ -2,8 +2,8 @@
 
 from .mechanism import Mechanism
 from .mode import Multibody
-from .space.mechanism import SpatialMechanism
-from .space.mode import SpatialMultibody
+from .spatial_mechanism import SpatialMechanism
+from .spatial_mode import SpatialMultibody
 
 Generated = Mechanism | SpatialMechanism
 Base = Multibody | SpatialMultibody

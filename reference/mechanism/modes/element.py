@@ -22,9 +22,9 @@ from typing import Any, Literal
 
 from ....cases.scene import DryFriction, Scene
 from ...laws.friction import Dry, stiction, stribeck
-from ..constraints.constraint import Constraint, Numbers
-from ..constraints.contact import Braking, Coulomb, at_rest, foot, normal, row, tangent
-from ..kinematics.coordinates import Coordinates
+from ..constraints.constraint import Constraint, Numbers, row
+from ..constraints.contact import Braking, Coulomb, at_rest, foot, normal, tangent
+from ..kinematics.kinematics import Layout
 
 AHEAD = 1e-3  # of the scene's size: feet that are nearer are passing each other
 State = Literal["open", "slides +", "slides -", "sticks", "slides", "acts", "slack"]
@@ -84,6 +84,11 @@ class Element:
         if depth:
             return f"{self.name} starts {depth * 1e3:.3g} mm in the {self.plane}"
         return f"{self.name} starts into the {self.plane}, with {speed:.3g} m/s"
+
+    @property
+    def parts(self) -> list[Constraint]:
+        """The constraints that hold in some of its states, and not for good."""
+        return [part for part in (self.normal, self.slip) if part is not None]
 
     @property
     def slips(self) -> bool:
@@ -207,7 +212,7 @@ class Sliding(Element):
         return self.friction.static.forward - F_a, self.friction.static.backward + F_a
 
 
-def elements(scene: Scene, where: Coordinates) -> Iterator[Element]:
+def elements(scene: Scene, where: Layout) -> Iterator[Element]:
     """Yields each element that has states, in the order of the scene."""
     for contact in scene.touching.values():
         if contact.ideal == "rolling":

@@ -11,7 +11,7 @@ import numpy as np
 from ....cases.scene.forces.drag import Drag
 from ....cases.scene.forces.force import of
 from ...system import Array, Guard
-from ..kinematics.coordinates import Point
+from ..constraints.constraint import Constraint, tracked
 from .mode_selection import After, Undetermined
 from .modes import Modes
 
@@ -23,9 +23,9 @@ def halting(modes: Modes, mode: str, size: float) -> Iterator[Guard]:
     """Yields guards where drags stop their points: a message, as no law sets such a point off."""
     for force in of(Drag, modes.scene.forces.values()):
         if force.exponent < 1.0 and force.coefficient:
-            slow = SLOW * _speed(modes, size)
+            slow, point = SLOW * _speed(modes, size), tracked(force.at, modes.base.where)
             yield Guard(
-                None, _over(modes, force, slow), _stops(modes, mode, force, slow), vain=True
+                None, _over(point, slow), _stops(modes, mode, force, point, slow), vain=True
             )
 
 
@@ -35,17 +35,18 @@ def _speed(modes: Modes, size: float) -> float:
     return fastest or float(np.sqrt(size * modes.base.terms(0.0, q, v)[0])) or 1.0
 
 
-def _point(modes: Modes, force: Drag, t: float, q: Array, v: Array) -> Point:
-    return modes.base.where.point(force.at, t, q.tolist(), v.tolist())
-
-
-def _over(modes: Modes, force: Drag, slow: float) -> Callable[[float, Array, Array], float]:
+def _over(point: Constraint, slow: float) -> Callable[[float, Array, Array], float]:
     """How much faster than that the point is [m/s]."""
-    return lambda t, q, v: float(np.hypot(*_point(modes, force, t, q, v).r_dot)) - slow
+
+    def faster(t: float, q: Array, v: Array) -> float:
+        f, g, _ = point.alone.rows(t, q, v)
+        return float(np.hypot(*(f @ v - g))) - slow
+
+    return faster
 
 
 def _stops(
-    modes: Modes, mode: str, force: Drag, slow: float
+    modes: Modes, mode: str, force: Drag, point: Constraint, slow: float
 ) -> Callable[[float, Array, Array], After]:
     """A function for the guard: the same mode, where others move the point through its rest.
 
@@ -53,11 +54,8 @@ def _stops(
     """
 
     def then(t: float, q: Array, v: Array) -> After:
-        p = _point(modes, force, t, q, v)
-        a = modes[mode].accelerations(t, q, v)
-        turned = _point(modes, force, t, q, a)  # its ṙ of q̇ = q̈, and without ω × ḋ
-        (x, y), omega = turned.r_dot, p.omega
-        a_P = np.hypot(x - omega**2 * p.d[0], y - omega**2 * p.d[1])
+        f, _, gamma = point.alone.rows(t, q, v)
+        a_P = np.hypot(*(f @ modes[mode].accelerations(t, q, v) - gamma))
         body = modes.scene.bodies[force.at.body]
         if a_P < OTHERS * force.coefficient * slow**force.exponent * body.mobility(force.at.point):
             what = (

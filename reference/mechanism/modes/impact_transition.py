@@ -11,8 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...system import Array
-from ..constraints.constraint import Constraint
-from ..constraints.contact import row
+from ..constraints.constraint import Constraint, row
 from .blow import Condition, Meeting
 from .element import State
 from .impact import NoImpact, Several, impact

@@ -68,8 +68,11 @@ class Loose(Multibody):
         braking: Sequence[Braking] = (),
         coulomb: Sequence[Coulomb] = (),
         slack: Collection[str] = (),
+        base: Multibody | None = None,
     ) -> None:
-        super().__init__(scene, start, held=held, braking=braking, coulomb=coulomb, slack=slack)
+        super().__init__(
+            scene, start, held=held, braking=braking, coulomb=coulomb, slack=slack, base=base
+        )
         self.rank, self.margins = rank, margins
 
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
@@ -126,7 +129,7 @@ class Loose(Multibody):
             or product[self.rank - 1] <= NONE * product[0]
             or np.any(s[self.rank :] > DEPENDENT * s[0])
         ):
-            raise SingularPose(self._owners[-1])
+            raise SingularPose(self.owners[-1])
         return of_columns.T[self.rank :] / sizes
 
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:

@@ -8,12 +8,11 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from ....cases.scene import GROUND, Anchor, Scene
+from ....cases.scene import Scene
 from ...system import Array, Guard, System
 from ..constraints.constraint import Constraint
 from ..constraints.leeway import Leeway
-from ..forces.action import act
-from ..forces.drag import blurred
+from ..forces.action import blurred
 from .element import REST, Element, State, sign
 from .halting import halting
 from .impact_transition import STILL, landed
@@ -180,18 +179,12 @@ class Mechanism(System):
 
     def driven_point(self, name: str, t: float) -> tuple[float, ...]:
         """x, y, vx, vy of a point of the ground that moves."""
-        still = np.zeros(len(self.base.coordinates)).tolist()
-        point = self.base.where.point(Anchor(GROUND, name), t, still, still)
-        return *point.r, *point.r_dot
+        return self.base.driven_point(name, t)
 
     def powers(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """The power [W] at any rates of each force that follows a law in time, by its name."""
-        found = {}
-        for force in self.base.scene.signals():
-            Q = np.zeros(len(v))
-            act(force, self.base.where, t, q.tolist(), v.tolist(), Q)
-            found[force.name] = float(Q @ v)
-        return found
+        forces = self.base.forces(t, q, v)
+        return {force.name: float(forces[force.name] @ v) for force in self.base.scene.signals()}
 
     def beyond(self, mode: str, t: float, q: Array, v: Array) -> After:
         """The mode and state under another force: what rubs, and what touches, may change."""

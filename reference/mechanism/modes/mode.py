@@ -1,26 +1,20 @@
-"""Any planar scene as a Mode, in maximal coordinates with multipliers (2.60)."""
+"""Any scene as a Mode, in maximal coordinates with multipliers (2.60)."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from ....cases.scene import Scene
+from ....cases.scene import GROUND, Anchor
 from ...system import Array, Mass, Mode, Pose, Vector
-from ..constraints.constraint import Constraint, assembled, residuals
+from ..constraints.constraint import Constraint, residuals, row, tracked
 from ..constraints.constraint_solver import Holding
-from ..constraints.contact import Braking, Coulomb, row
+from ..constraints.contact import Braking, Coulomb
 from ..constraints.factorization import Dependent, Held
 from ..constraints.joint_constraints import constraints
-from ..forces.action import (
-    act,
-    dissipation,
-    ends_meet,
-    generalized_potential,
-    inner_rate,
-    other,
-    potential,
-)
+from ..constraints.equation_table import G, Rows, Table, span
+from ..forces.action import NoDirection, actions
+from ..forces.ingredients import Ingredients
 from ..kinematics.coordinates import Coordinates
 from .shared_friction import Shared
 
@@ -39,14 +33,18 @@ class SingularPose(ArithmeticError):
 class Multibody(Mode):
     """Newton's and Euler's equations of all bodies, held together by multipliers.
 
-    q holds x, y, angle of each body in the scene's order (a particle has no angle). `held` are
-    constraints beside those of the joints, `braking` and `coulomb` what slides with dry friction.
-    `shared`: what sticks by several points of a body. `slack`: the springs that do not act.
+    q and v hold the coordinates of each body in the scene's order (a particle has no attitude), q
+    the inner states of forces behind them. `held` are constraints beside those of the scene,
+    `braking` and `coulomb` what slides with dry friction. `shared`: what sticks by several points
+    of a body. `slack`: the springs that do not act. `base`: a mode of the scene whose coordinates,
+    constraints and table this one shares.
     """
+
+    where: Any  # the scene's coordinates, in the plane or in space
 
     def __init__(
         self,
-        scene: Scene,
+        scene: Any,
         start: tuple[Array, Array],
         *,
         held: Sequence[Constraint] = (),
@@ -54,43 +52,82 @@ class Multibody(Mode):
         coulomb: Sequence[Coulomb] = (),
         shared: Sequence[Shared] = (),
         slack: Collection[str] = (),
+        base: "Multibody | None" = None,
     ) -> None:
-        self.scene = scene
-        self._forces = [f for f in scene.forces.values() if f.name not in slack]
-        self.where = Coordinates(scene)
+        self.scene, self._start = scene, start
+        self.where = self._laid_out(scene) if base is None else base.where
         self.coordinates = (*self.where.names, *self.where.inner)
-        self.masses = {b.name: Mass(b.mass, b.inertia) for b in scene.bodies.values()}
-        self._start = start
+        self.masses = {b.name: Mass(b.mass, self.where.inertia(b)) for b in scene.bodies.values()}
         self._M = np.array(self.where.masses)
-        self._constraints = [*constraints(scene, self.where, start[0].tolist()), *held]
-        self._owners = [c.part for c in self._constraints for _ in range(c.size)]
-        self._r = len(self._owners)
-        masses = [mass.m for mass in self.masses.values()]
-        self._turns = TURNS if max(masses) > UNEVEN * min(masses) else min(TURNS, 1)
+        self.permanent: list[Constraint] = (
+            constraints(scene, self.where, start[0].tolist()) if base is None else base.permanent
+        )
+        self._constraints = [*self.permanent, *held]
+        self.owners = [c.part for c in self._constraints for _ in range(c.size)]
+        self._r = len(self.owners)
+        acting = actions([f for f in scene.forces.values() if f.name not in slack])
+        self.ingredients = Ingredients(self.where, acting)
+        self._lined = [action.name for action in acting if action.line]
+        self.table = self._written(actions(list(scene.forces.values())), base)
+        self._rows = Rows(self.table, self._constraints)
+        self._forces = {
+            force.name: self.table.size + i
+            for i, force in enumerate(self.table.forces)
+            if force.name not in slack
+        }
+        self._at_work = span(np.array(list(self._forces.values()), np.intp))
         self._braking, self._shared = braking, shared
         places = np.cumsum([0, *(c.size for c in self._constraints)]).tolist()
         self._coulomb = [(places[self._constraints.index(law.normal)], law) for law in coulomb]
-        rows = assembled(self._constraints, self.where)
-        self.holding = Holding(rows, self._M, self._coulomb)
-        self._residuals = residuals(self._constraints, self.where)
         self._weight = np.zeros(len(self._M))
-        for body in scene.bodies.values():
-            xy, _ = self.where.columns[body.name]
-            self._weight[xy : xy + 2] = body.mass * np.asarray(scene.gravity)
+        for name, at in self.where.slots.items():
+            for i, g in enumerate(scene.gravity):
+                self._weight[at.r_dot + i] = scene.bodies[name].mass * g
+        self._prepare()
+
+    def _laid_out(self, scene: Any) -> Any:
+        return Coordinates(scene)
+
+    def _written(self, forces: Sequence[Any], base: "Multibody | None") -> Table:
+        """The table of all that acts and holds; that of the base, if it has it all."""
+        if base is not None and base.table.has(self._constraints):
+            return base.table
+        return Table(self.where, self._constraints, [*forces, *self._beside()])
+
+    def _beside(self) -> Sequence[Any]:
+        """What acts on bodies beside the scene's forces."""
+        return ()
+
+    def widen(self, more: Sequence[Constraint]) -> None:
+        """Writes constraints into its table that other modes hold, who share it."""
+        self.table = Table(self.where, [*self._constraints, *more], self.table.forces)
+        self._rows = Rows(self.table, self._constraints)
+        self._forces = {f.name: self.table.size + i for i, f in enumerate(self.table.forces)}
+        self._at_work = span(np.array(list(self._forces.values()), np.intp))
+        self._prepare()
+
+    def _prepare(self) -> None:
+        """Makes ready what solves its equations."""
+        masses = [mass.m for mass in self.masses.values()]
+        self._turns = TURNS if max(masses) > UNEVEN * min(masses) else min(TURNS, 1)
+        self.holding = Holding(self._rows, self._M, self._coulomb)
 
     def start(self) -> tuple[Array, Array]:
         """The assembled start."""
         return self._start
 
     def rates(self, t: Any, q: Vector, v: Vector) -> Vector:
-        """q̇ = v of the bodies; inner states have their own."""
+        """(2.5), (2.6) q̇ of the bodies; inner states have their own."""
+        rates = self.where.rates(q, v)
         if not self.where.inner:
-            return v
-        own = [inner_rate(f, self.where, t, q.tolist()) for f in self.scene.inner().values()]
-        return np.concatenate([v, own])
+            return rates
+        return np.concatenate([rates, self._inner_rates(t, q, v)])
+
+    def _inner_rates(self, t: Any, q: Vector, v: Vector) -> list[Any]:
+        return self.ingredients.rate(t, q, v)
 
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
-        """(2.60) M q̈ = Q + λ_b f_aᵇ with f_aᵇ q̈ᵃ = γᵇ, (n,)."""
+        """(2.60) M v̇ = Q + λ_b f_aᵇ with f_aᵇ v̇ᵃ = γᵇ, (n,)."""
         return self.solve(t, q, v)[0]
 
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
@@ -99,11 +136,9 @@ class Multibody(Mode):
 
     def told(self, t: float, q: Array, v: Array, multipliers: Sequence[float]) -> dict[str, float]:
         """(2.60) The same of given multipliers (r,)."""
-        at, numbers, of_floor = 0, q.tolist(), ("normal", "tangent")
+        numbers, of_floor = q.tolist(), ("normal", "tangent")
         found = {f"{name}.{way}": 0.0 for name in self.scene.pressed for way in of_floor}
-        for c in self._constraints:
-            _add(found, c.reactions(t, numbers, multipliers[at : at + c.size]))
-            at += c.size
+        _add(found, self._exerted(t, numbers, multipliers))
         for brake in self._braking:
             _add(found, brake.along.reactions(t, numbers, [brake.force(t, q, v)]))
         for at, law in self._coulomb:
@@ -118,6 +153,11 @@ class Multibody(Mode):
                 each = (found[f"{point.name}.{way}"] for point in contact.each())
                 found[f"{contact.name}.{way}"] = sum(each)
         return found
+
+    def _exerted(self, t: float, q: Sequence[float], multipliers: Any) -> dict[str, float]:
+        """(2.60) λ_b f_aᵇ of its own rows."""
+        pairs = zip(self._rows.places.tolist(), multipliers, strict=True)
+        return self.table.reactions(t, q, dict(pairs))
 
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
         """(2.60) q̈ (n,) and the multipliers (r,), those of `held` last.
@@ -137,25 +177,38 @@ class Multibody(Mode):
         return _at_rest(a, free), multipliers
 
     def applied(self, t: float, q: Array, v: Array) -> Array:
-        """(2.60) Q: weights, forces and the friction of slides that move, (n,)."""
-        numbers, rates = q.tolist(), v.tolist()
-        Q = self._weight.copy()
-        for force in self._forces:
-            act(force, self.where, t, numbers, rates, Q)
+        """(2.60) Q: weights, forces and the friction of slides that move, (n,).
+
+        Raises NoDirection for a spring that passes through zero length: its force would jump.
+        """
+        Q = self._weight
+        if self._forces:
+            Q = Q + self.table.numbers(t, q, v)[self._at_work, :G].sum(axis=0)
+            if self._lined and np.isnan(Q).any():
+                raise NoDirection(next(self._short(t, q, v)))
         for brake in self._braking:
-            Q += brake.force(t, q, v) * row(brake.along, t, q, v)[0]
+            Q = Q + brake.force(t, q, v) * row(brake.along, t, q, v)[0]
         return Q
+
+    def _short(self, t: float, q: Array, v: Array) -> Iterator[str]:
+        numbers = self.table.numbers(t, q, v)
+        yield from (name for name in self._lined if np.isnan(numbers[self._forces[name]]).any())
 
     def _held(self, t: float, q: Array, v: Array) -> Held:
         """The rows at a state, with their factors."""
         try:
             return self.holding.at(t, q, v)
         except Dependent as dependent:
-            raise SingularPose(self._owners[dependent.row]) from dependent
+            raise SingularPose(self.owners[dependent.row]) from dependent
 
     def rows(self, t: Any, q: Vector, v: Vector) -> tuple[Vector, Vector, Vector]:
-        """(2.15) f_a (r, n) and g (r,), and γ (r,) of f_a q̈ᵃ = γ."""
-        return self.holding.rows(t, q, v)
+        """(2.15) f_a (r, n) and g (r,), and γ (r,) of f_a v̇ᵃ = γ."""
+        return self._rows(t, q, v)
+
+    def forces(self, t: float, q: Array, v: Array) -> dict[str, Array]:
+        """(2.50) The generalized force (n,) of each force element by itself, by name."""
+        numbers = self.table.numbers(t, q, v)
+        return {name: numbers[at, :G] for name, at in self._forces.items()}
 
     def terms(self, t: float, q: Array, v: Array) -> tuple[float, float]:
         """The largest acceleration [m/s² or rad/s²] and power [W] that one force gives alone.
@@ -171,12 +224,8 @@ class Multibody(Mode):
 
     def largest(self, t: float, q: Array, v: Array) -> Array:
         """The largest force [N] or moment [N m] along each coordinate that comes from one force."""
-        found = [self._weight]
-        for force in self._forces:
-            Q = np.zeros(len(self._M))
-            act(force, self.where, t, q.tolist(), v.tolist(), Q)
-            found.append(Q)
-        return np.max(np.abs(found), axis=0)
+        each = [self._weight, *self.forces(t, q, v).values()]
+        return np.max(np.abs(each), axis=0)
 
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R_k, E_k: the coordinates themselves."""
@@ -187,61 +236,64 @@ class Multibody(Mode):
         """q and v of given poses: how another system's motion is read in these coordinates."""
         return self.where.place(poses)
 
+    def driven_point(self, name: str, t: float) -> tuple[float, ...]:
+        """Place and velocity of a point of the ground that moves."""
+        q, v = self._start[0], np.zeros(len(self._M))
+        point = tracked(Anchor(GROUND, name), self.where)
+        return *point.places(t, q.tolist()), *(-point.alone.rows(t, q, v)[1]).tolist()
+
     def without_direction(self, t: float, q: Array, within: float) -> str | None:
         """The first force along a line that is shorter than that [m]."""
-        here = t, q.tolist(), within
-        meet = (f.name for f in self._forces if ends_meet(f, self.where, *here))
-        return next(meet, None)
+        lengths = self.ingredients.lengths(t, q)
+        return next((name for name, length in lengths if length < within), None)
 
     # The ingredients: the same mechanism from its energies and residuals alone.
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
-        """(2.54) T = ½ Σ m ṙ_c² + ½ Σ J ω² [J]."""
-        v = v[: len(self._M)]
-        return 0.5 * self._M.dot(v * v)
+        """(2.54) T = ½ Σ m ṙ_c² + ½ Σ ω·J ω [J] of the rates q̇ (m,) or (m, K)."""
+        return self.where.T(q, v)
 
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = −Σ m g·r_c + Σ ½ c (λ − λ₀)² [J]."""
-        energy = -np.sum(self._weight * q[: len(self._M)])
-        for force in self._forces:
-            energy = energy + potential(force, self.where, t, q.tolist())
+        energy = self.ingredients.U(t, q)
+        for name, at in self.where.slots.items():
+            for i, g in enumerate(self.scene.gravity):
+                energy = energy - self.masses[name].m * g * q[at.r + i]
         return energy
 
     def V(self, t: Any, q: Vector, v: Vector) -> Any:
         """V = Σ ½ e B (y ẋ − x ẏ) [J] as (2.48) has it."""
-        return sum((generalized_potential(f, self.where, t, q, v) for f in self._forces), 0.0)
+        return self.ingredients.V(t, q, v)
 
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.46) D = Σ ½ d λ̇² [W], λ̇ = Δ·Δ̇/λ."""
-        power = 0.0 * v[0]
-        for force in self._forces:
-            power = power + dissipation(force, self.where, t, q.tolist(), v.tolist())
-        return power
+        return 0.0 * v[0] + self.ingredients.D(t, q, v)
 
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.50) Q_a = Σ F·∂r/∂qᵃ of pushes, torques and dry friction, (n,)."""
-        Q = np.zeros(len(self._M), np.result_type(q, v, t))
-        for force in self._forces:
-            other(force, self.where, t, q.tolist(), v.tolist(), Q)
+        Q = self.ingredients.Q4(t, q, v)
         for brake in self._braking:
-            Q += brake.force(t, q, v) * row(brake.along, t, q, v)[0]
+            Q = Q + brake.force(t, q, v) * row(brake.along, t, q, v)[0]
         if self._coulomb:
             multipliers = self.solve(t, q, v)[1]
             for at, law in self._coulomb:
-                Q += law.factor * multipliers[at] * row(law.tangent, t, q, v)[0]
+                Q = Q + law.factor * multipliers[at] * row(law.tangent, t, q, v)[0]
         return Q
 
     def f(self, t: Any, q: Vector) -> Vector:
-        """(2.10), (2.14) the residuals of all joints and contacts, (r,)."""
-        return self._residuals(t, q)
+        """(2.10), (2.14) the residuals of all that is holonomic, (≤ r,)."""
+        return np.array(residuals(self.table, self._constraints, t, q.tolist()))
 
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15), (2.55) the rows f_aᵇ, (r, n)."""
-        return self.rows(t, q, q[: len(self._M)])[0]
+        return self.rows(t, q, self._at_rest(q))[0]
 
     def g(self, t: Any, q: Vector) -> Vector:
         """(2.15) the right side f_aᵇ q̇ᵃ = gᵇ of driven points, (r,)."""
-        return self.rows(t, q, q[: len(self._M)])[1]
+        return self.rows(t, q, self._at_rest(q))[1]
+
+    def _at_rest(self, q: Vector) -> Vector:
+        return np.zeros(len(self._M), q.dtype)
 
 
 def _add(found: dict[str, float], more: Mapping[str, float]) -> None:

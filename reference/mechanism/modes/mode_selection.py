@@ -6,7 +6,7 @@ import numpy as np
 
 from ...integrators.budget import tries
 from ...system import Array
-from ..constraints.contact import row
+from ..constraints.constraint import row
 from ..constraints.leeway import FITS
 from .element import Element, State, sign, sliding
 from .loose import DEPENDENT, rank

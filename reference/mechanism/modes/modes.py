@@ -7,8 +7,7 @@ import numpy as np
 
 from ....cases.scene import Scene
 from ...system import MOVING, Array
-from ..constraints.constraint import Constraint
-from ..constraints.contact import row
+from ..constraints.constraint import Constraint, row
 from ..constraints.leeway import Leeway
 from .element import Element, Smoothed, State, elements
 from .loose import Loose, independent
@@ -44,6 +43,7 @@ class Modes(Mapping[str, Multibody]):
             *stopped(scene, where),
             *one_sided(scene, where),
         )
+        self.base.widen([part for e in self.elements for part in e.parts])
         self.M = np.array(self.base.where.masses)
         self.states: dict[str, tuple[State, ...]] = {}  # what each element does in a mode
         self._ranks: dict[str, int] = {}  # of the rows of a mode that depend on each other
@@ -101,7 +101,7 @@ class Modes(Mapping[str, Multibody]):
         """How many rows a mode has, with a row for each point that sticks, and their rank."""
         if states not in self._whole:
             held = [part for e, s in self._pairs(states) for part in e.held(s)]
-            self._whole[states] = Multibody(self.scene, self.start, held=held)
+            self._whole[states] = Multibody(self.scene, self.start, held=held, base=self.base)
         whole = self._whole[states]
         return len(whole.f_a(t, q)), independent(whole, t, q, v)
 
@@ -140,16 +140,18 @@ class Modes(Mapping[str, Multibody]):
                 braking += beside.rubbing
             return Loose(
                 self.scene, self.start, rank, lambda forces: self.margins(states, forces),
-                held=held, braking=braking, coulomb=coulomb, slack=slack,
+                held=held, braking=braking, coulomb=coulomb, slack=slack, base=self.base,
             )  # fmt: skip
         if self._smooth:
             return SmoothMultibody(
                 self.scene, self.start, self._smooth,
                 held=held, braking=braking, coulomb=coulomb, shared=shared, slack=slack,
+                base=self.base,
             )  # fmt: skip
         return Multibody(
             self.scene, self.start,
             held=held, braking=braking, coulomb=coulomb, shared=shared, slack=slack,
+                base=self.base,
         )  # fmt: skip
 
     def forget(self, states: tuple[State, ...], but: Collection[str]) -> None:

@@ -9,13 +9,12 @@ from collections.abc import Iterator
 from ....cases.scene import CENTER, Anchor, Scene
 from ....cases.scene.pair import Pair
 from ..constraints.constraint import Constraint
-from ..constraints.constraint_terms import FIRST, SECOND, Line, Term, Turning
-from ..constraints.rim_contact import Apart, Around
-from ..kinematics.coordinates import Coordinates
+from ..constraints.constraint_terms import FIRST, SECOND, Apart, Around, Line, Term, Turning
+from ..kinematics.kinematics import Layout
 from .element import Element, Touching
 
 
-def paired(scene: Scene, where: Coordinates) -> Iterator[Element]:
+def paired(scene: Scene, where: Layout) -> Iterator[Element]:
     """Yields an element for each pair of the scene."""
     for pair in scene.pairs.values():
         yield Touching(
@@ -31,7 +30,7 @@ def paired(scene: Scene, where: Coordinates) -> Iterator[Element]:
         )
 
 
-def apart(pair: Pair, where: Coordinates) -> Constraint:
+def apart(pair: Pair, where: Layout) -> Constraint:
     """(2.14) Closed, |r_b − r_a| = R + R_a of two rims, n·(r_P − r_a) = R on a face; λ pushes."""
     row: tuple[Term, ...] = (Apart(FIRST, SECOND),)
     if pair.face:
@@ -41,7 +40,7 @@ def apart(pair: Pair, where: Coordinates) -> Constraint:
     return Constraint(pair.name, _ends(pair), (row,), (("normal",),), held, where)
 
 
-def along(pair: Pair, where: Coordinates) -> Constraint:
+def along(pair: Pair, where: Layout) -> Constraint:
     """(2.15) Nothing slips where both touch; λ is the friction on b.
 
     On a rim u·(ṙ_b − ṙ_a) + R ω_b + R_a ω_a = 0; on a face d/dt u·(r_P − r_a) + R (ω_b − ω_a) = 0,

@@ -10,7 +10,7 @@ from ....cases.scene import Scene
 from ....cases.scene.forces.rope import Rope
 from ..constraints.constraint import Constraint
 from ..constraints.constraint_terms import FIRST, SECOND, Distance
-from ..kinematics.coordinates import Coordinates
+from ..kinematics.kinematics import Layout
 from .unilateral_limit import Limit
 
 
@@ -30,13 +30,13 @@ class Roped(Limit):
         return f"{self.name} would have to push"
 
 
-def taut(rope: Rope, where: Coordinates) -> Constraint:
+def taut(rope: Rope, where: Layout) -> Constraint:
     """(2.14) −λ = −L; its multiplier pulls both ends together."""
     row = (Distance(FIRST, SECOND),)
     return Constraint(rope.name, (rope.a, rope.b), (row,), (("force",),), (-rope.length,), where)
 
 
-def roped(scene: Scene, where: Coordinates) -> Iterator[Roped]:
+def roped(scene: Scene, where: Layout) -> Iterator[Roped]:
     """Yields an element for each rope of the scene."""
     for rope in scene.ropes():
         yield Roped(

@@ -9,8 +9,8 @@ import numpy as np
 from ....cases.scene import DryFriction, Scene, Smooth
 from ...laws.friction import Dry, smooth
 from ...system import Array
-from ..constraints.constraint import Constraint
-from ..constraints.contact import Braking, Coulomb, row
+from ..constraints.constraint import Constraint, row
+from ..constraints.contact import Braking, Coulomb
 from .element import Smoothed, dry
 from .mode import Multibody
 from .shared_friction import Shared
@@ -36,18 +36,19 @@ class SmoothMultibody(Multibody):
         coulomb: Sequence[Coulomb] = (),
         shared: Sequence[Shared] = (),
         slack: Collection[str] = (),
+        base: Multibody | None = None,
     ) -> None:
         self._laws = [_dry(slide.friction) for slide in slides]
         self._parts: tuple[Array, Array] | None = None  # of rows that are always the same
         self._rests = [slide.tangent for slide in slides]
         resting = [*held, *self._rests]
         self._resting = Multibody(
-            scene, start, held=resting, braking=braking, coulomb=coulomb, slack=slack
+            scene, start, held=resting, braking=braking, coulomb=coulomb, slack=slack, base=base
         )
         self.rubbing = [Braking(part, self._friction(k)) for k, part in enumerate(self._rests)]
         super().__init__(
             scene, start, held=held, braking=[*braking, *self.rubbing], coulomb=coulomb,
-            shared=shared, slack=slack,
+            shared=shared, slack=slack, base=base,
         )  # fmt: skip
 
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:

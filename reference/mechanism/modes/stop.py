@@ -8,7 +8,7 @@ from ....cases.scene import Scene
 from ....cases.scene.forces.stops import Stops
 from ..constraints.constraint import Constraint
 from ..constraints.constraint_terms import FIRST, SECOND, Turning
-from ..kinematics.coordinates import Coordinates
+from ..kinematics.kinematics import Layout
 from .unilateral_limit import Limit
 
 
@@ -28,7 +28,7 @@ class Stopped(Limit):
         return f"{self.name} would have to hold what leaves it"
 
 
-def stopped(scene: Scene, where: Coordinates) -> Iterator[Stopped]:
+def stopped(scene: Scene, where: Layout) -> Iterator[Stopped]:
     """Yields an element for each side of each stop of the scene."""
     for stops in scene.stops():
         for side, (sense, at) in stops.sides.items():
@@ -40,7 +40,7 @@ def stopped(scene: Scene, where: Coordinates) -> Iterator[Stopped]:
 
 
 def ended(
-    scene: Scene, stops: Stops, side: str, sense: float, at: float, where: Coordinates
+    scene: Scene, stops: Stops, side: str, sense: float, at: float, where: Layout
 ) -> Constraint:
     """(2.14) ±(φ_B − φ_A) = ±φ₀; its multiplier is a moment on the second part, or the opposite."""
     joint = scene.joints[stops.joint]

@@ -17,7 +17,7 @@ from ....cases.scene.forces.drag import Viscous
 from ....cases.scene.forces.force import of
 from ..constraints.constraint import Constraint
 from ..constraints.contact import at_rest
-from ..kinematics.coordinates import Coordinates
+from ..kinematics.kinematics import Layout
 from .element import Element, State
 
 ROUNDING = 1e-15  # of the weight: a level slide has some angle, rounded
@@ -58,7 +58,7 @@ class Stopping(Element):
         return self.room - F_a, self.room + F_a
 
 
-def stopping(scene: Scene, where: Coordinates, speed: float) -> Iterator[Stopping]:
+def stopping(scene: Scene, where: Layout, speed: float) -> Iterator[Stopping]:
     """The slides without dry friction; speed [m/s] at the start, of anything."""
     oils = list(of(Viscous, scene.forces.values()))
     weight = math.hypot(*scene.gravity) * sum(body.mass for body in scene.bodies.values())

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 from ....cases.scene import Scene
 from ....cases.scene.forces.force import Spring
 from ...system import Array
-from ..forces.action import ends, length
-from ..kinematics.coordinates import Coordinates
+from ..constraints.constraint import Constraint, row
+from ..constraints.constraint_terms import FIRST, SECOND, Apart
+from ..kinematics.kinematics import Layout
 from .element import Element, State
 
 OTHER: dict[State, State] = {"acts": "slack", "slack": "acts"}
@@ -22,10 +23,10 @@ HAPPENS: dict[State, str] = {"acts": "slackens", "slack": "tightens"}  # where t
 
 @dataclass(frozen=True, kw_only=True)
 class OneSided(Element):
-    """The spring, and how far it is from acting."""
+    """The spring, and how far it is from acting; `line`: its length over λ₀."""
 
     spring: Spring
-    where: Coordinates
+    line: Constraint
 
     @property
     def way(self) -> float:
@@ -34,14 +35,12 @@ class OneSided(Element):
 
     def slack(self, t: float, q: Array) -> float:
         """± (λ − λ₀) [m], positive where it does not act."""
-        return self.way * (length(self.spring, self.where, t, q.tolist()) - self.spring.rest_length)
+        return float(self.way * self.line.f(t, q.tolist())[0])
 
     def slackens(self, t: float, q: Array, v: Array) -> float:
         """± λ̇ [m/s], λ̇ = Δ·Δ̇/λ."""
-        a, b = ends(self.spring, self.where, t, q.tolist(), v.tolist())
-        d = (b.r[0] - a.r[0], b.r[1] - a.r[1])
-        along = d[0] * (b.r_dot[0] - a.r_dot[0]) + d[1] * (b.r_dot[1] - a.r_dot[1])
-        return self.way * along / length(self.spring, self.where, t, q.tolist())
+        f, g, _ = row(self.line, t, q, v)
+        return self.way * float(f @ v - g)
 
     def began(self, q: Array, v: Array, near: float) -> State:
         """Its state at the start; within `near` [m] of λ₀, by where it goes."""
@@ -55,7 +54,13 @@ class OneSided(Element):
         return self.slack(t, q) if state == "slack" else -self.slack(t, q)
 
 
-def one_sided(scene: Scene, where: Coordinates) -> Iterator[OneSided]:
+def one_sided(scene: Scene, where: Layout) -> Iterator[OneSided]:
     """Yields an element for each one-sided spring of the scene."""
     for spring in scene.one_sided():
-        yield OneSided(name=spring.name, spring=spring, where=where)
+        yield OneSided(name=spring.name, spring=spring, line=_line(spring, where))
+
+
+def _line(spring: Spring, where: Layout) -> Constraint:
+    """λ − λ₀, which nothing holds."""
+    ends, held = (spring.a, spring.b), (spring.rest_length,)
+    return Constraint(spring.name, ends, ((Apart(FIRST, SECOND),),), ((),), held, where)

@@ -9,7 +9,9 @@ import numpy as np
 
 from ....cases.case import Case
 from ....cases.scene.space.scene import SpatialScene
-from ...mechanism.modes.space.mode import SpatialMultibody
+from ...mechanism.constraints.constraint import residuals
+from ...mechanism.constraints.equation_table import Table
+from ...mechanism.modes.spatial_mode import SpatialMultibody
 from ...system import Array
 from .initial_conditions import Equation, Given
 
@@ -22,18 +24,25 @@ class SpatialClosure:
     def __init__(self, case: Case, scene: SpatialScene) -> None:
         self.case, self.scene = case, scene
         self.mode = SpatialMultibody(scene, (np.zeros(0), np.zeros(0)))
-        self.where, self.constraints = self.mode.where, self.mode.constraints
+        self.where = self.mode.where
+        parts = self.mode.permanent
+        self.parts, self.table = parts, Table(self.where, parts)  # of no force: a guess has none
+        self.owners = [part.part for part in parts for _ in range(part.size)]
+        self.sources = [part.source or part.part for part in parts for _ in range(part.size)]
+        self.angular = np.array([each for part in parts for each in part.angular], bool)
+        held = [part.held or (None,) * part.size for part in parts]
+        self.holonomic = np.array([at is not None for each in held for at in each], bool)
         self.given = Given(case, self.mode)
         self.size = size_in_space(case, scene)
         self.units = np.where(self.where.turning, 1.0, self.size)
 
     def equations(self, q: Array) -> tuple[Array, Array, list[str]]:
         """Residuals (k,) in sizes or rad, their rows (k, n) in these units, and whose they are."""
-        rows, _, _ = self.mode.rows(0.0, q, np.zeros(self.where.size))
-        keep = self.constraints.holonomic
-        residual, rows = self.mode.f(0.0, q), rows[keep]
-        owners = [name for name, k in zip(self.constraints.owners, keep, strict=True) if k]
-        scale = np.where(self.constraints.angular[keep], 1.0, self.size)
+        keep = self.holonomic
+        residual = np.array(residuals(self.table, self.parts, 0.0, q.tolist()))
+        rows = self.rows(q)[0][keep]
+        owners = [name for name, k in zip(self.owners, keep, strict=True) if k]
+        scale = np.where(self.angular[keep], 1.0, self.size)
         found = list(self.given.places(self.case.initial, q))
         own = [1.0 if self.about_turn(e) else self.size for e in found]
         residual = np.concatenate([residual, [e.residual for e in found]])
@@ -45,6 +54,11 @@ class SpatialClosure:
             owners + [e.name for e in found],
         )
 
+    def rows(self, q: Array) -> tuple[Array, Array]:
+        """(2.15) f_a (r, n) and g (r,) of all that is held."""
+        rows, g, _ = self.table.rows(0.0, q, np.zeros(self.where.size))
+        return rows, g
+
     def about_turn(self, equation: Equation) -> bool:
         """Whether an equation is about a turn: its row is of ω alone."""
         row, turning = equation.row, self.where.turning
@@ -55,10 +69,9 @@ class SpatialClosure:
 
         Singular values `below` of the largest are zero.
         """
-        rows, _, _ = self.mode.rows(0.0, q, np.zeros(self.where.size))
-        scale = np.where(self.constraints.angular, 1.0, self.size)
-        rows = rows * self.units / scale[:, None]
-        owners = self.constraints.sources
+        scale = np.where(self.angular, 1.0, self.size)
+        rows = self.rows(q)[0] * self.units / scale[:, None]
+        owners = self.sources
         held = np.zeros((0, rows.shape[1]))
         for part in dict.fromkeys(owners):
             mine = [i for i, owner in enumerate(owners) if owner == part]

@@ -9,7 +9,7 @@ from ....cases.scene import GROUND, Anchor
 from ....cases.scene.rotation import UPRIGHT, about, inverse, product, turned
 from ....cases.scene.space.joint import SpatialJoint
 from ....cases.scene.space.scene import SpatialScene
-from ...mechanism.kinematics.space.coordinates import SpatialCoordinates
+from ...mechanism.kinematics.spatial_coordinates import SpatialCoordinates
 from ...system import Array
 
 Pose = tuple[Array, Array]  # r (3,) and the quaternion (4,)

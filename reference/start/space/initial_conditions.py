@@ -14,8 +14,9 @@ from ....cases.scene.rotation import UPRIGHT, about, inverse, matrix, product, t
 from ....cases.scene.space import chain
 from ....cases.scene.space.counting import counted
 from ....cases.scene.space.joint import Freedom, SpatialJoint, rate_of
-from ...mechanism.kinematics.space.attitude import skew
-from ...mechanism.modes.space.mode import SpatialMultibody
+from ...mechanism.constraints.constraint import Constraint, tracked
+from ...mechanism.kinematics.attitude import skew
+from ...mechanism.modes.spatial_mode import SpatialMultibody
 from ...system import Array
 
 PLACES = ("x", "y", "z")
@@ -38,6 +39,7 @@ class Given:
     def __init__(self, case: Case, mode: SpatialMultibody) -> None:
         self.case, self.scene, self.mode = case, mode.scene, mode
         self.n = mode.where.size
+        self._points: dict[Anchor, Constraint] = {}
 
     def places(self, placements: Mapping[str, Placement], q: Array) -> Iterator[Equation]:
         """Yields the equations of given positions."""
@@ -45,12 +47,14 @@ class Given:
             if name in self.scene.joints:
                 yield from self._joint(self.scene.joints[name], placement, q)
                 continue
-            at = self.mode.where.columns[name]
+            at = self.mode.where.slots[name]
             for i, field in enumerate(PLACES):
                 if field in placement.given:
                     row = np.zeros(self.n)
                     row[at.r_dot + i] = 1.0
-                    yield Equation(f"{name}.{field}", q[at.r + i] - placement.given[field], row)
+                    yield Equation(
+                        f"{name}.{field}", float(q[at.r + i]) - placement.given[field], row
+                    )
             if placement.attitude is not None and at.attitude is not None and at.omega is not None:
                 apart = _between(placement.attitude, q[at.attitude : at.attitude + 4])
                 for i in range(3):
@@ -67,15 +71,11 @@ class Given:
 
     def point(self, anchor: Anchor, q: Array) -> tuple[Array, Array]:
         """(3, n) the rows of a point's velocity, and its place (3,)."""
-        bodies = self.mode.layout.bodies(q, np.zeros(self.n))
-        points = self.mode.layout.attached([anchor])
-        at = self.mode.where.columns[anchor.body]
-        rows = np.zeros((3, self.n))
-        rows[:, at.r_dot : at.r_dot + 3] = np.eye(3)
-        if at.omega is not None:
-            R = bodies.R[self.mode.layout.numbers[anchor.body]]
-            rows[:, at.omega : at.omega + 3] = -R @ skew(points.x)[0]
-        return rows, points.at(0.0, bodies).r[0]
+        if anchor not in self._points:
+            self._points[anchor] = tracked(anchor, self.mode.where)
+        point = self._points[anchor]
+        rows, _, _ = point.alone.rows(0.0, q, np.zeros(self.n))
+        return rows, np.array(point.places(0.0, q.tolist()))
 
     def _joint(self, joint: SpatialJoint, placement: Placement, q: Array) -> Iterator[Equation]:
         given = {freedom.name for freedom in joint.named} & placement.given.keys()
@@ -101,7 +101,7 @@ class Given:
     def relative(self, joint: SpatialJoint, q: Array) -> Array:
         """(3, n) ω of the second part against the first, in the axes of the second."""
         rows = np.zeros((3, self.n))
-        a, b = (self.mode.where.columns.get(at.body) for at in (joint.a, joint.b))
+        a, b = (self.mode.where.slots.get(at.body) for at in (joint.a, joint.b))
         R_a, R_b = (matrix(attitude(self.mode, at.body, q)) for at in (joint.a, joint.b))
         if b is not None and b.omega is not None:
             rows[:, b.omega : b.omega + 3] = np.eye(3)
@@ -137,7 +137,7 @@ class Given:
         rows_a, r_a = self.end(joint.a, q)
         rows_b, r_b = self.end(joint.b, q)
         d, rows = R_a.T @ (r_b - r_a), R_a.T @ (rows_b - rows_a)
-        at = self.mode.where.columns.get(joint.a.body)
+        at = self.mode.where.slots.get(joint.a.body)
         if at is not None and at.omega is not None:
             rows[:, at.omega : at.omega + 3] += skew(d[None])[0]
         solve = np.linalg.pinv(axes.T)
@@ -184,7 +184,7 @@ class Given:
                     if SPINS[i] in given:
                         yield Equation(f"{name}.{SPINS[i]}", -given[SPINS[i]], row)
                 continue
-            at = self.mode.where.columns[name]
+            at = self.mode.where.slots[name]
             for fields, begin in ((SPEEDS, at.r_dot), (SPINS, at.omega)):
                 for i, field in enumerate(fields):
                     if field in given and begin is not None:
@@ -195,7 +195,7 @@ class Given:
 
 def attitude(mode: SpatialMultibody, body: str, q: Array) -> Array:
     """(4,) of a body, or of what has no attitude of its own: the ground's."""
-    at = mode.where.columns.get(body)
+    at = mode.where.slots.get(body)
     if at is None or at.attitude is None:
         return np.array(UPRIGHT)
     return q[at.attitude : at.attitude + 4] / np.linalg.norm(q[at.attitude : at.attitude + 4])

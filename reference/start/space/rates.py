@@ -22,11 +22,11 @@ def rates(closure: SpatialClosure, q: Array) -> Array:
     Raises CaseError if the given rates violate a constraint, or leave others open that cannot all
     be zero.
     """
-    rows, g, _ = closure.mode.rows(0.0, q, np.zeros(closure.where.size))
+    rows, g = closure.rows(q)
     found = list(closure.given.rates(closure.case.initial, q))
     rows = np.vstack([rows, *(e.row for e in found)])
     right = np.concatenate([g, [-e.residual for e in found]])
-    names = [*closure.constraints.owners, *(e.name for e in found)]
+    names = [*closure.owners, *(e.name for e in found)]
     still = _still(closure, found)
     carried = any(equation.residual for equation in _joints(closure, q))  # by a point that moves
     if not carried and not _violated(rows, right, still):

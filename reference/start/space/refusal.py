@@ -76,7 +76,7 @@ def _open(closure: SpatialClosure, q: Array, loose: Array) -> list[str]:
                 names.append(f"{joint.name}.attitude")
     held = {end.body for joint in closure.scene.joints.values() for end in joint.refers()}
     for body in (name for name in closure.scene.bodies if name not in held):
-        at = closure.where.columns[body]
+        at = closure.where.slots[body]
         places = [f"{body}.{axis}" for axis in "xyz"]
         names += [
             name for i, name in enumerate(places) if np.max(np.abs(loose[:, at.r_dot + i])) > OPEN

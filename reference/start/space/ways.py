@@ -87,7 +87,7 @@ def _told(closure: SpatialClosure, q: Array, name: str) -> str:
     if field in closure.scene.bodies[part].points:
         _, place = closure.given.point(Anchor(part, field), q)
         return f"[{', '.join(f'{x:.4g}' for x in place)}]"
-    return _shown(float(q[closure.where.columns[part].r + "xyz".index(field)]), turns=False)
+    return _shown(float(q[closure.where.slots[part].r + "xyz".index(field)]), turns=False)
 
 
 def _coordinates(closure: SpatialClosure, q: Array) -> dict[str, tuple[float, bool]]:

@@ -19,14 +19,11 @@ from given.linkages import LINKAGE
 from textmech.cases.fields.signal import Signal
 from textmech.cases.scene.point import GroundPoint
 from textmech.reference.certificate.drive_check import integral
-from textmech.reference.mechanism.constraints import constraint_jacobian as blades
 from textmech.reference.mechanism.constraints import joint_constraints as permanent
-from textmech.reference.mechanism.constraints.space import joint_constraints as space_held
-from textmech.reference.mechanism.constraints.space import rolling
+from textmech.reference.mechanism.constraints.constraint_terms import FIRST, SECOND, Given, Turn
 from textmech.reference.mechanism.forces import action
-from textmech.reference.mechanism.forces.space import action as space_action
-from textmech.reference.mechanism.forces.space import turning as space_turning
-from textmech.reference.mechanism.kinematics import coordinates, signal
+from textmech.reference.mechanism.kinematics.frame import Vec
+from textmech.reference.mechanism.kinematics.kinematics import Kinematics
 from textmech.reference.start import assembly
 from textmech.reference.start import positions as start_positions
 from textmech.reference.start.closure import Closure
@@ -133,31 +130,58 @@ def test_the_quadrature_of_a_fast_sine() -> None:
     assert found == pytest.approx(2.0 / w * (np.cos(0.3) - np.cos(w * times + 0.3)), abs=1e-14)
 
 
-SIGNAL, EDGED = signal.signal, permanent.edged
-RELATIVE, UNTURNED = space_given.Given.relative, space_held._unturned
+EDGED, DRIVEN = permanent.edged, Kinematics._driven
+RELATIVE, UNTURNED = space_given.Given.relative, permanent._unturned
 
 
-def else_a_sine(law: Signal, t: float) -> tuple[float]:
+def else_a_sine(given: Given, k: Kinematics, ends: Any) -> Any:
     """As the first words for drives in space had it."""
-    return (law.amplitude[0] * np.sin(law.angular_frequency * t + law.phase),)
+    sine = replace(given.law, law="sine", angular_frequency=given.law.angular_frequency or 1.0)
+    return GIVEN(replace(given, law=sine), k, ends)
 
 
-def more(law: Signal, t: Any) -> tuple[Any, ...]:
+GIVEN = Given.row
+
+
+def larger_rate(given: Given, k: Kinematics, ends: Any) -> Any:
     """By one in a thousand."""
-    return tuple(1.001 * x for x in SIGNAL(law, t))
+    return GIVEN(given, k, ends) * 1.001
+
+
+def larger(loads: Any) -> Any:
+    """What a force exerts, by one in a thousand."""
+    more = lambda x: None if x is None else x * 1.001  # noqa: E731
+    return lambda *given: [(part, more(F), more(M)) for part, F, M in loads(*given)]
+
+
+def farther(k: Kinematics, point: Any) -> Any:
+    """A moving point 0.1 % of its way farther off."""
+    found = DRIVEN(k, point)
+    away = found.r - Vec(point.at)
+    return replace(found, r=found.r + away * 0.001)
+
+
+def faster(k: Kinematics, point: Any) -> Any:
+    found = DRIVEN(k, point)
+    return replace(found, r_dot=found.r_dot * 1.001)
+
+
+def right_angled_drive(joint: Any, freedom: Any) -> Turn:
+    axes = [turn.axis for turn in joint.turns]
+    return Turn(FIRST, SECOND, axes[0], axes[-1], (1.0, 0.0))
 
 
 def other_axes(self: Any, joint: Any, q: Any) -> Any:
     """ω of the first part in the axes of the wrong one."""
     rows = RELATIVE(self, joint, q)
-    at = self.mode.where.columns["a"].omega
+    at = self.mode.where.slots["a"].omega
     rows[:, at : at + 3] = rows[:, at : at + 3].T
     return rows
 
 
 def right_angled(joint: Any) -> Any:
     """Two axes held at right angles, whatever they are."""
-    return (replace(found, c=0.0) for found in UNTURNED(joint))
+    return ((u, w, 0.0) for u, w, _ in UNTURNED(joint))
 
 
 def along_for_across(edge: Any, where: Any) -> Any:
@@ -167,26 +191,44 @@ def along_for_across(edge: Any, where: Any) -> Any:
 # What is planted, in which scene, and the row that sees it.
 WRONG: dict[str, tuple[Any, str, Any, str, str]] = {
     "a drive in space that follows a sine instead": (
-        rolling, "signal", else_a_sine, IN_SPACE, DRIVES,
+        Given, "row", else_a_sine, IN_SPACE, DRIVES,
     ),
     "the dual of a driven shift is its own axis": (
-        rolling, "_dual", lambda drive: np.array(drive.shift or (0, 0, 0)), IN_SPACE, DRIVES,
+        permanent, "_dual", lambda joint, freedom: freedom.axis, IN_SPACE, DRIVES,
     ),
     "two skew turns driven as right-angled ones": (
-        rolling, "_weights", lambda drive: (float(drive.shift is None), 0.0), IN_SPACE, DRIVES,
+        permanent, "turning", right_angled_drive, IN_SPACE, DRIVES,
     ),
-    "a push or a torque in space that is larger": (space_action, "signal", more, IN_SPACE, FORCES),
-    "a motor in space that is stronger": (space_turning, "signal", more, IN_SPACE, FORCES),
+    "a push in space that is larger": (
+        action.Pushed, "loads", larger(action.Pushed.loads), IN_SPACE, FORCES,
+    ),
+    "a torque in space that is larger": (
+        action.Torqued, "loads", larger(action.Torqued.loads), IN_SPACE, FORCES,
+    ),
+    "a motor in space that is stronger": (
+        action.Driven, "loads", larger(action.Driven.loads), IN_SPACE, FORCES,
+    ),
     "rates between moving parts in the axes of the wrong part": (
         space_given.Given, "relative", other_axes, IN_SPACE, STARTS,
     ),
     "two skew axes of a joint held at right angles": (
-        space_held, "_unturned", right_angled, IN_SPACE, JOINTS,
+        permanent, "_unturned", right_angled, IN_SPACE, JOINTS,
     ),
-    "a rate in the plane that is larger than its law": (blades, "signal", more, IN_PLANE, DRIVES),
-    "a force in the plane that is larger than its law": (action, "signal", more, IN_PLANE, FORCES),
-    "a moving point farther off than its law": (coordinates, "signal", more, IN_PLANE, POINTS),
-    "a moving point that is faster than its law": (coordinates, "slope", more, IN_PLANE, POINTS),
+    "a rate in the plane that is larger than its law": (
+        Given, "row", larger_rate, IN_PLANE, DRIVES,
+    ),
+    "a push in the plane that is larger than its law": (
+        action.Pushed, "loads", larger(action.Pushed.loads), IN_PLANE, FORCES,
+    ),
+    "a couple in the plane that is larger than its law": (
+        action.Coupled, "loads", larger(action.Coupled.loads), IN_PLANE, FORCES,
+    ),
+    "a moving point farther off than its law": (
+        Kinematics, "_driven", farther, IN_PLANE, POINTS,
+    ),
+    "a moving point that is faster than its law": (
+        Kinematics, "_driven", faster, IN_PLANE, POINTS,
+    ),
     "a blade that is free across and held along": (
         permanent, "edged", along_for_across, IN_PLANE, SLIPS,
     ),

@@ -14,7 +14,7 @@ from textmech.cases.case import Case
 from textmech.reference.certificate import certify as module
 from textmech.reference.certificate import reaction_check as at_states
 from textmech.reference.certificate.agreement import Check
-from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
+from textmech.reference.mechanism.modes.spatial_mode import SpatialMultibody
 from textmech.reference.motion.follow import TOLERANCE
 from textmech.reference.solve import solve
 from textmech.reference.system import Array, Only

@@ -16,7 +16,7 @@ from given.turning_bodies import J
 from textmech.reference.certificate import laws
 from textmech.reference.certificate.agreement import Check
 from textmech.reference.formalisms import voronets
-from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
+from textmech.reference.mechanism.modes.spatial_mode import SpatialMultibody
 from textmech.reference.system import Array, Mode
 
 TIMES = np.linspace(0.0, 2.0, 5)

@@ -16,7 +16,7 @@ from given.mutants import mutant
 from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.reference.certificate import agreement, errors
 from textmech.reference.certificate.agreement import Check
-from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
+from textmech.reference.mechanism.modes.spatial_mode import SpatialMultibody
 from textmech.reference.states import answer
 from textmech.reference.states import answer as held
 from textmech.reference.system import System

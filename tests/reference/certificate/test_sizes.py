@@ -14,7 +14,7 @@ from given import scenes
 
 from textmech.cases.case import Case
 from textmech.reference.mechanism.modes.mode import Multibody
-from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
+from textmech.reference.mechanism.modes.spatial_mode import SpatialMultibody
 from textmech.reference.solve import Solution, solve
 from textmech.reference.system import Array
 

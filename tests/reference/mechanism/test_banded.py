@@ -11,8 +11,8 @@ from given.engine_scenes import chain
 from textmech.cases.scene import Anchor, Joint, Scene
 from textmech.reference.formalisms import lagrange
 from textmech.reference.mechanism.constraints.banded_solver import band
-from textmech.reference.mechanism.constraints.constraint import assembled
 from textmech.reference.mechanism.constraints.joint_constraints import constraints
+from textmech.reference.mechanism.constraints.equation_table import Rows, Table
 from textmech.reference.mechanism.kinematics.coordinates import Coordinates
 from textmech.reference.mechanism.modes.mode import Multibody, SingularPose
 from textmech.reference.system import Array
@@ -31,6 +31,11 @@ def ring(n: int) -> Scene:
     scene, _ = chain(n)
     end = Joint("end", "slide", Anchor(f"b{n - 1}", "end"), Anchor("ground", "O"), (0.6, 0.8))
     return replace(scene, joints={**scene.joints, "end": end})
+
+
+def assembled(scene: Scene, where: Coordinates) -> Rows:
+    parts = constraints(scene, where)
+    return Rows(Table(where, parts), parts)
 
 
 HUB = Anchor("b0", "end")
@@ -87,7 +92,7 @@ def test_the_order_in_which_joints_are_written_does_not_matter():
     widths = []
     for name in ("chain", "shuffled"):
         where = Coordinates(SCENES[name])
-        rows = assembled(constraints(SCENES[name], where), where)
+        rows = assembled(SCENES[name], where)
         widths.append(band(rows, np.array(where.masses)).width)  # type: ignore[union-attr]
     assert widths[0] == 3  # two rows of a joint, and the two of the next
     assert widths[1] <= 5
@@ -99,7 +104,7 @@ def test_a_star_is_no_band():
     joints = {f"j{i}": Joint(f"j{i}", "pin", HUB, Anchor(f"b{i}", "start")) for i in range(1, 20)}
     star = replace(scene, joints=joints)
     where = Coordinates(star)
-    assert band(assembled(constraints(star, where), where), np.array(where.masses)) is None
+    assert band(assembled(star, where), np.array(where.masses)) is None
 
 
 def test_the_joint_that_holds_nothing_is_named():

@@ -9,7 +9,7 @@ from given import random_scenes
 from textmech.cases.scene import GROUND, Anchor, Contact, GroundPoint, Joint, Scene, shape
 from textmech.cases.scene.joint import FREEDOMS
 from textmech.reference.formalisms.derivative import along
-from textmech.reference.mechanism.constraints.constraint import Constraint
+from textmech.reference.mechanism.constraints.constraint import Constraint, tracked
 from textmech.reference.mechanism.constraints.contact import at_rest, normal, tangent
 from textmech.reference.mechanism.constraints.joint_constraints import constraints
 from textmech.reference.mechanism.kinematics.coordinates import Coordinates
@@ -86,12 +86,22 @@ def states(scene: Scene, seed: int = 5) -> list[tuple[float, Array, Array]]:
     ]
 
 
+def excess(c: Constraint, t: Array, q: Array, v: Array) -> Array:
+    """g − f_a q̇ᵃ, at complex times and places."""
+    f_a, g, _ = c.alone.rows(t + 0j, q, v)
+    return g - f_a @ v
+
+
+def point(end: Anchor, where: Coordinates, t: float, q: Array) -> Array:
+    return np.array(tracked(end, where).places(t, q.tolist()))
+
+
 @pytest.mark.parametrize("name", [*KINDS, "rolling", "touching"])
 def test_rows_and_right_sides_follow_from_the_places(name: str) -> None:
     """(2.15) f_a = ∂p/∂q, g = −∂p/∂t, γ = −ḟ_a q̇ + ġ of the places p: all by the complex step."""
     for t, q, v in states(touching() if name == "touching" else made(name)):
         for c in held(name, q):
-            rows, g, gamma = c.alone(t, q, v)
+            rows, g, gamma = c.alone.rows(t, q, v)
 
             def places(t: Array, q: Array, c: Constraint = c) -> Array:
                 return np.array([x + 0j for x in c.places(complex(t), q.tolist())])
@@ -101,7 +111,7 @@ def test_rows_and_right_sides_follow_from_the_places(name: str) -> None:
             np.testing.assert_allclose(rows, np.transpose(slopes), atol=EXACT)
             np.testing.assert_allclose(g, -along(places, (t, q), (1.0, still)), atol=EXACT)
             moving = along(
-                lambda t, q, c=c, v=v: c.alone(t + 0j, q, v)[1] - c.alone(t + 0j, q, v)[0] @ v,
+                lambda t, q, c=c, v=v: excess(c, t, q, v),
                 (t, q),
                 (1.0, v),
             )
@@ -141,9 +151,10 @@ def test_what_a_joint_leaves_free_and_holds(name: str) -> None:
     scene = made(name)
     joint, where = scene.joints["j"], Coordinates(scene)
     for t, q, _ in states(scene):
-        a, b = (where.point(end, t, q.tolist(), q.tolist()) for end in (joint.a, joint.b))
-        phi_a, phi_b = (0.0 if p.phi is None else q[p.phi] for p in (a, b))
-        x, y = np.subtract(b.r, a.r)
+        ends = (joint.a, joint.b)
+        columns = [where.columns.get(end.body, (0, None))[1] for end in ends]
+        phi_a, phi_b = (0.0 if column is None else q[column] for column in columns)
+        x, y = np.subtract(*(point(end, where, t, q) for end in reversed(ends)))
         turn = phi_a + np.arctan2(joint.along[1], joint.along[0])
         expected = [y * np.cos(turn) - x * np.sin(turn)] if joint.shifts else [x, y]
         if joint.swings:
@@ -175,8 +186,8 @@ def test_the_reaction_is_the_force_of_the_first_part_on_the_second(name: str) ->
         np.testing.assert_allclose(body.mass * a[xy : xy + 2], weight + F, atol=1e3 * EXACT)
         if phi is not None:
             # A slide that is open by Δ (these are any states) hands its force over at the second.
-            at = mechanism.where.point(joint.b if joint.shifts else end, t, q.tolist(), v.tolist())
-            d = np.array(at.r) - q[xy : xy + 2]
+            at = point(joint.b if joint.shifts else end, mechanism.where, t, q)
+            d = at - q[xy : xy + 2]
             moment = d[0] * F[1] - d[1] * F[0] + sign * force.get("j.torque", 0.0)
             np.testing.assert_allclose(body.inertia * a[phi], moment, atol=1e3 * EXACT)
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -10,13 +9,15 @@ from given import edges, scenes
 from given.multibody_laws import EXACT, balance, lagrangian
 
 from textmech.cases.mistake import CaseError
-from textmech.cases.scene import Signal
+from textmech.cases.scene import Anchor, Signal
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
 from textmech.reference.formalisms import lagrange
-from textmech.reference.mechanism.constraints import constraint_jacobian as blades
 from textmech.reference.mechanism.constraints import joint_constraints as permanent
+from textmech.reference.mechanism.constraints.constraint import Constraint
 from textmech.reference.mechanism.constraints.constraint_terms import FIRST, Carried, Given
+from textmech.reference.mechanism.kinematics import signal
+from textmech.reference.mechanism.kinematics.kinematics import Row
 from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.solve import solve
 from textmech.reference.system import Array
@@ -102,25 +103,22 @@ def test_gamma_is_the_derivative_of_the_rows(tmp_path: Path) -> None:
             np.testing.assert_allclose(found.rows(t, q, v)[2], expected, atol=EXACT)
 
 
-def turning_lost(self: Any, t: Any, q: Any, v: Any) -> list[Any]:
+def turning_lost(row: Row) -> Row:
     """γ = 0: the blade would not turn."""
-    x, y, gamma = sound(self, t, q, v)
-    return [x, y, 0.0 * gamma]
+    return Row(row.loads, row.g, 0.0)
 
 
-def gamma_reversed(self: Any, t: Any, q: Any, v: Any) -> list[Any]:
-    x, y, gamma = sound(self, t, q, v)
-    return [x, y, -gamma]
+def gamma_reversed(row: Row) -> Row:
+    return Row(row.loads, row.g, -row.gamma)
 
 
-def row_reversed(self: Any, t: Any, q: Any, v: Any) -> list[Any]:
+def row_reversed(row: Row) -> Row:
     """The sign of the row without that of its lever."""
-    x, y, gamma = sound(self, t, q, v)
-    return [-x, -y, -gamma]
+    loads = [(part, None if F is None else -F, M) for part, F, M in row.loads]
+    return Row(loads, row.g, -row.gamma)
 
 
-sound = blades.Blades.__call__
-PLANTED: dict[str, Callable[..., Any]] = {
+PLANTED: dict[str, Callable[[Row], Row]] = {
     "no γ": turning_lost, "γ with the wrong sign": gamma_reversed,
     "the row's sign": row_reversed,
 }  # fmt: skip
@@ -131,7 +129,8 @@ PLANTED: dict[str, Callable[..., Any]] = {
 def test_planted_rows_are_seen(
     planted: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(blades.Blades, "__call__", PLANTED[planted])
+    sound = Carried.row
+    monkeypatch.setattr(Carried, "row", lambda *given: PLANTED[planted](sound(*given)))
     found = mode(tmp_path, "free")
     assert max(law_of(found), observed(found, tmp_path, "free")) > 1e-3
 
@@ -148,19 +147,20 @@ def test_along_for_across_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
 def test_a_speed_with_the_wrong_sign_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    given = blades.Laws.__call__
-    wrong = lambda self, t, q, v: [[-x for x in row] for row in given(self, t, q, v)]  # noqa: E731
-    monkeypatch.setattr(blades.Laws, "__call__", wrong)
+    sound = Given.row
+    monkeypatch.setattr(Given, "row", lambda *given: -sound(*given))
     assert observed(mode(tmp_path, "sine"), tmp_path, "sine") > 0.1
 
 
 @pytest.mark.mutant("a driven blade's speed without its rate")
 def test_a_speed_without_its_rate_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(blades, "slope", lambda law, t: (0.0,))
+    monkeypatch.setattr(signal, "SLOPES", dict.fromkeys(signal.SLOPES, lambda law, t: 0.0))
     assert law_of(mode(tmp_path, "sine")) > 1e-3
 
 
-def test_a_blade_has_no_place() -> None:
+def test_a_blade_has_no_place(tmp_path: Path) -> None:
+    free = mode(tmp_path, "free")
+    where, at = free.where, (Anchor(next(iter(free.scene.bodies)), "center"),)
     for term in (Carried(FIRST, (1.0, 0.0)), Given(Signal("constant", (1.0,)))):
-        with pytest.raises(TypeError, match="place"):
-            term.place([])
+        row = Constraint("blade", at, ((term,),), ((),), None, where)
+        assert np.isnan(row.places(0.0, [0.0, 0.0, 0.0])).all()

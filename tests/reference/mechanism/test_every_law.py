@@ -11,9 +11,8 @@ import pytest
 from given import scenes
 from given.laws_in_time import ALL, LAWS, MOVING, PRESCRIBED, words
 
-from textmech.cases.scene import Signal
 from textmech.cases.scene.observe import observe
-from textmech.reference.mechanism.constraints.space import rolling
+from textmech.reference.mechanism.kinematics import signal
 from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import follow
 
@@ -141,17 +140,12 @@ def test_a_law_moves_things_as_its_number_says(where: str, law: str, tmp_path: P
     assert off(tmp_path, where, law) < KNOWN
 
 
-@pytest.mark.mutant("in space a drive by polynomial or table is one by a sine")
+@pytest.mark.mutant("a drive by polynomial or table is one by a sine")
 @pytest.mark.parametrize("law", ["polynomial", "table"])
 def test_a_law_taken_for_a_sine_is_seen(
     law: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """As the first words for drives in space had it."""
-
-    def else_a_sine(known: Signal, t: float) -> tuple[float]:
-        at = known.angular_frequency * t + known.phase
-        return (known.amplitude[0] * np.sin(at),)
-
-    monkeypatch.setattr(rolling, "signal", else_a_sine)
-    monkeypatch.setattr(rolling, "slope", lambda known, t: (0.0,))
+    monkeypatch.setitem(signal.SIZES, law, signal.SIZES["sine"])  # type: ignore[arg-type]
+    monkeypatch.setitem(signal.SLOPES, law, lambda known, t: 0.0)  # type: ignore[arg-type]
     assert off(tmp_path, "named slide", law) > 0.1

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from given import scenes
 
-from textmech.reference.mechanism.constraints import constraint_jacobian as assembled
-from textmech.reference.mechanism.constraints import constraint_jacobian as blades
+from textmech.reference.mechanism.kinematics import signal
 from textmech.reference.solve import solve
 
 HUNG = """\
@@ -63,6 +62,5 @@ def test_an_accelerated_pivot_is_another_gravity(kind: str, tmp_path: Path) -> N
 def test_a_lost_acceleration_is_seen(
     kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    for module in (assembled, blades):
-        monkeypatch.setattr(module, "bend", lambda law, t: (0.0, 0.0))
+    monkeypatch.setattr(signal, "BENDS", dict.fromkeys(signal.BENDS, lambda law, t: 0.0))
     assert apart(kind, tmp_path) > 1e-3

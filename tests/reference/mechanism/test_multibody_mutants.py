@@ -10,11 +10,10 @@ from given import random_scenes
 from given.multibody_laws import EXACT, Law, balance, lagrangian
 
 from textmech.cases.scene import GROUND, Anchor, Body, GroundPoint, Joint, Scene, Spring, shape
-from textmech.reference.mechanism.constraints.constraint_jacobian import Levers
 from textmech.reference.mechanism.constraints.constraint_terms import Line
-from textmech.reference.mechanism.forces.action import pulls
-from textmech.reference.mechanism.kinematics.coordinates import Point
-from textmech.reference.mechanism.modes import mode as module
+from textmech.reference.mechanism.forces import action
+from textmech.reference.mechanism.kinematics.frame import Vec
+from textmech.reference.mechanism.kinematics.kinematics import Kinematics, Part, Point, Row
 from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.system import Array
 
@@ -40,42 +39,31 @@ class Rising(Multibody):
         return Multibody(scene, self.start()).accelerations(t, q, v)
 
 
-def without_moment(force: Any, where: Any, t: Any, q: Any, v: Any, Q: Any) -> None:
+def without_moment(k: Kinematics, p: Point, F: Vec) -> Any:
     """d × F of a force off centre is lost."""
-    if not isinstance(force, Spring):
-        original(force, where, t, q, v, Q)
-        return
-    for F, p in pulls(force, where, t, q, v):
-        if p.xy is not None:
-            Q[p.xy : p.xy + 2] += F
+    return p.part, F, None
 
 
-original = module.act
+def convective(self: Kinematics, part: Part, x: Any) -> Point:
+    """Points with ω × (ω × d) of the wrong sign: in a pin that is all of γ."""
+    found = points(self, part, x)
+    return replace(found, beside=-found.beside)
 
 
-def convective(self: Levers, t: Any, q: Any, v: Any) -> list[Any]:
-    """The levers with γ of the wrong sign: in a pin that is all of ω² d."""
-    cross, gamma = levers(self, t, q, v)
-    return [cross, -gamma]
-
-
-levers = Levers.__call__
-
-
-def opposite_gamma(self: Line, a: Point, b: Point) -> tuple[Any, ...]:
+def opposite_gamma(self: Line, *given: Any) -> Row:
     """A slide with γ of the wrong sign."""
-    *f, gamma = line(self, a, b)
-    return *f, -gamma
+    row = line(self, *given)
+    return Row(row.loads, row.g, -row.gamma)
 
 
-def without_coriolis(self: Line, a: Point, b: Point) -> tuple[Any, ...]:
-    """A slide without 2 ω u·Δ̇."""
-    *f, gamma = line(self, a, b)
-    u, slip = self.direction((a, b)), np.subtract(b.r_dot, a.r_dot)
-    return *f, gamma + 2 * a.omega * (u[0] * slip[1] - u[1] * slip[0])
+def without_coriolis(self: Line, k: Kinematics, ends: Any) -> Row:
+    """A slide without 2 u̇·Δ̇."""
+    row, u_dot = line(self, k, ends), k.carried(ends[self.a].part, self.u).u_dot
+    slip = ends[self.b].r_dot - ends[self.a].r_dot
+    return Row(row.loads, row.g, row.gamma + 2.0 * (u_dot @ slip))
 
 
-line = Line.numbers
+points, line = Kinematics.fixed_in, Line.row
 
 
 def mutated(kind: type[Multibody] = Multibody) -> Multibody:
@@ -118,7 +106,7 @@ def test_law_sees_a_wrong_body(law: Law, kind: type[Multibody]) -> None:
 @pytest.mark.mutant("moment d × F of a force off centre left out")
 @pytest.mark.parametrize("law", [lagrangian, balance])
 def test_law_sees_a_lost_moment(law: Law, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "act", without_moment)
+    monkeypatch.setattr(action, "pushed", without_moment)
     assert seen(law, mutated()) > 1e-4
 
 
@@ -126,9 +114,9 @@ def test_law_sees_a_lost_moment(law: Law, monkeypatch: pytest.MonkeyPatch) -> No
 @pytest.mark.parametrize(
     ("kind", "name", "wrong"),
     [
-        (Levers, "__call__", convective),
-        (Line, "numbers", opposite_gamma),
-        (Line, "numbers", without_coriolis),
+        (Kinematics, "fixed_in", convective),
+        (Line, "row", opposite_gamma),
+        (Line, "row", without_coriolis),
     ],
     ids=["sign of ω² d in a pin", "sign of γ in a slide", "no Coriolis term in a slide"],
 )

@@ -12,8 +12,8 @@ from scipy.integrate import solve_ivp
 from textmech.cases.case import Case
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import ANGLE, OMEGA, VX, VY, X, Y
-from textmech.reference.mechanism.constraints.constraint_terms import Line
-from textmech.reference.mechanism.constraints.rim_contact import Apart, Around
+from textmech.reference.mechanism.constraints.constraint_terms import Apart, Around, Line
+from textmech.reference.mechanism.kinematics.kinematics import Row
 from textmech.reference.mechanism.modes.mechanism import BadStart
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
@@ -73,13 +73,23 @@ def test_a_disk_rolls_on_a_side_that_turns_as_derived_by_hand(tmp_path: Path) ->
     np.testing.assert_allclose(observe(case.scene, motion, "touch.slip"), 0.0, atol=1e-12)
 
 
-def without_gamma(numbers: Any) -> Any:
-    return lambda self, a, b: (*numbers(self, a, b)[:-1], 0.0)
+def without_gamma(row: Any) -> Any:
+    def lost(*given: Any) -> Row:
+        found = row(*given)
+        return Row(found.loads, found.g, 0.0)
+
+    return lost
 
 
-def without_turn(numbers: Any) -> Any:
+def without_turn(row: Any) -> Any:
     """The first body's turn does not move the second along."""
-    return lambda self, a, b: tuple(0.0 if i == 2 else x for i, x in enumerate(numbers(self, a, b)))
+
+    def lost(self: Any, k: Any, ends: Any) -> Row:
+        found, first = row(self, k, ends), ends[self.a].part
+        loads = [(part, F, None if part is first else M) for part, F, M in found.loads]
+        return Row(loads, found.g, found.gamma)
+
+    return lost
 
 
 @pytest.mark.mutant("γ of a side that turns left out")
@@ -88,7 +98,7 @@ def test_a_lost_curvature_of_a_side_that_turns_is_seen(
 ) -> None:
     case = tray(tmp_path)
     known = by_hand(case.times)
-    monkeypatch.setattr(Line, "numbers", without_gamma(Line.numbers))
+    monkeypatch.setattr(Line, "row", without_gamma(Line.row))
     found = follow(scenes.mechanism(case), case.times[:4]).y
     places = found[:, [case_column(case, "disk.x"), case_column(case, "disk.y")]]
     off = np.abs(places - np.stack([known["x"], known["y"]], axis=1)[:4])
@@ -100,7 +110,7 @@ def test_a_lost_lever_of_a_side_that_turns_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Then what rolls with the side starts into it."""
-    monkeypatch.setattr(Line, "numbers", without_turn(Line.numbers))
+    monkeypatch.setattr(Line, "row", without_turn(Line.row))
     with pytest.raises(BadStart, match="touch starts into the top of tray"):
         follow(scenes.mechanism(tray(tmp_path)), np.array([0.0, 0.1]))
 
@@ -171,7 +181,9 @@ def test_a_lost_curvature_of_rims_is_seen(
     rates = [mode.rows(0.0, q + h * v, v)[0] @ v for h in (-1e-5, 1e-5)]
     known = -(rates[1] - rates[0]) / 2e-5
     np.testing.assert_allclose(mode.rows(0.0, q, v)[2], known, atol=1e-8)
-    monkeypatch.setattr(term, "numbers", without_gamma(term.numbers))
+    monkeypatch.setattr(term, "row", without_gamma(term.row))
+    planted = scenes.mechanism(rolls(tmp_path, 6.0, -4.0))
+    mode = planted.modes[planted.start()[0]]
     assert np.abs(mode.rows(0.0, q, v)[2] - known).max() > 0.1
 
 

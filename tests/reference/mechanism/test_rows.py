@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from textmech.cases.scene import GROUND, Anchor, GroundPoint, Scene, shape
-from textmech.reference.mechanism.constraints.constraint_jacobian import G, Rows
+from textmech.reference.mechanism.constraints.constraint import Constraint
 from textmech.reference.mechanism.constraints.constraint_terms import Along, Line, Term, Turning
+from textmech.reference.mechanism.constraints.equation_table import G
 from textmech.reference.mechanism.kinematics.coordinates import Coordinates
 from textmech.reference.system import Array
 
@@ -38,10 +39,13 @@ def E(phi: float) -> Array:
     return np.array([[np.cos(phi), -np.sin(phi)], [np.sin(phi), np.cos(phi)]])
 
 
+def held(term: Term, ends: tuple[Anchor, ...]) -> Constraint:
+    return Constraint("j", ends, ((term,),), (("fx", "fy"),), None, WHERE)
+
+
 def row(term: Term, ends: tuple[Anchor, ...], t: float, q: Array, v: Array) -> Array:
     """f_a, g and γ, (n + 2,)."""
-    points = [WHERE.attached[end.body, end.point] for end in ends]
-    (f,), (g,), (gamma,) = Rows([(points, (term,))], len(q))(t, q, v)
+    (f,), (g,), (gamma,) = held(term, ends).alone.rows(t, q, v)
     return np.array([*f, g, gamma])
 
 
@@ -104,11 +108,15 @@ def test_line_from_and_to_the_ground(state: tuple[float, Array, Array]) -> None:
 
 def test_places(state: tuple[float, Array, Array]) -> None:
     """u·r of a point, φ times the axis, u·Δ: what the rows are the rates of."""
-    t, q, v = state
-    ends = [WHERE.point(end, t, q.tolist(), v.tolist()) for end in (BAR, BLOCK)]
+    t, q, _ = state
     r_P, r_Q = q[:2] + E(q[2]) @ P, q[3:5] + E(q[5]) @ Q
     u = E(q[2]) @ U
-    assert Along(1, U).place(ends) == pytest.approx(np.dot(U, r_Q), abs=EXACT)
-    assert Turning(1, 0.25).place(ends) == 0.25 * q[5]
-    assert Line(0, 1, U).place(ends) == pytest.approx(u @ (r_Q - r_P), abs=EXACT)
-    assert Line(0, 1, U).direction(ends) == pytest.approx(tuple(u), abs=EXACT)
+
+    def place(term: Term) -> float:
+        return held(term, (BAR, BLOCK)).places(t, q.tolist())[0]
+
+    assert place(Along(1, U)) == pytest.approx(np.dot(U, r_Q), abs=EXACT)
+    assert place(Turning(1, 0.25)) == 0.25 * q[5]
+    assert place(Line(0, 1, U)) == pytest.approx(u @ (r_Q - r_P), abs=EXACT)
+    force = held(Line(0, 1, U), (BAR, BLOCK)).reactions(t, q.tolist(), [2.0])
+    assert (force["j.fx"], force["j.fy"]) == pytest.approx(tuple(2.0 * u), abs=EXACT)

@@ -10,8 +10,10 @@ from given import scenes, slowed
 from given.multibody_laws import EXACT, balance, lagrangian
 
 from textmech.cases.scene.observe import observe
-from textmech.reference.mechanism.forces import drag, magnetic
-from textmech.reference.mechanism.forces.action import dissipation
+from textmech.reference.mechanism.forces import action
+from textmech.reference.mechanism.forces.action import actions
+from textmech.reference.mechanism.forces.ingredients import Ingredients
+from textmech.reference.mechanism.kinematics.frame import Vec
 from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.solve import solve
 
@@ -66,24 +68,37 @@ def test_speed_along_a_slide_that_turns(tmp_path: Path) -> None:
     assert observe(case.scene, motion, "oil.speed")[2] == pytest.approx(slope, rel=1e-5)
 
 
+def opposite(loads: Any) -> Any:
+    return lambda *given: [(part, -F, None if M is None else -M) for part, F, M in loads(*given)]
+
+
+def straight(along: Any) -> Any:
+    """A rail that does not turn."""
+
+    def planted(self: Any, k: Any) -> Any:
+        a, b, _, _ = along(self, k)
+        u = Vec((1.0, 0.3))
+        return a, b, u, u @ (b.r_dot - a.r_dot)
+
+    return planted
+
+
 PLANTED: dict[str, tuple[Any, str, Any]] = {
-    "power law with the wrong sign": (drag, "power_law", lambda law: lambda *n: -law(*n)),
-    "drag with the wrong sign": (drag, "viscous", lambda law: lambda F, v: -law(F, v)),
-    "magnetic force of −e": (magnetic, "magnetic", lambda law: lambda e, B, v: law(-e, B, v)),
+    "power law with the wrong sign": (action, "power_law", lambda law: lambda *n: -law(*n)),
+    "drag with the wrong sign": (action.Dragged, "loads", opposite),
+    "magnetic force of −e": (action.Deflected, "loads", opposite),
     "another power": (
-        drag, "power_law", lambda law: lambda d, alpha, v: law(d, alpha + 0.01, v),
+        action, "power_law", lambda law: lambda d, alpha, v: law(d, alpha + 0.01, v),
     ),
     "a dissipation of another power": (
-        drag, "power_loss", lambda law: lambda d, alpha, square: law(d, alpha, square) * 1.01,
+        action.Lost, "__call__", lambda law: lambda *given: law(*given) * 1.01,
     ),
 }  # fmt: skip
-SHARED: dict[str, tuple[str, Any]] = {
+SHARED: dict[str, tuple[Any, str, Any]] = {
     "the coefficient of the other way": (
-        "one_way", lambda law: lambda d, speed: law(d, -speed),
+        action, "one_way", lambda law: lambda d, speed: law(d, -speed),
     ),
-    "a rail that does not turn": (
-        "_speed", lambda law: lambda a, b, u: law(a, b, (1.0, 0.3)),
-    ),
+    "a rail that does not turn": (action.Slowed, "_along", straight),
 }  # fmt: skip
 
 
@@ -104,16 +119,16 @@ def test_what_both_derivations_share_is_seen_by_quantities(
     planted: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The power that the cart and the rod lose in the rail is force × speed, as observed."""
-    name, change = SHARED[planted]
+    module, name, change = SHARED[planted]
     mode, case = built(tmp_path), scenes.typed(tmp_path, slowed.SLOWED)
     motion = solve(case).trajectory
     speed, force = (observe(case.scene, motion, f"oil.{field}")[0] for field in ("speed", "force"))
     q, v = mode.start()
 
     def lost() -> float:
-        oil = case.scene.forces["oil"]
-        return dissipation(oil, mode.where, 0.0, q.tolist(), v.tolist()) * 2.5
+        oil = actions([case.scene.forces["oil"]])
+        return Ingredients(mode.where, oil).D(0.0, q, v) * 2.5
 
     assert lost() == pytest.approx(-force * speed, rel=1e-12)
-    monkeypatch.setattr(drag, name, change(getattr(drag, name)))
+    monkeypatch.setattr(module, name, change(getattr(module, name)))
     assert abs(lost() + force * speed) > 1e-2 * abs(force * speed)

@@ -9,7 +9,7 @@ from given.multibody_laws import EXACT, balance, lagrangian
 
 from textmech.cases.scene.observe import observe
 from textmech.reference.laws import force
-from textmech.reference.mechanism.forces import turning
+from textmech.reference.mechanism.forces import action, turning
 from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.solve import solve
 
@@ -59,8 +59,8 @@ def test_typed_values() -> None:
 def test_a_torque_with_the_wrong_sign_is_seen(
     law: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    sound = getattr(turning, law)
-    monkeypatch.setattr(turning, law, lambda *numbers: -sound(*numbers))
+    sound = getattr(action, law)
+    monkeypatch.setattr(action, law, lambda *numbers: -sound(*numbers))
     assert violated(built(tmp_path)) > 1e-3
 
 
@@ -68,6 +68,6 @@ def test_a_torque_with_the_wrong_sign_is_seen(
 def test_a_torque_on_one_part_alone_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    sound = turning.couples
-    monkeypatch.setattr(turning, "couples", lambda *given: list(sound(*given))[1:])
+    sound = turning.Between.couple
+    monkeypatch.setattr(turning.Between, "couple", lambda *given: sound(*given)[1:])
     assert violated(built(tmp_path)) > 1e-3

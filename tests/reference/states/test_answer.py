@@ -18,12 +18,12 @@ from textmech.cases.scene.space.joint import rate_of
 from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Array
 from textmech.reference.laws import energy, inertia, momentum, rotation
-from textmech.reference.mechanism.kinematics.space.chain import SpatialChain
 from textmech.reference.solve import solve
 from textmech.reference.start.mechanism import mechanism
 from textmech.reference.stated import Stated
 from textmech.reference.states.answer import answered, generated_mode, rows
 from textmech.reference.states.derived import derived, efforts
+from textmech.reference.states.spatial_chain import SpatialChain
 from textmech.reference.system import Vector
 from textmech.reference.systems.robots import arm
 from textmech.reference.systems.states import hung_shapes, moving_body, planar_bodies
@@ -146,7 +146,7 @@ def test_a_chain_is_the_mechanism_with_driven_joints(text: str, tmp_path: Path) 
             assert exerted[effort] == pytest.approx(wanted[effort], rel=1e-9, abs=1e-9), effort
         changes = mode.accelerations(0.0, at, moving)
         last = next(name for name in ("box", "hand") if name in poses)
-        place = mode.where.columns[last].r_dot
+        place = mode.where.slots[last].r_dot
         assert changes[place] == pytest.approx(wanted[f"{last}.ax"], rel=1e-9, abs=1e-9)
 
 

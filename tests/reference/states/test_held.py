@@ -10,9 +10,9 @@ import pytest
 from given.claims import CHAIN, claimed
 
 from textmech.cases.scene.space.scene import SpatialScene
-from textmech.reference.mechanism.kinematics.space import chain
-from textmech.reference.mechanism.kinematics.space.chain import Moving, SpatialChain
+from textmech.reference.states import spatial_chain as chain
 from textmech.reference.states.answer import answered, misread
+from textmech.reference.states.spatial_chain import Moving, SpatialChain
 
 CHECKS = ("joints hold (2.10), (2.15)", "coordinates read back")
 AT, SHIFTED, TURNED = Moving.at, Moving.shifted, Moving.turned

@@ -1,5 +1,6 @@
 """Friction at unrelated states: three writings of its laws, and mistakes planted in each."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,8 +10,8 @@ from given import scenes
 from textmech.cases.scene import Bounds, Drag
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
-from textmech.reference.mechanism.forces import directional_drag as scrape
-from textmech.reference.mechanism.forces import drag
+from textmech.reference.mechanism.forces import action
+from textmech.reference.mechanism.kinematics.frame import Vec
 from textmech.reference.states.answer import LAW, answered
 from textmech.reference.systems.states import sliding_points
 
@@ -44,19 +45,37 @@ def test_friction_takes_energy_and_of_an_edge_not_only_against_the_velocity() ->
     assert sizes == pytest.approx([np.hypot(1.5, 9.0), np.hypot(4.0, 9.0)])
 
 
+def unturned(ways: Any) -> Any:
+    """An edge along the axes of the ground, wherever its body is turned to."""
+
+    def planted(self: Any, k: Any) -> Any:
+        along, r_dot = Vec(self.force.along), k.point(self.force.at).r_dot
+        both = (along, Vec((-along[1], along[0])))
+        return [(d, e, e @ r_dot) for d, e in zip(self.force.ways, both, strict=True)]
+
+    return planted
+
+
+def powered(*, edge: bool) -> Any:
+    """A power that is 1 % off, of edges or of points: these go all ways alike, and say 1."""
+
+    def change(law: Any) -> Any:
+        def planted(self: Any, squared: Any, way: Any) -> Any:
+            alpha = self.alpha * (1.01 if edge == (way != 1.0) else 1.0)
+            return law(replace(self, alpha=alpha), squared, way)
+
+        return planted
+
+    return change
+
+
 PLANTED: dict[str, tuple[Any, str, Any]] = {
-    "an edge that does not turn": (
-        scrape, "_resolved", lambda law: lambda u, p: law(u, p._replace(angle=0.0 * p.angle)),
-    ),
+    "an edge that does not turn": (action.Dragged, "_ways", unturned),
     "forward for backward": (
-        scrape, "one_way", lambda law: lambda d, v: law(Bounds(d.backward, d.forward), v),
+        action, "one_way", lambda law: lambda d, v: law(Bounds(d.backward, d.forward), v),
     ),
-    "a power of an edge that is 1 % off": (
-        scrape, "power_loss", lambda law: lambda d, a, square: law(d, 1.01 * a, square),
-    ),
-    "a power of a point that is 1 % off": (
-        drag, "power_loss", lambda law: lambda d, a, square: law(d, 1.01 * a, square),
-    ),
+    "a power of an edge that is 1 % off": (action.Lost, "__call__", powered(edge=True)),
+    "a power of a point that is 1 % off": (action.Lost, "__call__", powered(edge=False)),
     "dry friction that pushes": (
         sliding_points, "coulomb", lambda law: lambda mu, F, v: -law(mu, F, v),
     ),

@@ -9,8 +9,9 @@ from given import scenes
 
 from textmech.cases.scene.space.scene import SpatialScene
 from textmech.reference.formalisms.derivative import along
-from textmech.reference.mechanism.constraints.space import blades
-from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
+from textmech.reference.mechanism.constraints.constraint_terms import Heading
+from textmech.reference.mechanism.kinematics.kinematics import Direction
+from textmech.reference.mechanism.modes.spatial_mode import SpatialMultibody
 from textmech.reference.start.space.assembly import assemble_in_space
 from textmech.reference.systems import written
 
@@ -55,25 +56,25 @@ def test_forces_are_those_of_the_system_written_by_hand() -> None:
     assert reactions() < 1e-11  # N, of 200 N in the joints
 
 
-directions = blades.Blades.directions
+left = Heading._left
 
 
-def backward(self: Any, bodies: Any) -> Any:
+def backward(self: Any, k: Any, ends: Any) -> Direction:
     """Its rate with the wrong sign."""
-    u, u_dot = directions(self, bodies)
-    return u, -u_dot
+    c = left(self, k, ends)
+    return Direction(c.u, -c.u_dot)
 
 
-def carried_along(self: Any, bodies: Any) -> Any:
+def carried_along(self: Any, k: Any, ends: Any) -> Direction:
     """u as if it were fixed in the body, so that it tilts with it."""
-    u, _ = directions(self, bodies)
-    return u, blades.cross(bodies.spin[self._at.body], u)
+    c = left(self, k, ends)
+    return Direction(c.u, k.frame.cross(ends[self.p].part.spin, c.u))
 
 
-def to_the_right(self: Any, bodies: Any) -> Any:
+def to_the_right(self: Any, k: Any, ends: Any) -> Direction:
     """To the right, for to the left."""
-    u, u_dot = directions(self, bodies)
-    return -u, -u_dot
+    c = left(self, k, ends)
+    return Direction(-c.u, -c.u_dot)
 
 
 @pytest.mark.mutant("direction of a blade in space: {wrong}")
@@ -83,5 +84,5 @@ def to_the_right(self: Any, bodies: Any) -> Any:
 def test_a_planted_mistake_is_seen(
     wrong: Callable[..., Any], law: Callable[[], float], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(blades.Blades, "directions", wrong)
+    monkeypatch.setattr(Heading, "_left", wrong)
     assert law() > 1e-3

@@ -12,8 +12,8 @@ from scipy.spatial.transform import Rotation
 
 from textmech.cases.mistake import CaseError
 from textmech.reference import determined
-from textmech.reference.mechanism.modes.space import mode as spatial
-from textmech.reference.mechanism.modes.space.mode import SpatialMultibody, solved, unit_sizes
+from textmech.reference.mechanism.modes import spatial_mode as spatial
+from textmech.reference.mechanism.modes.spatial_mode import SpatialMultibody, solved, unit_sizes
 from textmech.reference.solve import solve
 from textmech.reference.start.space.closure import SpatialClosure
 
@@ -175,7 +175,7 @@ def test_a_plane_loop_of_hinges_in_space_moves_as_in_the_plane(tmp_path: Path) -
     q, v = placed(found, in_space)
     rows, _, gamma = found.rows(0.0, q, v)
     sizes = unit_sizes(found.where)
-    applied = found._applied(0.0, v, found.layout.bodies(q, v))
+    applied = found.applied(0.0, q, v)
     a, _, ways = solved(found.where.M, rows, gamma, applied, sizes)
     assert len(ways) == 3
     np.testing.assert_allclose(a.reshape(3, 6)[:, [0, 1, 5]].ravel(), known, atol=ROUNDED)
@@ -191,9 +191,8 @@ def held_anyhow(monkeypatch: pytest.MonkeyPatch) -> None:
     """Lets a start pass that holds something twice, and solves its motion by rank."""
 
     def by_rank(self: Any, t: float, q: Any, v: Any) -> Any:
-        bodies = self.layout.bodies(q, v)
-        rows, _, gamma = self.constraints.at(t, bodies)
-        applied = self._applied(t, v, bodies)
+        rows, _, gamma = self.rows(t, q, v)
+        applied = self.applied(t, q, v)
         return solved(self.where.M, rows, gamma, applied, unit_sizes(self.where))[:2]
 
     monkeypatch.setattr(SpatialClosure, "dependent", lambda *_: None)

@@ -14,13 +14,13 @@ from given.random_space import MAKES, machine
 from given.space_machine import Machine, T
 
 from textmech.reference.formalisms import appell, voronets
-from textmech.reference.mechanism.constraints.space import blades, rolling
-from textmech.reference.mechanism.constraints.space import constraint_jacobian as assembled
-from textmech.reference.mechanism.constraints.space import constraint_terms as rows
-from textmech.reference.mechanism.forces.space import action
-from textmech.reference.mechanism.kinematics.space import attitude, coordinates, kinematics
-from textmech.reference.mechanism.modes.space import mode
-from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
+from textmech.reference.mechanism.constraints import constraint_terms as terms
+from textmech.reference.mechanism.constraints.equation_table import Table
+from textmech.reference.mechanism.forces import action
+from textmech.reference.mechanism.kinematics import attitude, spatial_coordinates
+from textmech.reference.mechanism.kinematics.frame import SPACE, Vec
+from textmech.reference.mechanism.kinematics.kinematics import Row
+from textmech.reference.mechanism.modes.spatial_mode import SpatialMultibody
 
 SEEN = 1e-3  # of the largest term: a mistake, and no rounding
 Patch = Callable[[pytest.MonkeyPatch], None]
@@ -34,82 +34,96 @@ def drawn() -> list[tuple[Machine, Any]]:
 
 
 def worst(law: str) -> float:
-    """The largest violation of a law by any of the machines."""
-    return max(LAWS[law](made.mode, T, made.q, v) for made, v in drawn())
+    """The largest violation of a law by any of the machines, each made anew."""
+    anew = {id(made): SpatialMultibody(made.mode.scene, made.mode.start()) for made, _ in drawn()}
+    return max(LAWS[law](anew[id(made)], T, made.q, v) for made, v in drawn())
 
 
 def in_ground_axes(patch: pytest.MonkeyPatch) -> None:
     """q̇ = ½ (0, ω) ∘ q: ω as if it stood in ground axes."""
-    patch.setattr(
-        coordinates, "rates",
-        lambda q, omega: attitude.rates(q, kinematics.back(attitude.matrices(q), omega)),
-    )  # fmt: skip
+
+    def turned(q: Any, omega: Any) -> Any:
+        return attitude.rates(q, np.einsum("kji,kj->ki", attitude.matrices(q), omega))
+
+    patch.setattr(spatial_coordinates, "rates", turned)
 
 
 def transposed(patch: pytest.MonkeyPatch) -> None:
     """E for its inverse: from ground axes to those of the body."""
-    patch.setattr(kinematics, "matrices", lambda q: attitude.matrices(q).swapaxes(1, 2))
+    rotation = type(SPACE).rotation
+
+    def inverse(self: Any, maths: Any, e: Any) -> Any:
+        w, x, y, z = e
+        return rotation(self, maths, (w, -x, -y, -z))
+
+    patch.setattr(type(SPACE), "rotation", inverse)
 
 
 def without_gyroscopic(patch: pytest.MonkeyPatch) -> None:
     """Without −ω × J ω of (2.33)."""
-    patch.setattr(SpatialMultibody, "_gyroscopic", lambda self, v, Q: None)
+    patch.setattr(action.Gyroscopic, "loads", lambda self, k: [])
 
 
 def as_printed(patch: pytest.MonkeyPatch) -> None:
     """Erratum 1: in the second component of (2.33) the sign before J₁ⱼ ωⱼ ω₃."""
-    right = SpatialMultibody._gyroscopic
+    right = action.Gyroscopic.loads
 
-    def printed(self: SpatialMultibody, v: Any, Q: Any) -> None:
-        right(self, v, Q)
-        for at, J in zip(self.where.spins, self._J, strict=True):
-            Q[at[1]] += 2 * (J @ v[at])[0] * v[at[2]]
+    def printed(self: Any, k: Any) -> Any:
+        ((part, F, M),) = right(self, k)
+        J, omega = k.scene.bodies[self.name].tensor.tolist(), part.omega
+        wrong = 2.0 * ((Vec(J[0]) @ omega) * omega[2])
+        return [(part, F, M + Vec((0.0, wrong, 0.0)))]
 
-    patch.setattr(SpatialMultibody, "_gyroscopic", printed)
+    patch.setattr(action.Gyroscopic, "loads", printed)
 
 
 def long_energies(patch: pytest.MonkeyPatch) -> None:
     """ω of a quaternion that has not the length 1, as if it had."""
-    patch.setattr(mode, "spin", lambda q, q_dot: attitude.spin(q, q_dot) * np.sum(q * q, axis=0))
+
+    def stretched(q: Any, q_dot: Any) -> Any:
+        return attitude.spin(q, q_dot) * np.sum(q * q, axis=0)
+
+    patch.setattr(spatial_coordinates, "spin", stretched)
 
 
 def long_places(patch: pytest.MonkeyPatch) -> None:
     """E of such a quaternion, as if it had."""
+    rotation = type(SPACE).rotation
 
-    def stretched(q: Any) -> Any:
-        return attitude.matrices(q) * np.sum(q * q, axis=1)[:, None, None]
+    def stretched(self: Any, maths: Any, e: Any) -> Any:
+        squared = e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + e[3] * e[3]
+        return tuple(column * squared for column in rotation(self, maths, e))
 
-    patch.setattr(kinematics, "matrices", stretched)
+    patch.setattr(type(SPACE), "rotation", stretched)
 
 
 def without_arm(patch: pytest.MonkeyPatch) -> None:
     """The moment of a force about the centre is lost."""
-    patch.setattr(action, "_cross", lambda a, b: 0.0 * b)
+    patch.setattr(action, "pushed", lambda k, p, F: (p.part, F, None))
 
 
-def at_the_centre(patch: pytest.MonkeyPatch) -> None:
+def changed(kind: Any, change: Callable[[Row], Row]) -> Patch:
+    """Rows of a kind with a mistake."""
+    sound = kind.row
+    return lambda patch: patch.setattr(kind, "row", lambda *given: change(sound(*given)))
+
+
+def without_moment(row: Row) -> Row:
     """The slip of the centre for that of the rim's point."""
-    patch.setattr(rolling, "skew", lambda rho: 0.0 * attitude.skew(rho))
+    return Row([(part, F, None) for part, F, _ in row.loads], row.g, row.gamma)
+
+
+def without_gamma(row: Row) -> Row:
+    """What f_a v̇ is without its γ."""
+    return Row(row.loads, row.g, 0.0)
 
 
 def on_the_other(patch: pytest.MonkeyPatch) -> None:
     """Reactions as the second part exerts them."""
-    told = assembled.SpatialRows.reactions
+    told = Table.reactions
     patch.setattr(
-        assembled.SpatialRows, "reactions",
-        lambda self, *at: {name: -x for name, x in told(self, *at).items()},
-    )  # fmt: skip
-
-
-def without_gamma(kind: Any) -> Patch:
-    """What f_a v̇ is without its γ."""
-    values = kind.values
-
-    def lost(self: Any, t: Any, bodies: Any) -> Any:
-        entries, g, gamma = values(self, t, bodies)
-        return entries, g, 0.0 * gamma
-
-    return lambda patch: patch.setattr(kind, "values", lost)
+        Table, "reactions", lambda self, *at: {name: -x for name, x in told(self, *at).items()}
+    )
 
 
 # The laws that see a mistake, and one that cannot, as it is of something else.
@@ -121,11 +135,15 @@ MISTAKES: dict[str, tuple[Patch, tuple[str, ...], str]] = {
     "energies of long quaternions": (long_energies, ("lengths",), "lagrangian"),
     "places of long quaternions": (long_places, ("lengths",), "lagrangian"),
     "a force without its arm": (without_arm, ("bodies",), "lengths"),
-    "slip of the centre": (at_the_centre, ("lowest points", "bodies"), "lengths"),
+    "slip of the centre": (
+        changed(terms.Lowest, without_moment), ("lowest points", "bodies"), "lengths",
+    ),
     "reactions on the other": (on_the_other, ("bodies",), "multipliers"),
 } | {
-    f"no gamma of {kind.__name__}": (without_gamma(kind), ("lagrangian", "multipliers"), "bodies")
-    for kind in (rows.Points, rows.Dots, rows.Lines, rolling.Rims, rolling.Drives, blades.Blades)
+    f"no gamma of {kind.__name__}": (
+        changed(kind, without_gamma), ("lagrangian", "multipliers"), "bodies",
+    )
+    for kind in (terms.Along, terms.Dot, terms.Line, terms.Lowest, terms.Given, terms.Heading)
 }  # fmt: skip
 
 

@@ -65,11 +65,17 @@ def test_the_machines_have_everything() -> None:
     made = [machine(seed, kind, driven=bool(seed % 2)) for kind in MAKES for seed in range(20)]
     joints = Counter(joint.kind for m in made for joint in m.joints.values())
     shapes = Counter(body.shape for m in made for body in m.bodies.values())
-    rows = Counter(type(part).__name__ for m in made for part in m.mode.constraints.parts)
+    rows = Counter(
+        type(term).__name__
+        for m in made
+        for part in m.mode.permanent
+        for terms in part.rows
+        for term in terms
+    )
     laws = {(type(f).__name__, f.signal.law) for m in made for f in m.mode.scene.signals()}
     assert min(joints[kind] for kind in ("hinge", "ball", "universal", "freedoms", "slide")) > 3
     assert shapes.keys() == {"rigid", "bar", "particle", "disk", "sphere"}
-    assert rows.keys() == {"Together", "Line", "Dot", "Rim", "Drive", "Blade"}
+    assert rows.keys() == {"Along", "Line", "Dot", "Lowest", "Turn", "Given", "Heading"}
     assert min(rows.values()) > 3
     assert len(laws) == 6
     assert max(np.max(np.abs(m.mode.f(T, m.q)), initial=0.0) for m in made) < 1e-14  # m

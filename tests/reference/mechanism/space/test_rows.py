@@ -12,11 +12,9 @@ from given import scenes
 
 from textmech.cases.scene.space.scene import SpatialScene
 from textmech.reference.formalisms.derivative import along
-from textmech.reference.mechanism.constraints.space import blades as pivots
-from textmech.reference.mechanism.constraints.space import constraint_terms as rows
-from textmech.reference.mechanism.constraints.space import rolling
-from textmech.reference.mechanism.kinematics.space import attitude
-from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
+from textmech.reference.mechanism.constraints.constraint_terms import Lowest
+from textmech.reference.mechanism.kinematics.kinematics import Row
+from textmech.reference.mechanism.modes.spatial_mode import SpatialMultibody
 from textmech.reference.start.space.assembly import assemble_in_space
 
 CASES = ["universal_shaft", "spatial_four_bar", "cat_turn", "tilting_disk.circle", "rolling_sphere"]
@@ -50,7 +48,8 @@ def left_of_rates(name: str) -> float:
     """(2.14), (2.15) f_a v − g is the rate of f."""
     mode, q, v = state(name)
     f_a, g, _ = mode.rows(T, q, v)
-    rates = (f_a @ v - g)[mode.constraints.holonomic]
+    held = [part.held or (None,) * part.size for part in mode.permanent]
+    rates = (f_a @ v - g)[[at is not None for each in held for at in each]]
     slopes = along(mode.f, (T, q), (1.0, mode.rates(T, q, v)))
     return float(np.max(np.abs(rates - slopes), initial=0.0) / max(np.max(np.abs(rates)), 1.0))
 
@@ -62,30 +61,16 @@ def test_rows_are_the_rates_of_places_and_gamma_of_rows(name: str) -> None:
     assert left_of_rates(name) < 1e-12
 
 
-MOVED = [
-    (rows.Points, "universal_shaft"), (rows.Dots, "cat_turn"),
-    (rolling.Rims, "tilting_disk.circle"), (rolling.Drives, "cat_turn"),
-    (pivots.Pivots, "top_on_floor"),
-]  # fmt: skip
-
-
-@pytest.mark.mutant("γ of {kind.name} left out")
-@pytest.mark.parametrize(("kind", "name"), MOVED)
-def test_a_lost_gamma_is_seen(kind: Any, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    values = kind.values
-
-    def lost(self: Any, t: Any, bodies: Any) -> Any:
-        entries, g, gamma = values(self, t, bodies)
-        return entries, g, 0.0 * gamma
-
-    monkeypatch.setattr(kind, "values", lost)
-    assert left_of_gamma(name) > 1e-3
-
-
 @pytest.mark.mutant("slip of a disk's centre for that of its rim")
 def test_the_slip_of_a_centre_is_not_that_of_the_rim(monkeypatch: pytest.MonkeyPatch) -> None:
     """The height of the lowest point does not change as the rows of the centre would have it."""
-    monkeypatch.setattr(rolling, "skew", lambda rho: 0.0 * attitude.skew(rho))
+    sound = Lowest.row
+
+    def at_the_centre(*given: Any) -> Row:
+        row = sound(*given)
+        return Row([(part, F, None) for part, F, _ in row.loads], row.g, row.gamma)
+
+    monkeypatch.setattr(Lowest, "row", at_the_centre)
     assert left_of_rates("tilting_disk.circle") > 1e-3
 
 

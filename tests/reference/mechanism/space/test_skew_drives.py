@@ -1,14 +1,15 @@
 """A driven freedom of a joint whose axes are at no right angles goes as its law says."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from given import scenes
 from scipy.spatial.transform import Rotation
 
-from textmech.reference.mechanism.constraints.space import rolling
-from textmech.reference.mechanism.constraints.space.joint_constraints import Drive
+from textmech.reference.mechanism.constraints import joint_constraints
+from textmech.reference.mechanism.constraints.constraint_terms import FIRST, SECOND, Turn
 from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array
@@ -86,8 +87,7 @@ def test_a_driven_freedom_goes_as_its_law_beside_a_skew_one(
 def test_a_shift_by_its_own_axis_is_seen(
     driven: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    own = lambda drive: np.zeros(3) if drive.shift is None else np.array(drive.shift)  # noqa: E731
-    monkeypatch.setattr(rolling, "_dual", own)
+    monkeypatch.setattr(joint_constraints, "_dual", lambda joint, freedom: freedom.axis)
     assert off(tmp_path, SHIFTS, driven) > 0.01
 
 
@@ -96,8 +96,10 @@ def test_a_shift_by_its_own_axis_is_seen(
 def test_turns_taken_for_right_angled_are_seen(
     driven: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def apart(drive: Drive) -> tuple[float, float]:
-        return (1.0, 0.0) if drive.number == 0 else (0.0, 1.0)
+    def apart(joint: Any, freedom: Any) -> Turn:
+        axes = [turn.axis for turn in joint.turns]
+        weights = (1.0, 0.0) if joint.turns.index(freedom) == 0 else (0.0, 1.0)
+        return Turn(FIRST, SECOND, axes[0], axes[-1], weights)
 
-    monkeypatch.setattr(rolling, "_weights", apart)
+    monkeypatch.setattr(joint_constraints, "turning", apart)
     assert off(tmp_path, TURNS, driven) > 0.01

@@ -10,8 +10,8 @@ from given import scenes, torsion
 from given.multibody_laws import EXACT, balance, lagrangian
 
 from textmech.cases.scene.observe import observe
-from textmech.reference.mechanism.forces.space import turning
-from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
+from textmech.reference.mechanism.forces import action, turning
+from textmech.reference.mechanism.modes.spatial_mode import SpatialMultibody
 from textmech.reference.solve import solve
 
 SHORT = scenes.tail(1.0, 6)
@@ -38,17 +38,20 @@ def test_signs(tmp_path: Path) -> None:
     """About z as in the plane: the elbow's second part is the rod, turned by 70° on the arm."""
     mode = built(tmp_path, torsion.FLAT)
     q, v = mode.start()
-    found = dict(mode._actions.moments(np.pi / 8, mode.layout.bodies(q, v)))
-    assert set(found) == {"hinge", "elbow"}  # the last about each: motors
-    assert found["elbow"] == pytest.approx([0, 0, 1.3], rel=1e-14)
-    alone = list(mode._actions.alone(np.pi / 8, mode.layout.bodies(q, v), len(v)))
-    knee, oil = -3.0 * np.radians(50.0), -0.12
-    about_rod, about_arm = mode.where.columns["rod"].omega, mode.where.columns["arm"].omega
-    for force, torque in zip(alone[1:3], (knee, oil), strict=True):
+    found = mode.ingredients.moments(np.pi / 8, q, v)
+    alone = mode.forces(np.pi / 8, q, v)
+    knee, oil, wire = -3.0 * np.radians(50.0), -0.12, -9.0 * np.radians(50.0)
+    assert found["elbow.mz"] == pytest.approx(knee + oil + 1.3, rel=1e-14)  # and its motor
+    assert found["hinge.mz"] == pytest.approx(wire + 0.8 * np.pi / 8, rel=1e-14)
+    assert {found[f"{joint}.{axis}"] for joint in ("hinge", "elbow") for axis in ("mx", "my")} == {
+        0
+    }
+    about_rod, about_arm = mode.where.slots["rod"].omega, mode.where.slots["arm"].omega
+    for name, torque in (("knee", knee), ("oil", oil)):
+        force = alone[name]
         assert force[about_rod : about_rod + 3] == pytest.approx([0, 0, torque], rel=1e-14)
         assert force[about_arm : about_arm + 3] == pytest.approx([0, 0, -torque], rel=1e-14)
-    wire = alone[0][about_rod : about_rod + 3]
-    assert wire == pytest.approx([0, 0, -9.0 * np.radians(50.0)], rel=1e-14)
+    assert alone["wire"][about_rod : about_rod + 3] == pytest.approx([0, 0, wire], rel=1e-14)
 
 
 @pytest.mark.slow
@@ -63,7 +66,7 @@ def test_in_the_plane_it_is_the_plane_s(tmp_path: Path) -> None:
 
 
 def lost_couple(*given: Any) -> Any:
-    return list(COUPLE(*given))[1:]
+    return COUPLE(*given)[1:]
 
 
 def torsion_backward(*numbers: float) -> float:
@@ -74,31 +77,39 @@ def damper_backward(*numbers: float) -> float:
     return -DAMPER(*numbers)
 
 
-COUPLE, TORSION, DAMPER = turning.couple, turning.torsion, turning.torsion_damper
+COUPLE, TORSION, DAMPER = turning.Between.couple, action.torsion, action.torsion_damper
 
 
 @pytest.mark.mutant("about a turn in space: {wrong}")
 @pytest.mark.parametrize(
-    ("name", "wrong"),
-    [("couple", lost_couple), ("torsion", torsion_backward), ("torsion_damper", damper_backward)],
+    ("room", "name", "wrong"),
+    [
+        (turning.Between, "couple", lost_couple),
+        (action, "torsion", torsion_backward),
+        (action, "torsion_damper", damper_backward),
+    ],
 )
 def test_a_wrong_torque_is_seen(
-    name: str, wrong: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    room: Any,
+    name: str,
+    wrong: Callable[..., Any],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(turning, name, wrong)
+    monkeypatch.setattr(room, name, wrong)
     assert violated(built(tmp_path)) > 1e-3
 
 
-def along_its_axis(turn: Any) -> Any:
+def along_its_axis(turn: Any, *_: Any) -> Any:
     """As if skew axes did not share their moments."""
-    return turn.first[0] if turn.way > 0 else turn.last[0]
+    return turn.first.u if turn.way > 0 else turn.last.u
 
 
 def unsigned(turn: Any) -> Any:
     return turn.way * ANGLE(turn)
 
 
-ANGLE: Any = turning.Turned.angle.fget  # type: ignore[attr-defined]
+ANGLE: Any = turning.SpatialTurn.angle.fget  # type: ignore[attr-defined]
 
 
 @pytest.mark.slow
@@ -109,7 +120,8 @@ ANGLE: Any = turning.Turned.angle.fget  # type: ignore[attr-defined]
 def test_a_mistaken_axis_is_seen(
     name: str, wrong: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(turning.Turned, name, property(wrong))
+    own = wrong if name == "gradient" else property(wrong)
+    monkeypatch.setattr(turning.SpatialTurn, name, own)
     assert violated(built(tmp_path)) > 1e-3
 
 

@@ -8,7 +8,7 @@ from given.scenes import typed
 from scipy.spatial.transform import Rotation
 
 from textmech.cases.scene.space.scene import SpatialScene
-from textmech.reference.mechanism.kinematics.space.coordinates import SpatialCoordinates
+from textmech.reference.mechanism.kinematics.spatial_coordinates import SpatialCoordinates
 from textmech.reference.start.space import initial_conditions as module
 from textmech.reference.start.space.assembly import assemble_in_space
 from textmech.reference.system import Array
@@ -109,7 +109,7 @@ def test_rates_in_the_axes_of_the_other_part_are_seen(
 
     def wrong(self: module.Given, joint: object, q: Array) -> Array:
         rows = sound(self, joint, q)  # type: ignore[arg-type]
-        at = self.mode.where.columns["a"].omega
+        at = self.mode.where.slots["a"].omega
         assert at is not None
         rows[:, at : at + 3] = rows[:, at : at + 3].T
         return rows

@@ -1,12 +1,9 @@
 """Any scene in space as a System: nothing switches there, so it has one mode and no guards."""
 
-import numpy as np
-
-from .....cases.scene import GROUND, Anchor
-from .....cases.scene.space.scene import SpatialScene
-from ....system import MOVING, Array, System
-from ...constraints.leeway import Leeway
-from .mode import SpatialMultibody
+from ....cases.scene.space.scene import SpatialScene
+from ...system import MOVING, Array, System
+from ..constraints.leeway import Leeway
+from .spatial_mode import SpatialMultibody
 
 
 class SpatialMechanism(System):
@@ -27,13 +24,9 @@ class SpatialMechanism(System):
 
     def driven_point(self, name: str, t: float) -> tuple[float, ...]:
         """x, y, z, vx, vy, vz of a point of the ground that moves."""
-        layout = self.base.layout
-        still = np.zeros(layout.where.size)
-        bodies = layout.bodies(self.base.start()[0], still)
-        point = layout.attached([Anchor(GROUND, name)]).at(t, bodies)
-        return *point.r[0].tolist(), *point.r_dot[0].tolist()
+        return self.base.driven_point(name, t)
 
     def powers(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """The power [W] at any rates of each force that follows a law in time, by its name."""
-        each = dict(zip(self.base.scene.forces, self.base.forces(t, q, v), strict=True))
-        return {force.name: float(each[force.name] @ v) for force in self.base.scene.signals()}
+        forces = self.base.forces(t, q, v)
+        return {force.name: float(forces[force.name] @ v) for force in self.base.scene.signals()}

@@ -14,8 +14,6 @@ from typing import Any
 
 import numpy as np
 
-ONES = np.ones(3)  # a product with it is a sum over three entries, and costs less than one
-
 
 def _levi_civita() -> Any:
     """(9, 3): the table that makes a × b of the products a_i b_j."""
@@ -47,17 +45,6 @@ def _halved() -> Any:
 LEVI_CIVITA, QUADRATIC, HALVED = _levi_civita(), _quadratic(), _halved()
 
 
-def _product_rule() -> Any:
-    """(36, 6): the table that makes a × b, and ȧ × b + a × ḃ, of products of (a, ȧ) and (b, ḃ)."""
-    # Axes in pairs, for a, b and the result: the value or its rate, and the entry.
-    table, E = np.zeros((2, 3, 2, 3, 2, 3)), LEVI_CIVITA.reshape(3, 3, 3)
-    table[0, :, 0, :, 0] = table[1, :, 0, :, 1] = table[0, :, 1, :, 1] = E
-    return table.reshape(36, 6)
-
-
-PRODUCT_RULE = _product_rule()
-
-
 def matrices(q: Any) -> Any:
     """(K, 3, 3): R = Eᵀ of (2.1), whose columns are the body axes in ground axes; q (K, 4)."""
     found = _products(q, q) @ QUADRATIC
@@ -79,22 +66,6 @@ def spin(q: Any, q_dot: Any) -> Any:
         w * d - z * a - x * c + y * b,
     ]
     return 2 * np.stack(omega) / (w * w + x * x + y * y + z * z)
-
-
-def cross(a: Any, b: Any) -> Any:
-    """(…, 3): a × b of a and b (…, 3)."""
-    return _products(a, b) @ LEVI_CIVITA
-
-
-def crossed(a: Any, b: Any) -> tuple[Any, Any]:
-    """(K, 3) each: a × b, and its rate; a and b (K, 6) with their rates as last three entries."""
-    found = _products(a, b) @ PRODUCT_RULE
-    return found[:, :3], found[:, 3:]
-
-
-def dot(a: Any, b: Any) -> Any:
-    """(…,): a·b of a and b (…, 3), not conjugated where they are complex."""
-    return (a * b) @ ONES
 
 
 def skew(x: Any) -> Any:

@@ -5,12 +5,12 @@ from typing import Any
 
 import numpy as np
 
-from .....cases.scene import GROUND, Anchor
-from .....cases.scene.space.joint import SpatialJoint
-from .....cases.scene.space.scene import SpatialScene
-from ....stated import Stated
-from ....system import Mass, Pose, Vector
-from .attitude import matrices, skew
+from ...cases.scene import GROUND, Anchor
+from ...cases.scene.space.joint import SpatialJoint
+from ...cases.scene.space.scene import SpatialScene
+from ..mechanism.kinematics.attitude import matrices, skew
+from ..stated import Stated
+from ..system import Mass, Pose, Vector
 
 UPRIGHT = np.array([1.0, 0.0, 0.0, 0.0])
 

@@ -2,10 +2,10 @@
 
 from typing import Any
 
-from ....cases.scene import Scene
-from ....cases.scene.states import coordinates
-from ...stated import Stated
-from ...system import Mass, Pose, Vector
+from ...cases.scene import Scene
+from ...cases.scene.states import coordinates
+from ..stated import Stated
+from ..system import Mass, Pose, Vector
 
 
 class FreeBodies(Stated):

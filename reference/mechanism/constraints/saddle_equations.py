@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from .... import lapack
-from ....system import Array
+from ... import lapack
+from ...system import Array
 
 TURNS = 1  # of refinement: what the factors lose of a light body beside a heavy one comes back
 NARROW = (

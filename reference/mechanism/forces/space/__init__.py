@@ -1,1 +1,0 @@
-"""Generalized forces in space."""

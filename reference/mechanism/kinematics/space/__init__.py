@@ -1,1 +1,0 @@
-"""Coordinates in space: attitudes, and chains of joints."""

@@ -1,1 +1,0 @@
-"""The mechanism in space, which has one mode."""
