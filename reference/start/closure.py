@@ -16,10 +16,10 @@ from ...cases.scene.pair import Pair
 from ...cases.scene.plane import LEVEL
 from ..mechanism.constraints.constraint import Constraint, tracked
 from ..mechanism.constraints.constraint_terms import FIRST, Along
-from ..mechanism.constraints.joint_constraints import constraints, gliding
 from ..mechanism.constraints.equation_table import Table
+from ..mechanism.constraints.joint_constraints import constraints, gliding
 from ..mechanism.kinematics.coordinates import Coordinates
-from ..mechanism.modes.pair import along, apart
+from ..mechanism.modes.unilateral import along, apart
 from ..system import Array
 from .posed import moving, posed
 

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from ... import lapack
 from ...system import Array
-from .factorization import Dependent
 from .equation_table import Rows
+from .factorization import Dependent
 
 MANY = 16  # rows: fewer are a matter of microseconds, in whatever way
 NARROW = 0.25  # of the rows: a wider band is a full matrix

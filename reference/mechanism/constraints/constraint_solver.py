@@ -8,8 +8,8 @@ from ...system import Array
 from .banded_solver import band
 from .constraint import row
 from .contact import Coulomb
-from .factorization import Held, full
 from .equation_table import Rows
+from .factorization import Held, full
 
 
 class Holding:

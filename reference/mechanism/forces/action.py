@@ -397,7 +397,7 @@ class Dragged(Action):
         return [(d, e, e @ p.r_dot) for d, e in zip(self.force.ways, both, strict=True)]
 
     def loads(self, k: Kinematics) -> list[Load]:
-        """(2.85), (2.86) −d |v|^α v/|v|, or Σ −d_i |v_i|^α sign(v_i) e_i."""
+        """(2.83), (2.84), (2.85), (2.86) −d |v|^α v/|v|, or Σ −d_i |v_i|^α sign(v_i) e_i."""
         p, force = k.point(self.force.at), self.force
         if force.along is None:
             slowing = Slowing(force.coefficient, force.exponent)

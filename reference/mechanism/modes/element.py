@@ -11,8 +11,8 @@
 | slowed, α < 1 | as slide | no force when it sticks         | slip: stops; ±F_a: slips           |
 | ideal, smooth | its only | it rolls; the smooth law (2.95) | nothing                            |
 
-Springs that only press or pull are in `one_side`. A mode of a scene names the state of each
-element: `touch slides +, rail sticks, leg slack`.
+Pairs of bodies, ropes, stops and springs that only press or pull are in `unilateral`. A mode of a
+scene names the state of each element: `touch slides +, rail sticks, leg slack`.
 """
 
 import math

@@ -19,7 +19,7 @@ from .impact_transition import STILL, landed
 from .mode_selection import After, Options, closed, opening, painleve, settled, staying, yielding
 from .modes import Modes, rate
 from .shared_friction import alike_contacts
-from .unilateral_spring import HAPPENS, OTHER, OneSided
+from .unilateral import HAPPENS, OTHER, OneSided
 
 CLOSED = 1e-9  # of the scene's size: a start this close to the floor stands on it
 STEEP = 2.0  # how deep a foot may be for each metre that it is behind

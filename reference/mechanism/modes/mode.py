@@ -10,9 +10,9 @@ from ...system import Array, Mass, Mode, Pose, Vector
 from ..constraints.constraint import Constraint, residuals, row, tracked
 from ..constraints.constraint_solver import Holding
 from ..constraints.contact import Braking, Coulomb
+from ..constraints.equation_table import G, Rows, Table, span
 from ..constraints.factorization import Dependent, Held
 from ..constraints.joint_constraints import constraints
-from ..constraints.equation_table import G, Rows, Table, span
 from ..forces.action import NoDirection, actions
 from ..forces.ingredients import Ingredients
 from ..kinematics.coordinates import Coordinates

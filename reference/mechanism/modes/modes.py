@@ -12,13 +12,10 @@ from ..constraints.leeway import Leeway
 from .element import Element, Smoothed, State, elements
 from .loose import Loose, independent
 from .mode import Multibody
-from .pair import paired
-from .rope import roped
 from .shared_friction import shares
 from .smooth import SmoothMultibody
-from .stop import stopped
 from .stopping import stopping
-from .unilateral_spring import one_sided
+from .unilateral import unilateral
 
 ROUNDING = 1e-10  # of the accelerations that the forces give alone
 KEPT = (
@@ -38,10 +35,7 @@ class Modes(Mapping[str, Multibody]):
         self.elements: tuple[Element, ...] = (
             *elements(scene, where),
             *stopping(scene, where, self._begins),
-            *paired(scene, where),
-            *roped(scene, where),
-            *stopped(scene, where),
-            *one_sided(scene, where),
+            *unilateral(scene, where),
         )
         self.base.widen([part for e in self.elements for part in e.parts])
         self.M = np.array(self.base.where.masses)

@@ -189,6 +189,7 @@ def test_the_reaction_is_the_force_of_the_first_part_on_the_second(name: str) ->
             at = point(joint.b if joint.shifts else end, mechanism.where, t, q)
             d = at - q[xy : xy + 2]
             moment = d[0] * F[1] - d[1] * F[0] + sign * force.get("j.torque", 0.0)
+            assert body.inertia is not None
             np.testing.assert_allclose(body.inertia * a[phi], moment, atol=1e3 * EXACT)
 
 

@@ -13,8 +13,8 @@ from textmech.cases.scene.pair import Pair
 from textmech.reference.mechanism.constraints.constraint import Constraint
 from textmech.reference.mechanism.constraints.constraint_terms import Turning
 from textmech.reference.mechanism.kinematics.coordinates import Coordinates
-from textmech.reference.mechanism.modes import pair as generated
-from textmech.reference.mechanism.modes.pair import along
+from textmech.reference.mechanism.modes import unilateral as generated
+from textmech.reference.mechanism.modes.unilateral import along
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 

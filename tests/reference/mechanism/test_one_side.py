@@ -12,7 +12,7 @@ from given import scenes
 from textmech.cases.scene.observe import observe
 from textmech.reference.formalisms import energy, lagrange
 from textmech.reference.mechanism.modes.mechanism import Mechanism
-from textmech.reference.mechanism.modes.unilateral_spring import OneSided
+from textmech.reference.mechanism.modes.unilateral import OneSided
 from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import Followed, follow
 from textmech.reference.solve import solve

@@ -125,8 +125,10 @@ def test_a_turned_machine_moves_alike(build: Build, turn: float) -> None:
 def _turned(m: Multibody, v: Array, turn: float) -> Array:
     """Places, rates or accelerations of the bodies that were turned."""
     v = v.copy()
-    for xy, _ in m.where.columns.values():
-        v[xy : xy + 2] = turned((v[xy], v[xy + 1]), turn)
+    for at in m.where.slots.values():
+        xy = at.r
+        x, y = v[xy : xy + 2].tolist()
+        v[xy : xy + 2] = turned((x, y), turn)
     return v
 
 

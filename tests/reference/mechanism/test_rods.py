@@ -11,6 +11,7 @@ from given.multibody_laws import EXACT, balance, lagrangian
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene.observe import observe
 from textmech.reference.mechanism.constraints import constraint_terms as rows
+from textmech.reference.mechanism.kinematics.kinematics import Row
 from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.solve import solve
 
@@ -74,14 +75,13 @@ def test_tension_is_positive_where_it_pulls(tmp_path: Path) -> None:
 @pytest.mark.mutant("γ of a massless rod without a part of its turn")
 def test_a_lost_term_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """γ without the turn of the rod: (|Δ̇|² − λ̇²)/λ."""
-    sound = rows.Distance.numbers
+    sound = rows.Distance.row
 
-    def lost(self: Any, a: Any, b: Any) -> Any:
-        *others, gamma = sound(self, a, b)
-        x, y = b.r_dot[0] - a.r_dot[0], b.r_dot[1] - a.r_dot[1]
-        return (*others, gamma - 0.1 * (x * x + y * y))
+    def lost(self: Any, k: Any, ends: Any) -> Row:
+        row, rate = sound(self, k, ends), ends[self.b].r_dot - ends[self.a].r_dot
+        return Row(row.loads, row.g, row.gamma - 0.1 * (rate @ rate))
 
-    monkeypatch.setattr(rows.Distance, "numbers", lost)
+    monkeypatch.setattr(rows.Distance, "row", lost)
     assert violated(tmp_path, rods.CHAIN) > 1e-3
 
 

@@ -9,7 +9,7 @@ from given import ropes, scenes
 
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene.observe import observe
-from textmech.reference.mechanism.modes import rope
+from textmech.reference.mechanism.modes import unilateral
 from textmech.reference.solve import Solution, solve
 
 END = scenes.tail(1.0, 26)
@@ -108,8 +108,8 @@ def test_an_impact_that_throws_back_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A planted restitution: the hand-written ball swings on, and this one comes back."""
-    made = rope.Roped.__init__
+    made = unilateral.Roped.__init__
     monkeypatch.setattr(
-        rope.Roped, "__init__", lambda self, **given: made(self, **given, restitution=0.5)
+        unilateral.Roped, "__init__", lambda self, **given: made(self, **given, restitution=0.5)
     )
     assert not solve(scenes.SHIPPED["ball_on_rope.caught"]).holds

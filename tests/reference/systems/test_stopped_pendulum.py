@@ -11,7 +11,7 @@ from given.events import LOCATED, event_errors
 from given.examples import example
 
 from textmech.cases.scene.observe import observe
-from textmech.reference.mechanism.modes import stop
+from textmech.reference.mechanism.modes import unilateral
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 from textmech.reference.systems.pendula import stopped_pendulum
@@ -71,12 +71,12 @@ def broken() -> set[str]:
 def test_another_restitution_in_the_generated_mechanism_is_seen(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    made: Any = stop.Stopped.__init__
+    made: Any = unilateral.Stopped.__init__
 
     def livelier(self: Any, **given: Any) -> None:
         made(self, **given | {"restitution": 0.71})
 
-    monkeypatch.setattr(stop.Stopped, "__init__", livelier)
+    monkeypatch.setattr(unilateral.Stopped, "__init__", livelier)
     assert {"generated motion", "generated events"} <= broken()
 
 

@@ -70,6 +70,7 @@ def as_printed(patch: pytest.MonkeyPatch) -> None:
 
     def printed(self: Any, k: Any) -> Any:
         ((part, F, M),) = right(self, k)
+        assert M is not None
         J, omega = k.scene.bodies[self.name].tensor.tolist(), part.omega
         wrong = 2.0 * ((Vec(J[0]) @ omega) * omega[2])
         return [(part, F, M + Vec((0.0, wrong, 0.0)))]
