@@ -4,13 +4,11 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
 
-from ..output.diff.change import Change, Place
-from ..output.diff.errors import place
-from ..output.diff.file import number
-from ..output.diff.table import Row
-from ..output.diff.text import fitted
+from ..output.diff.columns import ERRORS, Row, number
+from ..output.diff.compare import Change, Place, place
+from ..output.diff.forms import fitted
+from .release import Release
 from .table import Step
-from .wanted import Release
 
 MOST = 40  # rows of a table; the CSV has them all
 NONE = "–"
@@ -114,4 +112,4 @@ def _unit(steps: Sequence[Step], where: Place) -> str:
 
 
 def _row(step: Step, where: Place) -> Row | None:
-    return next((row for row in step.rows if place(row) == where), None)
+    return next((row for row in step.rows if place(ERRORS, row) == where), None)
