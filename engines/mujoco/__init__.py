@@ -68,7 +68,7 @@ class MuJoCo:
         scene, start = world.built(scene, start)
         refusal = (
             world.unbuildable(scene)
-            or unfit(self.options, list(world.recipes), world.worth(scene))
+            or unfit(self.options, list(world.recipes(scene)), world.worth(scene))
             or uncompilable(world.compiled, scene, start, self._plan(scene, start))
         )
         if refusal:
@@ -96,7 +96,7 @@ class MuJoCo:
         """See `Tunable`."""
         world = _world(scene)
         scene, start = world.built(scene, start)
-        bundles = {word: world.recipes[word](scene) for word in world.worth(scene)}
+        bundles = {word: world.recipes(scene)[word](scene) for word in world.worth(scene)}
         best, lies = world.best(scene, start), world.closed(scene, start)
         rubs = any(contact.friction for contact in world.met(scene))
         return knobs(best, world.soft(scene), bundles, lies=lies, rubs=rubs)

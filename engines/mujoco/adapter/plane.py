@@ -1,6 +1,6 @@
 """The functions with which MuJoCo's adapter handles planar scenes."""
 
-from ..model.contact import RECIPES, closed, worth
+from ..model.contact import closed, recipes, worth
 from ..model.drive import controls
 from ..model.planes import met
 from ..model.rods import with_rods
@@ -15,6 +15,6 @@ from .run import simulate
 from .world import World
 
 PLANE = World(
-    unbuildable, ways, plan, tuned, best, RECIPES, worth, met, closed, soft, with_own, compiled,
+    unbuildable, ways, plan, tuned, best, recipes, worth, met, closed, soft, with_own, compiled,
     placed, lent, measured, mjcf, controls, simulate, plain, with_rods,
 )  # fmt: skip

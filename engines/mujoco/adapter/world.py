@@ -30,7 +30,7 @@ class World:
     plan: Callable[..., Plan]
     tuned: Callable[..., list[Choice]]
     best: Callable[..., list[Choice]]
-    recipes: Mapping[str, Callable[[Any], list[Choice]]]
+    recipes: Callable[[Any], Mapping[str, Callable[[Any], list[Choice]]]]
     worth: Callable[[Any], list[str]]
     met: Callable[[Any], Sequence[Any]]
     closed: Callable[[Any, Start], bool]

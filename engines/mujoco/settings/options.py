@@ -10,14 +10,13 @@ from ...step_scaled import FORMS, at, tied
 from ..callbacks.signal import installed, listening
 from ..model.contact import RECIPES
 from ..model.number_text import EACH, of_one
-from ..model.space.contact import RECIPES as RECIPES_IN_SPACE
 
 _WORDS = {
     "integrator": ("Euler", "RK4", "implicit", "implicitfast", "discrete"),
     "cone": ("pyramidal", "elliptic"),
     "jacobian": ("dense", "sparse", "auto"),
     "solver": ("PGS", "CG", "Newton"),
-    "contacts": (*dict.fromkeys((*RECIPES, *RECIPES_IN_SPACE)), "scene"),
+    "contacts": (*dict.fromkeys(word for recipes in RECIPES.values() for word in recipes), "scene"),
 }
 _WHOLE = ("iterations", "ls_iterations", "noslip_iterations")
 _REAL = ("tolerance", "ls_tolerance", "noslip_tolerance", "impratio")

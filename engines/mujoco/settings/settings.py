@@ -11,7 +11,7 @@ from ....cases.scene import Scene
 from ...engine import Choice, Start
 from ...foot_contact import strides
 from ...step_scaled import at
-from ..model.contact import HARDEST, RECIPES, chosen, recipe
+from ..model.contact import HARDEST, chosen, recipe, recipes
 from ..model.loops import recipe as rods
 from ..model.planes import met
 from ..model.rope import recipe as ropes
@@ -35,19 +35,14 @@ TO_THE_END = Choice(
 )
 
 
-def shipped(scene: Scene, tied_to: float) -> list[Choice]:
+def shipped(scene: Scene) -> list[Choice]:
     """MuJoCo's defaults for the scene, which a user gets who changes nothing."""
-    return defaults(soft(scene), _solver(scene))
-
-
-def defaults(groups: Sequence[str], solver: Sequence[Choice]) -> list[Choice]:
-    """MuJoCo's numbers, for groups of soft constraints; solver: what no setting leaves out."""
     choices = [
         Choice("option.integrator", "Euler", _DEFAULT),
         Choice("option.cone", "pyramidal", _DEFAULT),
-        *solver,
+        *_solver(scene),
     ]
-    for group in groups:
+    for group in soft(scene):
         choices += [
             Choice(key(group, "solref"), [0.02, 1.0], _DEFAULT),
             Choice(key(group, "solimp"), [0.9, 0.95, 0.001, 0.5, 2.0], _DEFAULT),
@@ -67,8 +62,8 @@ def best(scene: Scene, start: Start | None = None) -> list[Choice]:
         Choice("option.jacobian", "dense", "small scenes; keeps 4.0.0's sparse solver out"),
     ]
     if soft(scene):
-        choices.append(Choice("option.tolerance", 1e-14, "near rounding; 0 is five times slower"))
-    choices += _solver(scene)
+        close = Choice("option.tolerance", 1e-14, "near rounding; 0 is five times slower")
+        choices += _solver(scene) or [close]
     for group in ("connect", "slide"):
         if group in soft(scene):
             choices += [
@@ -108,7 +103,8 @@ def at_step(choices: Sequence[Choice], h: float) -> list[Choice]:
 # The time constant of a soft constraint in steps.
 _STIFF = {"connect": 8, "slide": 2}
 _BECAUSE = {
-    "connect": "8 h: forces 10 times nearer than with 4 h, as stages jerk at the pin; places ∝ h²",
+    "connect": "8 h: forces 10 times nearer than with 4 h (in space 100 times than with 2 h), as "
+    "stages jerk at the pin; places ∝ h²",
     "slide": "the stiffest that stays stable: 2 h",
 }
 
@@ -142,8 +138,8 @@ def with_own(
     """The shipped setting with other options on top: the user's own, or what `because` says."""
     word = options.get("contacts")
     chosen_one = chosen(scene, start) if word == "scene" else word
-    contacts = RECIPES[chosen_one](scene) if met(scene) and chosen_one else []
-    under = shipped(scene, tied_to)
+    contacts = recipes(scene)[chosen_one](scene) if met(scene) and chosen_one else []
+    under = shipped(scene)
     on_top = overlaid(under, options, soft(scene), contacts, alone=alone(scene), because=because)
     return at_step(on_top, tied_to)
 

@@ -1,9 +1,10 @@
 """The functions with which MuJoCo's adapter handles scenes in space."""
 
-from ...model.space.contact import RECIPES, closed, met, worth
+from ...model.contact import closed, recipes, worth
+from ...model.planes import met
 from ...model.space.scene import mjcf, signals
 from ...read.space.measure import measured
-from ...settings.space.settings import best, soft, tuned, with_own
+from ...settings.settings import best, soft, tuned, with_own
 from ..world import World
 from .compilation import compiled, lent, placed
 from .plans import plan, ways
@@ -16,6 +17,6 @@ def unwritten(*given: object) -> None:
 
 
 SPACE = World(
-    unbuildable, ways, plan, tuned, best, RECIPES, worth, met, closed, soft, with_own, compiled,
+    unbuildable, ways, plan, tuned, best, recipes, worth, met, closed, soft, with_own, compiled,
     placed, lent, measured, mjcf, signals, simulate, unwritten,
 )  # fmt: skip
