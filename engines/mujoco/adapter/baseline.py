@@ -13,6 +13,7 @@ import numpy as np
 
 from ....cases.scene import GROUND, Push, Scene, Signal
 from ....cases.scene.forces.force import of
+from ....cases.scene.frame import PLANE
 from ....cases.trajectory import Array
 from ...engine import Plain, Plan, Start
 from ...law import dry_friction, smooth_friction
@@ -22,13 +23,19 @@ from ..callbacks.signal import Control, installed, listening
 from ..model.drive import controls
 from ..model.force import BY_ITSELF
 from ..read.poses import poses
+from ..read.record import Record
 
 Take = Callable[[int], None]
 
 
 def plain(scene: Scene, start: Start, plan: Plan, text: str) -> Callable[[float], Plain] | None:
-    """See `Loop.plain`; text: the MJCF file. Another step is a number in the model."""
+    """See `Loop.plain`; text: the MJCF file. Another step is a number in the model.
+
+    None: nobody has written it for scenes in space, nor for more than one slide that rubs.
+    """
     native = plan.realised == "native"
+    if scene.frame is not PLANE:
+        return None
     if not (native or (one_slide(scene) and _alone(scene))):
         return None
     model = data = None
@@ -52,8 +59,9 @@ def _states(
     scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, begun: Array, start: Start
 ) -> Start:
     """begun: the first positions, from whose angles turns are counted."""
-    rows = np.array([begun, data.qpos]), np.array([data.qvel, data.qvel])
-    found = poses(scene, model, *rows, start)
+    none = np.empty((2, 0))  # nothing has an activation
+    record = Record(np.array([begun, data.qpos]), np.array([data.qvel, data.qvel]), none)
+    found = poses(scene, model, data, record, start)
     return {name: tuple(row[1].tolist()) for name, row in found.items()}  # type: ignore[misc]
 
 

@@ -13,12 +13,14 @@ from typing import Any
 import mujoco
 
 from ....cases.scene import Scene
+from ....cases.scene.frame import SPACE
 from ....cases.trajectory import Array
 from ...engine import Choice, Plan, Start
 from ..callbacks.contact_friction import one_touch, touches
 from ..callbacks.inner_state import acting
 from ..callbacks.rope_limit import draw
 from ..callbacks.settle import settle
+from ..callbacks.settle_in_space import settle_in_space
 from ..callbacks.signal import installed, listening
 from ..model.hinge import hinge
 from ..model.number_text import EACH
@@ -60,10 +62,11 @@ def compiled(
 
 def placed(
     scene: Scene, start: Start, step: float, plan: Plan, *, settles: bool
-) -> tuple[mujoco.MjModel, mujoco.MjData, dict[str, float]]:
+) -> tuple[mujoco.MjModel, mujoco.MjData, dict[str, Any]]:
     """The model and data of `compiled` with the start as keyframe, settled if `settles`.
 
-    By name, how deep [m] it settles in the floor, and how much too long [m] its ropes are.
+    By name, how deep [m] it settles in the floor (of a body in space with how fast [m/s] it creeps
+    there), and how much too long [m] its ropes are.
     """
     model, data = compiled(scene, start, step, plan)
     return model, data, _settle(scene, model, data, start, plan) if settles else {}
@@ -109,10 +112,11 @@ def lent(
 
 def _settle(
     scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, start: Start, plan: Plan
-) -> dict[str, float]:
+) -> dict[str, Any]:
     if plan.realised != "native" and one_touch(scene):
         touches(scene, model, data)  # friction of MuJoCo's own would press it into the floor
-    moved = settle(scene, model, data, start)
+    by = settle_in_space if scene.frame is SPACE else settle
+    moved: dict[str, Any] = {**by(scene, model, data, start)}
     lean(scene, model, data)
     roped = any(scene.ropes())
     moved |= draw(scene, model, data) if roped else {}

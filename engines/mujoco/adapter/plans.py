@@ -1,10 +1,12 @@
 """Plans of MuJoCo's settings for a scene: ways, exponents, and the protocol's words."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 from ....cases.scene import CENTER, Contact, Pair, Scene
+from ....cases.scene.frame import SPACE
 from ...engine import Choice, Plan, Realised, Start
 from ...foot_contact import strides
 from ...law import one_number
@@ -16,7 +18,7 @@ from ..model.bounce import spread
 from ..model.contact import falls
 from ..model.force import lacking
 from ..model.planes import met
-from ..model.scene import HEAVY
+from ..model.scene import HEAVY, LEAST
 from ..model.tree import driven
 from ..settings.settings import only_slides
 from .compilation import NOMINAL, placed
@@ -115,14 +117,34 @@ def _words(scene: Scene, start: Start, plan: Plan, settles: bool, tuned: bool, s
     if tuned and (thrown := max((one.restitution for one in met(scene)), default=0.0)):
         lasts, kept = spread(thrown)
         words.append(f"a bounce lasts {lasts:.0f} steps, and keeps its speed to about {kept:.2g} %")
+    words += [f"{name} has {LEAST:g} kg m² about its own axis" for name in _slender(scene)]
     if settles and (met(scene) or any(scene.ropes())):
-        *_, depths = placed(scene, start, step, plan, settles=True)
-        both = {**scene.touching, **scene.pairs}
-        longer = ((name, depth) for name, depth in depths.items() if name not in both)
-        words += [f"{name} started {more:.1e} m too long" for name, more in longer]
-        deep = ((both[name], depth) for name, depth in depths.items() if depth and name in both)
-        words += [f"{_at(c)} started {depth:.1e} m in the {c.on}" for c, depth in deep]
+        *_, moved = placed(scene, start, step, plan, settles=True)
+        words += _begun_in_space(moved) if scene.frame is SPACE else _begun(scene, moved)
     return "; ".join(words)
+
+
+def _slender(scene: Scene) -> list[str]:
+    """The bodies in space without a moment about their own axis."""
+    bodies: Mapping[str, Any] = scene.bodies if scene.frame is SPACE else {}
+    return [n for n, body in bodies.items() if body.turns and min(body.inertia[:3]) == 0.0]
+
+
+def _begun(scene: Scene, moved: Mapping[str, float]) -> list[str]:
+    """How much too long ropes are started [m], and how deep in the floor what touches."""
+    both = {**scene.touching, **scene.pairs}
+    words = [f"{name} started {m:.1e} m too long" for name, m in moved.items() if name not in both]
+    deep = ((both[name], depth) for name, depth in moved.items() if depth and name in both)
+    return words + [f"{_at(c)} started {depth:.1e} m in the {c.on}" for c, depth in deep]
+
+
+def _begun_in_space(moved: Mapping[str, tuple[float, float]]) -> list[str]:
+    """How deep bodies are started in the floor [m], and how fast they creep there [m/s]."""
+    return [
+        f"{name} started {depth:.1e} m in the floor, creeping {creep:.1e} m/s"
+        for name, (depth, creep) in moved.items()
+        if depth
+    ]
 
 
 def _at(contact: Contact | Pair) -> str:

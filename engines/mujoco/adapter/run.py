@@ -73,7 +73,7 @@ def simulate(
         felt = tuple(name for name in reactions if name not in inner)
         forces = read(scene, model, data, times, rows, felt, steps.recall) | inner
         check(warnings, grid, record)
-    states = poses(scene, model, record.qpos, record.qvel, start)
+    states = poses(scene, model, data, record, start)
     if not every:
         return Trajectory(times, states, forces)
     phase = np.zeros(len(grid), dtype=np.int64)  # an engine does not say when one ends

@@ -79,6 +79,8 @@ def alone(scene: Scene, contact: Contact) -> bool:
 
 def falls(scene: Scene, start: Start) -> bool:
     """Whether something starts above its plane, of spokes all tips, or apart from the other."""
+    if scene.frame is SPACE:
+        return False  # what touches there does so from the start on
     if any(pair.normal(begun(scene, start))[1][0] > CLOSED for pair in scene.pairs.values()):
         return True
     return any(
