@@ -27,6 +27,7 @@ from .model.scene import mjcf
 from .model.script import commented, drawn, told
 from .read.measure import measured
 from .settings import options, settings
+from .settings.groups import groups
 from .settings.knobs import STEPS, cost, knobs
 from .settings.snippet import option_notes, snippet
 from .settings.user_options import as_options, unfit
@@ -99,7 +100,7 @@ class MuJoCo:
         bundles = {word: recipes(scene)[word](scene) for word in worth(scene)}
         best, lies = settings.best(scene, start), closed(scene, start)
         rubs = any(contact.friction for contact in met(scene))
-        return knobs(best, settings.soft(scene), bundles, lies=lies, rubs=rubs)
+        return knobs(best, groups(scene), bundles, lies=lies, rubs=rubs)
 
     def recipe(self, scene: Scene, start: Start) -> Options:
         """See `Tunable`."""

@@ -22,6 +22,7 @@ from ..callbacks.friction import one_slide
 from ..callbacks.signal import Control, installed, listening
 from ..model.drive import controls
 from ..model.force import BY_ITSELF
+from ..model.tree import dry_joints
 from ..read.poses import poses
 from ..read.record import Record
 
@@ -87,7 +88,7 @@ def _in_time(laws: list[Signal]) -> Control | None:
 
 def _told(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Take:
     """(2.89) before each step; (2.95) at each of its stages, as before each step it is unstable."""
-    (joint,) = (joint for joint in scene.joints.values() if joint.dry_friction)
+    (joint,) = dry_joints(scene)
     friction, dof = joint.dry_friction, int(model.joint(joint.name).dofadr[0])
     assert friction
     model.dof_frictionloss[dof] = 0.0
@@ -132,7 +133,7 @@ def _told(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Take:
 
 def _alone(scene: Scene) -> bool:
     """Whether all dry friction is of one slide, which guides a part that nothing else joins."""
-    (joint,) = (joint for joint in scene.joints.values() if joint.dry_friction)
+    (joint,) = dry_joints(scene)
     others = (other for other in scene.joints.values() if other is not joint)
     return (
         joint.shifts

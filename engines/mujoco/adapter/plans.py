@@ -19,7 +19,7 @@ from ..model.contact import falls
 from ..model.force import lacking
 from ..model.planes import met
 from ..model.scene import HEAVY, LEAST
-from ..model.tree import driven
+from ..model.tree import driven, dry_joints
 from ..settings.settings import only_slides
 from .compilation import NOMINAL, placed
 
@@ -64,7 +64,7 @@ def plan(
     2, 3.
     """
     integrator = {choice.name: choice.value for choice in numbers(NOMINAL)}["option.integrator"]
-    dry = any(joint.dry_friction for joint in scene.joints.values())
+    dry = bool(dry_joints(scene))
     jumps = any(law.corners for law in scene.laws())
     first = integrator != "RK4" or bool(met(scene)) or (dry and realised != "driver")
     first |= any(scene.stops())

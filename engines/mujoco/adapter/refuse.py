@@ -10,7 +10,15 @@ from ..model.bounce import LEAST_BOUNCE
 from ..model.drive import drives
 from ..model.force import ELEMENTS, lacking
 from ..model.hinge import attribute_conflict
-from ..model.tree import Branch, Tree, freedoms_left, held_points, natives, spanning_tree
+from ..model.tree import (
+    Branch,
+    Tree,
+    dry_joints,
+    freedoms_left,
+    held_points,
+    natives,
+    spanning_tree,
+)
 from .compilation import NOMINAL, compiled
 
 NO_EDGE = "engine: MuJoCo has no constraint of a velocity across a line that turns with a body"
@@ -50,7 +58,7 @@ def _unbuilt(scene: Scene, tree: Tree) -> Iterator[str]:
         yield f"adapter: {what}"
     soft = [*tree.loops, *scene.contacts.values(), *scene.pairs.values()]
     soft += [*scene.ropes(), *scene.stops()]
-    soft += [joint for joint in scene.joints.values() if joint.dry_friction]
+    soft += dry_joints(scene)
     for edge in scene.constraints.values() if soft else ():
         yield f"adapter: {edge.name} beside {soft[0].name}, whose force gives way by itself"
 
@@ -68,10 +76,10 @@ def _in_the_plane(scene: Scene, tree: Tree) -> Iterator[str]:
         part = quantity.rpartition(".")[0]
         if scene.joints[part] in tree.loops:
             yield f"adapter: {part} is driven and closes a loop, where MuJoCo has no joint"
-    if strides(scene) and any(joint.dry_friction for joint in scene.joints.values()):
+    if strides(scene) and dry_joints(scene):
         yield "adapter: feet that pass the floor, beside a slide's dry friction, need one driver"
     if ours := lacking(scene):
-        smooth = (j.name for j in scene.joints.values() if (d := j.dry_friction) and d.smooth)
+        smooth = (j.name for j in dry_joints(scene) if j.dry_friction and j.dry_friction.smooth)
         if beside := [*scene.constraints, *smooth]:
             force, _ = ours[0]
             yield f"adapter: {force.name} by our law beside {beside[0]}, which does not count it"

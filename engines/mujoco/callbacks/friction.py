@@ -12,6 +12,7 @@ import numpy as np
 from ....cases.scene import DryFriction, Joint, Scene
 from ....cases.trajectory import Array
 from ...law import braking, dry_friction
+from ..model.tree import dry_joints
 from .loop_inertia import closed
 
 
@@ -120,17 +121,14 @@ def uncoupled(model: mujoco.MjModel, dof: int) -> bool:
 
 def slides(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> list[Slide]:
     """The joints of the scene with dry friction."""
-    dry = (joint for joint in scene.joints.values() if joint.dry_friction is not None)
-    return [Slide(model, data, joint) for joint in dry]
+    return [Slide(model, data, joint) for joint in dry_joints(scene)]
 
 
 def one_slide(scene: Scene) -> bool:
     """Whether friction can be told from outside: one joint, and no other force that gives way."""
-    dry = [joint for joint in scene.joints.values() if joint.dry_friction is not None]
-    return len(dry) == 1 and not scene.pressed and not any(scene.limits())
+    return len(dry_joints(scene)) == 1 and not scene.pressed and not any(scene.limits())
 
 
 def smooth_only(scene: Scene) -> bool:
     """Whether no slide ever sticks."""
-    dry = [joint.dry_friction for joint in scene.joints.values() if joint.dry_friction is not None]
-    return all(friction.smooth is not None for friction in dry)
+    return all(dry.smooth is not None for joint in dry_joints(scene) if (dry := joint.dry_friction))

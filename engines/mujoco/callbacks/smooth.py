@@ -8,6 +8,7 @@ import numpy as np
 from ....cases.scene import DryFriction, Scene
 from ....cases.trajectory import Array
 from ...law import smooth_under
+from ..model.tree import dry_joints
 from .friction import uncoupled
 from .loop_inertia import closed
 from .signal import Control, bound
@@ -20,8 +21,8 @@ def smooth(scene: Scene, model: mujoco.MjModel) -> list[Control]:
     """A callback for each joint with smooth friction, in place of MuJoCo's own."""
     return [
         _friction(model, joint.name, joint.dry_friction)
-        for joint in scene.joints.values()
-        if joint.dry_friction is not None and joint.dry_friction.smooth is not None
+        for joint in dry_joints(scene)
+        if joint.dry_friction and joint.dry_friction.smooth
     ]
 
 

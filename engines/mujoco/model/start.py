@@ -19,7 +19,7 @@ Coordinates = tuple[list[float], list[float]]
 
 
 def started(scene: Scene, start: Start) -> dict[str, Coordinates]:
-    """By MuJoCo's name of each body, that of a driven point too."""
+    """The start by MuJoCo's name of each body, and of each driven point, which is a body too."""
     tree = spanning_tree(scene)
     found: dict[str, Coordinates] = {}
     for name in driven(scene):

@@ -150,7 +150,7 @@ def _free(scene: Scene, body: str, *, turns: bool) -> list[Native]:
 
 
 def _axis(scene: Scene, branch: Branch, freedom: Freedom) -> Vector3:
-    """In the axes of the body; a shift's stands in the joint's first part."""
+    """The freedom's axis in the axes of the body; a shift's stands in the joint's first part."""
     x, y, z = freedom.axis
     if not branch.forward:
         return -x, -y, -z
@@ -240,6 +240,11 @@ def spanned(scene: Scene, joints: Iterable[Joint]) -> Tree:
             group[ends[1]] = ends[0]
             kept.append(joint)
     return Tree(tuple(_outward(scene, kept)), tuple(loops))
+
+
+def dry_joints(scene: Scene) -> list[Joint]:
+    """The joints with dry friction, in the scene's order."""
+    return [joint for joint in scene.joints.values() if joint.dry_friction is not None]
 
 
 def driven(scene: Scene) -> Iterator[str]:

@@ -15,7 +15,7 @@ from ....cases.trajectory import Array
 from ...foot_contact import strode
 from ..model.drive import drives
 from ..model.edge import fields
-from ..model.tree import Tree, called, spanning_tree
+from ..model.tree import Tree, called, dry_joints, spanning_tree
 from .reaction import Seen, component, damped, effort, felt_force, joint_wrench, pinned
 from .record import Counts, Record
 
@@ -29,7 +29,7 @@ class SlideFriction:
     """The friction [N or N m] on the second part of each slide or pin: (N,) by its name."""
 
     def __init__(self, scene: Scene, model: mujoco.MjModel, samples: int) -> None:
-        dry = [joint for joint in scene.joints.values() if joint.dry_friction is not None]
+        dry = dry_joints(scene)
         self.forces = {joint.name: np.zeros(samples) for joint in dry}
         self._of_dof = {
             int(model.joint(joint.name).dofadr[0]): self.forces[joint.name] for joint in dry
