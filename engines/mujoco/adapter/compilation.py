@@ -26,7 +26,6 @@ from ..model.number_text import EACH
 from ..model.scene import mjcf
 from ..model.stops import lean
 from ..settings.groups import GROUPS, single
-from .run import started
 
 NOMINAL = 1e-3  # s: with which a scene is compiled; any step would do
 
@@ -34,6 +33,14 @@ NOMINAL = 1e-3  # s: with which a scene is compiled; any step would do
 _WRITTEN = (*(field for group in GROUPS.values() for field in group.fields.values()),)
 _WRITTEN += ("dof_frictionloss", "pair_friction", "site_pos", "tendon_limited")
 _WRITTEN += ("key_qpos", "key_qvel")
+
+
+def started(model: mujoco.MjModel) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """The model, and data at its start."""
+    with listening(), installed(None), acting(None):
+        data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+    return model, data
 
 
 def compiled(

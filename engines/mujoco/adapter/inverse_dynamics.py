@@ -21,7 +21,7 @@ from ..model.number_text import written
 from ..model.scene import LEAST
 from ..model.tree import called, freedoms_left, natives, spanning_tree
 from ..read.measure import tensor
-from .run import started
+from .compilation import started
 
 Read = Callable[[], Any]
 
