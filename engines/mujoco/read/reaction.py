@@ -115,7 +115,7 @@ def effort(
 
 
 def _beside(scene: Scene, model: mujoco.MjModel, seen: Seen, drive: Drive) -> Iterator[Array]:
-    """What springs, dampers and motors exert about a driven freedom (N,) [N m]."""
+    """The moments (N,) [N m] that springs, dampers and motors exert about a driven freedom."""
     native = model.joint(drive.name)
     for force in scene.forces.values():
         if force.about != drive.joint.name or number_of(scene, force) != drive.number:
