@@ -29,13 +29,14 @@ def met(scene: Scene) -> list[Contact | Pair]:
 def add_planes(world: ET.Element, scene: Scene) -> None:
     """The planes that are touched; in space there is the floor z = 0 alone."""
     for contact in {contact.on: contact for contact in touching(scene).values()}.values():
-        at, normal = (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)
+        placed: dict[str, str] = {}  # where MuJoCo has a plane by itself
         if scene.frame is PLANE:
-            at, normal = lifted(contact.plane.at), lifted(contact.plane.normal)
-        pos = {"pos": written(*at)} if any(at) else {}
+            plane = contact.plane
+            placed["zaxis"] = written(*lifted(plane.normal))
+            placed |= {"pos": written(*lifted(plane.at))} if any(plane.at) else {}
         ET.SubElement(
-            world, "geom", pos, name=grounded(contact.on), type="plane", size="0 0 1",
-            zaxis=written(*normal), contype="0", conaffinity="0",
+            world, "geom", placed, name=grounded(contact.on), type="plane", size="0 0 1",
+            contype="0", conaffinity="0",
         )  # fmt: skip
 
 

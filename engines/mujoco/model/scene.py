@@ -149,13 +149,14 @@ def _leaves_plane(scene: Scene, numbers: dict[str, object]) -> bool:
 def _hang(element: ET.Element, scene: Scene, branch: Branch, soft: dict[str, str]) -> None:
     """Place a body's frame on its parent, with the joints between: at zero, axes are parallel,
     or as a joint of the plane holds them."""
-    joint, at = branch.joint, (0.0, 0.0, 0.0)
+    joint = branch.joint
+    pos: dict[str, str] = {}
     friction: dict[str, str] = {}
     if joint is not None:
         outer, inner = branch.ends()
-        at = local(scene, inner)
+        x, y, z = local(scene, inner)
+        pos["pos"] = written(x, y, z)
         held = held_angle(scene, branch)
-        x, y, z = at
         ends = zip(local(scene, outer), (*turned((x, y), held), z), strict=True)
         element.set("pos", written(*(there - own for there, own in ends)))
         if held:
@@ -167,7 +168,7 @@ def _hang(element: ET.Element, scene: Scene, branch: Branch, soft: dict[str, str
             ET.SubElement(element, "freejoint", name=native.name)
             continue
         given = {"axis": written(*native.axis)} if native.type != "ball" else {}
-        given |= {"pos": written(*at)} if native.type != "slide" else {}
+        given |= pos if native.type != "slide" else {}
         rubs = friction if native.of == 0 else {}
         _joint(element, native.name, native.type, **given, **rubs)
 
