@@ -26,7 +26,9 @@ from textmech.engines.mujoco.callbacks.signal import Control, installed, listeni
 from textmech.engines.mujoco.model.drive import controls
 from textmech.engines.mujoco.model.force import BY_ITSELF
 from textmech.engines.mujoco.model.rods import with_rods
+from textmech.engines.mujoco.model.tree import dry_joints
 from textmech.engines.mujoco.read.poses import poses
+from textmech.engines.mujoco.read.record import Record
 from textmech.engines.signal import factor, value
 
 from .plain import Begin, Plain
@@ -67,8 +69,9 @@ def _states(
     scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, begun: Array, start: Start
 ) -> Start:
     """begun: the first positions, from whose angles turns are counted."""
-    rows = np.array([begun, data.qpos]), np.array([data.qvel, data.qvel])
-    found = poses(scene, model, *rows, start)
+    none = np.empty((2, 0))  # nothing has an activation
+    record = Record(np.array([begun, data.qpos]), np.array([data.qvel, data.qvel]), none)
+    found = poses(scene, model, data, record, start)
     return {name: tuple(row[1].tolist()) for name, row in found.items()}  # type: ignore[misc]
 
 
@@ -94,7 +97,7 @@ def _in_time(laws: list[Signal]) -> Control | None:
 
 def _told(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Take:
     """(2.89) before each step; (2.95) at each of its stages, as before each step it is unstable."""
-    (joint,) = (joint for joint in scene.joints.values() if joint.dry_friction)
+    (joint,) = dry_joints(scene)
     friction, dof = joint.dry_friction, int(model.joint(joint.name).dofadr[0])
     assert friction
     model.dof_frictionloss[dof] = 0.0
@@ -139,7 +142,7 @@ def _told(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Take:
 
 def _alone(scene: Scene) -> bool:
     """Whether all dry friction is of one slide, which guides a part that nothing else joins."""
-    (joint,) = (joint for joint in scene.joints.values() if joint.dry_friction)
+    (joint,) = dry_joints(scene)
     others = (other for other in scene.joints.values() if other is not joint)
     return (
         joint.shifts

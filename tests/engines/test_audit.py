@@ -35,7 +35,6 @@ BUILDER = {
     "mujoco": "textmech.engines.mujoco.adapter.compilation.mjcf",
     "pymunk": "textmech.engines.pymunk.build",
 }
-IN_SPACE = "textmech.engines.mujoco.adapter.space.compilation.mjcf"
 
 
 BOTH = ("forward", "backward")
@@ -206,7 +205,7 @@ def test_the_audit_sees(what: str, name: str, monkeypatch: pytest.MonkeyPatch) -
 @pytest.mark.mutant("{what} in mujoco, in space, not that of the scene")
 @pytest.mark.parametrize("what", WRONG_IN_SPACE)
 def test_the_audit_sees_in_space(what: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    given_another(IN_SPACE, WRONG_IN_SPACE[what], monkeypatch)
+    given_another(BUILDER["mujoco"], WRONG_IN_SPACE[what], monkeypatch)
     difference, because = audited("five_axis_robot.swinging", TUNED["mujoco"])
     assert difference > 1e-3
     assert what in because

@@ -7,7 +7,7 @@ import pytest
 from given import scenes
 from given.planning import TUNED, moved, refused
 
-from textmech.engines.mujoco.read import readout
+from textmech.engines.mujoco.read import reaction
 from textmech.engines.pymunk.stepping import run as told
 from textmech.reference.solve import solve
 from textmech.reports.compare.trial.start import first
@@ -83,7 +83,7 @@ def test_a_motor_helps_the_drive(ends: str, way: float, tmp_path: Path) -> None:
 def test_what_else_acts_about_the_joint_is_not_the_drive_s(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(readout, "TORQUES", {})
+    monkeypatch.setattr(reaction, "TORQUES", {})
     assert off("mujoco", tmp_path)[1] > 1.0
 
 

@@ -9,9 +9,12 @@ from given.planning import TUNED, moved, planned, refused, ways
 from given.rubbing import HELD, HUNG
 
 from textmech.cases.case import Case
+from textmech.cases.scene import Scene
 from textmech.cases.trajectory import ANGLE
 from textmech.engines.engine import Realised, Start
-from textmech.engines.mujoco.callbacks import friction
+from textmech.engines.mujoco.model import start as begins
+from textmech.engines.mujoco.model import tree
+from textmech.engines.mujoco.model.tree import Branch, Tree
 from textmech.reference.solve import solve
 
 END = scenes.tail(3.0, 31)
@@ -58,7 +61,15 @@ def test_these_are_the_ways(engine: str, ends: str, tmp_path: Path) -> None:
 def test_mutant_that_forgets_which_part_is_counted(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(friction, "way", lambda scene, joint: 1.0)
+    """Axis and start as if MuJoCo's hinge were always named from the parent to the body."""
+    sound = begins._turn
+
+    def as_named(scene: Scene, kept: Tree, branch: Branch, start: Start) -> tuple[float, float]:
+        angle, omega = sound(scene, kept, branch, start)
+        return (angle, omega) if branch.forward else (-angle, -omega)
+
+    monkeypatch.setattr(tree, "_axis", lambda scene, branch, freedom: freedom.axis)
+    monkeypatch.setattr(begins, "_turn", as_named)
     case, start = typed(tmp_path, rubbing.swinging(HELD, 1.0, 1.4))
     run = moved(TUNED["mujoco"], case.scene, start, case.times, STEP, realised="law")
     error = np.max(np.abs(run.states["rod"][:, ANGLE] - rubbing.swung(case.times, 1.0, 1.4)))

@@ -21,6 +21,7 @@ from textmech.engines.mujoco.adapter.compilation import compiled
 from textmech.engines.mujoco.adapter.refuse import unbuildable
 from textmech.engines.mujoco.callbacks import foot_contact as feet
 from textmech.engines.mujoco.read.poses import poses
+from textmech.engines.mujoco.read.record import Record
 from textmech.engines.pymunk.stepping import run as steps
 from textmech.reference.systems.walkers.compass_walker import CompassWalker
 
@@ -104,7 +105,8 @@ def test_its_impulse_is_that_of_the_reference(monkeypatch: pytest.MonkeyPatch) -
         rates = [data.qvel.copy()]
         sound(model, data)
         rates.append(data.qvel.copy())
-        found = poses(scene, model, np.array([data.qpos] * 2), np.array(rates), start)
+        record = Record(np.array([data.qpos] * 2), np.array(rates), np.empty((2, 0)))
+        found = poses(scene, model, data, record, start)
         legs = np.array([found[leg] for leg in ("left", "right")])
         seen.append((np.pi / 2 - legs[:, 0, ANGLE], -legs[:, 0, OMEGA], -legs[:, 1, OMEGA]))
 

@@ -91,8 +91,8 @@ IN_GROUPS: list[tuple[dict[str, Any], str]] = [
     ),
     (
         {"each": {"wall": [0.02, 1.0]}},
-        "mujoco.each.wall: should be a map of solref, solimp, solreffriction, margin, solreflimit, "
-        "solimplimit, is [0.02, 1.0]",
+        "mujoco.each.wall: should be a map of solreflimit, solimplimit, solref, solimp, "
+        "solreffriction, margin, is [0.02, 1.0]",
     ),
     (
         {"each": "wall"},

@@ -98,7 +98,7 @@ def test_the_carrying_recipe_throws_a_tip_back() -> None:
     """MuJoCo's for a tip that only stands: 20 times later in three strikes."""
     struck, _ = known(HEAVY_RIM)
     scene, _ = begun("rimless_wheel")
-    tip = at_step(contact.RECIPES["tip"](scene), 1e-4)
+    tip = at_step(contact.recipes(scene)["tip"](scene), 1e-4)
     assert late(moved("mujoco", HEAVY_RIM, 1e-4, *tip), struck) > 1e-3
 
 

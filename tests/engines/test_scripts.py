@@ -23,13 +23,11 @@ from textmech.cases.scene import Scene
 from textmech.cases.scene.frame import SPACE
 from textmech.cases.scene.rotation import matrix
 from textmech.cases.scene.shape import bar
-from textmech.cases.scene.space.scene import SpatialScene
 from textmech.engines.engine import Engine, Start
 from textmech.engines.mujoco.callbacks.signal import Corners, following, installed, together
 from textmech.engines.mujoco.model.drive import controls
 from textmech.engines.mujoco.model.force import BY_ITSELF
-from textmech.engines.mujoco.model.script import controls as callback
-from textmech.engines.mujoco.model.space.scene import signals as controls_in_space
+from textmech.engines.mujoco.model.script import told
 from textmech.reports.compare.trial.start import assembled
 
 STEP = 1e-3  # s: whole steps in the 1 s that a script of pymunk's runs
@@ -54,8 +52,7 @@ def with_means(text: str, scene: Scene) -> mujoco.MjData:
     model = mujoco.MjModel.from_xml_string(text)
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, 0)
-    in_space = isinstance(scene, SpatialScene)
-    laws = controls_in_space(scene) if in_space else controls(scene)
+    laws = controls(scene)
     corners = Corners(laws, model.opt.timestep)
     with together([following(laws, corners)]):
         corners.held(lambda n: mujoco.mj_step(model, data, n))(round(1.0 / model.opt.timestep))
@@ -177,7 +174,7 @@ def pasted(law: Signal, times: list[float]) -> list[float]:
     """The control that the printed callback sets at these times."""
     model = mujoco.MjModel.from_xml_string(MOTOR)
     data, space = mujoco.MjData(model), {}
-    text = callback(model, [law]).split("<!--")[-1].split("-->")[0]
+    text = told(model, [law]).split("<!--")[-1].split("-->")[0]
     exec(text.replace("mujoco.set_mjcb_control(control)", ""), space)
     found = []
     for data.time in times:

@@ -18,9 +18,8 @@ from given.planning import begun, planned
 from textmech.engines.engine import Choice
 from textmech.engines.knobs import Options
 from textmech.engines.mujoco import MuJoCo
-from textmech.engines.mujoco.adapter.compilation import timestep
-from textmech.engines.mujoco.adapter.plane import PLANE
-from textmech.engines.mujoco.adapter.space.world import SPACE
+from textmech.engines.mujoco.adapter.compilation import compiled, timestep
+from textmech.engines.mujoco.model.scene import mjcf
 from textmech.engines.pymunk import Pymunk
 from textmech.engines.pymunk.adapter.plans import numbers_by_name
 from textmech.engines.pymunk.adapter.script import building
@@ -52,16 +51,15 @@ def test_elements_for_mujoco(name: str, options: Options) -> None:
     scene, start = begun(name)
     options = options or MuJoCo("shipped").recipe(scene, start)
     engine = MuJoCo("own", {**options, "step": STEP})
-    world = SPACE if scene.frame.dimension == 3 else PLANE
     plan = planned(engine, scene, start)
     given = [c for c in planned(MuJoCo("shipped"), scene, start).choices(STEP) if _heavy(c)]
     # noslip needs a freedom more, which no option is
     given += [Choice(c.name, 1, "") for c in plan.choices(STEP) if "noslip" in c.name]
-    bare = world.mjcf(scene, start, [timestep(1.0), *given])
+    bare = mjcf(scene, start, [timestep(1.0), *given])
     snippet = engine.snippet(scene, start, options, STEP)
     head, tag, rest = bare.partition("<worldbody>")
     both = mujoco.MjModel.from_xml_string(head + snippet + tag + rest)
-    wanted, _ = world.compiled(scene, start, STEP, plan)
+    wanted, _ = compiled(scene, start, STEP, plan)
     for field in ("dof_solref", "dof_solimp"):  # a default is also for joints that do not rub
         idle = wanted.dof_frictionloss == 0
         getattr(both, field)[idle] = getattr(wanted, field)[idle]
@@ -82,12 +80,12 @@ def test_what_one_default_cannot_say_of_two_groups_is_a_comment(tmp_path: Path) 
     said, _, elements = snippet.partition("-->")
     numbers = re.fullmatch("<!-- each equality of a rod has (.*) instead ", said)
     assert numbers
-    bare = PLANE.mjcf(scene, start, [timestep(1.0)])
+    bare = mjcf(scene, start, [timestep(1.0)])
     head, tag, rest = bare.partition("<worldbody>")
     inside = rest.partition("<equality>")
     held_too = inside[2].replace("<tendon ", f"<tendon {numbers[1].replace(',', '')} ")
     pasted = "".join([head, elements, tag, *inside[:2], held_too])
-    wanted, _ = PLANE.compiled(scene, start, STEP, plan)
+    wanted, _ = compiled(scene, start, STEP, plan)
     assert not differing(mujoco.MjModel.from_xml_string(pasted), wanted)
     assert differing(mujoco.MjModel.from_xml_string(head + elements + tag + rest), wanted)
 

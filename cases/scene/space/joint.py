@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 
@@ -56,6 +56,8 @@ class SpatialJoint:
     attitude tells it but for whole turns, and of three turns in two ways.
     """
 
+    dry_friction: ClassVar[None] = None  # nothing rubs in space
+    swings: ClassVar[bool] = False  # nor is there a massless rod
     name: str
     kind: Literal["hinge", "ball", "universal", "slide", "weld", "freedoms"]  # the file's word
     a: Anchor  # the point of the first part

@@ -13,36 +13,34 @@ from typing import Any
 import mujoco
 
 from ....cases.scene import Scene
+from ....cases.scene.frame import SPACE
 from ....cases.trajectory import Array
 from ...engine import Choice, Plan, Start
 from ..callbacks.contact_friction import one_touch, touches
 from ..callbacks.inner_state import acting
 from ..callbacks.rope_limit import draw
 from ..callbacks.settle import settle
+from ..callbacks.settle_in_space import settle_in_space
 from ..callbacks.signal import installed, listening
-from ..model.hinge import hinge
 from ..model.number_text import EACH
 from ..model.scene import mjcf
 from ..model.stops import lean
-from ..settings.settings import alone
-from .run import started
+from ..settings.groups import GROUPS, single
 
 NOMINAL = 1e-3  # s: with which a scene is compiled; any step would do
 
-# Where the compiled model holds the numbers that may follow the step.
-_HELD = {
-    "connect.solref": "eq_solref",
-    "rod.solref": "eq_solref",
-    "pair.solref": "pair_solref",
-    "pair.solreffriction": "pair_solreffriction",
-    "slide.solreffriction": "dof_solref",
-    "rope.solreflimit": "tendon_solref_lim",
-    "stop.solreflimit": "jnt_solref",
-}
-_EQUALITIES = {"connect": mujoco.mjtEq.mjEQ_CONNECT, "rod": mujoco.mjtEq.mjEQ_TENDON}
-# Other fields that a run writes: friction by our laws, and the start in the floor.
-_WRITTEN = (*_HELD.values(), "dof_frictionloss", "pair_friction", "site_pos", "tendon_limited")
+# Fields that a run writes: what follows the step, friction by our laws, the start in the floor.
+_WRITTEN = (*(field for group in GROUPS.values() for field in group.fields.values()),)
+_WRITTEN += ("dof_frictionloss", "pair_friction", "site_pos", "tendon_limited")
 _WRITTEN += ("key_qpos", "key_qvel")
+
+
+def started(model: mujoco.MjModel) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """The model, and data at its start."""
+    with listening(), installed(None), acting(None):
+        data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+    return model, data
 
 
 def compiled(
@@ -60,10 +58,11 @@ def compiled(
 
 def placed(
     scene: Scene, start: Start, step: float, plan: Plan, *, settles: bool
-) -> tuple[mujoco.MjModel, mujoco.MjData, dict[str, float]]:
+) -> tuple[mujoco.MjModel, mujoco.MjData, dict[str, Any]]:
     """The model and data of `compiled` with the start as keyframe, settled if `settles`.
 
-    By name, how deep [m] it settles in the floor, and how much too long [m] its ropes are.
+    By name, how deep [m] it settles in the floor (of a body in space with how fast [m/s] it creeps
+    there), and how much too long [m] its ropes are.
     """
     model, data = compiled(scene, start, step, plan)
     return model, data, _settle(scene, model, data, start, plan) if settles else {}
@@ -109,10 +108,11 @@ def lent(
 
 def _settle(
     scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, start: Start, plan: Plan
-) -> dict[str, float]:
+) -> dict[str, Any]:
     if plan.realised != "native" and one_touch(scene):
         touches(scene, model, data)  # friction of MuJoCo's own would press it into the floor
-    moved = settle(scene, model, data, start)
+    by = settle_in_space if scene.frame is SPACE else settle
+    moved: dict[str, Any] = {**by(scene, model, data, start)}
     lean(scene, model, data)
     roped = any(scene.ropes())
     moved |= draw(scene, model, data) if roped else {}
@@ -149,22 +149,7 @@ def _number(
 
 def _write(scene: Scene, model: mujoco.MjModel, choice: Choice) -> None:
     where, _, name = choice.name.rpartition(".")
-    group, _, element = where.partition(".")
-    places: Any = slice(None)
-    if group == EACH:
-        group = alone(scene)[element]
-        places = _place(scene, model, group, element)
-    elif group in _EQUALITIES:
-        places = model.eq_type == _EQUALITIES[group]
-    elif group == "slide":
-        dry = (joint.name for joint in scene.joints.values() if joint.dry_friction is not None)
-        places = [model.joint(joint).dofadr[0] for joint in dry]
-    getattr(model, _HELD[f"{group}.{name}"])[places] = choice.value
-
-
-def _place(scene: Scene, model: mujoco.MjModel, group: str, element: str) -> int:
-    """Where the model has what is one contact's, or one joint's stops'."""
-    if group == "pair":
-        return model.pair(element).id
-    stops = next(stops for stops in scene.stops() if stops.name == element)
-    return model.joint(hinge(scene, stops).name).id
+    word, _, element = where.partition(".")
+    group = single(scene)[element] if word == EACH else GROUPS[word]
+    places = group.single(scene)[element] if word == EACH and group.single else group.places
+    getattr(model, group.fields[name])[places(scene, model)] = choice.value

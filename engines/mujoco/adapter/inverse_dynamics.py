@@ -10,19 +10,18 @@ import mujoco
 import numpy as np
 
 from ....cases.scene import Scene
+from ....cases.scene.frame import PLANE
 from ....cases.scene.point import CENTER
-from ....cases.scene.rotation import matrix
 from ....cases.scene.space.joint import effort_of
-from ....cases.scene.space.scene import SpatialScene
 from ....cases.scene.states import MASS_MATRIX
 from ....cases.trajectory import Array
 from ..callbacks.signal import installed, listening
 from ..model.force import lacking
 from ..model.number_text import written
 from ..model.scene import LEAST
-from ..model.spatial_tree import natives, spanning_tree
-from ..model.tree import called
-from .run import started
+from ..model.tree import called, freedoms_left, natives, spanning_tree
+from ..read.measure import tensor
+from .compilation import started
 
 Read = Callable[[], Any]
 
@@ -81,17 +80,18 @@ def _withheld(scene: Scene, name: str) -> str:
 
 def _coordinates(scene: Scene, names: Mapping[str, Any]) -> dict[str, tuple[str, str]]:
     """MuJoCo's joint of each coordinate, and the quantity that moves it."""
-    if not isinstance(scene, SpatialScene):
+    if scene.frame is PLANE:
         return {name: (name, "") for name in names}
     found = dict(_natives(scene))
     return {name: found[name] for name in names}
 
 
-def _natives(scene: SpatialScene) -> Iterator[tuple[str, tuple[str, str]]]:
+def _natives(scene: Scene) -> Iterator[tuple[str, tuple[str, str]]]:
     for branch in spanning_tree(scene).branches:
         assert branch.joint is not None  # each body hangs on one
+        joint = branch.joint.name
         for native in natives(scene, branch):
-            freedom, joint = branch.joint.freedoms[native.of], branch.joint.name
+            freedom = freedoms_left(scene, branch.joint)[native.of]
             yield f"{joint}.{freedom.name}", (native.name, f"{joint}.{effort_of(freedom)}")
 
 
@@ -114,7 +114,7 @@ def _reader(
         dof = dofs[efforts.index(name)]
         return lambda: data.qfrc_inverse[dof]
     if field in _ENTRIES:
-        entry = _tensor(model, model.body(called(part)).id)[_ENTRIES[field]]
+        entry = tensor(model, model.body(called(part)).id)[_ENTRIES[field]]
         return lambda: entry
     at = part if "." in part else f"{part}.{CENTER}"
     if field == "attitude":
@@ -135,12 +135,6 @@ def _mass_matrix(model: mujoco.MjModel, data: mujoco.MjData, dofs: list[int]) ->
     full = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, full)
     return full[np.ix_(dofs, dofs)]
-
-
-def _tensor(model: mujoco.MjModel, number: int) -> Array:
-    """(3, 3) in body axes: MuJoCo keeps principal moments and the attitude of their axes."""
-    axes = matrix(model.body_iquat[number])
-    return (axes * model.body_inertia[number]) @ axes.T
 
 
 def _of_all(model: mujoco.MjModel, data: mujoco.MjData, name: str) -> float:

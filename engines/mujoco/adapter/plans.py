@@ -1,10 +1,12 @@
 """Plans of MuJoCo's settings for a scene: ways, exponents, and the protocol's words."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
+from typing import Any
 
 from ....cases.scene import CENTER, Contact, Pair, Scene
+from ....cases.scene.frame import SPACE
 from ...engine import Choice, Plan, Realised, Start
 from ...foot_contact import strides
 from ...law import one_number
@@ -12,38 +14,134 @@ from ..callbacks.contact_friction import one_touch
 from ..callbacks.friction import one_slide, smooth_only
 from ..callbacks.rope_impact import catches
 from ..callbacks.spring_switch import has_corners
+from ..callbacks.stepping import (
+    Stepper,
+    at_catches,
+    at_corners,
+    at_friction,
+    at_strikes,
+    by_law,
+    native,
+)
 from ..model.bounce import spread
 from ..model.contact import falls
 from ..model.force import lacking
 from ..model.planes import met
-from ..model.scene import HEAVY
-from ..model.tree import driven
+from ..model.scene import HEAVY, LEAST
+from ..model.tree import driven, dry_joints
 from ..settings.settings import only_slides
 from .compilation import NOMINAL, placed
 
 Numbers = Callable[[float], Sequence[Choice]]
 
 
-def ways(scene: Scene, start: Start, *, tuned: bool) -> tuple[Realised, ...]:
-    """MuJoCo's own elements; dry friction, of which it knows one number, in other ways too; and
-    springs of one side, whose corners its steps do not know.
+@dataclass(frozen=True)
+class Way:
+    """One way of running a scene, natively, by law or by driver.
 
-    Edges, and forces that it has no element for, by our law alone.
+    applies: whether a scene is one for it; ways of one name exclude each other. words: what it
+    does, for the protocol. beside: whether the scene can be run without it, so that the tuned
+    setting alone offers it.
     """
-    if scene.constraints:
-        return ("law",)
-    if strides(scene):
-        return ("driver",)
-    if lacking(scene):
-        driver = tuned and one_slide(scene) and not smooth_only(scene)
-        return ("law", "driver") if driver else ("law",)
-    if tuned and one_touch(scene) and not falls(scene, start):
-        return ("native", "law", "driver")
-    if tuned and (has_corners(scene) or catches(scene)):
-        return ("native", "driver")
-    if not tuned or not one_slide(scene):
-        return ("native",)
-    return ("native", "law") if smooth_only(scene) else ("native", "law", "driver")
+
+    realised: Realised
+    applies: Callable[[Scene], bool]
+    steps: Stepper
+    words: Callable[[Scene], list[str]] = lambda scene: []
+    beside: bool = False
+
+
+def ways(scene: Scene, start: Start, *, tuned: bool) -> tuple[Realised, ...]:
+    """The ways in which a setting runs the scene."""
+    # Of what comes down the normal force is anything, which no law of friction follows.
+    beside = tuned and not (one_touch(scene) and falls(scene, start))
+    found = (way for way in WAYS if way.applies(scene) and (beside or not way.beside))
+    return tuple(way.realised for way in found)
+
+
+def way(scene: Scene, realised: Realised) -> Way:
+    """The one way of that name for the scene."""
+    (found,) = (way for way in WAYS if way.realised == realised and way.applies(scene))
+    return found
+
+
+def _own(scene: Scene) -> bool:
+    """Whether MuJoCo has something of its own for all of the scene."""
+    return not (scene.constraints or strides(scene) or lacking(scene))
+
+
+def _lacks_forces(scene: Scene) -> bool:
+    return bool(lacking(scene)) and not (scene.constraints or strides(scene))
+
+
+def _switches(scene: Scene) -> bool:
+    """Whether one dry joint, or one contact by itself, sticks and slides."""
+    if scene.constraints or strides(scene):
+        return False
+    return (one_slide(scene) and not smooth_only(scene)) or (_own(scene) and one_touch(scene))
+
+
+def _held(scene: Scene) -> list[str]:
+    return [f"{', '.join(scene.constraints)} held by our law at every stage", *_told(scene)]
+
+
+def _rubbed(scene: Scene) -> list[str]:
+    when = "stage" if smooth_only(scene) and not met(scene) else "step"
+    rubs = one_slide(scene) or one_touch(scene)
+    return [f"dry friction by our law before every {when}"] if rubs else []
+
+
+def _told(scene: Scene) -> list[str]:
+    ours = ", ".join(force.name for force, _ in lacking(scene))
+    return [f"{ours} by our law at every stage, which the script has not"] if ours else []
+
+
+def _cut(where: str) -> Callable[[Scene], list[str]]:
+    return lambda scene: [*_told(scene), where]
+
+
+WAYS = (
+    Way("native", _own, native),
+    Way("law", lambda scene: bool(scene.constraints), by_law, _held),
+    Way("law", _lacks_forces, by_law, lambda scene: [*_rubbed(scene), *_told(scene)]),
+    Way(
+        "law",
+        lambda scene: _own(scene) and (one_slide(scene) or one_touch(scene)),
+        by_law,
+        _rubbed,
+        beside=True,
+    ),
+    Way(
+        "driver",
+        lambda scene: strides(scene) and not scene.constraints,
+        at_strikes,
+        _cut("the foot that stands is pinned; steps are cut where one strikes: an impulse"),
+    ),
+    Way(
+        "driver",
+        _switches,
+        at_friction,
+        _cut("steps cut at the events of dry friction"),
+        beside=True,
+    ),
+    Way(
+        "driver",
+        lambda scene: _own(scene) and catches(scene),
+        at_catches,
+        _cut("steps cut where a rope comes taut, and the impact taken there"),
+        beside=True,
+    ),
+    Way(
+        "driver",
+        lambda scene: _own(scene) and has_corners(scene),
+        at_corners,
+        _cut("steps cut where a spring begins or ends to act"),
+        beside=True,
+    ),
+)
+"""MuJoCo's own elements; our laws for edges, for forces that it has no element for, and for dry
+friction, of which it knows one number; and our drivers, which cut a step where it would cross what
+no integrator knows."""
 
 
 def plan(
@@ -62,7 +160,7 @@ def plan(
     2, 3.
     """
     integrator = {choice.name: choice.value for choice in numbers(NOMINAL)}["option.integrator"]
-    dry = any(joint.dry_friction for joint in scene.joints.values())
+    dry = bool(dry_joints(scene))
     jumps = any(law.corners for law in scene.laws())
     first = integrator != "RK4" or bool(met(scene)) or (dry and realised != "driver")
     first |= any(scene.stops())
@@ -96,33 +194,40 @@ def _words(scene: Scene, start: Start, plan: Plan, settles: bool, tuned: bool, s
         words.append(f"prescribed rates are armatures of {HEAVY:g} kg m² (kg of a slide)")
     if plan.simplified:
         words.append(plan.simplified)
-    if scene.constraints:
-        words.append(f"{', '.join(scene.constraints)} held by our law at every stage")
-    elif plan.realised == "law" and (one_slide(scene) or one_touch(scene)):
-        when = "stage" if smooth_only(scene) and not met(scene) else "step"
-        words.append(f"dry friction by our law before every {when}")
-    if ours := [force.name for force, _ in lacking(scene)]:
-        words.append(f"{', '.join(ours)} by our law at every stage, which the script has not")
-    if strides(scene):
-        words.append("the foot that stands is pinned; steps are cut where one strikes: an impulse")
-    elif plan.realised == "driver":
-        acts, dry = "where a spring begins or ends to act", "at the events of dry friction"
-        taut = "where a rope comes taut, and the impact taken there"
-        acts = taut if catches(scene) else acts
-        words.append(f"steps cut {dry if one_slide(scene) or one_touch(scene) else acts}")
+    words += way(scene, plan.realised).words(scene)
     if tuned and met(scene) and falls(scene, start):
         words.append("starts above the floor: contacts are tuned for impacts")
     if tuned and (thrown := max((one.restitution for one in met(scene)), default=0.0)):
         lasts, kept = spread(thrown)
         words.append(f"a bounce lasts {lasts:.0f} steps, and keeps its speed to about {kept:.2g} %")
+    words += [f"{name} has {LEAST:g} kg m² about its own axis" for name in _slender(scene)]
     if settles and (met(scene) or any(scene.ropes())):
-        *_, depths = placed(scene, start, step, plan, settles=True)
-        both = {**scene.touching, **scene.pairs}
-        longer = ((name, depth) for name, depth in depths.items() if name not in both)
-        words += [f"{name} started {more:.1e} m too long" for name, more in longer]
-        deep = ((both[name], depth) for name, depth in depths.items() if depth and name in both)
-        words += [f"{_at(c)} started {depth:.1e} m in the {c.on}" for c, depth in deep]
+        *_, moved = placed(scene, start, step, plan, settles=True)
+        words += _begun_in_space(moved) if scene.frame is SPACE else _begun(scene, moved)
     return "; ".join(words)
+
+
+def _slender(scene: Scene) -> list[str]:
+    """The bodies in space without a moment about their own axis."""
+    bodies: Mapping[str, Any] = scene.bodies if scene.frame is SPACE else {}
+    return [n for n, body in bodies.items() if body.turns and min(body.inertia[:3]) == 0.0]
+
+
+def _begun(scene: Scene, moved: Mapping[str, float]) -> list[str]:
+    """How much too long ropes are started [m], and how deep in the floor what touches."""
+    both = {**scene.touching, **scene.pairs}
+    words = [f"{name} started {m:.1e} m too long" for name, m in moved.items() if name not in both]
+    deep = ((both[name], depth) for name, depth in moved.items() if depth and name in both)
+    return words + [f"{_at(c)} started {depth:.1e} m in the {c.on}" for c, depth in deep]
+
+
+def _begun_in_space(moved: Mapping[str, tuple[float, float]]) -> list[str]:
+    """How deep bodies are started in the floor [m], and how fast they creep there [m/s]."""
+    return [
+        f"{name} started {depth:.1e} m in the floor, creeping {creep:.1e} m/s"
+        for name, (depth, creep) in moved.items()
+        if depth
+    ]
 
 
 def _at(contact: Contact | Pair) -> str:

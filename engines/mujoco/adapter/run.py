@@ -6,25 +6,15 @@ import numpy as np
 from ....cases.scene import Scene
 from ....cases.trajectory import Array, Trajectory
 from ...engine import Diverged, Realised, Start
-from ..callbacks.edge import edges
-from ..callbacks.inner_state import acting, activations, rated
+from ..callbacks.inner_state import activations, rated
 from ..callbacks.point_forces import point_force_callbacks
-from ..callbacks.signal import Corners, installed, listening, signals
-from ..callbacks.smooth import smooth
-from ..callbacks.stepping import stepping
+from ..callbacks.signal import Corners, listening, signals
 from ..model.drive import controls
 from ..read.poses import poses
 from ..read.reaction import felt_force
 from ..read.readout import read
 from ..read.record import Record, all_steps, counted, sampled, whole
-
-
-def started(model: mujoco.MjModel) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """The model, and data at its start."""
-    with listening(), installed(None), acting(None):
-        data = mujoco.MjData(model)
-    mujoco.mj_resetDataKeyframe(model, data, 0)
-    return model, data
+from .plans import way
 
 
 def simulate(
@@ -45,9 +35,8 @@ def simulate(
     """
     counts = counted(times, model.opt.timestep)
     grid = all_steps(times, model.opt.timestep) if every else times
-    steps = stepping(scene, model, data, realised)
-    laws = [*smooth(scene, model), *edges(scene, model)] if realised == "law" else steps.controls
-    laws = [*laws, *point_force_callbacks(scene, model)]
+    steps = way(scene, realised).steps(scene, model, data)
+    laws = [*steps.controls, *point_force_callbacks(scene, model)]
     given = (force.name for force in scene.forces.values() if force.given)
     felt_by = {*scene.contacts, *scene.pairs, *given}
     touching = tuple(name for name in reactions if name.partition(".")[0] in felt_by)
@@ -73,7 +62,7 @@ def simulate(
         felt = tuple(name for name in reactions if name not in inner)
         forces = read(scene, model, data, times, rows, felt, steps.recall) | inner
         check(warnings, grid, record)
-    states = poses(scene, model, record.qpos, record.qvel, start)
+    states = poses(scene, model, data, record, start)
     if not every:
         return Trajectory(times, states, forces)
     phase = np.zeros(len(grid), dtype=np.int64)  # an engine does not say when one ends

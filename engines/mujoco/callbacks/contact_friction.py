@@ -12,6 +12,7 @@ from ....cases.scene import Bounds, Contact, DryFriction, Scene
 from ....cases.trajectory import Array
 from ...law import braking, dry_friction
 from ..model.contact import alone
+from ..model.tree import dry_joints
 
 _LEAST = 1e-5  # of a coefficient of friction: MuJoCo takes no less
 
@@ -155,7 +156,7 @@ def one_touch(scene: Scene) -> bool:
         and contacts[0].static != contacts[0].kinetic
         and not contacts[0].restitution
         and alone(scene, contacts[0])
-        and not any(joint.dry_friction for joint in scene.joints.values())
+        and not dry_joints(scene)
     )
 
 

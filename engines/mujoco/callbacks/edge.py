@@ -13,6 +13,8 @@ import mujoco
 import numpy as np
 
 from ....cases.scene import Edge, Scene, Vector
+from ....cases.scene.frame import PLANE
+from ....cases.scene.rotation import Vector3
 from ....cases.trajectory import Array
 from ...signal import rate
 from ..model.edge import edge_forces
@@ -35,12 +37,8 @@ class Row:
 
 
 def edges(scene: Scene, model: mujoco.MjModel) -> list[Control]:
-    """One callback for all edges: they may feel each other."""
-    return holding(model, [_row(model, edge, field) for edge, field in edge_forces(scene)])
-
-
-def holding(model: mujoco.MjModel, rows: Sequence[Row]) -> list[Control]:
-    """One callback for all rows, or none."""
+    """One callback for all edges, for they may feel each other; or none."""
+    rows = [_row(scene, model, edge, field) for edge, field in edge_forces(scene)]
     if not rows:
         return []
 
@@ -51,20 +49,23 @@ def holding(model: mujoco.MjModel, rows: Sequence[Row]) -> list[Control]:
     return [bound(bind)]
 
 
-def _row(model: mujoco.MjModel, edge: Edge, field: str) -> Row:
+def _row(scene: Scene, model: mujoco.MjModel, edge: Edge, field: str) -> Row:
     body, site = model.body(called(edge.at.body)).id, model.site(str(edge.at)).id
-    if field == "force" or edge.speed is None:
-        return Row(body, site, _carried(edge.across), still)
-    return Row(body, site, _carried(edge.along), lambda t, law=edge.speed: rate(law, t)[0])
+    if field == "drive" and edge.speed is not None:
+        return Row(body, site, _carried(edge.along), lambda t, law=edge.speed: rate(law, t)[0])
+    if field == "normal":
+        return Row(body, site, _upward, _still)
+    way = _carried(edge.across) if scene.frame is PLANE else _leftward(edge.along)  # type: ignore[arg-type]
+    return Row(body, site, way, _still)
 
 
-def still(t: float) -> float:
+def _still(t: float) -> float:
     """ṡ of what stays zero."""
     return 0.0
 
 
 def _carried(way: Vector) -> Way:
-    """A direction that the body carries: ẇ = ω × w."""
+    """A direction in the plane that the body carries: ẇ = ω × w."""
     x, y = way
 
     def turned(axes: Array, omega: Array) -> tuple[Array, Array]:
@@ -72,6 +73,23 @@ def _carried(way: Vector) -> Way:
         return w, np.array([-omega[2] * w[1], omega[2] * w[0], 0.0])
 
     return turned
+
+
+def _leftward(along: Vector3) -> Way:
+    """w is 90 degrees to the left of the blade's shadow h: ẇ = −ψ̇ h/|h|, with ψ̇ its turning."""
+
+    def left(axes: Array, omega: Array) -> tuple[Array, Array]:
+        x, y, z = axes @ along
+        size = np.hypot(x, y)
+        turning = omega[2] - z * (omega[0] * x + omega[1] * y) / size**2
+        way = np.array([-y, x, 0.0]) / size
+        return way, turning * np.array([-way[1], way[0], 0.0])
+
+    return left
+
+
+def _upward(axes: Array, omega: Array) -> tuple[Array, Array]:
+    return np.array([0.0, 0.0, 1.0]), np.zeros(3)
 
 
 class _Law:

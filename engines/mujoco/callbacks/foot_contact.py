@@ -99,12 +99,11 @@ def stop(model: mujoco.MjModel, data: mujoco.MjData) -> None:
     data.qacc_warmstart[:] = 0.0  # of another set of constraints
 
 
-def feet(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Feet | None:
-    """At the start of the data, where MJCF says which stand."""
+def feet(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Feet:
+    """The feet of a scene that has some, at the start of the data: MJCF says which stand."""
     standing = [name for name in strode(scene) if data.eq_active[model.eq(name).id]]
     begun = stride(scene, standing)
-    if begun is None:
-        return None
+    assert begun is not None
     for name in begun.feet:  # a site in its body's origin would stay there: MuJoCo compiles it in
         model.site_sameframe[model.site(name).id] = mujoco.mjtSameFrame.mjSAMEFRAME_NONE
     places = {

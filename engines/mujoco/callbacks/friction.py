@@ -12,7 +12,7 @@ import numpy as np
 from ....cases.scene import DryFriction, Joint, Scene
 from ....cases.trajectory import Array
 from ...law import braking, dry_friction
-from ..model.hinge import way
+from ..model.tree import dry_joints
 from .loop_inertia import closed
 
 
@@ -21,7 +21,7 @@ class Slide:
     """One slide or pin with dry friction: 0 while it sticks, else the sign of its speed.
 
     What is a force [N], a speed [m/s] and a mass [kg] of a slide is a moment [N m], a rate [rad/s]
-    and an inertia [kg m²] of a pin. way: −1 where MuJoCo counts the first part against the second.
+    and an inertia [kg m²] of a pin.
 
     MuJoCo's arrays are fetched once, and what its coefficients give is worked out once: it is asked
     before every step.
@@ -30,7 +30,6 @@ class Slide:
     model: mujoco.MjModel
     data: mujoco.MjData
     joint: Joint
-    way: float = 1.0
     sense: int = 0
     before: float | None = None  # the applied force [N] at the step before
     last: float = 0.0  # m/s, at the step before
@@ -58,12 +57,12 @@ class Slide:
 
     @property
     def speed(self) -> float:
-        return self.way * self._qvel.item(self.dof)
+        return self._qvel.item(self.dof)
 
     def push(self, force: float) -> None:
         """Friction is this force [N], and nothing holds."""
         self._loss[self.dof] = 0.0
-        self._pushed[self.dof] = self.way * force
+        self._pushed[self.dof] = force
 
     def hold(self) -> None:
         """Friction holds, whatever it takes."""
@@ -112,7 +111,7 @@ class Slide:
             mujoco.mj_solveM(self.model, self.data, self.effort, self.unit)
             self._mass = 1.0 / self.effort.item(0, self.dof)
         pushed = self._pushed.item(self.dof)  # our friction
-        return self.way * (self._mass * gains - pushed), self._mass
+        return self._mass * gains - pushed, self._mass
 
 
 def uncoupled(model: mujoco.MjModel, dof: int) -> bool:
@@ -122,17 +121,14 @@ def uncoupled(model: mujoco.MjModel, dof: int) -> bool:
 
 def slides(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> list[Slide]:
     """The joints of the scene with dry friction."""
-    dry = (joint for joint in scene.joints.values() if joint.dry_friction is not None)
-    return [Slide(model, data, joint, way(scene, joint)) for joint in dry]
+    return [Slide(model, data, joint) for joint in dry_joints(scene)]
 
 
 def one_slide(scene: Scene) -> bool:
     """Whether friction can be told from outside: one joint, and no other force that gives way."""
-    dry = [joint for joint in scene.joints.values() if joint.dry_friction is not None]
-    return len(dry) == 1 and not scene.pressed and not any(scene.limits())
+    return len(dry_joints(scene)) == 1 and not scene.pressed and not any(scene.limits())
 
 
 def smooth_only(scene: Scene) -> bool:
     """Whether no slide ever sticks."""
-    dry = [joint.dry_friction for joint in scene.joints.values() if joint.dry_friction is not None]
-    return all(friction.smooth is not None for friction in dry)
+    return all(dry.smooth is not None for joint in dry_joints(scene) if (dry := joint.dry_friction))

@@ -12,7 +12,7 @@ import numpy as np
 
 from ....cases.scene import Scene
 from ....cases.trajectory import Array
-from ..model.tree import spanning_tree
+from ..model.tree import dry_joints, spanning_tree
 from .cut import Cut, Height
 from .rope_limit import NEAR, Tendons, lengthen
 
@@ -21,8 +21,7 @@ FAR, FAST = 1e-2, 10.0  # of a rope's length, and steps at its rate: as near it 
 
 def catches(scene: Scene) -> bool:
     """Whether ropes are all that switches or gives way in the scene."""
-    dry = any(joint.dry_friction for joint in scene.joints.values())
-    soft = scene.pressed or scene.constraints or dry
+    soft = scene.pressed or scene.constraints or dry_joints(scene)
     soft = soft or any(scene.one_sided()) or any(scene.stops())
     return any(scene.ropes()) and not soft and not spanning_tree(scene).loops
 

@@ -8,7 +8,7 @@ import numpy as np
 from ....cases.scene import DryFriction, Scene
 from ....cases.trajectory import Array
 from ...law import smooth_under
-from ..model.hinge import way
+from ..model.tree import dry_joints
 from .friction import uncoupled
 from .loop_inertia import closed
 from .signal import Control, bound
@@ -20,13 +20,13 @@ Acting = Callable[[], float]
 def smooth(scene: Scene, model: mujoco.MjModel) -> list[Control]:
     """A callback for each joint with smooth friction, in place of MuJoCo's own."""
     return [
-        _friction(model, joint.name, joint.dry_friction, way(scene, joint))
-        for joint in scene.joints.values()
-        if joint.dry_friction is not None and joint.dry_friction.smooth is not None
+        _friction(model, joint.name, joint.dry_friction)
+        for joint in dry_joints(scene)
+        if joint.dry_friction and joint.dry_friction.smooth
     ]
 
 
-def _friction(model: mujoco.MjModel, name: str, friction: DryFriction, way: float) -> Control:
+def _friction(model: mujoco.MjModel, name: str, friction: DryFriction) -> Control:
     dof = int(model.joint(name).dofadr[0])
     model.dof_frictionloss[dof] = 0.0
     band = friction.smooth
@@ -37,8 +37,8 @@ def _friction(model: mujoco.MjModel, name: str, friction: DryFriction, way: floa
         acting, rates, forces = acts(model, data, dof), data.qvel, data.qfrc_applied
 
         def control() -> None:
-            along = smooth_under(friction, band, way * acting())
-            forces[dof] = way * along(way * rates.item(dof))
+            along = smooth_under(friction, band, acting())
+            forces[dof] = along(rates.item(dof))
 
         return control
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ....cases.scene import Scene
 from ....cases.trajectory import Array
+from ..model.tree import dry_joints
 from .cut import Cut, Height
 from .rope_limit import Tendons
 
@@ -18,8 +19,7 @@ _NEAR = 1e-9  # m: a spring that starts so near its rest length is told by its f
 
 def has_corners(scene: Scene) -> bool:
     """Whether springs of one side are all that switches or gives way in the scene."""
-    dry = any(joint.dry_friction for joint in scene.joints.values())
-    gives = scene.pressed or scene.constraints or dry or any(scene.limits())
+    gives = scene.pressed or scene.constraints or dry_joints(scene) or any(scene.limits())
     return any(scene.one_sided()) and not gives
 
 

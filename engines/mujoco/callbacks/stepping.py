@@ -1,7 +1,8 @@
-"""How steps are taken: by MuJoCo alone, with our law before each, or by our driver."""
+"""How steps are taken: by MuJoCo alone, with our laws, or cut where something happens in them."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any
 
 import mujoco
@@ -9,13 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....cases.scene import Scene
-from ...engine import Realised
 from .contact_friction import Touch, one_touch, touches
+from .cut import Cut
 from .driver import bounded, driven_step, falling, room
+from .edge import edges
 from .foot_contact import Feet, feet
 from .friction import Slide, slides, smooth_only
-from .rope_impact import Catching, catches
+from .rope_impact import Catching
 from .signal import Control
+from .smooth import smooth
 from .spring_switch import Corners
 
 
@@ -25,7 +28,7 @@ class Steps:
 
     model: mujoco.MjModel
     data: mujoco.MjData
-    slides: list[Slide | Touch | Feet | Catching]
+    slides: Sequence[Slide | Touch | Feet | Catching]
     take: Callable[[int], None]
     controls: list[Control] = field(default_factory=list)  # what every stage needs of us
     alone: bool = True  # whether MuJoCo's own loop takes them
@@ -56,58 +59,69 @@ class Steps:
             slide.recall(noted)
 
 
-def caught(catching: Catching, step: float) -> Callable[[int], None]:
-    """Steps [s] that are cut where a rope comes taut."""
+Stepper = Callable[[Scene, mujoco.MjModel, mujoco.MjData], Steps]
+"""What takes steps of the model's size."""
 
+
+def native(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Steps:
+    """Steps of MuJoCo's own loop."""
+    return Steps(model, data, [], partial(mujoco.mj_step, model, data))
+
+
+def by_law(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Steps:
+    """Steps with edges and smooth friction at every stage, and other dry friction before each."""
+    found = _rubbing(scene, model, data)
+    controls = [*smooth(scene, model), *edges(scene, model)]
+    if not found:
+        return replace(native(scene, model, data), controls=controls)
+
+    def step() -> None:
+        for slide in found:
+            bounded(slide)
+        mujoco.mj_step(model, data)
+
+    return Steps(model, data, found, _repeated(step), controls, alone=False)
+
+
+def at_friction(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Steps:
+    """Steps that are cut at the events of dry friction."""
+    found = _rubbing(scene, model, data)
+    step = partial(driven_step, found, float(model.opt.timestep), room(model))
+    return Steps(model, data, found, _repeated(step), falling(found), alone=False)
+
+
+def at_strikes(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Steps:
+    """Steps that are cut where a foot strikes."""
+    walks = feet(scene, model, data)
+    return _cut(walks, noting=[walks])
+
+
+def at_catches(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Steps:
+    """Steps that are cut where a rope comes taut."""
+    catching = Catching(scene, model, data)
+    return _cut(catching, noting=[catching])
+
+
+def at_corners(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Steps:
+    """Steps that are cut where a spring begins or ends to act."""
+    return _cut(Corners(scene, model, data), noting=[])
+
+
+def _rubbing(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> list[Slide | Touch]:
+    """The dry friction that is set before a step: smooth friction is a callback."""
+    if smooth_only(scene) and not one_touch(scene):
+        return []
+    return [*slides(scene, model, data), *touches(scene, model, data)]
+
+
+def _cut(driver: Cut[Any], noting: Sequence[Feet | Catching]) -> Steps:
+    step = partial(driver.step, float(driver.model.opt.timestep))
+    return Steps(driver.model, driver.data, noting, _repeated(step), alone=False)
+
+
+def _repeated(step: Callable[[], None]) -> Callable[[int], None]:
     def take(n: int) -> None:
         for _ in range(n):
-            catching.step(step)
+            step()
 
     return take
-
-
-def stepping(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, realised: Realised) -> Steps:
-    """Steps of the model's size; smooth friction is a callback and needs nothing here."""
-    ours = realised != "native" and not (smooth_only(scene) and not one_touch(scene))
-    dry = slides(scene, model, data) if ours else []
-    touching = touches(scene, model, data) if ours else []
-    found = [*dry, *touching]
-    walks = feet(scene, model, data) if realised == "driver" else None
-    step = float(model.opt.timestep)
-    if walks is not None:
-
-        def by_feet(n: int) -> None:
-            for _ in range(n):
-                walks.step(step)
-
-        return Steps(model, data, [walks], by_feet, alone=False)
-    if realised == "driver" and catches(scene):
-        catching = Catching(scene, model, data)
-        return Steps(model, data, [catching], caught(catching, step), alone=False)
-
-    def native(n: int) -> None:
-        mujoco.mj_step(model, data, n)
-
-    def by_law(n: int) -> None:
-        for _ in range(n):
-            for slide in found:
-                bounded(slide)
-            mujoco.mj_step(model, data)
-
-    kept = room(model)
-
-    def by_driver(n: int) -> None:
-        for _ in range(n):
-            driven_step(found, step, kept)
-
-    corners = Corners(scene, model, data) if realised == "driver" and not found else None
-
-    def by_corners(n: int) -> None:
-        assert corners is not None
-        for _ in range(n):
-            corners.step(step)
-
-    ways = {"native": native, "law": by_law, "driver": by_driver if found else by_corners}
-    stages = falling(found) if realised == "driver" else []
-    take = ways[realised] if found or corners else native
-    return Steps(model, data, found, take, stages, alone=take is native)

@@ -4,12 +4,19 @@ MuJoCo asks of a contact the acceleration d (−b v − k r) + (1 − d) a, wher
 the contact. What holds a wheel (d near 1) makes a sliding body hop and takes the friction out of
 an impact, and a spring that carries (k) throws back what falls: so there are several. Each is
 measured in tests/engines/test_floor.py, test_tips.py and test_impacts.py.
+
+In space it leaves out that the touching point wanders over the body (J̇ v): a disk that steers
+slips by h J̇ v, so that its error is of first order, whatever the integrator. Who takes J̇ v from
+`efc_aref` in the control callback, and an impratio of 1e8, has the second order (tested in
+tests/engines/mujoco/space/test_wandering.py).
 """
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from typing import Any
 
 from ....cases.scene import CENTER, Anchor, Contact, Pair, Scene
+from ....cases.scene.frame import PLANE, SPACE, Frame
 from ...engine import Choice, Start, begun
 from .bounce import dead, springy
 from .number_text import of_one
@@ -22,11 +29,13 @@ CLOSED = 1e-9  # m: what is nearer to the floor than that lies on it
 
 def recipe(scene: Scene, start: Start | None) -> list[Choice]:
     """The contacts' numbers; without a start everything is taken to lie on the floor."""
-    return RECIPES[chosen(scene, start)](scene)
+    return recipes(scene)[chosen(scene, start)](scene)
 
 
 def chosen(scene: Scene, start: Start | None) -> str:
     """Which of the recipes the scene needs from its start on."""
+    if scene.frame is SPACE:
+        return "rim" if any(map(_tilts, scene.contacts.values())) else "roll"
     contacts = met(scene)
     if not any(contact.switches for contact in contacts):
         return "roll"
@@ -43,9 +52,16 @@ def worth(scene: Scene) -> list[str]:
     """Which of the recipes may do something for the scene, from whatever start."""
     if not met(scene):
         return []
+    if scene.frame is SPACE:
+        return list(recipes(scene))
     thrown = ["bounce"] if any(contact.restitution for contact in met(scene)) else []
     tips = [] if _all_alone(scene) else ["tip", "pivot"]
     return ["roll", "slide", *tips, *thrown, "land"]
+
+
+def _tilts(contact: Any) -> bool:
+    """Whether the body in space stands on a rim or a point, and not on a sphere."""
+    return contact.rim or contact.ideal == "pivot"
 
 
 def _all_alone(scene: Scene) -> bool:
@@ -63,6 +79,8 @@ def alone(scene: Scene, contact: Contact) -> bool:
 
 def falls(scene: Scene, start: Start) -> bool:
     """Whether something starts above its plane, of spokes all tips, or apart from the other."""
+    if scene.frame is SPACE:
+        return False  # what touches there does so from the start on
     if any(pair.normal(begun(scene, start))[1][0] > CLOSED for pair in scene.pairs.values()):
         return True
     return any(
@@ -104,6 +122,8 @@ def meet(scene: Scene, pair: Pair, start: Start) -> bool:
 
 def closed(scene: Scene, start: Start) -> bool:
     """Whether at the start anything lies on its plane or on another, or a rope or a stop holds."""
+    if scene.frame is SPACE:
+        return bool(scene.contacts)  # all that touches does, from the start on
     on_planes = any(lies(scene, contact, start) for contact in touching(scene).values())
     if on_planes or any(meet(scene, pair, start) for pair in scene.pairs.values()):
         return True
@@ -129,12 +149,7 @@ def place(scene: Scene, at: Anchor, start: Start) -> tuple[float, float]:
 
 
 def _rolling(scene: Scene) -> list[Choice]:
-    return [
-        Choice("pair.solref", ["2h", 1.0], "the stiffest that stays stable: 2 h"),
-        Choice("pair.solimp", [HARDEST, HARDEST, 0.001], "the hardest MuJoCo takes: d = 0.9999"),
-        _ELLIPTIC,
-        Choice("option.impratio", 100.0, "less creep; from 1e4 on Newton stops early"),
-    ]
+    return [*_HOLDING, _ELLIPTIC, _CREEPING]
 
 
 def _sliding(scene: Scene) -> list[Choice]:
@@ -203,19 +218,68 @@ def _soft(k: str, *, b: float, along: float, because: str) -> list[Choice]:
     ]
 
 
-RECIPES: Mapping[str, Callable[[Scene], list[Choice]]] = {
-    "roll": _rolling,
-    "slide": _sliding,
-    "tip": _tip,
-    "pivot": _pivoting,
-    "bounce": _bouncing,
-    "land": _landing,
-}
-"""By the word that an own option calls them."""
+def _sphere(scene: Scene) -> list[Choice]:
+    return [*_HOLDING, _CREEPING, _ELLIPTIC, _EXACT_IN_SPACE]
 
+
+def _rim(scene: Scene) -> list[Choice]:
+    """Measured on steady circles of a coin that leans by 8, 30 and 70 degrees, and on its fall."""
+    return [
+        Choice(
+            "pair.solref",
+            ["-0.1/h2", "-0.4/h"],
+            "k = 0.1/h², b = 0.4/h: stiffer, the normal force of what tilts is 10 times worse",
+        ),
+        Choice(
+            "pair.solimp",
+            [SOFTEST, SOFTEST, 0.001],
+            "the softest MuJoCo takes; with d = 0.9999 a disk that falls flutters, N is 13 N off",
+        ),
+        Choice(
+            "pair.solreffriction",
+            [-1.0, f"{-2 * SOFTEST}/h"],
+            "b = 2/h (times d, by which MuJoCo divides): slip h J̇ v/2; RK4 is stable up to 2.8/h",
+        ),
+        Choice("option.impratio", 1e6, "makes up for the soft d; Newton bears it"),
+        _ELLIPTIC,
+        _EXACT_IN_SPACE,
+    ]
+
+
+Recipe = Callable[[Scene], list[Choice]]
+
+RECIPES: Mapping[Frame, Mapping[str, Recipe]] = {
+    PLANE: {
+        "roll": _rolling,
+        "slide": _sliding,
+        "tip": _tip,
+        "pivot": _pivoting,
+        "bounce": _bouncing,
+        "land": _landing,
+    },
+    SPACE: {"roll": _sphere, "rim": _rim},
+}
+"""By the scene's frame, and by the word that an own option calls them."""
+
+
+def recipes(scene: Scene) -> Mapping[str, Recipe]:
+    """The recipes that there are for the scene's contacts, by their words."""
+    return RECIPES[scene.frame]
+
+
+_HOLDING = (
+    Choice("pair.solref", ["2h", 1.0], "the stiffest that stays stable: 2 h"),
+    Choice("pair.solimp", [HARDEST, HARDEST, 0.001], "the hardest MuJoCo takes: d = 0.9999"),
+)
+_CREEPING = Choice("option.impratio", 100.0, "less creep; from 1e4 on Newton stops early")
 _EXACT = Choice(
     "flag.diagexact",
     "enable",
     "or k and b are those of a mean inertia: a bar's tip has up to four times its inverse mass",
+)
+_EXACT_IN_SPACE = Choice(
+    "flag.diagexact",
+    "enable",
+    "or d, k and b are those of a mean inertia over x, y and z, at another attitude",
 )
 _ELLIPTIC = Choice("option.cone", "elliptic", "the pyramid's friction depends on the direction")

@@ -1,47 +1,57 @@
-"""Prescribed rates in the plane: motions that no force of the scene can hold back.
+"""Prescribed rates of joints' freedoms: motions that no force of the scene can hold back.
 
 As a driven point is a heavy mass, a driven freedom has a heavy armature, and actuators that give it
 the acceleration of the law: right at every RK4 stage, and all forces follow.
 """
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 from xml.etree import ElementTree as ET
 
 from ....cases.fields.signal import Signal
 from ....cases.scene import GROUND, Joint, Scene
+from ....cases.scene.frame import PLANE
 from ....cases.scene.joint import DRIVES
+from ....cases.scene.space.joint import effort_of, rate_of
 from ...signal import derivative
 from .force import signals
 from .number_text import written
-from .tree import coordinate, spanning_tree
+from .tree import coordinate, freedoms_left
 
 HEAVY = 1e15  # kg m² (kg of a slide): what a scene exerts changes the rate by 1e-15 of it
 
 
 @dataclass(frozen=True)
 class Drive:
-    """One prescribed rate as MuJoCo has it; effort: what it exerts, such as `hinge.torque`.
-
-    way: 1.0 if MuJoCo's joint counts as the scene's does, from the first part to the second.
-    """
+    """One prescribed rate as MuJoCo has it; effort: what it exerts, such as `hinge.torque`."""
 
     joint: Joint
-    name: str
-    way: float
+    number: int  # of the freedom
+    name: str  # MuJoCo's joint
     law: Signal
     effort: str
 
 
 def drives(scene: Scene) -> Iterator[Drive]:
-    """In the scene's order."""
-    forward = {b.joint.name: b.forward for b in spanning_tree(scene).branches if b.joint}
+    """In the scene's order. Raises KeyError for a rate that no joint in space has."""
     for quantity, law in scene.drives.items():
         part, _, rate = quantity.rpartition(".")
-        joint, turns = scene.joints[part], rate == "omega"
-        way = -1.0 if turns and not forward.get(part, True) else 1.0
-        name = coordinate(joint, "turn" if turns else "shift")
-        yield Drive(joint, name, way, law, f"{part}.{DRIVES[rate][0]}")
+        joint = scene.joints[part]
+        number, effort = (_flat if scene.frame is PLANE else _spatial)(scene, joint, rate)
+        yield Drive(joint, number, coordinate(scene, joint, number), law, f"{part}.{effort}")
+
+
+def _flat(scene: Scene, joint: Joint, rate: str) -> tuple[int, str]:
+    kind = "turn" if rate == "omega" else "shift"
+    number = [freedom.kind for freedom in freedoms_left(scene, joint)].index(kind)
+    return number, DRIVES[rate][0]
+
+
+def _spatial(scene: Scene, joint: Any, rate: str) -> tuple[int, str]:
+    number = {rate_of(f.name): i for i, f in enumerate(joint.freedoms) if f.name}[rate]
+    return number, effort_of(joint.freedoms[number])
 
 
 def controls(scene: Scene) -> list[Signal]:
@@ -53,11 +63,11 @@ def _accelerations(scene: Scene) -> Iterator[tuple[str, float, Signal]]:
     """MuJoCo's joint, how large its acceleration is, and the law that it follows."""
     for drive in drives(scene):
         for law in derivative(drive.law):
-            yield drive.name, drive.way * law.amplitude[0], law
+            yield drive.name, law.amplitude[0], law
     for name, point in scene.points.items():
         rates = derivative(point.moves) if point.moves else []
         for law in (law for rate in rates for law in derivative(rate)):
-            for axis, size in zip("xy", law.amplitude, strict=True):
+            for axis, size in zip(scene.frame.axes, law.amplitude, strict=True):
                 yield f"{GROUND}.{name}.{axis}", size, law
 
 
@@ -66,9 +76,14 @@ def write(root: ET.Element, scene: Scene) -> None:
     joints = {joint.attrib["name"]: joint for joint in root.iter("joint")}
     for drive in drives(scene):
         joints[drive.name].set("armature", written(HEAVY))
-    for i, (name, size, _) in enumerate(_accelerations(scene)):
+    numbers = Counter[str]()
+    for joint, size, _ in _accelerations(scene):
         section = root.find("actuator")
         section = ET.SubElement(root, "actuator") if section is None else section
+        name = "drive" if scene.frame is PLANE else f"{joint}.drive"
         # The gear is what is heavy: a control above 1e10 would be "huge".
-        gear = written(HEAVY * size)
-        ET.SubElement(section, "general", name=f"drive.{i}", joint=name, gear=gear)
+        ET.SubElement(
+            section, "general", name=f"{name}.{numbers[name]}", joint=joint,
+            gear=written(HEAVY * size),
+        )  # fmt: skip
+        numbers[name] += 1

@@ -18,8 +18,8 @@ def write_room(root: ET.Element, scene: Scene) -> None:
 
 
 def edge_forces(scene: Scene) -> Iterator[tuple[Edge, str]]:
-    """Each edge's force across, and its drive where its speed is prescribed."""
+    """Each edge's forces: across it, and its drive or its height's where there are these."""
     for edge in scene.constraints.values():
-        yield edge, "force"
-        if edge.speed is not None:
-            yield edge, "drive"
+        for field, (_, kind) in edge.quantities()[edge.name].items():
+            if kind == "force":
+                yield edge, field

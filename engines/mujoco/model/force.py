@@ -80,13 +80,13 @@ def viscous_numbers(model: mujoco.MjModel, force: Viscous, along: Hinge) -> dict
 def torsion(sections: Mapping[str, ET.Element], force: Torsion, about: Hinge) -> None:
     """A torsion spring is a joint's own."""
     about.give("stiffness", force.stiffness)
-    about.give("springref", math.degrees(about.way * force.rest_angle))
+    about.give("springref", math.degrees(force.rest_angle))
 
 
 def torsion_numbers(model: mujoco.MjModel, force: Torsion, about: Hinge) -> dict[str, float]:
     """Stiffness and rest angle of a torsion spring, as the compiled joint holds them."""
     number = model.joint(about.name).id
-    rest = about.way * model.qpos_spring[model.jnt_qposadr[number]]
+    rest = model.qpos_spring[model.jnt_qposadr[number]]
     return {"stiffness": np.ravel(model.jnt_stiffness[number])[0], "rest_angle": rest}
 
 
@@ -103,7 +103,7 @@ def torsion_damping(model: mujoco.MjModel, force: TorsionDamper, about: Hinge) -
 
 def motor(sections: Mapping[str, ET.Element], force: Motor, about: Hinge) -> None:
     """An actuator of the joint."""
-    gear = written(about.way * force.signal.amplitude[0])
+    gear = written(force.signal.amplitude[0])
     given = {"name": force.name, "joint": about.name, "gear": gear}
     element = ET.SubElement(sections["actuator"], "general", given)
     if force.signal.law == "ramp":
@@ -143,9 +143,9 @@ def write_couple(sections: Mapping[str, ET.Element], force: Couple) -> None:
 
 
 def couple_outer(force: Couple, size: Array, gear: Array) -> Iterator[tuple[Anchor, Array, Array]]:
-    """The torque (N,) on each body."""
+    """The torque (N, 3) on each body."""
     for body, way in ((force.first, -1.0), (force.second, 1.0)):
-        yield Anchor(body, CENTER), np.zeros((len(size), 2)), way * size * gear[5]
+        yield Anchor(body, CENTER), np.zeros((len(size), 3)), way * size[:, None] * gear[3:]
 
 
 NEVER = 1e6  # m: a length that no tendon has
@@ -153,7 +153,7 @@ BY_ITSELF = ("constant", "ramp")  # the laws that need no callback
 
 Sections = Mapping[str, ET.Element]
 Outer = tuple[Anchor, Array, Array]
-"""A body's point at which a force (N, 2) [N] and a torque (N,) [N m] act; in space (N, 3) each."""
+"""A body's point at which a force (N, 3) [N] and a torque (N, 3) [N m] act."""
 
 
 @dataclass(frozen=True)
@@ -230,15 +230,6 @@ def outer(scene: Scene, model: mujoco.MjModel, sizes: Array) -> Iterator[Outer]:
         yield from ELEMENTS[type(force)].outer(force, sizes[:, i], gear)
 
 
-def about(scene: Scene, model: mujoco.MjModel, joint: str, sizes: Array) -> Array:
-    """(N,) what the actuators exert about a joint, as MuJoCo counts its angle."""
-    total = np.zeros(len(sizes))
-    for i, (force, _) in enumerate(_actuated(scene)):
-        if force.about == joint:
-            total += sizes[:, i] * model.actuator_gear[i, 0]
-    return total
-
-
 def _actuated(scene: Scene) -> Iterator[tuple[Force, Callable[[Any], Signal]]]:
     for force in scene.forces.values():
         if signal := ELEMENTS[type(force)].signal:
@@ -297,10 +288,7 @@ def _push(sections: Sections, force: Push) -> None:
 
 
 def _push_outer(force: Push, size: Array, gear: Array) -> Iterator[Outer]:
-    if len(force.signal.amplitude) == 3:
-        yield force.at, size[:, None] * gear[:3], np.zeros((len(size), 3))
-    else:
-        yield force.at, size[:, None] * gear[:2], np.zeros(len(size))
+    yield force.at, size[:, None] * gear[:3], np.zeros((len(size), 3))
 
 
 def _torque(sections: Sections, force: Torque) -> None:
@@ -312,11 +300,7 @@ def _torque(sections: Sections, force: Torque) -> None:
 
 
 def _torque_outer(force: Torque, size: Array, gear: Array) -> Iterator[Outer]:
-    at = Anchor(force.body, CENTER)
-    if len(force.signal.amplitude) == 3:
-        yield at, np.zeros((len(size), 3)), size[:, None] * gear[3:]
-    else:
-        yield at, np.zeros((len(size), 2)), size * gear[5]
+    yield Anchor(force.body, CENTER), np.zeros((len(size), 3)), size[:, None] * gear[3:]
 
 
 ELEMENTS: dict[type[Force], Element] = {

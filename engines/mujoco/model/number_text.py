@@ -1,12 +1,20 @@
 """Numbers as MJCF writes them."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+
+from ....cases.scene.rotation import Vector3
 
 
 def written(*values: object) -> str:
     """Numbers so that they come back bit for bit; lists separated by blanks."""
     flat = [x for value in values for x in (value if isinstance(value, list | tuple) else [value])]
     return " ".join(repr(float(x)) if isinstance(x, float) else str(x) for x in flat)
+
+
+def lifted(vector: Iterable[float]) -> Vector3:
+    """A vector of the plane in MuJoCo's space, whose xy plane that is; one of space as it is."""
+    x, y, *z = vector
+    return x, y, z[0] if z else 0.0
 
 
 def attributes(numbers: Mapping[str, object], group: str) -> dict[str, str]:

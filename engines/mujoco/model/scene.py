@@ -1,15 +1,23 @@
-"""A scene as an MJCF file: the xy plane, gravity −y, hinges about +z, so no axes are mapped.
+"""A scene as an MJCF file, of the plane or of space: `tree` says how it lies in MuJoCo's axes.
 
 Every body's frame sits in its centre of mass. Trees are native joints, loops close by `connect`,
-springs and dampers are tendons, pushes and torques are actuators at sites.
+springs and dampers are tendons, pushes and torques are actuators at sites, prescribed rates are
+heavy armatures.
 """
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
+from typing import Any
 from xml.etree import ElementTree as ET
 
-from ....cases.scene import GROUND, Anchor, DryFriction, Scene
+import mujoco
+import numpy as np
+
+from ....cases.scene import GROUND, DryFriction, Scene
+from ....cases.scene.frame import PLANE
+from ....cases.scene.rotation import Quaternion
+from ....cases.trajectory import Array
 from ...engine import Choice, Start
 from ...foot_contact import strode
 from .contact import lies, place
@@ -18,27 +26,16 @@ from .drive import write as write_drives
 from .edge import write_room
 from .force import BY_ITSELF, begun_with, write
 from .loops import add_loops, add_rods
-from .number_text import attributes, soft, written
+from .number_text import attributes, lifted, soft, written
 from .pairs import add_geoms, add_pair_sensors, add_pairs
-from .planes import Soft, add_contacts, add_geom, add_planes, add_sensors, touching
+from .planes import Soft, add_contacts, add_geom, add_planes, add_sensors, met, touching
 from .rope import finish_ropes
+from .start import started
 from .stops import finish_stops
-from .tree import (
-    Branch,
-    Tree,
-    built_as,
-    called,
-    coordinate,
-    coordinates,
-    driven,
-    freedoms,
-    spanning_tree,
-    turned,
-)
+from .tree import AXES, Branch, Tree, called, held_angle, local, natives, spanning_tree, turned
 
 HEAVY = 1e15  # kg of a driven point: 1 N changes its velocity by 1e-15 m/s in a second
 LEAST = 1e-15  # kg m² (mjMINVAL) of a particle: MuJoCo takes no less of a body with a joint
-FLOOR = f"{GROUND}.floor"  # no contact can be called that
 
 
 def mjcf(
@@ -55,7 +52,7 @@ def mjcf(
     numbers = {choice.name: choice.value for choice in choices}
     tree = spanning_tree(scene)
     root = ET.Element("mujoco", model="textmech")
-    gravity = written(*scene.gravity, 0)
+    gravity = written(*lifted(scene.gravity))
     option = ET.SubElement(root, "option", attributes(numbers, "option"), gravity=gravity)
     # A reset must not look like a motion.
     flags = {"autoreset": "disable", **attributes(numbers, "flag")}
@@ -63,11 +60,11 @@ def mjcf(
     world = ET.SubElement(root, "worldbody")
     _world(world, scene)
     _bodies(world, scene, tree, numbers)
-    if touching(scene) or scene.pairs:
+    if met(scene):
         _touching(root, scene, partial(soft, numbers, "pair"))
     if tree.loops:
         pins, rods = attributes(numbers, "connect"), attributes(numbers, "rod")
-        add_loops(root, tree.loops, pins, rods)
+        add_loops(root, scene, tree.loops, pins, rods)
     add_pins(root, scene, start, attributes(numbers, "connect"))
     write(root, scene)
     add_rods(root, tree.loops)
@@ -75,7 +72,7 @@ def mjcf(
     write_room(root, scene)
     finish_ropes(root, scene, attributes(numbers, "rope"))
     finish_stops(root, scene, partial(soft, numbers, "stop"))
-    _start(root, scene, tree, start, begun, out=_leaves_plane(scene, numbers))
+    _start(root, scene, start, begun, out=_leaves_plane(scene, numbers))
     ET.indent(root)
     return ET.tostring(root, encoding="unicode") + "\n"
 
@@ -84,53 +81,96 @@ def _world(world: ET.Element, scene: Scene) -> None:
     add_planes(world, scene)
     ET.SubElement(world, "site", name=GROUND, pos="0 0 0")
     for name, point in scene.points.items():
+        site = f"{GROUND}.{name}"
         if not point.driven:
-            ET.SubElement(world, "site", name=f"{GROUND}.{name}", pos=written(*point.at, 0))
+            ET.SubElement(world, "site", name=site, pos=written(*lifted(point.at)))
             continue
         # A point that nothing can hold back moves at its constant velocity in every RK4 stage;
         # a mocap body would stand still during a step, which costs three orders.
-        body = ET.SubElement(world, "body", name=f"{GROUND}.{name}", gravcomp="1")
-        _inertial(body, HEAVY, LEAST)
-        for axis in ("x", "y"):
-            _joint(body, f"{GROUND}.{name}.{axis}", "slide", axis=_AXES[axis])
-        ET.SubElement(body, "site", name=f"{GROUND}.{name}", pos="0 0 0")
-
-
-_AXES = {"x": "1 0 0", "y": "0 1 0", "angle": "0 0 1"}
+        body = ET.SubElement(world, "body", name=site, gravcomp="1")
+        _inertial(body, HEAVY, (LEAST, LEAST, LEAST))
+        for axis, along in zip(scene.frame.axes, AXES, strict=False):
+            _joint(body, f"{site}.{axis}", "slide", axis=written(*along))
+        ET.SubElement(body, "site", name=site, pos="0 0 0")
 
 
 def _joint(body: ET.Element, name: str, kind: str, **attributes: str) -> None:
     ET.SubElement(body, "joint", attributes, name=name, type=kind)
 
 
-def _inertial(body: ET.Element, mass: float, inertia: float) -> None:
-    # Only the moment about z plays in the plane; three equal ones are always a possible body.
+def _inertial(
+    body: ET.Element, mass: float, moments: Sequence[float], axes: Quaternion | None = None
+) -> None:
+    given = {} if axes is None else {"quat": written(*axes)}
     ET.SubElement(
-        body, "inertial", pos="0 0 0", mass=written(mass), diaginertia=written(*[inertia] * 3)
+        body, "inertial", given, pos="0 0 0", mass=written(mass), diaginertia=written(*moments)
     )
 
 
 def _bodies(world: ET.Element, scene: Scene, tree: Tree, numbers: dict[str, object]) -> None:
-    out = _leaves_plane(scene, numbers)
-    elements = {GROUND: world}
-    for element in world.iter("body"):
-        elements[element.attrib["name"]] = element
+    elements = {GROUND: world} | {element.attrib["name"]: element for element in world.iter("body")}
     for branch in tree.branches:
         body = scene.bodies[branch.body]
         element = ET.SubElement(elements[branch.parent], "body", name=called(body.name))
         elements[body.name] = element
         _hang(element, scene, branch, attributes(numbers, "slide"))
-        if branch.joint is None and out:
-            _joint(element, f"{body.name}.z", "slide", axis="0 0 1")
-        # A particle that is held rigidly must add nothing to the inertia of what carries it.
-        least = LEAST if element.find("joint") is not None else 0.0
-        _inertial(element, body.mass, least if body.inertia is None else body.inertia)
+        if branch.joint is None and _leaves_plane(scene, numbers):
+            _joint(element, f"{body.name}.z", "slide", axis=written(*AXES[2]))
+        _inertial(element, body.mass, *_moments(element, scene, body))
         for name, at in body.points.items():
-            ET.SubElement(element, "site", name=f"{body.name}.{name}", pos=written(*at, 0))
+            ET.SubElement(element, "site", name=f"{body.name}.{name}", pos=written(*lifted(at)))
         for contact in touching(scene).values():
             if contact.body == body.name:
                 add_geom(element, scene, contact)
         add_geoms(element, scene, body.name)
+
+
+def _moments(
+    element: ET.Element, scene: Scene, body: Any
+) -> tuple[tuple[float, float, float], Quaternion | None]:
+    """Principal moments [kg m²] of a body, and the attitude of their axes; None: the body's."""
+    if not body.turns:
+        # A particle that is held rigidly must add nothing to the inertia of what carries it.
+        least = LEAST if element.find("joint") is not None else 0.0
+        return (least, least, least), None
+    if scene.frame is PLANE:
+        # Only the moment about z plays in the plane; three equal ones are always a possible body.
+        return (body.inertia, body.inertia, body.inertia), None
+    return principal(body.tensor)
+
+
+def _leaves_plane(scene: Scene, numbers: dict[str, object]) -> bool:
+    """Whether free bodies of the plane may move along z: nothing pushes them there, but without
+    that freedom MuJoCo's noslip solver silently does nothing."""
+    noslip = numbers.get("option.noslip_iterations", 0) != 0
+    return scene.frame is PLANE and bool(met(scene)) and noslip
+
+
+def _hang(element: ET.Element, scene: Scene, branch: Branch, soft: dict[str, str]) -> None:
+    """Place a body's frame on its parent, with the joints between: at zero, axes are parallel,
+    or as a joint of the plane holds them."""
+    joint = branch.joint
+    pos: dict[str, str] = {}
+    friction: dict[str, str] = {}
+    if joint is not None:
+        outer, inner = branch.ends()
+        x, y, z = local(scene, inner)
+        pos["pos"] = written(x, y, z)
+        held = held_angle(scene, branch)
+        ends = zip(local(scene, outer), (*turned((x, y), held), z), strict=True)
+        element.set("pos", written(*(there - own for there, own in ends)))
+        if held:
+            element.set("quat", written(math.cos(held / 2), 0, 0, math.sin(held / 2)))
+        if joint.dry_friction is not None:
+            friction = _friction(joint.dry_friction, soft)
+    for native in natives(scene, branch):
+        if native.type == "free":
+            ET.SubElement(element, "freejoint", name=native.name)
+            continue
+        given = {"axis": written(*native.axis)} if native.type != "ball" else {}
+        given |= pos if native.type != "slide" else {}
+        rubs = friction if native.of == 0 else {}
+        _joint(element, native.name, native.type, **given, **rubs)
 
 
 def _touching(root: ET.Element, scene: Scene, soft: Soft) -> None:
@@ -142,80 +182,31 @@ def _touching(root: ET.Element, scene: Scene, soft: Soft) -> None:
     add_pair_sensors(sensors, scene)
 
 
-def _leaves_plane(scene: Scene, numbers: dict[str, object]) -> bool:
-    """Whether free bodies may move along z: nothing pushes them there, but without that freedom
-    MuJoCo's noslip solver silently does nothing."""
-    return bool(touching(scene) or scene.pairs) and numbers.get("option.noslip_iterations", 0) != 0
-
-
-def _hang(element: ET.Element, scene: Scene, branch: Branch, soft: dict[str, str]) -> None:
-    """Place a body's frame on its parent, with the joint between them."""
-    body, joint = scene.bodies[branch.body], branch.joint
-    if joint is None:
-        for name in ("x", "y", *(["angle"] if body.turns else [])):
-            kind = "hinge" if name == "angle" else "slide"
-            _joint(element, f"{body.name}.{name}", kind, axis=_AXES[name])
-        return
-    outer, inner = branch.ends()
-    left = built_as(scene, joint)
-    held = 0.0 if left.turns or not body.turns else joint.angle
-    held = held if branch.forward else -held
-    at, own = local(scene, outer), turned(local(scene, inner), held)
-    element.set("pos", written(at[0] - own[0], at[1] - own[1], 0))
-    if held:
-        element.set("quat", written(math.cos(held / 2), 0, 0, math.sin(held / 2)))
-    friction = {} if joint.dry_friction is None else _friction(joint.dry_friction, soft)
-    for freedom in freedoms(scene, branch):
-        if freedom == "turn":
-            pos, axis = written(*local(scene, inner), 0), _AXES["angle"]
-            name, rubs = coordinate(joint, "turn"), {} if joint.shifts else friction
-            _joint(element, name, "hinge", axis=axis, pos=pos, **rubs)
-        else:
-            # MuJoCo's axis stands in the child; `along` stands in the joint's first part.
-            along = turned(joint.along, -held) if branch.forward else turned(joint.along, math.pi)
-            name = coordinate(joint, "shift")
-            _joint(element, name, "slide", axis=written(*along, 0), **friction)
-
-
 def _friction(dry: DryFriction, soft: dict[str, str]) -> dict[str, str]:
     """A joint has one number for both directions, moving and at rest."""
     mean = (dry.kinetic.forward + dry.kinetic.backward) / 2
     return {"frictionloss": written(mean), **soft}
 
 
-def local(scene: Scene, anchor: Anchor) -> tuple[float, float]:
-    if anchor.body == GROUND:
-        point = scene.points[anchor.point]
-        return (0.0, 0.0) if point.driven else point.at
-    return scene.bodies[anchor.body].points[anchor.point]
-
-
 def _start(
     root: ET.Element,
     scene: Scene,
-    tree: Tree,
     start: Start,
     begun: tuple[Sequence[float], Sequence[float]],
     *,
     out: bool,
 ) -> None:
     """The start as a keyframe, in the order in which MuJoCo numbers joints: depth first."""
-    pairs: dict[str, list[tuple[float, float]]] = {}
-    for name in driven(scene):
-        x, y, vx, vy = scene.points[name.partition(".")[2]].state(0.0)
-        pairs[name] = [(x, vx), (y, vy)]
-    for branch in tree.branches:
-        pairs[called(branch.body)] = coordinates(scene, tree, branch, start)
-        if branch.joint is None and out:
-            pairs[called(branch.body)].append((0.0, 0.0))
-    flat = [
-        pair
-        for element in root.iter("body")  # document order is depth first
-        for pair in pairs[element.attrib["name"]]
-    ]
+    found = started(scene, start)
+    for branch in spanning_tree(scene).branches if out else ():
+        if branch.joint is None:
+            for columns in found[called(branch.body)]:
+                columns.append(0.0)
+    # Document order is depth first.
+    each = [found[element.attrib["name"]] for element in root.iter("body")]
     key = ET.SubElement(ET.SubElement(root, "keyframe"), "key", name="start")
-    key.set("qpos", written(*(begun[0] or [position for position, _ in flat])))
-    key.set("qvel", written(*(begun[1] or [rate for _, rate in flat])))
+    key.set("qpos", written(*(begun[0] or [x for places, _ in each for x in places])))
+    key.set("qvel", written(*(begun[1] or [x for _, rates in each for x in rates])))
     if activations := begun_with(scene):
         key.set("act", written(*activations))
     if laws := controls(scene):
@@ -242,3 +233,43 @@ def add_pins(root: ET.Element, scene: Scene, start: Start, attributes: Mapping[s
             equality, "connect", dict(attributes),
             name=name, site1=name, site2=str(foot.at), active="true" if stands else "false",
         )  # fmt: skip
+
+
+# An inertia tensor as MuJoCo takes it: principal moments, and the attitude of their axes.
+#
+# MuJoCo's own `fullinertia` refuses a third of all thin disks that are turned: rounding makes their
+# largest moment exceed the sum of the others. Here it is cut to the sum.
+
+
+ROUNDING = 1e-13  # of the largest moment: what is beyond is no rounding, and MuJoCo's to refuse
+
+
+def principal(tensor: Array) -> tuple[tuple[float, float, float], Quaternion | None]:
+    """Moments [kg m²], none below MuJoCo's least, and the attitude of their axes; None: the body's.
+
+    A slender bar's moment about its own axis becomes 1e-15.
+    """
+    if np.array_equal(tensor, np.diag(np.diag(tensor))):
+        return _possible(np.diag(tensor)), None
+    moments, axes = np.linalg.eigh(tensor)
+    if np.linalg.det(axes) < 0:
+        axes[:, 0] = -axes[:, 0]
+    return _possible(moments), _quaternion(axes)
+
+
+def _possible(moments: Array) -> tuple[float, float, float]:
+    """No moment exceeds the sum of the others, by rounding."""
+    found = np.maximum(moments, LEAST)
+    largest = int(np.argmax(found))
+    rest = float(sum(np.delete(found, largest)))
+    if 0 < found[largest] - rest <= ROUNDING * rest:
+        found[largest] = rest
+    return float(found[0]), float(found[1]), float(found[2])
+
+
+def _quaternion(axes: Array) -> Quaternion:
+    """The unit quaternion (w, x, y, z) of a rotation matrix."""
+    found = np.empty(4)
+    mujoco.mju_mat2Quat(found, axes.ravel())
+    w, x, y, z = found.tolist()
+    return w, x, y, z

@@ -27,7 +27,7 @@ def commented(head: Iterable[str]) -> str:
     return "".join(f"<!-- {re.sub('-(?=-)', '- ', line)} -->\n" for line in head)
 
 
-def controls(model: mujoco.MjModel, laws: Sequence[Signal]) -> str:
+def told(model: mujoco.MjModel, laws: Sequence[Signal]) -> str:
     """Python in a comment that sets the controls which do not follow by themselves; or nothing."""
     lines = [
         f"    data.ctrl[{i}] = {_at(law)}  # {model.actuator(i).name}"

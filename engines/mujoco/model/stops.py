@@ -24,11 +24,10 @@ BEAT = 0.05  # h times the frequency of a stop that throws back
 
 
 def write_stops(sections: Mapping[str, ET.Element], stops: Stops, about: Hinge) -> None:
-    """The range, as MuJoCo counts the angle."""
+    """The range."""
     assert about.element is not None
-    ends = sorted(about.way * at for at in _ends(stops))
     about.element.set("limited", "true")
-    about.element.set("range", written(*map(math.degrees, ends)))
+    about.element.set("range", written(*map(math.degrees, _ends(stops))))
 
 
 def _ends(stops: Stops) -> tuple[float, float]:
@@ -50,8 +49,8 @@ def finish_stops(root: ET.Element, scene: Scene, soft: Soft) -> None:
 
 def stop_numbers(model: mujoco.MjModel, stops: Stops, about: Hinge) -> dict[str, float]:
     """Where the range ends."""
-    ends = sorted(about.way * model.jnt_range[model.joint(about.name).id])
-    return {side: ends[("low", "high").index(side)] for side in stops.sides}
+    low, high = model.jnt_range[model.joint(about.name).id]
+    return {side: {"low": low, "high": high}[side] for side in stops.sides}
 
 
 def lean(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> None:
@@ -70,7 +69,7 @@ def pushing(scene: Scene, model: mujoco.MjModel, quantity: str, sensed: Array) -
     stops = next(stops for stops in scene.stops() if stops.name == name)
     size, angle = (sensed[:, model.sensor(n).adr[0]] for n in (name, f"{name}.angle"))
     low, high = _ends(stops)
-    below = hinge(scene, stops).way * angle < (low + high) / 2
+    below = angle < (low + high) / 2
     return np.where(below == (side == "low"), size, 0.0)
 
 

@@ -1,29 +1,37 @@
-"""A scene's joints as a spanning tree, the pins that close loops, and joint coordinates.
+"""A scene's joints as a spanning tree, and a body's freedoms as MuJoCo's joints.
 
-Slides and welds go into the tree first, so that what closes a loop is a massless rod or a pin
-wherever it can be: MuJoCo has a tendon for a rod, `connect` for a pin, and nothing for a slide.
+MuJoCo is spatial: a scene of the plane moves in its xy plane, by slides along x and y and hinges
+about z. It applies the joints of one body in their order, each along or about an axis in the axes
+that the joints before it leave: what a `Freedom` is.
+
+What closes a loop comes into the tree last, so that it is a massless rod, for which MuJoCo has a
+tendon, or what `connect` holds, wherever it can be. That holds one point: in the plane a pin, in
+space a ball; two are a hinge, three a weld. For a slide there is nothing.
 """
 
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Generic, TypeVar
+from typing import Any
 
-from ....cases.scene import GROUND, Anchor, Joint, Scene, Vector
-from ....cases.scene.joint import Freedom
-from ....cases.scene.space.joint import SpatialJoint
+from ....cases.scene import GROUND, Anchor, Force, Joint, Scene, Vector
+from ....cases.scene.frame import PLANE
+from ....cases.scene.rotation import Vector3
+from ....cases.scene.space.joint import Freedom
 from ...engine import Start
+from .number_text import lifted
 
-J = TypeVar("J", Joint, SpatialJoint)
+AXES: tuple[Vector3, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+"""x, y and z of the ground, or of a body."""
 
 
 @dataclass(frozen=True)
-class Branch(Generic[J]):
+class Branch:
     """How a body hangs on its parent: by a joint, or freely on the ground (joint None)."""
 
     body: str
     parent: str  # a body, `ground`, or a driven point such as `ground.hook`
-    joint: J | None
+    joint: Joint | None
 
     @property
     def forward(self) -> bool:
@@ -38,11 +46,11 @@ class Branch(Generic[J]):
 
 
 @dataclass(frozen=True)
-class Tree(Generic[J]):
+class Tree:
     """Branches from the ground outward, and the joints that close loops."""
 
-    branches: tuple[Branch[J], ...]
-    loops: tuple[J, ...]
+    branches: tuple[Branch, ...]
+    loops: tuple[Joint, ...]
 
     def subtree(self, body: str) -> set[str]:
         """The body and all that hangs on it."""
@@ -61,31 +69,94 @@ class Tree(Generic[J]):
 
 
 @dataclass(frozen=True)
-class Left:
-    """The freedoms that a joint leaves here."""
+class Native:
+    """One of MuJoCo's joints; of: the number of the joint's freedom that it is."""
 
-    turns: bool
-    shifts: bool
-
-
-def built_as(scene: Scene, joint: Joint) -> Left:
-    """The freedoms that the joint leaves; welded to a particle, which has no angle, it is a pin."""
-    ends = (joint.a.body, joint.b.body)
-    held = all(end == GROUND or scene.bodies[end].turns for end in ends)
-    return Left(joint.turns or not (held or joint.shifts), joint.shifts)
+    name: str
+    type: str
+    axis: Vector3 = AXES[2]
+    of: int = 0
 
 
-def freedoms(scene: Scene, branch: Branch) -> list[Freedom]:
-    """The body's freedoms on its parent, in the order of MuJoCo's joints, outer first.
+def freedoms_left(scene: Scene, joint: Any) -> tuple[Freedom, ...]:
+    """The freedoms that the joint leaves here: a particle has no axes by which one is held.
 
-    The line of a shift stands in the joint's first part: it turns with the body, or does not.
+    Welded to a particle it is a pin in the plane, and a ball in space.
     """
-    if branch.joint is None:
-        return []
-    left = built_as(scene, branch.joint)
-    turn: list[Freedom] = ["turn"] if left.turns and scene.bodies[branch.body].turns else []
-    shift: list[Freedom] = ["shift"] if left.shifts else []
-    return shift + turn if branch.forward else turn + shift
+    ends = (joint.a.body, joint.b.body)
+    rigid = all(end == GROUND or scene.bodies[end].turns for end in ends)
+    if scene.frame is not PLANE:
+        return joint.freedoms if rigid else (*joint.shifts, Freedom("ball"))
+    x, y = joint.along
+    shifts = (Freedom("shift", (x, y, 0.0), "shift"),) if joint.shifts else ()
+    turns = joint.turns or not (rigid or joint.shifts)
+    return (*shifts, *((Freedom("turn", AXES[2], "angle"),) if turns else ()))
+
+
+def held_angle(scene: Scene, branch: Branch) -> float:
+    """The angle [rad] about z at which a joint of the plane holds the body against its parent."""
+    joint = branch.joint
+    if joint is None or scene.frame is not PLANE or not scene.bodies[branch.body].turns:
+        return 0.0
+    if any(freedom.kind == "turn" for freedom in freedoms_left(scene, joint)):
+        return 0.0
+    return joint.angle if branch.forward else -joint.angle
+
+
+def held_points(scene: Scene, joint: Joint) -> int | None:
+    """By how many points `connect` can hold what the joint holds; None: by no number."""
+    kinds = [freedom.kind for freedom in freedoms_left(scene, joint)]
+    if "shift" in kinds:
+        return None
+    if scene.frame is PLANE:
+        return 1 if kinds else None
+    if len(kinds) == 3 or "ball" in kinds:
+        return 1
+    return {0: 3, 1: 2}.get(len(kinds))
+
+
+def natives(scene: Scene, branch: Branch) -> list[Native]:
+    """The body's freedoms on its parent, as MuJoCo's joints in their order, outer first.
+
+    A body that is its joint's first part undoes the freedoms, the last one first: its axes are the
+    opposite, so that MuJoCo counts what the scene does.
+    """
+    body, joint = scene.bodies[branch.body], branch.joint
+    if joint is None:
+        return _free(scene, body.name, turns=body.turns)
+    left = [
+        Native(
+            coordinate(scene, joint, number),
+            _TYPES[freedom.kind],
+            _axis(scene, branch, freedom),
+            number,
+        )
+        for number, freedom in enumerate(freedoms_left(scene, joint))
+        if body.turns or freedom.kind == "shift"
+    ]
+    return left if branch.forward else left[::-1]
+
+
+_TYPES = {"shift": "slide", "turn": "hinge", "ball": "ball"}
+
+
+def _free(scene: Scene, body: str, *, turns: bool) -> list[Native]:
+    if turns and scene.frame is not PLANE:
+        return [Native(body, "free")]
+    slides = [
+        Native(f"{body}.{name}", "slide", AXES[i], i) for i, name in enumerate(scene.frame.axes)
+    ]
+    return [*slides, Native(f"{body}.angle", "hinge", of=len(slides))] if turns else slides
+
+
+def _axis(scene: Scene, branch: Branch, freedom: Freedom) -> Vector3:
+    """The freedom's axis in the axes of the body; a shift's stands in the joint's first part."""
+    x, y, z = freedom.axis
+    if not branch.forward:
+        return -x, -y, -z
+    if freedom.kind == "shift" and (held := held_angle(scene, branch)):
+        return *turned((x, y), -held), z
+    return x, y, z
 
 
 def called(body: str) -> str:
@@ -93,9 +164,22 @@ def called(body: str) -> str:
     return f"{body}." if body == "world" else body  # no name of a case ends in a dot
 
 
-def coordinate(joint: Joint, freedom: Freedom) -> str:
-    """MuJoCo's joint for a freedom: the joint's name, and for the turn of a slot one more."""
-    return f"{joint.name}.turn" if freedom == "turn" and joint.shifts else joint.name
+def coordinate(scene: Scene, joint: Any, number: int) -> str:
+    """MuJoCo's joint for a freedom: the joint's name, and where there are several which it is.
+
+    In the plane that is a slot's turn, in space its number.
+    """
+    if scene.frame is PLANE:
+        return f"{joint.name}.turn" if number else joint.name
+    return joint.name if len(joint.freedoms) < 2 else f"{joint.name}.{number}"
+
+
+def number_of(scene: Scene, force: Force) -> int:
+    """The number of the freedom about or along which a force acts, among those of its joint."""
+    joint: Any = scene.joints[force.about or ""]
+    if scene.frame is PLANE:
+        return [freedom.kind for freedom in freedoms_left(scene, joint)].index(force.freedom)
+    return joint.turning(force.turn)
 
 
 def node(scene: Scene, anchor: Anchor) -> str:
@@ -105,34 +189,39 @@ def node(scene: Scene, anchor: Anchor) -> str:
     return anchor.body
 
 
-_LAST: list[tuple[Scene, Tree[Joint]]] = []  # one at most: a run asks for it twenty times
+def local(scene: Scene, anchor: Anchor) -> Vector3:
+    """A point in the axes of its body, or of the ground; a driven point is its own body."""
+    if anchor.body != GROUND:
+        return lifted(scene.bodies[anchor.body].points[anchor.point])
+    point = scene.points[anchor.point]
+    return (0.0, 0.0, 0.0) if point.driven else lifted(point.at)
 
 
-def spanning_tree(scene: Scene) -> Tree[Joint]:
-    """The tree over the joints, pins last that do not rub, each kind in the scene's order.
+_LAST: list[tuple[Scene, Tree]] = []  # one at most: a run asks for it twenty times
 
-    What is driven comes before other pins: only a joint of the tree can be.
+
+def spanning_tree(scene: Scene) -> Tree:
+    """The tree over the joints: what closes a loop best comes last, else in the scene's order.
+
+    What is driven or rubs comes before what else is like it, and in space what a force acts about:
+    only in a joint of the tree they can be.
     """
     for known, tree in _LAST:
         if known is scene:
             return tree
-    tree = _over(scene)
+    tree = spanned(scene, sorted(scene.joints.values(), key=lambda joint: _closes(scene, joint)))
     _LAST[:] = [(scene, tree)]
     return tree
 
 
-def _over(scene: Scene) -> Tree[Joint]:
-    prescribed = {quantity.rpartition(".")[0] for quantity in scene.drives}
-
-    def closes(joint: Joint) -> bool:
-        loose = joint.dry_friction is None and joint.name not in prescribed
-        return loose and built_as(scene, joint) == Left(turns=True, shifts=False)
-
-    by_kind = sorted(scene.joints.values(), key=lambda joint: (joint.swings, closes(joint)))
-    return spanned(scene, by_kind)
+def _closes(scene: Scene, joint: Joint) -> tuple[bool, int]:
+    driven = any(quantity.startswith(f"{joint.name}.") for quantity in scene.drives)
+    acted = any(force.about == joint.name for force in scene.forces.values())
+    needed = driven or acted or joint.dry_friction is not None
+    return joint.swings, -4 if needed else -(held_points(scene, joint) or 4)
 
 
-def spanned(scene: Scene, joints: Iterable[J]) -> Tree[J]:
+def spanned(scene: Scene, joints: Iterable[Joint]) -> Tree:
     """Kruskal's tree: the joints in the order in which they are taken into it."""
     group = {name: name for name in (GROUND, *driven(scene), *scene.bodies)}
 
@@ -141,8 +230,8 @@ def spanned(scene: Scene, joints: Iterable[J]) -> Tree[J]:
             name = group[name]
         return name
 
-    kept: list[J] = []
-    loops: list[J] = []
+    kept: list[Joint] = []
+    loops: list[Joint] = []
     for joint in joints:
         ends = sorted((root(node(scene, joint.a)), root(node(scene, joint.b))), key=_is_body)
         if ends[0] == ends[1] or not _is_body(ends[1]):  # both fixed: closes through the ground
@@ -151,6 +240,11 @@ def spanned(scene: Scene, joints: Iterable[J]) -> Tree[J]:
             group[ends[1]] = ends[0]
             kept.append(joint)
     return Tree(tuple(_outward(scene, kept)), tuple(loops))
+
+
+def dry_joints(scene: Scene) -> list[Joint]:
+    """The joints with dry friction, in the scene's order."""
+    return [joint for joint in scene.joints.values() if joint.dry_friction is not None]
 
 
 def driven(scene: Scene) -> Iterator[str]:
@@ -162,7 +256,7 @@ def _is_body(name: str) -> bool:
     return name != GROUND and "." not in name
 
 
-def _outward(scene: Scene, joints: list[J]) -> Iterator[Branch[J]]:
+def _outward(scene: Scene, joints: list[Joint]) -> Iterator[Branch]:
     reached = {GROUND, *driven(scene)}
     waiting = list(scene.bodies)
     while waiting:
@@ -189,36 +283,8 @@ def turned(vector: Vector, angle: float) -> Vector:
     return (cos * vector[0] - sin * vector[1], sin * vector[0] + cos * vector[1])
 
 
-def coordinates(
-    scene: Scene, tree: Tree, branch: Branch, start: Start
-) -> list[tuple[float, float]]:
-    """(position, rate) of the branch's joint coordinates at the start, in MuJoCo's order."""
-    x, y, angle, vx, vy, omega = start[branch.body]
-    turns = scene.bodies[branch.body].turns
-    if branch.joint is None:
-        return [(x, vx), (y, vy), *([(angle, omega)] if turns else [])]
-    ways = {"turn": _turn, "shift": _shift}
-    return [ways[freedom](scene, tree, branch, start) for freedom in freedoms(scene, branch)]
-
-
-def _turn(scene: Scene, tree: Tree, branch: Branch, start: Start) -> tuple[float, float]:
-    _, _, angle, _, _, omega = start[branch.body]
-    parent = start.get(tree.frame(scene, branch.parent), (0.0,) * 6)
-    return angle - parent[2], omega - parent[5]
-
-
-def _shift(scene: Scene, tree: Tree, branch: Branch, start: Start) -> tuple[float, float]:
-    joint = branch.joint
-    assert joint is not None
-    first, second = (place(scene, end, start) for end in (joint.a, joint.b))
-    base = 0.0 if joint.a.body == GROUND else start[joint.a.body][2]
-    u = turned(joint.along, base)
-    d = [after - before for before, after in zip(first, second, strict=True)]
-    return d[0] * u[0] + d[1] * u[1], d[2] * u[0] + d[3] * u[1]
-
-
 def place(scene: Scene, anchor: Anchor, start: Start) -> tuple[float, float, float, float]:
-    """x, y, vx, vy of a point at the start."""
+    """x, y, vx, vy of a point of the plane at the start."""
     if anchor.body == GROUND:
         return scene.points[anchor.point].state(0.0)  # type: ignore[return-value]
     x, y, angle, vx, vy, omega = start[anchor.body]

@@ -3,21 +3,30 @@
 import mujoco
 
 from ....cases.scene import Scene
+from ....cases.scene.frame import PLANE
+from ....cases.scene.rotation import matrix
+from ....cases.trajectory import Array
 from ..model.force import numbers
-from ..model.planes import touching
+from ..model.planes import met
 from ..model.tree import called, driven
+
+_ENTRIES = {"11": (0, 0), "22": (1, 1), "33": (2, 2), "12": (0, 1), "13": (0, 2), "23": (1, 2)}
 
 
 def measured(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, float]:
     """The physics that MuJoCo holds, see `Engine.measure`."""
-    found = {"gravity.x": model.opt.gravity[0], "gravity.y": model.opt.gravity[1]}
+    axes = scene.frame.axes
+    found = {f"gravity.{axis}": model.opt.gravity[i] for i, axis in enumerate(axes)}
     for body in scene.bodies.values():
         number = model.body(called(body.name)).id
         found[f"{body.name}.mass"] = model.body_mass[number]
-        if body.turns:
+        if body.turns and scene.frame is PLANE:
             found[f"{body.name}.inertia"] = model.body_inertia[number, 2]
-    for contact in (*touching(scene), *scene.pairs):
-        found[f"{contact}.friction"] = model.pair(contact).friction[0]
+        elif body.turns:
+            held = tensor(model, number)
+            found |= {f"{body.name}.inertia_{ik}": held[at] for ik, at in _ENTRIES.items()}
+    for contact in met(scene):
+        found[f"{contact.name}.friction"] = model.pair(contact.name).friction[0]
     for joint in scene.joints.values():
         dry = joint.dry_friction
         if dry is not None and dry.kinetic.forward == dry.kinetic.backward:  # else a mean: neither
@@ -31,5 +40,11 @@ def measured(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[s
         mujoco.mj_subtreeVel(model, data)
         momentum = data.subtree_linvel[0] * model.body_subtreemass[0]
         found["energy.kinetic"] = data.energy[1]
-        found["momentum.x"], found["momentum.y"] = momentum[0], momentum[1]
+        found |= {f"momentum.{axis}": momentum[i] for i, axis in enumerate(axes)}
     return {name: float(value) for name, value in found.items()}
+
+
+def tensor(model: mujoco.MjModel, number: int) -> Array:
+    """(3, 3) in a body's axes: MuJoCo keeps principal moments and the attitude of their axes."""
+    axes = matrix(model.body_iquat[number])
+    return (axes * model.body_inertia[number]) @ axes.T

@@ -13,13 +13,10 @@ import numpy as np
 from ....cases.scene import Scene
 from ....cases.trajectory import Array
 from ...foot_contact import strode
-from ...law import TORQUES
-from ..model.drive import Drive, drives
+from ..model.drive import drives
 from ..model.edge import fields
-from ..model.force import about
-from ..model.hinge import way
-from ..model.tree import Tree, called, spanning_tree
-from .reaction import Seen, damped, felt_force, joint_force, line, pinned
+from ..model.tree import Tree, called, dry_joints, spanning_tree
+from .reaction import Seen, component, damped, effort, felt_force, joint_wrench, pinned
 from .record import Counts, Record
 
 # Dry friction of joints, read from MuJoCo's constraint forces.
@@ -32,22 +29,21 @@ class SlideFriction:
     """The friction [N or N m] on the second part of each slide or pin: (N,) by its name."""
 
     def __init__(self, scene: Scene, model: mujoco.MjModel, samples: int) -> None:
-        dry = [joint for joint in scene.joints.values() if joint.dry_friction is not None]
+        dry = dry_joints(scene)
         self.forces = {joint.name: np.zeros(samples) for joint in dry}
         self._of_dof = {
-            int(model.joint(joint.name).dofadr[0]): (way(scene, joint), self.forces[joint.name])
-            for joint in dry
+            int(model.joint(joint.name).dofadr[0]): self.forces[joint.name] for joint in dry
         }
 
     def keep(self, sample: int, data: mujoco.MjData) -> None:
         """MuJoCo's own friction, and what our law or driver pushes in its place."""
-        for dof, (sign, kept) in self._of_dof.items():
+        for dof, kept in self._of_dof.items():
             rows = (data.efc_type == _FRICTION) & (data.efc_id == dof)
-            kept[sample] = sign * (data.qfrc_applied[dof] + data.efc_force[rows].sum())
+            kept[sample] = data.qfrc_applied[dof] + data.efc_force[rows].sum()
 
 
 _TOUCHING = ("sensordata", "qfrc_applied")
-_DRIVING = ("qpos", "qvel", "xmat", "actuator_force")
+_DRIVING = ("qpos", "qvel", "xmat", "xaxis", "actuator_force")
 _JOINTS = ("cfrc_int", "subtree_com", "site_xpos", "actuator_force")
 _STATE = int(
     mujoco.mjtState.mjSTATE_TIME
@@ -73,7 +69,7 @@ def read(
     tree = spanning_tree(scene)
     names = _needed(scene, tree, reactions)
     seen = _seen(model, data, times, record, names, dry, recall)
-    of_joint = cache(lambda part: joint_force(scene, tree, model, seen, scene.joints[part]))
+    wrench = cache(lambda part: joint_wrench(scene, tree, model, seen, scene.joints[part]))
     driving = {drive.effort: drive for drive in drives(scene)}
     found: dict[str, Array] = {}
     for name in reactions:
@@ -85,36 +81,14 @@ def read(
         elif part in scene.bodies:
             found[name] = acceleration(model, seen, part, field)
         elif name in driving:
-            found[name] = _effort(scene, model, seen, driving[name], of_joint(part))
+            found[name] = effort(scene, tree, model, seen, driving[name], wrench(part))
         elif part in scene.joints:
-            found[name] = of_joint(part)[("fx", "fy", "torque", "force").index(field)]
+            found[name] = component(wrench(part), field)
         elif part in strode(scene):
-            found[name] = pinned(model, seen, part)[("tangent", "normal").index(field)]
+            found[name] = pinned(model, seen, part)[:, ("tangent", "normal").index(field)]
         else:
             found[name] = felt_force(scene, model, name, seen["sensordata"], seen["qfrc_applied"])
     return found
-
-
-def _effort(
-    scene: Scene, model: mujoco.MjModel, seen: Seen, drive: Drive, held: tuple[Array, ...]
-) -> Array:
-    """(N,) what the drive exerts on the second part [N m or N].
-
-    held: fx, fy and torque of all that holds the second part, from which what else acts about the
-    joint is taken away.
-    """
-    fx, fy, torque, *_ = held
-    if drive.effort.endswith(".drive"):
-        ux, uy = line(model, seen, drive.joint).T
-        return ux * fx + uy * fy
-    place = model.joint(drive.name)
-    angle = drive.way * seen["qpos"][:, place.qposadr[0]]
-    rate = drive.way * seen["qvel"][:, place.dofadr[0]]
-    for other in scene.forces.values():
-        if other.about == drive.joint.name and (law := TORQUES.get(type(other))):  # type: ignore[arg-type]
-            torque = torque - law(other, angle, rate)  # type: ignore[arg-type]
-    sizes = seen["actuator_force"]
-    return torque - drive.way * about(scene, model, drive.joint.name, sizes)
 
 
 def _needed(scene: Scene, tree: Tree, reactions: tuple[str, ...]) -> set[str]:

@@ -8,22 +8,23 @@ from typing import Any
 
 from ...engine import Choice
 from ...knobs import Knob, Options, Value, short_value
-from ..model.contact import HARDEST, SOFTEST
+from ..model.contact import HARDEST
 from ..model.number_text import EACH
-from .user_options import ELEMENTS, as_options, key, suffix
+from .groups import Group
+from .user_options import as_options
 
 STEPS = (1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2.5e-4, 1e-4)  # s
 STAGES = {"RK4": 4}  # evaluations of the dynamics in a step; every other integrator takes one
 INTEGRATORS = ("implicitfast", "implicit", "discrete", "RK4")
 # What only touches would fall freely for one step: MuJoCo knows a contact from below its margin on.
 MARGIN = Value("a margin of 1e-9 m", {"pair": {"margin": 1e-9}})
-_HARD, _MIDDLE, _SOFT = ([d, d, 0.001] for d in (HARDEST, 0.99, SOFTEST))
+_HARD, _MIDDLE = HARDEST, 0.99  # of d
 _STIFF = ("2h", "4h", "10h")  # time constants
 
 
 def knobs(
     best: Sequence[Choice],
-    soft: Sequence[str],
+    soft: Sequence[Group],
     bundles: Mapping[str, Sequence[Choice]],
     *,
     lies: bool,
@@ -81,16 +82,10 @@ def _of(name: str, value: Any) -> Value:
     return Value(f"{name} {short_value(value)}", {name: value})
 
 
-_WHOSE = {
-    "connect": "loops", "pair": "contacts", "slide": "dry joints", "rope": "ropes", "stop": "stops",
-    "rod": "rods in loops",
-}  # fmt: skip
-
-
-def _softness(group: str, tuned: Options) -> Knob:
+def _softness(group: Group, tuned: Options) -> Knob:
     """The time constant, how hard it is, both, and what the tuned recipe has."""
-    pushes, holds = (key(group, name).partition(".")[2] for name in ("solref", "solimp"))
-    whose, element = _WHOSE[group], ELEMENTS[group]
+    pushes, holds = group.attribute("solref"), group.attribute("solimp")
+    whose, element = group.whose, group.option
 
     def value(**numbers: Any) -> Value:
         words = (
@@ -98,19 +93,14 @@ def _softness(group: str, tuned: Options) -> Knob:
         )
         return Value(f"{whose}: {', '.join(words)}", {element: numbers})
 
-    springs: list[list[Any]] = [[text, 1.0] for text in _STIFF]
-    hardness = [_HARD, _MIDDLE]
-    if group == "pair":
-        springs += [["-0.25/h2", "-1/h"], ["-0.04/h2", 0.0]]
-        hardness.append(_SOFT)
+    springs = [*([text, 1.0] for text in _STIFF), *group.springs]
+    hardness = [[d, d, 0.001] for d in (_HARD, _MIDDLE, *group.hardness)]
     values = [
         *(value(**{pushes: spring}) for spring in springs),
-        *(value(**{holds: d}) for d in hardness),
-        *(value(**{pushes: spring, holds: _HARD}) for spring in springs[:2]),
+        *(value(**{holds: hard}) for hard in hardness),
+        *(value(**{pushes: spring, holds: hardness[0]}) for spring in springs[:2]),
     ]
-    numbers = {
-        name: x for name, x in tuned.get(element, {}).items() if name.endswith(suffix(group))
-    }
+    numbers = {name: x for name, x in tuned.get(element, {}).items() if name in group.sizes}
     best = value(**numbers) if numbers else None
     if best and (own := _own(tuned, group)):
         best = Value(f"{best.words}, {' and '.join(own)} otherwise", {**best.options, EACH: own})
@@ -119,10 +109,10 @@ def _softness(group: str, tuned: Options) -> Knob:
     return Knob(f"softness of {whose}", tuple(values), best)
 
 
-def _own(tuned: Options, group: str) -> dict[str, Any]:
+def _own(tuned: Options, group: Group) -> dict[str, Any]:
     """By name, the numbers that the tuned recipe gives one contact, or one joint's stops, alone."""
-    pushes = key(group, "solref").partition(".")[2]
-    given = tuned.get(EACH, {}).items() if group in ("pair", "stop") else ()
+    given = tuned.get(EACH, {}).items() if group.single else ()
+    pushes = group.attribute("solref")
     return {element: numbers for element, numbers in given if pushes in numbers}
 
 

@@ -10,34 +10,26 @@ from ...step_scaled import FORMS, at, tied
 from ..callbacks.signal import installed, listening
 from ..model.contact import RECIPES
 from ..model.number_text import EACH, of_one
-from ..model.space.contact import RECIPES as RECIPES_IN_SPACE
+from .groups import GROUPS, SOFT
 
 _WORDS = {
     "integrator": ("Euler", "RK4", "implicit", "implicitfast", "discrete"),
     "cone": ("pyramidal", "elliptic"),
     "jacobian": ("dense", "sparse", "auto"),
     "solver": ("PGS", "CG", "Newton"),
-    "contacts": (*dict.fromkeys((*RECIPES, *RECIPES_IN_SPACE)), "scene"),
+    "contacts": (*dict.fromkeys(word for recipes in RECIPES.values() for word in recipes), "scene"),
 }
 _WHOLE = ("iterations", "ls_iterations", "noslip_iterations")
 _REAL = ("tolerance", "ls_tolerance", "noslip_tolerance", "impratio")
-SOFT = {"solref": (2,), "solimp": (3, 5)}  # of every group of soft constraints
 FLAGS = ("diagexact",)
 PROTOCOL = ("step", "contacts", "settled")  # what stands nowhere in the file
-GROUPS: Mapping[str, Mapping[str, tuple[int, ...]]] = {
-    "connect": SOFT,
-    "rod": SOFT,
-    "pair": {**SOFT, "solreffriction": (2,), "margin": (1,)},
-    "joint": {
-        "solreffriction": (2,), "solimpfriction": (3, 5), "solreflimit": (2,), "solimplimit": (3, 5)
-    },
-    "tendon": {"solreflimit": (2,), "solimplimit": (3, 5)},
-}  # fmt: skip
-"""Elements with how many numbers each of their attributes takes: loops by pins and by rods,
-contacts, dry joints and their stops, ropes."""
-_LIMITS = {name: size for name, size in GROUPS["joint"].items() if name.endswith("limit")}
-_ALONE = {**GROUPS["pair"], **_LIMITS}
-_NAMES = ("step", *_WORDS, *_WHOLE, *_REAL, *SOFT, *GROUPS, *FLAGS, EACH, "settled")
+ELEMENTS: dict[str, dict[str, tuple[int, ...]]] = {}
+"""The elements of which a user sets numbers, with how many each of their attributes takes."""
+for _group in GROUPS.values():
+    ELEMENTS.setdefault(_group.option, {}).update(_group.sizes)
+_SINGLE = [group for group in GROUPS.values() if group.single]
+_ALONE = {name: size for group in _SINGLE for name, size in group.sizes.items()}
+_NAMES = ("step", *_WORDS, *_WHOLE, *_REAL, *SOFT, *ELEMENTS, *FLAGS, EACH, "settled")
 _MOST = 2**31 - 1  # MuJoCo's int
 
 
@@ -57,8 +49,8 @@ def as_written(name: str, value: Any) -> Any:
 def _mistakes(name: str, value: Any) -> Iterator[str]:
     if name not in _NAMES:
         yield f"mujoco.{name}: unknown option; {_nearest(name, _NAMES)}"
-    elif name in GROUPS:
-        yield from _in_group(name, value, GROUPS[name])
+    elif name in ELEMENTS:
+        yield from _in_group(name, value, ELEMENTS[name])
     elif name == EACH:
         yield from _of_each(value)
     elif name in (*FLAGS, "settled"):
@@ -135,9 +127,10 @@ def _tried(options: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
     if usual:
         yield usual
     for numbers in options.get(EACH, {}).values():
-        limits = {name: value for name, value in numbers.items() if name in _LIMITS}
-        touching = {name: value for name, value in numbers.items() if name not in _LIMITS}
-        yield {"pair": touching, "joint": limits}
+        yield {
+            group.option: {name: value for name, value in numbers.items() if name in group.sizes}
+            for group in _SINGLE
+        }
 
 
 def _refused(options: Mapping[str, Any]) -> list[str]:
@@ -163,14 +156,14 @@ def _trial(options: Mapping[str, Any]) -> str:
         words = value if isinstance(value, list | tuple) else [value]
         return f'{"timestep" if name == "step" else name}="{" ".join(map(str, words))}"'
 
-    def soft(group: str) -> str:
+    def soft(element: str) -> str:
         common = {name: options[name] for name in SOFT if name in options}
-        ends = {"joint": ("friction", "limit"), "tendon": ("limit",)}.get(group, ("",))
-        own = {name + end: value for name, value in common.items() for end in ends}
-        given = own | options.get(group, {})
+        mine = [group for group in GROUPS.values() if group.option == element]
+        own = {group.attribute(name): common[name] for name in common for group in mine}
+        given = own | options.get(element, {})
         return " ".join(text(name, value) for name, value in given.items())
 
-    plain = [n for n in options if n not in (*SOFT, *GROUPS, *FLAGS, "contacts", "settled")]
+    plain = [n for n in options if n not in (*SOFT, *ELEMENTS, *FLAGS, "contacts", "settled")]
     option = " ".join(text(name, options[name]) for name in plain)
     flag = 'diagexact="enable"' if options.get("diagexact") else ""
     return f"""<mujoco><option {option}><flag {flag}/></option>

@@ -3,21 +3,18 @@
 A recipe is a function of the scene and of the step its tied numbers follow.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 from ....cases.scene import Scene
 from ...engine import Choice, Start
-from ...foot_contact import strides
 from ...step_scaled import at
-from ..model.contact import HARDEST, RECIPES, chosen, recipe
-from ..model.loops import recipe as rods
+from ..model.contact import chosen, recipes
 from ..model.planes import met
-from ..model.rope import recipe as ropes
-from ..model.stops import recipe as stops
-from ..model.tree import driven, spanning_tree
-from .user_options import OWN, key, overlaid
+from ..model.tree import driven
+from .groups import groups, single
+from .user_options import OWN, overlaid
 
 SHIPPED_STEP = 2e-3  # s, the default of <option timestep>
 _DEFAULT = "MuJoCo's default"
@@ -35,22 +32,17 @@ TO_THE_END = Choice(
 )
 
 
-def shipped(scene: Scene, tied_to: float) -> list[Choice]:
+def shipped(scene: Scene) -> list[Choice]:
     """MuJoCo's defaults for the scene, which a user gets who changes nothing."""
-    return defaults(soft(scene), _solver(scene))
-
-
-def defaults(groups: Sequence[str], solver: Sequence[Choice]) -> list[Choice]:
-    """MuJoCo's numbers, for groups of soft constraints; solver: what no setting leaves out."""
     choices = [
         Choice("option.integrator", "Euler", _DEFAULT),
         Choice("option.cone", "pyramidal", _DEFAULT),
-        *solver,
+        *_solver(scene),
     ]
-    for group in groups:
+    for group in groups(scene):
         choices += [
-            Choice(key(group, "solref"), [0.02, 1.0], _DEFAULT),
-            Choice(key(group, "solimp"), [0.9, 0.95, 0.001, 0.5, 2.0], _DEFAULT),
+            Choice(group.key("solref"), [0.02, 1.0], _DEFAULT),
+            Choice(group.key("solimp"), [0.9, 0.95, 0.001, 0.5, 2.0], _DEFAULT),
         ]
     return choices
 
@@ -66,38 +58,13 @@ def best(scene: Scene, start: Start | None = None) -> list[Choice]:
         Choice("option.integrator", "RK4", "fourth order; every other integrator is of the first"),
         Choice("option.jacobian", "dense", "small scenes; keeps 4.0.0's sparse solver out"),
     ]
-    if soft(scene):
-        choices.append(Choice("option.tolerance", 1e-14, "near rounding; 0 is five times slower"))
-    choices += _solver(scene)
-    for group in ("connect", "slide"):
-        if group in soft(scene):
-            choices += [
-                Choice(key(group, "solref"), [f"{_STIFF[group]}h", 1.0], _BECAUSE[group]),
-                Choice(
-                    key(group, "solimp"),
-                    [HARDEST, HARDEST, 0.001],
-                    "the hardest MuJoCo takes: d = 0.9999",
-                ),
-            ]
-    if "slide" in soft(scene):
-        choices.append(Choice("option.noslip_iterations", 5, "what sticks does not creep"))
-    for more in _of_elements(scene, start):
+    if groups(scene):
+        close = Choice("option.tolerance", 1e-14, "near rounding; 0 is five times slower")
+        choices += _solver(scene) or [close]
+    for group in groups(scene):
         known = {choice.name for choice in choices}
-        choices += [choice for choice in more if choice.name not in known]
+        choices += [c for c in group.recipe(scene, start) if c.name not in known]
     return choices
-
-
-def _of_elements(scene: Scene, start: Start | None) -> Iterator[list[Choice]]:
-    """The recipes of what gives way, each in a file of its own."""
-    gives = soft(scene)
-    if "rod" in gives:
-        yield rods()
-    if "rope" in gives:
-        yield ropes()
-    if "stop" in gives:
-        yield stops([*scene.stops()])
-    if met(scene):
-        yield recipe(scene, start)
 
 
 def at_step(choices: Sequence[Choice], h: float) -> list[Choice]:
@@ -105,35 +72,15 @@ def at_step(choices: Sequence[Choice], h: float) -> list[Choice]:
     return [replace(choice, value=at(choice.value, h)) for choice in choices]
 
 
-# The time constant of a soft constraint in steps.
-_STIFF = {"connect": 8, "slide": 2}
-_BECAUSE = {
-    "connect": "8 h: forces 10 times nearer than with 4 h, as stages jerk at the pin; places ∝ h²",
-    "slide": "the stiffest that stays stable: 2 h",
-}
-
-
 def _solver(scene: Scene) -> list[Choice]:
     """Solve to the end where a driven point's mass would tell the solver that it has arrived."""
     heavy = any(driven(scene)) or bool(scene.drives)
-    return [TO_THE_END] if soft(scene) and heavy else []
+    return [TO_THE_END] if groups(scene) and heavy else []
 
 
 def only_slides(scene: Scene) -> bool:
-    """Whether they are those of dry slides alone."""
-    return soft(scene) == ["slide"]
-
-
-def soft(scene: Scene) -> list[str]:
-    """The groups of soft constraints in the scene."""
-    closing = spanning_tree(scene).loops
-    pins = strides(scene) or any(not joint.swings for joint in closing)
-    loops = ["connect"] if pins else []
-    loops += ["rod"] if any(joint.swings for joint in closing) else []
-    dry = ["slide"] if any(joint.dry_friction for joint in scene.joints.values()) else []
-    ropes = ["rope"] if any(scene.ropes()) else []
-    ropes += ["stop"] if any(scene.stops()) else []
-    return loops + dry + ropes + (["pair"] if met(scene) else [])
+    """Whether dry joints alone give way in the scene."""
+    return [group.word for group in groups(scene)] == ["slide"]
 
 
 def with_own(
@@ -142,13 +89,8 @@ def with_own(
     """The shipped setting with other options on top: the user's own, or what `because` says."""
     word = options.get("contacts")
     chosen_one = chosen(scene, start) if word == "scene" else word
-    contacts = RECIPES[chosen_one](scene) if met(scene) and chosen_one else []
-    under = shipped(scene, tied_to)
-    on_top = overlaid(under, options, soft(scene), contacts, alone=alone(scene), because=because)
+    contacts = recipes(scene)[chosen_one](scene) if met(scene) and chosen_one else []
+    on_top = overlaid(
+        shipped(scene), options, groups(scene), contacts, single=single(scene), because=because
+    )
     return at_step(on_top, tied_to)
-
-
-def alone(scene: Scene) -> dict[str, str]:
-    """By name, the group of each contact or joint's stops that may have numbers of its own."""
-    touching = {one.name: "pair" for one in met(scene)}
-    return touching | {stops.name: "stop" for stops in scene.stops()}

@@ -7,12 +7,8 @@ from ...engine import Choice
 from ...knobs import Options
 from ..model.number_text import EACH, attributes, written
 from ..model.script import commented
+from .groups import GROUPS
 
-_ELEMENTS = {
-    "connect": "equality", "pair": "geom", "slide": "joint", "rope": "tendon", "stop": "joint",
-    "rod": "equality",
-}  # fmt: skip
-"""What stands in <default> for a group of soft constraints, in a model as a user writes it."""
 _ALONE = "solreffriction"  # which a geom has not
 _KEPT = {
     "geom": "of two geoms that touch the one of higher priority tells, or both by solmix",
@@ -50,19 +46,19 @@ def snippet(
     if flags := attributes(changed, "flag"):
         ET.SubElement(option, "flag", flags)
     default, beside = ET.Element("default"), list[str]()
-    for group, element in _ELEMENTS.items():
-        given = attributes(changed, group)
-        pairs_alone = group == "pair" and _ALONE in given
+    for word, group in GROUPS.items():
+        given, element = attributes(changed, word), group.default
+        pairs_alone = word == "pair" and _ALONE in given
         mine = {} if pairs_alone else given
         if mine:
             found = default.find(element)
             place = ET.SubElement(default, element) if found is None else found
             if any(place.get(name, value) != value for name, value in mine.items()):
                 numbers = ", ".join(f"{name}={value!r}" for name, value in mine.items())
-                beside.append(f"each {element} of a {group} has {numbers} instead")
+                beside.append(f"each {element} of a {word} has {numbers} instead")
             else:
                 place.attrib.update(mine)
-        if group == "pair" and given:
+        if word == "pair" and given:
             ET.SubElement(default, "pair", given)
     beside += [_KEPT[element.tag] for element in default if element.tag in _KEPT]
     if (pair := default.find("pair")) is not None:

@@ -5,85 +5,65 @@ from typing import Any
 
 from ...engine import Choice
 from ..model.number_text import EACH, of_one
-from .options import FLAGS, GROUPS, PROTOCOL, SOFT, as_written
+from .groups import GROUPS, SOFT, Group
+from .options import ELEMENTS, FLAGS, PROTOCOL, as_written
 
 OWN = "your own option"
-
-
-def key(group: str, name: str) -> str:
-    """As MJCF spells it: a joint's friction, its stops and a tendon's have names of their own."""
-    return f"{group}.{name}{suffix(group)}"
-
-
-def suffix(group: str) -> str:
-    """The ending of the names of a group's numbers."""
-    return _NAMED.get(group, "")
-
-
-_NAMED = {"slide": "friction", "rope": "limit", "stop": "limit"}
 
 
 def overlaid(
     under: Sequence[Choice],
     options: Mapping[str, Any],
-    soft: Sequence[str],
+    groups: Sequence[Group],
     contacts: Sequence[Choice],
     *,
-    alone: Mapping[str, str],
+    single: Mapping[str, Group],
     because: str,
 ) -> list[Choice]:
     """Choices with other options on top.
 
     contacts: the recipe that they name, which stands between what is for all groups and the rest.
-    alone: what may have numbers of its own, by its name: of which group it is. because: why they
+    single: what may have numbers of its own, by its name: of which group it is. because: why they
     are on top.
     """
     choices = {choice.name: choice for choice in under}
     for name in SOFT:
-        for group in soft if name in options else ():
-            named = key(group, name)
+        for group in groups if name in options else ():
+            named = group.key(name)
             choices[named] = Choice(named, as_written(name, options[name]), because)
     choices |= {choice.name: choice for choice in contacts}
-    choices |= {choice.name: choice for choice in _written(options, soft, because)}
-    choices |= {choice.name: choice for choice in _alone(options.get(EACH, {}), alone, because)}
+    choices |= {choice.name: choice for choice in _written(options, groups, because)}
+    choices |= {choice.name: choice for choice in _alone(options.get(EACH, {}), single, because)}
     return list(choices.values())
 
 
 def _alone(
-    given: Mapping[str, Mapping[str, Any]], alone: Mapping[str, str], because: str
+    given: Mapping[str, Mapping[str, Any]], single: Mapping[str, Group], because: str
 ) -> Iterator[Choice]:
     """The choices for one contact or one joint's stops alone, as far as the scene has it."""
     for element, numbers in given.items():
-        if group := alone.get(element):
+        if group := single.get(element):
             yield from (
                 Choice(f"{of_one(element)}.{attribute}", value, because)
                 for attribute, value in numbers.items()
-                if attribute in GROUPS[ELEMENTS[group]] and attribute.endswith(suffix(group))
+                if attribute in group.sizes
             )
 
 
-def _written(options: Mapping[str, Any], soft: Sequence[str], because: str) -> Iterator[Choice]:
+def _written(options: Mapping[str, Any], groups: Sequence[Group], because: str) -> Iterator[Choice]:
     """The choices for options that stand in one place only."""
     for name, value in options.items():
-        if name in GROUPS:
+        if name in ELEMENTS:
             yield from (
-                Choice(f"{group}.{attribute}", given, because)
+                Choice(f"{group.word}.{attribute}", given, because)
                 for attribute, given in value.items()
-                for group, element in ELEMENTS.items()
-                if group in soft and element == name
-                if attribute.endswith(suffix(group))
+                for group in groups
+                if group.option == name and attribute in group.sizes
             )
         elif name in FLAGS:
             yield Choice(f"flag.{name}", "enable" if value else "disable", because)
         elif name not in (*SOFT, *PROTOCOL, EACH):
             yield Choice(f"option.{name}", as_written(name, value), because)
-
-
-ELEMENTS = {
-    "connect": "connect", "pair": "pair", "slide": "joint", "rope": "tendon", "stop": "joint",
-    "rod": "rod",
-}  # fmt: skip
-"""The elements that MJCF has for our groups of soft constraints."""
 
 
 def as_options(choices: Sequence[Choice], *, settled: bool) -> dict[str, Any]:
@@ -94,8 +74,8 @@ def as_options(choices: Sequence[Choice], *, settled: bool) -> dict[str, Any]:
         group, _, element = where.partition(".")
         if group == EACH:
             found.setdefault(EACH, {}).setdefault(element, {})[name] = choice.value
-        elif where in ELEMENTS:
-            found.setdefault(ELEMENTS[where], {})[name] = choice.value
+        elif where in GROUPS:
+            found.setdefault(GROUPS[where].option, {})[name] = choice.value
         else:
             found[name] = choice.value == "enable" if where == "flag" else choice.value
     return found | ({"settled": True} if settled else {})

@@ -16,11 +16,9 @@ from given.models import differing
 from given.planning import CASES, NATIVE, begun, planned
 
 from textmech.cases.scene import Scene
-from textmech.cases.scene.frame import PLANE
 from textmech.engines.engine import Plan, Realised, Start
 from textmech.engines.mujoco import MuJoCo
 from textmech.engines.mujoco.adapter import compilation
-from textmech.engines.mujoco.adapter.space import compilation as space
 from textmech.engines.mujoco.model.rods import with_rods
 from textmech.engines.mujoco.model.tree import called
 from textmech.reports.compare.judge.compare import compare
@@ -77,10 +75,8 @@ def placed(
     engine: MuJoCo, scene: Any, start: Start, step: float, plan: Plan
 ) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """What a run is given."""
-    room = compilation if scene.frame is PLANE else space
-    if scene.frame is PLANE:
-        scene, start = with_rods(scene, start)
-    model, data, _ = room.placed(scene, start, step, plan, settles=engine.setting == "tuned")
+    scene, start = with_rods(scene, start)
+    model, data, _ = compilation.placed(scene, start, step, plan, settles=engine.setting == "tuned")
     return model, data
 
 

@@ -18,9 +18,9 @@ from textmech.cases.scene.rotation import angle_between, inverse, product
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Plan
 from textmech.engines.mujoco import MuJoCo
-from textmech.engines.mujoco.model.space import start
-from textmech.engines.mujoco.model.space.scene import principal
-from textmech.engines.mujoco.read.space.seen import states
+from textmech.engines.mujoco.model import start
+from textmech.engines.mujoco.model.scene import principal
+from textmech.engines.mujoco.read import poses
 
 TIMES = np.linspace(0.0, 2.0, 11)
 BODY = rigid("top", 1.3, LOPSIDED)
@@ -80,7 +80,7 @@ _SPIN = SPACE.spin
 
 
 def _ground_axes_out(*args: Any) -> Any:
-    found = states(*args)
+    found = read_before(*args)
     for rows in found.values():
         rows[:, _SPIN] = rotation.turned(rows[:, SPACE.attitude], rows[:, _SPIN])
     return found
@@ -92,7 +92,7 @@ def _ground_axes_in(*args: Any) -> Any:
     return q, [*v, *turned.tolist()]
 
 
-free_before = start._free
+free_before, read_before = start._free, poses._in_space
 
 
 def _back(tensor: Array) -> Any:
@@ -115,10 +115,10 @@ def _turned_back(*args: Any) -> Any:
 @pytest.mark.parametrize(
     ("place", "wrong"),
     [
-        ("adapter.space.run.states", _ground_axes_out),
-        ("model.space.start._free", _ground_axes_in),
-        ("model.space.start._free", _turned_back),
-        ("model.space.scene.principal", _back),
+        ("read.poses._in_space", _ground_axes_out),
+        ("model.start._free", _ground_axes_in),
+        ("model.start._free", _turned_back),
+        ("model.scene.principal", _back),
     ],
     ids=["ω read in ground axes", "ω started in ground axes", "R transposed", "J turned back"],
 )  # fmt: skip

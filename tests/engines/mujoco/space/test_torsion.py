@@ -14,7 +14,7 @@ from textmech.cases.scene.quantity import table
 from textmech.cases.scene.rotation import UPRIGHT
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Start
-from textmech.engines.mujoco.adapter.space import run
+from textmech.engines.mujoco.read import reaction
 from textmech.reference.solve import solve
 
 MUJOCO = TUNED["mujoco"]
@@ -62,7 +62,7 @@ def test_mujoco_turns_as_the_reference(scene: str, tmp_path: Path) -> None:
 def test_a_drive_s_torque_with_the_spring_s_in_it_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(run, "acting", lambda *_: 0.0)
+    monkeypatch.setattr(reaction, "_beside", lambda *_: ())
     off = apart(scenes.typed(tmp_path, DRIVEN, tail=END))
     assert off.pop("wrist.phi_torque") > 0.1
     assert max(off.values()) < REACHED

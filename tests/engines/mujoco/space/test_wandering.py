@@ -18,9 +18,9 @@ from textmech.cases.scene.difference import apart
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Start
-from textmech.engines.mujoco.adapter.space import compilation, run
+from textmech.engines.mujoco.adapter import compilation, run
+from textmech.engines.mujoco.callbacks import settle_in_space as settle
 from textmech.engines.mujoco.callbacks.signal import Control, installed
-from textmech.engines.mujoco.callbacks.space import settle
 from textmech.engines.mujoco.model.tree import called
 
 # So hard that what the soft d leaves of friction, 1e-2 with the recipe's 1e6, is out of the way.
@@ -52,16 +52,16 @@ def errors(name: str, step: float, *, told: bool, monkeypatch: pytest.MonkeyPatc
     start: Start = {body: tuple(rows[0].tolist()) for body, rows in known.states.items()}  # type: ignore[misc]
     plan = planned(TUNED["mujoco"], case.scene, start)
     (disk,) = case.scene.bodies.values()
-    model, data = compilation.compiled(case.scene, start, step, plan)  # type: ignore[arg-type]
+    model, data = compilation.compiled(case.scene, start, step, plan)
     model.opt.impratio = IMPRATIO
     if told:
         control = wandering(disk.radius, model.body(called(disk.name)).id, np.array(disk.axle))  # type: ignore[attr-defined]
-        monkeypatch.setattr(settle, "following", lambda signals: control)
-        monkeypatch.setattr(run, "together", lambda controls: installed(control))
-    settle.settle(case.scene, model, data, start)  # type: ignore[arg-type]
+        for room in (settle, run):
+            monkeypatch.setattr(room, "signals", lambda *_: installed(control))
+    settle.settle_in_space(case.scene, model, data, start)
     times = case.times[: ENDS[name]]
     found = run.simulate(
-        case.scene, model, data, start, times, (), realised="native", every=False  # type: ignore[arg-type]
+        case.scene, model, data, start, times, (), realised="native", every=False
     )  # fmt: skip
     monkeypatch.undo()
     both = [observe(case.scene, motion, "disk.attitude")[: ENDS[name]] for motion in (known, found)]

@@ -6,21 +6,19 @@ creeps as fast, as keeps the velocity of its lowest point from changing. Both fa
 """
 
 from collections.abc import Callable, Mapping
+from typing import Any
 
 import mujoco
 import numpy as np
 
-from .....cases.scene.frame import SPACE
-from .....cases.scene.rotation import turned
-from .....cases.scene.space.contact import SpatialContact
-from .....cases.scene.space.scene import SpatialScene
-from .....cases.trajectory import Array
-from ....engine import Start
-from ...model.space.scene import signals
-from ...model.space.start import started
-from ...model.spatial_tree import spanning_tree
-from ...model.tree import called
-from ..signal import following, installed
+from ....cases.scene import Scene
+from ....cases.scene.frame import SPACE
+from ....cases.scene.rotation import turned
+from ....cases.trajectory import Array
+from ...engine import Start
+from ..model.start import started
+from ..model.tree import called, spanning_tree
+from .signal import listening, signals
 
 CLOSE = 1e-8  # m/s²: what is left of the lowest points' accelerations, where it can be solved
 ROUNDS = 30  # of Newton's method at most: in contact all is nearly linear, and three do
@@ -28,10 +26,10 @@ DEEP = 100.0  # h² · 1 m/s²: carries 10 m/s² in both recipes, so that fricti
 STRIDE = 1e-3  # of its differences: far above what MuJoCo's solver leaves over
 
 
-def settle(
-    scene: SpatialScene, model: mujoco.MjModel, data: mujoco.MjData, start: Start
+def settle_in_space(
+    scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, start: Start
 ) -> dict[str, tuple[float, float]]:
-    """Depth [m] and creep [m/s] of each body that rolls; afterwards the keyframe starts there.
+    """Depth [m] and creep [m/s] of each body that rolls; afterwards the data starts there.
 
     What cannot be solved (a body whose joints hold its height) is started as it is.
     """
@@ -50,12 +48,11 @@ def settle(
         mujoco.mj_rnePostConstraint(model, data)
         return np.concatenate([_acceleration(scene, model, data, c) for c in contacts])
 
-    with installed(following(signals(scene))):
+    with listening(), signals(scene):
         x = _zero(left, np.tile([DEEP, 0.0, 0.0], len(contacts)))
     x = np.zeros(3 * len(contacts)) if x is None else x
     mujoco.mj_resetDataKeyframe(model, data, 0)  # the run must not inherit a warm start
     _place(scene, model, data, sunk(x))
-    model.key_qpos[0], model.key_qvel[0] = data.qpos, data.qvel
     return {
         c.body: (h * h * x[3 * i], h * float(np.hypot(*x[3 * i + 1 : 3 * i + 3])))
         for i, c in enumerate(contacts)
@@ -78,7 +75,7 @@ def _zero(left: Callable[[Array], Array], x: Array) -> Array | None:
     return None
 
 
-def _moved(scene: SpatialScene, start: Start, shifts: Mapping[str, Array]) -> Start:
+def _moved(scene: Scene, start: Start, shifts: Mapping[str, Array]) -> Start:
     """Bodies, and what hangs on them, sunk and pushed along the floor: (−depth, vx, vy)."""
     tree, found = spanning_tree(scene), {name: list(state) for name, state in start.items()}
     for root, (down, vx, vy) in shifts.items():
@@ -89,7 +86,7 @@ def _moved(scene: SpatialScene, start: Start, shifts: Mapping[str, Array]) -> St
     return {name: tuple(state) for name, state in found.items()}
 
 
-def _place(scene: SpatialScene, model: mujoco.MjModel, data: mujoco.MjData, start: Start) -> None:
+def _place(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, start: Start) -> None:
     for name, (places, rates) in started(scene, start).items():
         number = model.body(name).id
         q = model.jnt_qposadr[model.body_jntadr[number]]
@@ -98,9 +95,7 @@ def _place(scene: SpatialScene, model: mujoco.MjModel, data: mujoco.MjData, star
         data.qvel[v : v + len(rates)] = rates
 
 
-def _acceleration(
-    scene: SpatialScene, model: mujoco.MjModel, data: mujoco.MjData, contact: SpatialContact
-) -> Array:
+def _acceleration(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, contact: Any) -> Array:
     """(3,) how fast the velocity of the lowest point changes while it wanders over the body.
 
     (v + ω × a)˙ = v̇ + ω̇ × a + ω × ȧ, with a from the centre to the lowest point.

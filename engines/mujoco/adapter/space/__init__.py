@@ -1,1 +1,0 @@
-"""MuJoCo's adapter for scenes in space: plans, compilation, runs and refusals."""

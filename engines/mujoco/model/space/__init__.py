@@ -1,1 +1,0 @@
-"""Parts of MuJoCo's file that are written otherwise for scenes in space."""

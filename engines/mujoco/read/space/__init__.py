@@ -1,1 +1,0 @@
-"""Readings of scenes in space."""

@@ -1,1 +1,0 @@
-"""Settings of scenes in space."""
