@@ -266,14 +266,11 @@ def test_short_slips_are_missed_within_a_first_step(
 
 
 @pytest.mark.slow
-@pytest.mark.mutant("neither a short first step nor one that shrinks to nothing is listened to")
+@pytest.mark.mutant("what the shortest of steps does not see is not listened to")
 def test_what_the_shortest_steps_do_not_see_ends_the_motion(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
-    """Either of the two is enough here."""
     monkeypatch.setattr(march._Walker, "start", lambda walker: None)
-    test_a_slip_is_followed_as_often_as_it_comes_back(tmp_path, LEAP)
-    monkeypatch.setattr(march._Walker, "_hears", lambda walker, h: False)
     with pytest.raises(Stuck, match="underflows"):
         test_a_slip_is_followed_as_often_as_it_comes_back(tmp_path, LEAP)
 
