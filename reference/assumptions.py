@@ -119,17 +119,15 @@ def _unsaid(case: Case, motion: Trajectory, happened: Collection[str | None]) ->
 
 
 def _grazes(case: Case, touched: Collection[Touch]) -> Iterator[Mistake]:
-    """Yields a mistake where rounding says whether something is struck, or happens that is asked.
-
-    A blow at a depth that rounding hides has a speed by its root, which is none of rounding.
-    """
+    """Yields a mistake where rounding says how it goes on, or whether what is asked happens."""
     for touch in touched:
         part, _, does = (touch.name or "").rpartition(" ")
         part = part.partition(".")[0]
-        section = "forces" if part in case.scene.forces else "contacts"
+        section = "joints" if part in case.scene.joints else "contacts"
+        section = "forces" if part in case.scene.forces else section
         asked = [name for name, e in case.events.items() if e.quantity.rpartition(".")[0] == part]
         places = [("events", name) for name in asked]
-        if touch.strikes:
+        if touch.jumps:
             places = [("scene", section, part)]
         what = (
             f"whether {part} {does} at t = {touch.time:.6g} s is rounding: what tells it comes to "

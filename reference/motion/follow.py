@@ -55,12 +55,12 @@ class Change:
 class Touch:
     """A guard that came to zero at `time` and turned back: whether it fell is rounding.
 
-    strikes: whether what it tells is a blow, which changes velocities by more than rounding does.
+    jumps: whether its motion is another one than if it had.
     """
 
     name: str | None
     time: float
-    strikes: bool
+    jumps: bool
 
 
 Kept = tuple[float, int, Array]
@@ -190,7 +190,7 @@ class _Walk:
             spend(probe.evaluations - probed + GUARD * len(guards), step.t)
             probed = probe.evaluations
             for i, at in touched:
-                self.touched.append(Touch(guards[i].event, step.t + at, guards[i].vain))
+                self.touched.append(Touch(guards[i].event, step.t + at, guards[i].jumps))
             if found is not None:
                 i, after = found
                 self._note(step.t, [part * after for part in (*INSIDE, 1.0)], state)
