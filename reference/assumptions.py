@@ -16,6 +16,8 @@ from ..cases.scene.observe import motion_of, observe
 from ..cases.scene.quantity import table
 from ..cases.trajectory import Array, Trajectory
 from .mechanism.modes.either import Generated
+from .motion.event_location import TOUCH
+from .motion.follow import Followed, Touch
 from .start.sizes import size_of
 from .system import Pose, System
 
@@ -79,14 +81,15 @@ def pressed(case: Case) -> bool:
     return ideal or any(pair.face is not None for pair in case.scene.pairs.values())
 
 
-def check_premises(case: Case, motion: Trajectory, happened: Collection[str | None]) -> None:
+def check_premises(case: Case, motion: Trajectory, followed: Followed) -> None:
     """Raises CaseError with what the motion contradicts: the first kind of mistake there is.
 
-    motion: at every step of the march, whatever the samples are. happened: the names of the changes
-    of mode, as `touch lands`.
+    motion: at every step of the march, whatever the samples are; followed: the changes of mode.
     """
+    happened = [change.name for change in followed.changes]
     for mistakes in (
         _unsaid(case, motion, happened),
+        _grazes(case, followed.touched),
         _slipping(case, motion),
         _past_ends(case, motion),
         _still(case, motion),
@@ -113,6 +116,25 @@ def _unsaid(case: Case, motion: Trajectory, happened: Collection[str | None]) ->
                 f"name the event: events: {{lands: {{{name}.gap: falls to zero}}}}"
             )
             yield case.mistake(("scene", "contacts", name), what)
+
+
+def _grazes(case: Case, touched: Collection[Touch]) -> Iterator[Mistake]:
+    """Yields a mistake where rounding says how it goes on, or whether what is asked happens."""
+    for touch in touched:
+        part, _, does = (touch.name or "").rpartition(" ")
+        part = part.partition(".")[0]
+        section = "joints" if part in case.scene.joints else "contacts"
+        section = "forces" if part in case.scene.forces else section
+        asked = [name for name, e in case.events.items() if e.quantity.rpartition(".")[0] == part]
+        places = [("events", name) for name in asked]
+        if touch.jumps:
+            places = [("scene", section, part)]
+        what = (
+            f"whether {part} {does} at t = {touch.time:.6g} s is rounding: what tells it comes to "
+            f"zero there and turns back, within {TOUCH:.0e} of what it was; change a number"
+        )
+        for place in places:
+            yield case.mistake(place, what)
 
 
 def _past_ends(case: Case, motion: Trajectory) -> Iterator[Mistake]:

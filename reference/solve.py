@@ -105,7 +105,7 @@ def _solved(case: Case) -> Island:
         if case.events:
             motion = replace(motion, record=answer.record(forces=_felt(case)))
         marched = built.march(forces=pressed(case))  # in coordinates that see each turn
-        check_premises(case, marched, [change.name for change in found.changes])
+        check_premises(case, marched, found)
         checks = (*certify(case, answer, built, generated, motion), *opened)
     return Island(case, motion, checks, generated.base)
 

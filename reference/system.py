@@ -168,7 +168,8 @@ class Guard:
     at_last: what `then` is in the limit, where falls without end pile up in a finite time, as those
     of a ball that bounces ever lower: it rests. None where there is no limit to go on from.
     vain: whether it is none where `then` gives back what it was given, as a landing from a gap that
-    has just opened by rounding.
+    has just opened by rounding. jumps: whether the motion is another one however little g falls: a
+    blow has a speed by the root of its depth, and what holds may be more than what then brakes.
     """
 
     event: str | None
@@ -176,6 +177,7 @@ class Guard:
     then: Callable[[float, Array, Array], tuple[str, Array, Array]]
     at_last: Callable[[float, Array, Array], tuple[str, Array, Array]] | None = None
     vain: bool = False
+    jumps: bool = False
 
 
 class System:

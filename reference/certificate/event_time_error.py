@@ -16,15 +16,22 @@ from ...cases.scene.observe import observe
 from ...cases.scene.passages import lasting, passing
 from ...cases.scene.still import still
 from ...cases.trajectory import Trajectory
+from ..integrators.dop853 import DOP853
 from ..integrators.march import EPS, sizes
+from ..integrators.slope import APART, DIFFERENCED, noise, scatter
 from ..motion.follow import TOLERANCE, Change, Followed, Kept
 from ..motion.stuck import slope
-from ..system import Array, System
+from ..system import Array, Mode, System
 from .agreement import worst
 
 # Times what is known of what falls: where it dips below zero by just that, it may be there later
 # than it was found to be, by as long as it took to come down from three times that.
 DIP = 3.0
+# A row of ten may meet little of a rounding, so several are asked: from these of a mode's steps on,
+# and before an event so closely.
+LISTENED = (0.0, 0.25, 0.5, 0.75)
+SPACED = (1.0, 0.61, 0.37)
+LINE = range(DIFFERENCED)
 
 
 def untimed(system: System, followed: Followed) -> float:
@@ -35,10 +42,30 @@ def untimed(system: System, followed: Followed) -> float:
     phases: list[list[Kept]] = [[] for _ in followed.phases]
     for row in followed.march:
         phases[row[1]].append(row)
+    added = np.zeros_like(peak)
     for change, rows in zip(followed.changes, phases, strict=False):
+        added = np.hypot(added, _added(system.modes[change.mode_before], rows))
         if change.guard is not None:
-            off += _untimed(system, change, change.guard, rows, known)
+            off += _untimed(system, change, change.guard, rows, known + added)
     return off
+
+
+def _added(mode: Mode, rows: Sequence[Kept]) -> Array:
+    """What the steps of a mode make of the rounding of its slopes: the state does not tell it.
+
+    A spring of a metre that moves a millimetre has the rounding of a metre in its force. Each step
+    adds up its slopes with weights, and what they leave adds up by chance.
+    """
+    steps, f, loud = np.diff([t for t, *_ in rows]), slope(mode), 0.0 * rows[0][2]
+    lasting = np.flatnonzero(steps)
+    for k in lasting[[int(part * len(lasting)) for part in LISTENED if len(lasting)]]:
+        t, _, y = rows[k]
+        try:
+            found = noise(f, t, y, float(steps[k]), np.abs(y))
+        except (ArithmeticError, ValueError, LinAlgError):  # it may not be defined so far out
+            continue
+        loud = loud if found is None else np.maximum(loud, found)
+    return float(np.linalg.norm(DOP853.b) * np.linalg.norm(steps)) * loud
 
 
 def _untimed(
@@ -62,6 +89,12 @@ def _untimed(
     try:
         room = sum(abs(g(t, y + each) - g(t, y)) for each in np.diag(known))
         room += EPS * abs(g(begin, first))  # it is the difference of two that are as large
+        last = APART * (t - rows[-2][0] if len(rows) > 1 else 0.0)
+        along = f(t, y)
+        room += max(
+            float(scatter([np.array(g(t - k * pace, y - k * pace * along)) for k in LINE]))
+            for pace in (last * part for part in SPACED)
+        )
         clear = [at for at, _, there in rows if g(at, there) > DIP * room]
         return _within(earlier, room, t, t - max(clear, default=begin))
     except (ArithmeticError, ValueError, LinAlgError):  # it may not be defined beyond its zero

@@ -111,7 +111,6 @@ class _Walker:
     until: float  # s: when it ends, where what begins gently is largest
     quiet: bool = True  # nothing is known of any noise
     begun: bool = False  # a step was accepted
-    last_heard: float = -math.inf  # s: where it was listened as far as ahead
 
     def start(self) -> None:
         """Listen before a short first step: its error may be rounding and yet acceptable."""
@@ -141,22 +140,8 @@ class _Walker:
             self.wanted = h * min(factor, SAFETY)
             # Below 4 ulp the time no longer advances properly; at t = 0 some other bound is needed.
             if self.wanted < max(4.0 * math.ulp(self.t), 1e-30 * left):
-                if self._hears(h):
-                    self.wanted = h
-                    continue
                 what = "the step size underflows" if error < math.inf else "values are not finite"
                 raise IntegrationError(what, self.t) from problem
-
-    def _hears(self, h: float) -> bool:
-        """Whether the slopes have a rounding that the shortest of steps did not see.
-
-        At each time it is listened for once, as far ahead as before the first step.
-        """
-        if self.last_heard == self.t:
-            return False
-        self.last_heard, self.begun, known = self.t, False, self.noise
-        self._listen(h)
-        return bool((self.noise > known).any())
 
     def _listen(self, h: float) -> None:
         """Learn the rounding of the slopes: the error did not fall as the step did."""

@@ -1,7 +1,7 @@
 """The slope that is integrated, and how well it is known."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -41,13 +41,17 @@ def noise(
     along, across = f(t, y), math.pi * EPS * peak
     pace = APART * h
     values = [f(t + i * pace, y + i * (pace * along + across)) for i in range(DIFFERENCED)]
-    differences = np.diff(np.array(values), n=6, axis=0)
-    found = np.sqrt(np.mean(differences**2, axis=0) / 924.0)
+    found = scatter(values)
     late = math.ulp(t) / math.sqrt(12.0)  # of a clock that is rounded, evenly
     found = np.maximum(found, late * np.abs(values[-1] - values[0]) / (DIFFERENCED - 1) / pace)
     found = np.maximum(found, least)
     largest = np.maximum(np.maximum(np.abs(along), np.abs(f(t + h, y + h * along))), later)
     return found if found.max() <= LOUD * largest.max() < math.inf else None
+
+
+def scatter(values: Sequence[Vector]) -> Vector:
+    """The standard deviation of the rounding in what is smooth and was asked at even distances."""
+    return np.sqrt(np.mean(np.diff(np.array(values), n=6, axis=0) ** 2, axis=0) / 924.0)
 
 
 def leaps(f: Slope, t: float, y: Vector, h: float) -> Vector:

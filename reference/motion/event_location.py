@@ -75,14 +75,14 @@ def first(
     begins: bool,
     spent: int | None,
     rounding: Rounding | None = None,
-) -> tuple[int, float] | None:
-    """Which guard falls first in the step from t, and how far into it.
+) -> tuple[tuple[int, float] | None, list[tuple[int, float]]]:
+    """Which guard falls first in the step from t, and how far into it; and which touch zero before.
 
     points: 0, some times inside the step, and its length; states: y at each of them. begins: the
     mode does, with this step. spent: the guard that ended it just before. rounding: what is no more
     than that is zero, and a guard that is zero begins.
     """
-    found = None
+    found, touched = None, list[tuple[int, float]]()
     # All guards at one state: they ask for the same forces.
     asked = zip(points, states, strict=True)
     rows = [[guard(t + at, y) for guard in guards] for at, y in asked]
@@ -96,10 +96,12 @@ def first(
             pairs = zip(values, rounding(guard, states[-1]), strict=True)
             values = [value if abs(value) > room else 0.0 for value, room in pairs]
         fresh = begins or (rounding is not None and values[0] == 0.0)
-        at = crossing(g, points, values, begins=fresh, spent=i == spent)
+        at, touch = crossing(g, points, values, begins=fresh, spent=i == spent)
         if at is not None and (found is None or at < found[1] - TOGETHER):
             found = i, at
-    return found
+        if touch is not None:
+            touched.append((i, touch))
+    return found, [each for each in touched if found is None or each[1] < found[1]]
 
 
 def crossing(
@@ -109,27 +111,31 @@ def crossing(
     *,
     begins: bool,
     spent: bool,
-) -> float | None:
-    """The first zero that g falls through, of a function known at some points."""
+) -> tuple[float | None, float | None]:
+    """Where g first falls through zero, or else where it touches it, of what is known at points."""
     rise = next((i for i, value in enumerate(values) if value > 0.0), None)
     if rise is None:
         if begins and values[-1] < values[0]:
-            return _begun(g, points[-1], spent)
+            return _begun(g, points[-1], spent), None
         top = _near(g, points, values, -1.0)
-        return None if top is None else _root(g, *top)
+        return None if top is None else _root(g, *top), None
     if begins and not spent and rise:
         low = min(values[:rise])
         if low < values[0] - TOUCH * max(map(abs, values)):  # and it comes back in the same step
-            return _begun(g, points[values.index(low)], spent)
+            return _begun(g, points[values.index(low)], spent), None
     fall = next((i for i in range(rise, len(values)) if values[i] <= 0.0), None)
-    if fall is None:
-        bottom = _near(g, points[rise:], values[rise:], 1.0)
-        return (
-            None if bottom is None or _touches(g, points, values, bottom[1]) else _root(g, *bottom)
-        )
-    if _touches(g, points, values, points[fall]):
-        return None
-    return _root(g, points[fall - 1], points[fall])
+    if fall is not None:
+        left, at = points[fall - 1], points[fall]
+    elif (bottom := _near(g, points[rise:], values[rise:], 1.0)) is not None:
+        left, at = bottom
+    else:
+        return None, None
+    if _touches(g, points, values, at):
+        rises = begins and values[0] == min(values)  # from the zero with which its mode begins
+        return None, None if rises else at
+    if fall is None and g(at) > 0.0:
+        return None, None  # it falls behind the step
+    return _root(g, left, at), None
 
 
 def _touches(
@@ -157,7 +163,7 @@ def _begun(g: Callable[[float], float], h: float, spent: bool) -> float | None:
 def _near(
     g: Callable[[float], float], points: list[float], values: list[float], sign: float
 ) -> tuple[float, float] | None:
-    """A dip below zero (sign 1) or a hump above it (−1) between the points: a bracket of its fall.
+    """A dip to zero (sign 1) or a hump above it (−1) between the points: a bracket of its fall.
 
     It is looked for where the values come as near to zero as they differ from each other; not in
     what is zero throughout, as the force between bodies that fly on together.
@@ -176,7 +182,7 @@ def _near(
         options={"xatol": TURN * (right - left)},
     )
     if sign > 0.0:
-        return (left, float(turn.x)) if turn.fun <= 0.0 else None
+        return (left, float(turn.x)) if turn.fun <= TOUCH * max(sizes) else None
     return (float(turn.x), right) if turn.fun < 0.0 else None
 
 

@@ -51,6 +51,18 @@ class Change:
     guard: int | None = None  # which of the mode's fell; None at a corner
 
 
+@dataclass(frozen=True)
+class Touch:
+    """A guard that came to zero at `time` and turned back: whether it fell is rounding.
+
+    jumps: whether its motion is another one than if it had.
+    """
+
+    name: str | None
+    time: float
+    jumps: bool
+
+
 Kept = tuple[float, int, Array]
 """t, the number of the phase, y."""
 
@@ -62,7 +74,7 @@ class Followed:
     A phase lasts from one change to the next; `phase` (N,) numbers it at each sample and `phases`
     names its mode. march: the start and the end of every accepted step. rows: the same with three
     states inside each step, if they were asked for. An event stands in both twice, as the last row
-    of one phase and the first of the next.
+    of one phase and the first of the next. touched: what came to zero and was taken for no event.
     """
 
     y: Array
@@ -72,6 +84,7 @@ class Followed:
     steps: int
     march: tuple[Kept, ...] = ()
     rows: tuple[Kept, ...] = ()
+    touched: tuple[Touch, ...] = ()
 
     @property
     def modes(self) -> tuple[str, ...]:
@@ -97,6 +110,7 @@ def follow(system: System, times: Array, *, by: Chosen = either, every: bool = F
     return Followed(
         np.array(walk.y), np.array(walk.phase, dtype=np.int64), tuple(walk.phases),
         tuple(walk.changes), walk.steps, tuple(walk.march), tuple(walk.rows),
+        tuple(walk.touched),
     )  # fmt: skip
 
 
@@ -114,6 +128,7 @@ class _Walk:
     changes: list[Change] = field(default_factory=list)
     march: list[Kept] = field(default_factory=list)
     rows: list[Kept] = field(default_factory=list)
+    touched: list[Touch] = field(default_factory=list)
     steps: int = 0
     passed: float = -math.inf  # the last corner
     spent: int | None = None  # the guard that has just fired, if its mode goes on
@@ -166,14 +181,16 @@ class _Walk:
             states = [state(at) for at in points]
             spent = self.spent if begins else None
             near = falls if looks else ()
-            found = first(near, step.t, points, states, state, begins=begins, spent=spent)
+            found, touched = first(near, step.t, points, states, state, begins=begins, spent=spent)
             room = early.rounding(step.t, points) if found is not None else None
             if room is not None:
-                found = first(
+                found, touched = first(
                     near, step.t, points, states, state, begins=begins, spent=spent, rounding=room
                 )
             spend(probe.evaluations - probed + GUARD * len(guards), step.t)
             probed = probe.evaluations
+            for i, at in touched:
+                self.touched.append(Touch(guards[i].event, step.t + at, guards[i].jumps))
             if found is not None:
                 i, after = found
                 self._note(step.t, [part * after for part in (*INSIDE, 1.0)], state)

@@ -5,6 +5,7 @@ they ask for the same; which of them bears how much of the blow is for nobody to
 solved by their rank, and the laws need some impulses that keep them (`leeway`).
 """
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -47,11 +48,15 @@ class Meeting:
 
 @dataclass(frozen=True)
 class Blow:
-    """q̇⁺ (n,); shared: its impulses are open; loose: so is which of several velocities it is."""
+    """q̇⁺ (n,); shared: its impulses are open; loose: so is which of several velocities it is.
+
+    grip: the friction that all needs which sticks; unknown where impulses are open.
+    """
 
     v: Array
     shared: bool = False
     loose: bool = False
+    grip: float | None = None
 
 
 @dataclass(frozen=True)
@@ -156,7 +161,8 @@ def _allowed(
 
     one = left(v_after, impulse)
     if not len(ways):
-        return Blow(v_after) if np.all(one >= -ROUNDING) else None
+        fits = bool(np.all(one >= -ROUNDING))
+        return Blow(v_after, grip=_grip(rows, meetings, impulse)) if fits else None
     others = [(v_after + way @ rows.columns / M, impulse + way) for way in sized(ways, size)]
     slope = np.array([left(*other) - one for other in others]).T
     places = [str(i) for i in range(len(v))]
@@ -179,13 +185,31 @@ def _pushes(rows: _Rows, meetings: Sequence[Meeting], impulse: Array) -> Iterato
 
     The points of one body that stick have one cone together.
     """
-    pairs = [(m.element, at) for m, at in zip(meetings, rows.normals, strict=True)]
-    closed = [(e, impulse[at]) for e, at in pairs if at is not None]
+    closed = _closed(rows, meetings, impulse)
     yield from (normal for _, normal in closed)
     for mine, row in rows.stuck.items():
         own = [(e.kinetic, normal) for e, normal in closed if e.together == mine]
         cone, room = sum(mu * normal for mu, normal in own), 1.0 + sum(mu for mu, _ in own)
         yield from ((cone + way * impulse[row]) / room for way in (1.0, -1.0))
+
+
+def _grip(rows: _Rows, meetings: Sequence[Meeting], impulse: Array) -> float:
+    """The largest Λ_t / Λ_n of what sticks; without limit, where no normal impulse presses it."""
+    small, most = ROUNDING * float(np.max(np.abs(impulse), initial=0.0)), 0.0
+    closed = _closed(rows, meetings, impulse)
+    for mine, row in rows.stuck.items():
+        normal = sum(normal for e, normal in closed if e.together == mine)
+        if abs(impulse[row]) > small:
+            most = max(most, abs(impulse[row]) / normal if normal > small else math.inf)
+    return most
+
+
+def _closed(
+    rows: _Rows, meetings: Sequence[Meeting], impulse: Array
+) -> list[tuple[Element, float]]:
+    """Each element whose normal row holds, and its normal impulse [N s]."""
+    pairs = zip(meetings, rows.normals, strict=True)
+    return [(m.element, float(impulse[at])) for m, at in pairs if at is not None]
 
 
 def _speeds(meetings: Sequence[Meeting], states: Sequence[State], v: Array) -> Iterator[float]:

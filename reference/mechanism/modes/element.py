@@ -96,6 +96,11 @@ class Element:
         return "slides +" in self.rest
 
     @property
+    def yields(self) -> bool:
+        """Whether friction is less as soon as it slips."""
+        return False
+
+    @property
     def tangent(self) -> Constraint:
         """The row along which it slips, of what can."""
         assert self.slip is not None
@@ -162,6 +167,10 @@ class Smoothed(Element):
 class Touching(Element):
     """A contact that opens, slides and sticks."""
 
+    @property
+    def yields(self) -> bool:
+        return self.static > self.kinetic
+
     def held(self, state: State) -> list[Constraint]:
         """Nothing, the floor, or the floor and no slip."""
         assert self.normal is not None
@@ -185,6 +194,11 @@ class Sliding(Element):
     """A slide or a pin with exact dry friction."""
 
     friction: DryFriction
+
+    @property
+    def yields(self) -> bool:
+        law = dry(self.friction)
+        return law.Fs_minus > law.F_minus or law.Fs_plus > law.F_plus
 
     def held(self, state: State) -> list[Constraint]:
         """Nothing, or no slip."""

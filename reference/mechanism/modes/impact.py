@@ -33,8 +33,8 @@ class Several(NoImpact):
 
 def impact(
     M: Array, joints: Sequence[Condition], meetings: Sequence[Meeting], v: Array
-) -> tuple[Array, tuple[State, ...]]:
-    """q̇⁺ (n,) and what each of the contacts does after it.
+) -> tuple[Blow, tuple[State, ...]]:
+    """Returns the blow, and what each of the contacts does after it.
 
     Raises NoImpact, and Several of them.
     """
@@ -67,7 +67,7 @@ def impact(
     (first, states), *others = found
     if others or first.loose:
         raise Several(_ambiguous(meetings, [states for _, states in found]))
-    return first.v, states
+    return first, states
 
 
 def _driven(joints: Sequence[Condition], meetings: Sequence[Meeting]) -> bool:

@@ -71,12 +71,13 @@ def _struck(
     held = [Condition(f, g) for f, g in zip(base.f_a(t, q), base.g(t, q), strict=True)]
     check_alone(modes, mode, i, met, held, t, q, v, near)
     try:
-        return impact(modes.M, held, met, v)
+        taken, states = impact(modes.M, held, met, v)
     except Several as error:
         raise Undetermined(modes.elements[i].name, f"at t = {t:.4g} s {error}", t) from error
     except NoImpact as error:
         what = _needed(modes, held, met, v, t) or str(error)
         raise Undetermined(modes.elements[i].name, what, t) from error
+    return taken.v, states
 
 
 def _at_rest(modes: Modes, mode: str, i: int, t: float, q: Array, v: Array) -> After:
@@ -96,15 +97,13 @@ def _needed(
         return None
     holds = [replace(m, element=replace(m.element, kinetic=ANY)) for m in met]
     try:
-        after, _ = impact(modes.M, held, holds, v)
+        held_fast, _ = impact(modes.M, held, holds, v)
     except NoImpact:
         return None
-    # M is diagonal. By what the momenta of all bodies change the floor has given, as long as
-    # nothing else joins them to the ground.
-    impulse = modes.M * (after - v)
-    places = [xy for xy, _ in modes.base.where.columns.values()]
-    along, up = (sum(impulse[xy + i] for xy in places) for i in (0, 1))
-    return f"the impact at t = {t:.4g} s would slip: to pivot it needs {abs(along) / up:.3g}"
+    if held_fast.grip is None or held_fast.grip > ANY:
+        return None
+    needs = f"to pivot it needs friction {held_fast.grip:.3g}"
+    return f"the impact at t = {t:.4g} s would slip: {needs}"
 
 
 def _after(m: Meeting, state: State, v: Array, still: float, flies: float) -> Options:

@@ -110,7 +110,8 @@ class Mechanism(System):
             if state == "open":
                 gap = self._clear(e, normal)
                 rest = self._lands(mode, i, rests=True)
-                yield Guard(f"{e.name} {e.endings[1]}", gap, self._lands(mode, i), rest, vain=True)
+                lands, name = self._lands(mode, i), f"{e.name} {e.endings[1]}"
+                yield Guard(name, gap, lands, rest, vain=True, jumps=True)
                 return
             push = lambda t, q, v: self.built.forces(mode, t, q, v)[e.push]  # noqa: E731
             yield Guard(f"{e.name} {e.endings[0]}", push, self._opens(mode, i))
@@ -118,10 +119,11 @@ class Mechanism(System):
             return
         if s := sign(state):
             slip = lambda t, q, v: e.slowing(s * rate(e.tangent, t, q, v))  # noqa: E731
-            yield Guard(f"{e.name} stops", slip, self._to(mode, i, REST))
+            yield Guard(f"{e.name} stops", slip, self._to(mode, i, REST), jumps=e.yields)
             return
         for k, way in enumerate(("slides +", "slides -")):
-            yield Guard(f"{e.name} slips", self._margin(mode, e, k), self._to(mode, i, (way,)))
+            margin, slides = self._margin(mode, e, k), self._to(mode, i, (way,))
+            yield Guard(f"{e.name} slips", margin, slides, jumps=e.yields)
 
     def _clear(self, e: Element, normal: Constraint) -> Callable[[float, Array, Array], float]:
         """Its height; more, where it passes through the floor, which is never steeper than 2."""

@@ -43,12 +43,12 @@ def check_alone(
     if not others:
         return
     try:
-        after, _ = impact(modes.M, held, [m for m in met if m.strikes], v)
+        alone, _ = impact(modes.M, held, [m for m in met if m.strikes], v)
     except NoImpact:
         return  # with all that touch it is tried again, and told
     for e in others:
         assert e.normal is not None
-        before, now = rate(e.normal, t, q, v), rate(e.normal, t, q, after)
+        before, now = rate(e.normal, t, q, v), rate(e.normal, t, q, alone.v)
         if now < -small and abs(now - before) > small:
             what = (
                 f"{first.name} and {e.name} strike at one instant, t = {t:.4g} s: rigid bodies do "

@@ -153,6 +153,66 @@ def test_the_time_of_an_event_is_off_by_no_more_than_is_stated(kind: str, seed: 
             assert may <= WIDE * coarse, known
 
 
+PULLED = """\
+scene:
+  gravity: none
+  points: {O: [0, 0], hook: {at: [HOOK, 0], velocity: [U, 0]}}
+  bodies: {block: {particle: {mass: 1}}}
+  joints:
+    guide: {slide: [ground.O, block.center], along: [1, 0],
+            dry_friction: {static: STATIC, kinetic: KINETIC}}
+  forces: {coil: {spring: [block.center, ground.hook], stiffness: STIFF, rest_length: 0.5}}
+initial: {block: {x: 0, vx: 0}}
+allow: {block.x: 1.0e-3}
+"""
+
+
+def stopping(tmp_path: Path, rng: np.random.Generator) -> tuple[float, float]:
+    """By how much [s] the stop of a block on a spring that is pulled is off, and may be.
+
+    v = u (1 − cos ω τ) + a ω sin ω τ, with a = (F_s − F)/c, is zero at tan(ω τ/2) = −a ω/u. The
+    block may move by a micrometre: its state does not tell how large the numbers of its force are.
+    """
+    stiff, kinetic = 10.0 ** rng.uniform(1.0, 3.0), rng.uniform(0.1, 5.0)
+    static = kinetic * (1.0 + 10.0 ** rng.uniform(-7.0, -1.0))
+    hook = 0.5 + 0.9 * static / stiff
+    u = 10.0 ** rng.uniform(-4.0, 0.0) * static / math.sqrt(stiff)
+    omega, a = mpmath.sqrt(stiff), (mpmath.mpf(static) - mpmath.mpf(kinetic)) / stiff
+    slips = (mpmath.mpf(static) / stiff - (mpmath.mpf(hook) - mpmath.mpf(0.5))) / u
+    stops = slips + 2 * (mpmath.pi - mpmath.atan(a * omega / u)) / omega
+    numbers = {"HOOK": hook, "U": u, "STATIC": static, "KINETIC": kinetic, "STIFF": stiff}
+    text = PULLED
+    for word, number in numbers.items():
+        text = text.replace(word, repr(float(number)))
+    until = float(stops + a / u / 2)
+    case = scenes.typed(tmp_path, text, tail=scenes.tail(until, SAMPLES))
+    system = scenes.mechanism(case)
+    found = follow(system, case.times)
+    return abs(float(found.changes[1].time - stops)), untimed(system, found)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(1, 5))
+def test_the_time_of_a_stop_is_off_by_no_more_than_is_stated(seed: int, tmp_path: Path) -> None:
+    rng = np.random.default_rng(seed)
+    with mpmath.workdps(40):
+        for _ in range(MANY):
+            off, may = stopping(tmp_path, rng)
+            assert off <= may
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("the rounding of forces left out of what a guard is known to")
+def test_a_force_that_is_known_exactly_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(timed, "noise", lambda f, t, y, h, peak: None)
+    rng = np.random.default_rng(1)
+    with mpmath.workdps(40):
+        found = [stopping(tmp_path, rng) for _ in range(MANY)]
+    assert any(off > 100.0 * may for off, may in found)
+
+
 @pytest.mark.mutant("the slope of a guard left out of what is stated of its event's time: a {kind}")
 @pytest.mark.parametrize("kind", ["throw", "swing"])
 def test_an_error_without_the_slope_is_seen(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:

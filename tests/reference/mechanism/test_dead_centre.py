@@ -2,6 +2,8 @@
 
 import cmath
 import math
+from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -15,9 +17,8 @@ from scipy.optimize import brentq
 from textmech.reference.mechanism.modes.modes import Modes
 from textmech.reference.solve import solve
 
-A, B, C, D = 0.15, 0.5, 0.4, 0.5  # m: crank, coupler, rocker, base
+A, B, C, D = 0.15, 0.5, 0.4, 0.5  # m: crank, coupler or rod, rocker, base
 OMEGA, DRY = 10.0, 0.1
-BEGIN = math.radians(60)
 FOUR_BAR = f"""\
 scene:
   gravity: none
@@ -35,6 +36,23 @@ initial: {{crank: {{angle: 60 deg, omega: {OMEGA}}}}}
 near: {{coupler: {{angle: 20 deg}}, rocker: {{angle: 80 deg}}}}
 allow: {{crank.angle: 2.0e-2, rocker.angle: 2.0e-2}}
 """
+SLIDER = f"""\
+scene:
+  gravity: none
+  points: {{O: [0, 0]}}
+  bodies:
+    crank: {{bar: {{mass: 1.0, length: {A}}}}}
+    rod: {{bar: {{mass: 0.5, length: {B}}}}}
+    piston: {{rigid: {{mass: 0.7, inertia: 0.01}}}}
+  joints:
+    A: {{pin: [ground.O, crank.start]}}
+    B: {{pin: [crank.end, rod.start]}}
+    C: {{pin: [rod.end, piston.center]}}
+    D: {{slide: [ground.O, piston.center], along: [1, 0], dry_friction: {{kinetic: 1.0}}}}
+initial: {{crank: {{angle: 130 deg, omega: {OMEGA}}}}}
+near: {{rod: {{angle: -10 deg}}}}
+allow: {{crank.angle: 2.0e-2, piston.x: 2.0e-2}}
+"""
 ON_A_STOP = """\
 scene:
   points: {O: [0, 0]}
@@ -47,7 +65,7 @@ allow: {arm.angle: 1.0e-2}
 END = scenes.tail(0.4, 26)
 
 
-def pose(theta: float) -> tuple[float, complex, float]:
+def four_bar(theta: float) -> tuple[float, complex, float]:
     """The rocker's angle, where the coupler's centre is, and its angle."""
     end = A * cmath.exp(1j * theta)
     r = abs(end - D)
@@ -56,65 +74,97 @@ def pose(theta: float) -> tuple[float, complex, float]:
     return rocker, (end + joint) / 2, cmath.phase(joint - end)
 
 
-def slope(theta: float, i: int) -> complex:
-    """By θ, a difference of fourth order."""
-    h = 1e-3
-    one, two = (pose(theta + k * h)[i] - pose(theta - k * h)[i] for k in (1, 2))
-    return (8 * one - two) / (12 * h)
+def slider(theta: float) -> tuple[float, complex, float]:
+    """The piston's place, where the rod's centre is, and its angle."""
+    end = A * cmath.exp(1j * theta)
+    joint = end.real + math.sqrt(B * B - end.imag**2)
+    return joint, (end + joint) / 2, cmath.phase(joint - end)
 
 
-def inertia(theta: float) -> float:
-    """2 T/θ̇² of the three bars."""
-    rocker, coupler, turns = (abs(slope(theta, i)) for i in range(3))
-    of_crank, of_rocker = 1.0 * A**2 / 3, 0.5 * C**2 / 3
-    return of_crank + of_rocker * rocker**2 + 0.5 * coupler**2 + 0.5 * B**2 / 12 * turns**2
+@dataclass(frozen=True)
+class Linkage:
+    """A crank, a bar, and what rubs: how both follow the crank, and what 2 T is over its rate²."""
+
+    text: str
+    pose: Callable[[float], tuple[float, complex, float]]
+    last: float  # kg m² or kg
+    friction: float  # N m or N
+    begin: float  # rad
+    dead: tuple[float, float]  # rad: it turns back between
+
+    def slope(self, theta: float, i: int) -> complex:
+        """By θ, a difference of fourth order."""
+        h = 1e-3
+        one, two = (self.pose(theta + k * h)[i] - self.pose(theta - k * h)[i] for k in (1, 2))
+        return (8 * one - two) / (12 * h)
+
+    @property
+    def turn(self) -> float:
+        """Where the crank is when it turns back."""
+        return brentq(lambda theta: self.slope(theta, 0).real, *self.dead)
+
+    def inertia(self, theta: float) -> float:
+        """2 T/θ̇² of all three."""
+        last, centre, turns = (abs(self.slope(theta, i)) for i in range(3))
+        return 1.0 * A**2 / 3 + self.last * last**2 + 0.5 * centre**2 + 0.5 * B**2 / 12 * turns**2
+
+    def spent(self, theta: float, turn: float) -> float:
+        """2 times the work of friction, on the way to and fro."""
+        there = self.pose(min(theta, turn))[0] - self.pose(self.begin)[0]
+        back = self.pose(max(theta, turn))[0] - self.pose(turn)[0]
+        return 2 * self.friction * (abs(there) + abs(back))
+
+    def until(self, theta: float, begun: float) -> float:
+        """∫ dθ/θ̇ [s], with the crank's rate by its energy."""
+        turn, energy = self.turn, self.inertia(self.begin) * begun**2
+
+        def pace(at: float) -> float:
+            return math.sqrt(self.inertia(at) / (energy - self.spent(at, turn)))
+
+        taken = partial(quad, pace, epsabs=1e-11, epsrel=1e-11)
+        parts = ((self.begin, min(theta, turn)), (turn, max(theta, turn)))
+        return sum(taken(a, b)[0] for a, b in parts)
 
 
-def speed(theta: float, turn: float) -> float:
-    """By its energy, less the moment times what the rocker has turned, to and fro."""
-    there = pose(min(theta, turn))[0] - pose(BEGIN)[0]
-    back = pose(max(theta, turn))[0] - pose(turn)[0]
-    left = inertia(BEGIN) * OMEGA**2 - 2 * DRY * (abs(there) + abs(back))
-    return math.sqrt(left / inertia(theta))
-
-
-def until(theta: float, turn: float) -> float:
-    """∫ dθ/θ̇ [s]."""
-    taken = partial(quad, lambda at: 1 / speed(at, turn), epsabs=1e-11, epsrel=1e-11)
-    return sum(taken(a, b)[0] for a, b in ((BEGIN, min(theta, turn)), (turn, max(theta, turn))))
+LINKAGES = {
+    "rocker": Linkage(FOUR_BAR, four_bar, 0.5 * C**2 / 3, DRY, math.radians(60), (3.6, 4.4)),
+    "piston": Linkage(SLIDER, slider, 0.7, 1.0, math.radians(130), (3.0, 3.3)),
+}
 
 
 @pytest.mark.slow
 def test_a_rocker_turns_back_and_its_crank_goes_on(tmp_path: Path) -> None:
-    found = solve(scenes.typed(tmp_path, FOUR_BAR, tail=END))
+    found, known = solve(scenes.typed(tmp_path, FOUR_BAR, tail=END)), LINKAGES["rocker"]
     assert found.holds
-    turn = brentq(lambda theta: slope(theta, 0).real, 3.6, 4.4)
-    assert found.trajectory.switches.tolist() == pytest.approx([until(turn, turn)], abs=1e-10)
+    passes = known.until(known.turn, OMEGA)
+    assert found.trajectory.switches.tolist() == pytest.approx([passes], abs=1e-10)
     end = float(found.trajectory.states["crank"][-1, 2])
-    assert until(end, turn) == pytest.approx(0.4, abs=1e-10)
+    assert known.until(end, OMEGA) == pytest.approx(0.4, abs=1e-10)
     friction = found.trajectory.reactions["D.friction"]
     assert set(np.round(friction, 14)) == {-DRY, DRY}
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("slow", [1.0, 0.1, 0.01])
-def test_however_slowly_it_passes(
-    slow: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Begun so fast that friction leaves the crank so many rad/s at the rocker's dead centre.
+@pytest.mark.parametrize("name", LINKAGES)
+def test_however_slowly_it_passes(name: str, slow: float, tmp_path: Path) -> None:
+    """Begun so fast that friction leaves the crank so many rad/s where what rubs turns back.
 
     Its time is known the worse the slower it passes: ours by 1e-12 of the energy that is spent.
     """
-    turn = brentq(lambda theta: slope(theta, 0).real, 3.6, 4.4)
-    spent = 2 * DRY * abs(pose(turn)[0] - pose(BEGIN)[0])
-    begun = math.sqrt((inertia(turn) * slow**2 + spent) / inertia(BEGIN))
-    monkeypatch.setitem(globals(), "OMEGA", begun)
-    passes = until(turn, turn)
-    text = FOUR_BAR.replace("omega: 10.0", f"omega: {begun!r}")
-    found = solve(scenes.typed(tmp_path, text, tail=scenes.tail(round(passes + 0.05, 4), 26)))
+    known = LINKAGES[name]
+    turn = known.turn
+    left = known.inertia(turn) * slow**2 + known.spent(turn, turn)
+    begun = math.sqrt(left / known.inertia(known.begin))
+    passes = known.until(turn, begun)
+    end = round(passes + 0.05, 4)
+    text = known.text.replace(f"omega: {OMEGA}", f"omega: {begun!r}")
+    found = solve(scenes.typed(tmp_path, text, tail=scenes.tail(end, 26)))
     assert found.holds
     assert found.trajectory.switches.tolist() == pytest.approx([passes], abs=1e-12 / slow**2)
-    assert found.trajectory.states["crank"][-1, 2] > turn
+    last = float(found.trajectory.states["crank"][-1, 2])
+    assert last > turn
+    assert known.until(last, begun) == pytest.approx(end, abs=1e-10 + 1e-12 / slow**2)
 
 
 @pytest.mark.slow

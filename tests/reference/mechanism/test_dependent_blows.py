@@ -22,8 +22,8 @@ OPEN = [28, 33, 34]  # where the disk may as well roll out of the groove
 
 
 def told(found: Blow) -> tuple[Any, dict[str, str]]:
-    after, states = impact(found.M, found.joints, found.met, found.v)
-    return after, {m.element.name: s for m, s in zip(found.met, states, strict=True)}
+    taken, states = impact(found.M, found.joints, found.met, found.v)
+    return taken.v, {m.element.name: s for m, s in zip(found.met, states, strict=True)}
 
 
 @pytest.mark.parametrize(
@@ -120,12 +120,12 @@ def test_joints_that_hold_again_what_others_hold_change_nothing(seed: int) -> No
     """A loop of joints with rows to spare; unless they ask for other velocities."""
     random = np.random.default_rng(seed)
     M, f, v = random.uniform(0.1, 9.0, 6), random.standard_normal((3, 6)), random.standard_normal(6)
-    again = random.standard_normal((2, 3)) @ f
+    repeated = random.standard_normal((2, 3)) @ f
     known, _ = impact(M, [Condition(row, 0.0) for row in f], [], v)
-    both = [Condition(row, 0.0) for row in (*again, *f)]
-    after, _ = impact(M, both, [], v)
-    np.testing.assert_allclose(after, known, atol=ROUNDED)
-    np.testing.assert_allclose(f @ after, 0.0, atol=ROUNDED)
+    both = [Condition(row, 0.0) for row in (*repeated, *f)]
+    again, _ = impact(M, both, [], v)
+    np.testing.assert_allclose(again.v, known.v, atol=ROUNDED)
+    np.testing.assert_allclose(f @ again.v, 0.0, atol=ROUNDED)
     with pytest.raises(NoImpact):
         impact(M, [*both, Condition(f[0], 0.3)], [], v)
 

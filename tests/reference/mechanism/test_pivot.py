@@ -1,20 +1,25 @@
 """What pivots on the floor, from the scene alone: strikes, rest, what friction cannot hold."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from given import scenes
 from given.scenes import tail, typed
 
+from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene import Scene
 from textmech.cases.scene.observe import observe
 from textmech.reference.mechanism.modes import element
 from textmech.reference.mechanism.modes import impact_transition as landing
+from textmech.reference.mechanism.modes.blow import Blow
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
+from textmech.reference.system import Array
 from textmech.reference.systems import written
 from textmech.reference.systems.walkers.spoke_steps import SpokeSteps
 
@@ -34,6 +39,16 @@ scene:
   contacts: {{foot: {{between: [rod.start, ground.floor], friction: {mu}, ideal: pivot}}}}
 initial: {{rod: {{x: 0, angle: 60 deg, on: start, omega: {w0}}}}}
 allow: {{rod.angle: 1.0e-3, foot.normal: 0.1}}
+"""
+HANGING = """\
+scene:
+  points: {O: [0, 1.0]}
+  bodies: {thigh: {bar: {mass: 1.1, length: 0.7}}, shank: {bar: {mass: 0.8, length: 0.6}}}
+  joints: {hip: {pin: [ground.O, thigh.start]}, knee: {pin: [thigh.end, shank.start]}}
+  contacts: {foot: {between: [shank.end, ground.floor], friction: MU, ideal: pivot}}
+initial: {thigh: {angle: -20 deg, omega: -1.0}, shank: {angle: -120 deg, omega: 1.0}}
+events: {strikes: {foot.gap: falls to zero}}
+allow: {thigh.angle: 1.0e-3, strikes.time: 1.0e-3}
 """
 PARAMETERS = {"n": 8.0, "l": L, "m": M, "J": J, "gamma": GAMMA, "mu": 2.0}
 
@@ -59,7 +74,10 @@ def test_an_impact_in_which_the_old_tip_stays_is_seen(
     monkeypatch.setattr(
         landing,
         "impact",
-        lambda mass, joints, met, v: (0.0 * sound(mass, joints, met, v)[0], ("sticks",) * len(met)),
+        lambda mass, joints, met, v: (
+            Blow(0.0 * sound(mass, joints, met, v)[0].v),
+            ("sticks",) * len(met),
+        ),
     )
     assert len(strikes(tmp_path, 3.3)) == 1
 
@@ -134,11 +152,66 @@ def test_friction_that_an_impact_needs_is_enough(tmp_path: Path) -> None:
     """The number in the message, rounded up, and not 1 % less."""
     with pytest.raises(CaseError) as caught:
         solve(typed(tmp_path, WHEEL.format(mu=0.2, w0=3.3, more="")))
-    needed = float(str(caught.value).partition("it needs ")[2].split()[0])
+    needed = float(str(caught.value).partition("it needs friction ")[2].split()[0])
     mechanism = scenes.mechanism(typed(tmp_path, WHEEL.format(mu=1.01 * needed, w0=3.3, more="")))
     assert len(follow(mechanism, np.linspace(0.0, 0.3, 3)).changes) == 1
     with pytest.raises(CaseError, match="the impact"):
         solve(typed(tmp_path, WHEEL.format(mu=0.99 * needed, w0=3.3, more="")))
+
+
+def needed_where_it_hangs(q: Array, v: Array) -> float:
+    """|T|/N of the blow that stops thigh and shank: the hip holds too, and has no moment.
+
+    About the hip foot and momenta balance for both bodies, about the knee for the shank alone:
+    x N − y T = −L, with the foot's x, y and the angular momentum L from there.
+    """
+    lengths, masses = (0.7, 0.6), (1.1, 0.8)
+    place, rate = q.reshape(2, 3), v.reshape(2, 3)
+    half = [
+        l / 2 * np.array([math.cos(p[2]), math.sin(p[2])])
+        for l, p in zip(lengths, place, strict=True)
+    ]
+    knee, foot = place[1, :2] - half[1], place[1, :2] + half[1]
+    rows, right = [], []
+    for pivot, bodies in ((np.array([0.0, 1.0]), (0, 1)), (knee, (1,))):
+        x, y = foot - pivot
+        rows.append([-y, x])
+        momenta = [
+            masses[k] * (np.linalg.det([place[k, :2] - pivot, rate[k, :2]]))
+            + masses[k] * lengths[k] ** 2 / 12 * rate[k, 2]
+            for k in bodies
+        ]
+        right.append(-sum(momenta))
+    T, N = np.linalg.solve(rows, right)
+    return float(abs(T) / N)
+
+
+def hanging(tmp_path: Path, mu: float) -> Case:
+    return typed(tmp_path, HANGING.replace("MU", str(mu)), tail=tail(0.4, 5))
+
+
+def test_a_second_joint_to_the_ground_takes_its_share_of_a_blow(tmp_path: Path) -> None:
+    (strikes,) = follow(scenes.mechanism(hanging(tmp_path, 9.0)), np.linspace(0.0, 0.4, 3)).events
+    needed = needed_where_it_hangs(*np.split(strikes.before, 2))
+    with pytest.raises(CaseError, match="to pivot it needs friction") as caught:
+        solve(hanging(tmp_path, 0.01))
+    assert str(caught.value).partition("needs friction ")[2].split()[0] == f"{needed:.3g}"
+
+
+@pytest.mark.mutant("the friction that a blow needs, of all that changes the momentum")
+def test_a_share_of_the_joints_counted_as_friction_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sound = landing.impact
+
+    def of_all(M: Array, joints: Any, met: Any, v: Array) -> Any:
+        taken, states = sound(M, joints, met, v)
+        impulse = (M * (taken.v - v)).reshape(2, 3).sum(axis=0)
+        return replace(taken, grip=abs(impulse[0] / impulse[1])), states
+
+    monkeypatch.setattr(landing, "impact", of_all)
+    with pytest.raises(AssertionError):
+        test_a_second_joint_to_the_ground_takes_its_share_of_a_blow(tmp_path)
 
 
 @pytest.mark.mutant("friction cone of a pivot left out")

@@ -84,9 +84,21 @@ def test_hump_within_a_step_is_seen(height: float):
 def test_a_touch_is_no_fall(sink: float):
     """x + 1 comes to zero at t = π: by rounding above it, on it, or below."""
     touch = ("touches", lambda t, x, v: x + 1.0 - sink)
-    assert events(touch, until=6.0, samples=2) == []
-    on_a_sample = Watched([touch], Oscillator())
-    assert follow(on_a_sample, np.array([0.0, math.pi, 6.0])).events == ()
+    for times in ([0.0, 6.0], [0.0, math.pi, 6.0]):
+        found = follow(Watched([touch], Oscillator()), np.array(times))
+        assert found.events == ()
+        assert found.touched
+        for each in found.touched:  # where a quarter of 1e-8 from there is seen by no guard
+            assert each.name == "touches"
+            assert each.time == pytest.approx(math.pi, rel=0, abs=1e-4)
+
+
+def test_what_stays_clear_and_what_falls_is_no_touch():
+    clear = ("clear", lambda t, x, v: x + 1.0 + 1e-6)
+    falls = ("falls", lambda t, x, v: x + 1.0 - 1e-6)
+    begins = ("begins", lambda t, x, v: 1.0 - x)
+    for guard in (clear, falls, begins):
+        assert follow(Watched([guard], Oscillator()), np.array([0.0, 3.0, 6.0])).touched == ()
 
 
 POINTS = [0.0, 0.25, 0.5, 0.75, 1.0]
@@ -94,7 +106,7 @@ POINTS = [0.0, 0.25, 0.5, 0.75, 1.0]
 
 def found(g: Callable[[float], float], **how: bool) -> float | None:
     how = {"begins": False, "spent": False} | how
-    return crossing(g, POINTS, [g(at) for at in POINTS], **how)
+    return crossing(g, POINTS, [g(at) for at in POINTS], **how)[0]
 
 
 def dips(a: float, b: float) -> Callable[[float], float]:
@@ -126,9 +138,9 @@ def test_a_fall_at_once_is_found_though_it_comes_back():
 def test_a_fall_at_once_that_is_passed_over_is_seen():
     g = dips(0.0, 0.6)
     given = (g, POINTS, [g(t) for t in POINTS])
-    assert crossing(*given, begins=True, spent=False) == 0.0
+    assert crossing(*given, begins=True, spent=False)[0] == 0.0
     blind = otherwise(module, "if begins and not spent and rise:", "if False:")
-    assert blind.crossing(*given, begins=True, spent=False) != 0.0
+    assert blind.crossing(*given, begins=True, spent=False)[0] != 0.0
 
 
 @pytest.mark.mutant("a guard that dips below zero between the points of a step")
