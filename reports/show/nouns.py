@@ -17,7 +17,7 @@ from ...cases.scene.constraint import Edge
 from ...cases.scene.contact import Contact
 from ...cases.scene.forces.force import NOUNS
 from ...cases.scene.frame import PLANE, SPACE, Frame
-from ...cases.scene.joint import FREEDOMS, Joint
+from ...cases.scene.joint import FREEDOMS, Freedom, Joint
 from ...cases.scene.pair import Pair
 from ...cases.scene.plane import Plane
 from ...cases.scene.point import Anchor, GroundPoint
@@ -25,7 +25,7 @@ from ...cases.scene.quantity import Quantity
 from ...cases.scene.space.body import SpatialBody
 from ...cases.scene.space.constraint import SpatialEdge
 from ...cases.scene.space.contact import SpatialContact
-from ...cases.scene.space.joint import Freedom, SpatialJoint
+from ...cases.scene.space.joint import SpatialJoint
 from ...cases.scene.space.scene import SpatialScene
 from ...cases.trajectory import Trajectory
 from ...engines.engine import (
@@ -180,7 +180,10 @@ def _members(kind: type) -> Iterator[tuple[str, str]]:
 
 def _joints() -> str:
     """Which freedoms each kind of joint leaves, in the plane and in space."""
-    plane = [[f"`{kind}`", ", ".join(sorted(left)) or "none"] for kind, left in FREEDOMS.items()]
+    plane = [
+        [f"`{kind}`", ", ".join(sorted(freedom.kind for freedom in left)) or "none"]
+        for kind, left in FREEDOMS.items()
+    ]
     space = [[f"`{kind}`", _cell(_text(made))] for kind, made in KINDS.items()]
     return (
         "Of the plane, `Joint.kind` and the freedoms of the second part against the first:\n\n"

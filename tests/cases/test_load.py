@@ -11,7 +11,15 @@ from textmech.cases.fields.number import Names, amount, number
 from textmech.cases.find import find, shipped
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
-from textmech.cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Joint, Push, Signal, Torque
+from textmech.cases.scene import (
+    STANDARD_GRAVITY,
+    Anchor,
+    GroundPoint,
+    Push,
+    Signal,
+    Torque,
+    planar_joint,
+)
 from textmech.reference.systems import SYSTEMS
 from textmech.reference.systems.states.stated import STATED
 
@@ -44,7 +52,9 @@ def test_four_bar() -> None:
     assert scene.gravity == (0.0, -STANDARD_GRAVITY)
     assert scene.points == {"O": GroundPoint((0.0, 0.0)), "Q": GroundPoint((0.9, 0.0))}
     assert scene.bodies["coupler"].points["end"] == (0.4, 0.0)
-    assert scene.joints["C"] == Joint("C", "pin", Anchor("coupler", "end"), Anchor("rocker", "end"))
+    assert scene.joints["C"] == planar_joint(
+        "C", "pin", Anchor("coupler", "end"), Anchor("rocker", "end")
+    )
     assert case.initial["crank"].given == {"angle": radians(70)}
     assert case.near["rocker"].given == {"angle": pytest.approx(radians(96), rel=1e-15)}
     assert case.reach == {

@@ -7,10 +7,11 @@ import numpy as np
 
 from textmech.cases.scene import Anchor, Force, GroundPoint, Signal
 from textmech.cases.scene.frame import SPACE
+from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.rotation import Vector3
 from textmech.cases.scene.space.body import SpatialBody
 from textmech.cases.scene.space.contact import SpatialContact
-from textmech.cases.scene.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Plan, Start
@@ -63,7 +64,7 @@ def joint(name: str, kind: Any, a: str, b: str, *freedoms: Freedom) -> SpatialJo
 
 def hinge(name: str, a: str, b: str, axis: Any) -> SpatialJoint:
     """A hinge about an axis of the first part."""
-    return joint(name, "hinge", a, b, Freedom("turn", unit(axis), "angle"))
+    return joint(name, "hinge", a, b, Freedom.turn(unit(axis), "angle"))
 
 
 def ball(name: str, a: str, b: str) -> SpatialJoint:

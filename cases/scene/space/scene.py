@@ -11,7 +11,7 @@ from ..rotation import Vector3
 from .body import SpatialBody
 from .constraint import SpatialEdge
 from .contact import SpatialContact
-from .joint import SpatialJoint, effort_of
+from .joint import SpatialJoint
 
 
 @dataclass(frozen=True)
@@ -45,17 +45,6 @@ class SpatialScene(Scene):
     def coordinates(self) -> Mapping[str, Fields]:
         """Nothing more: a joint in space has them by itself."""
         return {}
-
-    def driven(self) -> dict[str, Fields]:
-        """By joint, what the prescribed rates exert: `q1` → `torque`."""
-        found: dict[str, dict[str, tuple[str, str]]] = {}
-        for quantity in self.drives:
-            part, _, rate = quantity.rpartition(".")
-            if part in self.joints and rate in self.joints[part].rates:
-                freedom = self.joints[part].rates[rate]
-                unit = "N" if freedom.kind == "shift" else "N m"
-                found.setdefault(part, {})[effort_of(freedom)] = (unit, "force")
-        return found  # type: ignore[return-value]
 
     @property
     def pressed(self) -> tuple[str, ...]:

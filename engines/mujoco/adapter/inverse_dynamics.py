@@ -12,7 +12,6 @@ import numpy as np
 from ....cases.scene import Scene
 from ....cases.scene.point import CENTER
 from ....cases.scene.rotation import matrix
-from ....cases.scene.space.joint import effort_of
 from ....cases.scene.space.scene import SpatialScene
 from ....cases.scene.states import MASS_MATRIX
 from ....cases.trajectory import Array
@@ -92,7 +91,7 @@ def _natives(scene: SpatialScene) -> Iterator[tuple[str, tuple[str, str]]]:
         assert branch.joint is not None  # each body hangs on one
         for native in natives(scene, branch):
             freedom, joint = branch.joint.freedoms[native.of], branch.joint.name
-            yield f"{joint}.{freedom.name}", (native.name, f"{joint}.{effort_of(freedom)}")
+            yield f"{joint}.{freedom.name}", (native.name, f"{joint}.{freedom.effort}")
 
 
 def _reader(

@@ -10,7 +10,6 @@ from xml.etree import ElementTree as ET
 
 from ....cases.fields.signal import Signal
 from ....cases.scene import GROUND, Joint, Scene
-from ....cases.scene.joint import DRIVES
 from ...signal import derivative
 from .force import signals
 from .number_text import written
@@ -38,10 +37,11 @@ def drives(scene: Scene) -> Iterator[Drive]:
     forward = {b.joint.name: b.forward for b in spanning_tree(scene).branches if b.joint}
     for quantity, law in scene.drives.items():
         part, _, rate = quantity.rpartition(".")
-        joint, turns = scene.joints[part], rate == "omega"
-        way = -1.0 if turns and not forward.get(part, True) else 1.0
-        name = coordinate(joint, "turn" if turns else "shift")
-        yield Drive(joint, name, way, law, f"{part}.{DRIVES[rate][0]}")
+        joint = scene.joints[part]
+        freedom = joint.rates[rate]
+        way = -1.0 if freedom.kind == "turn" and not forward.get(part, True) else 1.0
+        name = coordinate(joint, freedom.kind)
+        yield Drive(joint, name, way, law, f"{part}.{freedom.effort}")
 
 
 def controls(scene: Scene) -> list[Signal]:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
 from ....cases.scene import Force, Joint, Scene
-from ....cases.scene.joint import Freedom
+from ....cases.scene.joint import FreedomKind
 from ....cases.scene.space.scene import SpatialScene
 from .number_text import written
 from .spatial_tree import coordinate as coordinate_in_space
@@ -40,7 +40,7 @@ def hinge(scene: Scene, force: Force, root: ET.Element | None = None) -> Hinge:
     return Hinge(name, way, next((e for e in built if e.get("name") == name), None))
 
 
-def _flat(scene: Scene, joint: str, freedom: Freedom) -> tuple[str, float]:
+def _flat(scene: Scene, joint: str, freedom: FreedomKind) -> tuple[str, float]:
     for branch in spanning_tree(scene).branches:
         if branch.joint is not None and branch.joint.name == joint:
             return coordinate(branch.joint, freedom), 1.0 if branch.forward else -1.0

@@ -8,8 +8,9 @@ one of them is a ball, two are a hinge, three a weld.
 from dataclasses import dataclass
 
 from ....cases.scene import GROUND
+from ....cases.scene.joint import Freedom
 from ....cases.scene.rotation import Vector3
-from ....cases.scene.space.joint import Freedom, SpatialJoint
+from ....cases.scene.space.joint import SpatialJoint
 from ....cases.scene.space.scene import SpatialScene
 from .tree import Branch, Tree, spanned
 

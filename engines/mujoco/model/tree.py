@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from ....cases.scene import GROUND, Anchor, Joint, Scene, Vector
-from ....cases.scene.joint import Freedom
+from ....cases.scene.joint import FreedomKind
 from ....cases.scene.space.joint import SpatialJoint
 from ...engine import Start
 
@@ -72,10 +72,11 @@ def built_as(scene: Scene, joint: Joint) -> Left:
     """The freedoms that the joint leaves; welded to a particle, which has no angle, it is a pin."""
     ends = (joint.a.body, joint.b.body)
     held = all(end == GROUND or scene.bodies[end].turns for end in ends)
-    return Left(joint.turns or not (held or joint.shifts), joint.shifts)
+    shifts = bool(joint.shifts)
+    return Left(bool(joint.turns) or not (held or shifts), shifts)
 
 
-def freedoms(scene: Scene, branch: Branch) -> list[Freedom]:
+def freedoms(scene: Scene, branch: Branch) -> list[FreedomKind]:
     """The body's freedoms on its parent, in the order of MuJoCo's joints, outer first.
 
     The line of a shift stands in the joint's first part: it turns with the body, or does not.
@@ -83,8 +84,8 @@ def freedoms(scene: Scene, branch: Branch) -> list[Freedom]:
     if branch.joint is None:
         return []
     left = built_as(scene, branch.joint)
-    turn: list[Freedom] = ["turn"] if left.turns and scene.bodies[branch.body].turns else []
-    shift: list[Freedom] = ["shift"] if left.shifts else []
+    turn: list[FreedomKind] = ["turn"] if left.turns and scene.bodies[branch.body].turns else []
+    shift: list[FreedomKind] = ["shift"] if left.shifts else []
     return shift + turn if branch.forward else turn + shift
 
 
@@ -93,7 +94,7 @@ def called(body: str) -> str:
     return f"{body}." if body == "world" else body  # no name of a case ends in a dot
 
 
-def coordinate(joint: Joint, freedom: Freedom) -> str:
+def coordinate(joint: Joint, freedom: FreedomKind) -> str:
     """MuJoCo's joint for a freedom: the joint's name, and for the turn of a slot one more."""
     return f"{joint.name}.turn" if freedom == "turn" and joint.shifts else joint.name
 

@@ -10,10 +10,11 @@ import numpy as np
 
 from ....cases.case import Case, Placement
 from ....cases.scene import GROUND, Anchor
+from ....cases.scene.joint import Freedom
 from ....cases.scene.rotation import UPRIGHT, about, inverse, matrix, product, turned
 from ....cases.scene.space import chain
 from ....cases.scene.space.counting import counted
-from ....cases.scene.space.joint import Freedom, SpatialJoint, rate_of
+from ....cases.scene.space.joint import SpatialJoint
 from ...mechanism.kinematics.space.attitude import skew
 from ...mechanism.modes.space.mode import SpatialMultibody
 from ...system import Array
@@ -156,7 +157,7 @@ class Given:
         for freedom, _, row in self.coordinates(joint, q):
             if freedom.name:
                 own = moved.get(freedom.name, 0.0)
-                yield Equation(f"{joint.name}.{rate_of(freedom.name)}", own, row)
+                yield Equation(f"{joint.name}.{freedom.rate}", own, row)
 
     def _driven(self, anchor: Anchor) -> Array:
         """(3,) the velocity of a point of the ground; a body's stands in its rows."""

@@ -8,12 +8,13 @@ import pytest
 from given.spatial_motions import Array, Moving, T, rate, states, turn
 
 from textmech.cases.scene import Anchor, GroundPoint
+from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.motion import Motion
 from textmech.cases.scene.space.body import SpatialBody
 from textmech.cases.scene.space.chain import Turns
 from textmech.cases.scene.space.contact import SpatialContact
 from textmech.cases.scene.space.counting import far
-from textmech.cases.scene.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.cases.trajectory import Trajectory
 
 A, B = np.array([0.1, -0.2, 0.3]), np.array([-0.2, 0.1, 0.4])  # the points that are joined
@@ -78,11 +79,11 @@ def jointed(freedoms: list[Freedom], values: list[Coordinate]) -> Motion:
 
 
 def shift(axis: Array, name: str) -> Freedom:
-    return Freedom("shift", tuple(axis), name)
+    return Freedom.shift(tuple(axis), name)
 
 
 def hinge(axis: Array, name: str) -> Freedom:
-    return Freedom("turn", tuple(axis), name)
+    return Freedom.turn(tuple(axis), name)
 
 
 @pytest.mark.parametrize(

@@ -12,11 +12,12 @@ from textmech.cases.case import Case
 from textmech.cases.load import load
 from textmech.cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Push, Signal, Torque
 from textmech.cases.scene.frame import SPACE
+from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.quantity import table
 from textmech.cases.scene.rotation import matrix
 from textmech.cases.scene.space import shape
 from textmech.cases.scene.space.contact import SpatialContact
-from textmech.cases.scene.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.cases.scene.space.scene import SpatialScene
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
@@ -74,15 +75,15 @@ def test_points_and_bodies(tmp_path: Path) -> None:
 
 def test_joints(tmp_path: Path) -> None:
     freedoms = {
-        "q1": ("hinge", "ground.O", "bar.start", (Freedom("turn", Z, "angle"),)),
+        "q1": ("hinge", "ground.O", "bar.start", (Freedom.turn(Z, "angle"),)),
         "neck": ("ball", "ground.hook", "top.P", (Freedom("ball"),)),
-        "cross": ("universal", "bar.end", "box.center", (Freedom("turn", Y), Freedom("turn", Z))),
+        "cross": ("universal", "bar.end", "box.center", (Freedom.turn(Y), Freedom.turn(Z))),
         "rail": (
-            "slide", "ground.O", "bob.center", (Freedom("shift", (0.0, 0.6, 0.8), "shift"),),
+            "slide", "ground.O", "bob.center", (Freedom.shift((0.0, 0.6, 0.8), "shift"),),
         ),
         "upright": (
             "freedoms", "ground.O", "wheel.center",
-            (Freedom("shift", X, "x"), Freedom("shift", Y, "y"), Freedom("turn", Z, "theta")),
+            (Freedom.shift(X, "x"), Freedom.shift(Y, "y"), Freedom.turn(Z, "theta")),
         ),
     }  # fmt: skip
     begins = {"q1": {"angle": radians(30)}}  # of what `initial` and `near` say

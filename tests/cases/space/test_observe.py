@@ -7,11 +7,12 @@ import pytest
 from given.spatial_motions import Array, T, rate, states, turn
 
 from textmech.cases.scene import Anchor, Damper, GroundPoint, Signal, Spring
+from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.observe import observe
 from textmech.cases.scene.quantity import table
 from textmech.cases.scene.space.body import SpatialBody
 from textmech.cases.scene.space.contact import SpatialContact
-from textmech.cases.scene.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Trajectory
 
@@ -49,7 +50,7 @@ SCENE = SpatialScene(
     joints={
         "q": SpatialJoint(
             "q", "hinge", Anchor("bob", "center"), Anchor("cloud", "P"),
-            (Freedom("turn", (0.0, 0.0, 1.0), "angle"),),
+            (Freedom.turn((0.0, 0.0, 1.0), "angle"),),
         ),
     },
     contacts={"touch": SpatialContact("touch", Anchor("cloud", "center"), 0.5, rim=False)},

@@ -11,11 +11,12 @@ from textmech.cases.language.grammar.space.scene import SpatialScene as Words
 from textmech.cases.language.grammar.space.start import Start, Turn
 from textmech.cases.load import load
 from textmech.cases.scene import Anchor, Signal, Spring, Torsion
+from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.quantity import table
 from textmech.cases.scene.space import shape
 from textmech.cases.scene.space.constraint import SpatialEdge
 from textmech.cases.scene.space.contact import SpatialContact
-from textmech.cases.scene.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.cases.scene.space.scene import SpatialScene
 
 README = Path(find.__file__).with_name("README.md").read_text(encoding="utf-8")
@@ -45,8 +46,8 @@ def test_every_key_is_explained() -> None:
 def test_quantities() -> None:
     tensor = (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)
     freedoms = (
-        Freedom("shift", (1.0, 0.0, 0.0), "s"),
-        Freedom("turn", (0.0, 0.0, 1.0), "theta"),
+        Freedom.shift((1.0, 0.0, 0.0), "s"),
+        Freedom.turn((0.0, 0.0, 1.0), "theta"),
     )
     body = shape.rigid(name="body", mass=1, inertia=tensor, points={"point": (0.0, 0.0, 0.0)})
     one = Signal("constant", (1.0,))

@@ -144,7 +144,8 @@ def test_what_a_joint_leaves_free_and_holds(name: str) -> None:
         a, b = (where.point(end, t, q.tolist(), q.tolist()) for end in (joint.a, joint.b))
         phi_a, phi_b = (0.0 if p.phi is None else q[p.phi] for p in (a, b))
         x, y = np.subtract(b.r, a.r)
-        turn = phi_a + np.arctan2(joint.along[1], joint.along[0])
+        ux, uy = joint.along if joint.shifts else (1.0, 0.0)
+        turn = phi_a + np.arctan2(uy, ux)
         expected = [y * np.cos(turn) - x * np.sin(turn)] if joint.shifts else [x, y]
         if joint.swings:
             expected = [1.3 - np.hypot(x, y)]

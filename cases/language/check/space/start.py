@@ -55,7 +55,7 @@ def _of_body(path: Path, body: SpatialBody, start: Start, *, rates: bool) -> Ite
 
 def _of_joint(path: Path, joint: SpatialJoint, start: Start, *, rates: bool) -> Iterator[Finding]:
     ball = any(f.kind == "ball" for f in joint.freedoms)
-    units = {f.name: "m" if f.kind == "shift" else "rad" for f in joint.named}
+    units = {f.name: f.unit for f in joint.named}
     if rates:
         units |= {name: f"{units[f.name]}/s" for name, f in joint.rates.items()}
     keys = [*units, *(["attitude"] if ball else []), *(["omega"] if ball and rates else [])]

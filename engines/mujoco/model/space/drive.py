@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
 from .....cases.fields.signal import Signal
-from .....cases.scene.space.joint import SpatialJoint, rate_of
+from .....cases.scene.space.joint import SpatialJoint
 from .....cases.scene.space.scene import SpatialScene
 from ....signal import derivative
 from ..number_text import written
@@ -32,11 +32,7 @@ class Drive:
     @property
     def quantity(self) -> str:
         """`q1.torque` of a hinge, `upright.theta_torque`, `rail.x_force`."""
-        freedom = self.joint.freedoms[self.number]
-        if freedom.name == "angle":
-            return f"{self.joint.name}.torque"
-        kind = "force" if freedom.kind == "shift" else "torque"
-        return f"{self.joint.name}.{freedom.name}_{kind}"
+        return f"{self.joint.name}.{self.joint.freedoms[self.number].effort}"
 
     @property
     def accelerations(self) -> list[Signal]:
@@ -50,7 +46,7 @@ def drives(scene: SpatialScene) -> list[Drive]:
     for quantity, signal in scene.drives.items():
         part, _, rate = quantity.rpartition(".")
         joint = scene.joints[part]
-        rates = {rate_of(f.name): i for i, f in enumerate(joint.freedoms) if f.name}
+        rates = {f.rate: i for i, f in enumerate(joint.freedoms) if f.name}
         found.append(Drive(joint, rates[rate], signal))
     return found
 

@@ -13,7 +13,7 @@ from .....cases.fields.signal import Signal
 from .....cases.scene import Anchor
 from .....cases.scene.rotation import Vector3
 from .....cases.scene.space.chain import across
-from .....cases.scene.space.joint import SpatialJoint, effort_of
+from .....cases.scene.space.joint import SpatialJoint
 from .....cases.scene.space.scene import SpatialScene
 
 
@@ -162,7 +162,7 @@ def driven(scene: SpatialScene, quantity: str, law: Signal) -> Drive:
     if freedom.kind == "turn" and len(turns) > 2:
         raise ValueError(f"{quantity}: of three turns none can be driven")
     return Drive(
-        part, quantity, effort_of(freedom), joint.a, joint.b,
+        part, quantity, freedom.effort, joint.a, joint.b,
         freedom.axis if freedom.kind == "shift" else None,
         tuple(f.axis for f in joint.shifts), turns,
         joint.turns.index(freedom) if freedom.kind == "turn" else 0, law,

@@ -23,11 +23,11 @@ from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
 from textmech.cases.scene import Anchor, Signal
+from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.motion import Motion
 from textmech.cases.scene.rotation import about, angle_between, inverse, product, turned
 from textmech.cases.scene.space.body import SpatialBody
 from textmech.cases.scene.space.contact import SpatialContact
-from textmech.cases.scene.space.joint import Freedom
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Plan, Start
 from textmech.engines.mujoco import MuJoCo
@@ -166,8 +166,8 @@ WHEEL = SpatialBody(
 )
 UPRIGHT = joint(
     "upright", "freedoms", "ground.O", "wheel.center",
-    *(Freedom("shift", vector(axis), name) for axis, name in zip(np.eye(3), "xyz", strict=True)),
-    Freedom("turn", (0.0, 0.0, 1.0), "theta"), Freedom("turn", (0.0, 1.0, 0.0), "phi"),
+    *(Freedom.shift(vector(axis), name) for axis, name in zip(np.eye(3), "xyz", strict=True)),
+    Freedom.turn((0.0, 0.0, 1.0), "theta"), Freedom.turn((0.0, 1.0, 0.0), "phi"),
 )  # fmt: skip
 
 
