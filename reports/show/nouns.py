@@ -22,7 +22,6 @@ from ...cases.scene.pair import Pair
 from ...cases.scene.plane import Plane
 from ...cases.scene.point import Anchor, GroundPoint
 from ...cases.scene.quantity import Quantity
-from ...cases.scene.space.body import SpatialBody
 from ...cases.scene.space.constraint import SpatialEdge
 from ...cases.scene.space.contact import SpatialContact
 from ...cases.scene.space.joint import SpatialJoint
@@ -44,7 +43,7 @@ from .table import markdown
 PARTS: Mapping[str, tuple[type, ...]] = {
     "The scene": (Scene, SpatialScene),
     "Points of bodies and of the ground": (Anchor, GroundPoint),
-    "Bodies": (Body, SpatialBody),
+    "Bodies": (Body, Body),
     "Joints": (Joint, SpatialJoint, Freedom, DryFriction, Bounds, Stribeck, Smooth),
     "Contacts": (Contact, Plane, SpatialContact, Pair),
     "Constraints": (Edge, SpatialEdge),
@@ -210,7 +209,7 @@ def _quantities() -> str:
 OBSERVED = [
     kind.__name__
     for kind in (
-        *(Body, SpatialBody, Joint, SpatialJoint, Contact, SpatialContact, Pair),
+        *(Body, Body, Joint, SpatialJoint, Contact, SpatialContact, Pair),
         *(Edge, SpatialEdge),
     )
 ]

@@ -122,7 +122,7 @@ def test_other_words(tmp_path: Path) -> None:
     path.write_text(EVERYTHING)
     (case,) = load(path)
     assert case.scene.gravity == (0.0, 0.0)
-    assert case.scene.bodies["plate"].inertia == 0.5
+    assert case.scene.bodies["plate"].moment == 0.5
     assert case.scene.bodies["box"].mass == pytest.approx(0.3, rel=1e-15)
     assert case.scene.joints["fast"].angle == pytest.approx(pi, rel=1e-15)
     assert case.initial["plate"].points == {"P": (1.0, 2.0)}
@@ -158,7 +158,7 @@ def test_a_ring_touches_with_its_rim(tmp_path: Path) -> None:
     path.write_text(ring.replace("initial:", f"{touch}initial:"))
     (case,) = load(path)
     assert case.scene.bodies["plate"].radius == 0.5
-    assert case.scene.bodies["plate"].inertia == 0.5
+    assert case.scene.bodies["plate"].moment == 0.5
     assert case.scene.contacts["touch"].at == Anchor("plate", "center")
     path.write_text(EVERYTHING.replace("initial:", f"{touch}initial:"))
     with pytest.raises(CaseError, match="'plate' is a rigid and touches with one point"):

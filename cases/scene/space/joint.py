@@ -8,14 +8,14 @@ import numpy as np
 
 from ...fields.kind import WORK, Fields
 from ...trajectory import Array
+from .. import chain
+from ..chain import Turns
+from ..counting import counted, nearest
 from ..frame import SPACE
 from ..joint import Freedom
 from ..motion import Motion
 from ..point import GROUND, Anchor
 from ..rotation import UPRIGHT, turned
-from . import chain
-from .chain import Turns
-from .counting import counted, nearest
 
 _FORCES: Fields = {
     "fx": ("N", "force"),  # what the first part exerts on the second, in ground axes

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 from ...fields.kind import WORK, Fields
 from ...fields.signal import Signal
 from .. import Scene
+from ..body import Body
 from ..frame import SPACE, Frame
 from ..rotation import Vector3
-from .body import SpatialBody
 from .constraint import SpatialEdge
 from .contact import SpatialContact
 from .joint import SpatialJoint
@@ -22,7 +22,7 @@ class SpatialScene(Scene):
     """
 
     gravity: Vector3  # pyright: ignore[reportIncompatibleVariableOverride]
-    bodies: Mapping[str, SpatialBody]  # pyright: ignore[reportIncompatibleVariableOverride]
+    bodies: Mapping[str, Body]  # pyright: ignore[reportIncompatibleVariableOverride]
     joints: Mapping[str, SpatialJoint]  # pyright: ignore[reportIncompatibleVariableOverride]
     contacts: Mapping[str, SpatialContact]  # pyright: ignore[reportIncompatibleVariableOverride]
     constraints: Mapping[str, SpatialEdge] = field(  # pyright: ignore[reportIncompatibleVariableOverride]

@@ -43,7 +43,7 @@ def with_rods(scene: Scene, start: Start) -> tuple[Scene, Start]:
         name = called(rod.name)
         length, begun[name] = _between(scene, rod, start)
         points = {"center": (0.0, 0.0), "start": (-length / 2, 0.0), "end": (length / 2, 0.0)}
-        bodies[name] = Body(name, "bar", mass, max(LEAST, mass * length**2 / 12), points)
+        bodies[name] = Body(name, "bar", mass, (max(LEAST, mass * length**2 / 12),), points)
         joints[rod.name] = planar_joint(rod.name, "pin", rod.a, Anchor(name, "start"))
         joints[f"{rod.name}-end"] = planar_joint(
             f"{rod.name}-end", "pin", Anchor(name, "end"), rod.b

@@ -124,7 +124,7 @@ def _bodies(world: ET.Element, scene: Scene, tree: Tree, numbers: dict[str, obje
             _joint(element, f"{body.name}.z", "slide", axis="0 0 1")
         # A particle that is held rigidly must add nothing to the inertia of what carries it.
         least = LEAST if element.find("joint") is not None else 0.0
-        _inertial(element, body.mass, least if body.inertia is None else body.inertia)
+        _inertial(element, body.mass, body.moment if body.turns else least)
         for name, at in body.points.items():
             ET.SubElement(element, "site", name=f"{body.name}.{name}", pos=written(*at, 0))
         for contact in touching(scene).values():

@@ -81,8 +81,7 @@ class Coordinates:
         return [
             entry
             for body in self.scene.bodies.values()
-            for entry in (body.mass, body.mass, body.inertia)
-            if entry is not None
+            for entry in (body.mass, body.mass, *body.inertia)
         ]
 
     def poses(self, q: Any, v: Any) -> dict[str, Pose]:

@@ -59,7 +59,9 @@ class Multibody(Mode):
         self._forces = [f for f in scene.forces.values() if f.name not in slack]
         self.where = Coordinates(scene)
         self.coordinates = (*self.where.names, *self.where.inner)
-        self.masses = {b.name: Mass(b.mass, b.inertia) for b in scene.bodies.values()}
+        self.masses = {
+            b.name: Mass(b.mass, b.moment if b.turns else None) for b in scene.bodies.values()
+        }
         self._start = start
         self._M = np.array(self.where.masses)
         self._constraints = [*constraints(scene, self.where, start[0].tolist()), *held]

@@ -9,11 +9,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ....cases.case import Case, Placement
-from ....cases.scene import GROUND, Anchor
+from ....cases.scene import GROUND, Anchor, chain
+from ....cases.scene.counting import counted
 from ....cases.scene.joint import Freedom
 from ....cases.scene.rotation import UPRIGHT, about, inverse, matrix, product, turned
-from ....cases.scene.space import chain
-from ....cases.scene.space.counting import counted
 from ....cases.scene.space.joint import SpatialJoint
 from ...mechanism.kinematics.space.attitude import skew
 from ...mechanism.modes.space.mode import SpatialMultibody

@@ -10,12 +10,11 @@ from given.spatial_motions import turn
 
 from textmech.cases.case import Case
 from textmech.cases.load import load
-from textmech.cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Push, Signal, Torque
+from textmech.cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Push, Signal, Torque, solid
 from textmech.cases.scene.frame import SPACE
 from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.quantity import table
 from textmech.cases.scene.rotation import matrix
-from textmech.cases.scene.space import shape
 from textmech.cases.scene.space.contact import SpatialContact
 from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.cases.scene.space.scene import SpatialScene
@@ -59,17 +58,17 @@ def test_points_and_bodies(tmp_path: Path) -> None:
         "hook": GroundPoint((0.0, 0.0, 1.0), (0.0, 0.1, 0.0)),  # type: ignore[arg-type]
     }
     assert dict(scene.bodies) == {
-        "bar": shape.bar(name="bar", mass=1.2, length=0.8, points={"P": (0.1, 0.0, 0.0)}),
-        "wheel": shape.disk(name="wheel", mass=2.0, radius=0.25, axle=Y, points={}),
-        "globe": shape.sphere(name="globe", mass=2.0, radius=0.25, points={}),
-        "box": shape.block(name="box", mass=2.0, size=(0.1, 0.2, 0.3), points={}),
-        "top": shape.rigid(
+        "bar": solid.bar(name="bar", mass=1.2, length=0.8, points={"P": (0.1, 0.0, 0.0)}),
+        "wheel": solid.disk(name="wheel", mass=2.0, radius=0.25, axle=Y, points={}),
+        "globe": solid.sphere(name="globe", mass=2.0, radius=0.25, points={}),
+        "box": solid.block(name="box", mass=2.0, size=(0.1, 0.2, 0.3), points={}),
+        "top": solid.rigid(
             name="top",
             mass=2.0,
             inertia=(0.05, 0.05, 0.04, 0.0, 0.0, 0.01),
             points={"P": (0.0, 0.0, -0.2)},
         ),
-        "bob": shape.particle(name="bob", mass=0.5),
+        "bob": solid.particle(name="bob", mass=0.5),
     }
 
 

@@ -179,7 +179,7 @@ def test_the_reaction_is_the_force_of_the_first_part_on_the_second(name: str) ->
             at = mechanism.where.point(joint.b if joint.shifts else end, t, q.tolist(), v.tolist())
             d = np.array(at.r) - q[xy : xy + 2]
             moment = d[0] * F[1] - d[1] * F[0] + sign * force.get("j.torque", 0.0)
-            np.testing.assert_allclose(body.inertia * a[phi], moment, atol=1e3 * EXACT)
+            np.testing.assert_allclose(body.moment * a[phi], moment, atol=1e3 * EXACT)
 
 
 def test_rolling_reactions_hold_the_disk_up_and_turn_it() -> None:
@@ -193,7 +193,7 @@ def test_rolling_reactions_hold_the_disk_up_and_turn_it() -> None:
         assert force["touch.normal"] == pytest.approx(disk.mass * 9.0, rel=EXACT)
         np.testing.assert_allclose(disk.mass * a[0], disk.mass * 2.0 + force["touch.tangent"])
         turning = (disk.radius or 0.0) * force["touch.tangent"]
-        np.testing.assert_allclose((disk.inertia or 0.0) * a[2], turning)
+        np.testing.assert_allclose(disk.moment * a[2], turning)
 
 
 def test_a_particle_takes_no_moment() -> None:

@@ -29,7 +29,7 @@ from textmech.reference.system import Array
 
 
 def heavier(body: Body) -> Body:
-    return replace(body, inertia=body.inertia * 1.05) if body.inertia else body
+    return replace(body, inertia=tuple(1.05 * J for J in body.inertia))
 
 
 class Turning(Multibody):

@@ -57,9 +57,7 @@ def _words(scene: SpatialScene, start: Start, plan: Plan, settles: bool, step: f
     if scene.constraints:
         words.append(f"{', '.join(scene.constraints)} held by our law at every stage")
     slender = [
-        name
-        for name, body in scene.bodies.items()
-        if body.inertia is not None and min(body.inertia[:3]) == 0.0
+        name for name, body in scene.bodies.items() if body.turns and min(body.inertia[:3]) == 0.0
     ]
     words += [f"{name} has {LEAST:g} kg m² about its own axis" for name in slender]
     if settles and scene.contacts:

@@ -11,9 +11,9 @@ import mujoco
 import numpy as np
 
 from .....cases.scene import GROUND, Anchor, Signal
+from .....cases.scene.body import Body
+from .....cases.scene.chain import across
 from .....cases.scene.rotation import Quaternion, Vector3
-from .....cases.scene.space.body import SpatialBody
-from .....cases.scene.space.chain import across
 from .....cases.scene.space.contact import SpatialContact
 from .....cases.scene.space.joint import SpatialJoint
 from .....cases.scene.space.scene import SpatialScene
@@ -131,7 +131,7 @@ def _hang(element: ET.Element, scene: SpatialScene, branch: Branch[SpatialJoint]
             ET.SubElement(element, "joint", given)
 
 
-def _inertial(element: ET.Element, body: SpatialBody) -> None:
+def _inertial(element: ET.Element, body: Body) -> None:
     inertial = ET.SubElement(element, "inertial", pos="0 0 0", mass=written(body.mass))
     if not body.turns:
         # A particle that is held rigidly must add nothing to the inertia of what carries it.
@@ -143,7 +143,7 @@ def _inertial(element: ET.Element, body: SpatialBody) -> None:
         inertial.set("quat", written(*axes))
 
 
-def _touching(element: ET.Element, body: SpatialBody, contact: SpatialContact) -> None:
+def _touching(element: ET.Element, body: Body, contact: SpatialContact) -> None:
     """A disk as thin as an ideal one, or a sphere; of a pivot one as small as a point."""
     geom = ET.SubElement(
         element, "geom", name=contact.name, pos=written(*body.points[contact.at.point]),

@@ -11,8 +11,8 @@ import numpy as np
 
 from .....cases.fields.signal import Signal
 from .....cases.scene import Anchor
+from .....cases.scene.chain import across
 from .....cases.scene.rotation import Vector3
-from .....cases.scene.space.chain import across
 from .....cases.scene.space.joint import SpatialJoint
 from .....cases.scene.space.scene import SpatialScene
 

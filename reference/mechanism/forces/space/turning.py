@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from .....cases.scene.chain import across
 from .....cases.scene.forces.turning import Motor, Torsion, TorsionDamper, Turning
-from .....cases.scene.space.chain import across
 from .....cases.scene.space.joint import SpatialJoint
 from .....cases.scene.space.scene import SpatialScene
 from ....laws.force import torsion, torsion_damper

@@ -22,10 +22,10 @@ from given.engine_space import (
 )  # fmt: skip
 
 from textmech.cases.scene import Anchor, Push, Signal, Torque
+from textmech.cases.scene.body import Body
 from textmech.cases.scene.frame import SPACE
 from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.rotation import about, angle_between, turned
-from textmech.cases.scene.space.body import SpatialBody
 from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Array, Trajectory
@@ -148,7 +148,7 @@ def test_a_pair_on_a_ball_joint_starts_as_given_and_keeps_its_momentum(back: boo
     assert np.max(np.ptp(angular, axis=0)) < 1e-10
 
 
-def momenta(motion: Trajectory, bodies: list[SpatialBody]) -> tuple[Array, Array]:
+def momenta(motion: Trajectory, bodies: list[Body]) -> tuple[Array, Array]:
     """(N, 3) each, about the origin."""
     momentum, angular = np.zeros((2, len(motion.times), 3))
     for body in bodies:
