@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from ..fields.friction import Bounds, DryFriction, Smooth, Stribeck
-from ..fields.kind import WORK, Fields, Kind
+from ..fields.kind import WORK, Fields
 from ..fields.signal import Signal
 from .body import Body
 from .constraint import Edge
@@ -33,7 +33,7 @@ from .forces.force import (
 from .forces.rope import Rope
 from .forces.stops import Stops
 from .frame import PLANE, Frame
-from .joint import DRIVES, Joint
+from .joint import Joint, planar_joint
 from .pair import Pair
 from .point import CENTER, FLOOR, GROUND, Anchor, GroundPoint, Vector
 
@@ -70,6 +70,7 @@ __all__ = [
     "TorsionDamper",
     "Vector",
     "Viscous",
+    "planar_joint",
 ]
 
 STANDARD_GRAVITY = 9.80665  # m/s², the book's value
@@ -102,12 +103,11 @@ class Scene:
 
     def driven(self) -> Mapping[str, Fields]:
         """By joint, what prescribed rates exert: `hinge` → `torque`."""
-        found: dict[str, dict[str, tuple[str, Kind]]] = {}
+        found: dict[str, Fields] = {}
         for quantity in self.drives:
             part, _, rate = quantity.rpartition(".")
-            if part in self.joints and rate in DRIVES:
-                effort, unit = DRIVES[rate]
-                found.setdefault(part, {})[effort] = (unit, "force")
+            if part in self.joints and (freedom := self.joints[part].rates.get(rate)):
+                found[part] = {**found.get(part, {}), **freedom.exerted}
         return found
 
     def working(self) -> Mapping[str, Fields]:

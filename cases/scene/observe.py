@@ -65,7 +65,7 @@ def _energy(scene: Scene, trajectory: Trajectory, field: str) -> Array:
             potential -= body.mass * s[:, SPACE.place] @ scene.gravity
             continue
         kinetic += 0.5 * body.mass * (s[:, VX] ** 2 + s[:, VY] ** 2)
-        kinetic += 0.5 * (body.inertia or 0.0) * s[:, OMEGA] ** 2
+        kinetic += 0.5 * body.moment * s[:, OMEGA] ** 2
         potential -= body.mass * (scene.gravity[0] * s[:, X] + scene.gravity[1] * s[:, Y])
     if field == "kinetic":
         return kinetic  # which asks for no inner state
@@ -84,7 +84,7 @@ def _momentum(scene: Scene, trajectory: Trajectory, field: str) -> Array:
             total += spatial.momentum(body, s)[field]  # type: ignore[arg-type]
         elif field == "angular":
             total += body.mass * (s[:, X] * s[:, VY] - s[:, Y] * s[:, VX])
-            total += (body.inertia or 0.0) * s[:, OMEGA]
+            total += body.moment * s[:, OMEGA]
         else:
             total += body.mass * s[:, VX if field == "x" else VY]
     return total

@@ -4,6 +4,7 @@ Planar frame: x right, y up, angles counter-clockwise, SI units.
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -14,7 +15,8 @@ GROUND = "ground"
 CENTER = "center"
 FLOOR = "floor"
 
-Vector = tuple[float, float]
+Vector = tuple[Any, ...]  # floats; so written, a type checker lets two or three of them pass
+"""A place or a direction: as many numbers as the frame has axes."""
 
 
 @dataclass(frozen=True)

@@ -53,13 +53,13 @@ Spokes = Annotated[int, Count(least=3, most=100)]  # with 100 it is as good as r
 def bar(*, name: str, mass: Mass, length: Length, points: Points) -> Body:
     """Slender bar along its own x from `start` to `end`: J = m l²/12 (Exercise 2.3)."""
     ends = {"start": (-length / 2, 0.0), "end": (length / 2, 0.0)}
-    return Body(name, "bar", mass, mass * length**2 / 12, {CENTER: (0.0, 0.0), **ends, **points})
+    return Body(name, "bar", mass, (mass * length**2 / 12,), {CENTER: (0.0, 0.0), **ends, **points})
 
 
 def disk(*, name: str, mass: Mass, radius: Length, points: Points) -> Body:
     """Thin homogeneous disk: J = m R²/2 (Exercise 2.2)."""
     inertia = mass * radius**2 / 2
-    return Body(name, "disk", mass, inertia, {CENTER: (0.0, 0.0), **points}, radius=radius)
+    return Body(name, "disk", mass, (inertia,), {CENTER: (0.0, 0.0), **points}, radius=radius)
 
 
 def block(*, name: str, mass: Mass, width: Length, height: Length, points: Points) -> Body:
@@ -67,12 +67,12 @@ def block(*, name: str, mass: Mass, width: Length, height: Length, points: Point
     inertia = mass * (width**2 + height**2) / 12
     places = [(x * width / 2, y * height / 2) for y in (-1, 1) for x in (-1, 1)]
     own = {CENTER: (0.0, 0.0), **dict(zip(CORNERS, places, strict=True)), **points}
-    return Body(name, "block", mass, inertia, own, size=(width, height))
+    return Body(name, "block", mass, (inertia,), own, size=(width, height))
 
 
 def particle(*, name: str, mass: Mass) -> Body:
     """Point mass: no inertia, no angle."""
-    return Body(name, "particle", mass, None, {CENTER: (0.0, 0.0)})
+    return Body(name, "particle", mass, (), {CENTER: (0.0, 0.0)})
 
 
 def rigid(
@@ -82,7 +82,7 @@ def rigid(
 
     A ring has J = m R².
     """
-    return Body(name, "rigid", mass, inertia, {CENTER: (0.0, 0.0), **points}, radius=radius)
+    return Body(name, "rigid", mass, (inertia,), {CENTER: (0.0, 0.0), **points}, radius=radius)
 
 
 def spokes(
@@ -95,7 +95,7 @@ def spokes(
     turns = [(k - 0.5) * math.tau / number for k in range(number)]
     places = [(length * math.sin(turn), -length * math.cos(turn)) for turn in turns]
     own = {CENTER: (0.0, 0.0), **dict(zip(tips(number), places, strict=True)), **points}
-    return Body(name, "spokes", mass, inertia, own, tips=tips(number))
+    return Body(name, "spokes", mass, (inertia,), own, tips=tips(number))
 
 
 def tips(number: int) -> tuple[str, ...]:

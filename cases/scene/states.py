@@ -15,7 +15,6 @@ from ..trajectory import Array
 from . import Scene
 from .point import CENTER
 from .quantity import Quantity, table
-from .space.joint import effort_of
 from .space.scene import SpatialScene
 
 Span = tuple[float, float]
@@ -53,7 +52,7 @@ def coordinates(scene: Scene) -> dict[str, str]:
     """The unit of each coordinate: x, y and angle of the plane's bodies, freedoms of joints."""
     if isinstance(scene, SpatialScene):
         return {
-            f"{joint.name}.{freedom.name}": "m" if freedom.kind == "shift" else "rad"
+            f"{joint.name}.{freedom.name}": freedom.unit
             for joint in scene.joints.values()
             for freedom in joint.freedoms
         }
@@ -107,7 +106,7 @@ def _more(scene: Scene) -> Iterator[tuple[str, Fields]]:
         yield from ((f"{body.name}.{point}", linear) for point in points)
     if isinstance(scene, SpatialScene):
         for joint in scene.joints.values():
-            yield joint.name, {effort_of(f): _effort(f.kind) for f in joint.named}
+            yield joint.name, {k: v for f in joint.named for k, v in f.exerted.items()}
 
 
 def _turning(scene: Scene) -> Fields:
@@ -117,7 +116,3 @@ def _turning(scene: Scene) -> Fields:
     ends = ("_11", "_22", "_33", "_12", "_13", "_23") if spatial else ("",)
     found: dict[str, tuple[str, Kind]] = dict.fromkeys(alpha, ("rad/s²", "acceleration"))
     return found | dict.fromkeys((f"inertia{end}" for end in ends), ("kg m²", "inertia"))
-
-
-def _effort(kind: str) -> tuple[str, Kind]:
-    return ("N", "force") if kind == "shift" else ("N m", "force")

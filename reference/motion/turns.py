@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from ...cases.scene import Scene
+from ...cases.scene.chain import Turns
+from ...cases.scene.counting import LOCKED, far
 from ...cases.scene.frame import SPACE
 from ...cases.scene.observe import motion_of
-from ...cases.scene.space.chain import Turns
-from ...cases.scene.space.counting import LOCKED, far
 from ...cases.trajectory import Array, Trajectory
 from ..system import System
 from .follow import Followed

@@ -9,7 +9,6 @@ import numpy as np
 
 from ...cases.scene import Scene
 from ...cases.scene.frame import SPACE
-from ...cases.scene.space.joint import effort_of
 from ...cases.scene.space.scene import SpatialScene
 from ...cases.scene.states import MASS_MATRIX
 from ..formalisms import lagrange
@@ -107,7 +106,7 @@ def efforts(scene: SpatialScene) -> Iterator[tuple[str, str]]:
     """For each coordinate: its name, and that of what moves it: `q1.angle`, `q1.torque`."""
     for joint in scene.joints.values():
         for freedom in joint.freedoms:
-            yield f"{joint.name}.{freedom.name}", f"{joint.name}.{effort_of(freedom)}"
+            yield f"{joint.name}.{freedom.name}", f"{joint.name}.{freedom.effort}"
 
 
 def by_virtual_work(

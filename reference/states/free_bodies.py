@@ -13,7 +13,10 @@ class FreeBodies(Stated):
 
     def __init__(self, scene: Scene) -> None:
         self.scene, self.coordinates = scene, tuple(coordinates(scene))
-        self.masses = {body.name: Mass(body.mass, body.inertia) for body in scene.bodies.values()}
+        self.masses = {
+            body.name: Mass(body.mass, body.moment if body.turns else None)
+            for body in scene.bodies.values()
+        }
 
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.9) X_k, E_k: a free body's coordinates are its own parameters."""

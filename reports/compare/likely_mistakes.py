@@ -319,8 +319,8 @@ def _otherwise(case: Case) -> Iterator[tuple[str, Case]]:
         if not any(f.about == name for f in others.values()):
             yield f"{name} does not act", of(forces=others)
     for name, body in scene.bodies.items():
-        for point in _joined(scene, name) if scene.frame is not SPACE and body.inertia else ():
-            heavier = replace(body, inertia=body.about(point))
+        for point in _joined(scene, name) if scene.frame is not SPACE and body.turns else ():
+            heavier = replace(body, inertia=(body.about(point),))
             what = f"the inertia of {name} is about {name}.{point}, not about the centre of mass"
             yield what, of(bodies={**scene.bodies, name: heavier})
     for name, contact in scene.contacts.items():

@@ -91,10 +91,7 @@ def _joint(scene: Scene, joint: Any) -> dict[str, Any]:
 
 def _along(joint: Any) -> Any:
     """The direction of its one shift, in the axes of its first part."""
-    if hasattr(joint, "freedoms"):
-        shifts = joint.shifts
-        return shifts[0].axis if len(shifts) == 1 else None
-    return joint.along if joint.shifts else None
+    return joint.shifts[0].axis if len(joint.shifts) == 1 else None
 
 
 def _blade(scene: Scene, edge: Any, arm: float) -> dict[str, Any]:

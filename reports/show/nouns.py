@@ -17,15 +17,14 @@ from ...cases.scene.constraint import Edge
 from ...cases.scene.contact import Contact
 from ...cases.scene.forces.force import NOUNS
 from ...cases.scene.frame import PLANE, SPACE, Frame
-from ...cases.scene.joint import FREEDOMS, Joint
+from ...cases.scene.joint import FREEDOMS, Freedom, Joint
 from ...cases.scene.pair import Pair
 from ...cases.scene.plane import Plane
 from ...cases.scene.point import Anchor, GroundPoint
 from ...cases.scene.quantity import Quantity
-from ...cases.scene.space.body import SpatialBody
 from ...cases.scene.space.constraint import SpatialEdge
 from ...cases.scene.space.contact import SpatialContact
-from ...cases.scene.space.joint import Freedom, SpatialJoint
+from ...cases.scene.space.joint import SpatialJoint
 from ...cases.scene.space.scene import SpatialScene
 from ...cases.trajectory import Trajectory
 from ...engines.engine import (
@@ -43,7 +42,7 @@ from .table import markdown
 PARTS: Mapping[str, tuple[type, ...]] = {
     "The scene": (Scene, SpatialScene),
     "Points of bodies and of the ground": (Anchor, GroundPoint),
-    "Bodies": (Body, SpatialBody),
+    "Bodies": (Body, Body),
     "Joints": (Joint, SpatialJoint, Freedom, DryFriction, Bounds, Stribeck, Smooth),
     "Contacts": (Contact, Plane, SpatialContact, Pair),
     "Constraints": (Edge, SpatialEdge),
@@ -179,7 +178,10 @@ def _members(kind: type) -> Iterator[tuple[str, str]]:
 
 def _joints() -> str:
     """Which freedoms each kind of joint leaves, in the plane and in space."""
-    plane = [[f"`{kind}`", ", ".join(sorted(left)) or "none"] for kind, left in FREEDOMS.items()]
+    plane = [
+        [f"`{kind}`", ", ".join(sorted(freedom.kind for freedom in left)) or "none"]
+        for kind, left in FREEDOMS.items()
+    ]
     space = [[f"`{kind}`", _cell(_text(made))] for kind, made in KINDS.items()]
     return (
         "Of the plane, `Joint.kind` and the freedoms of the second part against the first:\n\n"
@@ -206,7 +208,7 @@ def _quantities() -> str:
 OBSERVED = [
     kind.__name__
     for kind in (
-        *(Body, SpatialBody, Joint, SpatialJoint, Contact, SpatialContact, Pair),
+        *(Body, Body, Joint, SpatialJoint, Contact, SpatialContact, Pair),
         *(Edge, SpatialEdge),
     )
 ]

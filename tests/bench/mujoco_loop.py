@@ -145,7 +145,7 @@ def _alone(scene: Scene) -> bool:
     (joint,) = dry_joints(scene)
     others = (other for other in scene.joints.values() if other is not joint)
     return (
-        joint.shifts
+        bool(joint.shifts)
         and joint.a.body == GROUND
         and not any(joint.b.body in (other.a.body, other.b.body) for other in others)
     )

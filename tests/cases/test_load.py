@@ -11,7 +11,15 @@ from textmech.cases.fields.number import Names, amount, number
 from textmech.cases.find import find, shipped
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
-from textmech.cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Joint, Push, Signal, Torque
+from textmech.cases.scene import (
+    STANDARD_GRAVITY,
+    Anchor,
+    GroundPoint,
+    Push,
+    Signal,
+    Torque,
+    planar_joint,
+)
 from textmech.reference.systems import SYSTEMS
 from textmech.reference.systems.states.stated import STATED
 
@@ -44,7 +52,9 @@ def test_four_bar() -> None:
     assert scene.gravity == (0.0, -STANDARD_GRAVITY)
     assert scene.points == {"O": GroundPoint((0.0, 0.0)), "Q": GroundPoint((0.9, 0.0))}
     assert scene.bodies["coupler"].points["end"] == (0.4, 0.0)
-    assert scene.joints["C"] == Joint("C", "pin", Anchor("coupler", "end"), Anchor("rocker", "end"))
+    assert scene.joints["C"] == planar_joint(
+        "C", "pin", Anchor("coupler", "end"), Anchor("rocker", "end")
+    )
     assert case.initial["crank"].given == {"angle": radians(70)}
     assert case.near["rocker"].given == {"angle": pytest.approx(radians(96), rel=1e-15)}
     assert case.reach == {
@@ -112,7 +122,7 @@ def test_other_words(tmp_path: Path) -> None:
     path.write_text(EVERYTHING)
     (case,) = load(path)
     assert case.scene.gravity == (0.0, 0.0)
-    assert case.scene.bodies["plate"].inertia == 0.5
+    assert case.scene.bodies["plate"].moment == 0.5
     assert case.scene.bodies["box"].mass == pytest.approx(0.3, rel=1e-15)
     assert case.scene.joints["fast"].angle == pytest.approx(pi, rel=1e-15)
     assert case.initial["plate"].points == {"P": (1.0, 2.0)}
@@ -148,7 +158,7 @@ def test_a_ring_touches_with_its_rim(tmp_path: Path) -> None:
     path.write_text(ring.replace("initial:", f"{touch}initial:"))
     (case,) = load(path)
     assert case.scene.bodies["plate"].radius == 0.5
-    assert case.scene.bodies["plate"].inertia == 0.5
+    assert case.scene.bodies["plate"].moment == 0.5
     assert case.scene.contacts["touch"].at == Anchor("plate", "center")
     path.write_text(EVERYTHING.replace("initial:", f"{touch}initial:"))
     with pytest.raises(CaseError, match="'plate' is a rigid and touches with one point"):

@@ -15,9 +15,9 @@ from textmech.cases.scene import (
     Damper,
     DryFriction,
     GroundPoint,
-    Joint,
     Scene,
     Spring,
+    planar_joint,
     quantity,
     shape,
 )
@@ -39,8 +39,8 @@ SCENE = Scene(
         "wheel": shape.disk(name="wheel", mass=2.0, radius=0.25, points={}),
     },
     joints={
-        "pin": Joint("pin", "pin", Anchor("ground", "O"), Anchor("bar", "P")),
-        "rail": Joint(
+        "pin": planar_joint("pin", "pin", Anchor("ground", "O"), Anchor("bar", "P")),
+        "rail": planar_joint(
             "rail",
             "slide",
             Anchor("bar", "P"),

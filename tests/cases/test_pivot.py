@@ -39,7 +39,7 @@ def test_tips_stand_on_a_circle_counter_clockwise() -> None:
     assert np.diff(turns) == pytest.approx(math.tau / 6)
     assert tips[0] == pytest.approx((-L / 2, -L * math.cos(math.pi / 6)))
     assert tips[1] == pytest.approx((L / 2, -L * math.cos(math.pi / 6)))
-    assert (body.inertia, body.points["P"]) == (J, (0.1, 0.0))
+    assert (body.moment, body.points["P"]) == (J, (0.1, 0.0))
 
 
 def test_a_start_stands_on_a_tip_that_does_not_move(tmp_path: Path) -> None:

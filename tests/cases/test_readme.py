@@ -26,10 +26,10 @@ from textmech.cases.scene import (
     Spring,
     Torsion,
     Viscous,
+    planar_joint,
     shape,
 )
 from textmech.cases.scene import DryFriction as Dry
-from textmech.cases.scene import Joint as Connection
 from textmech.cases.scene import Scene as Resolved
 from textmech.cases.scene.forces.rope import Rope
 from textmech.cases.scene.forces.stops import Stops
@@ -67,7 +67,7 @@ def test_quantities() -> None:
         gravity=(0.0, 0.0),
         points={},
         bodies={"body": shape.disk(name="body", mass=1, radius=1, points={"point": (0, 0)})},
-        joints={"joint": Connection("joint", "slide", a, b, dry_friction=dry)},
+        joints={"joint": planar_joint("joint", "slide", a, b, dry_friction=dry)},
         contacts={
             "contact": Contact("contact", Anchor("body", "center"), 1.0, 1.0, ideal="rolling")
         },
@@ -84,7 +84,7 @@ def test_quantities() -> None:
     )
     rows = re.findall(r"^\| (`[a-z]+\..*?) \| (.*?) \|", PLANE, flags=re.MULTILINE)
     said = {name: unit for names, unit in rows for name in re.findall(r"`(.*?)`", names)}
-    pinned = replace(scene, joints={"joint": Connection("joint", "pin", a, b)})
+    pinned = replace(scene, joints={"joint": planar_joint("joint", "pin", a, b)})
     driven = replace(scene, drives={"joint.speed": Signal("constant", (1.0,))})
     known = table(scene) | table(pinned) | table(driven)
     quantities = known | event_quantities(["event"])

@@ -68,13 +68,13 @@ def elements(scene: Scene) -> dict[str, float]:
 def in_plane(scene: Scene, poses: Start) -> dict[str, float]:
     """Gravity, J, dry friction, ½ m v² + ½ J ω² and m v."""
     found = {"gravity.x": scene.gravity[0], "gravity.y": scene.gravity[1]}
-    found |= {f"{b.name}.inertia": b.inertia for b in scene.bodies.values() if b.inertia}
+    found |= {f"{b.name}.inertia": b.moment for b in scene.bodies.values() if b.turns}
     for joint in scene.joints.values():
         # Of two bounds an engine holds one number, which is neither.
         if joint.dry_friction and len({*astuple(joint.dry_friction.kinetic)}) == 1:
             found[f"{joint.name}.friction_forward"] = joint.dry_friction.kinetic.forward
             found[f"{joint.name}.friction_backward"] = joint.dry_friction.kinetic.backward
-    motions = [(b.mass, b.inertia or 0.0, poses[b.name][3:]) for b in scene.bodies.values()]
+    motions = [(b.mass, b.moment, poses[b.name][3:]) for b in scene.bodies.values()]
     found["energy.kinetic"] = sum(
         (m * (vx**2 + vy**2) + J * w**2) / 2 for m, J, (vx, vy, w) in motions
     )
@@ -90,7 +90,7 @@ def in_space(scene: Any, poses: Start) -> dict[str, float]:
     for body in scene.bodies.values():
         v, (w1, w2, w3) = np.array(poses[body.name][7:10]), poses[body.name][10:]
         T, p = T + body.mass * float(v @ v) / 2, p + body.mass * v
-        if body.inertia is not None:
+        if body.turns:
             J11, J22, J33, J12, J13, J23 = body.inertia
             T += (J11 * w1**2 + J22 * w2**2 + J33 * w3**2) / 2
             T += J12 * w1 * w2 + J13 * w1 * w3 + J23 * w2 * w3
@@ -147,7 +147,7 @@ WRONG: Mapping[str, tuple[str, Callable[[Scene], Scene]]] = {
     "mass": ("double_pendulum", lambda s: with_bodies(s, lambda b: replace(b, mass=1.05 * b.mass))),
     "inertia": (
         "four_bar",
-        lambda s: with_bodies(s, lambda b: replace(b, inertia=1.05 * (b.inertia or 0))),
+        lambda s: with_bodies(s, lambda b: replace(b, inertia=(1.05 * b.moment,))),
     ),
     "stiffness": (
         "rhombus",

@@ -5,7 +5,7 @@ import pytest
 from given.planning import TUNED, every, moved
 
 from textmech.cases.scene import Anchor, GroundPoint, Push, Scene, Signal
-from textmech.cases.scene.joint import Joint
+from textmech.cases.scene.joint import planar_joint
 from textmech.cases.scene.shape import disk, particle
 from textmech.engines import signal
 from textmech.engines.mujoco.callbacks.signal import Corners
@@ -27,7 +27,7 @@ ENGINES = {"mujoco": 1e-3, "pymunk": 1e-3}
 
 
 def scene(law: Signal) -> Scene:
-    rail = Joint("rail", "slide", Anchor("ground", "O"), Anchor("cart", "center"))
+    rail = planar_joint("rail", "slide", Anchor("ground", "O"), Anchor("cart", "center"))
     push = Push("hand", Anchor("cart", "center"), law)
     cart = particle(name="cart", mass=M)
     return Scene(
@@ -93,7 +93,7 @@ RATES = Signal("table", (2.0,), times=(0.3, 0.501, 0.7), values=(0.0, 1.0, -0.4)
 
 def turned(engine: str) -> tuple[float, float]:
     """How far the angle [rad] and the rate [rad/s] of a driven arm are from the law's."""
-    hinge = Joint("hinge", "pin", Anchor("ground", "O"), Anchor("arm", "center"))
+    hinge = planar_joint("hinge", "pin", Anchor("ground", "O"), Anchor("arm", "center"))
     built = Scene(
         (0.0, 0.0), {"O": GroundPoint((0.0, 0.0))},
         {"arm": disk(name="arm", mass=M, radius=0.2, points={})},

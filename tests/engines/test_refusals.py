@@ -21,7 +21,7 @@ from given.engine_scenes import (
 )
 from given.planning import NAMES, SETTINGS, TUNED, moved, planned, refused, words
 
-from textmech.cases.scene import Anchor, Joint, Scene
+from textmech.cases.scene import Anchor, Joint, Scene, planar_joint
 from textmech.cases.scene.shape import disk, particle, rigid
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Engine, Start
@@ -70,7 +70,7 @@ REFUSED = {
         pin("loop", "rod.start", "rod.end")
     ),
     ("pymunk", "adapter: rail starts at a particle, which has no axes"): beside(
-        Joint("rail", "slide", Anchor("bead", "center"), Anchor("rod", "P"))
+        planar_joint("rail", "slide", Anchor("bead", "center"), Anchor("rod", "P"))
     ),
     ("pymunk", "engine: pymunk takes only positive finite masses"): machine(
         [replace(ROD, mass=math.inf)]
@@ -90,7 +90,9 @@ def test_refused(name: str, why: str) -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_a_bead_slides_on_a_rod(name: str) -> None:
     """A slide that starts at the rod is built; pymunk's groove is told its ends beforehand."""
-    rail = Joint("rail", "slide", Anchor("rod", "P"), Anchor("bead", "center"), along=given.ALONG)
+    rail = planar_joint(
+        "rail", "slide", Anchor("rod", "P"), Anchor("bead", "center"), along=given.ALONG
+    )
     scene = beside(rail)
     begin = dict.fromkeys(scene.bodies, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
     assert refused(TUNED[name], scene) is None

@@ -6,7 +6,7 @@ from given.engine_space import STILL, attitude, hinge, joint, particle, rigid, s
 from given.skew_chain import Q_DOT, Q, chain, start
 
 from textmech.cases.scene import Anchor, Damper, Push, Signal, Spring, Torque
-from textmech.cases.scene.space.joint import Freedom
+from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.space.scene import SpatialScene
 from textmech.engines.engine import Engine, Plan, Refusal, Start
 from textmech.engines.mujoco import MuJoCo
@@ -55,7 +55,7 @@ def test_a_users_options_reach_scenes_in_space() -> None:
     assert np.all(np.isfinite(motion.states["top"]))
 
 
-SHIFT = Freedom("shift", (1.0, 0.0, 0.0), "x")
+SHIFT = Freedom.shift((1.0, 0.0, 0.0), "x")
 BODY = rigid("b", 1.0, (0.02, 0.03, 0.04), {"l": (-0.3, 0, 0)})
 
 

@@ -86,7 +86,7 @@ def in_units(build: Build, u: Units) -> Scene:
         return v[0] * by, v[1] * by
 
     def body(b: Body) -> Body:
-        inertia = None if b.inertia is None else b.inertia * u.mass * u.length**2
+        inertia = tuple(J * u.mass * u.length**2 for J in b.inertia)
         points = {name: long(at) for name, at in b.points.items()}
         radius = None if b.radius is None else b.radius * u.length
         return replace(b, mass=b.mass * u.mass, inertia=inertia, points=points, radius=radius)

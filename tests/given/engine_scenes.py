@@ -20,6 +20,7 @@ from textmech.cases.scene import (
     Signal,
     Smooth,
     Spring,
+    planar_joint,
 )
 from textmech.cases.scene.shape import bar, block, disk, particle
 from textmech.engines.engine import Start
@@ -42,7 +43,7 @@ ODD_NAMES = (
 def pin(name: str, a: str, b: str, kind: Any = "pin", **given: Any) -> Joint:
     """A joint between `body.point` and `body.point`."""
     (p, q), (r, s) = a.split("."), b.split(".")
-    return Joint(name, kind, Anchor(p, q), Anchor(r, s), **given)
+    return planar_joint(name, kind, Anchor(p, q), Anchor(r, s), **given)
 
 
 def machine(

@@ -6,11 +6,12 @@ from typing import Any
 import numpy as np
 
 from textmech.cases.scene import Anchor, Force, GroundPoint, Signal
+from textmech.cases.scene.body import Body
 from textmech.cases.scene.frame import SPACE
+from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.rotation import Vector3
-from textmech.cases.scene.space.body import SpatialBody
 from textmech.cases.scene.space.contact import SpatialContact
-from textmech.cases.scene.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Plan, Start
@@ -40,19 +41,19 @@ def attitude(values: Any) -> tuple[float, ...]:
 
 def rigid(
     name: str, mass: float, tensor: Any, points: dict[str, Any] | None = None, **given: Any
-) -> SpatialBody:
+) -> Body:
     """A body by its tensor (3, 3) or its principal moments (3,) in body axes."""
     J = np.asarray(tensor, dtype=float)
     J = np.diag(J) if J.ndim == 1 else J
     entries = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)]
     inertia: Any = tuple(float(J[at]) for at in entries)
     named = {"center": STILL, **{k: vector(at) for k, at in (points or {}).items()}}
-    return SpatialBody(name, "rigid", mass, inertia, named, **given)
+    return Body(name, "rigid", mass, inertia, named, frame=SPACE, **given)
 
 
-def particle(name: str, mass: float) -> SpatialBody:
+def particle(name: str, mass: float) -> Body:
     """A body without attitude."""
-    return SpatialBody(name, "particle", mass, None, {"center": STILL})
+    return Body(name, "particle", mass, (), {"center": STILL}, frame=SPACE)
 
 
 def joint(name: str, kind: Any, a: str, b: str, *freedoms: Freedom) -> SpatialJoint:
@@ -63,7 +64,7 @@ def joint(name: str, kind: Any, a: str, b: str, *freedoms: Freedom) -> SpatialJo
 
 def hinge(name: str, a: str, b: str, axis: Any) -> SpatialJoint:
     """A hinge about an axis of the first part."""
-    return joint(name, "hinge", a, b, Freedom("turn", unit(axis), "angle"))
+    return joint(name, "hinge", a, b, Freedom.turn(unit(axis), "angle"))
 
 
 def ball(name: str, a: str, b: str) -> SpatialJoint:
@@ -77,7 +78,7 @@ def point(at: Any, velocity: Any = STILL) -> GroundPoint:
 
 
 def spatial(
-    bodies: Sequence[SpatialBody],
+    bodies: Sequence[Body],
     joints: Sequence[SpatialJoint] = (),
     *,
     contacts: Sequence[SpatialContact] = (),

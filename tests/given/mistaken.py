@@ -68,7 +68,7 @@ def pushed_back(scene: Scene) -> Scene:
 
 
 def about_ends(scene: Scene) -> Scene:
-    heavier = {n: replace(body, inertia=body.about("start")) for n, body in scene.bodies.items()}
+    heavier = {n: replace(body, inertia=(body.about("start"),)) for n, body in scene.bodies.items()}
     return replace(scene, bodies=heavier)
 
 

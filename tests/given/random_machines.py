@@ -23,6 +23,7 @@ from textmech.cases.scene import (
     Signal,
     Spring,
     Torque,
+    planar_joint,
 )
 from textmech.cases.scene.shape import bar, block, disk, particle, rigid
 from textmech.reference.mechanism.modes.mode import Multibody
@@ -118,7 +119,7 @@ class Build:
                 at, place = (2 * at[0] - there[0], 2 * at[1] - there[1]), at
         held = self.angle(b) - self.angle(a) if kind != "pin" else 0.0
         ends = self.anchor(a, at, driven=driven), self.anchor(b, place, driven=driven)
-        self.joints[name] = Joint(name, kind, *ends, along, held)  # type: ignore[arg-type]
+        self.joints[name] = planar_joint(name, kind, *ends, along, held)  # type: ignore[arg-type]
 
     def somewhere(self, part: str) -> Anchor:
         return self.anchor(part, self.near(part))

@@ -18,6 +18,7 @@ from textmech.cases.scene import (
     Signal,
     Spring,
     Torque,
+    planar_joint,
     shape,
 )
 from textmech.reference.mechanism.modes.mode import Multibody
@@ -59,7 +60,7 @@ def joint(random: Random, name: str, kind: str, a: Anchor, b: Anchor) -> Joint:
     turn, angle = random.uniform(-3.0, 3.0, 2).tolist()
     along = (float(np.cos(turn)), float(np.sin(turn)))
     length = 1.3 if kind == "distance" else None
-    return Joint(name, kind, a, b, along=along, angle=angle, length=length)  # type: ignore[arg-type]
+    return planar_joint(name, kind, a, b, along=along, angle=angle, length=length)  # type: ignore[arg-type]
 
 
 def scene(random: Random, *, free: bool = False, loops: bool = True) -> Scene:

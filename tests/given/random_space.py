@@ -8,11 +8,12 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from textmech.cases.scene import CENTER, GROUND, Anchor, Damper, Push, Signal, Spring, Torque
-from textmech.cases.scene.space import shape
-from textmech.cases.scene.space.body import SpatialBody
+from textmech.cases.scene import solid as shape
+from textmech.cases.scene.body import Body
+from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.space.constraint import SpatialEdge
 from textmech.cases.scene.space.contact import SpatialContact
-from textmech.cases.scene.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.reference.system import Array
 
 from .engine_space import particle, rigid, unit, vector
@@ -22,14 +23,14 @@ from .spatial_motions import turn
 REGULAR = 0.05  # smallest singular value of the rows: nearer to singular, forces grow large
 
 
-def solid(made: Machine) -> SpatialBody:
+def solid(made: Machine) -> Body:
     """With a tensor whose axes are nobody's."""
     A = made.rng.normal(size=(3, 3))
     S = 0.02 * A @ A.T + 0.01 * np.eye(3)  # tr(S) − S has mass everywhere
     return rigid(f"b{len(made.bodies)}", made.number(0.5, 2.0), np.trace(S) * np.eye(3) - S)
 
 
-def any_body(made: Machine) -> SpatialBody:
+def any_body(made: Machine) -> Body:
     """A solid, a slender bar, or a particle."""
     name, mass = f"b{len(made.bodies)}", made.number(0.5, 2.0)
     kind = made.rng.choice(["solid", "solid", "solid", "bar", "particle"])
@@ -41,12 +42,12 @@ def any_body(made: Machine) -> SpatialBody:
 def freedoms(made: Machine, kind: str) -> Sequence[Freedom]:
     """What a joint of the kind leaves, about and along any axes."""
     axes = [unit(made.axis()) for _ in range(5)]
-    turns = [Freedom("turn", axes[i], f"phi{i}") for i in range(3)]
-    shifts = [Freedom("shift", axes[3 + i], f"s{i}") for i in range(2)]
+    turns = [Freedom.turn(axes[i], f"phi{i}") for i in range(3)]
+    shifts = [Freedom.shift(axes[3 + i], f"s{i}") for i in range(2)]
     some = [*shifts[: made.rng.integers(1, 3)], *turns[: made.rng.integers(1, 4)]]
     found: dict[str, list[Freedom]] = {
-        "hinge": [Freedom("turn", axes[0], "angle")], "ball": [Freedom("ball")],
-        "universal": turns[:2], "slide": [Freedom("shift", axes[3], "shift")], "weld": [],
+        "hinge": [Freedom.turn(axes[0], "angle")], "ball": [Freedom("ball")],
+        "universal": turns[:2], "slide": [Freedom.shift(axes[3], "shift")], "weld": [],
         "freedoms": some,
     }  # fmt: skip
     return found[kind]
@@ -55,7 +56,7 @@ def freedoms(made: Machine, kind: str) -> Sequence[Freedom]:
 KINDS = ("hinge", "hinge", "ball", "universal", "slide", "weld", "freedoms", "freedoms")
 
 
-def hang(made: Machine, body: SpatialBody) -> None:
+def hang(made: Machine, body: Body) -> None:
     """The body on any part, by any joint: where its freedoms take it."""
     parent, name = made.part(), f"j{len(made.joints)}"
     kind: Any = "hinge" if body.shape == "bar" else made.rng.choice(KINDS)
@@ -92,7 +93,7 @@ def close(made: Machine) -> None:
     start = place
     if kind == "freedoms":
         s = free[0]
-        free = (s, *(Freedom("turn", unit(made.axis()), f"phi{i}") for i in range(3)))
+        free = (s, *(Freedom.turn(unit(made.axis()), f"phi{i}") for i in range(3)))
         start = place - made.number(-0.5, 0.5) * made.poses[a][1] @ s.axis
     ends = made.anchor(a, start), made.anchor(b, place)
     made.joints[name] = SpatialJoint(name, kind, *ends, (*free,))

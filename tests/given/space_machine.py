@@ -7,7 +7,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from textmech.cases.scene import CENTER, GROUND, Anchor, Force, GroundPoint, Signal
-from textmech.cases.scene.space.body import SpatialBody
+from textmech.cases.scene.body import Body
 from textmech.cases.scene.space.constraint import SpatialEdge
 from textmech.cases.scene.space.contact import SpatialContact
 from textmech.cases.scene.space.joint import SpatialJoint
@@ -28,7 +28,7 @@ class Machine:
     kind: str
     rng: np.random.Generator
     t: float = T  # s: when the parts are where they are drawn
-    bodies: dict[str, SpatialBody] = field(default_factory=dict)
+    bodies: dict[str, Body] = field(default_factory=dict)
     points: dict[str, GroundPoint] = field(default_factory=dict)
     joints: dict[str, SpatialJoint] = field(default_factory=dict)
     contacts: dict[str, SpatialContact] = field(default_factory=dict)

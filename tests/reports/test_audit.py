@@ -15,8 +15,8 @@ from textmech.cases.scene import (
     Contact,
     DryFriction,
     GroundPoint,
-    Joint,
     Scene,
+    planar_joint,
 )
 from textmech.cases.trajectory import Trajectory
 from textmech.reports.compare.judge.compare import Outcome, compare
@@ -65,8 +65,8 @@ def test_rounding_is_no_number_of_the_audit(trial: Make) -> None:
 
 def test_the_audit_reads_dry_friction_back() -> None:
     friction = DryFriction(static=Bounds(6.0, 7.0), kinetic=Bounds(3.0, 4.0))
-    box = Body("box", "particle", 1.0, None, {"center": (0.0, 0.0)})
-    rail = Joint("rail", "slide", Anchor("ground", "O"), Anchor("box", "center"))
+    box = Body("box", "particle", 1.0, (), {"center": (0.0, 0.0)})
+    rail = planar_joint("rail", "slide", Anchor("ground", "O"), Anchor("box", "center"))
     scene = Scene(
         (0.0, 0.0),
         {"O": GroundPoint((0.0, 0.0))},

@@ -22,7 +22,7 @@ from textmech.reports.compare.events.states import engine_states, mistaken, refe
 from textmech.reports.compare.events.times import engine_events, reference_events
 
 SCENE = Scene(
-    (0.0, 0.0), {}, {"box": Body("box", "particle", 1.0, None, {"center": (0.0, 0.0)})}, {}, {}, {}
+    (0.0, 0.0), {}, {"box": Body("box", "particle", 1.0, (), {"center": (0.0, 0.0)})}, {}, {}, {}
 )
 CASE: Any = SimpleNamespace(scene=SCENE, tube=0.0)
 HITS = 0.61803  # s: a speed that is halved and turned there

@@ -16,7 +16,7 @@ from textmech.reports.compare.events.rests import rests
 from textmech.reports.compare.events.times import engine_events, falls, reference_events
 
 SCENE = Scene(
-    (0.0, 0.0), {}, {"box": Body("box", "particle", 1.0, None, {"center": (0.0, 0.0)})}, {}, {}, {}
+    (0.0, 0.0), {}, {"box": Body("box", "particle", 1.0, (), {"center": (0.0, 0.0)})}, {}, {}, {}
 )
 H = 1e-3
 W = np.sqrt(2.0)

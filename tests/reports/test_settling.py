@@ -13,7 +13,7 @@ from textmech.cases.trajectory import VX, Array, Trajectory
 from textmech.reports.compare.events.times import falls, reference_events, surely
 
 SCENE = Scene(
-    (0.0, 0.0), {}, {"box": Body("box", "particle", 1.0, None, {"center": (0.0, 0.0)})}, {}, {}, {}
+    (0.0, 0.0), {}, {"box": Body("box", "particle", 1.0, (), {"center": (0.0, 0.0)})}, {}, {}, {}
 )
 
 SETTLES = """\

@@ -6,7 +6,7 @@ from ...fields.kind import WORK
 from ...fields.number import Amount, NumberMistake, fitting
 from ...mistake import Path, nearest
 from ...scene import Scene
-from ...scene.joint import SHIFT, TURN
+from ...scene.joint import WORDS
 from ...scene.quantity import EVENT_FIELDS, Quantity, at_event, at_events, event_quantities, table
 from ...scene.states import claimable
 from ..parse import Finding, Parsed
@@ -120,7 +120,7 @@ def _unknown(
         yield path, f"{part!r} has no `dry_friction`, so no {name!r}"
     elif _undriven(known, part, field) or (field in WORK and part in parsed.file.scene.joints):
         yield path, f"no `drive` prescribes the rate, so no {name!r}"
-    elif field in (*TURN, *SHIFT) and f"{part}.gap" in known and part in parsed.file.scene.joints:
+    elif field in WORDS and f"{part}.gap" in known and part in parsed.file.scene.joints:
         yield path, _no_freedom(known, part, field)
     elif field == "angle" and f"{part}.attitude" in known:
         yield path, f"a body in space has no angle; its quantity is '{part}.attitude'"
@@ -164,7 +164,7 @@ def _forces(parsed: Parsed, body: str, known: Mapping[str, Quantity]) -> Iterato
 
 def _no_freedom(known: Mapping[str, Quantity], part: str, field: str) -> str:
     """Why a joint has no such coordinate."""
-    left = [f"'{part}.{name}'" for name in (*TURN, *SHIFT) if f"{part}.{name}" in known]
+    left = [f"'{part}.{name}'" for name in WORDS if f"{part}.{name}" in known]
     has = f"it has {' and '.join(left)}" if left else "it leaves nothing that has one"
     return f"{part!r} has no {field}: {has}"
 

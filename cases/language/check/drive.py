@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator
 
+from ...fields.kind import Fields
 from ...fields.number import NumberMistake, fitting, per_second
 from ...fields.signal import Signal
 from ...mistake import Path, nearest
-from ...scene import Scene
-from ...scene.joint import DRIVES, SHIFT, TURN
+from ...scene import Joint, Scene
 from ..grammar.drive import Drive
 from ..parse import Finding, Parsed
 
@@ -21,13 +21,15 @@ def drives(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         part, _, rate = quantity.rpartition(".")
         if part not in scene.joints:
             yield from unknown(parsed, scene, path, part)
-        elif rate not in DRIVES or rate not in left[part]:
-            yield path, _no_rate(part, rate, list(left[part]))
-        elif rate == "speed" and scene.joints[part].dry_friction is not None:
+            continue
+        freedom = scene.joints[part].rates.get(rate)
+        if freedom is None or rate not in left[part]:
+            yield path, _no_rate(scene.joints[part], rate, left[part])
+        elif freedom.kind == "shift" and scene.joints[part].dry_friction is not None:
             what = "a part of what its drive would exert: leave one of them out"
             yield path, f"{part!r} has `dry_friction`, {what}"
         else:
-            yield from fits(path, drive, {**TURN, **SHIFT}[rate][0])
+            yield from fits(path, drive, f"{freedom.unit}/s")
     for name, start in parsed.file.initial.items():
         for key, given in start.given.items():
             yield from agrees(("initial", name, key), given, scene.drives.get(f"{name}.{key}"))
@@ -54,11 +56,11 @@ def agrees(path: Path, given: float, drive: Signal | None) -> Iterator[Finding]:
         yield path, f"is {given:g}, but its drive begins with {drive.at_start()[0]:g}"
 
 
-def _no_rate(part: str, rate: str, left: list[str]) -> str:
-    rates = [f"{part}.{name}" for name in left if name in DRIVES]
-    if rate in left:
-        which = rates[left.index(rate) // 2]
-        return f"{rate!r} is a coordinate; a drive prescribes its rate, {which!r}"
+def _no_rate(joint: Joint, rate: str, left: Fields) -> str:
+    rates = {f.name: f"{joint.name}.{f.rate}" for f in joint.rates.values() if f.rate in left}
+    if rate in rates:
+        return f"{rate!r} is a coordinate; a drive prescribes its rate, {rates[rate]!r}"
     if not rates:
-        return f"{part!r} leaves nothing that could be driven"
-    return f"{part!r} has no rate {rate!r}{nearest(f'{part}.{rate}', rates)}"
+        return f"{joint.name!r} leaves nothing that could be driven"
+    hint = nearest(f"{joint.name}.{rate}", rates.values())
+    return f"{joint.name!r} has no rate {rate!r}{hint}"

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 
 from ...mistake import Path, nearest
 from ...scene import FLOOR, GROUND, Anchor, Edge, Force, Joint, Scene
-from ...scene.joint import SHIFT
+from ...scene.joint import WORDS
 from ...scene.point import anchor
 from ..grammar.file import Initial, Near
 from ..grammar.file import Scene as Spec
@@ -228,6 +228,6 @@ def posed(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
 def _unknown(name: str, kind: str, key: str, known: list[str]) -> str:
     if not known:
         return f"{name!r} is a {kind} and leaves nothing that could be given"
-    if key in SHIFT or key in ("angle", "omega"):
+    if key in WORDS:
         return f"{name!r} is a {kind} and has no {key}; it starts by {' and '.join(known)}"
     return f"{name!r} is a {kind} and starts by {' and '.join(known)}{nearest(key, known)}"

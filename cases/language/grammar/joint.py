@@ -8,8 +8,7 @@ from pydantic import model_validator
 from ...fields.friction_grammar import OF_PIN, OF_SLIDE
 from ...fields.part import OneOf
 from ...fields.words import wrong
-from ...scene.joint import FREEDOMS
-from ...scene.joint import Joint as Noun
+from ...scene.joint import FREEDOMS, planar_joint
 from .element import Element, element
 
 
@@ -39,14 +38,16 @@ class _NeverBrakes(_Joint):
 
 
 def _joint(kind: str) -> type[Element]:
-    turns, shifts = "turn" in FREEDOMS[kind], "shift" in FREEDOMS[kind]
-    swings = "swing" in FREEDOMS[kind]
+    turns, shifts, swings = (
+        any(freedom.kind == which for freedom in FREEDOMS[kind])
+        for which in ("turn", "shift", "swing")
+    )
     brakes = shifts != turns and not swings
     asked = {"kind": False, "along": shifts, "angle": not turns, "dry_friction": brakes}
     asked["length"] = swings
     return element(
         kind,
-        Noun,
+        planar_joint,
         base=_Joint if brakes else _NeverBrakes,
         without=[key for key, plays in asked.items() if not plays],
         needs=["along"] if shifts else [],

@@ -7,11 +7,11 @@ import numpy as np
 
 from ...fields.kind import Fields
 from ...trajectory import Array
+from ..body import Body
 from ..frame import SPACE
 from ..motion import Motion
 from ..point import GROUND, Anchor
 from ..rotation import Vector3, turned
-from .body import SpatialBody
 
 _EDGE: Fields = {
     "force": ("N", "force"),  # what the ground exerts on the body, level, to the blade's left
@@ -44,7 +44,7 @@ class SpatialEdge:
         """Its point; the ground has no blade."""
         return () if self.at.body == GROUND else (self.at,)
 
-    def unfit(self, body: SpatialBody | None) -> str | None:
+    def unfit(self, body: Body | None) -> str | None:
         """Why the body (None: one that is not known) cannot carry it, in words for the file."""
         if self.at.body == GROUND:
             return "an edge belongs to a body, and not to the ground"

@@ -8,13 +8,14 @@ import numpy as np
 
 from ...fields.kind import WORK, Fields
 from ...trajectory import Array
+from .. import chain
+from ..chain import Turns
+from ..counting import counted, nearest
 from ..frame import SPACE
+from ..joint import Freedom
 from ..motion import Motion
 from ..point import GROUND, Anchor
-from ..rotation import UPRIGHT, Vector3, turned
-from . import chain
-from .chain import Turns
-from .counting import counted, nearest
+from ..rotation import UPRIGHT, turned
 
 _FORCES: Fields = {
     "fx": ("N", "force"),  # what the first part exerts on the second, in ground axes
@@ -31,20 +32,6 @@ _MOMENTS: Fields = {
 }
 HELD = (*_FORCES, *_MOMENTS, *WORK)
 """Names of what can be observed of any joint: no freedom has these names."""
-
-
-@dataclass(frozen=True)
-class Freedom:
-    """One turn about an axis, one shift along it, or all three turns of a ball.
-
-    The axis is a unit vector in the axes that are left after the freedoms before it: those of the
-    first part, for the first turn and for all shifts. name: as it is observed and started, `angle`
-    of a hinge, `theta` of a joint with named freedoms; "" where it cannot be.
-    """
-
-    kind: Literal["shift", "turn", "ball"]  # along the axis, about it, or all three turns
-    axis: Vector3 = (0.0, 0.0, 0.0)  # unit vector; of a ball none
-    name: str = ""
 
 
 @dataclass(frozen=True)
@@ -97,7 +84,7 @@ class SpatialJoint:
     @property
     def rates(self) -> dict[str, Freedom]:
         """The named freedoms by the names of their rates, which can be prescribed."""
-        return {rate_of(f.name): f for f in self.named}
+        return {f.rate: f for f in self.named}
 
     def turning(self, name: str) -> int:
         """The number of a turn among its freedoms: by its name, or by none where it is `angle`.
@@ -112,13 +99,9 @@ class SpatialJoint:
 
     def quantities(self) -> dict[str, Fields]:
         """Its reactions, its gap, and its coordinates with their rates."""
-        coordinates: dict[str, tuple[str, str]] = {}
-        for freedom in self.named:
-            unit = "m" if freedom.kind == "shift" else "rad"
-            coordinates[freedom.name] = (unit, "coordinate")
-            coordinates[rate_of(freedom.name)] = (f"{unit}/s", "velocity")
+        coordinates = {name: of for f in self.named for name, of in f.coordinate.items()}
         moments = _MOMENTS if self.holds_attitude else {}
-        return {self.name: {**_FORCES, **moments, **coordinates}}  # type: ignore[dict-item]
+        return {self.name: {**_FORCES, **moments, **coordinates}}
 
     def components(self, field: str) -> tuple[str, ...]:
         """The reactions that a producer gives, from which a force or moment follows."""
@@ -137,7 +120,7 @@ class SpatialJoint:
         if field == "gap":
             return self._gap(motion)
         names = [f.name for f in self.freedoms]
-        rates = [rate_of(f.name) if f.name else "" for f in self.freedoms]
+        rates = [f.rate for f in self.freedoms]
         if field not in (*names, *rates):
             raise KeyError(f"{self.name}.{field}")
         which = field in rates
@@ -151,9 +134,9 @@ class SpatialJoint:
 
     def power(self, motion: Motion) -> Array:
         """(N,) what the drives of its rates do [W]."""
-        driven = {r: f for r, f in self.rates.items() if f"{self.name}.{r}" in motion.drives}
-        efforts = [motion.reaction(f"{self.name}.{effort_of(f)}") for f in driven.values()]
-        speeds = [self.observe(motion, rate) for rate in driven]
+        driven = [f for f in self.named if f"{self.name}.{f.rate}" in motion.drives]
+        efforts = [motion.reaction(f"{self.name}.{f.effort}") for f in driven]
+        speeds = [self.observe(motion, f.rate) for f in driven]
         return np.sum(np.multiply(efforts, speeds), axis=0)
 
     def _gap(self, motion: Motion) -> Array:
@@ -196,21 +179,6 @@ class SpatialJoint:
     def begun(self) -> list[float | None]:
         """Near which angle each turn begins, as far as that is said."""
         return [self.begins.get(f.name) for f in self.turns]
-
-
-def rate_of(name: str) -> str:
-    """`angle` → `omega`, `theta` → `theta_dot`."""
-    return "omega" if name == "angle" else f"{name}_dot"
-
-
-def effort_of(freedom: Freedom) -> str:
-    """Name of what a drive exerts on a freedom: `torque` of a hinge, `theta_torque`, `x_force`.
-
-    On the second part, along the freedom [N, N m].
-    """
-    if freedom.name == "angle":
-        return "torque"
-    return f"{freedom.name}_{'force' if freedom.kind == 'shift' else 'torque'}"
 
 
 def axes_of(motion: Motion, body: str) -> tuple[Array, Array]:

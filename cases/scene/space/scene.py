@@ -6,12 +6,12 @@ from dataclasses import dataclass, field
 from ...fields.kind import WORK, Fields
 from ...fields.signal import Signal
 from .. import Scene
+from ..body import Body
 from ..frame import SPACE, Frame
 from ..rotation import Vector3
-from .body import SpatialBody
 from .constraint import SpatialEdge
 from .contact import SpatialContact
-from .joint import SpatialJoint, effort_of
+from .joint import SpatialJoint
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,7 @@ class SpatialScene(Scene):
     """
 
     gravity: Vector3  # pyright: ignore[reportIncompatibleVariableOverride]
-    bodies: Mapping[str, SpatialBody]  # pyright: ignore[reportIncompatibleVariableOverride]
+    bodies: Mapping[str, Body]  # pyright: ignore[reportIncompatibleVariableOverride]
     joints: Mapping[str, SpatialJoint]  # pyright: ignore[reportIncompatibleVariableOverride]
     contacts: Mapping[str, SpatialContact]  # pyright: ignore[reportIncompatibleVariableOverride]
     constraints: Mapping[str, SpatialEdge] = field(  # pyright: ignore[reportIncompatibleVariableOverride]
@@ -45,17 +45,6 @@ class SpatialScene(Scene):
     def coordinates(self) -> Mapping[str, Fields]:
         """Nothing more: a joint in space has them by itself."""
         return {}
-
-    def driven(self) -> dict[str, Fields]:
-        """By joint, what the prescribed rates exert: `q1` → `torque`."""
-        found: dict[str, dict[str, tuple[str, str]]] = {}
-        for quantity in self.drives:
-            part, _, rate = quantity.rpartition(".")
-            if part in self.joints and rate in self.joints[part].rates:
-                freedom = self.joints[part].rates[rate]
-                unit = "N" if freedom.kind == "shift" else "N m"
-                found.setdefault(part, {})[effort_of(freedom)] = (unit, "force")
-        return found  # type: ignore[return-value]
 
     @property
     def pressed(self) -> tuple[str, ...]:

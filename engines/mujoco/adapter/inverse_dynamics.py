@@ -12,7 +12,7 @@ import numpy as np
 from ....cases.scene import Scene
 from ....cases.scene.frame import PLANE
 from ....cases.scene.point import CENTER
-from ....cases.scene.space.joint import effort_of
+from ....cases.scene.rotation import matrix
 from ....cases.scene.states import MASS_MATRIX
 from ....cases.trajectory import Array
 from ..callbacks.signal import installed, listening
@@ -92,7 +92,7 @@ def _natives(scene: Scene) -> Iterator[tuple[str, tuple[str, str]]]:
         joint = branch.joint.name
         for native in natives(scene, branch):
             freedom = freedoms_left(scene, branch.joint)[native.of]
-            yield f"{joint}.{freedom.name}", (native.name, f"{joint}.{effort_of(freedom)}")
+            yield f"{joint}.{freedom.name}", (native.name, f"{joint}.{freedom.effort}")
 
 
 def _reader(

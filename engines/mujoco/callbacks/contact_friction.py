@@ -135,7 +135,7 @@ def touches(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> list[To
         if contact.switches and contact.static != contact.kinetic:
             body = scene.bodies[contact.body]
             radius = body.radius or 0.0
-            turns = radius**2 / body.inertia if body.inertia else 0.0
+            turns = radius**2 / body.moment if body.turns else 0.0
             mass = 1 / (1 / body.mass + turns)
             found.append(Touch(model, data, contact, radius, mass, body.mass))
     return found

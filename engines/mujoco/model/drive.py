@@ -12,9 +12,6 @@ from xml.etree import ElementTree as ET
 
 from ....cases.fields.signal import Signal
 from ....cases.scene import GROUND, Joint, Scene
-from ....cases.scene.frame import PLANE
-from ....cases.scene.joint import DRIVES
-from ....cases.scene.space.joint import effort_of, rate_of
 from ...signal import derivative
 from .force import signals
 from .number_text import written
@@ -39,19 +36,10 @@ def drives(scene: Scene) -> Iterator[Drive]:
     for quantity, law in scene.drives.items():
         part, _, rate = quantity.rpartition(".")
         joint = scene.joints[part]
-        number, effort = (_flat if scene.frame is PLANE else _spatial)(scene, joint, rate)
-        yield Drive(joint, number, coordinate(scene, joint, number), law, f"{part}.{effort}")
-
-
-def _flat(scene: Scene, joint: Joint, rate: str) -> tuple[int, str]:
-    kind = "turn" if rate == "omega" else "shift"
-    number = [freedom.kind for freedom in freedoms_left(scene, joint)].index(kind)
-    return number, DRIVES[rate][0]
-
-
-def _spatial(scene: Scene, joint: Any, rate: str) -> tuple[int, str]:
-    number = {rate_of(f.name): i for i, f in enumerate(joint.freedoms) if f.name}[rate]
-    return number, effort_of(joint.freedoms[number])
+        freedom = joint.rates[rate]
+        number = [left.rate for left in freedoms_left(scene, joint)].index(rate)
+        name = coordinate(scene, joint, number)
+        yield Drive(joint, number, name, law, f"{part}.{freedom.effort}")
 
 
 def controls(scene: Scene) -> list[Signal]:

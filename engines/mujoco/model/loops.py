@@ -15,7 +15,7 @@ from ....cases.scene import GROUND, Anchor, Scene
 from ....cases.scene.frame import PLANE, SPACE
 from ....cases.scene.joint import Joint
 from ....cases.scene.rotation import Vector3
-from ....cases.scene.space.chain import across
+from ....cases.scene.chain import across
 from ....cases.trajectory import Array
 from ...engine import Choice
 from .contact import HARDEST

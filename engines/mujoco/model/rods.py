@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from ....cases.scene import Anchor, Scene
 from ....cases.scene.body import Body
-from ....cases.scene.joint import Joint
+from ....cases.scene.joint import Joint, planar_joint
 from ....cases.trajectory import Trajectory
 from ...engine import Start
 from .tree import place, spanned
@@ -43,9 +43,11 @@ def with_rods(scene: Scene, start: Start) -> tuple[Scene, Start]:
         name = called(rod.name)
         length, begun[name] = _between(scene, rod, start)
         points = {"center": (0.0, 0.0), "start": (-length / 2, 0.0), "end": (length / 2, 0.0)}
-        bodies[name] = Body(name, "bar", mass, max(LEAST, mass * length**2 / 12), points)
-        joints[rod.name] = Joint(rod.name, "pin", rod.a, Anchor(name, "start"))
-        joints[f"{rod.name}-end"] = Joint(f"{rod.name}-end", "pin", Anchor(name, "end"), rod.b)
+        bodies[name] = Body(name, "bar", mass, (max(LEAST, mass * length**2 / 12),), points)
+        joints[rod.name] = planar_joint(rod.name, "pin", rod.a, Anchor(name, "start"))
+        joints[f"{rod.name}-end"] = planar_joint(
+            f"{rod.name}-end", "pin", Anchor(name, "end"), rod.b
+        )
     return replace(scene, bodies=bodies, joints=joints), begun
 
 

@@ -135,7 +135,7 @@ def _moments(
         return (least, least, least), None
     if scene.frame is PLANE:
         # Only the moment about z plays in the plane; three equal ones are always a possible body.
-        return (body.inertia, body.inertia, body.inertia), None
+        return (body.moment, body.moment, body.moment), None
     return principal(body.tensor)
 
 

@@ -11,13 +11,13 @@ space a ball; two are a hinge, three a weld. For a slide there is nothing.
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ....cases.scene import GROUND, Anchor, Force, Joint, Scene, Vector
 from ....cases.scene.frame import PLANE
 from ....cases.scene.rotation import Vector3
-from ....cases.scene.space.joint import Freedom
+from ....cases.scene.joint import Freedom
 from ...engine import Start
 from .number_text import lifted
 
@@ -87,10 +87,9 @@ def freedoms_left(scene: Scene, joint: Any) -> tuple[Freedom, ...]:
     rigid = all(end == GROUND or scene.bodies[end].turns for end in ends)
     if scene.frame is not PLANE:
         return joint.freedoms if rigid else (*joint.shifts, Freedom("ball"))
-    x, y = joint.along
-    shifts = (Freedom("shift", (x, y, 0.0), "shift"),) if joint.shifts else ()
-    turns = joint.turns or not (rigid or joint.shifts)
-    return (*shifts, *((Freedom("turn", AXES[2], "angle"),) if turns else ()))
+    shifts = tuple(replace(shift, axis=(*shift.axis, 0.0)) for shift in joint.shifts)
+    turns = joint.turns or not (rigid or shifts)
+    return (*shifts, *((Freedom.turn(AXES[2], "angle"),) if turns else ()))
 
 
 def held_angle(scene: Scene, branch: Branch) -> float:

@@ -24,7 +24,7 @@ def unbuildable(scene: Scene) -> str | None:
     if scene.frame is not PLANE:
         return "engine: pymunk moves bodies in a plane, and this scene is in space"
     for body in scene.bodies.values():
-        inertia = 1.0 if body.inertia is None else body.inertia
+        inertia = body.moment if body.turns else 1.0
         if not (0 < body.mass < math.inf and 0 < inertia < math.inf):
             return f"engine: pymunk takes only positive finite masses, {body.name} has none"
     for part in (*scene.joints.values(), *scene.springs(), *scene.dampers()):

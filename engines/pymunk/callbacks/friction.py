@@ -158,7 +158,7 @@ def _contact(world: World, contact: Contact, step: float) -> Told:
     read, push = reading(body), pushing(body)
     acting, ((ux, uy), (nx, ny)) = load(world, contact.body, step), _axes(contact)
     radius = part.radius or 0.0
-    turn = radius / part.inertia if part.inertia else 0.0  # slip per angular impulse
+    turn = radius / part.moment if part.turns else 0.0  # slip per angular impulse
     mass = 1 / (1 / part.mass + radius * turn)
 
     def along(t: float, normal: float, ahead: float, state: State) -> float:

@@ -57,7 +57,7 @@ def build(scene: Scene, start: Start, numbers: Mapping[str, Any], realised: Real
 
 def _bodies(world: World, start: Start) -> None:
     for body in world.scene.bodies.values():
-        part = Body(body.mass, math.inf if body.inertia is None else body.inertia)
+        part = Body(body.mass, body.moment if body.turns else math.inf)
         x, y, angle, vx, vy, omega = start[body.name]
         part.position, part.velocity = (x, y), (vx, vy)
         part.angle, part.angular_velocity = (angle, omega) if body.turns else (0.0, 0.0)

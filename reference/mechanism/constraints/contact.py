@@ -41,10 +41,10 @@ def at_rest(joint: Joint, where: Layout) -> Constraint:
 
     A pin at rest: φ̇_B − φ̇_A = 0; λ is a moment.
     """
-    row: tuple[Term, ...] = (Line(FIRST, SECOND, joint.along),)
-    names = ("fx", "fy", "friction")
-    if not joint.shifts:
-        row, names = (Turning(SECOND), Turning(FIRST, -1.0)), ("friction",)
+    row: tuple[Term, ...] = (Turning(SECOND), Turning(FIRST, -1.0))
+    names: tuple[str, ...] = ("friction",)
+    if joint.shifts:
+        row, names = (Line(FIRST, SECOND, joint.along),), ("fx", "fy", "friction")
     return Constraint(joint.name, (joint.a, joint.b), (row,), (names,), None, where)
 
 

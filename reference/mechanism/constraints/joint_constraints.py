@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 
 from ....cases.scene import GROUND, Edge, Joint, Scene, Signal, Vector
-from ....cases.scene.space.chain import across as completing
+from ....cases.scene.chain import across as completing
 from ....cases.scene.space.constraint import SpatialEdge
 from ....cases.scene.space.contact import SpatialContact
-from ....cases.scene.space.joint import Freedom, SpatialJoint, effort_of
+from ....cases.scene.joint import Freedom
+from ....cases.scene.space.joint import SpatialJoint
 from ..kinematics.frame import PLANE
 from ..kinematics.kinematics import Layout
 from .constraint import Constraint
@@ -96,12 +97,14 @@ def driven(scene: Scene, quantity: str, law: Signal, where: Layout) -> Constrain
     """(2.15) ω_B − ω_A = s(t), λ being the torque on B; or d/dt u·(r_B − r_A) = s(t), λ along u."""
     part, _, rate = quantity.rpartition(".")
     joint = scene.joints[part]
+    freedom = joint.rates[rate]
     row: tuple[Term, ...]
-    if rate == "omega":
-        row, names = (Turning(SECOND), Turning(FIRST, -1.0), Given(law, angular=True)), ("torque",)
+    if freedom.kind == "turn":
+        row, names = (Turning(SECOND), Turning(FIRST, -1.0), Given(law, angular=True)), ()
     else:
-        row, names = (Line(FIRST, SECOND, joint.along), Given(law)), ("fx", "fy", "drive")
-    return Constraint(part, (joint.a, joint.b), (row,), (names,), None, where, quantity)
+        row, names = (Line(FIRST, SECOND, joint.along), Given(law)), ("fx", "fy")
+    names = ((*names, freedom.effort),)
+    return Constraint(part, (joint.a, joint.b), (row,), names, None, where, quantity)
 
 
 def gliding(edge: Edge, speed: float, where: Layout) -> Constraint:
@@ -238,7 +241,7 @@ def _driven(scene: Any, quantity: str, law: Signal, where: Layout) -> Constraint
         if len(joint.turns) > 2:
             raise ValueError(f"{quantity}: of three turns none can be driven")
         row, names = (turning(joint, freedom), Given(law, angular=True)), MOMENTS
-    names = ((effort_of(freedom), *names),)
+    names = ((freedom.effort, *names),)
     return Constraint(part, (joint.a, joint.b), (row,), names, None, where, quantity)
 
 

@@ -62,13 +62,12 @@ class Coordinates(Layout):
         return [
             entry
             for body in self.scene.bodies.values()
-            for entry in (body.mass, body.mass, body.inertia)
-            if entry is not None
+            for entry in (body.mass, body.mass, *body.inertia)
         ]
 
     def inertia(self, body: Any) -> float | None:
         """J [kg m²] of a body; None of a particle."""
-        return body.inertia
+        return body.moment if body.turns else None
 
     def T(self, q: Any, v: Any) -> Any:
         """(2.54) T = ½ Σ m ṙ_c² + ½ Σ J ω² [J] of the rates v (n,) or (n, K)."""

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....cases.scene.forces.turning import Turning
-from ....cases.scene.space.body import SpatialBody
+from ....cases.scene.body import Body
 from ....cases.scene.space.scene import SpatialScene
 from ...system import Pose
 from .attitude import rates, spin
@@ -91,7 +91,7 @@ class SpatialCoordinates(Layout):
             + ([float(np.max(np.linalg.eigvalsh(body.tensor)))] * 3 if body.turns else [])
         ]
 
-    def inertia(self, body: SpatialBody) -> NDArray[np.float64] | None:
+    def inertia(self, body: Body) -> NDArray[np.float64] | None:
         """J (3, 3) [kg m²] of a body in its axes; None of a particle."""
         return body.tensor if body.turns else None
 

@@ -30,8 +30,7 @@ def even(rows: Array, where: Coordinates) -> Array:
     for name, (_, phi) in where.columns.items():
         if phi is not None:
             body = where.scene.bodies[name]
-            assert body.inertia is not None
-            units[phi] = np.sqrt(body.mass / body.inertia)
+            units[phi] = np.sqrt(body.mass / body.moment)
     return unit(np.asarray(rows, dtype=np.float64) * units)[0]
 
 

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ....cases.scene import GROUND
+from ....cases.scene.chain import turned_by
 from ....cases.scene.rotation import UPRIGHT, about, angle_between, matrix, product, turned
-from ....cases.scene.space.chain import turned_by
 from ....cases.scene.space.joint import SpatialJoint
 from ....cases.scene.space.scene import SpatialScene
 from ...system import Array

@@ -9,11 +9,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ....cases.case import Case, Placement
-from ....cases.scene import GROUND, Anchor
+from ....cases.scene import GROUND, Anchor, chain
+from ....cases.scene.counting import counted
+from ....cases.scene.joint import Freedom
 from ....cases.scene.rotation import UPRIGHT, about, inverse, matrix, product, turned
-from ....cases.scene.space import chain
-from ....cases.scene.space.counting import counted
-from ....cases.scene.space.joint import Freedom, SpatialJoint, rate_of
+from ....cases.scene.space.joint import SpatialJoint
 from ...mechanism.constraints.constraint import Constraint, tracked
 from ...mechanism.kinematics.attitude import skew
 from ...mechanism.modes.spatial_mode import SpatialMultibody
@@ -156,7 +156,7 @@ class Given:
         for freedom, _, row in self.coordinates(joint, q):
             if freedom.name:
                 own = moved.get(freedom.name, 0.0)
-                yield Equation(f"{joint.name}.{rate_of(freedom.name)}", own, row)
+                yield Equation(f"{joint.name}.{freedom.rate}", own, row)
 
     def _driven(self, anchor: Anchor) -> Array:
         """(3,) the velocity of a point of the ground; a body's stands in its rows."""

@@ -73,7 +73,7 @@ def _tensors(scene: Scene) -> dict[str, float]:
     return {
         f"{name}.{key}": max(map(abs, body.inertia))
         for name, body in scene.bodies.items()
-        if body.inertia is not None
+        if body.turns
         for key in body.numbers()
         if key.startswith("inertia")
     }

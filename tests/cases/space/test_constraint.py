@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from textmech.cases.scene.body import Body
+from textmech.cases.scene.frame import SPACE
 from textmech.cases.scene.motion import Motion
 from textmech.cases.scene.point import Anchor
 from textmech.cases.scene.rotation import about, product, turned
-from textmech.cases.scene.space.body import SpatialBody
 from textmech.cases.scene.space.constraint import SpatialEdge
 from textmech.cases.trajectory import Trajectory
 from textmech.reference.motion.bodies import Answer
@@ -19,8 +20,13 @@ from textmech.reference.systems import written
 
 P = (0.13, 0.014, -0.045)
 BLADE = SpatialEdge("blade", Anchor("hand", "P"), (1.0, 0.0, 0.0), kept=True)
-HAND = SpatialBody(
-    "hand", "rigid", 0.7, (1.0, 1.0, 1.0, 0.0, 0.0, 0.0), {"P": P, "center": (0.0, 0.0, 0.0)}
+HAND = Body(
+    "hand",
+    "rigid",
+    0.7,
+    (1.0, 1.0, 1.0, 0.0, 0.0, 0.0),
+    {"P": P, "center": (0.0, 0.0, 0.0)},
+    frame=SPACE,
 )
 YAW, PITCH = 0.5, 0.9  # of the hand; a roll does not turn its long axis
 
@@ -77,7 +83,7 @@ def test_what_it_can_be_asked() -> None:
 
 
 def test_who_cannot_carry_one() -> None:
-    bob = SpatialBody("bob", "particle", 0.7, None, {})
+    bob = Body("bob", "particle", 0.7, (), {}, frame=SPACE)
     assert BLADE.unfit(HAND) is None
     assert "particle" in (BLADE.unfit(bob) or "")
     assert "ground" in (replace(BLADE, at=Anchor("ground", "O")).unfit(None) or "")

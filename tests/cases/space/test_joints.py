@@ -8,12 +8,14 @@ import pytest
 from given.spatial_motions import Array, Moving, T, rate, states, turn
 
 from textmech.cases.scene import Anchor, GroundPoint
+from textmech.cases.scene.body import Body
+from textmech.cases.scene.chain import Turns
+from textmech.cases.scene.counting import far
+from textmech.cases.scene.frame import SPACE
+from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.motion import Motion
-from textmech.cases.scene.space.body import SpatialBody
-from textmech.cases.scene.space.chain import Turns
 from textmech.cases.scene.space.contact import SpatialContact
-from textmech.cases.scene.space.counting import far
-from textmech.cases.scene.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.cases.trajectory import Trajectory
 
 A, B = np.array([0.1, -0.2, 0.3]), np.array([-0.2, 0.1, 0.4])  # the points that are joined
@@ -41,8 +43,8 @@ def first_attitude(t: float) -> Array:
     return turn((1, 1, 3), 2 * t) @ turn((0, 1, 0), t**2)
 
 
-def body(name: str, point: Array) -> SpatialBody:
-    return SpatialBody(name, "rigid", 1.0, (1, 1, 1, 0, 0, 0), {"P": tuple(point)})
+def body(name: str, point: Array) -> Body:
+    return Body(name, "rigid", 1.0, (1, 1, 1, 0, 0, 0), {"P": tuple(point)}, frame=SPACE)
 
 
 def motion(place: Moving, attitude: Moving) -> Motion:
@@ -78,11 +80,11 @@ def jointed(freedoms: list[Freedom], values: list[Coordinate]) -> Motion:
 
 
 def shift(axis: Array, name: str) -> Freedom:
-    return Freedom("shift", tuple(axis), name)
+    return Freedom.shift(tuple(axis), name)
 
 
 def hinge(axis: Array, name: str) -> Freedom:
-    return Freedom("turn", tuple(axis), name)
+    return Freedom.turn(tuple(axis), name)
 
 
 @pytest.mark.parametrize(
@@ -133,10 +135,17 @@ def test_gap() -> None:
 def test_what_touches() -> None:
     """A tilting disk and a sphere: where their lowest points are, and how fast those move."""
     axle = np.array(V)
-    disk = SpatialBody(
-        "d", "disk", 1.0, (1, 1, 1, 0, 0, 0), {"center": (0, 0, 0)}, 0.25, tuple(axle)
+    disk = Body(
+        "d",
+        "disk",
+        1.0,
+        (1, 1, 1, 0, 0, 0),
+        {"center": (0, 0, 0)},
+        0.25,
+        tuple(axle),
+        frame=SPACE,
     )
-    ball = SpatialBody("s", "sphere", 1.0, (1, 1, 1, 0, 0, 0), {"center": (0, 0, 0)}, 0.3)
+    ball = Body("s", "sphere", 1.0, (1, 1, 1, 0, 0, 0), {"center": (0, 0, 0)}, 0.3, frame=SPACE)
     rows = states(first, first_attitude)
     reactions = {"d.fx": np.cos(T), "d.fy": np.sin(3 * T)}
     moved = Motion({"d": disk, "s": ball}, {}, Trajectory(T, {"d": rows, "s": rows}, reactions))

@@ -10,13 +10,13 @@ from given.spatial_motions import turn
 
 from textmech.cases.case import Case
 from textmech.cases.load import load
-from textmech.cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Push, Signal, Torque
+from textmech.cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Push, Signal, Torque, solid
 from textmech.cases.scene.frame import SPACE
+from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.quantity import table
 from textmech.cases.scene.rotation import matrix
-from textmech.cases.scene.space import shape
 from textmech.cases.scene.space.contact import SpatialContact
-from textmech.cases.scene.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.cases.scene.space.scene import SpatialScene
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
@@ -58,31 +58,31 @@ def test_points_and_bodies(tmp_path: Path) -> None:
         "hook": GroundPoint((0.0, 0.0, 1.0), (0.0, 0.1, 0.0)),  # type: ignore[arg-type]
     }
     assert dict(scene.bodies) == {
-        "bar": shape.bar(name="bar", mass=1.2, length=0.8, points={"P": (0.1, 0.0, 0.0)}),
-        "wheel": shape.disk(name="wheel", mass=2.0, radius=0.25, axle=Y, points={}),
-        "globe": shape.sphere(name="globe", mass=2.0, radius=0.25, points={}),
-        "box": shape.block(name="box", mass=2.0, size=(0.1, 0.2, 0.3), points={}),
-        "top": shape.rigid(
+        "bar": solid.bar(name="bar", mass=1.2, length=0.8, points={"P": (0.1, 0.0, 0.0)}),
+        "wheel": solid.disk(name="wheel", mass=2.0, radius=0.25, axle=Y, points={}),
+        "globe": solid.sphere(name="globe", mass=2.0, radius=0.25, points={}),
+        "box": solid.block(name="box", mass=2.0, size=(0.1, 0.2, 0.3), points={}),
+        "top": solid.rigid(
             name="top",
             mass=2.0,
             inertia=(0.05, 0.05, 0.04, 0.0, 0.0, 0.01),
             points={"P": (0.0, 0.0, -0.2)},
         ),
-        "bob": shape.particle(name="bob", mass=0.5),
+        "bob": solid.particle(name="bob", mass=0.5),
     }
 
 
 def test_joints(tmp_path: Path) -> None:
     freedoms = {
-        "q1": ("hinge", "ground.O", "bar.start", (Freedom("turn", Z, "angle"),)),
+        "q1": ("hinge", "ground.O", "bar.start", (Freedom.turn(Z, "angle"),)),
         "neck": ("ball", "ground.hook", "top.P", (Freedom("ball"),)),
-        "cross": ("universal", "bar.end", "box.center", (Freedom("turn", Y), Freedom("turn", Z))),
+        "cross": ("universal", "bar.end", "box.center", (Freedom.turn(Y), Freedom.turn(Z))),
         "rail": (
-            "slide", "ground.O", "bob.center", (Freedom("shift", (0.0, 0.6, 0.8), "shift"),),
+            "slide", "ground.O", "bob.center", (Freedom.shift((0.0, 0.6, 0.8), "shift"),),
         ),
         "upright": (
             "freedoms", "ground.O", "wheel.center",
-            (Freedom("shift", X, "x"), Freedom("shift", Y, "y"), Freedom("turn", Z, "theta")),
+            (Freedom.shift(X, "x"), Freedom.shift(Y, "y"), Freedom.turn(Z, "theta")),
         ),
     }  # fmt: skip
     begins = {"q1": {"angle": radians(30)}}  # of what `initial` and `near` say

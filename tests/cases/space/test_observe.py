@@ -7,11 +7,13 @@ import pytest
 from given.spatial_motions import Array, T, rate, states, turn
 
 from textmech.cases.scene import Anchor, Damper, GroundPoint, Signal, Spring
+from textmech.cases.scene.body import Body
+from textmech.cases.scene.frame import SPACE
+from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.observe import observe
 from textmech.cases.scene.quantity import table
-from textmech.cases.scene.space.body import SpatialBody
 from textmech.cases.scene.space.contact import SpatialContact
-from textmech.cases.scene.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Trajectory
 
@@ -43,13 +45,13 @@ SCENE = SpatialScene(
     gravity=(0.3, -0.7, -9.0),
     points={"O": GroundPoint((0.3, 0.1, 0.2), (0.5, -0.2, 0.1))},  # type: ignore[arg-type]
     bodies={
-        "cloud": SpatialBody("cloud", "rigid", 2.0, SIX, {**CENTER, "P": P, "end": END}),
-        "bob": SpatialBody("bob", "particle", 0.7, None, CENTER),
+        "cloud": Body("cloud", "rigid", 2.0, SIX, {**CENTER, "P": P, "end": END}, frame=SPACE),
+        "bob": Body("bob", "particle", 0.7, (), CENTER, frame=SPACE),
     },
     joints={
         "q": SpatialJoint(
             "q", "hinge", Anchor("bob", "center"), Anchor("cloud", "P"),
-            (Freedom("turn", (0.0, 0.0, 1.0), "angle"),),
+            (Freedom.turn((0.0, 0.0, 1.0), "angle"),),
         ),
     },
     contacts={"touch": SpatialContact("touch", Anchor("cloud", "center"), 0.5, rim=False)},

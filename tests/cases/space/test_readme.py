@@ -10,12 +10,12 @@ from textmech.cases.language.grammar.space.contact import Rolling
 from textmech.cases.language.grammar.space.scene import SpatialScene as Words
 from textmech.cases.language.grammar.space.start import Start, Turn
 from textmech.cases.load import load
-from textmech.cases.scene import Anchor, Signal, Spring, Torsion
+from textmech.cases.scene import Anchor, Signal, Spring, Torsion, solid
+from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.quantity import table
-from textmech.cases.scene.space import shape
 from textmech.cases.scene.space.constraint import SpatialEdge
 from textmech.cases.scene.space.contact import SpatialContact
-from textmech.cases.scene.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.cases.scene.space.scene import SpatialScene
 
 README = Path(find.__file__).with_name("README.md").read_text(encoding="utf-8")
@@ -38,17 +38,17 @@ def test_every_key_is_explained() -> None:
         models += kinds.values()
     for model in models:
         assert set(model.model_fields) <= said, model
-    for noun in shape.SHAPES.values():
+    for noun in solid.SHAPES.values():
         assert set(signature(noun).parameters) - {"name"} <= said, noun
 
 
 def test_quantities() -> None:
     tensor = (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)
     freedoms = (
-        Freedom("shift", (1.0, 0.0, 0.0), "s"),
-        Freedom("turn", (0.0, 0.0, 1.0), "theta"),
+        Freedom.shift((1.0, 0.0, 0.0), "s"),
+        Freedom.turn((0.0, 0.0, 1.0), "theta"),
     )
-    body = shape.rigid(name="body", mass=1, inertia=tensor, points={"point": (0.0, 0.0, 0.0)})
+    body = solid.rigid(name="body", mass=1, inertia=tensor, points={"point": (0.0, 0.0, 0.0)})
     one = Signal("constant", (1.0,))
     scene = SpatialScene(
         gravity=(0.0, 0.0, 0.0),

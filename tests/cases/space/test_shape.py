@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from textmech.cases.scene.space import shape
-from textmech.cases.scene.space.body import SpatialBody
+from textmech.cases.scene import solid
+from textmech.cases.scene.body import Body
 from textmech.cases.trajectory import Array
 
 N = 60  # pieces a side
@@ -35,12 +35,12 @@ def tensor(mass: float, points: Array) -> Array:
     return np.array([[mass * entry.mean() for entry in row] for row in entries])
 
 
-def same(body: SpatialBody, expected: Array, error: float) -> None:
+def same(body: Body, expected: Array, error: float) -> None:
     np.testing.assert_allclose(body.tensor, expected, atol=error * np.abs(expected).max(), rtol=0)
 
 
 def test_bar() -> None:
-    body = shape.bar(name="b", mass=1.2, length=0.8, points={"P": (0.1, 0.2, 0.3)})
+    body = solid.bar(name="b", mass=1.2, length=0.8, points={"P": (0.1, 0.2, 0.3)})
     same(body, tensor(1.2, cloud(midpoints(0.8), np.zeros(1), np.zeros(1))), BY_MIDPOINTS)
     assert body.points == {
         "center": (0.0, 0.0, 0.0),
@@ -53,7 +53,7 @@ def test_bar() -> None:
 @pytest.mark.parametrize("axle", [(0.0, 1.0, 0.0), U])
 def test_disk(axle: tuple[float, float, float]) -> None:
     """Rings of equal mass, whose radii are those of the middle of their mass, about the axle."""
-    body = shape.disk(name="d", mass=1.3, radius=0.25, axle=axle, points={})
+    body = solid.disk(name="d", mass=1.3, radius=0.25, axle=axle, points={})
     u = np.array(axle)
     e = np.cross(u, (1.0, 0.0, 0.0))
     e = e / np.linalg.norm(e)
@@ -65,7 +65,7 @@ def test_disk(axle: tuple[float, float, float]) -> None:
 
 
 def test_sphere() -> None:
-    body = shape.sphere(name="s", mass=2.0, radius=0.3, points={})
+    body = solid.sphere(name="s", mass=2.0, radius=0.3, points={})
     points = cloud(midpoints(0.6), midpoints(0.6), midpoints(0.6))
     inside = points[np.linalg.norm(points, axis=1) < 0.3]
     same(body, tensor(2.0, inside), 2e-3)  # a jagged surface
@@ -73,25 +73,25 @@ def test_sphere() -> None:
 
 
 def test_block() -> None:
-    body = shape.block(name="b", mass=2.0, size=(0.3, 0.1, 0.7), points={})
+    body = solid.block(name="b", mass=2.0, size=(0.3, 0.1, 0.7), points={})
     points = cloud(midpoints(0.3), midpoints(0.1), midpoints(0.7))
     same(body, tensor(2.0, points), BY_MIDPOINTS)
 
 
 def test_given() -> None:
     six = (0.5, 0.6, 0.7, -0.01, 0.02, -0.03)
-    body = shape.rigid(name="r", mass=1.0, inertia=six, points={}, radius=0.2, axle=U)
+    body = solid.rigid(name="r", mass=1.0, inertia=six, points={}, radius=0.2, axle=U)
     expected = [[0.5, -0.01, 0.02], [-0.01, 0.6, -0.03], [0.02, -0.03, 0.7]]
     np.testing.assert_array_equal(body.tensor, expected)
     assert (body.radius, body.axle) == (0.2, U)
-    bob = shape.particle(name="p", mass=1.0)
+    bob = solid.particle(name="p", mass=1.0)
     assert not bob.turns
     assert not bob.tensor.any()
 
 
 def test_how_easily_a_point_moves() -> None:
     """A unit force at the point for a unit time, in every direction, on the free body."""
-    body = shape.rigid(
+    body = solid.rigid(
         name="r", mass=1.7, inertia=(0.5, 0.6, 0.7, -0.1, 0.1, -0.05), points={"P": (0.3, 0.2, 0.9)}
     )
     d = np.array(body.points["P"])
@@ -105,7 +105,7 @@ def test_how_easily_a_point_moves() -> None:
 
 def test_hung_up_at_a_point() -> None:
     """The least moment of inertia about an axis through the point, of many across its arm."""
-    body = shape.rigid(
+    body = solid.rigid(
         name="r", mass=1.7, inertia=(0.5, 0.6, 0.7, -0.1, 0.1, -0.05), points={"P": (0.3, 0.2, 0.9)}
     )
     d = np.array(body.points["P"])
@@ -117,6 +117,6 @@ def test_hung_up_at_a_point() -> None:
 
 
 def test_a_bar_is_moved_as_in_the_plane() -> None:
-    bar = shape.bar(name="b", mass=1.2, length=0.8, points={})
+    bar = solid.bar(name="b", mass=1.2, length=0.8, points={})
     assert bar.mobility("end") == pytest.approx(4 / 1.2, rel=1e-12)  # as in the plane
     assert bar.about("end") == pytest.approx(1.2 * 0.8**2 / 3, rel=1e-12)

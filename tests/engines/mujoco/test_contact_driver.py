@@ -102,7 +102,7 @@ def test_what_stops_slipping_is_turned_about_where_it_touches(slip: float) -> No
     x, turn = (model.joint(f"wheel.{way}").dofadr[0] for way in ("x", "angle"))
 
     def moment() -> float:
-        return float(WHEEL.inertia * data.qvel[turn] - WHEEL.mass * RADIUS * data.qvel[x])
+        return float(WHEEL.moment * data.qvel[turn] - WHEEL.mass * RADIUS * data.qvel[x])
 
     before = moment()
     touch.halt()

@@ -7,7 +7,7 @@ from xml.etree import ElementTree as ET
 import pytest
 from given.planning import planned
 
-from textmech.cases.scene import Anchor, Contact, GroundPoint, Joint, Scene
+from textmech.cases.scene import Anchor, Contact, GroundPoint, Scene, planar_joint
 from textmech.cases.scene.shape import bar, disk
 from textmech.engines.engine import Start
 from textmech.engines.mujoco import MuJoCo
@@ -21,9 +21,9 @@ WHEEL = Scene(
         "other": bar(name="other", mass=1.0, length=1.0, points={}),
     },
     {
-        "A": Joint("A", "pin", Anchor("ground", "O"), Anchor("rod", "start")),
-        "B": Joint("B", "pin", Anchor("rod", "center"), Anchor("other", "center")),
-        "C": Joint("C", "pin", Anchor("other", "end"), Anchor("ground", "Q")),
+        "A": planar_joint("A", "pin", Anchor("ground", "O"), Anchor("rod", "start")),
+        "B": planar_joint("B", "pin", Anchor("rod", "center"), Anchor("other", "center")),
+        "C": planar_joint("C", "pin", Anchor("other", "end"), Anchor("ground", "Q")),
     },
     {"touch": Contact("touch", Anchor("wheel", "center"), 0.5, 0.5, ideal="rolling")},
     {},

@@ -62,7 +62,7 @@ def by_angle(at: Start) -> float:
     turn = lambda r: n @ np.array([-r[1], r[0]])  # noqa: E731
     hinge = np.array([[1, 0, ay, 0, 0, 0], [0, 1, -ax, 0, 0, 0]])
     slot = np.array([[*-n, -turn(on_arm), *n, turn(on_rod)]])
-    masses = [ARM.mass, ARM.mass, ARM.inertia, ROD.mass, ROD.mass, ROD.inertia]
+    masses = [ARM.mass, ARM.mass, ARM.moment, ROD.mass, ROD.mass, ROD.moment]
     weights = 1 / np.sqrt(np.array(masses, float))
     angle = float(np.min(subspace_angles((hinge * weights).T, (slot * weights).T)))
     return max(1.0, math.log(2) / -math.log(math.cos(angle) ** 2))

@@ -160,9 +160,7 @@ def test_a_wrong_generated_answer_is_seen(change: str) -> None:
     bar = scene.bodies["bar"]
     wrong = {
         "gravity": replace(scene, gravity=(0.0, 0.0)),
-        "inertia": replace(
-            scene, bodies={"bar": replace(bar, inertia=1.05 * (bar.inertia or 0.0))}
-        ),
+        "inertia": replace(scene, bodies={"bar": replace(bar, inertia=(1.05 * bar.moment,))}),
         "mass": replace(scene, bodies={"bar": replace(bar, mass=1.05 * bar.mass)}),
     }[change]
     case = replace(PENDULUM, scene=wrong)

@@ -46,6 +46,11 @@ def in_system(**methods: Callable[..., Any]) -> Plant:
     return lambda case, system, patch: (case, mutant(system, **methods))
 
 
+def scaled(number: Any, factor: float) -> Any:
+    """A body's mass, or each of its moments of inertia, times a factor."""
+    return tuple(factor * x for x in number) if isinstance(number, tuple) else factor * number
+
+
 def in_scene(**changes: Any) -> Plant:
     """Of what the mechanism is generated from: the first body's, or the scene's."""
 
@@ -53,7 +58,9 @@ def in_scene(**changes: Any) -> Plant:
         (name, body), *_ = case.scene.bodies.items()
         if "gravity" in changes:
             return replace(case, scene=replace(case.scene, **changes)), system
-        bodies = {name: replace(body, **{k: f * getattr(body, k) for k, f in changes.items()})}
+        bodies = {
+            name: replace(body, **{k: scaled(getattr(body, k), f) for k, f in changes.items()})
+        }
         return replace(case, scene=replace(case.scene, bodies=bodies)), system
 
     return plant

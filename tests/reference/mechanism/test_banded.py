@@ -8,7 +8,7 @@ import pytest
 from given import random_machines, random_scenes
 from given.engine_scenes import chain
 
-from textmech.cases.scene import Anchor, Joint, Scene
+from textmech.cases.scene import Anchor, Scene, planar_joint
 from textmech.reference.formalisms import lagrange
 from textmech.reference.mechanism.constraints.banded_solver import band
 from textmech.reference.mechanism.constraints.equation_table import Rows, Table
@@ -29,7 +29,9 @@ def shuffled(scene: Scene, seed: int = 1) -> Scene:
 def ring(n: int) -> Scene:
     """A chain with a slide from its last bar to the ground: a loop."""
     scene, _ = chain(n)
-    end = Joint("end", "slide", Anchor(f"b{n - 1}", "end"), Anchor("ground", "O"), (0.6, 0.8))
+    end = planar_joint(
+        "end", "slide", Anchor(f"b{n - 1}", "end"), Anchor("ground", "O"), (0.6, 0.8)
+    )
     return replace(scene, joints={**scene.joints, "end": end})
 
 
@@ -101,7 +103,9 @@ def test_the_order_in_which_joints_are_written_does_not_matter():
 def test_a_star_is_no_band():
     """Forty joints on one body: each of their rows meets all others."""
     scene = SCENES["chain"]
-    joints = {f"j{i}": Joint(f"j{i}", "pin", HUB, Anchor(f"b{i}", "start")) for i in range(1, 20)}
+    joints = {
+        f"j{i}": planar_joint(f"j{i}", "pin", HUB, Anchor(f"b{i}", "start")) for i in range(1, 20)
+    }
     star = replace(scene, joints=joints)
     where = Coordinates(star)
     assert band(assembled(star, where), np.array(where.masses)) is None
@@ -111,7 +115,7 @@ def test_the_joint_that_holds_nothing_is_named():
     """Of the ground to itself: its rows are zero, exactly."""
     scene = SCENES["shuffled"]
     ground = Anchor("ground", "O")
-    joints = {"idle": Joint("idle", "pin", ground, ground), **scene.joints}
+    joints = {"idle": planar_joint("idle", "pin", ground, ground), **scene.joints}
     mechanism, t, q, v = made("shuffled")
     idle = Multibody(replace(scene, joints=joints), mechanism.start())
     with pytest.raises(SingularPose, match="what idle holds"):

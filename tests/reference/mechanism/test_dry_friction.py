@@ -9,10 +9,10 @@ from textmech.cases.scene import (
     Bounds,
     DryFriction,
     GroundPoint,
-    Joint,
     Scene,
     Smooth,
     Spring,
+    planar_joint,
     shape,
 )
 from textmech.reference.formalisms import lagrange
@@ -26,7 +26,7 @@ from textmech.reference.systems.friction.smooth_friction import SmoothDynamomete
 def guided(mass: float, smooth: Smooth | None) -> Scene:
     """A particle on a slide of the ground, thrown along it."""
     friction = DryFriction(Bounds(3.0, 4.0), Bounds(2.0, 2.5), smooth)
-    slide = Joint(
+    slide = planar_joint(
         "rail",
         "slide",
         Anchor("ground", "O"),
@@ -81,7 +81,9 @@ def test_smooth_friction_on_an_oblique_slide_of_odd_mass() -> None:
         gravity=(0.0, 0.0),
         points={"O": GroundPoint((0.0, 0.0)), "hook": GroundPoint((0.6, 0.8), (1.2, 1.6))},
         bodies={"dot": shape.particle(name="dot", mass=1.3)},
-        joints={"rail": Joint("rail", "slide", *ends, along=(0.6, 0.8), dry_friction=friction)},
+        joints={
+            "rail": planar_joint("rail", "slide", *ends, along=(0.6, 0.8), dry_friction=friction)
+        },
         contacts={},
         forces={"coil": Spring("coil", Anchor("ground", "hook"), ends[1], 2.0, 1.0)},
     )

@@ -7,8 +7,8 @@ from given import random_scenes
 from textmech.cases.scene import (
     Anchor,
     Contact,
-    Joint,
     Scene,
+    planar_joint,
     shape,
 )
 from textmech.reference.formalisms import energy, lagrange
@@ -75,8 +75,8 @@ def rods() -> Scene:
             "disk": shape.disk(name="disk", mass=0.5, radius=0.2, points={"Q": (0.1, 0.05)}),
         },
         joints={
-            "knee": Joint("knee", "pin", Anchor("one", "end"), Anchor("two", "start")),
-            "hub": Joint("hub", "pin", Anchor("two", "end"), Anchor("disk", "Q")),
+            "knee": planar_joint("knee", "pin", Anchor("one", "end"), Anchor("two", "start")),
+            "hub": planar_joint("hub", "pin", Anchor("two", "end"), Anchor("disk", "Q")),
         },
         contacts={
             "P": Contact("P", Anchor("one", "P"), 0.4, 0.3),

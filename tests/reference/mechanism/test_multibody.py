@@ -57,7 +57,7 @@ def test_free_scenes_keep_momentum_and_angular_momentum() -> None:
             xy, phi = mechanism.where.columns[body.name]
             F = body.mass * a[xy : xy + 2]
             moment = q[xy] * F[1] - q[xy + 1] * F[0]
-            moment += body.inertia * a[phi] if body.inertia and phi is not None else 0.0
+            moment += body.moment * a[phi] if phi is not None else 0.0
             total += [*F, moment]
             size = max(size, *np.abs(F), abs(moment))
         assert np.max(np.abs(total)) < EXACT * size

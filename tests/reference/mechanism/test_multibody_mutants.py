@@ -9,7 +9,16 @@ import pytest
 from given import random_scenes
 from given.multibody_laws import EXACT, Law, balance, lagrangian
 
-from textmech.cases.scene import GROUND, Anchor, Body, GroundPoint, Joint, Scene, Spring, shape
+from textmech.cases.scene import (
+    GROUND,
+    Anchor,
+    Body,
+    GroundPoint,
+    Scene,
+    Spring,
+    planar_joint,
+    shape,
+)
 from textmech.reference.mechanism.constraints.constraint_terms import Line
 from textmech.reference.mechanism.forces import action
 from textmech.reference.mechanism.kinematics.frame import Vec
@@ -19,7 +28,7 @@ from textmech.reference.system import Array
 
 
 def heavier(body: Body) -> Body:
-    return replace(body, inertia=body.inertia * 1.05) if body.inertia else body
+    return replace(body, inertia=tuple(1.05 * J for J in body.inertia))
 
 
 class Turning(Multibody):
@@ -75,8 +84,8 @@ def mutated(kind: type[Multibody] = Multibody) -> Multibody:
         points={"O": GroundPoint((0.3, -0.1))},
         bodies={"bar": bar, "block": block},
         joints={
-            "hinge": Joint("hinge", "pin", Anchor(GROUND, "O"), Anchor("bar", "start")),
-            "rail": Joint(
+            "hinge": planar_joint("hinge", "pin", Anchor(GROUND, "O"), Anchor("bar", "start")),
+            "rail": planar_joint(
                 "rail", "slide", Anchor("bar", "end"), Anchor("block", "center"), (0.6, 0.8), 0.4
             ),
         },

@@ -53,8 +53,8 @@ def test_every_body_obeys_newton_and_euler(build: Build) -> None:
         acting = list(_acting(build.scene, found, name, q, v, forces))
         total, size = np.sum(acting, axis=0), np.max(np.abs(acting))
         np.testing.assert_allclose(total[:2], body.mass * a[xy : xy + 2], rtol=0, atol=SAME * size)
-        if phi is not None and body.inertia is not None:
-            np.testing.assert_allclose(total[2], body.inertia * a[phi], rtol=0, atol=SAME * size)
+        if phi is not None:
+            np.testing.assert_allclose(total[2], body.moment * a[phi], rtol=0, atol=SAME * size)
 
 
 def _acting(scene: Scene, m: Multibody, name: str, q: Array, v: Array, reactions):  # type: ignore[no-untyped-def]

@@ -62,7 +62,7 @@ def uneven(scene: Scene, random: np.random.Generator) -> Scene:
 
     def other(body: Body) -> Body:
         factor = 10.0 ** random.uniform(-4.0, 4.0)
-        inertia = None if body.inertia is None else body.inertia * factor
+        inertia = tuple(J * factor for J in body.inertia)
         return replace(body, mass=body.mass * factor, inertia=inertia)
 
     return replace(scene, bodies={k: other(b) for k, b in scene.bodies.items()}, forces={})

@@ -14,7 +14,6 @@ from given.claims import CHAIN, claimed
 from textmech.cases.case import Case, Placement
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene import Signal
-from textmech.cases.scene.space.joint import rate_of
 from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Array
 from textmech.reference.laws import energy, inertia, momentum, rotation
@@ -157,7 +156,7 @@ def driven(case: Case, scene: SpatialScene, chain: Stated, q: Array, v: Array, a
         given = {}
         for freedom in joint.freedoms:
             at = chain.coordinates.index(f"{joint.name}.{freedom.name}")
-            rate = rate_of(freedom.name)
+            rate = freedom.rate
             drives[f"{joint.name}.{rate}"] = Signal(
                 "sine", (math.hypot(v[at], a[at]),), 1.0, math.atan2(v[at], a[at])
             )

@@ -4,11 +4,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ....scene.body import Body
 from ....scene.point import Anchor
-from ....scene.space.body import SpatialBody
+from ....scene.solid import without_inertia
 from ....scene.space.joint import SpatialJoint
 from ....scene.space.scene import SpatialScene
-from ....scene.space.tensor import without_inertia
 from ....trajectory import Array
 from ...parse import Finding, Parsed
 
@@ -26,14 +26,14 @@ def turns_freely(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
                 path = ("scene", "joints", name, joint.word)
                 yield path, f"{at.body!r} is a particle and cannot turn; join it by a `ball`"
     for name, body in scene.bodies.items():
-        if body.inertia is None or parsed.shaken:
+        if not body.turns or parsed.shaken:
             continue
         axis = without_inertia(body.inertia)
         if axis is not None and not _held(parsed, scene, name, axis):
             yield ("scene", "bodies", name), _freely(body, axis)
 
 
-def _freely(body: SpatialBody, axis: Array) -> str:
+def _freely(body: Body, axis: Array) -> str:
     if body.shape == "bar":
         own = "nothing keeps it from turning about its own axis"
         return f"{body.name!r} is a slender bar: {own}, {_NONE}; give it as a `rigid` with a tensor"

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from typing import Any
 
 from ....mistake import nearest
+from ....scene.body import Body
 from ....scene.point import FLOOR, GROUND
-from ....scene.space.body import SpatialBody
 from ....scene.space.scene import SpatialScene
 from ...parse import Finding, Parsed
 from ..drive import fits, unknown
@@ -95,7 +95,7 @@ def rolls(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
             yield (*path, 1), f"should be {GROUND}.{FLOOR}, is {floor!r}"
 
 
-def _no_pivot(body: SpatialBody, point: str) -> str | None:
+def _no_pivot(body: Body, point: str) -> str | None:
     """Why the body cannot stand on the point."""
     if not body.turns:
         return f"{body.name!r} is a particle: a pivot lets a body turn about its point"

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 
 from ....fields.number import Amount, NumberMistake, fitting, shown
 from ....mistake import Path, listed, nearest
-from ....scene.space.body import SpatialBody
+from ....scene.body import Body
 from ....scene.space.joint import SpatialJoint
 from ....scene.space.scene import SpatialScene
 from ...grammar.space.start import Start, Vector
@@ -31,7 +31,7 @@ def starts(parsed: Parsed, scene: SpatialScene, key: str) -> Iterator[Finding]:
             yield (key, name), f"unknown body or joint {name!r}{nearest(name, known)}"
 
 
-def _of_body(path: Path, body: SpatialBody, start: Start, *, rates: bool) -> Iterator[Finding]:
+def _of_body(path: Path, body: Body, start: Start, *, rates: bool) -> Iterator[Finding]:
     units = {**_PLACES, **(_RATES if rates else {})}
     keys = [*units, "attitude", *(["omega"] if rates else [])]
     given = [*start.entries, *([] if start.attitude is None else ["attitude"])]
@@ -55,7 +55,7 @@ def _of_body(path: Path, body: SpatialBody, start: Start, *, rates: bool) -> Ite
 
 def _of_joint(path: Path, joint: SpatialJoint, start: Start, *, rates: bool) -> Iterator[Finding]:
     ball = any(f.kind == "ball" for f in joint.freedoms)
-    units = {f.name: "m" if f.kind == "shift" else "rad" for f in joint.named}
+    units = {f.name: f.unit for f in joint.named}
     if rates:
         units |= {name: f"{units[f.name]}/s" for name, f in joint.rates.items()}
     keys = [*units, *(["attitude"] if ball else []), *(["omega"] if ball and rates else [])]

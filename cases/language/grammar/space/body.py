@@ -7,7 +7,7 @@ from pydantic import Field
 from ....fields.part import Name, OneOf
 from ....fields.vector import Position
 from ....fields.words import wrong
-from ....scene.space.shape import SHAPES
+from ....scene.solid import SHAPES
 from ..body import ALIKE, Shaped, body
 
 

@@ -9,8 +9,8 @@ from ....fields.friction_grammar import Coefficient
 from ....fields.part import Part
 from ....fields.text import Text, Word
 from ....fields.words import wrong
+from ....scene.body import Body
 from ....scene.point import anchor
-from ....scene.space.body import SpatialBody
 from ....scene.space.contact import SpatialContact
 
 _ONLY = (
@@ -40,7 +40,7 @@ class Rolling(Part):
             raise wrong(f"needs `ideal: rolling` or `ideal: pivot`: {_ONLY}")
         return value
 
-    def named(self, name: str, bodies: Mapping[str, SpatialBody]) -> SpatialContact:
+    def named(self, name: str, bodies: Mapping[str, Body]) -> SpatialContact:
         """The contact; of a body with an axle, by its rim."""
         at = anchor(self.between[0])
         body = bodies.get(at.body)

@@ -1,7 +1,8 @@
 """The freedoms that a joint names: shifts along axes, then turns about axes, in their order."""
 
+from collections.abc import Callable
 from itertools import pairwise
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from pydantic import AfterValidator, Field
@@ -10,8 +11,10 @@ from ....fields.part import OneOf, Part
 from ....fields.text import IDENTIFIER, Text, label
 from ....fields.vector import Direction
 from ....fields.words import wrong
+from ....scene.joint import Freedom
+from ....scene.point import Vector
 from ....scene.rotation import Vector3
-from ....scene.space.joint import HELD, Freedom, effort_of, rate_of
+from ....scene.space.joint import HELD
 
 PARALLEL = 1e-9  # sine of an angle: axes are typed with up to ten digits
 
@@ -22,24 +25,24 @@ class Left(Part):
     """One freedom, written as what would leave just it, with its axis."""
 
     word: ClassVar[str]
-    kind: ClassVar[Any]
+    leaves: ClassVar[Callable[[Vector, str], Freedom]]
 
     def named(self, name: str) -> Freedom:
         """The freedom."""
-        return Freedom(self.kind, getattr(self, self.word), name)
+        return type(self).leaves(getattr(self, self.word), name)
 
 
 class FreeShift(Left):
     """A shift along an axis of the first part."""
 
-    word, kind = "slide", "shift"
+    word, leaves = "slide", Freedom.shift
     slide: Direction
 
 
 class FreeTurn(Left):
     """A turn about an axis, which stands in the axes that the freedoms before it leave."""
 
-    word, kind = "hinge", "turn"
+    word, leaves = "hinge", Freedom.turn
     hinge: Direction
 
 
@@ -81,11 +84,11 @@ def _no_name_twice(freedoms: tuple[Freedom, ...]) -> None:
     """Coordinates, rates and what drives exert are quantities, as the joint's reactions are."""
     taken = dict.fromkeys(HELD, "")
     for f in freedoms:
-        for name in (f.name, rate_of(f.name), effort_of(f)):
+        for name in (f.name, f.rate, f.effort):
             if name in taken:
                 by = f" by {taken[name]!r}" if taken[name] else ""
                 raise wrong(f"{f.name!r} needs the name {name!r}, which is taken{by}")
-        taken |= dict.fromkeys((f.name, rate_of(f.name), effort_of(f)), f.name)
+        taken |= dict.fromkeys((f.name, f.rate, f.effort), f.name)
 
 
 Freedoms = Annotated[

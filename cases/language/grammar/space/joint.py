@@ -7,8 +7,9 @@ from pydantic import Field
 from ....fields.part import OneOf, Pair, Part
 from ....fields.vector import Direction
 from ....fields.words import wrong
+from ....scene.joint import Freedom
 from ....scene.point import anchor
-from ....scene.space.joint import Freedom, SpatialJoint
+from ....scene.space.joint import SpatialJoint
 from .freedom import Freedoms, parallel
 
 
@@ -39,7 +40,7 @@ class Hinge(SpatialJointed):
     axis: Direction = Field(description="in the axes of the first part")
 
     def left(self) -> tuple[Freedom, ...]:
-        return (Freedom("turn", self.axis, "angle"),)
+        return (Freedom.turn(self.axis, "angle"),)
 
 
 class Ball(SpatialJointed):
@@ -66,7 +67,7 @@ class Universal(SpatialJointed):
             raise wrong("the two `axes` are parallel: then it is a `hinge`")
 
     def left(self) -> tuple[Freedom, ...]:
-        return tuple(Freedom("turn", axis) for axis in self.axes)
+        return tuple(Freedom.turn(axis) for axis in self.axes)
 
 
 class SpatialSlide(SpatialJointed):
@@ -77,7 +78,7 @@ class SpatialSlide(SpatialJointed):
     along: Direction = Field(description="in the axes of the first part")
 
     def left(self) -> tuple[Freedom, ...]:
-        return (Freedom("shift", self.along, "shift"),)
+        return (Freedom.shift(self.along, "shift"),)
 
 
 class SpatialWeld(SpatialJointed):

@@ -5,14 +5,22 @@ import pytest
 from given.engine_space import STILL, simulated, spatial, state
 
 from textmech.cases.scene import Anchor
+from textmech.cases.scene.body import Body
+from textmech.cases.scene.frame import SPACE
 from textmech.cases.scene.rotation import about, turned
-from textmech.cases.scene.space.body import SpatialBody
 from textmech.cases.scene.space.contact import SpatialContact
 
 R, M = 0.25, 1.3
 J = M * R * R / 4
-DISK = SpatialBody(
-    "disk", "disk", M, (J, 2 * J, J, 0.0, 0.0, 0.0), {"center": STILL}, R, (0.0, 1.0, 0.0)
+DISK = Body(
+    "disk",
+    "disk",
+    M,
+    (J, 2 * J, J, 0.0, 0.0, 0.0),
+    {"center": STILL},
+    R,
+    (0.0, 1.0, 0.0),
+    frame=SPACE,
 )
 SCENE = spatial([DISK], contacts=[SpatialContact("touch", Anchor("disk", "center"), 1.0, rim=True)])
 

@@ -22,10 +22,11 @@ from given.engine_space import (
 )  # fmt: skip
 
 from textmech.cases.scene import Anchor, Push, Signal, Torque
+from textmech.cases.scene.body import Body
 from textmech.cases.scene.frame import SPACE
+from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.rotation import about, angle_between, turned
-from textmech.cases.scene.space.body import SpatialBody
-from textmech.cases.scene.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Plan, Start
@@ -104,7 +105,7 @@ def test_a_pendulum_on_a_driven_point_swings_as_on_a_fixed_one() -> None:
 def test_a_driven_slide_and_turn_tell_force_and_torque(back: bool) -> None:
     """x = (1 − cos 3t)/3 along an axis, about which it turns at t: m ẍ along it, and J about it."""
     axis = np.array([0.6, 0.0, 0.8])
-    freedoms = (Freedom("shift", vector(axis), "x"), Freedom("turn", vector(axis), "theta"))
+    freedoms = (Freedom.shift(vector(axis), "x"), Freedom.turn(vector(axis), "theta"))
     ends = ("b.center", "ground.O") if back else ("ground.O", "b.center")
     rail = joint("rail", "freedoms", *ends, *freedoms)
     drives = {"rail.x_dot": Signal("sine", (1.0,), 3.0), "rail.theta_dot": Signal("ramp", (2.0,))}
@@ -147,7 +148,7 @@ def test_a_pair_on_a_ball_joint_starts_as_given_and_keeps_its_momentum(back: boo
     assert np.max(np.ptp(angular, axis=0)) < 1e-10
 
 
-def momenta(motion: Trajectory, bodies: list[SpatialBody]) -> tuple[Array, Array]:
+def momenta(motion: Trajectory, bodies: list[Body]) -> tuple[Array, Array]:
     """(N, 3) each, about the origin."""
     momentum, angular = np.zeros((2, len(motion.times), 3))
     for body in bodies:
@@ -167,7 +168,7 @@ def test_a_free_pair_turns_by_a_drive_and_keeps_its_momentum() -> None:
     joints = [
         joint(
             "waist", "universal", "front.j", "back.j",
-            Freedom("turn", (0.0, 1.0, 0.0), "bend"), Freedom("turn", (1.0, 0.0, 0.0), "twist"),
+            Freedom.turn((0.0, 1.0, 0.0), "bend"), Freedom.turn((1.0, 0.0, 0.0), "twist"),
         )
     ]  # fmt: skip
     drives = {

@@ -18,8 +18,8 @@ from given.engine_space import (
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
+from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.motion import Motion
-from textmech.cases.scene.space.joint import Freedom
 from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Start
@@ -55,7 +55,7 @@ def shafts() -> tuple[SpatialScene, Start]:
         hinge("first", "ground.F", "in.foot", UP),
         joint(
             "cross", "universal", "in.end", "out.foot",
-            Freedom("turn", (0.0, 1.0, 0.0)), Freedom("turn", (1.0, 0.0, 0.0)),
+            Freedom.turn((0.0, 1.0, 0.0)), Freedom.turn((1.0, 0.0, 0.0)),
         ),
         ball("last", "out.end", "ground.E"),
     ]  # fmt: skip

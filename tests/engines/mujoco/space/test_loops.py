@@ -18,8 +18,9 @@ from given.engine_space import (
 )  # fmt: skip
 from scipy.spatial.transform import Rotation
 
+from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.rotation import angle_between
-from textmech.cases.scene.space.joint import Freedom, SpatialJoint
+from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.cases.scene.space.scene import SpatialScene
 from textmech.engines.engine import Refusal, Start
 from textmech.engines.mujoco import MuJoCo
@@ -82,9 +83,9 @@ def test_two_hinges_on_one_axis_let_it_turn() -> None:
 
 def test_a_weld_closes_a_loop_and_its_moment_is_read() -> None:
     """With what the other joint holds it keeps the balance; the bar does not move."""
-    turns = [Freedom("turn", axis) for axis in (ALONG, (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]
+    turns = [Freedom.turn(axis) for axis in (ALONG, (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]
     joints = [
-        joint("guide", "freedoms", "ground.L", "b.l", Freedom("shift", ALONG), *turns),
+        joint("guide", "freedoms", "ground.L", "b.l", Freedom.shift(ALONG), *turns),
         joint("held", "weld", "b.r", "ground.R"),
     ]
     start = {"b": state(STILL, (1, 0, 0, 0), STILL, STILL)}
@@ -113,8 +114,8 @@ def test_what_cannot_move_is_refused() -> None:
 @pytest.mark.parametrize(
     ("kind", "freedoms"),
     [
-        ("slide", (Freedom("shift", (1.0, 0.0, 0.0), "shift"),)),
-        ("universal", (Freedom("turn", (1.0, 0.0, 0.0)), Freedom("turn", (0.0, 1.0, 0.0)))),
+        ("slide", (Freedom.shift((1.0, 0.0, 0.0), "shift"),)),
+        ("universal", (Freedom.turn((1.0, 0.0, 0.0)), Freedom.turn((0.0, 1.0, 0.0)))),
     ],
 )
 def test_what_connect_cannot_close_is_refused(kind: str, freedoms: tuple[Freedom, ...]) -> None:

@@ -23,11 +23,12 @@ from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
 from textmech.cases.scene import Anchor, Signal
+from textmech.cases.scene.body import Body
+from textmech.cases.scene.frame import SPACE
+from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.motion import Motion
 from textmech.cases.scene.rotation import about, angle_between, inverse, product, turned
-from textmech.cases.scene.space.body import SpatialBody
 from textmech.cases.scene.space.contact import SpatialContact
-from textmech.cases.scene.space.joint import Freedom
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Plan, Start
 from textmech.engines.mujoco import MuJoCo
@@ -45,7 +46,7 @@ def felt(motion: Any) -> Array:
 
 R, M = 0.2, 1.5
 J = 0.4 * M * R * R
-SPHERE = SpatialBody("ball", "sphere", M, (J, J, J, 0.0, 0.0, 0.0), CENTRE, R)
+SPHERE = Body("ball", "sphere", M, (J, J, J, 0.0, 0.0, 0.0), CENTRE, R, frame=SPACE)
 SLOPE = np.array([0.3 * 0.8, 0.3 * 0.6, -0.95]) * G
 
 
@@ -68,7 +69,9 @@ def test_a_sphere_rolls_obliquely_down_an_incline() -> None:
 
 RIM, MASS = 0.1, 0.3
 A, C = MASS * RIM**2 / 4, MASS * RIM**2 / 2
-COIN = SpatialBody("coin", "disk", MASS, (A, A, C, 0.0, 0.0, 0.0), CENTRE, RIM, (0.0, 0.0, 1.0))
+COIN = Body(
+    "coin", "disk", MASS, (A, A, C, 0.0, 0.0, 0.0), CENTRE, RIM, (0.0, 0.0, 1.0), frame=SPACE
+)
 ROLLS = SpatialContact("touch", Anchor("coin", "center"), 5.0, rim=True)
 LEANING = spatial([COIN], contacts=[ROLLS])
 
@@ -161,13 +164,20 @@ def test_a_coin_starts_as_the_floor_carries_it() -> None:
     assert np.max(np.abs(felt(shipped) - forces)) > 1.0
 
 
-WHEEL = SpatialBody(
-    "wheel", "disk", 1.3, (0.02, 0.04, 0.02, 0.0, 0.0, 0.0), CENTRE, 0.3, (0.0, 1.0, 0.0)
+WHEEL = Body(
+    "wheel",
+    "disk",
+    1.3,
+    (0.02, 0.04, 0.02, 0.0, 0.0, 0.0),
+    CENTRE,
+    0.3,
+    (0.0, 1.0, 0.0),
+    frame=SPACE,
 )
 UPRIGHT = joint(
     "upright", "freedoms", "ground.O", "wheel.center",
-    *(Freedom("shift", vector(axis), name) for axis, name in zip(np.eye(3), "xyz", strict=True)),
-    Freedom("turn", (0.0, 0.0, 1.0), "theta"), Freedom("turn", (0.0, 1.0, 0.0), "phi"),
+    *(Freedom.shift(vector(axis), name) for axis, name in zip(np.eye(3), "xyz", strict=True)),
+    Freedom.turn((0.0, 0.0, 1.0), "theta"), Freedom.turn((0.0, 1.0, 0.0), "phi"),
 )  # fmt: skip
 
 

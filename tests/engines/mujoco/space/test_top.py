@@ -22,8 +22,8 @@ from given.engine_space import (
 from scipy.integrate import solve_ivp
 
 from textmech.cases.scene import Anchor, Damper, Push, Signal, Spring, Torque
+from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.rotation import angle_between, inverse, product, turned
-from textmech.cases.scene.space.joint import Freedom
 from textmech.cases.trajectory import Array
 
 J, MASS = np.array(LOPSIDED), 1.3
@@ -93,7 +93,7 @@ def test_a_gyroscope_in_gimbals_is_a_free_body() -> None:
     Of order 4 (2e-9 at half the step), for MuJoCo integrates angles and Euler's equations do not.
     """
     times = np.linspace(0.0, 0.5, 6)
-    turns = [Freedom("turn", axis, name) for axis, name in _GIMBALS]
+    turns = [Freedom.turn(axis, name) for axis, name in _GIMBALS]
     scene = spatial([rigid("rotor", MASS, J)], [joint("mount", "freedoms", *_ENDS, *turns)])
     begun = state(STILL, attitude((0.7, 0.6, -0.1, 0.2)), STILL, (1.0, 2.0, 20.0))
     names = ["mount.fz", *(f"mount.m{axis}" for axis in "xyz")]
@@ -111,8 +111,8 @@ _GIMBALS = (
 
 
 _AXES = [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.6, 0.8)]
-SHIFTS = [Freedom("shift", axis, name) for axis, name in zip(_AXES, "xyz", strict=True)]
-TURNS = [Freedom("turn", axis, name) for axis, name in _GIMBALS]
+SHIFTS = [Freedom.shift(axis, name) for axis, name in zip(_AXES, "xyz", strict=True)]
+TURNS = [Freedom.turn(axis, name) for axis, name in _GIMBALS]
 
 
 @pytest.mark.parametrize("back", [False, True])

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...trajectory import Array
-from ..rotation import UPRIGHT, Vector3, inverse, product, turned
+from ..trajectory import Array
+from .rotation import UPRIGHT, Vector3, inverse, product, turned
 
 ROUNDING = 3 * float(np.finfo(float).eps)  # of three numbers each
 
 
-def orthogonal(vectors: Sequence[Vector3]) -> list[Array]:
+def orthogonal(vectors: Sequence[Sequence[float]]) -> list[Array]:
     """Orthonormal vectors that span the same, by Gram and Schmidt."""
     found: list[Array] = []
     for vector in vectors:
@@ -23,7 +23,7 @@ def orthogonal(vectors: Sequence[Vector3]) -> list[Array]:
     return found
 
 
-def across(vectors: Sequence[Vector3]) -> list[Array]:
+def across(vectors: Sequence[Sequence[float]]) -> list[Array]:
     """Orthonormal vectors that complete what the given ones span to all of space."""
     known = orthogonal(vectors)
     found: list[Array] = []

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...trajectory import Array
+from ..trajectory import Array
 from .chain import Turns
 
 THREE = 3
