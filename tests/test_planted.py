@@ -17,9 +17,9 @@ from given.tree import TESTS
 
 from textmech.reports.data.row import MUTANTS, OF_NO_RUN, Comparison
 from textmech.reports.output import write
+from textmech.reports.output.diff.columns import Rule
 from textmech.reports.output.diff.compare import difference
 from textmech.reports.output.diff.folder import opened
-from textmech.reports.output.diff.rule import Rule
 from textmech.reports.page.folder import folder
 
 COMMITTED = write.HERE / MUTANTS

@@ -9,7 +9,6 @@ import click
 
 from ..show.console import say
 from .answer import FAILED, as_json
-from .options import overwrite
 
 COMMITTED = Path(__file__).parents[1]
 
@@ -36,13 +35,6 @@ class Number(click.ParamType):
 @click.command()
 @click.argument("folders", nargs=-1, type=click.Path(path_type=Path), metavar="[OLD] NEW")
 @click.option("--markdown", "wants_markdown", is_flag=True, help="For a pull request.")
-@click.option(
-    "--junit",
-    type=click.Path(dir_okay=False, path_type=Path),
-    metavar="FILE",
-    help="Also write JUnit XML: regressions as failures, errors over allowed as properties.",
-)
-@overwrite
 @click.option(
     "--all", "every", is_flag=True, help="Every change, and not the first thirty of a kind."
 )
@@ -85,8 +77,6 @@ def diff(
     folders: tuple[Path, ...],
     wants_json: bool,
     wants_markdown: bool,
-    junit: Path | None,
-    overwrite: bool,
     every: bool,
     whole: bool,
     **thresholds: float,
@@ -106,20 +96,15 @@ def diff(
     \b
       textmech run --out mine && textmech diff mine     my engine beside the committed reports
       textmech diff before after --markdown             two runs, for a pull request
-      textmech diff before after --junit diff.xml       and for a CI's list of tests
 
     \b
     Exit codes: 0 no regression, 1 a regression, 2 a folder that is no report, or a mixed one
     """
-    from ..data.ownership import unasked
-    from ..output.diff.as_json import as_json as document
+    from ..output.diff.columns import Rule
     from ..output.diff.compare import difference
     from ..output.diff.folder import opened
-    from ..output.diff.junit import junit as as_junit
-    from ..output.diff.markdown import MOST as LISTED
-    from ..output.diff.markdown import markdown
-    from ..output.diff.rule import Rule
-    from ..output.diff.text import MOST, text
+    from ..output.diff.forms import as_json as document
+    from ..output.diff.forms import markdown, text
 
     if wants_json and wants_markdown:
         raise click.UsageError("--json or --markdown, please: both are one document")
@@ -129,18 +114,13 @@ def diff(
     if old.resolve() == new.resolve():
         raise click.UsageError(f"{old} and {new} are one folder: nothing can be compared")
     named = {str(old) if len(folders) == 2 else "the committed reports": old, str(new): new}
-    if junit is not None:
-        unasked(junit.parent, [junit.name], overwrite=overwrite)
     before, after = opened(named)
     found = difference(before, after, Rule(**thresholds), whole=whole)
     if wants_json:
         say(document(found))
     elif wants_markdown:
-        say(markdown(found, most=None if every else LISTED))
+        say(markdown(found, every=every))
     else:
-        width = shutil.get_terminal_size().columns
-        say(text(found, width=width, most=None if every else MOST))
-    if junit is not None:
-        junit.write_text(as_junit(found), encoding="utf-8")
+        say(text(found, width=shutil.get_terminal_size().columns, every=every))
     if found.regressed:
         raise click.exceptions.Exit(FAILED)

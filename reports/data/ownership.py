@@ -17,9 +17,8 @@ OURS = "textmech"
 _PICTURES = {
     ".svg": f"<dc:title>{OURS}</dc:title>".encode(),
     ".png": f"tEXtSoftware\0{OURS}".encode(),
-    ".xml": b'<testsuite name="textmech diff"',
 }
-"""What stands in the heads of a picture and of a list of tests."""
+"""What stands in the head of a picture."""
 _REPORTS = {
     ",".join(column.name for column in fields(kind))
     for kind in (Comparison, Rungs, StepError, Certificate, Instant, Cause, Advice)

@@ -6,11 +6,8 @@ from dataclasses import dataclass
 import pandas as pd
 
 from ..data.row import NUMBERS
-from ..output.diff.change import Change, Place
-from ..output.diff.compare import difference
-from ..output.diff.errors import ERRORS, place
-from ..output.diff.rule import Rule
-from ..output.diff.table import Row
+from ..output.diff.columns import ERRORS, Row, Rule
+from ..output.diff.compare import Change, Place, difference, place
 from .measure import Measured
 from .wanted import Release
 
@@ -34,7 +31,7 @@ class Step:
     @property
     def rows(self) -> Sequence[Row]:
         """The rows of tolerance.csv for the release; none where it could not be run."""
-        return self.now.folder.errors.rows if self.now.folder else ()
+        return self.now.folder.errors if self.now.folder else ()
 
 
 def steps(measured: Sequence[Measured]) -> list[Step]:
@@ -69,7 +66,7 @@ def table(steps: Sequence[Step], cases: Sequence[str]) -> pd.DataFrame:
         number[step.now.release] = str(1 + sum(one.engine == engine for one in number))
         moved: dict[Place, Change] = {change.place: change for change in step.changes}
         for row in step.rows:
-            change = moved.get(place(row))
+            change = moved.get(place(ERRORS, row))
             told = {name: row[name] for name in COLUMNS} | {"release": number[step.now.release]}
             if change is not None:
                 times = "" if change.times is None else format(change.times, NUMBERS)

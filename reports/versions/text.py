@@ -4,11 +4,9 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
 
-from ..output.diff.change import Change, Place
-from ..output.diff.errors import place
-from ..output.diff.file import number
-from ..output.diff.table import Row
-from ..output.diff.text import fitted
+from ..output.diff.columns import ERRORS, Row, number
+from ..output.diff.compare import Change, Place, place
+from ..output.diff.forms import fitted
 from .table import Step
 from .wanted import Release
 
@@ -114,4 +112,4 @@ def _unit(steps: Sequence[Step], where: Place) -> str:
 
 
 def _row(step: Step, where: Place) -> Row | None:
-    return next((row for row in step.rows if place(row) == where), None)
+    return next((row for row in step.rows if place(ERRORS, row) == where), None)

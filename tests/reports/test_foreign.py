@@ -5,15 +5,18 @@ import os
 import shutil
 import stat
 from collections.abc import Callable
+from dataclasses import fields
 from dataclasses import replace as changed
 from pathlib import Path
 
 import pytest
 from given.command import NEW, textmech
+from given.otherwise import otherwise
 from given.report_folders import ROW, report
 from given.trees import digest
 from matplotlib.figure import Figure
 
+from textmech.reports.data import ownership
 from textmech.reports.data.ownership import unasked
 from textmech.reports.data.row import Comparison
 from textmech.reports.output.write import FILES, read
@@ -180,18 +183,14 @@ def test_a_table_that_leads_to_a_device_hangs_nothing(
     assert "tolerance.csv: " in done.stderr
 
 
-@pytest.mark.mutant("a list of tests overwrites a file that is not ours")
-def test_a_list_of_tests_overwrites_no_stranger(tmp_path: Path) -> None:
-    words = ("diff", report(tmp_path / "old"), report(tmp_path / "new"), "--junit")
-    file = tmp_path / "diff.xml"
-    file.write_text(VICTIM, encoding="utf-8")
-    refused = textmech(*words, file)
-    assert (refused.returncode, refused.stdout) == (2, "")
-    assert "diff.xml: was not written by textmech" in refused.stderr
-    assert file.read_text(encoding="utf-8") == VICTIM
-    for more in (["--overwrite"], []):  # then it is ours
-        assert textmech(*words, file, *more).returncode == 0
-        assert "textmech diff" in file.read_text(encoding="utf-8")
+@pytest.mark.mutant("a table that only begins like a report counts as ours")
+def test_a_report_with_a_column_of_somebodys_own_is_not_overwritten(tmp_path: Path) -> None:
+    head = ",".join(column.name for column in fields(Comparison))
+    (tmp_path / "tolerance.csv").write_text(f"{head},mine\n", encoding="utf-8")
+    with pytest.raises(FileExistsError, match="was not written by textmech"):
+        ownership.unasked(tmp_path, ["tolerance.csv"], overwrite=False)
+    begins = otherwise(ownership, "first in _REPORTS or", "first.startswith(tuple(_REPORTS)) or")
+    begins.unasked(tmp_path, ["tolerance.csv"], overwrite=False)
 
 
 @pytest.mark.mutant("a picture overwrites a file that is not ours")

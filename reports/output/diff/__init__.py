@@ -1,1 +1,1 @@
-"""Compares two report folders row by row, and writes what changed in four forms."""
+"""Compares two report folders row by row, and writes what changed as text, JSON and Markdown."""

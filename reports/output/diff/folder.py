@@ -1,18 +1,52 @@
 """A report folder: all its tables, whole, of one run, and with the columns that are compared."""
 
-from collections.abc import Iterator, Mapping
+import csv
+import errno
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from io import StringIO
 from pathlib import Path
 
 from ....cases.mistake import CaseError, Mistake
-from ...data import runs
+from ...data import file_content, runs
 from ...data.row import OF_NO_RUN
 from ...data.runs import Written
-from .errors import ERRORS
-from .file import File
-from .files import FILES
-from .scope import Scope
-from .table import Table, read
+from .columns import ERRORS, KNOWN, Row
+
+REFERENCE = ("reference", "")  # an engine's column in events.csv, of every run
+
+
+@dataclass(frozen=True)
+class Table:
+    """A CSV file. lines: where each row begins to stand in it, for a mistake's place."""
+
+    path: Path
+    columns: tuple[str, ...]
+    rows: tuple[Row, ...]
+    lines: tuple[int, ...]
+    text: str
+
+
+@dataclass(frozen=True)
+class Scope:
+    """Cases, and engines with their settings, that both folders look at."""
+
+    cases: frozenset[str]
+    engines: frozenset[tuple[str, str]]
+
+    def __and__(self, other: "Scope") -> "Scope":
+        return Scope(self.cases & other.cases, self.engines & other.engines)
+
+    def __or__(self, other: "Scope") -> "Scope":
+        return Scope(self.cases | other.cases, self.engines | other.engines)
+
+    def holds(self, row: Row) -> bool:
+        """Whether a row is about one of the cases and one of the engines, as far as it says."""
+        if "case" in row and row["case"] not in self.cases:
+            return False
+        engine = row.get("engine"), row.get("setting")
+        return None in engine or engine == REFERENCE or engine in self.engines
 
 
 @dataclass(frozen=True)
@@ -24,25 +58,28 @@ class Folder:
     run: str
 
     @property
-    def errors(self) -> Table:
-        """The one that every report has."""
-        return self.tables[ERRORS.name]
+    def errors(self) -> Sequence[Row]:
+        """The rows of the file that every report has; each engine has one on each case."""
+        return self.tables[ERRORS.name].rows
 
-    @property
+    @cached_property
     def scope(self) -> Scope:
-        """The cases, and the engines with their settings, that tolerance.csv has rows of."""
-        return Scope.of(self.errors.rows)
+        """The cases and engines that the folder has errors of."""
+        return Scope(
+            frozenset(row["case"] for row in self.errors),
+            frozenset((row["engine"], row["setting"]) for row in self.errors),
+        )
 
     @property
     def versions(self) -> dict[str, str]:
         """The version of every engine by its name; where a folder has two, both."""
-        found = {(row["engine"], row["version"]) for row in self.errors.rows if row["version"]}
+        found = {(row["engine"], row["version"]) for row in self.errors if row["version"]}
         names = sorted({engine for engine, _ in found})
         return {name: " and ".join(sorted(v for e, v in found if e == name)) for name in names}
 
 
 def opened(named: Mapping[str, Path]) -> list[Folder]:
-    """By their names. Raises CaseError with the mistakes of all folders."""
+    """Reads folders, each with its name. Raises CaseError with the mistakes of all."""
     folders: list[Folder] = []
     mistakes: list[Mistake] = []
     for name, path in named.items():
@@ -58,27 +95,67 @@ def opened(named: Mapping[str, Path]) -> list[Folder]:
 def _opened(name: str, path: Path) -> Folder:
     if not path.is_dir():
         what = "is no folder" if path.exists() else "no such folder"
-        raise CaseError([Mistake(str(path), 0, 0, "", f"{what}; a report is one, with its *.csv")])
-    others = (*OF_NO_RUN, runs.NAME)
-    files = sorted(file for file in path.glob("*.csv") if file.name not in others)
+        raise CaseError([_mistake(path, f"{what}; a report is one, with its *.csv")])
     if not (path / ERRORS.name).exists():
         what = f"is no report: it has no {ERRORS.name}; `textmech run --out FOLDER` writes one"
-        raise CaseError([Mistake(str(path), 0, 0, "", what)])
+        raise CaseError([_mistake(path, what)])
     tables: dict[str, Table] = {}
     mistakes: list[Mistake] = []
-    for file in files:
-        try:
-            tables[file.name] = read(file)
-        except CaseError as error:
-            mistakes += error.mistakes
+    for file in sorted(path.glob("*.csv")):
+        if file.name not in (*OF_NO_RUN, runs.NAME):
+            try:
+                tables[file.name] = read(file)
+            except CaseError as error:
+                mistakes += error.mistakes
     written = _written(path)
-    for name_of, table in tables.items():
-        wrong = [*_mistaken(FILES[name_of], table)] if name_of in FILES else []
-        mistakes += wrong or [*_doubted(table, written)]
+    for table in tables.values():
+        mistakes += [*_unreadable(table)] or [*_doubted(table, written)]
     mistakes += _mixed(tables, written)
     if mistakes:
         raise CaseError(mistakes)
     return Folder(name, tables, written[ERRORS.name].run)
+
+
+def read(path: Path) -> Table:
+    """Reads a CSV file as text, cell by cell. Raises CaseError if it is no table."""
+    try:
+        text = file_content.text(path)
+    except OSError as error:
+        what = error.strerror or "cannot be read"
+        ours = error.errno in (errno.EINVAL, errno.EFBIG)  # what `file_content` says of it
+        raise CaseError([_mistake(path, what if ours else f"cannot be read: {what}")]) from None
+    except ValueError as error:
+        raise CaseError([_mistake(path, str(error).removeprefix(f"{path}: "))]) from None
+    reader = csv.reader(StringIO(text, newline=""), strict=True)
+    records: list[tuple[int, list[str]]] = []
+    line = 1
+    try:
+        for cells in reader:
+            records.append((line, cells))
+            line = reader.line_num + 1
+    except csv.Error as error:
+        raise CaseError([_mistake(path, f"is no CSV: {error}")]) from None
+    if not records:
+        what = "is empty: its first line should name the columns"
+        raise CaseError([_mistake(path, what)])
+    (_, columns), *rows = records
+    if twice := {name for name in columns if columns.count(name) > 1}:
+        raise CaseError([_mistake(path, f"two columns are called {min(twice)!r}")])
+    for line, cells in rows:
+        if len(cells) != len(columns):
+            what = f"has {len(cells)} cells, and the head has {len(columns)}"
+            raise CaseError([_mistake(path, what, line)])
+    return Table(
+        path,
+        tuple(columns),
+        tuple(dict(zip(columns, cells, strict=True)) for _, cells in rows),
+        tuple(line for line, _ in rows),
+        text,
+    )
+
+
+def _mistake(path: Path, what: str, line: int = 0, column: str = "") -> Mistake:
+    return Mistake(str(path), line, 1 if line else 0, column, what)
 
 
 def _written(path: Path) -> Mapping[str, Written]:
@@ -91,51 +168,54 @@ def _written(path: Path) -> Mapping[str, Written]:
         what = str(error).removeprefix(f"{path / runs.NAME}: ")
     except OSError as error:
         what = error.strerror or "cannot be read"
-    raise CaseError([Mistake(str(path / runs.NAME), 0, 0, "", what)])
+    raise CaseError([_mistake(path / runs.NAME, what)])
 
 
 def _doubted(table: Table, written: Mapping[str, Written]) -> Iterator[Mistake]:
     if doubt := runs.doubt(table.path.name, len(table.rows), table.text, written):
-        yield table.mistake(doubt)
+        yield _mistake(table.path, doubt)
 
 
 def _mixed(tables: Mapping[str, Table], written: Mapping[str, Written]) -> Iterator[Mistake]:
     """The known files are written together; others may be another command's."""
-    known = [name for name in tables if name in FILES and name in written]
+    known = [name for name in tables if name in KNOWN and name in written]
     if ERRORS.name in known:
         ours = written[ERRORS.name].run
         for name in known:
             if (other := written[name].run) != ours:
                 what = f"of run {other}, and {ERRORS.name} beside it of run {ours}"
-                yield tables[name].mistake(f"{what}: run both again")
+                yield _mistake(tables[name].path, f"{what}: run both again")
 
 
-def _mistaken(file: File, table: Table) -> Iterator[Mistake]:
+def _unreadable(table: Table) -> Iterator[Mistake]:
     """Columns that are not there, two rows for one thing, and cells that cannot be read.
 
     A word that is no verdict is told where it stands first: an old table has it in many rows.
     """
-    missing = [name for name in file.needed if name not in table.columns]
+    columns = KNOWN.get(table.path.name)
+    if columns is None:
+        return
+    missing = [name for name in columns.needed if name not in table.columns]
     if missing:
         what = f"has no column {missing[0]!r}: of another version of textmech?"
-        yield table.mistake(f"{what} Its columns are {', '.join(table.columns)}")
+        yield _mistake(table.path, f"{what} Its columns are {', '.join(table.columns)}")
         return
     seen: dict[tuple[str, ...], int] = {}
-    words = {row["verdict"] for row in table.rows} if "verdict" in file.words else set[str]()
-    strange = {word for word in words if not file.verdicts(word)}
+    strange: set[str] = set()
     for row, line in zip(table.rows, table.lines, strict=True):
-        key = tuple(row[name] for name in file.keys)
+        key = columns.key(row)
         if (first := seen.setdefault(key, line)) != line:
-            what = f"the same {', '.join(file.keys)} as line {first}: {', '.join(key)}"
-            yield table.mistake(what, line)
-        for name in file.numbers:
+            what = f"the same {', '.join(columns.keys)} as line {first}: {', '.join(key)}"
+            yield _mistake(table.path, what, line)
+        for name in columns.numbers:
             if not _is_number(row[name]):
                 what = f"should be a number or nothing, is {row[name]!r}"
-                yield table.mistake(what, line, name)
-        if strange and (word := row["verdict"]) in strange:
-            strange.remove(word)
-            what = f"{word!r} is no verdict: of another version of textmech?"
-            yield table.mistake(what, line, "verdict")
+                yield _mistake(table.path, what, line, name)
+        verdict = row["verdict"] if columns.verdicts else None
+        if verdict is not None and verdict not in (*columns.verdicts, *strange):
+            strange.add(verdict)
+            what = f"{verdict!r} is no verdict: of another version of textmech?"
+            yield _mistake(table.path, what, line, "verdict")
 
 
 def _is_number(text: str) -> bool:

@@ -9,8 +9,8 @@ from given.command import NEW, textmech
 from given.releases import DYING, HEAVIER, LACKING, SAME, index, wheel
 
 from textmech.reports.output import write
-from textmech.reports.output.diff.rule import Rule
-from textmech.reports.output.diff.table import read
+from textmech.reports.output.diff.columns import Rule
+from textmech.reports.output.diff.folder import read
 from textmech.reports.versions.install import here, place
 from textmech.reports.versions.wanted import Release
 

@@ -6,11 +6,10 @@ from pathlib import Path
 from given.report_folders import report
 
 from textmech.reports.data.row import Cause
-from textmech.reports.output.diff.change import LOST, NEW, Seen
-from textmech.reports.output.diff.compare import Difference, difference
+from textmech.reports.output.diff.columns import LOST, NEW, Rule
+from textmech.reports.output.diff.compare import Difference, Seen, difference
 from textmech.reports.output.diff.folder import opened
-from textmech.reports.output.diff.rule import Rule
-from textmech.reports.output.diff.words import looked_at
+from textmech.reports.output.diff.forms import looked_at
 
 CAUSE = Cause("swing", "mujoco", "tuned", "bar.angle", 2e-2, 1e-2, "RK4", "", 1e-3, 5e-3, 4.0, "")
 UNASKED = replace(CAUSE, cure="not searched", step=None, error_after=None, cost=None)

@@ -10,20 +10,9 @@ from given.report_folders import CERTIFICATE, COVERED, INSTANT, ROW, RUNGS, STEP
 
 from textmech.cases.mistake import CaseError
 from textmech.reports.output import write
-from textmech.reports.output.diff.change import (
-    BETTER,
-    CHANGED,
-    LOST,
-    NEW,
-    WORSE,
-    Change,
-    Place,
-    Seen,
-)
-from textmech.reports.output.diff.compare import Difference, difference
-from textmech.reports.output.diff.files import FILES
+from textmech.reports.output.diff.columns import BETTER, CHANGED, KNOWN, LOST, NEW, WORSE, Rule
+from textmech.reports.output.diff.compare import Change, Difference, Place, Seen, difference
 from textmech.reports.output.diff.folder import opened
-from textmech.reports.output.diff.rule import Rule
 
 RULE = Rule()
 
@@ -46,15 +35,15 @@ def test_the_committed_reports_do_not_differ_from_themselves() -> None:
     assert not same.changes
     compared = {name: count.compared for name, count in same.counts.items()}
     assert compared == {name: len(folder.tables[name].rows) for name in folder.tables}
-    assert all(compared[name] > 100 for name in FILES)
+    assert all(compared[name] > 100 for name in KNOWN)
 
 
 @pytest.mark.slow
 def test_every_known_file_is_one_that_a_run_writes_with_these_columns() -> None:
     (folder,) = opened({"reports": write.HERE})
-    assert set(FILES) <= set(write.NAMES)
-    for name, file in FILES.items():
-        assert set(file.needed) <= set(folder.tables[name].columns)
+    assert set(KNOWN) <= set(write.NAMES)
+    for name, columns in KNOWN.items():
+        assert set(columns.needed) <= set(folder.tables[name].columns)
 
 
 @pytest.mark.parametrize(
@@ -166,6 +155,7 @@ def test_an_equation_that_nothing_covers_any_more_is_a_regression(tmp_path: Path
     bare = COVERED.assign(cases="")
     change = only(found(tmp_path, {}, {"covered": bare}))
     assert (change.kind, change.place.what) == (WORSE, "equation (2.44)")
+    assert (change.was, change.now) == (Seen("swing"), Seen("not covered"))
 
 
 def test_of_what_covers_only_cases_of_both_count(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""A difference on the terminal, in Markdown, JSON and JUnit XML: the same, and never markup."""
+"""A difference on the terminal, in Markdown and in JSON: the same, and never markup."""
 
 import json
 import re
@@ -6,7 +6,6 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
-from xml.etree import ElementTree as ET
 
 import pytest
 from given.command import textmech
@@ -88,38 +87,6 @@ def test_numbers_that_json_does_not_have_are_null(tmp_path: Path) -> None:
     assert told["changes"][0]["new"] == {"words": "beyond", "number": None}
 
 
-def test_junit_has_a_failure_for_what_regressed_and_says_what_was_skipped(
-    two: tuple[Path, Path], tmp_path: Path
-) -> None:
-    done = textmech("diff", *two, "--junit", tmp_path / "diff.xml")
-    assert done.returncode == 1
-    (suite,) = ET.parse(tmp_path / "diff.xml").getroot()
-    assert {name: suite.get(name) for name in ("tests", "failures", "skipped")} == {
-        "tests": "3",
-        "failures": "1",
-        "skipped": "2",
-    }
-    tests = {(test.get("classname"), test.get("name")): test for test in suite.iter("testcase")}
-    failure = tests["swing", "mujoco.tuned"].find("failure")
-    assert failure is not None
-    assert "bar.omega: agrees → FAILS" in (failure.text or "")
-    skipped = tests["swing", "mujoco.shipped"].find("skipped")
-    assert skipped is not None
-    assert skipped.get("message") == "not looked at: only OLD has it"
-    properties = {
-        one.get("name"): one.get("value") for one in tests["swing", "mujoco.tuned"].iter("property")
-    }
-    assert properties["bar.angle error/allowed"] == "0.9"
-    about = {one.get("name"): one.get("value") for one in suite.findall("properties/property")}
-    assert (about["new.mujoco"], about["rule.worse"]) == ("4.0.0", "1.5")
-
-
-def test_junit_goes_nowhere_where_it_cannot_be_written(two: tuple[Path, Path]) -> None:
-    done = textmech("diff", *two, "--junit", two[0] / "nowhere" / "diff.xml")
-    assert done.returncode == 2
-    assert "nowhere" in done.stderr
-
-
 def test_markdown_is_a_table_of_regressions(two: tuple[Path, Path]) -> None:
     lines = textmech("diff", *two, "--markdown").stdout.splitlines()
     assert lines[0] == "### ❌ textmech: 2 regressions"
@@ -134,17 +101,13 @@ HOSTILE = "</td><script>|`x`\n\0\ufffe\033[0m ![i](http://e)"
 def test_text_of_a_report_is_never_markup(tmp_path: Path) -> None:
     rows = [replace(ROW, quantity=HOSTILE, error=x) for x in (1e-3, 9e-3)]
     folders = [report(tmp_path / str(i), rows=[row]) for i, row in enumerate(rows)]
-    xml = tmp_path / "diff.xml"
-    done = textmech("diff", *folders, "--markdown", "--junit", xml)
+    done = textmech("diff", *folders, "--markdown")
     assert done.returncode == 1, done.stderr
     (row,) = [line for line in done.stdout.splitlines() if line.startswith("| swing")]
     assert len(re.findall(r"(?<!\\)\|", row)) == 6  # five cells
     assert "<" not in row
     assert "\\`x\\`" in row
     assert "!\\[i\\]" in row
-    (suite,) = ET.parse(xml).getroot()  # it is XML, with the name in it
-    names = [one.get("name") or "" for one in suite.iter("property")]
-    assert any("<script>" in name and "\\x00" in name for name in names)
 
 
 @pytest.mark.slow
@@ -163,9 +126,8 @@ def test_one_folder_is_compared_with_the_committed_reports(tmp_path: Path) -> No
 
 def test_it_loads_nothing_that_takes_long() -> None:
     """So that it answers in a third of a second."""
-    rooms = ("as_json", "compare", "folder", "junit", "markdown", "rule", "text")
-    names = ", ".join(f"textmech.reports.output.diff.{room}" for room in rooms)
-    program = f"import sys, textmech.reports.cli, {names}; print(*sys.modules)"
+    program = "import sys, textmech.reports.cli, textmech.reports.output.diff.forms"
+    program += "; print(*sys.modules)"
     words = [sys.executable, "-c", program]
     loaded = subprocess.run(words, capture_output=True, text=True, check=True).stdout.split()
     assert "textmech.reports.output.diff.compare" in loaded

@@ -14,8 +14,8 @@ from given.report_folders import COVERED, ROW, RUNGS, damaged, report
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from textmech.reports.data import runs
-from textmech.reports.output.diff.files import FILES
+from textmech.reports.data import file_content, runs
+from textmech.reports.output.diff.columns import KNOWN
 
 NAME = "tolerance.csv"
 
@@ -78,8 +78,8 @@ def test_a_file_that_is_not_as_a_run_wrote_it(
 
 @pytest.mark.slow
 def test_a_wrong_cell_of_each_known_file_is_seen(old: Path, tmp_path: Path) -> None:
-    for name, file in FILES.items():
-        for column in file.needed:
+    for name, columns in KNOWN.items():
+        for column in columns.needed:
             folder = damaged(
                 report(tmp_path / f"{name}-{column}"),
                 name,
@@ -175,7 +175,8 @@ def test_bytes_that_are_no_text(old: Path, new: Path) -> None:
 def test_a_file_that_is_far_too_large_is_not_read(
     old: Path, new: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("textmech.reports.output.diff.table.LARGEST", 100)
+    text = file_content.text
+    monkeypatch.setattr(file_content, "text", lambda path: text(path, most=100))
     assert "is too large: 0 MB" in said(old, new)
 
 
@@ -220,7 +221,7 @@ def pair(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
 @given(data=st.data())
 def test_no_accident_ends_in_a_traceback(pair: tuple[Path, Path], data: st.DataObject) -> None:
     """With a list that names it so again, so that what lies behind it is met too."""
-    name = data.draw(st.sampled_from([*sorted(FILES), runs.NAME]))
+    name = data.draw(st.sampled_from([*sorted(KNOWN), runs.NAME]))
     file, known = pair[1] / name, (pair[1] / runs.NAME).read_text(encoding="utf-8")
     sound = file.read_text(encoding="utf-8")
     content = data.draw(accidents([sound]))

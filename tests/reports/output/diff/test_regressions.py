@@ -11,11 +11,10 @@ from given.otherwise import otherwise
 from given.report_folders import CERTIFICATE, ROW, report
 
 from textmech.reports.data.row import Cause
-from textmech.reports.output.diff import as_json, causes, certificates, compare
-from textmech.reports.output.diff.change import NEW, WORSE
+from textmech.reports.output.diff import columns, compare, forms
+from textmech.reports.output.diff.columns import NEW, WORSE, Rule
 from textmech.reports.output.diff.compare import Difference
 from textmech.reports.output.diff.folder import opened
-from textmech.reports.output.diff.rule import Rule
 
 CAUSE = Cause(
     "swing", "mujoco", "tuned", "bar.angle", 2e-2, 1e-2, "softness", "{d: 0.9}", 1e-3, 5e-3, 4.0, ""
@@ -31,7 +30,7 @@ def found(place: Path, old: dict[str, Any], new: dict[str, Any], module: Any = c
     return module.difference(before, after, Rule())
 
 
-def document(difference: Difference, module: Any = as_json) -> Any:
+def document(difference: Difference, module: Any = forms) -> Any:
     return json.loads(module.as_json(difference))["exit_code"]
 
 
@@ -43,7 +42,7 @@ def test_the_document_says_the_exit_code_of_the_command(tmp_path: Path) -> None:
     assert document(found(tmp_path / "same", {}, {})) == 0
     done = textmech("diff", tmp_path / "old", tmp_path / "new", "--json")
     assert (done.returncode, json.loads(done.stdout)["exit_code"]) == (1, 1)
-    assert document(changed, otherwise(as_json, "int(found.regressed)", "0")) == 0
+    assert document(changed, otherwise(forms, "int(found.regressed)", "0")) == 0
 
 
 @pytest.mark.mutant("rows judged by what the old run allowed")
@@ -52,8 +51,8 @@ def test_a_row_is_judged_by_what_the_new_run_allows(tmp_path: Path) -> None:
     now = {"rows": [replace(ROW, error=4e-3, allowed=10.0)]}
     (change,) = found(tmp_path / "new", {}, now).changes
     assert (change.kind == WORSE, change.allowed) == (False, 10.0)
-    was = "{**_bars(old.errors), **_bars(new.errors)}"
-    by_the_old = otherwise(compare, was, "{**_bars(new.errors), **_bars(old.errors)}")
+    was = "for row in (*old.errors, *new.errors)"
+    by_the_old = otherwise(compare, was, "for row in (*new.errors, *old.errors)")
     (change,) = found(tmp_path / "old", {}, now, by_the_old).changes
     assert (change.kind, change.allowed) == (WORSE, ROW.allowed)
 
@@ -67,8 +66,8 @@ def test_a_cure_with_other_options_is_another(
     assert (change.file, change.was.words, change.now.words) == (
         "causes.csv", "options {d: 0.9}", "options {d: 0.99}"
     )  # fmt: skip
-    blind = otherwise(causes, '"allowed", "options", "step"', '"allowed", "step"')
-    monkeypatch.setitem(compare.FILES, "causes.csv", blind.CAUSES)  # type: ignore[arg-type]
+    blind = otherwise(columns, '"allowed", "options", "step"', '"allowed", "step"')
+    monkeypatch.setitem(compare.KNOWN, "causes.csv", blind.CAUSES)  # type: ignore[arg-type]
     assert found(tmp_path / "blind", *rows).changes == ()
 
 
@@ -82,6 +81,7 @@ def test_a_check_that_is_new_and_fails_is_a_regression(
     difference = found(tmp_path / "sound", *rows)
     assert [change.kind for change in difference.changes] == [kind]
     assert difference.regressed == (kind == WORSE)
-    blind = otherwise(certificates, 'WORSE if row["verdict"] == FAILS else NEW', "NEW")
-    monkeypatch.setitem(compare.FILES, "reference.csv", blind.CERTIFICATES)  # type: ignore[arg-type]
+    was = 'WORSE if FAILS in self.verdicts and row["verdict"] == FAILS else NEW'
+    blind = otherwise(columns, was, "NEW")
+    monkeypatch.setitem(compare.KNOWN, "reference.csv", blind.CERTIFICATES)  # type: ignore[arg-type]
     assert [change.kind for change in found(tmp_path / "blind", *rows).changes] == [NEW]

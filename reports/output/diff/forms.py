@@ -1,0 +1,244 @@
+"""The difference between two report folders as text for a terminal, as JSON and as Markdown.
+
+Regressions come first; within a kind, changes of one case, engine and file stand together.
+"""
+
+import json
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict
+from itertools import groupby
+from math import isfinite
+from textwrap import wrap
+from typing import Any
+
+from .columns import BETTER, CHANGED, KINDS, LOST, NEW, WORSE
+from .compare import Change, Difference, Seen
+from .folder import Folder
+
+TITLES = {
+    WORSE: "Regressions",
+    BETTER: "Better",
+    CHANGED: "Changed",
+    LOST: "Lost rows",
+    NEW: "New rows",
+}
+PLURALS = {kind: "regressions" if kind == WORSE else kind for kind in KINDS}
+WIDTH = 80
+MOST = 30  # changes shown of a kind: more have one cause as a rule, and are not read one by one
+LISTED = 50  # the same in Markdown: a comment holds 65 000 letters
+NAMES = 6  # of cases that only one folder has
+HEAD = ("case", "engine", "what", "OLD → NEW", "file")
+SPECIAL = str.maketrans(
+    {c: f"\\{c}" for c in "\\`*_[]|~"} | {"<": "&lt;", ">": "&gt;", "&": "&amp;"}
+)
+
+
+def text(found: Difference, *, width: int = WIDTH, every: bool = False) -> str:
+    """Returns the difference in lines of at most `width` columns, or of 40 if that is less.
+
+    every: all changes are shown, and not the first of a kind.
+    """
+    lines = [*looked_at(found)]
+    for _, title, places, left in _sections(found, None if every else MOST):
+        lines += ["", title]
+        for (case, column, file), told in places:
+            lines.append(f"  {' '.join(filter(None, (case, column)))}  [{file}]")
+            lines += [f"    {names}: {said}" for names, said in told]
+        lines += [f"  and {left} more: --all shows them"] if left else []
+    lines += ["", _summary(found)]
+    return "\n".join(part for line in lines for part in fitted(line, width))
+
+
+def fitted(line: str, width: int) -> list[str]:
+    """Returns the lines of a line broken to this width; those after the first are indented more."""
+    indent = len(line) - len(line.lstrip())
+    further = " " * (indent + 4)
+    return wrap(line, max(width, 40), subsequent_indent=further, break_on_hyphens=False) or [""]
+
+
+def markdown(found: Difference, *, every: bool = False) -> str:
+    """Returns the difference for a pull request: regressions open, all else folded.
+
+    every: all changes are shown, and not the first of a kind.
+    """
+    lines = [f"### {'❌' if found.regressed else '✅'} textmech: {_summary(found)}", ""]
+    lines += [f"- {_plain(line)}" for line in looked_at(found)]
+    for kind, title, places, left in _sections(found, None if every else LISTED):
+        folded = kind != WORSE
+        lines += ["", f"<details><summary>{title}</summary>" if folded else f"**{title}**", ""]
+        lines += [_cells(HEAD), _cells(["---"] * len(HEAD))]
+        for (case, column, file), told in places:
+            lines += [_cells(map(_plain, (case, column, *said, file))) for said in told]
+        lines += ["", f"and {left} more"] if left else []
+        lines += ["", "</details>"] if folded else []
+    return "\n".join([*lines, ""])
+
+
+def _cells(cells: Iterable[str]) -> str:
+    return f"| {' | '.join(cells)} |"
+
+
+def _plain(text: str) -> str:
+    """Escapes text of a report, which is text, and never markup."""
+    return " ".join(text.split()).translate(SPECIAL)
+
+
+def as_json(found: Difference) -> str:
+    """Returns the whole difference as JSON text; a number that JSON has not (inf, NaN) is null."""
+    document = {
+        "old": _folder(found.old),
+        "new": _folder(found.new),
+        "rule": asdict(found.rule),
+        "regressed": found.regressed,
+        "counts": {kind: len(found.of(kind)) for kind in KINDS},
+        "rows": {
+            name: {
+                "compared": count.compared,
+                "not looked at": [count.old, count.new],
+                "not searched by both": list(count.searched),
+            }
+            for name, count in found.counts.items()
+        },
+        "files of one folder": list(found.alone),
+        "changes": [_change(change) for change in found.changes],
+        "mistakes": [],
+        "exit_code": int(found.regressed),
+    }
+    return json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
+
+
+def _folder(folder: Folder) -> dict[str, Any]:
+    return {"folder": folder.name, "run": folder.run, "versions": folder.versions}
+
+
+def _change(change: Change) -> dict[str, Any]:
+    return {
+        "kind": change.kind,
+        "file": change.file,
+        **asdict(change.place),
+        "old": _row(change.was),
+        "new": _row(change.now),
+        "number is": change.label,
+        "unit": change.unit,
+        "allowed": _finite(change.allowed),
+        "times": _finite(change.times),
+        "note": change.note,
+    }
+
+
+def _row(seen: Seen | None) -> dict[str, Any] | None:
+    return None if seen is None else {"words": seen.words, "number": _finite(seen.number)}
+
+
+def _finite(number: float | None) -> float | None:
+    return None if number is None or not isfinite(number) else number
+
+
+def looked_at(found: Difference) -> Iterator[str]:
+    """Yields which folders there are, how many rows were compared, and what was not, and why."""
+    counts = found.counts.values()
+    sides = (
+        ("OLD", found.old, sum(count.old for count in counts)),
+        ("NEW", found.new, sum(count.new for count in counts)),
+    )
+    for side, folder, _ in sides:
+        engines = ", ".join(f"{engine} {version}" for engine, version in folder.versions.items())
+        yield f"{side} {folder.name}: run {folder.run}, {engines or 'no engine'}"
+    rows = sum(count.compared for count in counts)
+    cases, columns = len(found.scope.cases), len(found.scope.engines)
+    yield f"compared: {_many(rows, 'row')} of {_many(cases, 'case')} in {_many(columns, 'column')}"
+    for side, folder, left in sides:
+        if left:
+            yield f"not looked at: {_many(left, 'row')} of {side}: {_why(found, folder)}"
+    for name, count in found.counts.items():
+        if any(count.searched):
+            old, new = count.searched
+            of_both = f"{_many(old, 'row')} of OLD and {new} of NEW in {name}"
+            yield f"not looked at: {of_both}: one of the runs, or both, did not search for causes"
+    for name in found.alone:
+        side = "OLD" if name in found.old.tables else "NEW"
+        yield f"not looked at: {name}, which only {side} has"
+
+
+def _why(found: Difference, folder: Folder) -> str:
+    cases = sorted(folder.scope.cases - found.scope.cases)
+    columns = sorted(".".join(engine) for engine in folder.scope.engines - found.scope.engines)
+    told = [
+        f"{what} {_first(some)}" for what, some in (("case", cases), ("column", columns)) if some
+    ]
+    if not told:
+        return "of cases that its tolerance.csv does not name"
+    return f"only it has {' and '.join(told)}"
+
+
+def _first(names: Sequence[str]) -> str:
+    more = f" and {len(names) - NAMES} more" if len(names) > NAMES else ""
+    return f"{', '.join(names[:NAMES])}{more}"
+
+
+def _many(count: int, what: str) -> str:
+    return f"{count} {what}" if count == 1 else f"{count} {what}s"
+
+
+def _summary(found: Difference) -> str:
+    """Returns `2 regressions, 3 better, 24 changed`, or that nothing is."""
+    counts = ((kind, len(found.of(kind))) for kind in KINDS)
+    told = [f"{n} {kind if n == 1 else PLURALS[kind]}" for kind, n in counts if n]
+    return ", ".join(told) or "nothing changed"
+
+
+Neighbours = list[tuple[tuple[str, str, str], list[tuple[str, str]]]]
+"""By case, column and file what is said: names and a sentence."""
+
+
+def _sections(found: Difference, most: int | None) -> Iterator[tuple[str, str, Neighbours, int]]:
+    """Yields each kind that there is, its title, the first changes, and how many are left out."""
+    for kind in KINDS:
+        if changes := found.of(kind):
+            shown = changes[:most]
+            title = f"{TITLES[kind]} ({len(changes)})"
+            yield kind, title, _neighbours(shown), len(changes) - len(shown)
+
+
+def _neighbours(changes: Iterable[Change]) -> Neighbours:
+    """Sorts changes by their places; names of one sentence stand together."""
+    found: Neighbours = []
+    for place, some in groupby(changes, key=lambda c: (c.place.case, c.place.column, c.file)):
+        names: dict[str, list[str]] = {}
+        for change in some:
+            names.setdefault(_sentence(change), []).append(change.place.what)
+        found.append((place, [(", ".join(what), said) for said, what in names.items()]))
+    return found
+
+
+def _sentence(change: Change) -> str:
+    """Says a change without its name: `agrees → beyond; 0.0021 → 0.0042 rad ×2, allowed 0.001`."""
+    was, now = change.was, change.now
+    if now is None:
+        return "no such row any more"
+    words = now.words
+    if was is not None and was.words != now.words:
+        if now.number is None:
+            return f"now {now.words}"
+        words = f"{was.words.partition(':')[0]} → {now.words}"
+        if was.number is None:
+            return words
+    note = change.note or ("not in OLD" if was is None else "")
+    return "; ".join(filter(None, (words, _numbers(change), note)))
+
+
+def _numbers(change: Change) -> str:
+    """Returns `0.0021 → 0.0042 rad ×2, allowed 0.001`, as far as there are numbers."""
+    told = [
+        "" if seen.number is None else f"{seen.number:.9g}"
+        for seen in (change.was, change.now)
+        if seen
+    ]
+    text = told[0] if len({*told}) == 1 else " → ".join(word or "none" for word in told)
+    if not text:
+        return ""
+    label = f"{change.label} " if change.label else ""
+    unit = f" {change.unit}" if change.unit not in ("", "1") else ""
+    times = f" ×{change.times:.3g}" if change.times is not None else ""
+    allowed = f", allowed {change.allowed:.3g}" if change.allowed is not None else ""
+    return f"{label}{text}{unit}{times}{allowed}"
