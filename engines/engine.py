@@ -166,30 +166,6 @@ class Engine(Protocol):
         ...
 
 
-@dataclass(frozen=True)
-class Plain:
-    """A plain loop at its start: `take` takes n steps, `states` tells where all bodies then are."""
-
-    take: Callable[[int], None]
-    states: Callable[[], Start]
-
-
-@runtime_checkable
-class Loop(Protocol):
-    """An optional extension of the protocol: a plain loop, the yardstick of `textmech bench`."""
-
-    def plain(
-        self, scene: Scene, start: Start, step: float, plan: Plan
-    ) -> Callable[[float], Plain] | None:
-        """The plainest loop a user would write for the plan, and none of the adapter's code.
-
-        A function that builds it for a step [s]; or, called once more, does of that only what
-        another step asks for. Numbers that follow the step are those of `step`. A user's step need
-        not be as good: of first order will do. None: nobody has written it for this plan.
-        """
-        ...
-
-
 @runtime_checkable
 class Claims(Protocol):
     """An optional extension of the protocol: answers about states that no step leads to."""

@@ -8,7 +8,6 @@ import click
 from ..cases.mistake import CaseError
 from .command.advise import advise
 from .command.answer import BAD_INPUT
-from .command.bench import bench
 from .command.causes import causes
 from .command.check import check
 from .command.check_engine import check_engine
@@ -91,7 +90,6 @@ command.add_command(run)
 command.add_command(check)
 command.add_command(check_engine)
 command.add_command(list_)
-command.add_command(bench)
 command.add_command(advise)
 command.add_command(causes)
 command.add_command(diff)

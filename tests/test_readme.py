@@ -25,7 +25,7 @@ FILES = {
 }
 TEXT, REPORTS = FILES["README.md"], FILES["reports/README.md"]
 LINES, BYTES = 200, 13_000  # what a newcomer reads at once
-LONG = ("textmech run", "textmech bench", "pytest cases")  # minutes each, and only parsed
+LONG = ("textmech run", "pytest cases")  # minutes each, and only parsed
 ELSEWHERE = ("textmech versions", "pip")  # they ask a package index
 KINDS = {"textmech", "make", "pip", "pytest"}
 

@@ -1,6 +1,6 @@
 """MuJoCo behind the protocol of `engines.engine`: the door to scenes of the plane and of space."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, ClassVar
@@ -9,7 +9,7 @@ import mujoco
 
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
-from ..engine import Plain, Plan, Realised, Refusal, Start
+from ..engine import Plan, Realised, Refusal, Start
 from ..heading import heading
 from ..knobs import Knob, Options
 from .adapter.compilation import NOMINAL, timestep
@@ -185,14 +185,6 @@ class MuJoCo:
                 built, *lent, begun, times, reactions, realised=realised, every=record
             )
         return of_scene(scene, found)
-
-    def plain(
-        self, scene: Scene, start: Start, step: float, plan: Plan
-    ) -> Callable[[float], Plain] | None:
-        """`mj_step(model, data, n)` on the file of `show`, or our law's force before each step."""
-        _, text = self._script(scene, start, step, plan)
-        world = _world(scene)
-        return world.plain(*world.built(scene, start), plan, text)
 
 
 def _world(scene: Scene) -> World:

@@ -1,6 +1,6 @@
 """pymunk behind the protocol of `engines.engine`."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any, ClassVar
@@ -9,11 +9,10 @@ import pymunk
 
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
-from ..engine import Plain, Plan, Realised, Refusal, Start
+from ..engine import Plan, Realised, Refusal, Start
 from ..heading import heading
 from ..knobs import Knob, Options
 from .adapter import plans
-from .adapter.baseline import plain
 from .adapter.claims import answered
 from .adapter.plans import numbers_by_name
 from .adapter.refuse import not_native, unbuildable
@@ -142,12 +141,6 @@ class Pymunk:
             return again(numbers)
         except Left:
             return again(numbers | {"ground.reach": FAR})
-
-    def plain(
-        self, scene: Scene, start: Start, step: float, plan: Plan
-    ) -> Callable[[float], Plain] | None:
-        """`space.step(h)` in a Python loop, after the script's lines of `show`."""
-        return plain(scene, start, step, plan)
 
 
 def _run(

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...cases.case import Case
 from ...cases.language.check.cost import LIMIT
-from ...engines.engine import Claims, Diverged, Engine, Loop, Paced, Plan, Refusal, Tunable, lacking
+from ...engines.engine import Claims, Diverged, Engine, Paced, Plan, Refusal, Tunable, lacking
 from ...reference.solve import solve
 from ..data.row import DEVIATES, REFUSED
 from ..system.limit import limit
@@ -85,7 +85,6 @@ SCRIPT = "script"  # the one member of the protocol without which all cases stil
 LOST = {
     Tunable: "`textmech advise` and `textmech causes` find no settings",
     Claims: "claims about states are refused",
-    Loop: "`textmech bench` cannot tell what the adapter costs",
     Paced: "limits of time count 25 µs a step and 1.5 µs a body",
 }
 """What an engine may offer beside the protocol, and what one has not without it."""

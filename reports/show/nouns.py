@@ -32,7 +32,6 @@ from ...engines.engine import (
     Choice,
     Claims,
     Engine,
-    Loop,
     Maker,
     Paced,
     Plan,
@@ -52,7 +51,7 @@ PARTS: Mapping[str, tuple[type, ...]] = {
     "Laws in time": (Signal,),
     "What an engine answers with": (Plan, Choice, Refusal, Trajectory),
     "Quantities": (Quantity,),
-    "The engine": (Maker, Engine, Tunable, Claims, Loop, Paced),
+    "The engine": (Maker, Engine, Tunable, Claims, Paced),
 }
 """What stands in which section; what has a noun of space beside it is the plane's."""
 TOLD = ("Scene", "Body", "Contact", "Pair", "SpatialJoint")

@@ -9,12 +9,13 @@ import mujoco
 import numpy as np
 import pymunk
 import pytest
+from bench.adapters import LOOPS
 from given.engine_scenes import machine
 from given.planning import SETTINGS, begun, moved, planned, words
 
 from textmech.cases.scene import GROUND, Anchor, Spring
 from textmech.cases.scene.shape import particle
-from textmech.engines.engine import Diverged, Engine, Loop
+from textmech.engines.engine import Diverged, Engine
 
 # What each says of a step that is too large. MuJoCo alone would go back to its start without a
 # word, and write a file into the user's folder.
@@ -31,8 +32,7 @@ def test_a_blow_up_is_diverged(
     start = {"bead": (0.0, -0.6, 0.0, 0.0, 0.0, 0.0)}
     with pytest.raises(Diverged, match=SAYS[engine.name]):
         moved(engine, hung, start, np.linspace(0.0, 10.0, 11), 0.01)
-    assert isinstance(engine, Loop)
-    begin = engine.plain(hung, start, 0.01, planned(engine, hung, start))
+    begin = LOOPS[engine.name](engine, hung, start, 0.01, planned(engine, hung, start))
     assert begin
     begin(0.01).take(1000)
     assert not list(tmp_path.iterdir())
@@ -60,8 +60,7 @@ def test_samples_may_be_uneven(engine: Engine) -> None:
 def test_the_plain_loop_makes_the_same_motion(engine: Engine) -> None:
     """In pieces too, and begun anew with another step."""
     scene, start = begun("towed_pendulum")
-    assert isinstance(engine, Loop)
-    begin = engine.plain(scene, start, 1e-3, planned(engine, scene, start))
+    begin = LOOPS[engine.name](engine, scene, start, 1e-3, planned(engine, scene, start))
     assert begin
     for step in (1e-3, 5e-4):
         loop = begin(step)

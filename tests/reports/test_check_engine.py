@@ -59,7 +59,7 @@ def test_what_works_or_is_refused_ends_with_0() -> None:
         0,
         0,
     )
-    assert [mark["outcome"] for mark in found["marks"]] == [*["works"] * 6, "refused"]
+    assert [mark["outcome"] for mark in found["marks"]] == [*["works"] * 5, "refused"]
     assert found["marks"][-1]["what"].startswith("engine: ")
 
 
@@ -93,7 +93,7 @@ def test_an_engine_without_its_members_is_not_run(monkeypatch: pytest.MonkeyPatc
     assert code == 1
     assert found["marks"][0]["what"] == "it has no run"
     assert [mark["grade"] for mark in found["marks"][:2]] == ["protocol", "script"]
-    assert len(found["marks"]) == 6
+    assert len(found["marks"]) == 5  # and what it may offer: Tunable, Claims, Paced
 
 
 def test_an_engine_that_cannot_be_made_says_why(monkeypatch: pytest.MonkeyPatch) -> None:

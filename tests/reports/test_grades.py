@@ -5,7 +5,7 @@ from given.faulty import Faulty
 from given.mistaken import Mistaken
 
 from textmech import engines
-from textmech.engines.engine import Claims, Engine, Loop, Paced, Tunable, lacking
+from textmech.engines.engine import Claims, Engine, Paced, Tunable, lacking
 from textmech.reports.batch.selection import choose_cases
 from textmech.reports.compare.adapter_check import GRADES, LOST, Attempt, Mark, marked, members
 
@@ -120,7 +120,7 @@ def test_members_that_are_missing_are_named() -> None:
 def test_nothing_is_lacking_in_an_engine_of_ours() -> None:
     for name in ("mujoco", "pymunk"):
         engine = engines.make(name, "tuned")
-        assert not [p for p in (Engine, Tunable, Claims, Loop, Paced) if lacking(engine, p)]
+        assert not [p for p in (Engine, Tunable, Claims, Paced) if lacking(engine, p)]
     assert lacking(object(), Paced) == ("pace",)
     assert lacking(object(), Engine) == (
         "name", "setting", "version", "own_step", "plans", "measure", "run", "script",

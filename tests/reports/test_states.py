@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
+from bench.adapters import Amount
+from bench.adapters import rows as rows_of_bench
 from given import scenes
 from given.claims import CHAIN, PLANE, claimed
 from given.lines import said
@@ -20,8 +22,6 @@ from textmech.cases.trajectory import Array
 from textmech.engines.engine import Engine, Start
 from textmech.engines.pymunk import Pymunk
 from textmech.reports.batch import suite
-from textmech.reports.bench.adapters import Amount
-from textmech.reports.bench.adapters import rows as rows_of_bench
 from textmech.reports.compare.trial.states import SILENT, ways_of
 from textmech.reports.data.row import AGREES, BEYOND, DEVIATES, FAILS, Comparison
 from textmech.reports.output import motion_files as keep

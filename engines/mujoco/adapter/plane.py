@@ -7,7 +7,6 @@ from ..model.rods import with_rods
 from ..model.scene import mjcf
 from ..read.measure import measured
 from ..settings.settings import best, soft, tuned, with_own
-from .baseline import plain
 from .compilation import compiled, lent, placed
 from .plans import plan, ways
 from .refuse import unbuildable
@@ -16,5 +15,5 @@ from .world import World
 
 PLANE = World(
     unbuildable, ways, plan, tuned, best, RECIPES, worth, met, closed, soft, with_own, compiled,
-    placed, lent, measured, mjcf, controls, simulate, plain, with_rods,
+    placed, lent, measured, mjcf, controls, simulate, with_rods,
 )  # fmt: skip

@@ -9,7 +9,7 @@ import mujoco
 
 from ....cases.fields.signal import Signal
 from ....cases.trajectory import Trajectory
-from ...engine import Choice, Plain, Plan, Realised, Start
+from ...engine import Choice, Plan, Realised, Start
 
 Built = tuple[mujoco.MjModel, mujoco.MjData]
 
@@ -43,5 +43,4 @@ class World:
     mjcf: Callable[..., str]
     signals: Callable[[Any], list[Signal]]  # of the actuators' controls, in their order
     simulate: Callable[..., Trajectory]
-    plain: Callable[..., Callable[[float], Plain] | None]
     built: Callable[..., tuple[Any, Start]] = lambda scene, start: (scene, start)

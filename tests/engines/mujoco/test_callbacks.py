@@ -10,11 +10,12 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
+from bench.adapters import LOOPS
 from given.engine_scenes import shaken, with_forces
 from given.planning import SHIPPED, TUNED, begun, moved, planned
 
 from textmech.cases.scene import Spring
-from textmech.engines.engine import Diverged, Engine, Loop
+from textmech.engines.engine import Diverged, Engine
 from textmech.engines.mujoco.callbacks import signal as control
 from textmech.engines.mujoco.model import scene as builder
 
@@ -94,8 +95,7 @@ def test_a_script_does_not_reset_what_blows_up(
     with pytest.raises(Diverged, match=r"MuJoCo warns: .*unstable"):
         moved(engine, stiff, begin, np.linspace(0, 100.0, 11), 0.1)
     plan = planned(engine, stiff, begin)
-    assert isinstance(engine, Loop)
-    loop = engine.plain(stiff, begin, 0.1, plan)
+    loop = LOOPS["mujoco"](engine, stiff, begin, 0.1, plan)
     assert loop
     loop(0.1).take(1000)
     model, _ = loaded(engine.script(stiff, begin, 0.1, plan))

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pymunk
 import pytest
+from bench.pymunk_loop import acts
 from given.closed_motions import sliding_then_rolling
 from given.engine_scenes import RADIUS, WHEEL, G, guided, incline, launched, machine, pin, touching
 from given.planning import TUNED, moved, planned
@@ -15,7 +16,6 @@ from textmech.cases.scene import GROUND, Anchor, Bounds, Damper, Scene
 from textmech.cases.scene.shape import disk
 from textmech.cases.trajectory import ANGLE, OMEGA, VX, Array, X
 from textmech.engines.engine import Start
-from textmech.engines.pymunk.adapter.baseline import acts
 from textmech.engines.pymunk.callbacks.line_forces import drifting
 from textmech.engines.pymunk.stepping.scene import build
 

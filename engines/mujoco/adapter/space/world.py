@@ -10,12 +10,7 @@ from .plans import plan, ways
 from .refuse import unbuildable
 from .run import simulate
 
-
-def unwritten(*given: object) -> None:
-    """Nobody has written the plain loop for space."""
-
-
 SPACE = World(
     unbuildable, ways, plan, tuned, best, RECIPES, worth, met, closed, soft, with_own, compiled,
-    placed, lent, measured, mjcf, signals, simulate, unwritten,
+    placed, lent, measured, mjcf, signals, simulate,
 )  # fmt: skip

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
+from bench import integrators
+from bench.integrators import bracket, compared
 from textmech.cases.trajectory import Array
-from textmech.reports.bench import integrators
-from textmech.reports.bench.integrators import bracket, compared
 
 TRUTH = np.zeros(2)
 

@@ -14,8 +14,9 @@ from textwrap import fill, shorten, wrap
 
 import numpy as np
 
-from ...engines.engine import Engine, Loop
-from .adapters import Amount, Row
+from textmech.engines.engine import Engine
+
+from .adapters import LOOPS, Amount, Row
 from .growth import Grown
 from .integrators import Compared
 from .start import UNIT, Begun
@@ -41,7 +42,8 @@ HEAD = (
 def head(amount: Amount, rungs: int, engines: Iterable[Engine]) -> str:
     """Returns the table's head: what is compared, each plain loop in its words, the columns."""
     count = amount.steps * amount.samples
-    loops = {e.name: cleandoc(e.plain.__doc__ or "") for e in engines if isinstance(e, Loop)}
+    docs = {e.name: LOOPS[e.name].__doc__ or "" for e in engines if e.name in LOOPS}
+    loops = {name: cleandoc(doc).partition("\n")[0] for name, doc in docs.items()}
     told = [fill(f"  {name}: {text}", 80, subsequent_indent="    ") for name, text in loops.items()]
     columns = f"{'a step':>8}{f'{amount.steps} a sample':>13}{'every step':>13}{'building':>12}"
     said = fill(HEAD.format(rounds=amount.rounds, count=count, rungs=rungs), 80)

@@ -1,17 +1,22 @@
-"""The command `textmech bench`: measures what adapters and integrators cost, and prints tables.
+"""Measures what adapters and integrators cost, and prints tables: `make bench`."""
 
-What is measured is in the package `bench`; it is imported when the command runs, for its imports
-would slow down the start of all commands.
-"""
-
+import sys
 import warnings
 from itertools import chain
 
 import click
 
-from ..show.console import say
-from .answer import FAILED
-from .options import allow_long, named_cases, named_engines
+from textmech.reports import cli
+from textmech.reports.batch.selection import choose_cases, choose_engines
+from textmech.reports.command.answer import FAILED
+from textmech.reports.command.options import allow_long, named_cases, named_engines
+from textmech.reports.show.console import say
+
+from . import adapters, table
+from .adapters import RUNGS, Amount, one_of_each_file
+from .growth import grown
+from .integrators import compared
+from .start import begun
 
 
 @click.command(short_help="What our adapters cost over the bare engines.")
@@ -55,18 +60,11 @@ def bench(
     minutes.
 
     \b
-      textmech bench                                   all of it
-      textmech bench four_bar --engine mujoco          one scene in one engine
-      textmech bench --start                           what a command costs to start
-      textmech bench my_case.yaml --csv > bench.csv    your own scene, for a spreadsheet
+      make bench                                      all of it
+      make bench WHAT="four_bar --engine mujoco"      one scene in one engine
+      make bench WHAT=--start                         what a command costs to start
+      make bench WHAT="my_case.yaml --csv"            your own scene, for a spreadsheet
     """
-    from ..batch.selection import choose_cases, choose_engines
-    from ..bench import table
-    from ..bench.adapters import RUNGS, Amount, one_of_each_file, rows
-    from ..bench.growth import grown
-    from ..bench.integrators import compared
-    from ..bench.start import begun
-
     if starts:
         if cases or names or as_csv:
             raise click.UsageError("--start stands alone")
@@ -86,7 +84,7 @@ def bench(
     for case in chosen:
         if not as_csv:
             say(case.name)
-        for row in rows(case, engines, amount):
+        for row in adapters.rows(case, engines, amount):
             found.append(row)
             if not as_csv:
                 say(table.line(row))
@@ -105,3 +103,9 @@ def bench(
                 say(part)
     if any(row.differs for row in found):
         raise click.exceptions.Exit(FAILED)
+
+
+if __name__ == "__main__":  # with what every command says of its mistakes
+    cli.command.add_command(bench)
+    sys.argv.insert(1, bench.name or "")
+    cli.main()

@@ -10,7 +10,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from ...cases.find import shipped
+from textmech.cases.find import shipped
 
 UNIT = "import numpy"  # what nothing here does without: a measure of the machine
 COMMAND = "from textmech.reports.start import main; main()"

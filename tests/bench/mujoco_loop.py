@@ -1,9 +1,12 @@
-"""The plainest loop that a user of MuJoCo would write: the yardstick of `textmech bench`.
+"""The plainest loop that a user of MuJoCo would write: the yardstick of `make bench`.
 
 Natively it is `mj_step(model, data, n)` on the file that `show` prints, which is cheaper than a
 loop in Python; signals in time are a callback. Of a law or a driver it is the force of the present
 instant, set before each step of a loop in Python, which is of first order.
 """
+
+# MuJoCo's bindings are compiled and have no stubs.
+# pyright: reportAttributeAccessIssue=false
 
 from collections.abc import Callable
 from functools import partial
@@ -11,23 +14,35 @@ from functools import partial
 import mujoco
 import numpy as np
 
-from ....cases.scene import GROUND, Push, Scene, Signal
-from ....cases.scene.forces.force import of
-from ....cases.trajectory import Array
-from ...engine import Plain, Plan, Start
-from ...law import dry_friction, smooth_friction
-from ...signal import factor, value
-from ..callbacks.friction import one_slide
-from ..callbacks.signal import Control, installed, listening
-from ..model.drive import controls
-from ..model.force import BY_ITSELF
-from ..read.poses import poses
+from textmech.cases.scene import GROUND, Push, Scene, Signal
+from textmech.cases.scene.forces.force import of
+from textmech.cases.scene.frame import PLANE
+from textmech.cases.trajectory import Array
+from textmech.engines.engine import Plan, Start
+from textmech.engines.law import dry_friction, smooth_friction
+from textmech.engines.mujoco import MuJoCo
+from textmech.engines.mujoco.callbacks.friction import one_slide
+from textmech.engines.mujoco.callbacks.signal import Control, installed, listening
+from textmech.engines.mujoco.model.drive import controls
+from textmech.engines.mujoco.model.force import BY_ITSELF
+from textmech.engines.mujoco.model.rods import with_rods
+from textmech.engines.mujoco.read.poses import poses
+from textmech.engines.signal import factor, value
+
+from .plain import Begin, Plain
 
 Take = Callable[[int], None]
 
 
-def plain(scene: Scene, start: Start, plan: Plan, text: str) -> Callable[[float], Plain] | None:
-    """See `Loop.plain`; text: the MJCF file. Another step is a number in the model."""
+def plain(engine: MuJoCo, scene: Scene, start: Start, step: float, plan: Plan) -> Begin | None:
+    """`mj_step(model, data, n)` on the file of `show`, or our law's force before each step.
+
+    Another step is a number in the model. None: nobody has written the loop.
+    """
+    if scene.frame is not PLANE:
+        return None
+    _, text = engine._script(scene, start, step, plan)  # without what is only seen
+    scene, start = with_rods(scene, start)
     native = plan.realised == "native"
     if not (native or (one_slide(scene) and _alone(scene))):
         return None

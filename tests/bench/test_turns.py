@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from textmech.reports.bench.turns import Work, ratio, turns
+from bench.turns import Work, ratio, turns
 
 
 def test_a_rounds_own_ratio_counts() -> None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...cases.trajectory import Array
+from textmech.cases.trajectory import Array
 
 Work = Callable[[], object]
 

@@ -1,4 +1,4 @@
-"""The plainest loop that a user of pymunk would write: the yardstick of `textmech bench`.
+"""The plainest loop that a user of pymunk would write: the yardstick of `make bench`.
 
 Natively it is the script that `show` prints, run as it is. Of a law it is that script with the
 force of the present instant, which is of first order.
@@ -11,20 +11,27 @@ from pymunk.body import Body
 from pymunk.space import Space
 from pymunk.vec2d import Vec2d
 
-from ....cases.scene import GROUND, Anchor, Joint, Scene
-from ....cases.scene.forces.force import Damper, Line
-from ...engine import Plain, Plan, Start
-from ...law import dry_friction, tension
-from ..callbacks.cut import cuts
-from ..callbacks.force import lacking
-from ..stepping.run import COLD
-from ..stepping.scene import build
-from .plans import numbers_by_name
-from .script import before_each, building
+from textmech.cases.scene import GROUND, Anchor, Joint, Scene
+from textmech.cases.scene.forces.force import Damper, Line
+from textmech.engines.engine import Plan, Start
+from textmech.engines.law import dry_friction, tension
+from textmech.engines.pymunk import Pymunk
+from textmech.engines.pymunk.adapter.plans import numbers_by_name
+from textmech.engines.pymunk.adapter.script import before_each, building
+from textmech.engines.pymunk.callbacks.cut import cuts
+from textmech.engines.pymunk.callbacks.force import lacking
+from textmech.engines.pymunk.stepping.run import COLD
+from textmech.engines.pymunk.stepping.scene import build
+
+from .plain import Begin, Plain
 
 
-def plain(scene: Scene, start: Start, step: float, plan: Plan) -> Callable[[float], Plain] | None:
-    """See `Loop.plain`: pymunk cannot go back to a start, so every step builds its own space."""
+def plain(engine: Pymunk, scene: Scene, start: Start, step: float, plan: Plan) -> Begin | None:
+    """`space.step(h)` in a Python loop, after the script's lines of `show`.
+
+    pymunk cannot go back to a start, so every step builds its own space. None: nobody has written
+    the loop.
+    """
     law = plan.realised == "law"
     if law and not sayable(scene):
         return None

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
+from bench import growth
+from bench.growth import REFUSED, SOLVED, chain, free, grown, hung, scenes
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
-from textmech.reports.bench import growth
-from textmech.reports.bench.growth import REFUSED, SOLVED, chain, free, grown, hung, scenes
 
 TOO_LARGE = {
     "chain of 100 links in space": "with 100 bodies that hang together",

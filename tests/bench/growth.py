@@ -8,9 +8,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from ...cases.load import load
-from ...cases.mistake import CaseError
-from ...reference.solve import solve
+from textmech.cases.load import load
+from textmech.cases.mistake import CaseError
+from textmech.reference.solve import solve
 
 SOLVED = 60.0  # CPU s: of a machine half as fast as that on which the slowest takes 20
 REFUSED = 2.0  # CPU s: a refusal computes nothing

@@ -5,8 +5,8 @@ import sys
 
 import pytest
 
-from textmech.reports.bench import table
-from textmech.reports.bench.start import BOUNDS, Begun, begun, least, lines
+from bench import table
+from bench.start import BOUNDS, Begun, begun, least, lines
 
 HEAVY = (
     *("numpy", "pydantic", "ruamel.yaml", "pint", "pandas", "matplotlib", "jinja2"),
@@ -50,7 +50,7 @@ def test_what_takes_longer_costs_more() -> None:
 
 
 def test_each_start_is_measured_beside_its_bound(monkeypatch: pytest.MonkeyPatch) -> None:
-    from textmech.reports.bench import start
+    from bench import start
 
     took = iter([0.5, 0.1, 0.6, 0.2, 0.2, 0.2])
     monkeypatch.setattr(start, "least", lambda words, rounds: next(took))

@@ -3,21 +3,24 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Protocol
+from typing import Any
 
 import numpy as np
 
-from ...cases.case import Case
-from ...cases.scene import Scene
-from ...cases.trajectory import Array, Trajectory
-from ...engines.engine import Diverged, Engine, Loop, Plain, Plan, Realised, Refusal, Start
-from ...engines.probe import guarded
-from ..batch.selection import choose_cases
-from ..compare.trial.answers import plans
-from ..compare.trial.ladder import wanted_reactions
-from ..compare.trial.start import assembled
-from ..compare.trial.states import moving
-from ..system.table_text import why
+from textmech.cases.case import Case
+from textmech.cases.scene import Scene
+from textmech.cases.trajectory import Array, Trajectory
+from textmech.engines.engine import Diverged, Engine, Plan, Realised, Refusal, Start
+from textmech.engines.probe import guarded
+from textmech.reports.batch.selection import choose_cases
+from textmech.reports.compare.trial.answers import plans
+from textmech.reports.compare.trial.ladder import wanted_reactions
+from textmech.reports.compare.trial.start import assembled
+from textmech.reports.compare.trial.states import moving
+from textmech.reports.system.table_text import why
+
+from . import mujoco_loop, pymunk_loop
+from .plain import Begin
 from .turns import Ratio, Work, ratio, turns
 
 RUNGS = 5  # of the ladder that is built: as many as a shipped setting's
@@ -26,8 +29,12 @@ FALLS = 2  # times further from the adapter: nearly 4, but events lie between it
 ROUNDED = 1e-9  # of the motion's size: the same sums in another order, over all steps
 
 
-class Looped(Engine, Loop, Protocol):
-    """An engine that has a plain loop."""
+LOOPS: dict[str, Callable[[Any, Scene, Start, float, Plan], Begin | None]] = {
+    "mujoco": mujoco_loop.plain,
+    "pymunk": pymunk_loop.plain,
+}
+"""The plain loop of each engine that has one, for a plan; numbers that follow the step are those of
+the step [s] that is given."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +83,7 @@ def rows(case: Case, engines: list[Engine], amount: Amount) -> Iterator[Row]:
     """Each way of the engines that have a plain loop."""
     start = assembled(moving(case))
     for engine in engines:
-        if isinstance(engine, Loop):
+        if engine.name in LOOPS:
             ways, error = guarded(partial(plans, engine, case.scene, start))
             if error is not None:
                 yield Row(case.name, engine.name, engine.setting, "native", because=why(error))
@@ -121,7 +128,7 @@ class Pair:
 
     case: Case
     start: Start
-    engine: Looped
+    engine: Engine
     plan: Plan
     amount: Amount
 
@@ -135,12 +142,13 @@ class Pair:
         """s."""
         return self.case.duration / self.count
 
-    def plain(self) -> Callable[[float], Plain] | None:
+    def plain(self) -> Begin | None:
         """Returns a function that builds the plain loop for a step [s]; None: nobody wrote it.
 
         Nothing is built before the function is called.
         """
-        return self.engine.plain(self.case.scene, self.start, self.h, self.plan)
+        loop = LOOPS[self.engine.name]
+        return loop(self.engine, self.case.scene, self.start, self.h, self.plan)
 
     def apart(self, coarser: int) -> float:
         """How far the two end from each other at so many times the step, numbers tied to it held.

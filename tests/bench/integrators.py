@@ -10,14 +10,15 @@ from typing import Literal
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from ...cases.case import Case
-from ...cases.trajectory import Array
-from ...reference.integrators.march import integrate
-from ...reference.motion.follow import either
-from ...reference.motion.stuck import slope
-from ...reference.system import Mode
-from ...reference.systems import SYSTEMS
-from ..batch.selection import choose_cases
+from textmech.cases.case import Case
+from textmech.cases.trajectory import Array
+from textmech.reference.integrators.march import integrate
+from textmech.reference.motion.follow import either
+from textmech.reference.motion.stuck import slope
+from textmech.reference.system import Mode
+from textmech.reference.systems import SYSTEMS
+from textmech.reports.batch.selection import choose_cases
+
 from .turns import Ratio, Work, ratio, turns
 
 ERRORS = {  # of the case, in its units: what all methods but the slowest reach

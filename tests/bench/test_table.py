@@ -10,12 +10,12 @@ from click.testing import CliRunner, Result
 from given.command import NEW
 from given.planning import SETTINGS, words
 
-from textmech.reports.bench import adapters, table
-from textmech.reports.bench.adapters import Row
-from textmech.reports.bench.growth import Grown
-from textmech.reports.bench.integrators import Compared
-from textmech.reports.bench.turns import Ratio
-from textmech.reports.command import bench
+from bench import __main__ as command
+from bench import adapters, table
+from bench.adapters import Row
+from bench.growth import Grown
+from bench.integrators import Compared
+from bench.turns import Ratio
 
 RATIO = r" +(?P<{}>[\d.]+) ±[\d.]+"
 LINE = re.compile(
@@ -33,8 +33,8 @@ def cart(tmp_path: Path) -> Path:
 
 
 def measure(*words: object) -> Result:
-    """What `textmech bench` does in this process."""
-    return CliRunner().invoke(bench.bench, [str(word) for word in words])
+    """What `make bench` does in this process."""
+    return CliRunner().invoke(command.bench, [str(word) for word in words])
 
 
 @pytest.mark.slow

@@ -7,12 +7,13 @@ from typing import Any
 import pytest
 from given.planning import CASES, EVERY, SHIPPED, TUNED, planned
 
+from bench.adapters import LOOPS, Amount, Pair, one_of_each_file, rows
+from bench.plain import Begin
 from textmech.cases.case import Case
 from textmech.cases.fields.friction import Bounds
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Trajectory
-from textmech.engines.engine import Diverged, Engine, Loop, Plain, Plan, Refusal, Start
-from textmech.reports.bench.adapters import Amount, Pair, one_of_each_file, rows
+from textmech.engines.engine import Diverged, Engine, Plan, Refusal, Start
 
 FEW = Amount(steps=4, samples=5, rounds=1)
 
@@ -79,29 +80,22 @@ def looser(scene: Scene) -> Scene:
     return replace(scene, joints={"guide": replace(guide, dry_friction=dry)})
 
 
-class Other:
-    """An engine whose plain loop is of another scene."""
+def with_plain_loop(patch: pytest.MonkeyPatch, name: str, other: Callable[[Scene], Scene]) -> None:
+    """Lets the plain loop of an engine be of another scene."""
+    loop = LOOPS[name]
 
-    def __init__(self, engine: Engine, other: Callable[[Scene], Scene]) -> None:
-        self.engine, self.other = engine, other
+    def plain(engine: Engine, scene: Scene, start: Start, step: float, plan: Plan) -> Begin | None:
+        changed = other(scene)
+        return loop(engine, changed, start, step, planned(engine, changed, start, plan.realised))
 
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self.engine, name)
-
-    def plain(
-        self, scene: Scene, start: Start, step: float, plan: Plan
-    ) -> Callable[[float], Plain] | None:
-        changed = self.other(scene)
-        assert isinstance(self.engine, Loop)
-        other = planned(self.engine, changed, start, plan.realised)
-        return self.engine.plain(changed, start, step, other)
+    patch.setitem(LOOPS, name, plain)
 
 
 @pytest.mark.mutant("plain loop of {name} with another gravity")
 @pytest.mark.parametrize("name", TUNED)
-def test_another_motion_is_not_compared(name: str) -> None:
-    other: Any = Other(TUNED[name], heavier)
-    (row,) = rows(briefly("four_bar", 0.2), [other], FEW)
+def test_another_motion_is_not_compared(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    with_plain_loop(monkeypatch, name, heavier)
+    (row,) = rows(briefly("four_bar", 0.2), [TUNED[name]], FEW)
     assert row.differs
     assert row.because == "the plain loop makes another motion"
     assert row.apart > 1e-6
@@ -110,10 +104,10 @@ def test_another_motion_is_not_compared(name: str) -> None:
 
 @pytest.mark.mutant("plain loop of {name} with another stiction")
 @pytest.mark.parametrize("name", TUNED)
-def test_nor_is_another_law(name: str) -> None:
+def test_nor_is_another_law(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """It breaks loose earlier, at any step."""
-    other: Any = Other(TUNED[name], looser)
-    found = rows(CASES["growing_force"], [other], replace(FEW, steps=200))
+    with_plain_loop(monkeypatch, name, looser)
+    found = rows(CASES["growing_force"], [TUNED[name]], replace(FEW, steps=200))
     told = [row for row in found if row.realised != "native"]
     assert told
     assert all(row.differs for row in told)
@@ -127,15 +121,24 @@ def test_what_has_no_plain_loop_says_so(name: str, way: str) -> None:
     assert not any(row.differs for row in found)
 
 
-class Refusing(Other):
+class Refusing:
     """An engine that cannot."""
 
-    def plans(self, scene: Scene, start: Start) -> list[Refusal]:
+    def __init__(self, engine: Engine) -> None:
+        self.engine = engine
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.engine, name)
+
+    def plans(self, scene: Scene, start: Start) -> Any:
         return [Refusal("native", "engine: no joints")]
 
 
-class Torn(Other):
+class Torn(Refusing):
     """An engine that flies apart."""
+
+    def plans(self, scene: Scene, start: Start) -> Any:
+        return self.engine.plans(scene, start)
 
     def run(self, *given: Any, **named: Any) -> Trajectory:
         raise Diverged("not finite from t = 0.1 s on")
@@ -145,8 +148,8 @@ class Torn(Other):
     ("kind", "said"),
     [(Refusing, "refused: engine: no joints"), (Torn, "not finite from t = 0.1 s on")],
 )
-def test_what_cannot_be_run_is_a_row_that_says_so(kind: type[Other], said: str) -> None:
-    engine: Any = kind(SHIPPED["pymunk"], heavier)
+def test_what_cannot_be_run_is_a_row_that_says_so(kind: type[Refusing], said: str) -> None:
+    engine: Any = kind(SHIPPED["pymunk"])
     (row,) = rows(briefly("four_bar", 0.2), [engine], FEW)
     assert row.because == said
     assert not row.differs
@@ -155,7 +158,6 @@ def test_what_cannot_be_run_is_a_row_that_says_so(kind: type[Other], said: str) 
 @pytest.mark.parametrize("name", ["four_bar", "growing_force"])  # with gravity, and without
 def test_no_round_finds_its_scene_built(name: str) -> None:
     case, engine = CASES[name], SHIPPED["mujoco"]
-    assert isinstance(engine, Loop)
     pair = Pair(case, {}, engine, Plan("native", held=(1,)), FEW)
     seen = [pair.unseen(k).gravity for k in range(5)]
     assert len({case.scene.gravity, *seen}) == 6
