@@ -1,7 +1,9 @@
 """Processes of this machine as an executor: a task whose process dies costs nobody but itself.
 
 `concurrent.futures.ProcessPoolExecutor` loses all tasks with one of its processes, and cannot end
-a task. Here each process has a thread that waits for it, knows its task, and replaces it.
+a task. `pebble` can, but all its processes share one pipe: an answer that cannot be read, or a
+process that is killed while it waits, ends the pool. Here each process has a pipe of its own, and a
+thread that waits for it, knows its task, and replaces it.
 """
 
 import multiprocessing

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from textmech.reports.system import pool
+from textmech.reports.system.processes import Processes
 
 
 def work(task: int) -> int:
@@ -71,6 +72,39 @@ def test_whatever_a_task_does_it_is_told_and_costs_no_other() -> None:
             assert told[task] in found[index].because
         else:
             assert found[index] == task
+
+
+class Unreadable:
+    """An answer that is pickled and cannot be read back."""
+
+    def __reduce__(self) -> tuple[type, tuple[str]]:
+        return int, ("no number",)
+
+
+def answer(task: int) -> object:
+    return Unreadable() if task == 1 else task
+
+
+def test_an_answer_that_cannot_be_read_costs_no_other() -> None:
+    """Where all processes answer through one pipe, as pebble's do, it ends the pool."""
+    with pool.local(2) as executor:
+        found = dict(pool.spread(answer, list(range(6)), executor))
+    assert "ValueError: invalid literal" in found.pop(1).because
+    assert found == {task: task for task in (0, 2, 3, 4, 5)}
+
+
+def test_processes_that_are_killed_while_they_wait_cost_a_task_each() -> None:
+    """As by a system that runs out of memory; those that replace them do the rest."""
+    with pool.local(2) as executor:
+        assert dict(pool.spread(answer, [0, 2], executor)) == {0: 0, 1: 2}
+        assert isinstance(executor, Processes)
+        for process in executor._all:
+            os.kill(process._process.pid or 0, signal.SIGKILL)
+            process._process.join()
+        found = dict(pool.spread(answer, [0, 2, 3, 4, 5, 6], executor))
+    died = [result for result in found.values() if isinstance(result, pool.Died)]
+    assert died == [pool.Died("the process died (SIGKILL)")] * 2
+    assert len(found) == 6
 
 
 @pytest.mark.slow
