@@ -56,9 +56,9 @@ def versions(
     from ..data.ownership import unasked
     from ..output import write
     from ..versions.measure import measure
+    from ..versions.release import parted
     from ..versions.table import NAME, steps, table
     from ..versions.text import text
-    from ..versions.wanted import parted
 
     releases, named = parted(words)
     if out is not None:

@@ -6,6 +6,7 @@ import signal
 import subprocess
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from typing import Literal
 
 from . import termination as ending
 
@@ -13,33 +14,38 @@ _WITH_PARENT = 1  # Linux: PR_SET_PDEATHSIG
 
 
 def run(
-    words: Sequence[object], *, env: Mapping[str, str] | None = None, told: bool = False
+    words: Sequence[object],
+    *,
+    env: Mapping[str, str] | None = None,
+    heard: Literal["stdout", "stderr"] | None = None,
 ) -> tuple[int, str]:
-    """Its exit code, negative if a signal ended it, and what it wrote to stderr, if that is `told`.
+    """Returns its exit code, negative if a signal ended it, and what it wrote to what is `heard`.
 
+    Its other stream is ours, but where its errors are heard: there what else it says is of no use.
     It has a session of its own: Ctrl-C in the terminal reaches us, and we end it. Its stdin ends
-    when we do.
+    when we do, or at once where its errors are heard: nobody would see what it asks.
     """
     pipe = subprocess.PIPE
     process = subprocess.Popen(
         [str(word) for word in words],
         env=env,
         stdin=pipe,
-        stdout=pipe if told else None,
-        stderr=pipe if told else None,
+        stdout=pipe if heard else None,
+        stderr=pipe if heard == "stderr" else None,
         start_new_session=True,
         preexec_fn=_tied(),
     )
     with process, ending.at_once(lambda: _kill(process)):
         try:
-            if told:
-                said = process.communicate()[1].decode(errors="replace")
-            else:
-                said = ""
-                process.wait()
+            said = b""
+            if heard == "stderr":
+                _, said = process.communicate()
+            elif process.stdout:
+                said = process.stdout.read()
+            process.wait()
         finally:
             _kill(process)
-    return process.returncode, said
+    return process.returncode, said.decode(errors="replace")
 
 
 def _kill(process: subprocess.Popen[bytes]) -> None:

@@ -1,4 +1,7 @@
-"""Every release in a process of its own; references are solved once, and lie in the store."""
+"""Runs `textmech run` with each release in a process of its own.
+
+References are solved once, and lie in the store.
+"""
 
 import json
 import os
@@ -11,14 +14,22 @@ from pathlib import Path
 from ...cases.mistake import CaseError, Mistake
 from ..batch.cache.store import FOLDER, by_default, usable
 from ..data.row import CRASHED, REFUSED
+from ..output.diff.columns import ERRORS
 from ..output.diff.folder import Folder, opened
 from ..system import child
 from ..system.temporary_folder import passing
-from .install import place
-from .one import BROKEN
-from .wanted import Release
+from .release import Release, place
 
 ENVIRONMENTS = "versions"  # in the user's cache
+COMMAND = """\
+from textmech.reports.system.termination import with_stdin
+with_stdin()
+from textmech.reports.start import main
+main()
+"""
+"""`textmech`, which ends with whoever started it; it watches before seconds of imports."""
+DONE = (0, 1)
+"""The exit codes of a run that was done: that a verdict FAILS is a finding here."""
 
 
 @dataclass(frozen=True)
@@ -39,31 +50,26 @@ def measure(
     long: bool,
     tell: Callable[[str], None],
 ) -> Iterator[Measured]:
-    """Each as it is done; all are installed before the first one runs. Raises CaseError.
+    """Yields each as it is done; all are installed before the first one runs. Raises CaseError.
 
-    long: whether the cases may ask for any amount of work.
+    long: whether the cases may ask for any amount of work. Cases and settings are sound in this
+    environment: what a release says of the settings is what it lacks.
     """
+    words = [word for setting in settings for word in ("--settings", setting)]
+    words += ["--jobs", str(jobs)] if jobs else []
+    words += ["--allow-long"] if long else []
     with _cache() as cache:
-        places = []
-        for release in releases:
-            places.append(place(release, cache / ENVIRONMENTS, tell))
+        places = [place(release, cache / ENVIRONMENTS, tell) for release in releases]
         for release, found in zip(releases, places, strict=True):
             tell(f"running {release}")
             with passing("textmech-release-") as out:
-                asked = {
-                    "engine": release.engine,
-                    "version": release.version,
-                    "cases": [*cases],
-                    "settings": [*settings],
-                    "folder": str(out),
-                    "jobs": jobs,
-                    "long": long,
-                }
-                code, _ = child.run(
-                    [sys.executable, "-P", "-m", f"{__package__}.one", json.dumps(asked)],
+                asked = ["--json", "--engine", release.engine, "--out", out, *words, "--", *cases]
+                code, said = child.run(
+                    [sys.executable, "-P", "-c", COMMAND, "run", *asked],
                     env=_environment(found, cache),
+                    heard="stdout",
                 )
-                yield _measured(release, code, out)
+                yield _measured(release, code, said, out, ["--engine", "--settings", *settings])
 
 
 @contextmanager
@@ -82,14 +88,36 @@ def _environment(found: Path | None, cache: Path) -> dict[str, str]:
     return {**os.environ, FOLDER: str(cache)} | ({"PYTHONPATH": path} if path else {})
 
 
-def _measured(release: Release, code: int, out: Path) -> Measured:
-    if code > 0:
-        what = "was not run: what is wrong is said above"
-        raise CaseError([Mistake("versions", 0, 0, str(release), what)])
+def _measured(release: Release, code: int, said: str, out: Path, asked: Sequence[str]) -> Measured:
+    """Returns what a run in the folder `out` gave, by its exit code and document.
+
+    asked: where a mistake stands that is the release's own. Raises CaseError for any other.
+    """
     if code < 0:
         return Measured(release, None, CRASHED, f"its process ended by signal {-code}")
-    if (out / BROKEN).exists():
-        why = (out / BROKEN).read_text(encoding="utf-8")
-        return Measured(release, None, REFUSED, f"adapter: {why}")
+    if code not in DONE or not (out / ERRORS.name).exists():  # 1 is a traceback's code too
+        mistakes = _mistakes(said)
+        own = {Path(place) for place in asked}
+        if mistakes and all(Path(mistake.file) in own for mistake in mistakes):
+            why = "; ".join(" ".join(mistake.what.split()) for mistake in mistakes)
+            return Measured(release, None, REFUSED, f"adapter: {why}")
+        above = "" if mistakes else ": what is wrong is said above"
+        raise CaseError([_wrong(release, f"was not run{above}"), *mistakes])
     (folder,) = opened({str(release): out})
+    if (version := folder.versions.get(release.engine)) != release.version:
+        what = f"is asked for, and Python finds {version or 'none'}"
+        raise CaseError([_wrong(release, what)])
     return Measured(release, folder)
+
+
+def _mistakes(said: str) -> list[Mistake]:
+    """Returns the mistakes of a run's document; none if it ended before it could say one."""
+    try:
+        told = json.loads(said)["mistakes"]
+    except ValueError:
+        return []
+    return [Mistake(m["file"], m["line"], m["column"], m["field"], m["what"]) for m in told]
+
+
+def _wrong(release: Release, what: str) -> Mistake:
+    return Mistake("versions", 0, 0, str(release), what)

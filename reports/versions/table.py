@@ -9,7 +9,7 @@ from ..data.row import NUMBERS
 from ..output.diff.columns import ERRORS, Row, Rule
 from ..output.diff.compare import Change, Place, difference, place
 from .measure import Measured
-from .wanted import Release
+from .release import Release
 
 NAME = "versions.csv"
 COLUMNS = (

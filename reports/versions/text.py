@@ -7,8 +7,8 @@ from itertools import groupby
 from ..output.diff.columns import ERRORS, Row, number
 from ..output.diff.compare import Change, Place, place
 from ..output.diff.forms import fitted
+from .release import Release
 from .table import Step
-from .wanted import Release
 
 MOST = 40  # rows of a table; the CSV has them all
 NONE = "–"

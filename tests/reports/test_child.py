@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from textmech.reports.system import child
+from textmech.reports.versions.measure import COMMAND
 
 SOON = 3.0  # s, on a machine that does much else; killing takes milliseconds
 RUNS = """\
@@ -20,7 +21,7 @@ from textmech.reports.system.temporary_folder import passing
 termination.listen()
 try:
     with passing("textmech-run-") as folder:
-        child.run([sys.executable, "-c", {program!r}], told={told})
+        child.run([sys.executable, "-c", {program!r}], heard={heard!r})
 except KeyboardInterrupt:
     sys.exit(130)
 """
@@ -54,14 +55,17 @@ def within(seconds: float, path: Path) -> str:
     return path.read_text(encoding="utf-8")
 
 
-@pytest.fixture(params=[False, True], ids=["its streams are ours", "its streams are read"])
+@pytest.fixture(
+    params=[None, "stderr", "stdout"],
+    ids=["its streams are ours", "its errors are read", "its output is read"],
+)
 def running(
     request: pytest.FixtureRequest, tmp_path: Path
 ) -> Iterator[tuple[subprocess.Popen[str], list[int]]]:
     """A process that runs a program, and the numbers of that and of what that has started."""
     (tmp_path / "tmp").mkdir()
     process = subprocess.Popen(
-        [sys.executable, "-c", RUNS.format(program=PROGRAM, told=request.param)],
+        [sys.executable, "-c", RUNS.format(program=PROGRAM, heard=request.param)],
         stderr=subprocess.PIPE,
         text=True,
         env=os.environ | {"TOLD": str(tmp_path / "told"), "TMPDIR": str(tmp_path / "tmp")},
@@ -119,15 +123,20 @@ def test_killed_it_takes_the_program_along(
 @pytest.mark.slow
 def test_what_it_says_and_how_it_ended_is_told() -> None:
     code = "import sys; sys.stderr.write('b\\xe4d'); sys.exit(3)"
-    assert child.run([sys.executable, "-X", "utf8", "-c", code], told=True) == (3, "bäd")
+    assert child.run([sys.executable, "-X", "utf8", "-c", code], heard="stderr") == (3, "bäd")
+    both = "import sys; sys.stdout.write('said'); sys.stderr.write('wrong')"
+    assert child.run([sys.executable, "-c", both], heard="stdout") == (0, "said")
     assert child.run([sys.executable, "-c", "import os; os.kill(os.getpid(), 9)"]) == (-9, "")
-    assert child.run([sys.executable, "-c", "import sys; sys.stdin.read()"], told=True) == (0, "")
+    assert child.run([sys.executable, "-c", "import sys; sys.stdin.read()"], heard="stderr") == (
+        0,
+        "",
+    )
 
 
 def test_a_release_is_not_measured_for_nobody() -> None:
     """Its stdin has ended: whoever asked for it is gone."""
     done = subprocess.run(
-        [sys.executable, "-P", "-m", "textmech.reports.versions.one", "{}"],
+        [sys.executable, "-P", "-c", COMMAND, "run"],
         stdin=subprocess.DEVNULL,
         capture_output=True,
         timeout=60,

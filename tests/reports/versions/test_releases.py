@@ -6,15 +6,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from given.command import NEW
 from given.otherwise import otherwise
 from given.report_folders import ROW, report
 
-from textmech.cases.mistake import CaseError
+from textmech.cases.mistake import CaseError, Mistake
 from textmech.reports.output.diff.folder import opened
-from textmech.reports.versions import install, measure, one, table
+from textmech.reports.versions import measure, release, table
 from textmech.reports.versions.measure import Measured
-from textmech.reports.versions.wanted import Release
+from textmech.reports.versions.release import Release
 
 
 def measured(place: Path, version: str) -> Measured:
@@ -42,53 +41,60 @@ def test_a_folder_holds_its_own_release_and_no_other(tmp_path: Path) -> None:
     info = tmp_path / "pymunk-7.3.0.dist-info"
     info.mkdir()
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: pymunk\nVersion: 7.3.0\n")
-    assert install._holds(tmp_path, Release("pymunk", "7.3.0"))
-    assert not install._holds(tmp_path, Release("pymunk", "7.3.1"))
-    assert not install._holds(tmp_path, Release("mujoco", "7.3.0"))
+    assert release._holds(tmp_path, Release("pymunk", "7.3.0"))
+    assert not release._holds(tmp_path, Release("pymunk", "7.3.1"))
+    assert not release._holds(tmp_path, Release("mujoco", "7.3.0"))
     was = "(one.name, one.version) == (release.engine, release.version)"
-    any_release = otherwise(install, was, "one.name == release.engine")
+    any_release = otherwise(release, was, "one.name == release.engine")
     assert any_release._holds(tmp_path, Release("pymunk", "7.3.1"))
+
+
+ASKED = ("--engine", "--settings", "mine.yaml")
+
+
+def document(*mistakes: Mistake) -> str:
+    """The document of a run that ended with these mistakes."""
+    told = [{"file": m.file, "line": 0, "column": 0, "field": "", "what": m.what} for m in mistakes]
+    return json.dumps({"mistakes": told, "exit_code": 2})
 
 
 @pytest.mark.mutant("a release that was not run counts as measured")
 def test_a_release_that_was_not_run_is_not_measured(tmp_path: Path) -> None:
     """Whatever lies in its folder; one that crashed, or is broken, says why."""
     release, out = Release("mujoco", "4.0.0"), report(tmp_path / "out")
-    assert measure._measured(release, 0, out).folder is not None
-    for code in (1, one.MISTAKEN):
+    for code in (0, 1):
+        assert measure._measured(release, code, "{", out, ASKED).folder is not None
+    wrong = Mistake("cart.yaml", 0, 0, "", "no reference")
+    nothing = tmp_path / "nothing"
+    for code, said, place in ((2, "", out), (2, document(wrong), out), (1, "", nothing)):
         with pytest.raises(CaseError, match="was not run"):
-            measure._measured(release, code, out)
-    crashed = measure._measured(release, -9, out)
+            measure._measured(release, code, said, place, ASKED)
+    crashed = measure._measured(release, -9, "", out, ASKED)
     assert (crashed.verdict, crashed.because) == ("crashed", "its process ended by signal 9")
-    counts = otherwise(measure, "if code > 0:", "if code > 2:")
-    assert counts._measured(release, one.MISTAKEN, out).folder is not None
-    (out / one.BROKEN).write_text("no such module", encoding="utf-8")
-    broken = measure._measured(release, 0, out)
-    assert (broken.verdict, broken.because) == ("refused", "adapter: no such module")
+    counts = otherwise(measure, "DONE = (0, 1)", "DONE = (0, 1, 2)")
+    assert counts._measured(release, 2, document(wrong), out, ASKED).folder is not None
 
 
-def asked(place: Path, version: str, module: Any = one) -> int:
-    """The exit code of a run of that release of MuJoCo in this environment."""
-    place.mkdir()
-    (place / "cart.yaml").write_text(NEW, encoding="utf-8")
-    words = {"engine": "mujoco", "version": version, "cases": [str(place / "cart.yaml")]}
-    return module.main(
-        json.dumps({**words, "settings": ["shipped"], "folder": str(place), "jobs": 1,
-                    "long": False})
-    )  # fmt: skip
+@pytest.mark.mutant("a mistake in a case is taken for what a release lacks")
+def test_what_a_release_says_of_its_own_settings_is_what_it_lacks(tmp_path: Path) -> None:
+    release, out = Release("mujoco", "4.0.0"), report(tmp_path / "out")
+    lacking = Mistake("--engine", 0, 0, "", "no such module"), Mistake("mine.yaml", 0, 0, "", "x")
+    broken = measure._measured(release, 2, document(*lacking), out, ASKED)
+    assert (broken.verdict, broken.because) == ("refused", "adapter: no such module; x")
+    mixed = document(*lacking, Mistake("cart.yaml", 0, 0, "", "no reference"))
+    with pytest.raises(CaseError, match="was not run"):
+        measure._measured(release, 2, mixed, out, ASKED)
+    any_mistake = otherwise(
+        measure, "all(Path(mistake.file) in own", "any(Path(mistake.file) in own"
+    )
+    assert any_mistake._measured(release, 2, mixed, out, ASKED).verdict == "refused"
 
 
-@pytest.mark.slow
 @pytest.mark.mutant("another release than the one asked for is measured")
-def test_another_release_than_the_one_asked_for_is_not_measured(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setenv("TEXTMECH_CACHE", str(tmp_path / "cache"))
-    here = install.here("mujoco") or ""
-    assert asked(tmp_path / "other", "0.1") == one.MISTAKEN
-    assert f"mujoco 0.1 is asked for, and Python finds {here}" in capsys.readouterr().err
-    assert [file.name for file in (tmp_path / "other").iterdir()] == ["cart.yaml"]
-    assert asked(tmp_path / "same", here) == 0
-    assert (tmp_path / "same" / "tolerance.csv").is_file()
-    any_release = otherwise(one, "    if other:\n", "    if other and False:\n")
-    assert asked(tmp_path / "any", "0.1", any_release) == 0
+def test_another_release_than_the_one_asked_for_is_not_measured(tmp_path: Path) -> None:
+    out = report(tmp_path / "out", rows=[replace(ROW, version="4.0.0")])
+    other = Release("mujoco", "0.1"), 0, "", out, ASKED
+    with pytest.raises(CaseError, match=r"is asked for, and Python finds 4\.0\.0"):
+        measure._measured(*other)
+    any_release = otherwise(measure, "!= release.version:", "is None:")
+    assert any_release._measured(*other).folder is not None

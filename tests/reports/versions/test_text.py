@@ -8,9 +8,9 @@ from given.report_folders import ROW, report
 
 from textmech.reports.output.diff.folder import opened
 from textmech.reports.versions.measure import Measured
+from textmech.reports.versions.release import Release
 from textmech.reports.versions.table import Step, steps, table
 from textmech.reports.versions.text import text
-from textmech.reports.versions.wanted import Release
 
 NONE = replace(ROW, quantity="touch.force", error=None)
 REFUSED = replace(NONE, verdict="refused", because="engine: no sensor")

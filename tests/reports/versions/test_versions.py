@@ -11,8 +11,7 @@ from given.releases import DYING, HEAVIER, LACKING, SAME, index, wheel
 from textmech.reports.output import write
 from textmech.reports.output.diff.columns import Rule
 from textmech.reports.output.diff.folder import read
-from textmech.reports.versions.install import here, place
-from textmech.reports.versions.wanted import Release
+from textmech.reports.versions.release import Release, here, place
 
 NOW = here("pymunk") or ""
 
@@ -88,12 +87,12 @@ def test_what_a_release_lacks_is_a_row_that_says_so(case: Path, tmp_path: Path) 
 
 @pytest.mark.slow
 def test_another_version_than_the_one_asked_for_is_never_taken_for_it(
-    case: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+    case: Path, tmp_path: Path
 ) -> None:
     wheel(tmp_path / "index", "92.1", SAME, says="92.0")
     done = textmech("versions", "pymunk==92.1", case)
     assert done.returncode == 2
-    assert "pymunk 92.1 is asked for, and Python finds 92.0" in capfd.readouterr().err
+    assert "pymunk==92.1: is asked for, and Python finds 92.0" in done.stderr
 
 
 @pytest.mark.slow

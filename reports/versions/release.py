@@ -1,4 +1,4 @@
-"""An engine's release in a folder of its own, which Python then finds first.
+"""A release of an engine: its name on the command line, and a folder that Python finds it in first.
 
 Whatever this environment has or asks for plays no part: nothing else is installed there but the
 pieces that the release itself pins to one version.
@@ -10,19 +10,67 @@ import re
 import shutil
 import sys
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from difflib import get_close_matches
 from importlib import metadata, util
 from pathlib import Path
 
-from ...cases.mistake import CaseError, Mistake
+from ... import engines
+from ...cases.mistake import CaseError, Mistake, nearest
 from ..system import child
 from ..system.temporary_folder import passing
-from .wanted import Release
 
+VERSION = re.compile(r"\d[\w.+!]*", re.ASCII)
+PINNED = re.compile(r"(?P<name>[^=<>~!]*)(?P<sign>[=<>~!]+)(?P<version>.*)", re.DOTALL)
 PIECE = re.compile(r"([\w.-]+) ?\(?== ?([\w.+!]+)\)?")
 LISTED = re.compile(r"\(from versions: ([^)]*)\)")
 UNREACHED = ("NewConnectionError", "ConnectTimeout", "name resolution", "dns error", "Max retries")
 NEAR = 6  # of the releases that there are
+
+
+@dataclass(frozen=True)
+class Release:
+    """An engine's release: its package has the engine's name."""
+
+    engine: str
+    version: str
+
+    def __str__(self) -> str:
+        return f"{self.engine}=={self.version}"
+
+
+def parted(words: Sequence[str]) -> tuple[list[Release], list[str]]:
+    """The releases among the words, in their order, and the other words: cases.
+
+    Raises CaseError with all mistakes.
+    """
+    releases: list[Release] = []
+    cases: list[str] = []
+    mistakes: list[Mistake] = []
+    for word in words:
+        pinned = PINNED.fullmatch(word)
+        if pinned is None:
+            cases.append(word)
+        elif what := _mistaken(**pinned.groupdict()):
+            mistakes.append(Mistake("versions", 0, 0, word, what))
+        else:
+            releases.append(Release(pinned["name"], pinned["version"]))
+    twice = {release for release in releases if releases.count(release) > 1}
+    mistakes += [Mistake("versions", 0, 0, str(r), "is named twice") for r in twice]
+    if not releases and not mistakes:
+        what = f"name releases of an engine, as {engines.names()[0]}==1.2.3"
+        mistakes.append(Mistake("versions", 0, 0, "", what))
+    if mistakes:
+        raise CaseError(mistakes)
+    return releases, cases
+
+
+def _mistaken(name: str, sign: str, version: str) -> str:
+    if name not in engines.names():
+        return f"no such engine{nearest(name.lower(), engines.names())}"
+    if sign != "==" or not VERSION.fullmatch(version):
+        return f"should name one release, as {name}==1.2.3"
+    return ""
 
 
 def place(release: Release, among: Path, tell: Callable[[str], None]) -> Path | None:
@@ -75,7 +123,7 @@ def _install(names: Sequence[str], folder: Path, release: Release) -> None:
     code, said = child.run(
         [*_installer(release), "--no-deps", "--only-binary", ":all:", "--target", folder, *names],
         env=os.environ | {"TMPDIR": str(scratch)},
-        told=True,
+        heard="stderr",
     )
     if code:
         raise _wrong(release, _because(release, said))
