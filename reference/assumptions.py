@@ -13,6 +13,7 @@ from ..cases.scene import Contact
 from ..cases.scene.difference import apart
 from ..cases.scene.frame import PLANE, SPACE
 from ..cases.scene.observe import motion_of, observe
+from ..cases.scene.passages import dips, lasting
 from ..cases.scene.quantity import table
 from ..cases.trajectory import Array, Trajectory
 from .mechanism.modes.either import Generated
@@ -153,7 +154,7 @@ def _past_ends(case: Case, motion: Trajectory) -> Iterator[Mistake]:
 
 
 def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
-    """Rolling or pivoting is assumed: |λ_t| ≤ μ λ_n and λ_n > 0 at every step.
+    """Rolling or pivoting is assumed: |λ_t| ≤ μ λ_n and λ_n > 0 at every step, and between them.
 
     Names the first time at which it fails, and the μ that would be enough.
     """
@@ -166,6 +167,7 @@ def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         fails = tangent > (contact.friction + ROUNDING) * normal
         fails |= (carried <= 0) | (normal < 0)
         if not np.any(fails):
+            yield from _slipping_between(case, motion, contact, normal, carried)
             continue
         stands = np.full(len(normal), True) if carried is normal else normal > 0
         first = int(np.argmax(fails))
@@ -178,6 +180,33 @@ def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
                 f"it would slip; {_needed(normal[stands], tangent[stands], contact.body, doing)}"
             )
         yield case.mistake(("scene", "contacts", contact.name, "ideal"), what)
+
+
+def _slipping_between(
+    case: Case, motion: Trajectory, contact: Contact, normal: Array, carried: Array
+) -> Iterator[Mistake]:
+    """Yields a mistake where it holds at both ends of a step, and not in it."""
+    doing, what = "rolling" if contact.ideal == "rolling" else "pivoting", ""
+    bends = [t for law in case.scene.laws() for t in law.corners]
+    needs = contact.friction
+    for rows in lasting(motion):
+        times, pushes = motion.times[rows], normal[rows]
+        for side in _sides(motion, contact.name):
+            for t, low in dips(times, contact.friction * pushes - side[rows], bends):
+                needs = max(needs, contact.friction - low / float(np.interp(t, times, pushes)))
+                at = what.partition(";")[0] or f"at t = {t:.3g} s it would slip"
+                what = f"{at}; {doing} all the way needs {needs:.6g}"
+        for t, _ in dips(times, carried[rows], bends):
+            what = what or f"the floor would have to pull at t = {t:.3g} s"
+    if what:
+        what = f"{doing} is not possible with friction {contact.friction:.6g}: {what}"
+        yield case.mistake(("scene", "contacts", contact.name, "ideal"), what)
+
+
+def _sides(motion: Trajectory, contact: str) -> tuple[Array, ...]:
+    """(N,) the floor's friction [N] one way and the other; in space its size."""
+    along = motion.reactions.get(f"{contact}.tangent")
+    return (_along_floor(motion, contact),) if along is None else (along, -along)
 
 
 def _carried(case: Case, motion: Trajectory, contact: Contact) -> Array:

@@ -62,6 +62,13 @@ def touches(times: Array, u: Array, still: float, corners: Sequence[float] = ())
             yield min(rows[i + 1 : k], key=lambda row: abs(row[1]))[0]
 
 
+def dips(times: Array, u: Array, corners: Sequence[float] = ()) -> Iterator[tuple[float, float]]:
+    """When [s] u (N,), positive in its rows, is zero or less between two of them, and how much."""
+    times, kept = np.unique(times, return_index=True)
+    found = _hidden(times, u[kept], bent(times, corners), 0.0)
+    return ((t, low) for t, low, _ in found)
+
+
 def _rows(
     times: Array, u: Array, still: float, corners: Sequence[float]
 ) -> tuple[Array, Array, list[int], list[tuple[float, float, int]]]:

@@ -1,6 +1,6 @@
 """From a system's motion to the states of its bodies and to the forces between them."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -53,13 +53,15 @@ class Answer:
 
         Raises Stuck as `trajectory` does.
         """
-        return self.turns.told(self._bodies(self.followed.march, forces=forces))
+        return self._phased(self.followed.march, forces=forces)
 
     def record(self, *, forces: bool) -> Trajectory:
         """The rows that were kept on the way, with reactions or without."""
-        phase = np.array([row[1] for row in self.followed.rows], dtype=np.int64)
-        record = replace(self._bodies(self.followed.rows, forces=forces), phase=phase)
-        return self.turns.told(record)
+        return self._phased(self.followed.rows, forces=forces)
+
+    def _phased(self, rows: Sequence[Kept], *, forces: bool) -> Trajectory:
+        phase = np.array([row[1] for row in rows], dtype=np.int64)
+        return self.turns.told(replace(self._bodies(rows, forces=forces), phase=phase))
 
     def _bodies(self, rows: Iterable[Kept], *, forces: bool) -> Trajectory:
         times: list[float] = []

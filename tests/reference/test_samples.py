@@ -10,9 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from given import resampled, scenes
+from given.refused import refused
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
+from textmech.reference import assumptions
 from textmech.reference.assumptions import check_premises
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
@@ -91,6 +93,33 @@ def test_a_premise_is_asked_between_the_samples(tmp_path: Path) -> None:
     for samples in (2, 3, 11):
         with pytest.raises(CaseError, match="rolling is not possible with"):
             solve(replace(case, samples=samples))
+
+
+def pushed(tmp_path: Path, part: float) -> Case:
+    """A wheel under 6 sin 5t N: it needs 6 N/3 of friction at the most, and has that part of it."""
+    path = tmp_path / "wheel.yaml"
+    text = WHEEL.replace("  points: {}\n", "").replace("0.2,", f"{part * 2.0 / 9.80665 / 2.0!r},")
+    law = "sine: {amplitude: [6, 0], angular_frequency: 5}"
+    path.write_text(text.replace("polynomial: {along: [1, 0], coefficients: [0, 60, -60]}", law))
+    (case,) = scenes.load(path)
+    return replace(case, duration=2.0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("samples", [3, 5, 11, 26])
+def test_a_premise_is_asked_between_the_steps(tmp_path: Path, samples: int) -> None:
+    """At the ends of steps it needs up to 3e-4 less, as they lie."""
+    for part in (1 - 1e-4, 1 - 1e-8):
+        mistake = refused(replace(pushed(tmp_path, part), samples=samples))
+        assert "rolling is not possible with" in mistake.what
+    assert solve(replace(pushed(tmp_path, 1 + 1e-8), samples=samples)).holds
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("friction of what rolls asked at the ends of steps alone")
+def test_a_premise_of_steps_alone_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(assumptions, "dips", lambda *_: [])
+    assert solve(replace(pushed(tmp_path, 1 - 1e-4), samples=11)).holds
 
 
 STILL = """\
