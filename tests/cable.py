@@ -52,10 +52,6 @@ class Pulled(Lined):
 
     force: Cable
 
-    @property
-    def line(self) -> bool:
-        return True
-
     def loads(self, k: Kinematics) -> list[Load]:
         """T along Δ on the first end."""
         return pulled(k, *self.ends(k), self.gap(k) * (self.force.pull / self.length(k)))

@@ -12,7 +12,6 @@ import numpy as np
 from ....cases.scene import Scene
 from ....cases.scene.frame import PLANE
 from ....cases.scene.point import CENTER
-from ....cases.scene.rotation import matrix
 from ....cases.scene.states import MASS_MATRIX
 from ....cases.trajectory import Array
 from ..callbacks.signal import installed, listening

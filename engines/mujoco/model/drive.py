@@ -7,11 +7,11 @@ the acceleration of the law: right at every RK4 stage, and all forces follow.
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
 from xml.etree import ElementTree as ET
 
 from ....cases.fields.signal import Signal
 from ....cases.scene import GROUND, Joint, Scene
+from ....cases.scene.frame import PLANE
 from ...signal import derivative
 from .force import signals
 from .number_text import written

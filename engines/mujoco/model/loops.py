@@ -12,10 +12,10 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from ....cases.scene import GROUND, Anchor, Scene
+from ....cases.scene.chain import across
 from ....cases.scene.frame import PLANE, SPACE
 from ....cases.scene.joint import Joint
 from ....cases.scene.rotation import Vector3
-from ....cases.scene.chain import across
 from ....cases.trajectory import Array
 from ...engine import Choice
 from .contact import HARDEST

@@ -16,8 +16,8 @@ from typing import Any
 
 from ....cases.scene import GROUND, Anchor, Force, Joint, Scene, Vector
 from ....cases.scene.frame import PLANE
-from ....cases.scene.rotation import Vector3
 from ....cases.scene.joint import Freedom
+from ....cases.scene.rotation import Vector3
 from ...engine import Start
 from .number_text import lifted
 

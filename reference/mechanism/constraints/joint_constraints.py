@@ -12,9 +12,9 @@ import numpy as np
 
 from ....cases.scene import GROUND, Edge, Joint, Scene, Signal, Vector
 from ....cases.scene.chain import across as completing
+from ....cases.scene.joint import Freedom
 from ....cases.scene.space.constraint import SpatialEdge
 from ....cases.scene.space.contact import SpatialContact
-from ....cases.scene.joint import Freedom
 from ....cases.scene.space.joint import SpatialJoint
 from ..kinematics.frame import PLANE
 from ..kinematics.kinematics import Layout

@@ -117,9 +117,13 @@ def pulled(k: Kinematics, a: Point, b: Point, F: Vec) -> list[Load]:
 
 @dataclass(frozen=True)
 class Lined(Action):
-    """Something between two points."""
+    """Something between two points, `a` and `b`."""
 
-    force: Spring | Damper | Muscle | LinearMuscle
+    force: Any
+
+    @property
+    def line(self) -> bool:
+        return True
 
     def ends(self, k: Kinematics) -> tuple[Point, Point]:
         """Both points."""
@@ -140,6 +144,11 @@ class Lined(Action):
         d = self.gap(k)
         return (d @ d) ** 0.5
 
+    def directed(self, k: Kinematics, least: float = 0.0) -> Any:
+        """λ [m] of what acts along Δ; nan where it is no longer than that, and has no direction."""
+        d = self.gap(k)
+        return k.tape.call(Long(least**2), d @ d)
+
 
 @dataclass(frozen=True)
 class Sprung(Lined):
@@ -156,7 +165,7 @@ class Sprung(Lined):
         d, force = self.gap(k), self.force
         if force.rest_length == 0.0:
             return pulled(k, *self.ends(k), d * force.stiffness)
-        length = k.tape.call(Long((SHORT * force.rest_length) ** 2), d @ d)
+        length = self.directed(k, SHORT * force.rest_length)
         return pulled(
             k, *self.ends(k), d * (force.stiffness * (length - force.rest_length) / length)
         )
@@ -176,7 +185,7 @@ class Long:
     least: float
 
     def __call__(self, squared: Any) -> Any:
-        return squared**0.5 if squared.real >= self.least else math.nan
+        return squared**0.5 if squared.real > self.least else math.nan
 
 
 @dataclass(frozen=True)
@@ -185,15 +194,10 @@ class Damped(Lined):
 
     force: Damper
 
-    @property
-    def line(self) -> bool:
-        return True
-
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.47) d λ̇ along Δ on the first end, λ̇ = Δ·Δ̇/λ."""
-        d = self.gap(k)
-        along = d @ self.gap_dot(k)
-        return pulled(k, *self.ends(k), d * (self.force.damping * along / (d @ d)))
+        u = self.gap(k) / self.directed(k)
+        return pulled(k, *self.ends(k), u * (self.force.damping * (u @ self.gap_dot(k))))
 
     def D(self, k: Kinematics) -> Any:
         """(2.46) ½ d λ̇²."""
@@ -215,7 +219,7 @@ class Contracted(Lined):
 
     def loads(self, k: Kinematics) -> list[Load]:
         """c_s (λ − u) + c_p (λ − λ₀) along Δ on the first end."""
-        length = self.length(k)
+        length = self.directed(k)
         beside = self.force.parallel_stiffness * (length - self.force.rest_length)
         return pulled(k, *self.ends(k), self.gap(k) * ((self._series(k) + beside) / length))
 

@@ -5,8 +5,8 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ....cases.scene.forces.turning import Turning
 from ....cases.scene.chain import across
+from ....cases.scene.forces.turning import Turning
 from ..kinematics.frame import PLANE, Vec
 from ..kinematics.kinematics import Direction, Kinematics, Part
 from ..kinematics.spatial_coordinates import counted_as

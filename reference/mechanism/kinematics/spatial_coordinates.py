@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ....cases.scene.forces.turning import Turning
 from ....cases.scene.body import Body
+from ....cases.scene.forces.turning import Turning
 from ....cases.scene.space.scene import SpatialScene
 from ...system import Pose
 from .attitude import rates, spin
