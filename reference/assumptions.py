@@ -139,15 +139,21 @@ def _grazes(case: Case, touched: Collection[Touch]) -> Iterator[Mistake]:
 
 
 def _past_ends(case: Case, motion: Trajectory) -> Iterator[Mistake]:
-    """Yields a mistake where what a face pushes is past the face's end, at any step."""
+    """Yields a mistake where what a face pushes is past the face's end, in any step."""
+    bends = [t for law in case.scene.laws() for t in law.corners]
     for pair in case.scene.pairs.values():
         if pair.face is None:
             continue
-        off = pair.beyond(motion_of(case.scene, motion))
-        off &= motion.reactions[f"{pair.name}.normal"] > 0
-        if np.any(off):
+        pushed = motion.reactions[f"{pair.name}.normal"] > 0
+        times = list[float]()
+        for left in pair.left(motion_of(case.scene, motion)):
+            times += motion.times[(left < 0) & pushed].tolist()
+            for rows in lasting(motion):
+                if np.all(left[rows] >= 0) and np.any(pushed[rows]):
+                    times += [t for t, _ in dips(motion.times[rows], left[rows], bends)]
+        if times:
             what = (
-                f"{pair.at} has left the {pair.on} at t = {motion.times[np.argmax(off)]:.3g} s, "
+                f"{pair.at} has left the {pair.on} at t = {min(times):.3g} s, "
                 "where it is past its end: shorten the duration, or name what it then touches"
             )
             yield case.mistake(("scene", "contacts", pair.name), what)

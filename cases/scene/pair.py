@@ -155,11 +155,18 @@ class Pair:
 
     def beyond(self, motion: Motion) -> NDArray[np.bool_]:
         """(N,) whether the touching point or centre is past an end of the face, along its line."""
+        return np.minimum(*self.left(motion)) < 0
+
+    def left(self, motion: Motion) -> tuple[Array, Array]:
+        """(N,) what the face still has on both sides of the touching point or centre, of itself.
+
+        Negative where that is past an end.
+        """
         one, two = (motion.point(Anchor(self.touched, end))[:, :2] for end in self.side.ends)
         along = two - one
         share = np.sum((motion.point(self.at)[:, :2] - one) * along, axis=1)
         share /= np.sum(along * along, axis=1)
-        return (share < -ROUNDING) | (share > 1 + ROUNDING)
+        return share + ROUNDING, 1 - share + ROUNDING
 
 
 def _moves(states: Array, place: Array) -> Array:

@@ -55,8 +55,14 @@ CHECKS = {
 PREMISES = {
     "assumptions.py::_otherwise": "test_premises.py::test_a_written_system_starts_as_the_scene",
     "assumptions.py::_unsaid": "test_premises.py::test_a_contact_above_the_floor_has_to_say_so",
+    "assumptions.py::_grazes": (
+        "motion/test_touched.py::test_what_only_just_reaches_a_wall_is_refused"
+    ),
     "assumptions.py::_past_ends": "mechanism/test_one_instant.py",
     "assumptions.py::_slipping": "test_premises.py::test_rolling_needs_enough_friction",
+    "assumptions.py::_slipping_between": (
+        "test_samples.py::test_a_premise_is_asked_between_the_steps"
+    ),
     "assumptions.py::_still": "test_premises.py::test_what_rests_has_to_say_so",
     "determined.py::check_determined": (
         "test_determined.py::test_its_forces_are_refused_with_their_interval"

@@ -115,11 +115,52 @@ def test_a_premise_is_asked_between_the_steps(tmp_path: Path, samples: int) -> N
     assert solve(replace(pushed(tmp_path, 1 + 1e-8), samples=samples)).holds
 
 
+SHUTTLE = """\
+title: A particle that is pushed to and fro on a block
+scene:
+  points: {O: [0, 0]}
+  bodies: {low: {block: {mass: 5, width: WIDE, height: 0.2}}, up: {particle: {mass: 1}}}
+  joints: {held: {weld: [ground.O, low.center]}}
+  contacts: {lies: {between: [up, low.top], friction: 0}}
+  forces: {push: {push: up.center,
+                  sine: {amplitude: [1, 0], angular_frequency: 5, phase: 90 deg}}}
+initial: {up: {x: 0, y: 0.1}}
+duration: 2.0
+samples: 3
+allow: {up.x: 1.0e-3}
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("samples", [3, 5, 11])
+def test_the_end_of_a_face_is_seen_between_the_steps(tmp_path: Path, samples: int) -> None:
+    """It comes to 2 N/(m ω²) = 0.08 m."""
+    path = tmp_path / "shuttle.yaml"
+    for part, holds in ((1 - 1e-6, False), (1 + 1e-6, True)):
+        path.write_text(SHUTTLE.replace("WIDE", repr(2 * part * 2 / 25)))
+        (case,) = scenes.load(path)
+        case = replace(case, samples=samples)
+        if holds:
+            assert solve(case).holds
+        else:
+            assert "where it is past its end" in refused(case).what
+
+
 @pytest.mark.slow
 @pytest.mark.mutant("friction of what rolls asked at the ends of steps alone")
 def test_a_premise_of_steps_alone_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(assumptions, "dips", lambda *_: [])
     assert solve(replace(pushed(tmp_path, 1 - 1e-4), samples=11)).holds
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("the end of a face asked for at the ends of steps alone")
+def test_a_face_that_ends_in_a_step_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(assumptions, "dips", lambda *_: [])
+    with pytest.raises(pytest.fail.Exception):
+        test_the_end_of_a_face_is_seen_between_the_steps(tmp_path, 5)
 
 
 STILL = """\
