@@ -60,7 +60,7 @@ class Steps:
 
 
 Stepper = Callable[[Scene, mujoco.MjModel, mujoco.MjData], Steps]
-"""What takes steps of the model's size."""
+"""A function that makes the `Steps` of a run, each of the model's size."""
 
 
 def native(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Steps:
