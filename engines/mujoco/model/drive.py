@@ -37,7 +37,9 @@ def drives(scene: Scene) -> Iterator[Drive]:
         part, _, rate = quantity.rpartition(".")
         joint = scene.joints[part]
         freedom = joint.rates[rate]
-        number = [left.rate for left in freedoms_left(scene, joint)].index(rate)
+        flat = scene.frame is PLANE  # where a slot's freedoms stand in MuJoCo's order
+        left = freedoms_left(scene, joint) if flat else joint.freedoms
+        number = [one.rate for one in left].index(rate)
         name = coordinate(scene, joint, number)
         yield Drive(joint, number, name, law, f"{part}.{freedom.effort}")
 
