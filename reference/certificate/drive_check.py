@@ -11,9 +11,9 @@ import numpy as np
 
 from ...cases.case import Case
 from ...cases.fields.signal import Signal
+from ...cases.scene.joint import Joint
 from ...cases.scene.observe import motion_of, observe
 from ...cases.scene.quantity import table
-from ...cases.scene.space.joint import SpatialJoint
 from ...cases.trajectory import Array, Trajectory
 from ..mechanism.modes.either import Generated
 from .agreement import Check, worst
@@ -72,7 +72,7 @@ def _drives(case: Case, motion: Trajectory, size: Size) -> Iterator[float]:
 def _skewness(case: Case, part: str) -> float:
     """How much larger than its rounding a coordinate's may be: skew axes may nearly cancel."""
     joint: Any = case.scene.joints[part]
-    if not isinstance(joint, SpatialJoint):
+    if not isinstance(joint, Joint):
         return 1.0
     each = [[freedom.axis for freedom in free] for free in (joint.shifts, joint.turns)]
     return max(float(np.linalg.norm(np.linalg.pinv(axes), 2)) for axes in each if axes)

@@ -10,12 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from ....cases.scene import GROUND, Edge, Joint, Scene, Signal, Vector
+from ....cases.scene import GROUND, Contact, Edge, Joint, Scene, Signal, Vector
 from ....cases.scene.chain import across as completing
 from ....cases.scene.joint import Freedom
-from ....cases.scene.space.constraint import SpatialEdge
-from ....cases.scene.space.contact import SpatialContact
-from ....cases.scene.space.joint import SpatialJoint
 from ..kinematics.frame import PLANE
 from ..kinematics.kinematics import Layout
 from .constraint import Constraint
@@ -169,7 +166,7 @@ def _in_space(scene: Any, where: Layout) -> Iterator[Constraint]:
         yield _driven(scene, quantity, law, where)
 
 
-def _jointed(joint: SpatialJoint, where: Layout) -> Constraint:
+def _jointed(joint: Joint, where: Layout) -> Constraint:
     """(2.14) Where the freedoms do not let the second part be.
 
     Its point is on the lines u of the shifts, or at the first point; attitudes are held by products
@@ -185,7 +182,7 @@ def _jointed(joint: SpatialJoint, where: Layout) -> Constraint:
     return _held_by(joint, held, where)
 
 
-def _unturned(joint: SpatialJoint) -> Iterator[tuple[Numbers, Numbers, float]]:
+def _unturned(joint: Joint) -> Iterator[tuple[Numbers, Numbers, float]]:
     """Yields u, fixed in the first part, w in the second, and what u·w stays (2.14)."""
     axes = [np.asarray(freedom.axis) for freedom in joint.turns]
     if len(axes) == 2:
@@ -199,7 +196,7 @@ def _unturned(joint: SpatialJoint) -> Iterator[tuple[Numbers, Numbers, float]]:
             yield _numbers(np.eye(3)[i]), _numbers(np.eye(3)[(i + 1) % 3]), 0.0
 
 
-def _standing(contact: SpatialContact, where: Layout) -> Constraint:
+def _standing(contact: Contact, where: Layout) -> Constraint:
     """(2.19) What touches the floor z = 0 keeps its height, and slips nowhere.
 
     It is the lowest point of a rim or a sphere that rolls, or the point of a pivot.
@@ -216,7 +213,7 @@ def _standing(contact: SpatialContact, where: Layout) -> Constraint:
     return Constraint(contact.name, (contact.at,), rows, names, (None, None, 0.0), where)
 
 
-def _bladed(edge: SpatialEdge, where: Layout) -> Constraint:
+def _bladed(edge: Edge, where: Layout) -> Constraint:
     """(2.15) A point does not move across a heading; or upward, where its height is kept."""
     rows: list[tuple[Term, ...]] = [(Heading(FIRST, edge.along),)]
     names = [("force",)]
@@ -232,7 +229,7 @@ def _driven(scene: Any, quantity: str, law: Signal, where: Layout) -> Constraint
     Raises ValueError of three turns: the middle axis is fixed in no part.
     """
     part, _, rate = quantity.partition(".")
-    joint: SpatialJoint = scene.joints[part]
+    joint: Joint = scene.joints[part]
     freedom = joint.rates[rate]
     row: tuple[Term, ...]
     if freedom.kind == "shift":
@@ -245,7 +242,7 @@ def _driven(scene: Any, quantity: str, law: Signal, where: Layout) -> Constraint
     return Constraint(part, (joint.a, joint.b), (row,), names, None, where, quantity)
 
 
-def turning(joint: SpatialJoint, freedom: Freedom) -> Turn:
+def turning(joint: Joint, freedom: Freedom) -> Turn:
     """The rate of one of a joint's turns."""
     axes = [f.axis for f in joint.turns]
     if len(axes) == 1:
@@ -256,7 +253,7 @@ def turning(joint: SpatialJoint, freedom: Freedom) -> Turn:
     return Turn(FIRST, SECOND, axes[0], axes[-1], weights)
 
 
-def _dual(joint: SpatialJoint, freedom: Freedom) -> Numbers:
+def _dual(joint: Joint, freedom: Freedom) -> Numbers:
     """The vector whose product with a sum of shifts is the driven one's share."""
     axes = np.array([f.axis for f in joint.shifts], float)
     return _numbers(np.linalg.pinv(axes.T)[joint.shifts.index(freedom)])

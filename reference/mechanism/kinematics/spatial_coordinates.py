@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ....cases.scene import Scene
 from ....cases.scene.body import Body
 from ....cases.scene.forces.turning import Turning
-from ....cases.scene.space.scene import SpatialScene
 from ...system import Pose
 from .attitude import rates, spin
 from .frame import SPACE
@@ -24,7 +24,7 @@ STILL = (0.0, 0.0, 0.0)
 class SpatialCoordinates(Layout):
     """q = (r, quaternion) and v = (ṙ, ω) of each body in the scene's order; ω in body axes."""
 
-    scene: SpatialScene
+    scene: Scene
     frame = SPACE
 
     @cached_property

@@ -1,6 +1,6 @@
 """Any scene in space as a System: nothing switches there, so it has one mode and no guards."""
 
-from ....cases.scene.space.scene import SpatialScene
+from ....cases.scene import Scene
 from ...system import MOVING, Array, System
 from ..constraints.leeway import Leeway
 from .spatial_mode import SpatialMultibody
@@ -9,7 +9,7 @@ from .spatial_mode import SpatialMultibody
 class SpatialMechanism(System):
     """The scene as its one mode, which is its `base` too."""
 
-    def __init__(self, scene: SpatialScene, start: tuple[Array, Array]) -> None:
+    def __init__(self, scene: Scene, start: tuple[Array, Array]) -> None:
         self.base = SpatialMultibody(scene, start)
         self.modes = {MOVING: self.base}
         self.corners = [corner for law in scene.laws() for corner in law.corners]
