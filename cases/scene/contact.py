@@ -187,7 +187,7 @@ def spatial_contact(
     rim: bool = False,
     ideal: Literal["rolling", "pivot"] = "rolling",
 ) -> Contact:
-    """What rolls without slip on the floor z = 0, or stands there on a point."""
+    """A contact that rolls without slip on the floor z = 0, or stands there on a point."""
     return Contact(
         name, at, friction, friction, ideal=ideal, plane=FLOOR_OF_SPACE, rim=rim, frame=SPACE
     )

@@ -12,9 +12,8 @@ from ..fields.friction import DryFriction
 from ..fields.kind import WORK, Fields
 from ..fields.part import Angle, Direction
 from ..trajectory import Array
-from . import chain
 from .body import Body
-from .chain import Turns
+from .chain import Turns, orthogonal, shifted, turned_by
 from .counting import counted, nearest
 from .frame import PLANE, SPACE, Frame
 from .motion import Motion
@@ -69,7 +68,7 @@ class Freedom:
 
     @property
     def exerted(self) -> Fields:
-        """What a drive exerts on it."""
+        """The force or torque that a drive exerts on it, by its name."""
         return {self.effort: ("N" if self.kind == "shift" else "N m", "force")}
 
 
@@ -142,12 +141,12 @@ class Joint:
 
     @property
     def shifts(self) -> tuple[Freedom, ...]:
-        """Those by which the second point may leave the first, along a line."""
+        """The freedoms by which the second point may leave the first, along a line."""
         return tuple(f for f in self.freedoms if f.kind == "shift")
 
     @property
     def turns(self) -> tuple[Freedom, ...]:
-        """Those by which the second part may turn against the first: up to three, or one ball."""
+        """The freedoms by which the second part may turn on the first: up to three, or one ball."""
         return tuple(f for f in self.freedoms if f.kind in ("turn", "ball"))
 
     @property
@@ -273,7 +272,7 @@ class Joint:
             both = [np.reshape(one, (-1, len(d))).T for one in zip(*each, strict=True)]
             return both[0], both[1]
         first = axes_of(motion, self.a.body)
-        shifts = chain.shifted([f.axis for f in self.shifts], d[:, :3], d[:, 3:], *first)
+        shifts = shifted([f.axis for f in self.shifts], d[:, :3], d[:, 3:], *first)
         if any(f.kind == "ball" for f in self.freedoms):
             return np.column_stack([shifts[0], none]), np.column_stack([shifts[1], none])
         turns = self.turned(motion)
@@ -282,7 +281,7 @@ class Joint:
     def turned(self, motion: Motion) -> Turns:
         """Its turns in space by themselves, of which none is a ball's."""
         first, second = (axes_of(motion, at.body) for at in (self.a, self.b))
-        ways = chain.turned_by([f.axis for f in self.turns], *first, *second)
+        ways = turned_by([f.axis for f in self.turns], *first, *second)
         told = motion.trajectory.near.get(self.name)
         if told is not None:
             return nearest(ways, told)
@@ -318,7 +317,7 @@ class Joint:
         d, _ = np.hsplit(motion.point(self.b) - motion.point(self.a), 2)
         if self.shifts:
             q, _ = axes_of(motion, self.a.body)
-            for freedom in chain.orthogonal([f.axis for f in self.shifts]):
+            for freedom in orthogonal([f.axis for f in self.shifts]):
                 u = self.frame.turned(q, freedom)
                 d = d - np.sum(d * u, axis=1, keepdims=True) * u
         apart = self.frame.size(d)

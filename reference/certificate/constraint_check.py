@@ -4,11 +4,11 @@ The mechanism has rows for all of it; here nothing but the nouns of the file is 
 """
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
 from ...cases.case import Case
+from ...cases.scene.frame import SPACE
 from ...cases.scene.joint import Joint, axes_of
 from ...cases.scene.motion import Motion
 from ...cases.scene.observe import motion_of, observe
@@ -41,9 +41,9 @@ def _rolling(case: Case) -> list[str]:
     return [name for name, contact in case.scene.contacts.items() if not contact.switches]
 
 
-def _turned(joint: Any, motion: Motion) -> Array:
+def _turned(joint: Joint, motion: Motion) -> Array:
     """(N,) [rad] how far the second part is from where the freedoms of the joint take it."""
-    return _in_space(joint, motion) if isinstance(joint, Joint) else _in_plane(joint, motion)
+    return _in_space(joint, motion) if joint.frame is SPACE else _in_plane(joint, motion)
 
 
 def _in_plane(joint: Joint, motion: Motion) -> Array:

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from given import scenes
 
-from textmech.cases.scene import Scene
 from textmech.reference.formalisms.derivative import along
 from textmech.reference.mechanism.constraints.constraint_terms import Lowest
 from textmech.reference.mechanism.kinematics.kinematics import Row
@@ -78,7 +77,6 @@ def test_a_height_is_kept_while_the_x_axis_of_its_body_stands_upright() -> None:
     """The blade's long axis is another one, and lies level then."""
     case = scenes.SHIPPED["robot_knife"]
     own = case.scene
-    assert isinstance(own, Scene)
     (name, edge), *_ = own.constraints.items()
     scene = replace(own, constraints={name: replace(edge, along=(0.0, 1.0, 0.0))})
     mode = SpatialMultibody(scene, assemble_in_space(case, own))

@@ -9,7 +9,7 @@ from given.linkages import LINKAGE
 from given.scenes import typed
 
 from textmech.cases.mistake import CaseError
-from textmech.cases.scene import GROUND, Anchor, Scene
+from textmech.cases.scene import GROUND, Anchor
 from textmech.cases.scene.rotation import about
 from textmech.reference.start.space import positions
 from textmech.reference.start.space.assembly import assemble_in_space
@@ -68,7 +68,6 @@ def started(folder: Path, scene: str) -> np.ndarray:
 def test_only_a_loop_closes(tmp_path: Path) -> None:
     """Three bodies in a row, and with the joint that leads back to the first; two islands."""
     loop = typed(tmp_path, FREE_LOOP + "allow: {a.x: 1.0e-3}\n").scene
-    assert isinstance(loop, Scene)
     row = replace(loop, joints={name: loop.joints[name] for name in ("j1", "j2")})
     held = replace(loop.joints["j3"], b=Anchor(GROUND, "O"))
     apart = replace(loop, joints={"j1": loop.joints["j1"], "held": held})
