@@ -18,7 +18,6 @@ from ..cases.mistake import CaseError, Mistake
 from ..cases.scene.forces.force import Force
 from ..cases.scene.frame import SPACE
 from ..cases.scene.islands import apart
-from ..cases.scene.space.scene import SpatialScene
 from .integrators.budget import Endless, budget
 from .laws.rotation import axes
 from .mechanism.modes.either import Generated
@@ -149,7 +148,7 @@ def _constraint(case: Case, q: Array) -> str | None:
 
 def _dependent(case: Case, q: Array) -> str | None:
     """The first part that holds what others nearly hold already."""
-    if isinstance(case.scene, SpatialScene):
+    if case.scene.frame is SPACE:
         return SpatialClosure(case, case.scene).dependent(q, DEPENDENT)
     closure = Closure(case)
     rows = np.zeros((0, closure.n))

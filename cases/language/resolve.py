@@ -9,55 +9,42 @@ from ..case import Case, Deviation, Event, Placement
 from ..mistake import Source
 from ..origin import Origin
 from ..scene import STANDARD_GRAVITY, Scene
-from ..scene.frame import PLANE
+from ..scene.frame import PLANE, SPACE
+from ..scene.joint import Joint
 from ..scene.point import CENTER, anchor
-from ..scene.space.joint import SpatialJoint
-from ..scene.space.scene import SpatialScene
 from .grammar.file import File
 from .grammar.source import Source as Book
-from .grammar.space.scene import SpatialScene as SpatialWords
 
 
 def resolve_scene(file: File) -> Scene:
     """The scene, with its references as they stand (check/links.py checks them)."""
     s: Any = file.scene
-    if s.space is not None:
-        return _in_space(s, {**file.near, **file.initial})
-    planes = _named(s.planes)
-    bodies = _named(s.bodies)
+    in_space = s.space is not None
+    bodies, planes = _named(s.bodies), {} if in_space else _named(s.planes)
+    pairs = {} if in_space else {n: c for n, c in s.contacts.items() if c.pairs(bodies)}
+    joints, contacts = _named(s.joints), {n: c for n, c in s.contacts.items() if n not in pairs}
+    if in_space:
+        starts = {**file.near, **file.initial}
+        joints = {name: _begun(joint, starts.get(name)) for name, joint in joints.items()}
+        down, slope = (0.0, 0.0, -1.0), (1.0, 0.0, 0.0)
+    else:
+        down, slope = (0.0, 0.0 if s.seen else -1.0), (1.0, 0.0)
     return Scene(
-        gravity=_gravity(s.gravity, s.incline, (1.0, 0.0), (0.0, 0.0 if s.seen else -1.0)),
+        gravity=_gravity(s.gravity, s.incline, slope, down),
         points=s.points,
         bodies=bodies,
-        joints=_named(s.joints),
-        contacts={
-            n: contact.named(n, bodies, planes)
-            for n, contact in s.contacts.items()
-            if not contact.pairs(bodies)
-        },
+        joints=joints,
+        contacts={n: contact.named(n, bodies, planes) for n, contact in contacts.items()},
         forces=_named(s.forces),
         constraints=_named(s.constraints),
         drives={rate: drive.signal for rate, drive in s.drive.items()},
-        pairs={n: c.paired(n) for n, c in s.contacts.items() if c.pairs(bodies)},
+        pairs={n: contact.paired(n) for n, contact in pairs.items()},
+        frame=SPACE if in_space else PLANE,
     )
 
 
-def _in_space(s: SpatialWords, starts: Mapping[str, Any]) -> SpatialScene:
-    """starts: by part, what the file gives of the start: a joint's turns are counted from there."""
-    bodies, joints = _named(s.bodies), _named(s.joints)
-    return SpatialScene(
-        gravity=_gravity(s.gravity, s.incline, (1.0, 0.0, 0.0), (0.0, 0.0, -1.0)),
-        points=s.points,
-        bodies=bodies,
-        joints={name: _begun(joint, starts.get(name)) for name, joint in joints.items()},
-        contacts={name: contact.named(name, bodies) for name, contact in s.contacts.items()},
-        forces=_named(s.forces),
-        constraints=_named(s.constraints),
-        drives={rate: drive.signal for rate, drive in s.drive.items()},
-    )
-
-
-def _begun(joint: SpatialJoint, start: Any) -> SpatialJoint:
+def _begun(joint: Joint, start: Any) -> Joint:
+    """With the angles of the start, near which turns in space are counted."""
     given = {} if start is None else start.given
     turns = [turn.name for turn in joint.turns if turn.name in given]
     return replace(joint, begins={name: given[name] for name in turns})

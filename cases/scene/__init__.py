@@ -80,8 +80,8 @@ STANDARD_GRAVITY = 9.80665  # m/s², the book's value
 class Scene:
     """Bodies, joints, constraints, contacts and forces by name, in the order of the case file.
 
-    A scene in space is a `SpatialScene`, whose elements are those of space: `scene.frame is SPACE`
-    tells it. Beside `contacts` and `pairs` nothing touches, and what no joint holds is free.
+    All stand in the plane, or all in space: `scene.frame is SPACE` tells it. Beside `contacts` and
+    `pairs` nothing touches, and what no joint holds is free.
     """
 
     gravity: Vector  # m/s², in ground axes; 0 where a scene has none
@@ -96,10 +96,14 @@ class Scene:
     pairs: Mapping[str, Pair] = field(default_factory=dict)
     """The contacts of two bodies; `contacts` are those with planes of the ground."""
 
-    @property
-    def frame(self) -> Frame:
-        """PLANE or SPACE: what the columns of a body's states are, and which nouns stand here."""
-        return PLANE
+    frame: Frame = PLANE
+    """PLANE or SPACE: what the columns of a body's states are."""
+
+    def __post_init__(self) -> None:
+        for section in (self.bodies, self.joints, self.constraints, self.contacts):
+            for name, element in section.items():
+                if element.frame is not self.frame:
+                    raise ValueError(f"{name!r} is not of the scene's frame, {self.frame.name}")
 
     def driven(self) -> Mapping[str, Fields]:
         """By joint, what prescribed rates exert: `hinge` → `torque`."""
@@ -117,22 +121,20 @@ class Scene:
 
     def coordinates(self) -> Mapping[str, Fields]:
         """By joint, what its freedoms are observed as."""
-        return {name: joint.coordinates(self.bodies) for name, joint in self.joints.items()}
+        return {name: joint.observed(self.bodies) for name, joint in self.joints.items()}
 
     def told_by(self, reaction: str) -> tuple[str, ...]:
-        """The reactions of a producer from which one follows; in the plane it gives each.
-
-        But for the tension of a rod, which has a sign, and what drives have done.
-        """
+        """The reactions of a producer from which one follows: in space `q1.force` from three."""
         part, _, field = reaction.rpartition(".")
         if part in self.forces:
             told = self.forces[part].given.get(field, (field,))
-            return tuple(f"{part}.{name}" for name in told)
-        if field in WORK and part in self.joints:
-            return tuple(f"{part}.{effort}" for effort in self.driven()[part])
-        if field == "force" and part in self.joints and self.joints[part].swings:
-            return f"{part}.fx", f"{part}.fy"
-        return (reaction,)
+        elif field in WORK and part in self.joints:
+            told = tuple(self.driven()[part])
+        elif element := self.joints.get(part) or self.contacts.get(part):
+            told = element.components(field)
+        else:
+            told = (field,)
+        return tuple(f"{part}.{name}" for name in told)
 
     @property
     def touching(self) -> dict[str, Contact]:

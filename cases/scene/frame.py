@@ -12,7 +12,8 @@ from typing import Any, ClassVar, TypeVar
 import numpy as np
 
 from ..trajectory import Array
-from . import chain, rotation
+from .chain import across
+from .rotation import turned
 
 Anything = TypeVar("Anything")
 
@@ -130,17 +131,17 @@ class _Space(Frame):
         return np.array([[a, d, e], [d, b, f], [e, f, c]])
 
     def turned(self, attitude: Array, vector: Any) -> Array:
-        return rotation.turned(attitude, vector)
+        return turned(attitude, vector)
 
     def omega(self, states: Array) -> Array:
-        return rotation.turned(states[:, self.attitude], states[:, self.spin])
+        return turned(states[:, self.attitude], states[:, self.spin])
 
     def moved(self, states: Array, point: Any) -> Array:
         place, velocity, q = (states[:, c] for c in (self.place, self.velocity, self.attitude))
         if not np.any(point):
             return np.hstack([place, velocity])
-        moving = rotation.turned(q, np.cross(states[:, self.spin], point))
-        return np.hstack([place + rotation.turned(q, point), velocity + moving])
+        moving = turned(q, np.cross(states[:, self.spin], point))
+        return np.hstack([place + turned(q, point), velocity + moving])
 
     def level(self, vectors: Array) -> Array:
         shadow = vectors[:, :2]
@@ -155,8 +156,8 @@ class _Space(Frame):
         return float(np.linalg.eigvalsh(turning)[-1])
 
     def least_moment(self, inertia: Sequence[float], arm: Sequence[float]) -> float:
-        across = np.array(chain.across([arm] if any(arm) else []))
-        least = float(np.linalg.eigvalsh(across @ self.tensor(inertia) @ across.T)[0])
+        axes = np.array(across([arm] if any(arm) else []))
+        least = float(np.linalg.eigvalsh(axes @ self.tensor(inertia) @ axes.T)[0])
         return max(least, 0.0)
 
 

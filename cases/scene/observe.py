@@ -8,12 +8,12 @@ import numpy as np
 
 from ..trajectory import OMEGA, VX, VY, Array, Trajectory, X, Y
 from . import Scene
+from .body import Body
 from .frame import SPACE
 from .islands import islands
 from .motion import Motion
 from .power import done
 from .quantity import table
-from .space import momentum as spatial
 
 
 def observe(scene: Scene, trajectory: Trajectory, name: str) -> Array:
@@ -61,7 +61,7 @@ def _energy(scene: Scene, trajectory: Trajectory, field: str) -> Array:
     for body in scene.bodies.values():
         s = trajectory.states[body.name]
         if scene.frame is SPACE:
-            kinetic += spatial.kinetic(body, s)  # type: ignore[arg-type]
+            kinetic += _kinetic_in_space(body, s)
             potential -= body.mass * s[:, SPACE.place] @ scene.gravity
             continue
         kinetic += 0.5 * body.mass * (s[:, VX] ** 2 + s[:, VY] ** 2)
@@ -81,10 +81,28 @@ def _momentum(scene: Scene, trajectory: Trajectory, field: str) -> Array:
     for body in scene.bodies.values():
         s = trajectory.states[body.name]
         if scene.frame is SPACE:
-            total += spatial.momentum(body, s)[field]  # type: ignore[arg-type]
+            total += _momentum_in_space(body, s)[field]
         elif field == "angular":
             total += body.mass * (s[:, X] * s[:, VY] - s[:, Y] * s[:, VX])
             total += body.moment * s[:, OMEGA]
         else:
             total += body.mass * s[:, VX if field == "x" else VY]
     return total
+
+
+def _kinetic_in_space(body: Body, states: Array) -> Array:
+    """(2.54) T = ½ m v² + ½ ωᵀ J ω [J] (N,), with ω and J in body axes."""
+    v, omega = states[:, SPACE.velocity], states[:, SPACE.spin]
+    turning = np.sum((omega @ body.tensor) * omega, axis=1)
+    return 0.5 * body.mass * np.sum(v * v, axis=1) + 0.5 * turning
+
+
+def _momentum_in_space(body: Body, states: Array) -> dict[str, Array]:
+    """(2.22) p = m v [kg m/s], (2.24) D₀ = r × m v + J ω [kg m²/s]: (N,) by axis of the ground."""
+    p = body.mass * states[:, SPACE.velocity]
+    own = SPACE.turned(states[:, SPACE.attitude], states[:, SPACE.spin] @ body.tensor)
+    D = np.cross(states[:, SPACE.place], p) + own
+    return {
+        **{axis: p[:, i] for i, axis in enumerate(SPACE.axes)},
+        **{f"angular_{axis}": D[:, i] for i, axis in enumerate(SPACE.axes)},
+    }

@@ -30,4 +30,6 @@ class Plane:
 
 
 LEVEL = Plane(FLOOR)
-"""The floor y = 0, which every scene has."""
+"""The floor y = 0, which every scene in the plane has."""
+FLOOR_OF_SPACE = Plane(FLOOR, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+"""The floor z = 0, which every scene in space has, and no other plane."""

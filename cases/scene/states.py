@@ -13,9 +13,9 @@ import numpy as np
 from ..fields.kind import Fields, Kind
 from ..trajectory import Array
 from . import Scene
+from .frame import SPACE
 from .point import CENTER
 from .quantity import Quantity, table
-from .space.scene import SpatialScene
 
 Span = tuple[float, float]
 
@@ -50,7 +50,7 @@ class States:
 
 def coordinates(scene: Scene) -> dict[str, str]:
     """The unit of each coordinate: x, y and angle of the plane's bodies, freedoms of joints."""
-    if isinstance(scene, SpatialScene):
+    if scene.frame is SPACE:
         return {
             f"{joint.name}.{freedom.name}": freedom.unit
             for joint in scene.joints.values()
@@ -104,7 +104,7 @@ def _more(scene: Scene) -> Iterator[tuple[str, Fields]]:
         yield body.name, {**(linear if spatial else {}), **(_turning(scene) if body.turns else {})}
         points = (point for point in body.points if spatial or point != CENTER)
         yield from ((f"{body.name}.{point}", linear) for point in points)
-    if isinstance(scene, SpatialScene):
+    if scene.frame is SPACE:
         for joint in scene.joints.values():
             yield joint.name, {k: v for f in joint.named for k, v in f.exerted.items()}
 

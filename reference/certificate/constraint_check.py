@@ -4,16 +4,15 @@ The mechanism has rows for all of it; here nothing but the nouns of the file is 
 """
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
 from ...cases.case import Case
-from ...cases.scene import Joint
+from ...cases.scene.frame import SPACE
+from ...cases.scene.joint import Joint, axes_of
 from ...cases.scene.motion import Motion
 from ...cases.scene.observe import motion_of, observe
 from ...cases.scene.rotation import angle_between, product
-from ...cases.scene.space.joint import SpatialJoint, axes_of
 from ...cases.trajectory import Array, Trajectory
 from .agreement import Check, worst
 from .reading import Size
@@ -42,9 +41,9 @@ def _rolling(case: Case) -> list[str]:
     return [name for name, contact in case.scene.contacts.items() if not contact.switches]
 
 
-def _turned(joint: Any, motion: Motion) -> Array:
+def _turned(joint: Joint, motion: Motion) -> Array:
     """(N,) [rad] how far the second part is from where the freedoms of the joint take it."""
-    return _in_space(joint, motion) if isinstance(joint, SpatialJoint) else _in_plane(joint, motion)
+    return _in_space(joint, motion) if joint.frame is SPACE else _in_plane(joint, motion)
 
 
 def _in_plane(joint: Joint, motion: Motion) -> Array:
@@ -55,7 +54,7 @@ def _in_plane(joint: Joint, motion: Motion) -> Array:
     return off
 
 
-def _in_space(joint: SpatialJoint, motion: Motion) -> Array:
+def _in_space(joint: Joint, motion: Motion) -> Array:
     """The turns that the joint reads, one after the other, have to make the attitude."""
     bodies = [motion.bodies[at.body] for at in joint.refers() if at.body in motion.bodies]
     if not joint.holds_attitude or not all(body.turns for body in bodies):

@@ -5,15 +5,14 @@ own reading of the states, and a law is its number in `cases.signal`, its integr
 """
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
 from ...cases.case import Case
 from ...cases.fields.signal import Signal
+from ...cases.scene.frame import PLANE
 from ...cases.scene.observe import motion_of, observe
 from ...cases.scene.quantity import table
-from ...cases.scene.space.joint import SpatialJoint
 from ...cases.trajectory import Array, Trajectory
 from ..mechanism.modes.either import Generated
 from .agreement import Check, worst
@@ -71,8 +70,8 @@ def _drives(case: Case, motion: Trajectory, size: Size) -> Iterator[float]:
 
 def _skewness(case: Case, part: str) -> float:
     """How much larger than its rounding a coordinate's may be: skew axes may nearly cancel."""
-    joint: Any = case.scene.joints[part]
-    if not isinstance(joint, SpatialJoint):
+    joint = case.scene.joints[part]
+    if joint.frame is PLANE:
         return 1.0
     each = [[freedom.axis for freedom in free] for free in (joint.shifts, joint.turns)]
     return max(float(np.linalg.norm(np.linalg.pinv(axes), 2)) for axes in each if axes)
@@ -81,7 +80,7 @@ def _skewness(case: Case, part: str) -> float:
 def _blades(case: Case, motion: Trajectory, size: Size) -> Iterator[float]:
     """The speed along a blade has no place: it is its law at every sample."""
     for name, edge in case.scene.constraints.items():
-        if (law := getattr(edge, "speed", None)) is not None:
+        if (law := edge.speed) is not None:
             speed = observe(case.scene, motion, f"{name}.speed")
             yield size.apart("m/s", speed, law.at(motion.times)[:, 0])
 

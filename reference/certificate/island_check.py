@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from ...cases.case import Case
-from ...cases.scene.space.scene import SpatialScene
+from ...cases.scene.frame import SPACE
 from ...cases.trajectory import Array, Trajectory
 from ..mechanism.kinematics.coordinates import Coordinates
 from ..mechanism.kinematics.space.coordinates import SpatialCoordinates
@@ -47,7 +47,7 @@ def _state(motion: Trajectory, i: int) -> dict[str, Pose]:
 
 
 def _whole(case: Case, start: Mapping[str, Pose]) -> Base:
-    if isinstance(case.scene, SpatialScene):
+    if case.scene.frame is SPACE:
         return SpatialMultibody(case.scene, SpatialCoordinates(case.scene).place(start))
     return Multibody(case.scene, Coordinates(case.scene).place(start))
 

@@ -10,12 +10,12 @@ import numpy as np
 
 from ...cases.case import Case, Placement
 from ...cases.scene.frame import SPACE
+from ...cases.scene.joint import axes_of
 from ...cases.scene.motion import Motion
 from ...cases.scene.observe import motion_of, observe
 from ...cases.scene.point import GROUND, Anchor, anchor
 from ...cases.scene.quantity import table
 from ...cases.scene.rotation import angle_between, inverse, product, turned
-from ...cases.scene.space.joint import axes_of
 from ...cases.trajectory import Trajectory
 from ..motion.bodies import Answer
 from .agreement import Check, worst

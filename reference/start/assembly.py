@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from ...cases.case import Case
-from ...cases.scene.space.scene import SpatialScene
+from ...cases.scene.frame import SPACE
 from ..mechanism.kinematics.coordinates import Coordinates
 from ..mechanism.kinematics.space.coordinates import SpatialCoordinates
 from ..system import Array, Pose
@@ -36,7 +36,7 @@ def assemble(case: Case) -> tuple[Array, Array]:
 
 def start_poses(case: Case) -> dict[str, Pose]:
     """The state of each body at t = 0, as its frame has it. Raises CaseError as `assemble` does."""
-    if isinstance(case.scene, SpatialScene):
+    if case.scene.frame is SPACE:
         q, v = assemble_in_space(case, case.scene)
         return SpatialCoordinates(case.scene).poses(q, v)
     return Coordinates(case.scene).poses(*assemble(case))

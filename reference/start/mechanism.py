@@ -3,7 +3,7 @@
 import numpy as np
 
 from ...cases.case import Case
-from ...cases.scene.space.scene import SpatialScene
+from ...cases.scene.frame import SPACE
 from ..mechanism.modes.either import Generated
 from ..mechanism.modes.mechanism import Mechanism
 from ..mechanism.modes.space.mechanism import SpatialMechanism
@@ -14,7 +14,7 @@ from .space.assembly import assemble_in_space
 
 def mechanism(case: Case) -> Generated:
     """In the plane or in space. Raises CaseError for a start that cannot be assembled."""
-    if isinstance(case.scene, SpatialScene):
+    if case.scene.frame is SPACE:
         return SpatialMechanism(case.scene, assemble_in_space(case, case.scene))
     q, v = assemble(case)
     inner = [force.begins for force in case.scene.inner().values()]

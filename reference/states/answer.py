@@ -9,9 +9,10 @@ import numpy as np
 
 from ...cases.case import Case
 from ...cases.mistake import CaseError, Mistake
+from ...cases.scene import Scene
+from ...cases.scene.frame import PLANE, SPACE
 from ...cases.scene.motion import Motion
 from ...cases.scene.observe import observe
-from ...cases.scene.space.scene import SpatialScene
 from ...cases.trajectory import Trajectory
 from ..certificate.agreement import Check, difference, relative, worst
 from ..certificate.errors import beyond, errors
@@ -61,7 +62,7 @@ def first_state(case: Case) -> dict[str, Pose]:
 def generated_mode(case: Case) -> Stated:
     """The mode that is built from the scene alone."""
     scene = case.scene
-    return SpatialChain(scene) if isinstance(scene, SpatialScene) else FreeBodies(scene)
+    return SpatialChain(scene) if scene.frame is SPACE else FreeBodies(scene)
 
 
 def _written(case: Case, generated: Stated) -> Stated | None:
@@ -134,7 +135,7 @@ def _apart(case: Case, one: Trajectory, other: Trajectory) -> float:
 
 def _worked(case: Case, mode: Stated, built: Trajectory) -> Iterator[Check]:
     """The chain against what its joints hold, and Lagrange's equations against d'Alembert's."""
-    if not isinstance(case.scene, SpatialScene):
+    if case.scene.frame is PLANE:
         return
     assert case.states is not None
     look()
@@ -169,7 +170,7 @@ Row = tuple[Array, Array, Array]
 THREE = 3  # turns, of which other angles make the same attitude
 
 
-def unheld(mode: Stated, scene: SpatialScene, rows: Iterator[Row]) -> float:
+def unheld(mode: Stated, scene: Scene, rows: Iterator[Row]) -> float:
     """(2.10), (2.15) The largest of f = 0, f_a v = 0 and f_a v̇ = γ, each of its largest term."""
     base = SpatialMultibody(scene, (np.zeros(0), np.zeros(0)))
     found: list[float] = []
@@ -185,7 +186,7 @@ def unheld(mode: Stated, scene: SpatialScene, rows: Iterator[Row]) -> float:
     return worst(found)
 
 
-def misread(scene: SpatialScene, found: Trajectory, drawn: dict[str, Array]) -> float:
+def misread(scene: Scene, found: Trajectory, drawn: dict[str, Array]) -> float:
     """How far coordinates and rates that joints read from the poses are from what was drawn."""
     motion = Motion(scene.bodies, scene.points, found)
     apart: list[float] = []

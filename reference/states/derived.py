@@ -9,7 +9,6 @@ import numpy as np
 
 from ...cases.scene import Scene
 from ...cases.scene.frame import SPACE
-from ...cases.scene.space.scene import SpatialScene
 from ...cases.scene.states import MASS_MATRIX
 from ..formalisms import lagrange
 from ..formalisms.derivative import along
@@ -41,7 +40,7 @@ def derived(
             found |= {f"{name}.alpha_{i}": x for i, x in zip("xyz", alpha, strict=True)}
         numbers = body.numbers().items()
         found |= {f"{name}.{key}": x for key, x in numbers if key.startswith("inertia")}
-    if isinstance(scene, SpatialScene):
+    if scene.frame is SPACE:
         return found | resisting(mode, scene, q, v, a)
     return found | slowed(scene, q, v)
 
@@ -93,7 +92,7 @@ def planar(pose: Pose, x: Array) -> tuple[Any, Any]:
     return np.array([pose[3] - pose[5] * dy, pose[4] + pose[5] * dx, 0.0 * dx]), pose[5]
 
 
-def resisting(mode: Stated, scene: SpatialScene, q: Array, v: Array, a: Array) -> dict[str, Any]:
+def resisting(mode: Stated, scene: Scene, q: Array, v: Array, a: Array) -> dict[str, Any]:
     """(2.44) M_ab (n, n), and d/dt ∂T/∂q̇ᵃ − ∂T/∂qᵃ + ∂U/∂qᵃ (n,) by the names of joints."""
     M = lagrange.mass_matrix(mode, 0.0, q)
     needed = M @ a - lagrange.forces(mode, 0.0, q, v)
@@ -101,7 +100,7 @@ def resisting(mode: Stated, scene: SpatialScene, q: Array, v: Array, a: Array) -
     return {MASS_MATRIX: M, **{effort: by_name[name] for name, effort in efforts(scene)}}
 
 
-def efforts(scene: SpatialScene) -> Iterator[tuple[str, str]]:
+def efforts(scene: Scene) -> Iterator[tuple[str, str]]:
     """For each coordinate: its name, and that of what moves it: `q1.angle`, `q1.torque`."""
     for joint in scene.joints.values():
         for freedom in joint.freedoms:

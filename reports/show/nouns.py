@@ -22,10 +22,6 @@ from ...cases.scene.pair import Pair
 from ...cases.scene.plane import Plane
 from ...cases.scene.point import Anchor, GroundPoint
 from ...cases.scene.quantity import Quantity
-from ...cases.scene.space.constraint import SpatialEdge
-from ...cases.scene.space.contact import SpatialContact
-from ...cases.scene.space.joint import SpatialJoint
-from ...cases.scene.space.scene import SpatialScene
 from ...cases.trajectory import Trajectory
 from ...engines.engine import (
     Choice,
@@ -41,20 +37,20 @@ from ...engines.engine import (
 from .table import markdown
 
 PARTS: Mapping[str, tuple[type, ...]] = {
-    "The scene": (Scene, SpatialScene),
+    "The scene": (Scene,),
     "Points of bodies and of the ground": (Anchor, GroundPoint),
-    "Bodies": (Body, Body),
-    "Joints": (Joint, SpatialJoint, Freedom, DryFriction, Bounds, Stribeck, Smooth),
-    "Contacts": (Contact, Plane, SpatialContact, Pair),
-    "Constraints": (Edge, SpatialEdge),
+    "Bodies": (Body,),
+    "Joints": (Joint, Freedom, DryFriction, Bounds, Stribeck, Smooth),
+    "Contacts": (Contact, Plane, Pair),
+    "Constraints": (Edge,),
     "Forces": NOUNS,
     "Laws in time": (Signal,),
     "What an engine answers with": (Plan, Choice, Refusal, Trajectory),
     "Quantities": (Quantity,),
     "The engine": (Maker, Engine, Tunable, Claims, Loop, Paced),
 }
-"""What stands in which section; what has a noun of space beside it is the plane's."""
-TOLD = ("Scene", "Body", "Contact", "Pair", "SpatialJoint")
+"""What stands in which section."""
+TOLD = ("Scene", "Body", "Contact", "Pair", "Joint")
 """Those of whose properties an adapter needs some."""
 
 
@@ -180,14 +176,18 @@ def _members(kind: type) -> Iterator[tuple[str, str]]:
 def _joints() -> str:
     """Which freedoms each kind of joint leaves, in the plane and in space."""
     plane = [
-        [f"`{kind}`", ", ".join(sorted(freedom.kind for freedom in left)) or "none"]
+        [
+            f"`{kind}`",
+            ", ".join(sorted(freedom.kind for freedom in left)) or "none",
+            ", ".join(f"`{w}`" for f in left if f.name for w in (f.name, f.rate, f.effort)),
+        ]
         for kind, left in FREEDOMS.items()
     ]
     space = [[f"`{kind}`", _cell(_text(made))] for kind, made in KINDS.items()]
     return (
         "Of the plane, `Joint.kind` and the freedoms of the second part against the first:\n\n"
-        f"{markdown([['kind', 'leaves'], *plane])}\n"
-        "In space, `SpatialJoint.kind`; all that an engine needs are its `freedoms`:\n\n"
+        f"{markdown([['kind', 'leaves', 'place, rate and what a drive exerts'], *plane])}\n"
+        "In space; all that an engine needs are its `freedoms`:\n\n"
         f"{markdown([['kind', 'leaves'], *space])}"
     )
 
@@ -206,13 +206,7 @@ def _quantities() -> str:
     return markdown(rows)
 
 
-OBSERVED = [
-    kind.__name__
-    for kind in (
-        *(Body, Body, Joint, SpatialJoint, Contact, SpatialContact, Pair),
-        *(Edge, SpatialEdge),
-    )
-]
+OBSERVED = [kind.__name__ for kind in (Body, Joint, Contact, Pair, Edge)]
 """The nouns beside which their file has what can be observed of them."""
 
 

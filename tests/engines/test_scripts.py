@@ -23,7 +23,6 @@ from textmech.cases.scene import Scene
 from textmech.cases.scene.frame import SPACE
 from textmech.cases.scene.rotation import matrix
 from textmech.cases.scene.shape import bar
-from textmech.cases.scene.space.scene import SpatialScene
 from textmech.engines.engine import Engine, Start
 from textmech.engines.mujoco.callbacks.signal import Corners, following, installed, together
 from textmech.engines.mujoco.model.drive import controls
@@ -54,7 +53,7 @@ def with_means(text: str, scene: Scene) -> mujoco.MjData:
     model = mujoco.MjModel.from_xml_string(text)
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, 0)
-    in_space = isinstance(scene, SpatialScene)
+    in_space = scene.frame is SPACE
     laws = controls_in_space(scene) if in_space else controls(scene)
     corners = Corners(laws, model.opt.timestep)
     with together([following(laws, corners)]):

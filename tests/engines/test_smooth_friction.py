@@ -20,7 +20,9 @@ def test_a_block_stays_on_a_slope(name: str) -> None:
     """
     slope, times = math.radians(10), np.linspace(0.0, 0.5, 6)
     scene = guided(None, THREE, Bounds(2.0, 2.0), Smooth(5e-4, 1e5))
-    guide = replace(scene.joints["guide"], along=(math.cos(slope), -math.sin(slope)))
+    guide = scene.joints["guide"]
+    down = replace(guide.shifts[0], axis=(math.cos(slope), -math.sin(slope)))
+    guide = replace(guide, freedoms=(down,))
     scene = replace(scene, joints={"guide": guide})
     run = moved(TUNED[name], scene, RESTS, times, 5e-4, realised="law")
     assert np.abs(run.states["block"][:, :ANGLE]).max() < 1e-12

@@ -5,9 +5,8 @@ import pytest
 from given.engine_space import STILL, attitude, hinge, joint, particle, rigid, spatial, state
 from given.skew_chain import Q_DOT, Q, chain, start
 
-from textmech.cases.scene import Anchor, Damper, Push, Signal, Spring, Torque
+from textmech.cases.scene import Anchor, Damper, Push, Scene, Signal, Spring, Torque
 from textmech.cases.scene.joint import Freedom
-from textmech.cases.scene.space.scene import SpatialScene
 from textmech.engines.engine import Engine, Plan, Refusal, Start
 from textmech.engines.mujoco import MuJoCo
 from textmech.engines.pymunk import Pymunk
@@ -20,7 +19,7 @@ def test_pymunk_says_that_it_is_planar(setting: str) -> None:
     assert list(Pymunk(setting).plans(chain(), start(Q, Q_DOT))) == [Refusal("native", PYMUNK)]
 
 
-def acted_on() -> tuple[SpatialScene, Start]:
+def acted_on() -> tuple[Scene, Start]:
     """A body with every kind of force."""
     ends = Anchor("top", "tip"), Anchor("ground", "O")
     body = rigid("top", 1.3, (0.02, 0.03, 0.04), {"tip": (0.1, 0.2, 0.3)})
@@ -91,7 +90,7 @@ BODY = rigid("b", 1.0, (0.02, 0.03, 0.04), {"l": (-0.3, 0, 0)})
     ],
     ids=["slide of a particle", "turn of a particle", "driven loop"],
 )  # fmt: skip
-def test_what_the_adapter_does_not_build(scene: SpatialScene, because: str) -> None:
+def test_what_the_adapter_does_not_build(scene: Scene, because: str) -> None:
     begun = {name: state(STILL, (1, 0, 0, 0), STILL, STILL) for name in scene.bodies}
     (refusal,) = MuJoCo("tuned").plans(scene, begun)
     assert refusal == Refusal("native", because)

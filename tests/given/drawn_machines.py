@@ -58,8 +58,11 @@ def turned_scene(build: Build, turn: float) -> Scene:
         # the ground and a particle keep their axes, so what stands in them is turned by hand
         fixed = not build.turns(j.a.body) or j.a.body == GROUND
         first, second = (float(end.body == GROUND) for end in (j.a, j.b))
-        along = turned(j.along, turn) if fixed else j.along
-        return replace(j, along=along, angle=j.angle + (first - second) * turn)
+        left = tuple(
+            replace(f, axis=turned(f.axis, turn)) if fixed and f.kind == "shift" else f
+            for f in j.freedoms
+        )
+        return replace(j, freedoms=left, angle=j.angle + (first - second) * turn)
 
     def force(f: Force) -> Force:
         if isinstance(f, Push):

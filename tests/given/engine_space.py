@@ -5,14 +5,12 @@ from typing import Any
 
 import numpy as np
 
-from textmech.cases.scene import Anchor, Force, GroundPoint, Signal
+from textmech.cases.scene import Anchor, Force, GroundPoint, Scene, Signal
 from textmech.cases.scene.body import Body
+from textmech.cases.scene.contact import Contact
 from textmech.cases.scene.frame import SPACE
-from textmech.cases.scene.joint import Freedom
+from textmech.cases.scene.joint import Freedom, Joint
 from textmech.cases.scene.rotation import Vector3
-from textmech.cases.scene.space.contact import SpatialContact
-from textmech.cases.scene.space.joint import SpatialJoint
-from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Plan, Start
 from textmech.engines.mujoco import MuJoCo
@@ -56,18 +54,18 @@ def particle(name: str, mass: float) -> Body:
     return Body(name, "particle", mass, (), {"center": STILL}, frame=SPACE)
 
 
-def joint(name: str, kind: Any, a: str, b: str, *freedoms: Freedom) -> SpatialJoint:
+def joint(name: str, kind: Any, a: str, b: str, *freedoms: Freedom) -> Joint:
     """A joint between `body.point` and `body.point`."""
     (p, q), (r, s) = a.split("."), b.split(".")
-    return SpatialJoint(name, kind, Anchor(p, q), Anchor(r, s), freedoms)
+    return Joint(name, kind, Anchor(p, q), Anchor(r, s), freedoms, frame=SPACE)
 
 
-def hinge(name: str, a: str, b: str, axis: Any) -> SpatialJoint:
+def hinge(name: str, a: str, b: str, axis: Any) -> Joint:
     """A hinge about an axis of the first part."""
     return joint(name, "hinge", a, b, Freedom.turn(unit(axis), "angle"))
 
 
-def ball(name: str, a: str, b: str) -> SpatialJoint:
+def ball(name: str, a: str, b: str) -> Joint:
     """A ball joint."""
     return joint(name, "ball", a, b, Freedom("ball"))
 
@@ -79,16 +77,16 @@ def point(at: Any, velocity: Any = STILL) -> GroundPoint:
 
 def spatial(
     bodies: Sequence[Body],
-    joints: Sequence[SpatialJoint] = (),
+    joints: Sequence[Joint] = (),
     *,
-    contacts: Sequence[SpatialContact] = (),
+    contacts: Sequence[Contact] = (),
     forces: Sequence[Force] = (),
     gravity: Vector3 = (0.0, 0.0, -G),
     points: dict[str, GroundPoint] | None = None,
     drives: dict[str, Signal] | None = None,
-) -> SpatialScene:
+) -> Scene:
     """Bodies under gravity, with the ground's point O at the origin."""
-    return SpatialScene(
+    return Scene(
         gravity,
         {"O": point(STILL), **(points or {})},
         {body.name: body for body in bodies},
@@ -96,6 +94,7 @@ def spatial(
         {contact.name: contact for contact in contacts},
         {force.name: force for force in forces},
         drives=drives or {},
+        frame=SPACE,
     )
 
 
@@ -105,7 +104,7 @@ def state(r: Any, q: Any, v: Any, omega: Any) -> tuple[float, ...]:
 
 
 def simulated(
-    scene: SpatialScene,
+    scene: Scene,
     start: Start,
     times: Array,
     step: float,

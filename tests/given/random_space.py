@@ -10,10 +10,10 @@ from scipy.spatial.transform import Rotation
 from textmech.cases.scene import CENTER, GROUND, Anchor, Damper, Push, Signal, Spring, Torque
 from textmech.cases.scene import solid as shape
 from textmech.cases.scene.body import Body
-from textmech.cases.scene.joint import Freedom
-from textmech.cases.scene.space.constraint import SpatialEdge
-from textmech.cases.scene.space.contact import SpatialContact
-from textmech.cases.scene.space.joint import SpatialJoint
+from textmech.cases.scene.constraint import Edge
+from textmech.cases.scene.contact import spatial_contact
+from textmech.cases.scene.frame import SPACE
+from textmech.cases.scene.joint import Freedom, Joint
 from textmech.reference.system import Array
 
 from .engine_space import particle, rigid, unit, vector
@@ -73,7 +73,7 @@ def hang(made: Machine, body: Body) -> None:
     made.bodies[body.name] = body
     arm = made.vector(0.4) if body.turns else np.zeros(3)
     made.poses[body.name] = place - arm, R if body.turns else np.eye(3)
-    made.joints[name] = SpatialJoint(name, kind, a, made.anchor(body.name, place), (*free,))
+    made.joints[name] = Joint(name, kind, a, made.anchor(body.name, place), (*free,), frame=SPACE)
 
 
 def close(made: Machine) -> None:
@@ -96,7 +96,7 @@ def close(made: Machine) -> None:
         free = (s, *(Freedom.turn(unit(made.axis()), f"phi{i}") for i in range(3)))
         start = place - made.number(-0.5, 0.5) * made.poses[a][1] @ s.axis
     ends = made.anchor(a, start), made.anchor(b, place)
-    made.joints[name] = SpatialJoint(name, kind, *ends, (*free,))
+    made.joints[name] = Joint(name, kind, *ends, (*free,), frame=SPACE)
 
 
 def roll(made: Machine) -> None:
@@ -113,7 +113,7 @@ def roll(made: Machine) -> None:
     up = (R @ axle)[2] if rim else 0.0
     r[2] = radius * np.sqrt(1 - up**2)
     made.bodies[name], made.poses[name] = body, (r, R)
-    made.contacts["touch"] = SpatialContact("touch", Anchor(name, CENTER), 0.5, rim)
+    made.contacts["touch"] = spatial_contact("touch", Anchor(name, CENTER), 0.5, rim)
 
 
 def push(made: Machine, *, driven: bool) -> None:
@@ -150,7 +150,8 @@ def blade(made: Machine) -> None:
     """On the last body that turns; its height may be kept."""
     name = [name for name, body in made.bodies.items() if body.turns][-1]
     at = made.anchor(name, made.near(name))
-    edge = SpatialEdge("blade", at, unit(made.axis()), bool(made.rng.integers(2)))
+    along, kept = unit(made.axis()), bool(made.rng.integers(2))
+    edge = Edge("blade", at, along, kept=kept, frame=SPACE)
     made.constraints["blade"] = edge
 
 

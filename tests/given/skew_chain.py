@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from textmech.cases.scene import Signal
-from textmech.cases.scene.space.scene import SpatialScene
+from textmech.cases.scene import Scene, Signal
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Start
 
@@ -39,7 +38,7 @@ BODIES = [
 ]
 
 
-def chain(*, back: tuple[int, ...] = (), drives: dict[str, Signal] | None = None) -> SpatialScene:
+def chain(*, back: tuple[int, ...] = (), drives: dict[str, Signal] | None = None) -> Scene:
     """The scene; the joints `back` name their outer body first."""
     joints = []
     for i in range(N):

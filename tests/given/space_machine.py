@@ -6,12 +6,12 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from textmech.cases.scene import CENTER, GROUND, Anchor, Force, GroundPoint, Signal
+from textmech.cases.scene import CENTER, GROUND, Anchor, Force, GroundPoint, Scene, Signal
 from textmech.cases.scene.body import Body
-from textmech.cases.scene.space.constraint import SpatialEdge
-from textmech.cases.scene.space.contact import SpatialContact
-from textmech.cases.scene.space.joint import SpatialJoint
-from textmech.cases.scene.space.scene import SpatialScene
+from textmech.cases.scene.constraint import Edge
+from textmech.cases.scene.contact import Contact
+from textmech.cases.scene.frame import SPACE
+from textmech.cases.scene.joint import Joint
 from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
 from textmech.reference.system import Array
 
@@ -30,10 +30,10 @@ class Machine:
     t: float = T  # s: when the parts are where they are drawn
     bodies: dict[str, Body] = field(default_factory=dict)
     points: dict[str, GroundPoint] = field(default_factory=dict)
-    joints: dict[str, SpatialJoint] = field(default_factory=dict)
-    contacts: dict[str, SpatialContact] = field(default_factory=dict)
+    joints: dict[str, Joint] = field(default_factory=dict)
+    contacts: dict[str, Contact] = field(default_factory=dict)
     forces: dict[str, Force] = field(default_factory=dict)
-    constraints: dict[str, SpatialEdge] = field(default_factory=dict)
+    constraints: dict[str, Edge] = field(default_factory=dict)
     drives: dict[str, Signal] = field(default_factory=dict)
     poses: dict[str, tuple[Array, Array]] = field(
         default_factory=lambda: {GROUND: (np.zeros(3), np.eye(3))}
@@ -42,9 +42,9 @@ class Machine:
     @cached_property
     def mode(self) -> SpatialMultibody:
         """Its generated mechanism, once it is made."""
-        scene = SpatialScene(
+        scene = Scene(
             GRAVITY, self.points, self.bodies, self.joints, self.contacts, self.forces,
-            constraints=self.constraints, drives=self.drives,
+            constraints=self.constraints, drives=self.drives, frame=SPACE,
         )  # fmt: skip
         return SpatialMultibody(scene, (np.zeros(0), np.zeros(0)))
 

@@ -67,7 +67,7 @@ def test_every_noun_of_a_scene_is_there() -> None:
         "| SPACE | 0 to 2: m |",
         "| `stiffness` | `float` | N m/rad | c |",
         "| `static` | `Bounds` | N or N m | what holds at rest, N or N m |",
-        "whose elements are those of space: `scene.frame is SPACE`",
+        "All stand in the plane, or all in space: `scene.frame is SPACE`",
         "| `touching` | One contact for every point that may touch",
         "| `pairs` | `Mapping[str, Pair]` |  | The contacts of two bodies",
         "`step` [s] too if the engine takes one",

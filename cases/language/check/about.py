@@ -5,7 +5,6 @@ from typing import Any
 
 from ...mistake import Path, listed, nearest
 from ...scene import Force, Joint, Scene
-from ...scene.space.joint import SpatialJoint
 from ..parse import Finding, Parsed
 
 
@@ -57,7 +56,7 @@ def turning(scene: Scene, path: Path, joint: Joint) -> Iterator[Finding]:
 
 def no_turn(joint: Any, force: Force) -> str | None:
     """Why there is no such turn, or none about which anything can act."""
-    found: SpatialJoint = joint
+    found: Joint = joint
     name, freedom = found.name, force.turn
     turns = [f.name for f in found.turns if f.name]
     written = [f"{name}.{turn}" for turn in turns]

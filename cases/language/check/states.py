@@ -6,10 +6,10 @@ What slows a body of the plane by its velocity may act on it: it is claimed, and
 from collections.abc import Iterator
 
 from ...scene import Scene
+from ...scene.frame import SPACE
+from ...scene.joint import Joint
 from ...scene.point import GROUND
 from ...scene.quantity import table
-from ...scene.space.joint import SpatialJoint
-from ...scene.space.scene import SpatialScene
 from ...scene.states import claimable
 from ..grammar.file import File
 from ..parse import Finding, Parsed
@@ -24,12 +24,12 @@ def states(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         yield from ((("scene", section, name), _NOTHING) for name in getattr(spec, section))
     for name, force in scene.forces.items():
         if not force.stated:
-            also = "" if isinstance(scene, SpatialScene) else ", and about `drag`"
+            also = "" if scene.frame is SPACE else ", and about `drag`"
             yield ("scene", "forces", name), _NOTHING + also
     for name, point in spec.points.items():
         if point.driven:
             yield ("scene", "points", name), f"is driven: {_NOTHING}"
-    if isinstance(scene, SpatialScene):
+    if scene.frame is SPACE:
         if scene.drives:
             yield ("scene", "drive"), _NOTHING
         yield from _particles(scene)
@@ -44,13 +44,13 @@ def states(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
             yield ("allow", name), what
 
 
-def _particles(scene: SpatialScene) -> Iterator[Finding]:
+def _particles(scene: Scene) -> Iterator[Finding]:
     for name, body in scene.bodies.items():
         if not body.turns:
             yield ("scene", "bodies", name), "is a particle; a claim about states takes none"
 
 
-def _chain(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
+def _chain(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     """From the ground on each body hangs on one joint, whose freedoms have names."""
     if any(path[0] == "scene" for path in parsed.broken):
         return  # what is missing may be what joins them
@@ -70,7 +70,7 @@ def _chain(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
             yield ("scene", "bodies", name), "hangs on nothing: join it to the ground by `freedoms`"
 
 
-def _outward(scene: SpatialScene) -> Iterator[tuple[str, SpatialJoint]]:
+def _outward(scene: Scene) -> Iterator[tuple[str, Joint]]:
     """The joints from the ground on; last those that begin at nothing that hangs."""
     left, hung = dict(scene.joints), {GROUND}
     while left:

@@ -12,7 +12,6 @@ from ...fields.signal import fastest
 from ...mistake import Path
 from ...scene import Anchor, Body, Scene
 from ...scene.islands import apart
-from ...scene.space.scene import SpatialScene
 from ..grammar.file import File
 from ..parse import Finding
 from . import cost
@@ -164,7 +163,7 @@ def _pendulum(body: Body, point: str, g: float) -> float:
 
 def spins(file: File, scene: Any) -> Iterator[tuple[float, Path]]:
     """How fast [rad/s] bodies and joints start to turn, and how fast they are driven."""
-    driven: SpatialScene = scene
+    driven: Scene = scene
     mine = [name for name in file.initial if name in {**driven.bodies, **driven.joints}]
     for name, start in ((name, file.initial[name]) for name in mine):
         turning = [*(f"omega_{i}" for i in (1, 2, 3))]

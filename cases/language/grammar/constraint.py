@@ -2,9 +2,15 @@
 
 from typing import Annotated
 
-from ...fields.part import OneOf
+from pydantic import Field
+
+from ...fields.part import Direction, OneOf
 from ...scene.constraint import CONSTRAINTS
 from .element import Element, element
 
-KINDS = {word: element(word, noun) for word, noun in CONSTRAINTS.items()}
+_ALONG = Annotated[Direction, Field(description="in the axes of the body")]
+KINDS = {
+    word: element(word, noun, without=("kept", "frame"), typed={"along": _ALONG})
+    for word, noun in CONSTRAINTS.items()
+}
 Constraint = Annotated[Element, OneOf("constraint", KINDS)]

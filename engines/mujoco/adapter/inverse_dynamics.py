@@ -10,9 +10,9 @@ import mujoco
 import numpy as np
 
 from ....cases.scene import Scene
+from ....cases.scene.frame import PLANE
 from ....cases.scene.point import CENTER
 from ....cases.scene.rotation import matrix
-from ....cases.scene.space.scene import SpatialScene
 from ....cases.scene.states import MASS_MATRIX
 from ....cases.trajectory import Array
 from ..callbacks.signal import installed, listening
@@ -80,13 +80,13 @@ def _withheld(scene: Scene, name: str) -> str:
 
 def _coordinates(scene: Scene, names: Mapping[str, Any]) -> dict[str, tuple[str, str]]:
     """MuJoCo's joint of each coordinate, and the quantity that moves it."""
-    if not isinstance(scene, SpatialScene):
+    if scene.frame is PLANE:
         return {name: (name, "") for name in names}
     found = dict(_natives(scene))
     return {name: found[name] for name in names}
 
 
-def _natives(scene: SpatialScene) -> Iterator[tuple[str, tuple[str, str]]]:
+def _natives(scene: Scene) -> Iterator[tuple[str, tuple[str, str]]]:
     for branch in spanning_tree(scene).branches:
         assert branch.joint is not None  # each body hangs on one
         for native in natives(scene, branch):

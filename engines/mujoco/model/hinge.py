@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
 from ....cases.scene import Force, Joint, Scene
+from ....cases.scene.frame import SPACE
 from ....cases.scene.joint import FreedomKind
-from ....cases.scene.space.scene import SpatialScene
 from .number_text import written
 from .spatial_tree import coordinate as coordinate_in_space
 from .spatial_tree import spanning_tree as spanning_tree_in_space
@@ -32,7 +32,7 @@ class Hinge:
 
 def hinge(scene: Scene, force: Force, root: ET.Element | None = None) -> Hinge:
     """The joint about which a force acts. Raises KeyError of a joint that closes a loop."""
-    if isinstance(scene, SpatialScene):
+    if scene.frame is SPACE:
         name, way = _spatial(scene, force)
     else:
         name, way = _flat(scene, force.about or "", force.freedom)
@@ -47,7 +47,7 @@ def _flat(scene: Scene, joint: str, freedom: FreedomKind) -> tuple[str, float]:
     raise KeyError(joint)
 
 
-def _spatial(scene: SpatialScene, force: Force) -> tuple[str, float]:
+def _spatial(scene: Scene, force: Force) -> tuple[str, float]:
     """The name of MuJoCo's joint, and its way, 1.0. Raises KeyError of a joint that closes a loop.
 
     Of a body that is the first part MuJoCo's axis is the opposite, and the angle the same.
@@ -65,7 +65,7 @@ def way(scene: Scene, joint: Joint) -> float:
 
 def attribute_conflict(scene: Scene) -> str | None:
     """The first torsion spring or damper for which its joint has no attribute left, or no hinge."""
-    spatial = isinstance(scene, SpatialScene)
+    spatial = scene.frame is SPACE
     found = spanning_tree_in_space(scene) if spatial else spanning_tree(scene)
     loops = {joint.name for joint in found.loops}
     seen: set[tuple[str, str, str]] = set()

@@ -7,11 +7,9 @@ one of them is a ball, two are a hinge, three a weld.
 
 from dataclasses import dataclass
 
-from ....cases.scene import GROUND
-from ....cases.scene.joint import Freedom
+from ....cases.scene import GROUND, Scene
+from ....cases.scene.joint import Freedom, Joint
 from ....cases.scene.rotation import Vector3
-from ....cases.scene.space.joint import SpatialJoint
-from ....cases.scene.space.scene import SpatialScene
 from .tree import Branch, Tree, spanned
 
 
@@ -25,10 +23,10 @@ class Native:
     of: int = 0
 
 
-def spanning_tree(scene: SpatialScene) -> Tree[SpatialJoint]:
+def spanning_tree(scene: Scene) -> Tree[Joint]:
     """The tree over the joints; what `connect` closes best, or at all, comes last."""
 
-    def closes(joint: SpatialJoint) -> int:
+    def closes(joint: Joint) -> int:
         driven = any(quantity.startswith(f"{joint.name}.") for quantity in scene.drives)
         acted = any(force.about == joint.name for force in scene.forces.values())
         return -4 if driven or acted else -(held_points(scene, joint) or 4)
@@ -36,14 +34,14 @@ def spanning_tree(scene: SpatialScene) -> Tree[SpatialJoint]:
     return spanned(scene, sorted(scene.joints.values(), key=closes))
 
 
-def freedoms_left(scene: SpatialScene, joint: SpatialJoint) -> tuple[Freedom, ...]:
+def freedoms_left(scene: Scene, joint: Joint) -> tuple[Freedom, ...]:
     """The freedoms that the joint leaves here: a particle has no axes, so none are held."""
     ends = (joint.a.body, joint.b.body)
     rigid = all(end == GROUND or scene.bodies[end].turns for end in ends)
     return joint.freedoms if rigid else (*joint.shifts, Freedom("ball"))
 
 
-def held_points(scene: SpatialScene, joint: SpatialJoint) -> int | None:
+def held_points(scene: Scene, joint: Joint) -> int | None:
     """By how many points `connect` can hold what the joint holds; None: by no number."""
     freedoms = freedoms_left(scene, joint)
     if any(freedom.kind == "shift" for freedom in freedoms):
@@ -53,7 +51,7 @@ def held_points(scene: SpatialScene, joint: SpatialJoint) -> int | None:
     return {0: 3, 1: 2}.get(len(freedoms))
 
 
-def natives(scene: SpatialScene, branch: Branch[SpatialJoint]) -> list[Native]:
+def natives(scene: Scene, branch: Branch[Joint]) -> list[Native]:
     """The body's freedoms on its parent, as MuJoCo's joints in their order, outer first.
 
     A body that is its joint's first part undoes the freedoms, the last one first.
@@ -82,6 +80,6 @@ def natives(scene: SpatialScene, branch: Branch[SpatialJoint]) -> list[Native]:
     ]
 
 
-def coordinate(joint: SpatialJoint, number: int) -> str:
+def coordinate(joint: Joint, number: int) -> str:
     """MuJoCo's joint for a freedom: the joint's name, and where there are several its number."""
     return joint.name if len(joint.freedoms) < 2 else f"{joint.name}.{number}"

@@ -11,10 +11,9 @@ from typing import Generic, TypeVar
 
 from ....cases.scene import GROUND, Anchor, Joint, Scene, Vector
 from ....cases.scene.joint import FreedomKind
-from ....cases.scene.space.joint import SpatialJoint
 from ...engine import Start
 
-J = TypeVar("J", Joint, SpatialJoint)
+J = TypeVar("J", Joint, Joint)
 
 
 @dataclass(frozen=True)

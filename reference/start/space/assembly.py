@@ -1,7 +1,7 @@
 """The start of a scene in space: positions by Newton's method, rates by linear algebra."""
 
 from ....cases.case import Case
-from ....cases.scene.space.scene import SpatialScene
+from ....cases.scene import Scene
 from ...system import Array
 from . import refusal
 from .closure import RANK, SpatialClosure
@@ -9,7 +9,7 @@ from .positions import positions
 from .rates import rates
 
 
-def assemble_in_space(case: Case, scene: SpatialScene) -> tuple[Array, Array]:
+def assemble_in_space(case: Case, scene: Scene) -> tuple[Array, Array]:
     """q (m,) and v (n,) at t = 0.
 
     Raises CaseError if the constraints are not independent, the mechanism cannot be assembled or

@@ -8,11 +8,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ....cases.scene import GROUND
+from ....cases.scene import GROUND, Scene
 from ....cases.scene.chain import turned_by
+from ....cases.scene.joint import Joint
 from ....cases.scene.rotation import UPRIGHT, about, angle_between, matrix, product, turned
-from ....cases.scene.space.joint import SpatialJoint
-from ....cases.scene.space.scene import SpatialScene
 from ...system import Array
 from .closure import SpatialClosure
 from .initial_conditions import attitude
@@ -23,7 +22,7 @@ REACHED = 1e-6  # rad: near gimbal lock half of the digits of an angle are lost
 ALIKE = 0.5  # between the cosine of a held axis, 1, and those of its joint turned over, 0 and -1
 
 
-def closes(scene: SpatialScene) -> bool:
+def closes(scene: Scene) -> bool:
     """Whether a joint joins what is joined already, be it on the ground or free of it."""
     island = {name: name for name in (GROUND, *scene.bodies)}
     for joint in scene.joints.values():
@@ -47,7 +46,7 @@ def faithful(closure: SpatialClosure, q: Array) -> bool:
     return True
 
 
-def unreached(closure: SpatialClosure, q: Array) -> Iterator[SpatialJoint]:
+def unreached(closure: SpatialClosure, q: Array) -> Iterator[Joint]:
     """Joints of three turns that make no attitude such as this: skew axes leave some out."""
     for joint in closure.scene.joints.values():
         if len(joint.turns) < 3:
@@ -81,7 +80,7 @@ def past_lock(closure: SpatialClosure, q: Array) -> int:
     return found
 
 
-def locked(closure: SpatialClosure) -> Iterator[tuple[SpatialJoint, float]]:
+def locked(closure: SpatialClosure) -> Iterator[tuple[Joint, float]]:
     """Joints of three turns that are given where the first and the last are about one axis."""
     for name, placement in closure.case.initial.items():
         joint = closure.scene.joints.get(name)

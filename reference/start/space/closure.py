@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ....cases.case import Case
-from ....cases.scene.space.scene import SpatialScene
+from ....cases.scene import Scene
 from ...mechanism.modes.space.mode import SpatialMultibody
 from ...system import Array
 from .initial_conditions import Equation, Given
@@ -19,7 +19,7 @@ RANK = 1e-9  # singular values below this part of the largest count as zero
 class SpatialClosure:
     """Residuals f (2.14) of what is held, and of what is given, of one case at t = 0."""
 
-    def __init__(self, case: Case, scene: SpatialScene) -> None:
+    def __init__(self, case: Case, scene: Scene) -> None:
         self.case, self.scene = case, scene
         self.mode = SpatialMultibody(scene, (np.zeros(0), np.zeros(0)))
         self.where, self.constraints = self.mode.where, self.mode.constraints
@@ -68,7 +68,7 @@ class SpatialClosure:
         return None
 
 
-def size_in_space(case: Case, scene: SpatialScene) -> float:
+def size_in_space(case: Case, scene: Scene) -> float:
     """The largest length [m] on a body, wherever the scene stands; without one, the reach."""
     lengths = [abs(x) for body in scene.bodies.values() for p in body.points.values() for x in p]
     lengths += [body.radius for body in scene.bodies.values() if body.radius]

@@ -5,10 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from ....cases.case import Placement
-from ....cases.scene import GROUND, Anchor
+from ....cases.scene import GROUND, Anchor, Scene
+from ....cases.scene.joint import Joint
 from ....cases.scene.rotation import UPRIGHT, about, inverse, product, turned
-from ....cases.scene.space.joint import SpatialJoint
-from ....cases.scene.space.scene import SpatialScene
 from ...mechanism.kinematics.space.coordinates import SpatialCoordinates
 from ...system import Array
 
@@ -43,7 +42,7 @@ def laid_out(
     return where.place(poses)[0]
 
 
-def _placed(scene: SpatialScene, name: str, placement: Placement) -> Pose:
+def _placed(scene: Scene, name: str, placement: Placement) -> Pose:
     e = np.array(placement.attitude or UPRIGHT)
     r = np.array([placement.given.get(axis, 0.0) for axis in "xyz"])
     for point, place in placement.points.items():
@@ -52,7 +51,7 @@ def _placed(scene: SpatialScene, name: str, placement: Placement) -> Pose:
 
 
 def _next(
-    scene: SpatialScene,
+    scene: Scene,
     known: Mapping[str, Pose],
     given: Mapping[str, Placement],
     seeds: Mapping[str, Mapping[str, float]],
@@ -78,7 +77,7 @@ def _next(
 
 
 def _moved(
-    joint: SpatialJoint, values: Mapping[str, float], attitude: tuple[float, ...] | None
+    joint: Joint, values: Mapping[str, float], attitude: tuple[float, ...] | None
 ) -> tuple[Array, Array]:
     """The shift (3,) in the axes of the first part, and the turn of the second (4,)."""
     shift, turn = np.zeros(3), np.array(attitude or UPRIGHT)
@@ -91,7 +90,7 @@ def _moved(
     return shift, turn
 
 
-def _local(scene: SpatialScene, anchor: Anchor) -> Array:
+def _local(scene: Scene, anchor: Anchor) -> Array:
     if anchor.body == GROUND:
         return np.array(scene.points[anchor.point].at)
     return np.array(scene.bodies[anchor.body].points[anchor.point])

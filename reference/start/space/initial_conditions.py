@@ -11,9 +11,8 @@ import numpy as np
 from ....cases.case import Case, Placement
 from ....cases.scene import GROUND, Anchor, chain
 from ....cases.scene.counting import counted
-from ....cases.scene.joint import Freedom
+from ....cases.scene.joint import Freedom, Joint
 from ....cases.scene.rotation import UPRIGHT, about, inverse, matrix, product, turned
-from ....cases.scene.space.joint import SpatialJoint
 from ...mechanism.kinematics.space.attitude import skew
 from ...mechanism.modes.space.mode import SpatialMultibody
 from ...system import Array
@@ -77,7 +76,7 @@ class Given:
             rows[:, at.omega : at.omega + 3] = -R @ skew(points.x)[0]
         return rows, points.at(0.0, bodies).r[0]
 
-    def _joint(self, joint: SpatialJoint, placement: Placement, q: Array) -> Iterator[Equation]:
+    def _joint(self, joint: Joint, placement: Placement, q: Array) -> Iterator[Equation]:
         given = {freedom.name for freedom in joint.named} & placement.given.keys()
         for freedom, value, row in self.coordinates(joint, q) if given else ():
             if freedom.name and freedom.name in placement.given:
@@ -98,7 +97,7 @@ class Given:
         a, b = (attitude(self.mode, at.body, q) for at in (joint.a, joint.b))
         return product(inverse(a), b)
 
-    def relative(self, joint: SpatialJoint, q: Array) -> Array:
+    def relative(self, joint: Joint, q: Array) -> Array:
         """(3, n) ω of the second part against the first, in the axes of the second."""
         rows = np.zeros((3, self.n))
         a, b = (self.mode.where.columns.get(at.body) for at in (joint.a, joint.b))
@@ -109,7 +108,7 @@ class Given:
             rows[:, a.omega : a.omega + 3] = -R_b.T @ R_a
         return rows
 
-    def coordinates(self, joint: SpatialJoint, q: Array) -> list[tuple[Freedom, float, Array]]:
+    def coordinates(self, joint: Joint, q: Array) -> list[tuple[Freedom, float, Array]]:
         """Each freedom but a ball with its value [m or rad] and the row of its rate (n,)."""
         found: list[tuple[Freedom, float, Array]] = []
         a, b = (attitude(self.mode, at.body, q) for at in (joint.a, joint.b))
@@ -130,9 +129,7 @@ class Given:
             found += list(zip(joint.turns, angles[0].tolist(), rows, strict=True))
         return found
 
-    def _shifts(
-        self, joint: SpatialJoint, q: Array, R_a: Array
-    ) -> list[tuple[Freedom, float, Array]]:
+    def _shifts(self, joint: Joint, q: Array, R_a: Array) -> list[tuple[Freedom, float, Array]]:
         axes = np.array([freedom.axis for freedom in joint.shifts])
         rows_a, r_a = self.end(joint.a, q)
         rows_b, r_b = self.end(joint.b, q)
@@ -143,7 +140,7 @@ class Given:
         solve = np.linalg.pinv(axes.T)
         return list(zip(joint.shifts, (solve @ d).tolist(), solve @ rows, strict=True))
 
-    def named(self, joint: SpatialJoint, q: Array) -> Iterator[Equation]:
+    def named(self, joint: Joint, q: Array) -> Iterator[Equation]:
         """The rates of its freedoms that have names; the residual is what the ground's points do.
 
         Against a point that moves the rate of a shift is another one than against the ground.

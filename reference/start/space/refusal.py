@@ -4,8 +4,7 @@ import numpy as np
 
 from ....cases.case import Case
 from ....cases.mistake import CaseError
-from ....cases.scene.space.joint import SpatialJoint
-from ....cases.scene.space.scene import SpatialScene
+from ....cases.scene.joint import Joint
 from ...system import Array
 from .. import messages
 from ..messages import DEGREES
@@ -24,7 +23,7 @@ def cannot_close(closure: SpatialClosure, q: Array) -> CaseError:
     return messages.stays_open(closure.case, why, owners[worst], gap, closure.size, turns=turns)
 
 
-def locked(case: Case, joint: SpatialJoint, angle: float) -> CaseError:
+def locked(case: Case, joint: Joint, angle: float) -> CaseError:
     """Three turns, of which the first and the last are about one axis."""
     first, middle, last = joint.turns
     at = f"{joint.name}.{middle.name} = {angle * DEGREES:.4g} deg"
@@ -34,7 +33,7 @@ def locked(case: Case, joint: SpatialJoint, angle: float) -> CaseError:
     )
 
 
-def unreached(case: Case, joint: SpatialJoint) -> CaseError:
+def unreached(case: Case, joint: Joint) -> CaseError:
     """Three turns about skew axes, which cannot make the attitude that is given."""
     names = ", ".join(repr(turn.name) for turn in joint.turns)
     return messages.initial(
@@ -46,7 +45,6 @@ def unreached(case: Case, joint: SpatialJoint) -> CaseError:
 
 def flat(case: Case) -> CaseError:
     """A rim that lies on the floor."""
-    assert isinstance(case.scene, SpatialScene)
     rims = ", ".join(name for name, contact in case.scene.contacts.items() if contact.rim)
     return messages.initial(
         case, f"{rims}: a disk that lies flat has no lowest point; start it tilted"

@@ -4,8 +4,8 @@ import math
 from collections.abc import Mapping
 
 from ....cases.scene import Scene
+from ....cases.scene.frame import PLANE
 from ....cases.scene.observe import observe
-from ....cases.scene.space.scene import SpatialScene
 from ....cases.trajectory import Trajectory
 from .answers import read_back
 from .trial import Trial
@@ -68,7 +68,7 @@ def _sizes(scene: Scene, wanted: Mapping[str, float]) -> dict[str, float]:
 
 def _tensors(scene: Scene) -> dict[str, float]:
     """For each entry of a tensor: the largest of its entries; products of inertia may be zero."""
-    if not isinstance(scene, SpatialScene):
+    if scene.frame is PLANE:
         return {}
     return {
         f"{name}.{key}": max(map(abs, body.inertia))

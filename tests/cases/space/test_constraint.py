@@ -8,18 +8,18 @@ import numpy as np
 import pytest
 
 from textmech.cases.scene.body import Body
+from textmech.cases.scene.constraint import Edge
 from textmech.cases.scene.frame import SPACE
 from textmech.cases.scene.motion import Motion
 from textmech.cases.scene.point import Anchor
 from textmech.cases.scene.rotation import about, product, turned
-from textmech.cases.scene.space.constraint import SpatialEdge
 from textmech.cases.trajectory import Trajectory
 from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import follow
 from textmech.reference.systems import written
 
 P = (0.13, 0.014, -0.045)
-BLADE = SpatialEdge("blade", Anchor("hand", "P"), (1.0, 0.0, 0.0), kept=True)
+BLADE = Edge("blade", Anchor("hand", "P"), (1.0, 0.0, 0.0), kept=True, frame=SPACE)
 HAND = Body(
     "hand",
     "rigid",

@@ -10,12 +10,11 @@ from given.spatial_motions import Array, Moving, T, rate, states, turn
 from textmech.cases.scene import Anchor, GroundPoint
 from textmech.cases.scene.body import Body
 from textmech.cases.scene.chain import Turns
+from textmech.cases.scene.contact import spatial_contact
 from textmech.cases.scene.counting import far
 from textmech.cases.scene.frame import SPACE
-from textmech.cases.scene.joint import Freedom
+from textmech.cases.scene.joint import Freedom, Joint
 from textmech.cases.scene.motion import Motion
-from textmech.cases.scene.space.contact import SpatialContact
-from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.cases.trajectory import Trajectory
 
 A, B = np.array([0.1, -0.2, 0.3]), np.array([-0.2, 0.1, 0.4])  # the points that are joined
@@ -100,7 +99,7 @@ def hinge(axis: Array, name: str) -> Freedom:
 )
 def test_coordinates(freedoms: list[Freedom], values: list[Coordinate]) -> None:
     moved = jointed(freedoms, values)
-    joint = SpatialJoint("j", "freedoms", Anchor("a", "P"), Anchor("b", "P"), tuple(freedoms))
+    joint = Joint("j", "freedoms", Anchor("a", "P"), Anchor("b", "P"), tuple(freedoms), frame=SPACE)
     for freedom, value in zip(freedoms, values, strict=True):
         seen = joint.observe(moved, freedom.name)
         expected = np.array([value(t) for t in T])
@@ -127,7 +126,9 @@ def test_gap() -> None:
     moved = motion(
         lambda t: first(t) + first_attitude(t) @ (A + one(t) * U + 0.02 * off - B), first_attitude
     )
-    joint = SpatialJoint("j", "slide", Anchor("a", "P"), Anchor("b", "P"), (shift(U, "shift"),))
+    joint = Joint(
+        "j", "slide", Anchor("a", "P"), Anchor("b", "P"), (shift(U, "shift"),), frame=SPACE
+    )
     np.testing.assert_allclose(joint.observe(moved, "gap"), 0.02, rtol=1e-9)
     np.testing.assert_allclose(joint.observe(moved, "shift"), [one(t) for t in T], atol=1e-9)
 
@@ -149,8 +150,8 @@ def test_what_touches() -> None:
     rows = states(first, first_attitude)
     reactions = {"d.fx": np.cos(T), "d.fy": np.sin(3 * T)}
     moved = Motion({"d": disk, "s": ball}, {}, Trajectory(T, {"d": rows, "s": rows}, reactions))
-    on_rim = SpatialContact("d", Anchor("d", "center"), 1.0, rim=True)
-    anywhere = SpatialContact("s", Anchor("s", "center"), 1.0, rim=False)
+    on_rim = spatial_contact("d", Anchor("d", "center"), 1.0, rim=True)
+    anywhere = spatial_contact("s", Anchor("s", "center"), 1.0, rim=False)
     e = np.cross(axle, (1.0, 0.0, 0.0))
     e /= np.linalg.norm(e)
     rim = 0.25 * (

@@ -10,14 +10,21 @@ from given.spatial_motions import turn
 
 from textmech.cases.case import Case
 from textmech.cases.load import load
-from textmech.cases.scene import STANDARD_GRAVITY, Anchor, GroundPoint, Push, Signal, Torque, solid
+from textmech.cases.scene import (
+    STANDARD_GRAVITY,
+    Anchor,
+    GroundPoint,
+    Push,
+    Scene,
+    Signal,
+    Torque,
+    solid,
+)
+from textmech.cases.scene.contact import spatial_contact
 from textmech.cases.scene.frame import SPACE
-from textmech.cases.scene.joint import Freedom
+from textmech.cases.scene.joint import Freedom, Joint
 from textmech.cases.scene.quantity import table
 from textmech.cases.scene.rotation import matrix
-from textmech.cases.scene.space.contact import SpatialContact
-from textmech.cases.scene.space.joint import SpatialJoint
-from textmech.cases.scene.space.scene import SpatialScene
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
@@ -29,11 +36,8 @@ def case_of(tmp_path: Path, text: str) -> Case:
     return case
 
 
-def scene_of(tmp_path: Path, text: str = SOUND) -> SpatialScene:
-    scene = case_of(tmp_path, text).scene
-    assert isinstance(scene, SpatialScene)
-    assert scene.frame is SPACE
-    return scene
+def scene_of(tmp_path: Path, text: str = SOUND) -> Scene:
+    return case_of(tmp_path, text).scene
 
 
 @pytest.mark.parametrize(
@@ -87,13 +91,14 @@ def test_joints(tmp_path: Path) -> None:
     }  # fmt: skip
     begins = {"q1": {"angle": radians(30)}}  # of what `initial` and `near` say
     assert dict(scene_of(tmp_path).joints) == {
-        name: SpatialJoint(
+        name: Joint(
             name,
             kind,
             Anchor(*a.split(".")),
             Anchor(*b.split(".")),
             left,
-            begins.get(name, {}),  # type: ignore[arg-type]
+            begins=begins.get(name, {}),
+            frame=SPACE,
         )
         for name, (kind, a, b, left) in freedoms.items()
     }
@@ -108,7 +113,7 @@ def test_a_weld_leaves_nothing(tmp_path: Path) -> None:
 def test_contacts_forces_and_drives(tmp_path: Path) -> None:
     scene = scene_of(tmp_path)
     at = Anchor("globe", "center")
-    assert scene.contacts == {"touch": SpatialContact("touch", at, 0.5, rim=False)}
+    assert scene.contacts == {"touch": spatial_contact("touch", at, 0.5, rim=False)}
     on_rim = scene_of(tmp_path, SOUND.replace("[globe, ground", "[wheel, ground"))
     assert on_rim.contacts["touch"].rim
     assert scene.forces["hand"] == Push("hand", Anchor("wheel", "center"), Signal("constant", X))

@@ -6,15 +6,13 @@ import numpy as np
 import pytest
 from given.spatial_motions import Array, T, rate, states, turn
 
-from textmech.cases.scene import Anchor, Damper, GroundPoint, Signal, Spring
+from textmech.cases.scene import Anchor, Damper, GroundPoint, Scene, Signal, Spring
 from textmech.cases.scene.body import Body
+from textmech.cases.scene.contact import spatial_contact
 from textmech.cases.scene.frame import SPACE
-from textmech.cases.scene.joint import Freedom
+from textmech.cases.scene.joint import Freedom, Joint
 from textmech.cases.scene.observe import observe
 from textmech.cases.scene.quantity import table
-from textmech.cases.scene.space.contact import SpatialContact
-from textmech.cases.scene.space.joint import SpatialJoint
-from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Trajectory
 
 G = np.array([0.3, -0.7, -9.0])
@@ -41,7 +39,8 @@ def bob(t: float) -> Array:
     return np.array([1.0 + np.cos(t), 0.5 * t, 2.0 - t**2])
 
 
-SCENE = SpatialScene(
+SCENE = Scene(
+    frame=SPACE,
     gravity=(0.3, -0.7, -9.0),
     points={"O": GroundPoint((0.3, 0.1, 0.2), (0.5, -0.2, 0.1))},  # type: ignore[arg-type]
     bodies={
@@ -49,12 +48,12 @@ SCENE = SpatialScene(
         "bob": Body("bob", "particle", 0.7, (), CENTER, frame=SPACE),
     },
     joints={
-        "q": SpatialJoint(
+        "q": Joint(
             "q", "hinge", Anchor("bob", "center"), Anchor("cloud", "P"),
-            (Freedom.turn((0.0, 0.0, 1.0), "angle"),),
+            (Freedom.turn((0.0, 0.0, 1.0), "angle"),), frame=SPACE,
         ),
     },
-    contacts={"touch": SpatialContact("touch", Anchor("cloud", "center"), 0.5, rim=False)},
+    contacts={"touch": spatial_contact("touch", Anchor("cloud", "center"), 0.5, rim=False)},
     forces={
         "coil": Spring("coil", Anchor("cloud", "end"), Anchor("ground", "O"), 40.0, 0.3),
         "oil": Damper("oil", Anchor("bob", "center"), Anchor("cloud", "P"), 3.0),

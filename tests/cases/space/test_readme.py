@@ -10,13 +10,11 @@ from textmech.cases.language.grammar.space.contact import Rolling
 from textmech.cases.language.grammar.space.scene import SpatialScene as Words
 from textmech.cases.language.grammar.space.start import Start, Turn
 from textmech.cases.load import load
-from textmech.cases.scene import Anchor, Signal, Spring, Torsion, solid
-from textmech.cases.scene.joint import Freedom
+from textmech.cases.scene import Anchor, Scene, Signal, Spring, Torsion, frame, solid
+from textmech.cases.scene.constraint import Edge
+from textmech.cases.scene.contact import spatial_contact
+from textmech.cases.scene.joint import Freedom, Joint
 from textmech.cases.scene.quantity import table
-from textmech.cases.scene.space.constraint import SpatialEdge
-from textmech.cases.scene.space.contact import SpatialContact
-from textmech.cases.scene.space.joint import SpatialJoint
-from textmech.cases.scene.space.scene import SpatialScene
 
 README = Path(find.__file__).with_name("README.md").read_text(encoding="utf-8")
 SPACE = README.partition("## Space\n")[2].partition("## Variants\n")[0]
@@ -50,17 +48,20 @@ def test_quantities() -> None:
     )
     body = solid.rigid(name="body", mass=1, inertia=tensor, points={"point": (0.0, 0.0, 0.0)})
     one = Signal("constant", (1.0,))
-    scene = SpatialScene(
+    scene = Scene(
+        frame=frame.SPACE,
         gravity=(0.0, 0.0, 0.0),
         points={},
         bodies={"body": body},
-        joints={"joint": SpatialJoint("joint", "freedoms", A, B, freedoms)},
-        contacts={"contact": SpatialContact("contact", Anchor("body", "center"), 1.0, rim=True)},
+        joints={"joint": Joint("joint", "freedoms", A, B, freedoms, frame=frame.SPACE)},
+        contacts={"contact": spatial_contact("contact", Anchor("body", "center"), 1.0, rim=True)},
         forces={
             "line": Spring("line", A, B, 1.0, 1.0),
             "torsion": Torsion("torsion", "joint.theta", 1.0, 0.0),
         },
-        constraints={"constraint": SpatialEdge("constraint", B, (1.0, 0.0, 0.0), kept=True)},
+        constraints={
+            "constraint": Edge("constraint", B, (1.0, 0.0, 0.0), kept=True, frame=frame.SPACE)
+        },
         drives={"joint.s_dot": one, "joint.theta_dot": one},
     )
     rows = re.findall(r"^\| (`[a-z]+\..*?) \| (.*?) \|", SPACE, flags=re.MULTILINE)

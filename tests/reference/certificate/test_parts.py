@@ -13,7 +13,7 @@ from given.certified import certified
 from given.claims import CHAIN, claimed
 from given.mutants import mutant
 
-from textmech.cases.scene.space.joint import SpatialJoint
+from textmech.cases.scene.joint import Joint
 from textmech.reference.certificate import agreement, errors
 from textmech.reference.certificate.agreement import Check
 from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
@@ -135,13 +135,13 @@ def otherwise(part: int) -> Callable[..., Any]:
     return placed
 
 
-COORDINATES = SpatialJoint.coordinates
+COORDINATES = Joint.coordinates
 STATES: dict[str, tuple[str, Any, str, Callable[..., Any]]] = {
     "accelerations of a chain": ("joints hold", held, "moving", hurried()),
     "velocities of a chain": ("joints hold", SpatialMultibody, "place", otherwise(1)),
     "places of a chain": ("joints hold", SpatialMultibody, "place", otherwise(0)),
-    "rates of joints": ("coordinates read back", SpatialJoint, "coordinates", slower),
-    "places of joints": ("coordinates read back", SpatialJoint, "coordinates", nearer),
+    "rates of joints": ("coordinates read back", Joint, "coordinates", slower),
+    "places of joints": ("coordinates read back", Joint, "coordinates", nearer),
 }
 
 

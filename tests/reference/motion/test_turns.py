@@ -13,9 +13,9 @@ from given import scenes
 
 from textmech.cases.case import Case
 from textmech.cases.scene import Scene
+from textmech.cases.scene.joint import Joint
 from textmech.cases.scene.motion import Motion
 from textmech.cases.scene.observe import observe
-from textmech.cases.scene.space.joint import SpatialJoint
 from textmech.reference.motion import bodies, turns
 from textmech.reference.motion.follow import Followed
 from textmech.reference.motion.turns import Counted
@@ -187,14 +187,14 @@ def test_a_lost_turn_is_seen(name: str, tmp_path: Path, monkeypatch: pytest.Monk
     """By the integral of the rate."""
     case = typed(tmp_path, SPACE + HINGE + SWING, 3.0, 4, "q.angle: 1")
     if name == "one lost on the way":
-        turned = SpatialJoint.turned
+        turned = Joint.turned
 
-        def lost(self: SpatialJoint, motion: Motion) -> object:
+        def lost(self: Joint, motion: Motion) -> object:
             found = turned(self, motion)
             found.angles[len(found.angles) // 2 :] -= math.tau
             return found
 
-        monkeypatch.setattr(SpatialJoint, "turned", lost)
+        monkeypatch.setattr(Joint, "turned", lost)
     else:
 
         def guessed(scene: Scene, system: System, followed: Followed) -> Counted:

@@ -13,8 +13,7 @@ from given.claims import CHAIN, claimed
 
 from textmech.cases.case import Case, Placement
 from textmech.cases.mistake import CaseError
-from textmech.cases.scene import Signal
-from textmech.cases.scene.space.scene import SpatialScene
+from textmech.cases.scene import Scene, Signal
 from textmech.cases.trajectory import Array
 from textmech.reference.laws import energy, inertia, momentum, rotation
 from textmech.reference.mechanism.kinematics.space.chain import SpatialChain
@@ -129,7 +128,6 @@ def test_a_chain_is_the_mechanism_with_driven_joints(text: str, tmp_path: Path) 
     driven with its rate and acceleration: the torques and accelerations are those of the chain."""
     case = few(text) if text in scenes.CLAIMS else claimed(tmp_path, CHAIN)
     scene, chain = case.scene, generated_mode(case)
-    assert isinstance(scene, SpatialScene)
     for q, v, a in rows(case, chain):
         mode = driven(case, scene, chain, q, v, a).base
         at, moving = mode.start()
@@ -149,7 +147,7 @@ def test_a_chain_is_the_mechanism_with_driven_joints(text: str, tmp_path: Path) 
         assert changes[place] == pytest.approx(wanted[f"{last}.ax"], rel=1e-9, abs=1e-9)
 
 
-def driven(case: Case, scene: SpatialScene, chain: Stated, q: Array, v: Array, a: Array) -> Any:
+def driven(case: Case, scene: Scene, chain: Stated, q: Array, v: Array, a: Array) -> Any:
     """Its mechanism with each rate driven as A sin(t + φ): at t = 0 it is v and rises by a."""
     drives, initial = {}, {}
     for joint in scene.joints.values():

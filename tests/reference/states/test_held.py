@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from given.claims import CHAIN, claimed
 
-from textmech.cases.scene.space.scene import SpatialScene
 from textmech.reference.mechanism.kinematics.space import chain
 from textmech.reference.mechanism.kinematics.space.chain import Moving, SpatialChain
 from textmech.reference.states.answer import answered, misread
@@ -65,7 +64,6 @@ PRODUCT, POINT = chain._product, SpatialChain._point
 def test_what_is_read_back_is_each_coordinate(coordinate: str, tmp_path: Path) -> None:
     """Of the drawn ones, which are 1 at most, one is told 1e-4 m or rad beside where it is."""
     case = claimed(tmp_path, CHAIN)
-    assert isinstance(case.scene, SpatialScene)
     assert case.states is not None
     found, drawn = answered(case)[0], case.states.drawn(case.scene)
     drawn[coordinate] = drawn[coordinate] + [1e-4, 0.0, 0.0]

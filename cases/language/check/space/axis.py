@@ -4,11 +4,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ....scene import Scene
 from ....scene.body import Body
+from ....scene.joint import Joint
 from ....scene.point import Anchor
 from ....scene.solid import without_inertia
-from ....scene.space.joint import SpatialJoint
-from ....scene.space.scene import SpatialScene
 from ....trajectory import Array
 from ...parse import Finding, Parsed
 
@@ -16,7 +16,7 @@ _NONE = "and it has no inertia about that"
 NEAR = 1e-9  # sine of an angle, and of a length its part: numbers are typed with up to ten digits
 
 
-def turns_freely(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
+def turns_freely(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     """Particles that a joint would turn, and bodies that turn freely without inertia."""
     for name, joint in scene.joints.items():
         turning = [f for f in joint.turns if f.kind == "turn"]
@@ -41,7 +41,7 @@ def _freely(body: Body, axis: Array) -> str:
     return f"nothing keeps {body.name!r} from turning about [{about}], {_NONE}"
 
 
-def _held(parsed: Parsed, scene: SpatialScene, body: str, axis: Array) -> bool:
+def _held(parsed: Parsed, scene: Scene, body: str, axis: Array) -> bool:
     """Whether some joint keeps the body from turning about an axis through its centre."""
     if any(path[:2] == ("scene", "joints") for path in parsed.broken):
         return True  # perhaps that one
@@ -52,7 +52,7 @@ def _held(parsed: Parsed, scene: SpatialScene, body: str, axis: Array) -> bool:
     )
 
 
-def _lets(scene: SpatialScene, joint: SpatialJoint, at: Anchor, axis: Array) -> bool:
+def _lets(scene: Scene, joint: Joint, at: Anchor, axis: Array) -> bool:
     """Whether the joint lets the body turn about this axis wherever the joint stands."""
     point = scene.bodies[at.body].points.get(at.point)
     if point is None:

@@ -4,9 +4,9 @@ from collections.abc import Iterator
 from typing import Any
 
 from ....mistake import nearest
+from ....scene import Scene
 from ....scene.body import Body
 from ....scene.point import FLOOR, GROUND
-from ....scene.space.scene import SpatialScene
 from ...parse import Finding, Parsed
 from ..drive import fits, unknown
 from .axis import turns_freely
@@ -24,7 +24,7 @@ def spatial(parsed: Parsed, scene: Any) -> Iterator[Finding]:
 # Blades in space: what can carry one.
 
 
-def blades(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
+def blades(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     """Every mistake in the sound constraints that is not one of a name."""
     for name, edge in scene.constraints.items():
         if what := edge.unfit(scene.bodies.get(edge.at.body)):
@@ -34,7 +34,7 @@ def blades(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
 # Prescribed rates against the freedoms that joints name.
 
 
-def drives(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
+def drives(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     """Every mistake in the sound drives."""
     for quantity, drive in parsed.file.scene.drive.items():
         path = ("scene", "drive", quantity)
@@ -53,7 +53,7 @@ def drives(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
         yield from fits(path, drive, unit)
 
 
-def _no_rate(scene: SpatialScene, part: str, rate: str) -> str:
+def _no_rate(scene: Scene, part: str, rate: str) -> str:
     rates = scene.joints[part].rates
     for name, freedom in rates.items():
         if freedom.name == rate:
@@ -67,7 +67,7 @@ def _no_rate(scene: SpatialScene, part: str, rate: str) -> str:
 # Contacts in space: what rolls on the floor, or stands there on a point.
 
 
-def rolls(parsed: Parsed, scene: SpatialScene) -> Iterator[Finding]:
+def rolls(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     """Every mistake in the sound contacts."""
     first: dict[str, str] = {}
     for name, contact in parsed.file.scene.contacts.items():

@@ -4,9 +4,9 @@ from collections.abc import Iterator, Mapping
 
 from ....fields.number import Amount, NumberMistake, fitting, shown
 from ....mistake import Path, listed, nearest
+from ....scene import Scene
 from ....scene.body import Body
-from ....scene.space.joint import SpatialJoint
-from ....scene.space.scene import SpatialScene
+from ....scene.joint import Joint
 from ...grammar.space.start import Start, Vector
 from ...parse import Finding, Parsed
 from ..drive import agrees
@@ -16,7 +16,7 @@ _PLACES = dict.fromkeys("xyz", "m")
 _RATES = dict.fromkeys(("vx", "vy", "vz"), "m/s")
 
 
-def starts(parsed: Parsed, scene: SpatialScene, key: str) -> Iterator[Finding]:
+def starts(parsed: Parsed, scene: Scene, key: str) -> Iterator[Finding]:
     """Every mistake in `initial`, or in `near`, which takes places only."""
     rates = key == "initial"
     written: Mapping[str, Start] = getattr(parsed.file, key)
@@ -53,7 +53,7 @@ def _of_body(path: Path, body: Body, start: Start, *, rates: bool) -> Iterator[F
             yield (*path, key), _unknown(key, [k for k in keys if k not in given])
 
 
-def _of_joint(path: Path, joint: SpatialJoint, start: Start, *, rates: bool) -> Iterator[Finding]:
+def _of_joint(path: Path, joint: Joint, start: Start, *, rates: bool) -> Iterator[Finding]:
     ball = any(f.kind == "ball" for f in joint.freedoms)
     units = {f.name: f.unit for f in joint.named}
     if rates:
@@ -73,7 +73,7 @@ def _of_joint(path: Path, joint: SpatialJoint, start: Start, *, rates: bool) -> 
             )
 
 
-def _against_drives(path: Path, scene: SpatialScene, start: Start) -> Iterator[Finding]:
+def _against_drives(path: Path, scene: Scene, start: Start) -> Iterator[Finding]:
     for key, given in start.given.items():
         yield from agrees((*path, key), given, scene.drives.get(f"{path[-1]}.{key}"))
 

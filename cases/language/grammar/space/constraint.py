@@ -7,8 +7,9 @@ from pydantic import Field
 from ....fields.part import OneOf, Part, Point
 from ....fields.text import Word
 from ....fields.vector import Direction
+from ....scene.constraint import Edge
+from ....scene.frame import SPACE
 from ....scene.point import anchor
-from ....scene.space.constraint import SpatialEdge
 
 
 class Blade(Part):
@@ -20,9 +21,9 @@ class Blade(Part):
         None, description="`kept`: the point stays as high as it starts"
     )
 
-    def named(self, name: str) -> SpatialEdge:
+    def named(self, name: str) -> Edge:
         """The blade."""
-        return SpatialEdge(name, anchor(self.edge), self.along, self.height is not None)
+        return Edge(name, anchor(self.edge), self.along, kept=self.height is not None, frame=SPACE)
 
 
 KINDS: dict[str, type[Part]] = {"edge": Blade}

@@ -10,8 +10,9 @@ from ....fields.part import Part
 from ....fields.text import Text, Word
 from ....fields.words import wrong
 from ....scene.body import Body
+from ....scene.contact import Contact, spatial_contact
+from ....scene.plane import Plane
 from ....scene.point import anchor
-from ....scene.space.contact import SpatialContact
 
 _ONLY = (
     "in space a contact rolls or is a pivot (slipping in two directions has no finite set of modes)"
@@ -40,9 +41,9 @@ class Rolling(Part):
             raise wrong(f"needs `ideal: rolling` or `ideal: pivot`: {_ONLY}")
         return value
 
-    def named(self, name: str, bodies: Mapping[str, Body]) -> SpatialContact:
-        """The contact; of a body with an axle, by its rim."""
+    def named(self, name: str, bodies: Mapping[str, Body], planes: Mapping[str, Plane]) -> Contact:
+        """The contact; of a body with an axle, by its rim. There is no plane but the floor."""
         at = anchor(self.between[0])
         body = bodies.get(at.body)
         rim = self.ideal == "rolling" and body is not None and body.axle is not None
-        return SpatialContact(name, at, self.friction, rim, self.ideal)  # type: ignore[arg-type]
+        return spatial_contact(name, at, self.friction, rim, self.ideal)  # type: ignore[arg-type]

@@ -11,10 +11,9 @@ from ....fields.part import OneOf, Part
 from ....fields.text import IDENTIFIER, Text, label
 from ....fields.vector import Direction
 from ....fields.words import wrong
-from ....scene.joint import Freedom
+from ....scene.joint import HELD, Freedom
 from ....scene.point import Vector
 from ....scene.rotation import Vector3
-from ....scene.space.joint import HELD
 
 PARALLEL = 1e-9  # sine of an angle: axes are typed with up to ten digits
 

@@ -7,9 +7,10 @@ from pydantic import Field
 from ....fields.part import OneOf, Pair, Part
 from ....fields.vector import Direction
 from ....fields.words import wrong
+from ....scene.frame import SPACE
 from ....scene.joint import Freedom
+from ....scene.joint import Joint as Noun
 from ....scene.point import anchor
-from ....scene.space.joint import SpatialJoint
 from .freedom import Freedoms, parallel
 
 
@@ -26,10 +27,10 @@ class SpatialJointed(Part):
         """The freedoms that it leaves."""
         return ()
 
-    def named(self, name: str) -> SpatialJoint:
+    def named(self, name: str) -> Noun:
         """The joint."""
         a, b = map(anchor, self.points())
-        return SpatialJoint(name, self.kind, a, b, self.left())
+        return Noun(name, self.kind, a, b, self.left(), frame=SPACE)
 
 
 class Hinge(SpatialJointed):

@@ -5,7 +5,7 @@ from contextlib import contextmanager
 
 import mujoco
 
-from .....cases.scene.space.scene import SpatialScene
+from .....cases.scene import Scene
 from ....engine import Plan, Start
 from ...callbacks.signal import installed, listening
 from ...callbacks.space.settle import settle
@@ -15,7 +15,7 @@ from ..run import started
 
 
 def compiled(
-    scene: SpatialScene, start: Start, step: float, plan: Plan
+    scene: Scene, start: Start, step: float, plan: Plan
 ) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """The model with the plan's numbers at the step [s], and data at the start.
 
@@ -28,7 +28,7 @@ def compiled(
 
 
 def placed(
-    scene: SpatialScene, start: Start, step: float, plan: Plan, *, settles: bool
+    scene: Scene, start: Start, step: float, plan: Plan, *, settles: bool
 ) -> tuple[mujoco.MjModel, mujoco.MjData, dict[str, tuple[float, float]]]:
     """Model and data, started as the floor carries it; depths [m] and creeps [m/s] by body."""
     model, data = compiled(scene, start, step, plan)
@@ -38,7 +38,7 @@ def placed(
 
 @contextmanager
 def lent(
-    scene: SpatialScene, start: Start, step: float, plan: Plan, *, settles: bool
+    scene: Scene, start: Start, step: float, plan: Plan, *, settles: bool
 ) -> Iterator[tuple[mujoco.MjModel, mujoco.MjData]]:
     """Lend the model and data of `placed` to one run; each run compiles its own."""
     model, data, _ = placed(scene, start, step, plan, settles=settles)

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
-from .....cases.scene.space.scene import SpatialScene
+from .....cases.scene import Scene
 from ....engine import Choice, Plan, Realised, Start
 from ...model.scene import HEAVY, LEAST
 from ...model.tree import driven
@@ -15,13 +15,13 @@ from .compilation import placed
 Numbers = Callable[[float], Sequence[Choice]]
 
 
-def ways(scene: SpatialScene, start: Start, *, tuned: bool) -> tuple[Realised, ...]:
+def ways(scene: Scene, start: Start, *, tuned: bool) -> tuple[Realised, ...]:
     """MuJoCo's own elements, and edges by our law."""
     return ("law",) if scene.constraints else ("native",)
 
 
 def plan(
-    scene: SpatialScene,
+    scene: Scene,
     start: Start,
     realised: Realised,
     numbers: Numbers,
@@ -47,7 +47,7 @@ def plan(
     return replace(bare, protocol=partial(_words, scene, start, bare, settles))
 
 
-def _words(scene: SpatialScene, start: Start, plan: Plan, settles: bool, step: float) -> str:
+def _words(scene: Scene, start: Start, plan: Plan, settles: bool, step: float) -> str:
     """The protocol in words: what is heavy, what is light, and how what rolls is started."""
     words = []
     if any(driven(scene)):

@@ -1,15 +1,14 @@
 """Scenes in space that MuJoCo has no element for, or the adapter does not build."""
 
-from .....cases.scene import GROUND
-from .....cases.scene.space.joint import SpatialJoint
-from .....cases.scene.space.scene import SpatialScene
+from .....cases.scene import GROUND, Scene
+from .....cases.scene.joint import Joint
 from ...model.space.drive import drives
 from ...model.spatial_tree import freedoms_left, held_points, natives, spanning_tree
 from ...model.tree import Tree
 from ..refuse import touching_twice, unbuilt
 
 
-def unbuildable(scene: SpatialScene) -> str | None:
+def unbuildable(scene: Scene) -> str | None:
     """The first element that has no counterpart."""
     tree = spanning_tree(scene)
     loops = tree.loops
@@ -37,7 +36,7 @@ def unbuildable(scene: SpatialScene) -> str | None:
     return touching_twice(scene)
 
 
-def _stands(scene: SpatialScene, tree: Tree[SpatialJoint], body: str) -> bool:
+def _stands(scene: Scene, tree: Tree[Joint], body: str) -> bool:
     """Whether the body is the ground, or held on it rigidly."""
     branches = {branch.body: branch for branch in tree.branches}
     while body in branches and not natives(scene, branches[body]):

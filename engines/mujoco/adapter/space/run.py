@@ -5,7 +5,7 @@ from functools import cache
 import mujoco
 import numpy as np
 
-from .....cases.scene.space.scene import SpatialScene
+from .....cases.scene import Scene
 from .....cases.trajectory import Array, Trajectory
 from ....engine import Realised, Start
 from ...callbacks.signal import Corners, following, listening, together
@@ -24,7 +24,7 @@ _WRENCH = ("fx", "fy", "fz", "mx", "my", "mz")
 
 
 def simulate(
-    scene: SpatialScene,
+    scene: Scene,
     model: mujoco.MjModel,
     data: mujoco.MjData,
     start: Start,
@@ -78,7 +78,7 @@ def _sampled(
     return sampled(data, counts, Steps(model, data, [], take))
 
 
-def _needed(scene: SpatialScene, reactions: tuple[str, ...]) -> set[str]:
+def _needed(scene: Scene, reactions: tuple[str, ...]) -> set[str]:
     """Which of MuJoCo's arrays."""
     loops = spanning_tree(scene).loops
     names: set[str] = set()
@@ -94,7 +94,7 @@ def _needed(scene: SpatialScene, reactions: tuple[str, ...]) -> set[str]:
 
 
 def read(
-    scene: SpatialScene, model: mujoco.MjModel, known: Seen, reactions: tuple[str, ...]
+    scene: Scene, model: mujoco.MjModel, known: Seen, reactions: tuple[str, ...]
 ) -> dict[str, Array]:
     """The wanted reactions (N,)."""
     tree = spanning_tree(scene)

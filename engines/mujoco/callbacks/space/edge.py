@@ -3,9 +3,9 @@
 import mujoco
 import numpy as np
 
+from .....cases.scene import Scene
+from .....cases.scene.constraint import Edge
 from .....cases.scene.rotation import Vector3
-from .....cases.scene.space.constraint import SpatialEdge
-from .....cases.scene.space.scene import SpatialScene
 from .....cases.trajectory import Array
 from ...model.space.edge import edge_forces
 from ...model.tree import called
@@ -15,12 +15,12 @@ from ..signal import Control
 UP = np.array([0.0, 0.0, 1.0])
 
 
-def edges(scene: SpatialScene, model: mujoco.MjModel) -> list[Control]:
+def edges(scene: Scene, model: mujoco.MjModel) -> list[Control]:
     """One callback for all edges, or none."""
     return holding(model, [_row(model, edge, field) for edge, field in edge_forces(scene)])
 
 
-def _row(model: mujoco.MjModel, edge: SpatialEdge, field: str) -> Row:
+def _row(model: mujoco.MjModel, edge: Edge, field: str) -> Row:
     body, site = model.body(called(edge.at.body)).id, model.site(str(edge.at)).id
     return Row(body, site, _upward if field == "normal" else _leftward(edge.along), still)
 

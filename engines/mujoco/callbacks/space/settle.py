@@ -10,10 +10,10 @@ from collections.abc import Callable, Mapping
 import mujoco
 import numpy as np
 
+from .....cases.scene import Scene
+from .....cases.scene.contact import Contact
 from .....cases.scene.frame import SPACE
 from .....cases.scene.rotation import turned
-from .....cases.scene.space.contact import SpatialContact
-from .....cases.scene.space.scene import SpatialScene
 from .....cases.trajectory import Array
 from ....engine import Start
 from ...model.space.scene import signals
@@ -29,7 +29,7 @@ STRIDE = 1e-3  # of its differences: far above what MuJoCo's solver leaves over
 
 
 def settle(
-    scene: SpatialScene, model: mujoco.MjModel, data: mujoco.MjData, start: Start
+    scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, start: Start
 ) -> dict[str, tuple[float, float]]:
     """Depth [m] and creep [m/s] of each body that rolls; afterwards the keyframe starts there.
 
@@ -78,7 +78,7 @@ def _zero(left: Callable[[Array], Array], x: Array) -> Array | None:
     return None
 
 
-def _moved(scene: SpatialScene, start: Start, shifts: Mapping[str, Array]) -> Start:
+def _moved(scene: Scene, start: Start, shifts: Mapping[str, Array]) -> Start:
     """Bodies, and what hangs on them, sunk and pushed along the floor: (−depth, vx, vy)."""
     tree, found = spanning_tree(scene), {name: list(state) for name, state in start.items()}
     for root, (down, vx, vy) in shifts.items():
@@ -89,7 +89,7 @@ def _moved(scene: SpatialScene, start: Start, shifts: Mapping[str, Array]) -> St
     return {name: tuple(state) for name, state in found.items()}
 
 
-def _place(scene: SpatialScene, model: mujoco.MjModel, data: mujoco.MjData, start: Start) -> None:
+def _place(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, start: Start) -> None:
     for name, (places, rates) in started(scene, start).items():
         number = model.body(name).id
         q = model.jnt_qposadr[model.body_jntadr[number]]
@@ -99,7 +99,7 @@ def _place(scene: SpatialScene, model: mujoco.MjModel, data: mujoco.MjData, star
 
 
 def _acceleration(
-    scene: SpatialScene, model: mujoco.MjModel, data: mujoco.MjData, contact: SpatialContact
+    scene: Scene, model: mujoco.MjModel, data: mujoco.MjData, contact: Contact
 ) -> Array:
     """(3,) how fast the velocity of the lowest point changes while it wanders over the body.
 

@@ -8,39 +8,39 @@ an impratio of 1e8, has the second order (tested beside this, in test_wandering.
 
 from collections.abc import Callable, Mapping
 
-from .....cases.scene.space.contact import SpatialContact
-from .....cases.scene.space.scene import SpatialScene
+from .....cases.scene import Scene
+from .....cases.scene.contact import Contact
 from ....engine import Choice, Start
 from ..contact import HARDEST, SOFTEST
 
 
-def recipe(scene: SpatialScene) -> list[Choice]:
+def recipe(scene: Scene) -> list[Choice]:
     """The contacts' numbers."""
     return RECIPES[chosen(scene)](scene)
 
 
-def chosen(scene: SpatialScene, start: Start | None = None) -> str:
+def chosen(scene: Scene, start: Start | None = None) -> str:
     """Which of the recipes the scene needs, from any start."""
     rims = any(contact.rim or contact.ideal == "pivot" for contact in scene.contacts.values())
     return "rim" if rims else "roll"
 
 
-def met(scene: SpatialScene) -> list[SpatialContact]:
+def met(scene: Scene) -> list[Contact]:
     """The contacts that MuJoCo has as its own: all of the scene."""
     return list(scene.contacts.values())
 
 
-def closed(scene: SpatialScene, start: Start) -> bool:
+def closed(scene: Scene, start: Start) -> bool:
     """Whether anything lies on the floor: all that touches does, from the start on."""
     return bool(scene.contacts)
 
 
-def worth(scene: SpatialScene) -> list[str]:
+def worth(scene: Scene) -> list[str]:
     """Which of the recipes may do something for the scene."""
     return list(RECIPES) if scene.contacts else []
 
 
-def _sphere(scene: SpatialScene) -> list[Choice]:
+def _sphere(scene: Scene) -> list[Choice]:
     return [
         Choice("pair.solref", ["2h", 1.0], "the stiffest that stays stable: 2 h"),
         Choice("pair.solimp", [HARDEST, HARDEST, 0.001], "the hardest MuJoCo takes: d = 0.9999"),
@@ -49,7 +49,7 @@ def _sphere(scene: SpatialScene) -> list[Choice]:
     ]
 
 
-def _rim(scene: SpatialScene) -> list[Choice]:
+def _rim(scene: Scene) -> list[Choice]:
     """Measured on steady circles of a coin that leans by 8, 30 and 70 degrees, and on its fall."""
     return [
         Choice(
@@ -80,5 +80,5 @@ _EITHER = (
         "or d, k and b are those of a mean inertia over x, y and z, at another attitude",
     ),
 )
-RECIPES: Mapping[str, Callable[[SpatialScene], list[Choice]]] = {"roll": _sphere, "rim": _rim}
+RECIPES: Mapping[str, Callable[[Scene], list[Choice]]] = {"roll": _sphere, "rim": _rim}
 """By the word that an own option calls them."""

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
 from .....cases.fields.signal import Signal
-from .....cases.scene.space.joint import SpatialJoint
-from .....cases.scene.space.scene import SpatialScene
+from .....cases.scene import Scene
+from .....cases.scene.joint import Joint
 from ....signal import derivative
 from ..number_text import written
 from ..scene import HEAVY
@@ -20,7 +20,7 @@ from ..spatial_tree import coordinate
 class Drive:
     """One prescribed rate as MuJoCo has it; quantity: what it exerts, such as `q1.torque`."""
 
-    joint: SpatialJoint
+    joint: Joint
     number: int  # of the freedom
     rate: Signal
 
@@ -40,7 +40,7 @@ class Drive:
         return derivative(self.rate)
 
 
-def drives(scene: SpatialScene) -> list[Drive]:
+def drives(scene: Scene) -> list[Drive]:
     """In the scene's order. Raises KeyError for a rate that no joint has."""
     found = []
     for quantity, signal in scene.drives.items():
@@ -51,12 +51,12 @@ def drives(scene: SpatialScene) -> list[Drive]:
     return found
 
 
-def signals(scene: SpatialScene) -> list[Signal]:
+def signals(scene: Scene) -> list[Signal]:
     """The laws of the drives' actuators, in MuJoCo's order."""
     return [law for drive in drives(scene) for law in drive.accelerations]
 
 
-def write(root: ET.Element, scene: SpatialScene) -> None:
+def write(root: ET.Element, scene: Scene) -> None:
     """Armatures, and actuators after those of the scene's forces."""
     joints = {joint.attrib["name"]: joint for joint in root.iter("joint")}
     for drive in drives(scene):

@@ -3,22 +3,22 @@
 from collections.abc import Iterator
 from xml.etree import ElementTree as ET
 
-from .....cases.scene.space.constraint import SpatialEdge
-from .....cases.scene.space.scene import SpatialScene
+from .....cases.scene import Scene
+from .....cases.scene.constraint import Edge
 
 
-def fields(scene: SpatialScene) -> list[str]:
+def fields(scene: Scene) -> list[str]:
     """The reactions of the scene's edges, as quantities."""
     return [f"{edge.name}.{field}" for edge, field in edge_forces(scene)]
 
 
-def write_room(root: ET.Element, scene: SpatialScene) -> None:
+def write_room(root: ET.Element, scene: Scene) -> None:
     """A number of `userdata` for each."""
     if scene.constraints:
         ET.SubElement(root, "size", nuserdata=str(len(fields(scene))))
 
 
-def edge_forces(scene: SpatialScene) -> Iterator[tuple[SpatialEdge, str]]:
+def edge_forces(scene: Scene) -> Iterator[tuple[Edge, str]]:
     """Each edge's force to its side, and the one on its height where that is kept."""
     for edge in scene.constraints.values():
         yield edge, "force"

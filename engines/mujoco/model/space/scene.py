@@ -10,13 +10,12 @@ from xml.etree import ElementTree as ET
 import mujoco
 import numpy as np
 
-from .....cases.scene import GROUND, Anchor, Signal
+from .....cases.scene import GROUND, Anchor, Scene, Signal
 from .....cases.scene.body import Body
 from .....cases.scene.chain import across
+from .....cases.scene.contact import Contact
+from .....cases.scene.joint import Joint
 from .....cases.scene.rotation import Quaternion, Vector3
-from .....cases.scene.space.contact import SpatialContact
-from .....cases.scene.space.joint import SpatialJoint
-from .....cases.scene.space.scene import SpatialScene
 from .....cases.trajectory import Array
 from ....engine import Choice, Start
 from ..force import BY_ITSELF, write
@@ -34,7 +33,7 @@ THIN = 1e-6  # m, half the thickness of a disk: an ellipsoid, which touches in o
 
 
 def mjcf(
-    scene: SpatialScene,
+    scene: Scene,
     start: Start,
     choices: Iterable[Choice],
     begun: tuple[Sequence[float], Sequence[float]] = ((), ()),
@@ -66,12 +65,12 @@ def mjcf(
     return ET.tostring(root, encoding="unicode") + "\n"
 
 
-def signals(scene: SpatialScene) -> list[Signal]:
+def signals(scene: Scene) -> list[Signal]:
     """The laws of the actuators' controls, in MuJoCo's order."""
     return [*laws(scene), *drives(scene)]
 
 
-def _world(world: ET.Element, scene: SpatialScene) -> None:
+def _world(world: ET.Element, scene: Scene) -> None:
     if scene.contacts:
         ET.SubElement(
             world, "geom", name=FLOOR, type="plane", size="0 0 1", contype="0", conaffinity="0"
@@ -96,7 +95,7 @@ def _site(element: ET.Element, name: str, at: Iterable[float]) -> None:
     ET.SubElement(element, "site", name=name, pos=written(*at))
 
 
-def _bodies(world: ET.Element, scene: SpatialScene) -> None:
+def _bodies(world: ET.Element, scene: Scene) -> None:
     elements = {GROUND: world} | {element.attrib["name"]: element for element in world.iter("body")}
     for branch in spanning_tree(scene).branches:
         body = scene.bodies[branch.body]
@@ -111,7 +110,7 @@ def _bodies(world: ET.Element, scene: SpatialScene) -> None:
                 _touching(element, body, contact)
 
 
-def _hang(element: ET.Element, scene: SpatialScene, branch: Branch[SpatialJoint]) -> None:
+def _hang(element: ET.Element, scene: Scene, branch: Branch[Joint]) -> None:
     """Place a body's frame on its parent, with the joint between: at zero, axes are parallel."""
     at: Sequence[float] = (0.0, 0.0, 0.0)
     if branch.joint is not None:
@@ -143,7 +142,7 @@ def _inertial(element: ET.Element, body: Body) -> None:
         inertial.set("quat", written(*axes))
 
 
-def _touching(element: ET.Element, body: Body, contact: SpatialContact) -> None:
+def _touching(element: ET.Element, body: Body, contact: Contact) -> None:
     """A disk as thin as an ideal one, or a sphere; of a pivot one as small as a point."""
     geom = ET.SubElement(
         element, "geom", name=contact.name, pos=written(*body.points[contact.at.point]),
@@ -164,7 +163,7 @@ def _touching(element: ET.Element, body: Body, contact: SpatialContact) -> None:
         geom.set("size", written(body.radius))
 
 
-def local(scene: SpatialScene, anchor: Anchor) -> Vector3:
+def local(scene: Scene, anchor: Anchor) -> Vector3:
     """A point in the axes of its body, or of the ground; a driven point is its own body."""
     if anchor.body != GROUND:
         return scene.bodies[anchor.body].points[anchor.point]
@@ -172,7 +171,7 @@ def local(scene: SpatialScene, anchor: Anchor) -> Vector3:
     return (0.0, 0.0, 0.0) if point.driven else point.at  # type: ignore[return-value]
 
 
-def _contacts(root: ET.Element, scene: SpatialScene, numbers: dict[str, object]) -> None:
+def _contacts(root: ET.Element, scene: Scene, numbers: dict[str, object]) -> None:
     """Pairs, each with a sensor: the floor's force along the ground's axes."""
     contacts, sensors = ET.SubElement(root, "contact"), ET.SubElement(root, "sensor")
     for contact in scene.contacts.values():
@@ -187,7 +186,7 @@ def _contacts(root: ET.Element, scene: SpatialScene, numbers: dict[str, object])
         )  # fmt: skip
 
 
-def connect_points(scene: SpatialScene, joint: SpatialJoint) -> list[Vector3]:
+def connect_points(scene: Scene, joint: Joint) -> list[Vector3]:
     """The points, from each of the joint's own in the axes of both parts, that `connect` holds.
 
     A hinge's lie on its axis. As far apart as the parts are large, for softness is one of length.
@@ -203,13 +202,13 @@ def connect_points(scene: SpatialScene, joint: SpatialJoint) -> list[Vector3]:
     return offsets
 
 
-def _reach(scene: SpatialScene, anchor: Anchor) -> float:
+def _reach(scene: Scene, anchor: Anchor) -> float:
     """How far [m] the body's points are from its centre."""
     points = scene.bodies[anchor.body].points.values() if anchor.body != GROUND else ()
     return max((float(np.linalg.norm(at)) for at in points), default=0.0)
 
 
-def _loops(root: ET.Element, scene: SpatialScene, given: dict[str, str]) -> None:
+def _loops(root: ET.Element, scene: Scene, given: dict[str, str]) -> None:
     equality = ET.SubElement(root, "equality")
     elements = {e.attrib["name"]: e for e in root.iter("body")}
     (world,) = root.iter("worldbody")
@@ -227,7 +226,7 @@ def _loops(root: ET.Element, scene: SpatialScene, given: dict[str, str]) -> None
 
 def _start(
     root: ET.Element,
-    scene: SpatialScene,
+    scene: Scene,
     start: Start,
     begun: tuple[Sequence[float], Sequence[float]],
 ) -> None:

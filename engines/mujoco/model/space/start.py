@@ -4,12 +4,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from .....cases.scene import GROUND
+from .....cases.scene import GROUND, Scene
 from .....cases.scene.frame import SPACE
+from .....cases.scene.joint import Joint
 from .....cases.scene.motion import Motion
 from .....cases.scene.rotation import UPRIGHT, inverse, product, turned
-from .....cases.scene.space.joint import SpatialJoint
-from .....cases.scene.space.scene import SpatialScene
 from .....cases.trajectory import Array, Trajectory
 from ....engine import Start
 from ..spatial_tree import natives, spanning_tree
@@ -19,7 +18,7 @@ Coordinates = tuple[list[float], list[float]]
 """Positions and velocities in MuJoCo's order: of a free body 7 and 6, of a ball 4 and 3."""
 
 
-def started(scene: SpatialScene, start: Start) -> dict[str, Coordinates]:
+def started(scene: Scene, start: Start) -> dict[str, Coordinates]:
     """By MuJoCo's name of each body, that of a driven point too."""
     tree = spanning_tree(scene)
     found: dict[str, Coordinates] = {}
@@ -34,7 +33,7 @@ def started(scene: SpatialScene, start: Start) -> dict[str, Coordinates]:
 
 
 def _coordinates(
-    scene: SpatialScene, tree: Tree[SpatialJoint], branch: Branch[SpatialJoint], motion: Motion
+    scene: Scene, tree: Tree[Joint], branch: Branch[Joint], motion: Motion
 ) -> Coordinates:
     if branch.joint is None:
         return _free(scene, branch.body, motion)
@@ -52,7 +51,7 @@ def _coordinates(
     return positions, velocities
 
 
-def _free(scene: SpatialScene, body: str, motion: Motion) -> Coordinates:
+def _free(scene: Scene, body: str, motion: Motion) -> Coordinates:
     """A freejoint's velocity stands in ground axes, its ω in the body's: as in a state."""
     state = motion.trajectory.states[body][0]
     columns: Iterator[slice] = iter((SPACE.place, SPACE.attitude, SPACE.velocity, SPACE.spin))
@@ -60,9 +59,7 @@ def _free(scene: SpatialScene, body: str, motion: Motion) -> Coordinates:
     return (r + q, v + omega) if scene.bodies[body].turns else (r, v)
 
 
-def _ball(
-    scene: SpatialScene, tree: Tree[SpatialJoint], branch: Branch[SpatialJoint], motion: Motion
-) -> Coordinates:
+def _ball(scene: Scene, tree: Tree[Joint], branch: Branch[Joint], motion: Motion) -> Coordinates:
     """The attitude against the parent's frame, and ω against it in the body's own axes."""
     q_a, omega_a = _axes(tree.frame(scene, branch.parent), motion)
     q_b, omega_b = _axes(branch.body, motion)

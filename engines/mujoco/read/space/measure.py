@@ -2,8 +2,8 @@
 
 import mujoco
 
+from .....cases.scene import Scene
 from .....cases.scene.rotation import matrix
-from .....cases.scene.space.scene import SpatialScene
 from .....cases.trajectory import Array
 from ...model.force import numbers
 from ...model.tree import called, driven
@@ -11,7 +11,7 @@ from ...model.tree import called, driven
 _ENTRIES = {"11": (0, 0), "22": (1, 1), "33": (2, 2), "12": (0, 1), "13": (0, 2), "23": (1, 2)}
 
 
-def measured(scene: SpatialScene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, float]:
+def measured(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, float]:
     """The physics that MuJoCo holds, see `Engine.measure`."""
     found = {f"gravity.{axis}": g for axis, g in zip("xyz", model.opt.gravity, strict=True)}
     for body in scene.bodies.values():

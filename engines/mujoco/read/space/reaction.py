@@ -5,9 +5,8 @@ from collections.abc import Iterator
 import mujoco
 import numpy as np
 
-from .....cases.scene import Anchor
-from .....cases.scene.space.joint import SpatialJoint
-from .....cases.scene.space.scene import SpatialScene
+from .....cases.scene import Anchor, Scene
+from .....cases.scene.joint import Joint
 from .....cases.trajectory import Array
 from ....law import TORQUES, turning
 from ...model.force import outer
@@ -21,11 +20,11 @@ CONTACT = ("fx", "fy", "normal")
 
 
 def joint_wrench(
-    scene: SpatialScene,
-    tree: Tree[SpatialJoint],
+    scene: Scene,
+    tree: Tree[Joint],
     model: mujoco.MjModel,
     seen: Seen,
-    joint: SpatialJoint,
+    joint: Joint,
 ) -> Array:
     """(N, 6): force, and moment about the second point, of the first part on the second."""
     at = _site(model, seen, str(joint.b))
@@ -53,15 +52,13 @@ def effort(model: mujoco.MjModel, seen: Seen, drive: Drive, forward: bool, wrenc
     return np.sum(axis * (wrench[:, :3] if kind == "shift" else wrench[:, 3:]), axis=1)
 
 
-def contact_force(scene: SpatialScene, name: str, felt: Array) -> Array:
+def contact_force(scene: Scene, name: str, felt: Array) -> Array:
     """`touch.fx`, `touch.fy` or `touch.normal` (N,) from the sensors' rows."""
     part, _, field = name.rpartition(".")
     return felt[:, 3 * list(scene.contacts).index(part) + CONTACT.index(field)]
 
 
-def _loop(
-    scene: SpatialScene, model: mujoco.MjModel, seen: Seen, joint: SpatialJoint, at: Array
-) -> Array:
+def _loop(scene: Scene, model: mujoco.MjModel, seen: Seen, joint: Joint, at: Array) -> Array:
     """The forces of the points that hold the joint; MuJoCo counts those on the first part."""
     found = np.zeros((len(at), 6))
     for number in range(len(connect_points(scene, joint))):
@@ -74,7 +71,7 @@ def _loop(
 
 
 def _others(
-    scene: SpatialScene, bodies: set[str], model: mujoco.MjModel, seen: Seen
+    scene: Scene, bodies: set[str], model: mujoco.MjModel, seen: Seen
 ) -> Iterator[tuple[Array, Array, Array]]:
     """Forces (N, 3), where they act, and torques (N, 3) that actuators exert on the bodies."""
     for anchor, force, torque in outer(scene, model, seen["actuator_force"]):
@@ -96,7 +93,7 @@ def _site(model: mujoco.MjModel, seen: Seen, name: str) -> Array:
 ABOUT = ("qpos", "qvel", "actuator_force")
 
 
-def acting(scene: SpatialScene, model: mujoco.MjModel, seen: Seen, drive: Drive) -> Array | float:
+def acting(scene: Scene, model: mujoco.MjModel, seen: Seen, drive: Drive) -> Array | float:
     """(N,) [N m] what springs, dampers and motors exert about a driven turn."""
     joint, native = drive.joint, model.joint(drive.name)
     total: Array | float = 0.0

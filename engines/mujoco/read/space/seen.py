@@ -5,9 +5,9 @@ from collections.abc import Mapping
 import mujoco
 import numpy as np
 
+from .....cases.scene import Scene
 from .....cases.scene.frame import SPACE
 from .....cases.scene.rotation import UPRIGHT, inverse, turned
-from .....cases.scene.space.scene import SpatialScene
 from .....cases.trajectory import Array
 from ....engine import Start
 from ...model.tree import called
@@ -66,9 +66,7 @@ def recorded_arrays(
 # States of all bodies from MuJoCo's kinematics, for a whole record at once.
 
 
-def states(
-    scene: SpatialScene, model: mujoco.MjModel, seen: Seen, start: Start
-) -> dict[str, Array]:
+def states(scene: Scene, model: mujoco.MjModel, seen: Seen, start: Start) -> dict[str, Array]:
     """(N, 13) of each body: r, quaternion and v of its centre of mass, ω in its own axes."""
     found = {}
     for name, body in scene.bodies.items():

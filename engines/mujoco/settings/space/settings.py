@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from .....cases.scene.space.scene import SpatialScene
+from .....cases.scene import Scene
 from ....engine import Choice, Start
 from ...model.contact import HARDEST
 from ...model.space.contact import RECIPES, chosen, recipe
@@ -13,12 +13,12 @@ from ..settings import TO_THE_END, at_step, defaults
 from ..user_options import OWN, overlaid
 
 
-def tuned(scene: SpatialScene, tied_to: float, start: Start | None = None) -> list[Choice]:
+def tuned(scene: Scene, tied_to: float, start: Start | None = None) -> list[Choice]:
     """The best recipe for the scene from any start; soft constraints follow the step `tied_to`."""
     return at_step(best(scene), tied_to)
 
 
-def best(scene: SpatialScene, start: Start | None = None) -> list[Choice]:
+def best(scene: Scene, start: Start | None = None) -> list[Choice]:
     """The best recipe for the scene in terms of h, as a user writes it."""
     choices = [
         Choice("option.integrator", "RK4", "fourth order; every other integrator is of the first"),
@@ -41,7 +41,7 @@ def best(scene: SpatialScene, start: Start | None = None) -> list[Choice]:
 
 def with_own(
     options: Mapping[str, Any],
-    scene: SpatialScene,
+    scene: Scene,
     start: Start,
     tied_to: float,
     because: str = OWN,
@@ -55,13 +55,13 @@ def with_own(
     return at_step(on_top, tied_to)
 
 
-def soft(scene: SpatialScene) -> list[str]:
+def soft(scene: Scene) -> list[str]:
     """The groups of soft constraints in the scene."""
     loops = ["connect"] if spanning_tree(scene).loops else []
     return loops + (["pair"] if scene.contacts else [])
 
 
-def _solver(scene: SpatialScene) -> list[Choice]:
+def _solver(scene: Scene) -> list[Choice]:
     """Solve to the end where a heavy mass would tell the solver that it has arrived."""
     heavy = any(driven(scene)) or bool(scene.drives)
     return [TO_THE_END] if soft(scene) and heavy else []

@@ -1,7 +1,7 @@
 """Constraints of joints, contacts and drives in space, as data: rows of constraints by kind.
 
 A joint is read through what it leaves free: shifts along lines of its first part, then up to
-three turns. Axes are those that `SpatialJoint` states.
+three turns. Axes are those that `Joint` states.
 """
 
 from collections.abc import Iterator
@@ -10,11 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from .....cases.fields.signal import Signal
-from .....cases.scene import Anchor
+from .....cases.scene import Anchor, Scene
 from .....cases.scene.chain import across
+from .....cases.scene.joint import Joint
 from .....cases.scene.rotation import Vector3
-from .....cases.scene.space.joint import SpatialJoint
-from .....cases.scene.space.scene import SpatialScene
 
 
 @dataclass(frozen=True)
@@ -105,7 +104,7 @@ class Pivot:
 Held = Together | Line | Dot | Rim | Pivot | Drive | Blade
 
 
-def scene_constraints(scene: SpatialScene) -> list[Held]:
+def scene_constraints(scene: Scene) -> list[Held]:
     """List of all constraints of a scene, in its order."""
     found: list[Held] = []
     for joint in scene.joints.values():
@@ -125,7 +124,7 @@ def scene_constraints(scene: SpatialScene) -> list[Held]:
     return found
 
 
-def jointed(joint: SpatialJoint, scene: SpatialScene) -> Iterator[Held]:
+def jointed(joint: Joint, scene: Scene) -> Iterator[Held]:
     """(2.14) What a joint does not leave free."""
     shifts = [freedom.axis for freedom in joint.shifts]
     if shifts:
@@ -138,7 +137,7 @@ def jointed(joint: SpatialJoint, scene: SpatialScene) -> Iterator[Held]:
         yield from _unturned(joint)
 
 
-def _unturned(joint: SpatialJoint) -> Iterator[Dot]:
+def _unturned(joint: Joint) -> Iterator[Dot]:
     a, b, name = joint.a.body, joint.b.body, joint.name
     axes = [np.asarray(freedom.axis) for freedom in joint.turns]
     if len(axes) == 2:
@@ -153,7 +152,7 @@ def _unturned(joint: SpatialJoint) -> Iterator[Dot]:
             yield Dot(name, a, b, _numbers(u), _numbers(w), 0.0)
 
 
-def driven(scene: SpatialScene, quantity: str, law: Signal) -> Drive:
+def driven(scene: Scene, quantity: str, law: Signal) -> Drive:
     """A prescribed rate. Raises ValueError of three turns: the middle axis is fixed in no part."""
     part, _, rate = quantity.partition(".")
     joint = scene.joints[part]

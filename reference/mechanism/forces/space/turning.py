@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from .....cases.scene import Scene
 from .....cases.scene.chain import across
 from .....cases.scene.forces.turning import Motor, Torsion, TorsionDamper, Turning
-from .....cases.scene.space.joint import SpatialJoint
-from .....cases.scene.space.scene import SpatialScene
+from .....cases.scene.joint import Joint
 from ....laws.force import torsion, torsion_damper
 from ...kinematics.signal import signal
 from ...kinematics.space.attitude import cross, dot
@@ -83,7 +83,7 @@ class Turned:
         return cross(two, normal) / dot(normal, normal)
 
 
-def wound(scene: SpatialScene) -> dict[str, Turning]:
+def wound(scene: Scene) -> dict[str, Turning]:
     """The turns of which a torsion spring counts the whole ones: by quantity, one that does."""
     return {_called(force): force for force in scene.forces.values() if force.winds}  # type: ignore[misc]
 
@@ -96,7 +96,7 @@ class Turn:
     """The turn about which a force acts. Raises ValueError of one of three."""
 
     def __init__(self, layout: Layout, force: Turning) -> None:
-        joint: SpatialJoint = layout.scene.joints[force.about]
+        joint: Joint = layout.scene.joints[force.about]
         number = joint.turning(force.turn) - len(joint.shifts)
         counts = list(wound(layout.scene))
         self._counted = counts.index(_called(force)) if _called(force) in counts else None

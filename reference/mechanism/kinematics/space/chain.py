@@ -5,9 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from .....cases.scene import GROUND, Anchor
-from .....cases.scene.space.joint import SpatialJoint
-from .....cases.scene.space.scene import SpatialScene
+from .....cases.scene import GROUND, Anchor, Scene
+from .....cases.scene.joint import Joint
 from ....stated import Stated
 from ....system import Mass, Pose, Vector
 from .attitude import matrices, skew
@@ -52,7 +51,7 @@ class Moving:
 class SpatialChain(Stated):
     """Each body hangs on one joint, whose first part is nearer to the ground."""
 
-    def __init__(self, scene: SpatialScene) -> None:
+    def __init__(self, scene: Scene) -> None:
         self.scene = scene
         joints = scene.joints.values()
         names = [f"{joint.name}.{freedom.name}" for joint in joints for freedom in joint.freedoms]
@@ -70,7 +69,7 @@ class SpatialChain(Stated):
                     found[joint.b.body] = self._hung(joint, found[joint.a.body], at)
         return {name: found[name] for name in self.scene.bodies}
 
-    def _hung(self, joint: SpatialJoint, part: Moving, at: dict[str, tuple[Any, Any]]) -> Moving:
+    def _hung(self, joint: Joint, part: Moving, at: dict[str, tuple[Any, Any]]) -> Moving:
         frame = part.at(self._point(joint.a))
         for freedom in joint.freedoms:
             goes = frame.shifted if freedom.kind == "shift" else frame.turned

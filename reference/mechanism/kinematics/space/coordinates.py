@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .....cases.scene.space.scene import SpatialScene
+from .....cases.scene import Scene
 from ....system import Pose
 from .attitude import rates
 
@@ -30,7 +30,7 @@ class Columns:
 class SpatialCoordinates:
     """q = (r, quaternion) and v = (ṙ, ω) of each body in the scene's order; ω in body axes."""
 
-    scene: SpatialScene
+    scene: Scene
 
     @cached_property
     def columns(self) -> dict[str, Columns]:

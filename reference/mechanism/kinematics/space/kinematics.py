@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .....cases.scene import GROUND, Anchor
-from .....cases.scene.space.scene import SpatialScene
+from .....cases.scene import GROUND, Anchor, Scene
 from .attitude import matrices, skew
 from .coordinates import SpatialCoordinates
 
@@ -95,9 +94,7 @@ class Fixed:
 class Attached:
     """Some points of bodies and of the ground."""
 
-    def __init__(
-        self, scene: SpatialScene, numbers: dict[str, int], anchors: Sequence[Anchor]
-    ) -> None:
+    def __init__(self, scene: Scene, numbers: dict[str, int], anchors: Sequence[Anchor]) -> None:
         self.body = np.array([numbers[at.body] for at in anchors], np.intp)
         self.x = np.array([_own(scene, at) for at in anchors], float).reshape(-1, 3)
         self.velocity = np.array([_driven(scene, at) for at in anchors], float).reshape(-1, 3)
@@ -132,13 +129,13 @@ def _places(begins: Sequence[int | None], otherwise: tuple[int, ...]) -> Any:
     return np.array([*map(tuple, rows), otherwise], np.intp)
 
 
-def _own(scene: SpatialScene, at: Anchor) -> Sequence[float]:
+def _own(scene: Scene, at: Anchor) -> Sequence[float]:
     return (
         scene.points[at.point].at if at.body == GROUND else scene.bodies[at.body].points[at.point]
     )
 
 
-def _driven(scene: SpatialScene, at: Anchor) -> Sequence[float]:
+def _driven(scene: Scene, at: Anchor) -> Sequence[float]:
     """Velocities of the ground's points are given with three entries, or not at all."""
     velocity = scene.points[at.point].velocity if at.body == GROUND else ()
     return velocity if any(velocity) else (0.0, 0.0, 0.0)

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from .....cases.scene import GROUND, Anchor
-from .....cases.scene.space.scene import SpatialScene
+from .....cases.scene import GROUND, Anchor, Scene
 from ....system import MOVING, Array, System
 from ...constraints.leeway import Leeway
 from .mode import SpatialMultibody
@@ -12,7 +11,7 @@ from .mode import SpatialMultibody
 class SpatialMechanism(System):
     """The scene as its one mode, which is its `base` too."""
 
-    def __init__(self, scene: SpatialScene, start: tuple[Array, Array]) -> None:
+    def __init__(self, scene: Scene, start: tuple[Array, Array]) -> None:
         self.base = SpatialMultibody(scene, start)
         self.modes = {MOVING: self.base}
         self.corners = [corner for law in scene.laws() for corner in law.corners]

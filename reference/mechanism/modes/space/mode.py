@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from .....cases.scene.space.scene import SpatialScene
+from .....cases.scene import Scene
 from ....system import Array, Mass, Mode, Pose, Vector
 from ...constraints.leeway import Leeway, leeway
 from ...constraints.space.constraint_jacobian import SpatialRows
@@ -31,7 +31,7 @@ class SpatialMultibody(Mode):
     stiff = False
     undetermined: Sequence[str] = ()
 
-    def __init__(self, scene: SpatialScene, start: tuple[Array, Array]) -> None:
+    def __init__(self, scene: Scene, start: tuple[Array, Array]) -> None:
         self.scene = scene
         self.where = SpatialCoordinates(scene)
         self._turns = wound(scene)

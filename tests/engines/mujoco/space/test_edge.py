@@ -11,9 +11,10 @@ from given.planning import SHIPPED, TUNED, moved, refused, ways
 from scipy.integrate import quad
 
 from textmech.cases.scene import Anchor
+from textmech.cases.scene.constraint import Edge
+from textmech.cases.scene.contact import spatial_contact
+from textmech.cases.scene.frame import SPACE
 from textmech.cases.scene.rotation import about, product, turned
-from textmech.cases.scene.space.constraint import SpatialEdge
-from textmech.cases.scene.space.contact import SpatialContact
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Start
 from textmech.reference.solve import solve
@@ -23,7 +24,7 @@ AXIS = np.array([0.36, 0.48, 0.8])  # about which a ball of inertia turns evenly
 FIRST = np.array(attitude([0.9, 0.1, -0.3, 0.2]))
 ALONG = (0.8, 0.0, 0.6)
 BALL = rigid("ball", M, (0.02, 0.02, 0.02), radius=0.1)
-BLADE = SpatialEdge("blade", Anchor("ball", "center"), ALONG, kept=True)
+BLADE = Edge("blade", Anchor("ball", "center"), ALONG, kept=True, frame=SPACE)
 TIMES = np.linspace(0.0, 0.6, 4)
 
 OFF_CENTRE = """\
@@ -57,7 +58,7 @@ def turning(t: float, by: float = 1e-5) -> float:
     return float(np.arctan2(x * v - y * u, x * u + y * v)) / (2 * by)
 
 
-def scene(blade: SpatialEdge = BLADE, **more: object):  # type: ignore[no-untyped-def]
+def scene(blade: Edge = BLADE, **more: object):  # type: ignore[no-untyped-def]
     found = spatial([BALL], gravity=(0.0, 0.0, -2.0), **more)  # type: ignore[arg-type]
     return replace(found, constraints={blade.name: blade})
 
@@ -113,7 +114,7 @@ def test_natively_there_is_no_blade() -> None:
 
 
 def test_a_blade_beside_what_gives_way_is_refused() -> None:
-    rolls = SpatialContact("touch", Anchor("ball", "center"), 1.0, rim=False)
+    rolls = spatial_contact("touch", Anchor("ball", "center"), 1.0, rim=False)
     said = refused(TUNED["mujoco"], scene(contacts=[rolls]))
     assert said is not None
     assert said.startswith("adapter: blade beside touch")

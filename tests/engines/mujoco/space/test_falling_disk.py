@@ -6,9 +6,9 @@ from given.engine_space import STILL, simulated, spatial, state
 
 from textmech.cases.scene import Anchor
 from textmech.cases.scene.body import Body
+from textmech.cases.scene.contact import spatial_contact
 from textmech.cases.scene.frame import SPACE
 from textmech.cases.scene.rotation import about, turned
-from textmech.cases.scene.space.contact import SpatialContact
 
 R, M = 0.25, 1.3
 J = M * R * R / 4
@@ -22,7 +22,9 @@ DISK = Body(
     (0.0, 1.0, 0.0),
     frame=SPACE,
 )
-SCENE = spatial([DISK], contacts=[SpatialContact("touch", Anchor("disk", "center"), 1.0, rim=True)])
+SCENE = spatial(
+    [DISK], contacts=[spatial_contact("touch", Anchor("disk", "center"), 1.0, rim=True)]
+)
 
 
 @pytest.mark.slow

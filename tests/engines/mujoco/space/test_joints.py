@@ -21,13 +21,11 @@ from given.engine_space import (
     vector,
 )  # fmt: skip
 
-from textmech.cases.scene import Anchor, Push, Signal, Torque
+from textmech.cases.scene import Anchor, Push, Scene, Signal, Torque
 from textmech.cases.scene.body import Body
 from textmech.cases.scene.frame import SPACE
-from textmech.cases.scene.joint import Freedom
+from textmech.cases.scene.joint import Freedom, Joint
 from textmech.cases.scene.rotation import about, angle_between, turned
-from textmech.cases.scene.space.joint import SpatialJoint
-from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Plan, Start
 from textmech.engines.mujoco import MuJoCo
@@ -48,7 +46,7 @@ def wanted(name: str) -> list[str]:
     return [f"{name}.{letter}{axis}" for letter in "fm" for axis in "xyz"]
 
 
-def protocol(scene: SpatialScene, start: Start) -> str:
+def protocol(scene: Scene, start: Start) -> str:
     """What the tuned plan says of its start and readout."""
     (plan,) = MuJoCo("tuned").plans(scene, start)
     assert isinstance(plan, Plan)
@@ -192,7 +190,7 @@ def test_a_slender_bars_own_axis_has_the_least_inertia_mujoco_takes() -> None:
     """Where joints hold it, it makes no difference; and the protocol says so."""
     times = np.linspace(0.0, 1.0, 5)
     axis = (math.sin(0.3), math.cos(0.3), 0.0)
-    pin: SpatialJoint = hinge("pin", "ground.O", "bar.end", axis)
+    pin: Joint = hinge("pin", "ground.O", "bar.end", axis)
     found, words = [], []
     for own in (0.0, 1e-12):
         bar = rigid("bar", 1.0, (own, 1 / 12, 1 / 12), {"end": (-0.5, 0.0, 0.0)})

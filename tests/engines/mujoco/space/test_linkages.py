@@ -18,9 +18,9 @@ from given.engine_space import (
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
+from textmech.cases.scene import Scene
 from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.motion import Motion
-from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Start
 
@@ -30,7 +30,7 @@ BEND = math.radians(30)
 OUT = np.array([math.sin(BEND), 0.0, math.cos(BEND)])
 
 
-def gap(scene: SpatialScene, motion: Trajectory, name: str) -> float:
+def gap(scene: Scene, motion: Trajectory, name: str) -> float:
     """The largest of a joint [m]."""
     found = scene.joints[name].observe(Motion(scene.bodies, scene.points, motion), "gap")
     return float(np.max(found))
@@ -49,7 +49,7 @@ def other_speed(arm: Array) -> tuple[float, Array]:
     return float(speed), arm2
 
 
-def shafts() -> tuple[SpatialScene, Start]:
+def shafts() -> tuple[Scene, Start]:
     """Two shafts at 30 degrees, joined by a universal joint; the far end is held by a ball."""
     joints = [
         hinge("first", "ground.F", "in.foot", UP),
@@ -98,7 +98,7 @@ CRANK, LENGTH = 0.15, 0.75
 FOOT, END, SIDE = np.array([-0.1, -0.2, 0.0]), np.array([0.1, 0.25, 0.0]), np.array([0.0, 1.0, 0.0])
 
 
-def rssr(order: tuple[str, str]) -> tuple[SpatialScene, Start]:
+def rssr(order: tuple[str, str]) -> tuple[Scene, Start]:
     """Crank, coupler on two balls in an order of choice, rocker about a skew axis."""
     pin, half = P + CRANK * SIDE, LENGTH / 2 * SIDE
     bodies = [

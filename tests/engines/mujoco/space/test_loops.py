@@ -18,17 +18,16 @@ from given.engine_space import (
 )  # fmt: skip
 from scipy.spatial.transform import Rotation
 
-from textmech.cases.scene.joint import Freedom
+from textmech.cases.scene import Scene
+from textmech.cases.scene.joint import Freedom, Joint
 from textmech.cases.scene.rotation import angle_between
-from textmech.cases.scene.space.joint import SpatialJoint
-from textmech.cases.scene.space.scene import SpatialScene
 from textmech.engines.engine import Refusal, Start
 from textmech.engines.mujoco import MuJoCo
 
 TIMES = np.linspace(0.0, 0.5, 6)
 
 
-def square(last: SpatialJoint) -> tuple[SpatialScene, Start]:
+def square(last: Joint) -> tuple[Scene, Start]:
     """A double swing of two bars about parallel hinges, whose outer end a third joint holds."""
     bodies = [
         rigid(name, 1.0, (0.01, 0.04, 0.045), {"a": (-0.2, 0, 0), "b": (0.2, 0, 0)})

@@ -10,9 +10,9 @@ import pytest
 from given.planning import TUNED
 from given.random_space import machine
 
+from textmech.cases.scene import Scene
 from textmech.cases.scene.frame import SPACE
 from textmech.cases.scene.quantity import table
-from textmech.cases.scene.space.scene import SpatialScene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Plan, Start
 from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
@@ -44,7 +44,7 @@ MACHINES: dict[str, tuple[str, list[int], Near]] = {
 
 
 @cache
-def expected(seed: int, kind: str) -> tuple[SpatialScene, Start, Trajectory]:
+def expected(seed: int, kind: str) -> tuple[Scene, Start, Trajectory]:
     """A machine, of which every other one is driven, its start and its motion."""
     made = machine(seed, kind, driven=seed % 2 == 1, t=0.0)
     q, v = made.q, made.v()

@@ -24,11 +24,11 @@ from scipy.spatial.transform import Rotation
 
 from textmech.cases.scene import Anchor, Signal
 from textmech.cases.scene.body import Body
+from textmech.cases.scene.contact import spatial_contact
 from textmech.cases.scene.frame import SPACE
 from textmech.cases.scene.joint import Freedom
 from textmech.cases.scene.motion import Motion
 from textmech.cases.scene.rotation import about, angle_between, inverse, product, turned
-from textmech.cases.scene.space.contact import SpatialContact
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Plan, Start
 from textmech.engines.mujoco import MuJoCo
@@ -52,7 +52,7 @@ SLOPE = np.array([0.3 * 0.8, 0.3 * 0.6, -0.95]) * G
 
 def test_a_sphere_rolls_obliquely_down_an_incline() -> None:
     """5/7 of g along the floor, 2/7 of it by friction. Reached: 2e-9 m, 1e-7 N; at 1e-4 5e-11 m."""
-    touch = SpatialContact("touch", Anchor("ball", "center"), 0.6, rim=False)
+    touch = spatial_contact("touch", Anchor("ball", "center"), 0.6, rim=False)
     scene = spatial([SPHERE], contacts=[touch], gravity=vector(SLOPE))
     v, q = np.array([0.3, -0.4, 0.0]), attitude((0.5, -0.3, 0.2, 0.7))
     begun = state((0.1, 0.2, R), q, v, turned(inverse(np.array(q)), np.cross(UP, v) / R))
@@ -72,7 +72,7 @@ A, C = MASS * RIM**2 / 4, MASS * RIM**2 / 2
 COIN = Body(
     "coin", "disk", MASS, (A, A, C, 0.0, 0.0, 0.0), CENTRE, RIM, (0.0, 0.0, 1.0), frame=SPACE
 )
-ROLLS = SpatialContact("touch", Anchor("coin", "center"), 5.0, rim=True)
+ROLLS = spatial_contact("touch", Anchor("coin", "center"), 5.0, rim=True)
 LEANING = spatial([COIN], contacts=[ROLLS])
 
 
@@ -196,7 +196,7 @@ def test_an_upright_wheel_rolls_in_a_circle(driven: bool) -> None:
     start = {"wheel": state((0.0, 0.0, 0.3), q, 0.3 * spin * ahead, w)}
     rates = {"theta_dot": (rate,), "phi_dot": (spin,)}
     drives = {f"upright.{k}": Signal("constant", v) for k, v in rates.items()} if driven else {}
-    touch = SpatialContact("touch", Anchor("wheel", "center"), 5.0, rim=True)
+    touch = spatial_contact("touch", Anchor("wheel", "center"), 5.0, rim=True)
     scene = spatial([WHEEL], [UPRIGHT], contacts=[touch], drives=drives)
     efforts = ["upright.theta_torque", "upright.phi_torque"] if driven else []
     names = [*FELT, "upright.mx", "upright.my", *efforts]

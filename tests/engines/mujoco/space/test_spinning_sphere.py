@@ -5,9 +5,9 @@ from given.engine_space import STILL, G, attitude, spatial, state, vector
 
 from textmech.cases.scene import Anchor
 from textmech.cases.scene.body import Body
+from textmech.cases.scene.contact import spatial_contact
 from textmech.cases.scene.frame import SPACE
 from textmech.cases.scene.rotation import inverse, turned
-from textmech.cases.scene.space.contact import SpatialContact
 from textmech.engines.engine import Plan, Start
 from textmech.engines.mujoco import MuJoCo
 
@@ -21,7 +21,7 @@ TIMES = np.linspace(0.0, 0.5, 6)
 def lost(step: float, spin: float, *, held: bool = False) -> float:
     """[N] how far the friction is from 2/7 of the weight along the incline."""
     ball = Body("ball", "sphere", M, (J, J, J, 0.0, 0.0, 0.0), {"center": STILL}, R, frame=SPACE)
-    touch = SpatialContact("touch", Anchor("ball", "center"), 0.6, rim=False)
+    touch = spatial_contact("touch", Anchor("ball", "center"), 0.6, rim=False)
     scene = spatial([ball], contacts=[touch], gravity=vector(SLOPE))
     v, q = np.array([0.3, -0.4, 0.0]), attitude((0.5, -0.3, 0.2, 0.7))
     omega = turned(inverse(np.array(q)), np.cross(UP, v) / R + spin * UP)

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from given import scenes
 
-from textmech.cases.scene.space.scene import SpatialScene
 from textmech.reference.formalisms.derivative import along
 from textmech.reference.mechanism.constraints.space import blades
 from textmech.reference.mechanism.modes.space.mode import SpatialMultibody
@@ -21,7 +20,6 @@ OWN = [-2, -1]  # the rows of the blade come last: to the side, and upward
 def generated() -> SpatialMultibody:
     """The only mode of the scene's mechanism."""
     scene = KNIFE.scene
-    assert isinstance(scene, SpatialScene)
     return SpatialMultibody(scene, assemble_in_space(KNIFE, scene))
 
 

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from given import scenes
 
-from textmech.cases.scene.space.scene import SpatialScene
 from textmech.reference.formalisms.derivative import along
 from textmech.reference.mechanism.constraints.space import blades as pivots
 from textmech.reference.mechanism.constraints.space import constraint_terms as rows
@@ -27,7 +26,6 @@ T = 0.13  # s: laws in time are neither at zero nor at rest
 def state(name: str) -> tuple[SpatialMultibody, Any, Any]:
     """The mode at its start, with rates anyhow."""
     case = scenes.SHIPPED[name]
-    assert isinstance(case.scene, SpatialScene)
     mode = SpatialMultibody(case.scene, assemble_in_space(case, case.scene))
     q, v = mode.start()
     return mode, q, v + np.random.default_rng(1).normal(size=len(v))
@@ -94,7 +92,6 @@ def test_a_height_is_kept_while_the_x_axis_of_its_body_stands_upright() -> None:
     """The blade's long axis is another one, and lies level then."""
     case = scenes.SHIPPED["robot_knife"]
     own = case.scene
-    assert isinstance(own, SpatialScene)
     (name, edge), *_ = own.constraints.items()
     scene = replace(own, constraints={name: replace(edge, along=(0.0, 1.0, 0.0))})
     mode = SpatialMultibody(scene, assemble_in_space(case, own))

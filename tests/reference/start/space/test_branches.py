@@ -11,7 +11,6 @@ from given.scenes import typed
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene import GROUND, Anchor
 from textmech.cases.scene.rotation import about
-from textmech.cases.scene.space.scene import SpatialScene
 from textmech.reference.start.space import positions
 from textmech.reference.start.space.assembly import assemble_in_space
 from textmech.reference.start.space.branches import closes, faithful
@@ -63,14 +62,12 @@ def refused(folder: Path, scene: str) -> str:
 def started(folder: Path, scene: str) -> np.ndarray:
     body = "crank" if "crank" in scene else "a"
     case = typed(folder, scene + f"allow: {{{body}.x: 1.0e-3}}\n")
-    assert isinstance(case.scene, SpatialScene)
     return assemble_in_space(case, case.scene)[0]
 
 
 def test_only_a_loop_closes(tmp_path: Path) -> None:
     """Three bodies in a row, and with the joint that leads back to the first; two islands."""
     loop = typed(tmp_path, FREE_LOOP + "allow: {a.x: 1.0e-3}\n").scene
-    assert isinstance(loop, SpatialScene)
     row = replace(loop, joints={name: loop.joints[name] for name in ("j1", "j2")})
     held = replace(loop.joints["j3"], b=Anchor(GROUND, "O"))
     apart = replace(loop, joints={"j1": loop.joints["j1"], "held": held})
@@ -147,7 +144,6 @@ TURNED = {
 def meant(name: str, folder: Path) -> tuple[float, bool]:
     """The largest residual of a box turned about an axis, and whether it is an assembly."""
     case = typed(folder, SLIDES)
-    assert isinstance(case.scene, SpatialScene)
     closure = SpatialClosure(case, case.scene)
     axis, angle, _ = TURNED[name]
     q = np.array([0.0, 0.0, 0.0, *about(axis, angle)])

@@ -7,7 +7,6 @@ from given.otherwise import otherwise
 from given.scenes import typed
 
 from textmech.cases.mistake import CaseError
-from textmech.cases.scene.space.scene import SpatialScene
 from textmech.reference.start.space import refusal
 from textmech.reference.start.space.assembly import assemble_in_space
 
@@ -26,7 +25,6 @@ allow: {{one.x: 1.0e-3}}
 
 def said(tmp_path: Path) -> str:
     case = typed(tmp_path, SCENE)
-    assert isinstance(case.scene, SpatialScene)
     with pytest.raises(CaseError) as refused:
         assemble_in_space(case, case.scene)
     return str(refused.value)

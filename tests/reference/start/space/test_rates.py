@@ -7,7 +7,6 @@ import pytest
 from given.scenes import typed
 from scipy.spatial.transform import Rotation
 
-from textmech.cases.scene.space.scene import SpatialScene
 from textmech.reference.mechanism.kinematics.space.coordinates import SpatialCoordinates
 from textmech.reference.start.space import initial_conditions as module
 from textmech.reference.start.space.assembly import assemble_in_space
@@ -39,7 +38,6 @@ ON_HOOK = FREEDOMS.format("s: {slide: [1, 0, 1]}, u: {slide: [0, 1, 0]}", "groun
 
 def started(folder: Path, joint: str, given: str) -> dict[str, Array]:
     case = typed(folder, PAIR.replace("JOINT", joint).replace("GIVEN", given))
-    assert isinstance(case.scene, SpatialScene)
     poses = SpatialCoordinates(case.scene).poses(*assemble_in_space(case, case.scene))
     return {name: np.array(pose, float) for name, pose in poses.items()}
 

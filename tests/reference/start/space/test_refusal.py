@@ -8,7 +8,6 @@ import pytest
 from given.scenes import typed
 
 from textmech.cases.mistake import CaseError, Mistake
-from textmech.cases.scene.space.scene import SpatialScene
 from textmech.reference.start.space import positions
 from textmech.reference.start.space.assembly import assemble_in_space
 
@@ -65,7 +64,6 @@ initial: {{a: {{p: [0.24, 0.32, 0]}}}}
 
 def started(folder: Path, scene: str) -> None:
     case = typed(folder, f"{scene}allow: {{a.x: 1.0e-3}}\n")
-    assert isinstance(case.scene, SpatialScene)
     assemble_in_space(case, case.scene)
 
 
@@ -213,7 +211,6 @@ def test_a_mechanism_without_a_rate_rests_beside_one_that_turns(tmp_path: Path) 
     start = f"initial: {{hub: {{angle: 0, omega: 1}}, {place}}}\n"
     tail = "duration: 1.0\nsamples: 11\nallow: {a.x: 1.0e-2}\n"
     case = typed(tmp_path, TWO, tail=start.replace("RATE", "") + tail)
-    assert isinstance(case.scene, SpatialScene)
     _, v = assemble_in_space(case, case.scene)
     assert not np.any(v[-6:])
     assert np.any(v[:6])
