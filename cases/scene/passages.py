@@ -62,11 +62,16 @@ def touches(times: Array, u: Array, still: float, corners: Sequence[float] = ())
             yield min(rows[i + 1 : k], key=lambda row: abs(row[1]))[0]
 
 
-def dips(times: Array, u: Array, corners: Sequence[float] = ()) -> Iterator[tuple[float, float]]:
-    """When [s] u (N,), positive in its rows, is zero or less between two of them, and how much."""
+def smooth(record: Trajectory, corners: Sequence[float]) -> Iterator[NDArray[np.int64]]:
+    """Yields the rows between two corners in a phase, from the first of them on."""
+    for rows in lasting(record):
+        yield from np.split(rows, bent(record.times[rows], corners))
+
+
+def dips(times: Array, u: Array) -> Iterator[tuple[float, float]]:
+    """When [s] u (N,), positive in its smooth rows, is zero or less between two, and how much."""
     times, kept = np.unique(times, return_index=True)
-    found = _hidden(times, u[kept], bent(times, corners), 0.0)
-    return ((t, low) for t, low, _ in found)
+    return ((t, low) for t, low, _ in _hidden(times, u[kept], (), 0.0))
 
 
 def _rows(
