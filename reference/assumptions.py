@@ -13,7 +13,7 @@ from ..cases.scene import Contact
 from ..cases.scene.difference import apart
 from ..cases.scene.frame import PLANE, SPACE
 from ..cases.scene.observe import motion_of, observe
-from ..cases.scene.passages import dips, lasting
+from ..cases.scene.passages import dips, smooth
 from ..cases.scene.quantity import table
 from ..cases.trajectory import Array, Trajectory
 from .mechanism.modes.either import Generated
@@ -148,9 +148,9 @@ def _past_ends(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         times = list[float]()
         for left in pair.left(motion_of(case.scene, motion)):
             times += motion.times[(left < 0) & pushed].tolist()
-            for rows in lasting(motion):
+            for rows in smooth(motion, bends):
                 if np.all(left[rows] >= 0) and np.any(pushed[rows]):
-                    times += [t for t, _ in dips(motion.times[rows], left[rows], bends)]
+                    times += [t for t, _ in dips(motion.times[rows], left[rows])]
         if times:
             what = (
                 f"{pair.at} has left the {pair.on} at t = {min(times):.3g} s, "
@@ -195,14 +195,14 @@ def _slipping_between(
     doing, what = "rolling" if contact.ideal == "rolling" else "pivoting", ""
     bends = [t for law in case.scene.laws() for t in law.corners]
     needs = contact.friction
-    for rows in lasting(motion):
+    for rows in smooth(motion, bends):
         times, pushes = motion.times[rows], normal[rows]
         for side in _sides(motion, contact.name):
-            for t, low in dips(times, contact.friction * pushes - side[rows], bends):
+            for t, low in dips(times, contact.friction * pushes - side[rows]):
                 needs = max(needs, contact.friction - low / float(np.interp(t, times, pushes)))
                 at = what.partition(";")[0] or f"at t = {t:.3g} s it would slip"
                 what = f"{at}; {doing} all the way needs {needs:.6g}"
-        for t, _ in dips(times, carried[rows], bends):
+        for t, _ in dips(times, carried[rows]):
             what = what or f"the floor would have to pull at t = {t:.3g} s"
     if what:
         what = f"{doing} is not possible with friction {contact.friction:.6g}: {what}"

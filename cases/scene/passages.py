@@ -10,6 +10,7 @@ from ..trajectory import Array, Trajectory
 
 AROUND = 8  # steps in a curve: of seventh degree, as the integrator's eighth order
 ROOT = 1e-15  # s: what the root-finder is asked for
+JUMP = 1e-6  # of the largest value: what a curve leaves open that goes on for a quarter of a step
 LOCATED = 1e-12  # s: how well an extremum between two steps is found
 
 Curve = Callable[[float], float]
@@ -38,16 +39,18 @@ def passing(
 
     A row at zero lies between the two; what ends at zero is the boundary's. A dip below zero, or a
     hump above it, may hide between rows: the curve's extremum there is one more row. corners [s]:
-    rows at which u may bend, and no curve goes through both sides of one.
+    rows at which u may bend or jump, and no curve goes through both sides of one; what jumps across
+    zero there does not fall through it.
     """
     from scipy.optimize import brentq
 
-    times, u, bends, rows = _rows(times, u, still, corners)
-    clear = [row for row in rows if abs(row[1]) > still]
-    for (before, above, i), (after, below, _) in pairwise(clear):
-        if above > 0.0 > below:
-            curve = _curve(times, u, i, bends)
-            yield float(brentq(curve, before, after, xtol=ROOT)), curve
+    for part in _unbroken(times, u, corners):
+        times, u, bends, rows = _rows(*part, still, corners)
+        clear = [row for row in rows if abs(row[1]) > still]
+        for (before, above, i), (after, below, _) in pairwise(clear):
+            if above > 0.0 > below:
+                curve = _curve(times, u, i, bends)
+                yield float(brentq(curve, before, after, xtol=ROOT)), curve
 
 
 def touches(times: Array, u: Array, still: float, corners: Sequence[float] = ()) -> Iterator[float]:
@@ -55,28 +58,52 @@ def touches(times: Array, u: Array, still: float, corners: Sequence[float] = ())
 
     Rounding says which.
     """
-    *_, rows = _rows(times, u, still, corners)
-    clear = [k for k, row in enumerate(rows) if abs(row[1]) > still]
-    for i, k in pairwise(clear):
-        if k > i + 1 and rows[i][1] * rows[k][1] > 0.0:
-            yield min(rows[i + 1 : k], key=lambda row: abs(row[1]))[0]
+    for part in _unbroken(times, u, corners):
+        *_, rows = _rows(*part, still, corners)
+        clear = [k for k, row in enumerate(rows) if abs(row[1]) > still]
+        for i, k in pairwise(clear):
+            if k > i + 1 and rows[i][1] * rows[k][1] > 0.0:
+                yield min(rows[i + 1 : k], key=lambda row: abs(row[1]))[0]
 
 
-def dips(times: Array, u: Array, corners: Sequence[float] = ()) -> Iterator[tuple[float, float]]:
-    """When [s] u (N,), positive in its rows, is zero or less between two of them, and how much."""
+def smooth(record: Trajectory, corners: Sequence[float]) -> Iterator[NDArray[np.int64]]:
+    """Yields the rows between two corners in a phase, from the first of them on."""
+    for rows in lasting(record):
+        yield from np.split(rows, bent(record.times[rows], corners))
+
+
+def dips(times: Array, u: Array) -> Iterator[tuple[float, float]]:
+    """When [s] u (N,), positive in its smooth rows, is zero or less between two, and how much."""
     times, kept = np.unique(times, return_index=True)
-    found = _hidden(times, u[kept], bent(times, corners), 0.0)
-    return ((t, low) for t, low, _ in found)
+    return ((t, low) for t, low, _ in _hidden(times, u[kept], (), 0.0))
 
 
 def _rows(
     times: Array, u: Array, still: float, corners: Sequence[float]
 ) -> tuple[Array, Array, list[int], list[tuple[float, float, int]]]:
-    """Each time once, u there, the bends, and the rows: time, u and number, with what hides."""
-    times, kept = np.unique(times, return_index=True)
-    u, bends = u[kept], bent(times, corners)
+    """The times, u there, the bends, and the rows: time, u and number, with what hides."""
+    bends = bent(times, corners)
     rows = [*zip(times.tolist(), u.tolist(), range(len(u)), strict=True)]
     return times, u, bends, sorted([*rows, *_hidden(times, u, bends, still)])
+
+
+def _unbroken(times: Array, u: Array, corners: Sequence[float]) -> Iterator[tuple[Array, Array]]:
+    """Yields the times, each once, and u between one jump at a corner and the next.
+
+    A row at a corner has what u is from then on; those before it tell where it was going, and that
+    is one more row.
+    """
+    times, kept = np.unique(times, return_index=True)
+    u, begin = u[kept], 0
+    bends = bent(times, corners)
+    for before, k in pairwise([0, *bends]):
+        if k - before < AROUND // 2:
+            continue
+        came = _curve(times[:k], u[:k], k - 1, [before])(float(times[k]))
+        if abs(came - u[k]) > JUMP * np.max(np.abs(u)):
+            yield np.append(times[begin:k], times[k]), np.append(u[begin:k], came)
+            begin = k
+    yield times[begin:], u[begin:]
 
 
 def bent(times: Array, corners: Sequence[float]) -> list[int]:

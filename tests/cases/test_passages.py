@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from textmech.cases.scene import passages as module
 from textmech.cases.scene.passages import passages
 
 STILL = 1e-9
@@ -71,3 +72,26 @@ def test_a_dip_beside_a_corner_is_found() -> None:
     before, after = (times - 0.55) ** 2 - 1e-4, 0.0024 + 2.0 * (times - 0.6)
     found = list(passages(times, np.where(times <= 0.6, before, after), STILL, [0.6]))
     assert found == pytest.approx([0.54], abs=1e-9)
+
+
+def jumping(t: np.ndarray, at: float) -> np.ndarray:
+    """sin t, and 0.3 more from a corner on."""
+    return np.sin(t) + 0.3 * (t >= at)
+
+
+@pytest.mark.parametrize("over", [1e-6, 1e-3, 1e-2, 0.1])
+def test_what_jumps_at_a_corner_is_not_beyond_it_before(over: float) -> None:
+    """It rises to sin 0.6 and jumps: it passes what is below that, and nothing above."""
+    t, at = np.linspace(0.0, 0.8, 17), 0.6
+    level = np.sin(at) + over
+    assert list(passages(t, level - jumping(t, at), 1e-9, [at])) == []
+    below = np.sin(at) - 1e-3
+    (found,) = passages(t, below - jumping(t, at), 1e-9, [at])
+    assert found == pytest.approx(float(np.arcsin(below)), abs=1e-9)
+
+
+@pytest.mark.mutant("a curve through both sides of a jump")
+def test_a_curve_through_a_jump_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "JUMP", np.inf)
+    t, at = np.linspace(0.0, 0.8, 17), 0.6
+    assert list(passages(t, np.sin(at) + 1e-3 - jumping(t, at), 1e-9, [at])) != []
