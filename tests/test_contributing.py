@@ -1,4 +1,4 @@
-"""CONTRIBUTING.md says what to touch: its lists are those of the code."""
+"""CONTRIBUTING.md and tests/README.md say what to touch: their lists are those of the code."""
 
 import ast
 import re
@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-TEXT = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+SHORT = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+TEXT = SHORT + (ROOT / "tests" / "README.md").read_text(encoding="utf-8")
 # The dataclasses of reports/data/row.py.
 ROWS = {"Comparison", "Rungs", "StepError", "Certificate", "Instant", "Cause", "Advice"}
 BOUNDS = {"forward", "backward"}  # the numbers of a law of dry friction
@@ -39,6 +40,10 @@ def makes(tree: ast.AST) -> bool:
 def reads(tree: ast.AST) -> bool:
     """Whether a program reads the numbers of dry friction."""
     return any(isinstance(n, ast.Attribute) and n.attr in BOUNDS for n in ast.walk(tree))
+
+
+def test_what_is_read_first_is_short() -> None:
+    assert len(SHORT.splitlines()) <= 60
 
 
 def test_every_path_exists() -> None:
