@@ -17,7 +17,7 @@ from textmech.reports.cli import command
 from textmech.reports.output import write
 
 ROOT = Path(__file__).parents[1]
-FOLDERS = (".", "cases", "cases/questions", "reference", "engines", "reports")
+FOLDERS = (".", "cases", "cases/questions", "reference", "engines", "reports", "tests")
 FILES = {
     path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8")
     for folder in FOLDERS
