@@ -144,12 +144,21 @@ def _touches(
     """Whether g, not positive at that point, falls no further, there or as long a step beyond.
 
     A speed that comes to zero and rises again is negative there by rounding, or not: whether it
-    fell would be chance, and the motion is the same.
+    fell would be chance, and the motion is the same. What falls at the point turns, if it does not
+    go on, before the first place that is looked at.
     """
-    deep = TOUCH * max(map(abs, values))
+    from scipy.optimize import minimize_scalar
+
+    deep, step = TOUCH * max(map(abs, values)), points[-1]
     if min(g(at), *values) < -deep:
         return False
-    return all(g(at + part * points[-1]) >= -deep for part in (*INSIDE, 1.0))
+    if any(g(at + part * step) < -deep for part in (*INSIDE, 1.0)):
+        return False
+    part = INSIDE[0] * step
+    turn = minimize_scalar(
+        g, bounds=(at, at + part), method="bounded", options={"xatol": TURN * part}
+    )
+    return bool(turn.fun >= -deep)
 
 
 def _begun(g: Callable[[float], float], h: float, spent: bool) -> float | None:

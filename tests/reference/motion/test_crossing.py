@@ -127,6 +127,27 @@ def test_a_dip_after_a_rise_is_found(a: float, b: float):
     assert found(g, spent=True) == pytest.approx(a, abs=4e-15)
 
 
+SHORT = 1e-4  # of a step: how long a dip lasts, whose depth is 25 times what counts as a touch
+
+
+def begun_just_before(at: float) -> Callable[[float], float]:
+    """A dip that rounding sets below zero at one of the points, and that deepens beyond it."""
+    return dips(at - 1e-13, at + SHORT)
+
+
+@pytest.mark.parametrize("at", [0.25, 0.5, 0.75, 1.0])
+def test_a_dip_that_begins_at_a_point_is_no_touch(at: float):
+    """It is as deep as a touch at the point, and above zero at all that are looked at beyond."""
+    assert found(begun_just_before(at)) == pytest.approx(at, abs=1e-12)
+
+
+@pytest.mark.mutant("a dip's bottom is not looked for between a point and the next beyond")
+def test_a_dip_taken_for_a_touch_is_seen():
+    g = begun_just_before(0.5)
+    blind = otherwise(module, "return bool(turn.fun >= -deep)", "return True")
+    assert blind.crossing(g, POINTS, [g(t) for t in POINTS], begins=False, spent=False)[0] is None
+
+
 def test_a_fall_at_once_is_found_though_it_comes_back():
     """It begins at zero, falls at once or after a short rise, and is above zero at the end."""
     assert found(dips(0.0, 0.6), begins=True) == 0.0
