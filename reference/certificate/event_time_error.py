@@ -51,7 +51,7 @@ def untimed(system: System, followed: Followed) -> float:
 
 
 def _added(mode: Mode, rows: Sequence[Kept]) -> Array:
-    """What the steps of a mode make of the rounding of its slopes: the state does not tell it.
+    """The error that the steps of a mode make of its slopes' rounding: the state does not tell it.
 
     A spring of a metre that moves a millimetre has the rounding of a metre in its force. Each step
     adds up its slopes with weights, and what they leave adds up by chance.

@@ -16,7 +16,7 @@ from .equation_table import Table
 
 Numbers = Sequence[Any]
 COMPONENTS = {"fx": 0, "fy": 1, "fz": 2, "mx": 0, "my": 1, "mz": 2}
-"""Of a force λ u, or a moment, u the direction of its row."""
+"""The component of a force λ u, or a moment, that each name is; u is the row's direction."""
 
 
 @dataclass(frozen=True)

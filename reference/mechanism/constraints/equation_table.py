@@ -37,7 +37,7 @@ class Acting(Protocol):
 
 
 class Table:
-    """Of some constraints, in their order, and of some forces, in theirs."""
+    """The rows of some constraints in their order, and behind them some forces in theirs."""
 
     def __init__(
         self, where: Layout, constraints: Sequence[Held], forces: Sequence[Acting] = ()
@@ -134,7 +134,7 @@ class Table:
         return _apart(k, [place for c in self.constraints for place in c.located(k)])
 
     def places(self, t: Any, q: Sequence[Any]) -> list[Any]:
-        """What each row is the rate of [m or rad]; nan of what is the rate of none."""
+        """The place [m or rad] that each row is the rate of; nan of what is the rate of none."""
         found, numbers = self._located
         changing = iter(found(t, q))
         return [next(changing) if x is None else x for x in numbers]

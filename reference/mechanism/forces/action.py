@@ -50,7 +50,7 @@ class NoDirection(ArithmeticError):
 
 @dataclass(frozen=True)
 class Action:
-    """What an element does, asked of its formulas; one that has no U, V, D or Q₄ says nothing."""
+    """A force element by its formulas; one that has no U, V, D or Q₄ says nothing of them."""
 
     force: Force
 
@@ -212,6 +212,10 @@ class Contracted(Lined):
 
     force: Muscle | LinearMuscle
 
+    def shortening(self, F: Any) -> Any:
+        """How fast [m/s] what contracts shortens under a force."""
+        raise NotImplementedError
+
     def _series(self, k: Kinematics) -> Any:
         """c_s (λ − u) [N]."""
         u = k.q[k.where.inner[f"{self.name}.{self.force.inner}"]]
@@ -231,11 +235,30 @@ class Contracted(Lined):
         return 0.5 * (energy + self.force.parallel_stiffness * beside * beside)
 
     def rate(self, k: Kinematics) -> Any:
-        """u̇ [m/s], by the force in series: how fast what contracts shortens."""
-        force, F = self.force, self._series(k)
-        if isinstance(force, Muscle):
-            return -hill(force.isometric, force.hill_a, force.hill_b, F)
-        return -linear(force.isometric, force.damping, F)
+        """u̇ [m/s], by the force in series."""
+        return -self.shortening(self._series(k))
+
+
+@dataclass(frozen=True)
+class HillContracted(Contracted):
+    """Hill's muscle."""
+
+    force: Muscle
+
+    def shortening(self, F: Any) -> Any:
+        """b (F₀ − F)/(F + a)."""
+        return hill(self.force.isometric, self.force.hill_a, self.force.hill_b, F)
+
+
+@dataclass(frozen=True)
+class LinearContracted(Contracted):
+    """A muscle with a linear law."""
+
+    force: LinearMuscle
+
+    def shortening(self, F: Any) -> Any:
+        """(F₀ − F)/b."""
+        return linear(self.force.isometric, self.force.damping, F)
 
 
 # On a point, a body, or two.
@@ -291,7 +314,7 @@ class Coupled(Action):
 
 @dataclass(frozen=True)
 class Deflected(Action):
-    """What a magnetic field along z does to a charge in a body's centre, in the plane."""
+    """The force of a magnetic field along z on a charge in a body's centre, in the plane."""
 
     force: Magnetic
 
@@ -393,7 +416,7 @@ class Dragged(Action):
     force: Drag
 
     def _ways(self, k: Kinematics) -> list[tuple[Bounds, Vec, Any]]:
-        """Of an edge: the coefficients of each way, its direction, and the speed along it."""
+        """The coefficients of each way along an edge, its direction, and the speed along it."""
         p, along = k.point(self.force.at), self.force.along
         assert along is not None
         u = k.carried(p.part, along).u
@@ -507,12 +530,12 @@ def blurred(scene: Scene, speed: float) -> float:
 
 @dataclass(frozen=True)
 class Gyroscopic:
-    """(2.27), (2.33) Ḋ_c = J ω̇ + ω × J ω = M_c of a body in space: −ω × J ω beside the moments."""
+    """The moment beside those on a body in space, as Ḋ_c = J ω̇ + ω × J ω = M_c."""
 
     name: str
 
     def loads(self, k: Kinematics) -> list[Load]:
-        """−ω × J ω, in body axes."""
+        """(2.27), (2.33) −ω × J ω, in body axes."""
         part, J = k.part(self.name), k.scene.bodies[self.name].tensor
         columns = tuple(Vec(column) for column in J.T.tolist())
         return [(part, None, -k.frame.cross(part.omega, carried(columns, part.omega)))]
@@ -541,15 +564,15 @@ ACTIONS: dict[type[Force], type[Action]] = {
     Drag: Dragged,
     Viscous: Slowed,
     Magnetic: Deflected,
-    Muscle: Contracted,
-    LinearMuscle: Contracted,
+    Muscle: HillContracted,
+    LinearMuscle: LinearContracted,
     Rope: Unilateral,
     Stops: Unilateral,
 }
 
 
 def actions(forces: Sequence[Force]) -> list[Action]:
-    """What each element does, in their order. Raises NotImplementedError of an unknown kind."""
+    """The formulas of each element, in order. Raises NotImplementedError of an unknown kind."""
     unknown = [force.name for force in forces if type(force) not in ACTIONS]
     if unknown:
         raise NotImplementedError(f"{unknown[0]} is not known to the reference")

@@ -43,7 +43,7 @@ Columns = tuple[Vec, ...]
 
 
 class Frame(Protocol):
-    """What formulas ask of the plane and of space alike."""
+    """The plane or space, as formulas ask it."""
 
     axes: Columns  # of the ground
     turns: int  # s, the components of ω
@@ -96,7 +96,7 @@ class _Space:
     turns, attitude = 3, 4
 
     def rotation(self, maths: Any, e: Sequence[Any]) -> Columns:
-        """Of the quaternion e = (w, x, y, z), whose length plays no part: R is that of e/|e|."""
+        """(2.3) R of the quaternion e = (w, x, y, z), whose length plays no part: that of e/|e|."""
         w, x, y, z = e
         each = 2.0 / (w * w + x * x + y * y + z * z)
         wx, wy, wz = (each * (w * a) for a in (x, y, z))

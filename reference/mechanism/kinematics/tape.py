@@ -110,7 +110,7 @@ class Compiled:
         return self._made(cmath)
 
     def __call__(self, t: Any, q: Any, v: Any = ()) -> list[Any]:
-        """Of either: v are any numbers, for their sums and products need no function of its own."""
+        """The results for real or complex t and q; v may be any numbers that have products."""
         q = q.tolist() if hasattr(q, "tolist") else q
         v = v.tolist() if getattr(v, "ndim", 0) == 1 else v
         stepped = any(isinstance(x, complex) for x in (t, *q))

@@ -95,7 +95,7 @@ class Multibody(Mode):
         return Table(self.where, self._constraints, [*forces, *self._beside()])
 
     def _beside(self) -> Sequence[Any]:
-        """What acts on bodies beside the scene's forces."""
+        """The loads on bodies beside those of the scene's forces."""
         return ()
 
     def widen(self, more: Sequence[Constraint]) -> None:

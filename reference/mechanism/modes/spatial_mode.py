@@ -1,4 +1,4 @@
-"""What the multibody of a scene in space has of its own: turns that count, and how it is solved."""
+"""The multibody of a scene in space: turns that count, and how its equations are solved."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any

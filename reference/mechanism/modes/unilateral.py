@@ -1,4 +1,4 @@
-"""What holds on one side only, beside contacts with the ground: pairs, ropes, stops and springs.
+"""Elements that hold on one side, beside contacts with the ground: pairs, ropes, stops, springs.
 
 | element | state       | what holds          | what ends it, falling to zero             |
 | pair    | as contacts | as contacts         | as contacts                               |
