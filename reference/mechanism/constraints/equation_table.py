@@ -11,6 +11,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from ...coverage import look
 from ..kinematics.frame import Vec
 from ..kinematics.kinematics import Kinematics, Layout, Part, Row
 from ..kinematics.tape import Compiled, is_number
@@ -71,9 +72,13 @@ class Table:
 
         Laws of forces may need real numbers; the derivatives of rows are taken by a complex step.
         """
-        k = Kinematics(self.where)
-        rows = [row for c in self.constraints for row in c.written(k)]
-        rows += [Row(force.loads(k)) for force in self.forces]
+        k, rows = Kinematics(self.where), list[Row]()
+        for constraint in self.constraints:
+            look()  # whoever notes equations: to write one down takes hundreds of calls
+            rows += constraint.written(k)
+        for force in self.forces:
+            look()
+            rows.append(Row(force.loads(k)))
         targets, results = [], []
         for i, row in enumerate(rows):
             entries: dict[int, Any] = {self.n: row.g, self.n + 1: row.gamma}

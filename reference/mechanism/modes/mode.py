@@ -177,7 +177,7 @@ class Multibody(Mode):
         return _at_rest(a, free), multipliers
 
     def applied(self, t: float, q: Array, v: Array) -> Array:
-        """(2.60) Q: weights, forces and the friction of slides that move, (n,).
+        """(2.23), (2.60) Q: weights, forces and the friction of slides that move, (n,).
 
         Raises NoDirection for a spring that passes through zero length: its force would jump.
         """
