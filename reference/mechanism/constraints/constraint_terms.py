@@ -122,8 +122,7 @@ class Apart:
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) u·Δ̇, and u̇ = (Δ̇ − (u·Δ̇) u)/λ."""
         a, b = ends[self.a], ends[self.b]
-        c = _between(k, a, b)
-        return k.along(b, c) - k.along(a, c)
+        return k.line(a, b, _between(k, a, b))
 
     def place(self, k: Kinematics, ends: Ends) -> Any:
         """λ [m]."""
@@ -172,8 +171,7 @@ class Around:
         """(2.15) w·Δ̇, and ẇ turns with u̇."""
         a, b = ends[self.a], ends[self.b]
         c = _between(k, a, b)
-        c = Direction(_right(c.u), _right(c.u_dot))
-        return k.along(b, c) - k.along(a, c)
+        return k.line(a, b, Direction(_right(c.u), _right(c.u_dot)))
 
     def place(self, k: Kinematics, ends: Ends) -> None:
         """None: unless λ stays, it is the rate of no place."""

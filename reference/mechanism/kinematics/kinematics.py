@@ -225,9 +225,9 @@ class Kinematics:
         return Row([(p.part, c.u, self.frame.wedge(p.own, own))], 0.0, gamma)
 
     def line(self, a: Point, b: Point, c: Direction) -> Row:
-        """d/dt u·Δ, Δ = r_b − r_a, of a direction that a part carries: u·Δ̇ + ω·(u × Δ).
+        """u·Δ̇, Δ = r_b − r_a; if a part carries u, d/dt u·Δ: u·Δ̇ + ω·(u × Δ).
 
-        Its derivative has u̇·Δ̇ once more, and ω × (ω × u) at Δ.
+        The derivative of the latter has u̇·Δ̇ once more, and ω × (ω × u) at Δ.
         """
         found = self.along(b, c) - self.along(a, c)
         if c.part is None:

@@ -68,14 +68,8 @@ class Multibody(Mode):
         acting = actions([f for f in scene.forces.values() if f.name not in slack])
         self.ingredients = Ingredients(self.where, acting)
         self._lined = [action.name for action in acting if action.line]
-        self.table = self._written(actions(list(scene.forces.values())), base)
-        self._rows = Rows(self.table, self._constraints)
-        self._forces = {
-            force.name: self.table.size + i
-            for i, force in enumerate(self.table.forces)
-            if force.name not in slack
-        }
-        self._at_work = span(np.array(list(self._forces.values()), np.intp))
+        self._slack = slack
+        self._read(self._written(actions(list(scene.forces.values())), base))
         self._braking, self._shared = braking, shared
         places = np.cumsum([0, *(c.size for c in self._constraints)]).tolist()
         self._coulomb = [(places[self._constraints.index(law.normal)], law) for law in coulomb]
@@ -100,11 +94,18 @@ class Multibody(Mode):
 
     def widen(self, more: Sequence[Constraint]) -> None:
         """Writes constraints into its table that other modes hold, who share it."""
-        self.table = Table(self.where, [*self._constraints, *more], self.table.forces)
-        self._rows = Rows(self.table, self._constraints)
-        self._forces = {f.name: self.table.size + i for i, f in enumerate(self.table.forces)}
-        self._at_work = span(np.array(list(self._forces.values()), np.intp))
+        self._read(Table(self.where, [*self._constraints, *more], self.table.forces))
         self._prepare()
+
+    def _read(self, table: Table) -> None:
+        """Takes the numbers of what holds in it and of what is at work from a table."""
+        self.table, self._rows = table, Rows(table, self._constraints)
+        self._forces = {
+            force.name: table.size + i
+            for i, force in enumerate(table.forces)
+            if force.name not in self._slack
+        }
+        self._at_work = span(np.array(list(self._forces.values()), np.intp))
 
     def _prepare(self) -> None:
         """Makes ready what solves its equations."""

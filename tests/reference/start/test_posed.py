@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from given import scenes
+from given.linkages import FOUR_BAR
 
 from textmech.cases.mistake import CaseError
 from textmech.reference.start.assembly import assemble
@@ -30,22 +31,7 @@ scene:
 initial: START
 allow: {rail.shift: 1.0e-2}
 """
-LOOP = """\
-scene:
-  points: {O: [0, 0], Q: [0.9, 0]}
-  bodies:
-    crank: {bar: {mass: 1.0, length: 0.3}}
-    coupler: {bar: {mass: 1.0, length: 0.8}}
-    rocker: {bar: {mass: 1.0, length: 0.6}}
-  joints:
-    A: {pin: [ground.O, crank.start]}
-    B: {pin: [crank.end, coupler.start]}
-    C: {pin: [coupler.end, rocker.end]}
-    D: {pin: [ground.Q, rocker.start]}
-initial: START
-near: {rocker: {angle: 96 deg}}
-allow: {crank.angle: 1.0e-2}
-"""
+LOOP = FOUR_BAR + "initial: START\nnear: {rocker: {angle: 96 deg}}\n"
 
 
 def begun(folder: Path, scene: str, start: str) -> tuple[Array, Array]:
