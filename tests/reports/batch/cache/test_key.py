@@ -245,15 +245,15 @@ def test_an_engine_is_its_package() -> None:
 @pytest.mark.parametrize(
     "change",
     [
-        lambda patch: patch.setenv("OPENBLAS_CORETYPE", "Prescott"),
-        lambda patch: patch.setenv("NPY_DISABLE_CPU_FEATURES", "AVX2"),
+        lambda patch: patch.setenv("OPENBLAS_CORETYPE", "Another"),
+        lambda patch: patch.setenv("NPY_DISABLE_CPU_FEATURES", "ANOTHER"),
         lambda patch: patch.setattr(np, "__version__", "0"),
         lambda patch: patch.setattr(key.scipy, "__version__", "0"),
         lambda patch: patch.setattr("sys.version", "0"),
         lambda patch: patch.setattr(key, "_processor", lambda: "another"),
         lambda patch: patch.setattr("platform.machine", lambda: "another"),
         lambda patch: patch.setenv("LD_PRELOAD", "libother.so"),
-        lambda patch: patch.setenv("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2"),
+        lambda patch: patch.setenv("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-ANOTHER"),
         lambda patch: patch.setattr(sys, "flags", SimpleNamespace(optimize=2)),
     ],
 )
