@@ -14,7 +14,7 @@ JUMP = 1e-6  # of the largest value: what a curve leaves open that goes on for a
 LOCATED = 1e-12  # s: how well an extremum between two steps is found
 
 Curve = Callable[[float], float]
-"""t → u, through the rows about one of them."""
+"""t → u."""
 
 
 def lasting(record: Trajectory) -> list[NDArray[np.int64]]:
@@ -114,14 +114,28 @@ def bent(times: Array, corners: Sequence[float]) -> list[int]:
 
 def _curve(times: Array, u: Array, i: int, bends: Sequence[int]) -> Curve:
     """Through the rows around i and the next, none of them beyond a bend."""
-    from scipy.interpolate import BarycentricInterpolator
-
     begin = max((k for k in bends if k <= i), default=0)
     end = 1 + min((k for k in bends if k > i), default=len(u) - 1)
     first = min(max(begin, i - AROUND // 2 + 1), max(begin, end - AROUND))
     rows = slice(first, min(first + AROUND, end))
-    made = BarycentricInterpolator(times[rows], u[rows])
-    return lambda t: float(made(t))
+    return polynomial(times[rows], u[rows])
+
+
+def polynomial(x: Array, y: Array) -> Curve:
+    """x → y, of the polynomial through the points: the same one, bit for bit, in every run.
+
+    scipy multiplies its weights in an order drawn by chance, if nobody seeds it; and at one of the
+    points it divides by a sum that may be 0, before it takes that point's y.
+    """
+    from scipy.interpolate import BarycentricInterpolator
+
+    made = BarycentricInterpolator(x, y, rng=0)
+
+    def at(t: float) -> float:
+        with np.errstate(invalid="ignore"):
+            return float(made(t))
+
+    return at
 
 
 def _hidden(

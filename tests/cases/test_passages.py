@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from textmech.cases.scene import passages as module
-from textmech.cases.scene.passages import passages
+from textmech.cases.scene.passages import passages, polynomial
 
 STILL = 1e-9
 
@@ -95,3 +95,23 @@ def test_a_curve_through_a_jump_is_seen(monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.setattr(module, "JUMP", np.inf)
     t, at = np.linspace(0.0, 0.8, 17), 0.6
     assert list(passages(t, np.sin(at) + 1e-3 - jumping(t, at), 1e-9, [at])) != []
+
+
+@pytest.mark.mutant("a curve of weights in an order drawn by chance")
+def test_a_curve_hangs_on_its_points_alone() -> None:
+    """To the last bit, whatever state chance is in; uneven points, as those of an integrator."""
+    x = np.sort(np.random.default_rng(5).random(8))
+    values = set()
+    for seed in range(20):
+        np.random.seed(seed)  # noqa: NPY002 (scipy would draw from this one)
+        values.add(polynomial(x, np.sin(x))(0.4321))
+    assert len(values) == 1
+
+
+def test_a_curve_has_its_points(recwarn: pytest.WarningsRecorder) -> None:
+    """Without a warning, though 0 is divided by 0 on the way, as at 1 of what is 2 at 0 and at 1."""
+    for x in ([0.0, 1.0], [0.25, 0.5, 0.75], list(np.linspace(0.0, 8e-3, 8))):
+        for y in (np.cos(x), np.full(len(x), 2.0)):
+            at = polynomial(np.array(x), y)
+            assert [at(t) for t in x] == y.tolist()
+    assert not recwarn.list

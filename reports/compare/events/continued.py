@@ -9,6 +9,7 @@ it stays that: it is the mean of many steps, which noise moves less.
 
 import numpy as np
 
+from ....cases.scene.passages import polynomial
 from ....cases.trajectory import Array
 
 STEPS, FEWER = 8, 6  # of seventh and fifth degree: both above what the engines' own order leaves
@@ -36,6 +37,4 @@ def continued(times: Array, u: Array, zero: float, away: int) -> float:
 
 def _at_zero(times: Array, u: Array) -> float:
     """t where u is 0."""
-    from scipy.interpolate import BarycentricInterpolator
-
-    return float(BarycentricInterpolator(u, times)(0.0))
+    return polynomial(u, times)(0.0)

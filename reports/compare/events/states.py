@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ....cases.case import Case
 from ....cases.mistake import Mistake
 from ....cases.scene.observe import observe
-from ....cases.scene.passages import bent
+from ....cases.scene.passages import bent, polynomial
 from ....cases.scene.quantity import SIDES, AtEvent, at_event
 from ....cases.scene.still import still
 from ....cases.trajectory import Array, Trajectory
@@ -71,11 +71,9 @@ def engine_states(case: Case, record: Trajectory, at: AtEvent, times: Array) -> 
 
 def _curve(times: Array, u: Array, rows: Rows, t: float, most: int) -> float:
     """At t, of the polynomial through so many of the rows, the nearest; of one time the first."""
-    from scipy.interpolate import BarycentricInterpolator
-
     at, kept = np.unique(times[rows], return_index=True)
     nearest = np.argsort(np.abs(at - t), kind="stable")[:most]
-    return float(BarycentricInterpolator(at[nearest], u[rows][kept][nearest])(t))
+    return polynomial(at[nearest], u[rows][kept][nearest])(t)
 
 
 def mistaken(case: Case, reference: Trajectory) -> list[Mistake]:
