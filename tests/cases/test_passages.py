@@ -103,13 +103,13 @@ def test_a_curve_hangs_on_its_points_alone() -> None:
     x = np.sort(np.random.default_rng(5).random(8))
     values = set()
     for seed in range(20):
-        np.random.seed(seed)  # noqa: NPY002 (scipy would draw from this one)
+        np.random.seed(seed)  # scipy would draw from this one
         values.add(polynomial(x, np.sin(x))(0.4321))
     assert len(values) == 1
 
 
 def test_a_curve_has_its_points(recwarn: pytest.WarningsRecorder) -> None:
-    """Without a warning, though 0 is divided by 0 on the way, as at 1 of what is 2 at 0 and at 1."""
+    """Without a warning, though 0 is divided by 0 on the way, as at 1 of what is 2 at 0 and 1."""
     for x in ([0.0, 1.0], [0.25, 0.5, 0.75], list(np.linspace(0.0, 8e-3, 8))):
         for y in (np.cos(x), np.full(len(x), 2.0)):
             at = polynomial(np.array(x), y)

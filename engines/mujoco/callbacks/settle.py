@@ -27,6 +27,7 @@ _SWEEPS = 100  # at most: each takes a third or more of the error, as two ends o
 _STICKS = 10  # steps of the slip's growth: friction is damped by about 1/h, and holds or does not
 _MOST = 1000  # steps to a zero: where friction gives way the slip jumps, and each only halves
 _STILL = 1e-9  # m/s: what slips less is meant to stick
+_ROUNDING = 1e-15  # of a creep: so little does not change it, and looks as if friction gave way
 
 
 def settle(
@@ -81,8 +82,9 @@ def _creep(floor: Floor, i: int) -> None:
     floor.creeps[i] = 0.0
     if abs(floor.slips[i]) > _STILL or not floor.depths[i]:
         return
-    now = slips(before)
-    floor.creeps[i] = _zero(slips, before, now, floor.model.opt.timestep) if now else before
+    now, h = slips(before), float(floor.model.opt.timestep)
+    found = abs(now) * h <= _ROUNDING * abs(before)  # a zero no nearer than that: it is here
+    floor.creeps[i] = before if found else _zero(slips, before, now, h)
 
 
 def _zero(slips: Callable[[float], float], before: float, now: float, h: float) -> float:

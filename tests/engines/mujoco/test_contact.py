@@ -1,7 +1,9 @@
 """MuJoCo's floor: how it settles, what keeps blocks from creeping, and the damper of a bounce."""
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -20,6 +22,8 @@ from scipy.integrate import solve_ivp
 
 from textmech.cases.scene import Anchor, Push, Signal
 from textmech.cases.trajectory import VX, Array
+from textmech.engines.mujoco.callbacks import settle
+from textmech.engines.mujoco.callbacks.floor import Floor
 from textmech.engines.mujoco.model.bounce import damping_ratio
 
 
@@ -61,3 +65,28 @@ def test_damper_throws_back(bounce: float) -> None:
         (0, 100), [0.0, 1.0], events=leaves, rtol=1e-10, atol=1e-12,
     )  # fmt: skip
     assert -solution.y[1, -1] == pytest.approx(bounce, abs=1e-6)
+
+
+@dataclass
+class _Held:
+    """A start whose slip grows by −(creep − held)/h, up to a rounding of it."""
+
+    rounding: float
+    held: float = -7.5e-5
+    h: float = 4e-4
+
+    def __post_init__(self) -> None:
+        self.creeps, self.depths, self.slips = np.array([self.held]), np.ones(1), np.zeros(1)
+        self.model = SimpleNamespace(opt=SimpleNamespace(timestep=self.h))
+
+    def acceleration(self, i: int) -> tuple[float, float]:
+        return (self.held - float(self.creeps[i])) / self.h + self.rounding, 0.0
+
+
+@pytest.mark.mutant("a start's creep let go where rounding alone is left of its slip")
+@pytest.mark.parametrize("rounding", [0.0, 1e-18, -1e-18, 1e-17, -1e-17])
+def test_what_friction_holds_is_held_whatever_rounding_says(rounding: float) -> None:
+    """Ten steps of what is left, 1e-18 m/s², are less than the rounding of the creep."""
+    held = _Held(rounding)
+    settle._creep(cast("Floor", held), 0)
+    assert held.creeps[0] == pytest.approx(held.held, rel=1e-12)
