@@ -8,8 +8,7 @@ from pydantic import ValidationError
 
 from ..fields.number import names
 from ..mistake import Path
-from .grammar.file import File
-from .grammar.space.file import SpatialFile
+from .grammar.file import File, SpatialFile
 
 Finding = tuple[Path, str]  # where, and what is wrong there
 

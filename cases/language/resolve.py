@@ -150,6 +150,6 @@ def _turned(starts: dict[str, Placement], scene: Scene) -> dict[str, Placement]:
 def _polar(given: tuple[str, float, float] | None, scene: Scene) -> dict[str, float]:
     """x and y of what is so far from where a point of the ground starts, in such a direction."""
     if given is None or (point := anchor(given[0]).point) not in scene.points:
-        return {}  # the latter is a mistake, see check/polar.py
+        return {}  # the latter is a mistake, see check/start.py
     (x, y, *_), (_, length, direction) = scene.points[point].state(0.0), given
     return {"x": x + length * cos(direction), "y": y + length * sin(direction)}

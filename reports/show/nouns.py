@@ -10,7 +10,7 @@ from typing import Any
 
 from ...cases.fields.friction import Bounds, DryFriction, Smooth, Stribeck
 from ...cases.fields.signal import Signal
-from ...cases.language.grammar.space.joint import KINDS
+from ...cases.language.grammar.joint import KINDS
 from ...cases.scene import Scene, quantity
 from ...cases.scene.body import Body
 from ...cases.scene.constraint import Edge
@@ -182,7 +182,7 @@ def _joints() -> str:
         ]
         for kind, left in FREEDOMS.items()
     ]
-    space = [[f"`{kind}`", _cell(_text(made))] for kind, made in KINDS.items()]
+    space = [[f"`{kind}`", _cell(_text(made))] for kind, made in KINDS[3].items()]
     return (
         "Of the plane, `Joint.kind` and the freedoms of the second part against the first:\n\n"
         f"{markdown([['kind', 'leaves', 'place, rate and what a drive exerts'], *plane])}\n"

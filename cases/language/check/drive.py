@@ -1,4 +1,4 @@
-"""Prescribed rates in the plane against the freedoms that joints leave."""
+"""Prescribed rates against the freedoms that joints leave, and against the rates of the start."""
 
 from collections.abc import Iterator
 
@@ -20,28 +20,33 @@ def drives(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         path = ("scene", "drive", quantity)
         part, _, rate = quantity.rpartition(".")
         if part not in scene.joints:
-            yield from unknown(parsed, scene, path, part)
+            yield from _no_joint(parsed, scene, path, part)
             continue
-        freedom = scene.joints[part].rates.get(rate)
+        joint = scene.joints[part]
+        freedom = joint.rates.get(rate)
         if freedom is None or rate not in left[part]:
-            yield path, _no_rate(scene.joints[part], rate, left[part])
-        elif freedom.kind == "shift" and scene.joints[part].dry_friction is not None:
+            yield path, _no_rate(joint, rate, left[part])
+            continue
+        if freedom.kind == "shift" and joint.dry_friction is not None:
             what = "a part of what its drive would exert: leave one of them out"
             yield path, f"{part!r} has `dry_friction`, {what}"
-        else:
-            yield from fits(path, drive, f"{freedom.unit}/s")
+            continue
+        if freedom.kind == "turn" and len(joint.turns) > 2:
+            why = "their middle axis is fixed in neither part; put a body between, on a joint more"
+            yield path, f"{part!r} leaves three turns, and of these none can be driven: {why}"
+        yield from _fits(path, drive, f"{freedom.unit}/s")
     for name, start in parsed.file.initial.items():
         for key, given in start.given.items():
-            yield from agrees(("initial", name, key), given, scene.drives.get(f"{name}.{key}"))
+            yield from _agrees(("initial", name, key), given, scene.drives.get(f"{name}.{key}"))
 
 
-def unknown(parsed: Parsed, scene: Scene, path: Path, part: str) -> Iterator[Finding]:
+def _no_joint(parsed: Parsed, scene: Scene, path: Path, part: str) -> Iterator[Finding]:
     """A drive of what is no joint."""
     if not parsed.hides(part, ("joints",)):
         yield path, f"unknown joint {part!r}{nearest(part, parsed.names('joints', scene.joints))}"
 
 
-def fits(path: Path, drive: Drive, unit: str) -> Iterator[Finding]:
+def _fits(path: Path, drive: Drive, unit: str) -> Iterator[Finding]:
     """Whether each number of the law can be measured in the unit of the rate, per s, per s² …"""
     for at, amount, times in drive.amounts:
         try:
@@ -50,7 +55,7 @@ def fits(path: Path, drive: Drive, unit: str) -> Iterator[Finding]:
             yield (*path, *at), str(mistake)
 
 
-def agrees(path: Path, given: float, drive: Signal | None) -> Iterator[Finding]:
+def _agrees(path: Path, given: float, drive: Signal | None) -> Iterator[Finding]:
     """A rate that is prescribed need not be given; what is given has to agree."""
     if drive is not None and abs(given - drive.at_start()[0]) > TYPED * abs(given):
         yield path, f"is {given:g}, but its drive begins with {drive.at_start()[0]:g}"
@@ -61,6 +66,6 @@ def _no_rate(joint: Joint, rate: str, left: Fields) -> str:
     if rate in rates:
         return f"{rate!r} is a coordinate; a drive prescribes its rate, {rates[rate]!r}"
     if not rates:
-        return f"{joint.name!r} leaves nothing that could be driven"
+        return f"{joint.name!r} leaves no rate that could be driven"
     hint = nearest(f"{joint.name}.{rate}", rates.values())
     return f"{joint.name!r} has no rate {rate!r}{hint}"

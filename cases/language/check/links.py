@@ -1,19 +1,17 @@
 """References between the parts of a scene: every name means one thing that is there."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
-from ...mistake import Path, nearest
-from ...scene import FLOOR, GROUND, Anchor, Edge, Force, Joint, Scene
-from ...scene.joint import WORDS
-from ...scene.point import anchor
-from ..grammar.file import Initial, Near
-from ..grammar.file import Scene as Spec
+from ...mistake import Path
+from ...scene import FLOOR, GROUND, Edge, Force, Joint, Scene
+from ..grammar.scene import Scene as Spec
 from ..parse import NAMED, Finding, Parsed
 from .about import about, rubbing
+from .anchor import no_point
+from .axis import turns_freely
+from .contact import contacts
 from .drive import drives
-from .pair import pairs
-from .space.spatial import spatial
-from .touch import planes, touches
+from .start import starts
 
 _FIELDS = ("x", "y", "angle", "vx", "vy", "omega", "speed", "ax", "ay", "alpha")
 # `crank.x` is a quantity, and a start stands `on` a point
@@ -35,7 +33,10 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     for name, joint in scene.joints.items():
         yield from _refers(parsed, scene, ("scene", "joints", name, joint.word), joint)
     for name, edge in scene.constraints.items():
-        yield from _refers(parsed, scene, ("scene", "constraints", name, edge.word), edge)
+        path = ("scene", "constraints", name, edge.word)
+        yield from _refers(parsed, scene, path, edge)
+        if what := edge.unfit(scene.bodies.get(edge.at.body)):
+            yield path, what
     for name, force in scene.forces.items():
         path = ("scene", "forces", name, force.word)
         yield from _refers(parsed, scene, path, force)
@@ -44,18 +45,12 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         if force.about is not None:
             yield from about(parsed, scene, path, force)
     if scene.frame.dimension == 3:
-        yield from spatial(parsed, scene)
-        return
-    yield from rubbing(scene)
-    yield from _views(spec, scene)
-    yield from planes(parsed)
-    yield from touches(parsed, scene)
-    yield from pairs(parsed, scene)
-    for key in ("initial", "near"):
-        yield from _placed(parsed, scene, key, getattr(parsed.file, key))
-    yield from edges(parsed, scene)
-    yield from polar(parsed, scene)
-    yield from posed(parsed, scene)
+        yield from turns_freely(parsed, scene)
+    else:
+        yield from rubbing(scene)
+        yield from _views(parsed.file.scene, scene)
+    yield from contacts(parsed, scene)
+    yield from starts(parsed, scene)
     yield from drives(parsed, scene)
 
 
@@ -98,136 +93,7 @@ def _refers(
     """The points it refers to, one under its word or a list of two."""
     points = element.refers()
     for i, at in enumerate(points):
-        yield from _anchor(parsed, scene, (*path, i) if len(points) > 1 else path, at)
+        yield from no_point(parsed, scene, (*path, i) if len(points) > 1 else path, at)
     if len(points) > 1 and len({at.body for at in points}) == 1:
         body = points[0].body
         yield path, f"joins {'the ground' if body == GROUND else repr(body)} with itself"
-
-
-def _anchor(parsed: Parsed, scene: Scene, path: Path, at: Anchor) -> Iterator[Finding]:
-    if at.body == GROUND:
-        planes = getattr(parsed.file.scene, "planes", {})
-        if at.point == FLOOR or at.point in planes.keys() - scene.points.keys():
-            yield path, f"ground.{at.point} is not a point; only a contact touches it"
-        elif at.point not in scene.points and not parsed.hides(at.point, ("points",)):
-            known = parsed.names("points", scene.points)
-            yield path, f"the ground has no point {at.point!r}{nearest(at.point, known)}"
-        return
-    yield from _body(parsed, scene, path, at.body)
-    if at.body in scene.bodies and at.point not in scene.bodies[at.body].points:
-        hint = nearest(at.point, scene.bodies[at.body].points)
-        yield path, f"body {at.body!r} has no point {at.point!r}{hint}"
-
-
-def _body(parsed: Parsed, scene: Scene, path: Path, name: str) -> Iterator[Finding]:
-    if name not in scene.bodies and not parsed.hides(name):
-        yield path, f"unknown body {name!r}{nearest(name, parsed.names('bodies', scene.bodies))}"
-
-
-def _nobody(parsed: Parsed, scene: Scene, key: str, name: str) -> str:
-    """A start may be given by a joint, a guess only by a body."""
-    known = parsed.names("bodies", scene.bodies)
-    if key == "near" and name in scene.joints:
-        return f"{name!r} is a joint; a guess is given by a body"
-    if key == "initial":
-        known += parsed.names("joints", scene.joints)
-    kinds = "body or joint" if key == "initial" else "body"
-    return f"unknown {kinds} {name!r}{nearest(name, known)}"
-
-
-def _placed(
-    parsed: Parsed, scene: Scene, key: str, places: Mapping[str, Near]
-) -> Iterator[Finding]:
-    for name, place in places.items():
-        if key == "initial" and (name in scene.constraints or name in scene.joints):
-            continue
-        if name not in scene.bodies:
-            if not parsed.hides(name):
-                yield (key, name), _nobody(parsed, scene, key, name)
-            continue
-        for point in place.places:
-            if point not in scene.bodies[name].points:
-                yield from _anchor(parsed, scene, (key, name, point), Anchor(name, point))
-        for i, point in enumerate(place.stands_on):
-            path = (key, name, "on", i) if len(place.stands_on) > 1 else (key, name, "on")
-            yield from _anchor(parsed, scene, path, Anchor(name, point))
-        for turning in ("angle", "omega"):
-            if not scene.bodies[name].turns and getattr(place, turning, None) is not None:
-                yield (key, name, turning), f"{name!r} is a particle and cannot turn"
-
-
-# Edges: what can carry one, and with which speed it starts.
-
-
-def edges(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
-    """Every mistake in the sound edges and in the speeds of the start."""
-    for name, edge in scene.constraints.items():
-        if what := edge.unfit(scene.bodies.get(edge.at.body)):
-            yield ("scene", "constraints", name, edge.word), what
-    for name, start in parsed.file.initial.items():
-        given = sorted(start.keys)
-        if name not in scene.constraints:
-            if "speed" in given and name not in scene.joints:
-                what = "only an edge or a joint that slides starts with a `speed`"
-                yield ("initial", name, "speed"), what
-            continue
-        for key in given:
-            if key != "speed":
-                yield ("initial", name, key), f"{name!r} is an edge and starts with a `speed`"
-            elif scene.constraints[name].speed is not None:
-                yield ("initial", name, key), f"the speed of {name!r} is prescribed"
-
-
-# Starts that give a place by its distance from a point of the ground, in some direction.
-
-
-KEYS = ("from", "length", "direction")
-
-
-def polar(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
-    """Every mistake in the sound starts."""
-    for name, start in parsed.file.initial.items():
-        given = [key for key in KEYS if key in start.keys]
-        if not given or name not in scene.bodies:
-            continue
-        for key in (key for key in KEYS if key not in given):
-            yield ("initial", name), f"needs `{key}` beside {' and '.join(given)}"
-        for key in sorted({"x", "y", *start.places} & start.keys):
-            yield ("initial", name, key), "cannot stand beside `from`, which gives the place too"
-        yield from _origin(parsed, scene, name, start)
-
-
-def _origin(parsed: Parsed, scene: Scene, name: str, start: Initial) -> Iterator[Finding]:
-    if start.from_ is None:
-        return
-    at, path = anchor(start.from_), ("initial", name, "from")
-    if at.body != GROUND:
-        yield path, f"should be a point of the ground, is {start.from_!r}"
-    elif at.point not in scene.points and not parsed.hides(at.point, ("points",)):
-        known = parsed.names("points", scene.points)
-        yield path, f"the ground has no point {at.point!r}{nearest(at.point, known)}"
-
-
-# Starts by joints: only the coordinates that a joint has can be given, and their rates.
-
-
-def posed(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
-    """Every mistake in starts by sound joints, and the shift of what is no joint."""
-    left = scene.coordinates()
-    for name, start in parsed.file.initial.items():
-        if name not in scene.joints:
-            if "shift" in start.model_fields_set:
-                yield ("initial", name, "shift"), "only a joint that slides starts with a `shift`"
-            continue
-        kind = scene.joints[name].kind
-        for key in (*start.given, *start.places):
-            if key not in left[name]:
-                yield ("initial", name, key), _unknown(name, kind, key, list(left[name]))
-
-
-def _unknown(name: str, kind: str, key: str, known: list[str]) -> str:
-    if not known:
-        return f"{name!r} is a {kind} and leaves nothing that could be given"
-    if key in WORDS:
-        return f"{name!r} is a {kind} and has no {key}; it starts by {' and '.join(known)}"
-    return f"{name!r} is a {kind} and starts by {' and '.join(known)}{nearest(key, known)}"

@@ -2,27 +2,19 @@
 
 from typing import Annotated, Any
 
-from pydantic import ConfigDict, Field, Tag
+from pydantic import Field, Tag
 
-from ...fields.field import Bound, In, Literal, Space
-from ...fields.gravity import Gravity
+from ...fields.field import Bound, In, Literal
 from ...fields.number import Amount
-from ...fields.part import Angle, Name, Part, Point, Position, plain_or_list, plain_or_map, written
-from ...fields.text import Text, Word, label, no_formula
+from ...fields.part import Name, Part, plain_or_map
+from ...fields.text import Text, label, no_formula
 from ...fields.words import wrong
-from .body import Body
-from .constraint import Constraint
-from .contact import Contact
-from .drive import Driven, Rate
 from .event import Event, Quantity
-from .force import Force
-from .ground import GroundPoint
-from .joint import Joint
-from .plane import Plane
+from .scene import Scene, SpatialScene
 from .source import Source
+from .start import Initial, Near, SpatialStart
 from .states import Drawn
 
-POLAR = ("from_", "length", "direction")  # how a start gives a place by a distance
 WAYS = ("", ".law", ".driver", ".limit")  # after an engine's name: which of its rows
 
 Tolerance = Annotated[Amount, Bound()]
@@ -35,111 +27,6 @@ Step = Annotated[
     | Annotated[dict[Engine, Seconds], Field(min_length=1), Tag("<map>")],
     plain_or_map(),
 ]
-
-
-GRAVITY = "`none` (a scene seen from above), how strong it is [m/s²], or a vector of its own"
-INCLINE = "turns gravity, never the ground: x points down the slope"
-
-
-class Scene(Part):
-    """Bodies and what joins, touches and drives them."""
-
-    elsewhere = {  # noqa: RUF012  # a ClassVar of Part
-        "stops": "each is one of the `forces`: NAME: {stops: JOINT, low: -90 deg}"
-    }
-
-    space: Annotated[int, Space()] | None = Field(None, description="3: a scene in space")
-    gravity: Gravity | None = Field(None, description=GRAVITY)
-    seen: Annotated[str, Word("view", ("from above",))] | None = Field(
-        None, description="of gravity only what points down the incline is left"
-    )
-    incline: Angle | None = Field(None, description=INCLINE)
-    points: dict[Name, GroundPoint] = Field({}, description="points of the ground")
-    planes: dict[Name, Plane] = Field({}, description="planes of the ground, beside the floor")
-    bodies: dict[Name, Body]
-    joints: dict[Name, Joint] = Field({})
-    constraints: dict[Name, Constraint] = Field({}, description="that cannot be integrated")
-    contacts: dict[Name, Contact] = Field({})
-    forces: dict[Name, Force] = Field({})
-    drive: dict[Rate, Driven] = Field({}, description="prescribed rates of joints' freedoms")
-
-
-class Near(Part):
-    """A guess of where a body is, by its coordinates or by the places of its points."""
-
-    model_config = ConfigDict(extra="allow")
-    __pydantic_extra__: dict[str, Position] = Field(init=False)  # type: ignore[assignment]
-
-    x: Annotated[float, In("m")] | None = None
-    y: Annotated[float, In("m")] | None = None
-    angle: Angle | None = None
-
-    @property
-    def places(self) -> dict[str, tuple[float, float]]:
-        """Where points of the body are."""
-        return self.__pydantic_extra__
-
-    @property
-    def given(self) -> dict[str, float]:
-        """Coordinates and rates by name."""
-        numbers = {key: getattr(self, key) for key in type(self).model_fields if key not in POLAR}
-        return {key: number for key, number in numbers.items() if isinstance(number, float)}
-
-    @property
-    def keys(self) -> set[str]:
-        """The keys that are given, as they are written."""
-        fields = written(type(self)).items()
-        return {key for key, name in fields if name in self.model_fields_set} | {*self.places}
-
-    @property
-    def polar(self) -> tuple[str, float, float] | None:
-        """A point of the ground, and how far [m] and in which direction [rad] the centre is."""
-        return None
-
-    @property
-    def attitude(self) -> None:
-        """None in the plane, where a body has an angle."""
-
-    @property
-    def stands_on(self) -> tuple[str, ...]:
-        """The points that stand on their planes: only a start has any."""
-        return ()
-
-
-class Initial(Near):
-    """How a body starts: coordinates and rates, or places of its points; or an edge, or a joint."""
-
-    from_: Point | None = Field(None, alias="from", description="a point of the ground")
-    length: Annotated[float, In("m", above=0)] | None = Field(
-        None, description="how far from that point the centre is"
-    )
-    direction: Angle | None = Field(None, description="in which direction from it, from x")
-
-    vx: Annotated[float, In("m/s")] | None = None
-    vy: Annotated[float, In("m/s")] | None = None
-    omega: Annotated[float, In("rad/s")] | None = None
-    shift: Annotated[float, In("m")] | None = Field(None, description="of a joint, along its line")
-    speed: Annotated[float, In("m/s")] | None = Field(
-        None, description="of an edge or a joint, along it"
-    )
-    on: (
-        Annotated[
-            Annotated[Name, Tag("<plain>")] | Annotated[tuple[Name, Name], Tag("<list>")],
-            plain_or_list(),
-        ]
-        | None
-    ) = Field(None, description="the point of the body that stands on its plane, or two")
-
-    @property
-    def stands_on(self) -> tuple[str, ...]:
-        return (self.on,) if isinstance(self.on, str) else self.on or ()
-
-    @property
-    def polar(self) -> tuple[str, float, float] | None:
-        """Where all three are given."""
-        if self.from_ is None or self.length is None or self.direction is None:
-            return None
-        return self.from_, self.length, self.direction
 
 
 class Deviation(Part):
@@ -220,6 +107,16 @@ class File(Part):
         {},
         description="each a deep overlay of the keys above, but title and source",
         json_schema_extra=_overlay_schema,
+    )
+
+
+class SpatialFile(File):
+    """A case: one claim about the motion of one scene in space."""
+
+    scene: SpatialScene  # pyright: ignore[reportIncompatibleVariableOverride]
+    initial: dict[Name, SpatialStart]  # pyright: ignore[reportIncompatibleVariableOverride]
+    near: dict[Name, SpatialStart] = Field(  # pyright: ignore[reportIncompatibleVariableOverride]
+        {}, description="a guess, where the constraints have more than one solution"
     )
 
 

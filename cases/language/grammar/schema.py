@@ -11,8 +11,7 @@ from typing import Any
 from pydantic.json_schema import GenerateJsonSchema, models_json_schema
 from pydantic_core import core_schema
 
-from .file import File
-from .space.file import SpatialFile
+from .file import File, SpatialFile
 
 SCHEMA = Path(__file__).parents[2] / "case.schema.json"
 

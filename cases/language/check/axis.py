@@ -4,13 +4,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ....scene import Scene
-from ....scene.body import Body
-from ....scene.joint import Joint
-from ....scene.point import Anchor
-from ....scene.solid import without_inertia
-from ....trajectory import Array
-from ...parse import Finding, Parsed
+from ...scene import Scene
+from ...scene.body import Body
+from ...scene.joint import Joint
+from ...scene.point import Anchor
+from ...scene.solid import without_inertia
+from ...trajectory import Array
+from ..parse import Finding, Parsed
 
 _NONE = "and it has no inertia about that"
 NEAR = 1e-9  # sine of an angle, and of a length its part: numbers are typed with up to ten digits

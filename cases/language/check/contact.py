@@ -1,19 +1,31 @@
-"""Contacts: what touches a plane of the ground, and with which of its points."""
+"""Contacts: what touches a plane of the ground or another body, and with which of its points."""
 
 from collections.abc import Iterator
 
 from ...mistake import Path, nearest
 from ...scene import CENTER, FLOOR, GROUND, Anchor, Body, Scene
+from ...scene.pair import FACES, Pair
+from ..grammar.contact import Contact
 from ..parse import Finding, Parsed
 
 
-def touches(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
+def contacts(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
+    """Every mistake in the sound contacts, and in the names of planes."""
+    if scene.frame.dimension == 3:
+        yield from _rolls(parsed, scene)
+        return
+    yield from _planes(parsed)
+    yield from _touches(parsed, scene)
+    yield from _pairs(parsed, scene)
+
+
+def _touches(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     """Every mistake in the sound contacts."""
     first: dict[tuple[Anchor, str], str] = {}
     for name, contact in parsed.file.scene.contacts.items():
         path = ("scene", "contacts", name)
         if name in scene.pairs:
-            continue  # see pair.py
+            continue
         touching, plane = contact.between
         part, _, point = touching.partition(".")
         body = scene.bodies.get(part)
@@ -34,7 +46,7 @@ def touches(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         yield from _plane(parsed, (*path, "between", 1), plane)
 
 
-def planes(parsed: Parsed) -> Iterator[Finding]:
+def _planes(parsed: Parsed) -> Iterator[Finding]:
     """Names of planes that mean something else already."""
     for name in parsed.file.scene.planes:
         path = ("scene", "planes", name)
@@ -112,6 +124,111 @@ def cannot_touch(body: Body, point: str) -> str | None:
         points = ", ".join(f"{body.name}.{p}" for p in body.points if p != CENTER)
         what = f"touches with one point: {points}" if points else "needs `points` to touch with"
         return f"{body.name!r} is a {body.shape} and {what}"
+    if point not in body.points:
+        return f"body {body.name!r} has no point {point!r}{nearest(point, body.points)}"
+    return None
+
+
+# Contacts of two bodies.
+
+
+GROUNDS = "is for a plane of the ground: two bodies roll, slip and part as friction says"
+
+
+def _pairs(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
+    """Every mistake in the sound contacts of two bodies."""
+    first: dict[frozenset[str], str] = {}
+    for name, pair in scene.pairs.items():
+        written: Contact = parsed.file.scene.contacts[name]
+        path = ("scene", "contacts", name)
+        for key in ("ideal", "ahead_of"):
+            if getattr(written, key) is not None:
+                yield (*path, key), GROUNDS
+        unsound = [*_between(parsed, scene, (*path, "between"), pair, written.between)]
+        yield from unsound
+        both = frozenset(written.between)
+        if both in first and not unsound:
+            what = f"{' and '.join(written.between)} already touch in {first[both]!r}"
+            yield (*path, "between"), what
+        first.setdefault(both, name)
+
+
+def _between(
+    parsed: Parsed, scene: Scene, path: Path, pair: Pair, words: tuple[str, str]
+) -> Iterator[Finding]:
+    """Yields what is wrong with the two bodies of a pair that touch."""
+    if pair.body == GROUND:
+        yield path, f"the ground stands second: [{words[1]}, {words[0]}]"
+    elif pair.body not in scene.bodies:
+        if not parsed.hides(pair.body):
+            hint = nearest(pair.body, parsed.names("bodies", scene.bodies))
+            yield (*path, 0), f"unknown body {pair.body!r}{hint}"
+    elif pair.body == pair.touched:
+        yield path, f"{pair.body!r} touches itself"
+    elif what := _unable(scene.bodies[pair.body], words[0].partition(".")[2]):
+        yield (*path, 0), what
+    elif what := _untouchable(scene.bodies[pair.touched], pair):
+        yield (*path, 1), what
+
+
+def _unable(body: Body, point: str) -> str | None:
+    """Why this point of the body ("": none is named) cannot touch another body, or None."""
+    if body.tips:
+        return f"{body.name!r} has spokes, which touch planes of the ground only"
+    return cannot_touch(body, point)
+
+
+def _untouchable(body: Body, pair: Pair) -> str | None:
+    """Why nothing can touch the body there, or None."""
+    if body.radius is not None:
+        where = f"{body.name}.{pair.face}"
+        return pair.face and f"should be {body.name!r}, touched on its rim, is {where!r}"
+    if body.size is None:
+        what = f"{body.name!r} is a {body.shape} and has no rim and no side"
+        return f"{what}: touched are disks, blocks, and planes of the ground"
+    if pair.face not in FACES:
+        sides = ", ".join(f"{body.name}.{face}" for face in FACES)
+        return f"{body.name!r} is a block and is touched on a side: {sides}"
+    return None
+
+
+# Contacts in space: what rolls on the floor, or stands there on a point.
+
+
+def _rolls(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
+    """Every mistake in the sound contacts."""
+    first: dict[str, str] = {}
+    for name, contact in parsed.file.scene.contacts.items():
+        path = ("scene", "contacts", name, "between")
+        touching, floor = contact.between
+        part, _, point = touching.partition(".")
+        body = scene.bodies.get(part)
+        if body is None:
+            if not parsed.hides(part):
+                hint = nearest(part, parsed.names("bodies", scene.bodies))
+                yield (*path, 0), f"unknown body {part!r}{hint}"
+        elif contact.ideal == "pivot":
+            if what := _no_pivot(body, point):
+                yield (*path, 0), what
+        elif body.radius is None:
+            round_ = "a disk, a sphere or a rigid body with a `radius`"
+            yield (*path, 0), f"{part!r} is a {body.shape}; in space only {round_} rolls"
+        elif point:
+            with_it = "with its rim" if body.axle else "anywhere"
+            yield (*path, 0), f"{part!r} touches {with_it}: write {part!r}"
+        elif part in first:
+            yield (*path, 0), f"{part!r} already touches in {first[part]!r}"
+        first.setdefault(part, name)
+        if floor != f"{GROUND}.{FLOOR}":
+            yield (*path, 1), f"should be {GROUND}.{FLOOR}, is {floor!r}"
+
+
+def _no_pivot(body: Body, point: str) -> str | None:
+    """Why the body cannot stand on the point."""
+    if not body.turns:
+        return f"{body.name!r} is a particle: a pivot lets a body turn about its point"
+    if not point:
+        return f"a pivot is a point: write '{body.name}.point'"
     if point not in body.points:
         return f"body {body.name!r} has no point {point!r}{nearest(point, body.points)}"
     return None

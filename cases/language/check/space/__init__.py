@@ -1,1 +1,0 @@
-"""Checks that a scene in space fits together, where it is not as in the plane."""

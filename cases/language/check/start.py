@@ -1,0 +1,224 @@
+"""How bodies, joints and edges start, and guesses: what may be given of each, in which units."""
+
+from collections.abc import Iterator, Mapping
+
+from ...fields.number import Amount, NumberMistake, fitting, shown
+from ...mistake import Path, listed, nearest
+from ...scene import GROUND, Anchor, Scene
+from ...scene.body import Body
+from ...scene.joint import WORDS, Joint
+from ...scene.point import anchor
+from ..grammar.start import Initial, Near, SpatialStart, Vector
+from ..parse import Finding, Parsed
+from .anchor import no_point
+
+
+def starts(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
+    """Every mistake in the sound starts and guesses."""
+    for key in ("initial", "near"):
+        if scene.frame.dimension == 3:
+            yield from _in_space(parsed, scene, key)
+        else:
+            yield from _placed(parsed, scene, key, getattr(parsed.file, key))
+    if scene.frame.dimension == 2:
+        yield from _speeds(parsed, scene)
+        yield from _polar(parsed, scene)
+        yield from _posed(parsed, scene)
+
+
+def _nobody(parsed: Parsed, scene: Scene, key: str, name: str) -> str:
+    """A start may be given by a joint, a guess only by a body."""
+    known = parsed.names("bodies", scene.bodies)
+    if key == "near" and name in scene.joints:
+        return f"{name!r} is a joint; a guess is given by a body"
+    if key == "initial":
+        known += parsed.names("joints", scene.joints)
+    kinds = "body or joint" if key == "initial" else "body"
+    return f"unknown {kinds} {name!r}{nearest(name, known)}"
+
+
+def _placed(
+    parsed: Parsed, scene: Scene, key: str, places: Mapping[str, Near]
+) -> Iterator[Finding]:
+    for name, place in places.items():
+        if key == "initial" and (name in scene.constraints or name in scene.joints):
+            continue
+        if name not in scene.bodies:
+            if not parsed.hides(name):
+                yield (key, name), _nobody(parsed, scene, key, name)
+            continue
+        for point in place.places:
+            if point not in scene.bodies[name].points:
+                yield from no_point(parsed, scene, (key, name, point), Anchor(name, point))
+        for i, point in enumerate(place.stands_on):
+            path = (key, name, "on", i) if len(place.stands_on) > 1 else (key, name, "on")
+            yield from no_point(parsed, scene, path, Anchor(name, point))
+        for turning in ("angle", "omega"):
+            if not scene.bodies[name].turns and getattr(place, turning, None) is not None:
+                yield (key, name, turning), f"{name!r} is a particle and cannot turn"
+
+
+# The speeds with which edges start.
+
+
+def _speeds(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
+    for name, start in parsed.file.initial.items():
+        given = sorted(start.keys)
+        if name not in scene.constraints:
+            if "speed" in given and name not in scene.joints:
+                what = "only an edge or a joint that slides starts with a `speed`"
+                yield ("initial", name, "speed"), what
+            continue
+        for key in given:
+            if key != "speed":
+                yield ("initial", name, key), f"{name!r} is an edge and starts with a `speed`"
+            elif scene.constraints[name].speed is not None:
+                yield ("initial", name, key), f"the speed of {name!r} is prescribed"
+
+
+# Starts that give a place by its distance from a point of the ground, in some direction.
+
+
+KEYS = ("from", "length", "direction")
+
+
+def _polar(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
+    """Every mistake in the sound starts."""
+    for name, start in parsed.file.initial.items():
+        given = [key for key in KEYS if key in start.keys]
+        if not given or name not in scene.bodies:
+            continue
+        for key in (key for key in KEYS if key not in given):
+            yield ("initial", name), f"needs `{key}` beside {' and '.join(given)}"
+        for key in sorted({"x", "y", *start.places} & start.keys):
+            yield ("initial", name, key), "cannot stand beside `from`, which gives the place too"
+        yield from _origin(parsed, scene, name, start)
+
+
+def _origin(parsed: Parsed, scene: Scene, name: str, start: Initial) -> Iterator[Finding]:
+    if start.from_ is None:
+        return
+    at, path = anchor(start.from_), ("initial", name, "from")
+    if at.body != GROUND:
+        yield path, f"should be a point of the ground, is {start.from_!r}"
+    elif at.point not in scene.points and not parsed.hides(at.point, ("points",)):
+        known = parsed.names("points", scene.points)
+        yield path, f"the ground has no point {at.point!r}{nearest(at.point, known)}"
+
+
+# Starts by joints: only the coordinates that a joint has can be given, and their rates.
+
+
+def _posed(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
+    """Every mistake in starts by sound joints, and the shift of what is no joint."""
+    left = scene.coordinates()
+    for name, start in parsed.file.initial.items():
+        if name not in scene.joints:
+            if "shift" in start.model_fields_set:
+                yield ("initial", name, "shift"), "only a joint that slides starts with a `shift`"
+            continue
+        kind = scene.joints[name].kind
+        for key in (*start.given, *start.places):
+            if key not in left[name]:
+                yield ("initial", name, key), _unknown(name, kind, key, list(left[name]))
+
+
+def _unknown(name: str, kind: str, key: str, known: list[str]) -> str:
+    if not known:
+        return f"{name!r} is a {kind} and leaves nothing that could be given"
+    if key in WORDS:
+        return f"{name!r} is a {kind} and has no {key}; it starts by {' and '.join(known)}"
+    return f"{name!r} is a {kind} and starts by {' and '.join(known)}{nearest(key, known)}"
+
+
+# In space: places, attitudes and rates of bodies, and coordinates of joints.
+
+
+_TURNING = ("attitude", "omega")
+_PLACES = dict.fromkeys("xyz", "m")
+_RATES = dict.fromkeys(("vx", "vy", "vz"), "m/s")
+
+
+def _in_space(parsed: Parsed, scene: Scene, key: str) -> Iterator[Finding]:
+    """Every mistake in `initial`, or in `near`, which takes places only."""
+    rates = key == "initial"
+    written: Mapping[str, SpatialStart] = getattr(parsed.file, key)
+    for name, start in written.items():
+        if name in scene.bodies:
+            yield from _of_body((key, name), scene.bodies[name], start, rates=rates)
+        elif name in scene.joints:
+            yield from _of_joint((key, name), scene.joints[name], start, rates=rates)
+        elif not parsed.hides(name, ("bodies", "joints")):
+            known = [*parsed.names("bodies", scene.bodies), *parsed.names("joints", scene.joints)]
+            yield (key, name), f"unknown body or joint {name!r}{nearest(name, known)}"
+
+
+def _of_body(path: Path, body: Body, start: SpatialStart, *, rates: bool) -> Iterator[Finding]:
+    units = {**_PLACES, **(_RATES if rates else {})}
+    keys = [*units, "attitude", *(["omega"] if rates else [])]
+    given = [*start.entries, *([] if start.attitude is None else ["attitude"])]
+    for key in (key for key in given if key in keys and key in _TURNING and not body.turns):
+        yield (*path, key), f"{body.name!r} is a particle and cannot turn"
+    for key, entry in start.entries.items():
+        if key in units:
+            yield from _number((*path, key), entry, units[key])
+        elif key == "omega" and rates:
+            yield from _vector((*path, key), entry, "rad/s") if body.turns else ()
+        elif key in body.points:
+            yield from _vector((*path, key), entry, "m")
+        elif key == "angle":
+            yield (*path, key), "a body in space has no angle; it has an `attitude: {axis, angle}`"
+        elif isinstance(entry, tuple) and key not in ("omega", *_RATES):
+            hint = nearest(key, body.points)
+            yield (*path, key), f"body {body.name!r} has no point {key!r}{hint}"
+        else:
+            yield (*path, key), _no_key(key, [k for k in keys if k not in given])
+
+
+def _of_joint(path: Path, joint: Joint, start: SpatialStart, *, rates: bool) -> Iterator[Finding]:
+    ball = any(f.kind == "ball" for f in joint.freedoms)
+    units = {f.name: f.unit for f in joint.named}
+    if rates:
+        units |= {name: f"{units[f.name]}/s" for name, f in joint.rates.items()}
+    keys = [*units, *(["attitude"] if ball else []), *(["omega"] if ball and rates else [])]
+    if start.attitude is not None and not ball:
+        yield (*path, "attitude"), _no_key("attitude", keys, joint.kind)
+    for key, entry in start.entries.items():
+        if key in units:
+            yield from _number((*path, key), entry, units[key])
+        elif key in keys:
+            yield from _vector((*path, key), entry, "rad/s")
+        else:
+            yield (
+                (*path, key),
+                _no_key(key, [k for k in keys if k not in start.entries], joint.kind),
+            )
+
+
+def _no_key(key: str, known: list[str], kind: str = "") -> str:
+    if kind and not known:
+        return f"unknown key {key!r}; of this {kind} nothing more can be given"
+    close = nearest(key, known)
+    return f"unknown key {key!r}{close if 'did you mean' in close else listed(known)}"
+
+
+def _number(path: Path, entry: Amount | Vector, unit: str) -> Iterator[Finding]:
+    if isinstance(entry, tuple):
+        yield path, f"should be a number, is {shown(entry)}"
+    else:
+        yield from _fits(path, entry, unit)
+
+
+def _vector(path: Path, entry: Amount | Vector, unit: str) -> Iterator[Finding]:
+    if not isinstance(entry, tuple):
+        yield path, f"should be a list of 3, is {entry.text or f'the number {entry.value:g}'}"
+        return
+    for i, amount in enumerate(entry):
+        yield from _fits((*path, i), amount, unit)
+
+
+def _fits(path: Path, amount: Amount, unit: str) -> Iterator[Finding]:
+    try:
+        fitting(amount, unit)
+    except NumberMistake as mistake:
+        yield path, str(mistake)
