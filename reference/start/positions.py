@@ -101,7 +101,7 @@ class _Near:
 def _seeds(closure: Closure, count: int, around: _Near | None = None) -> Iterator[Array]:
     """Guesses with the free angles anywhere; without free angles the equations are linear.
 
-    around: what is near is kept.
+    around: what is near is kept, ever less so.
     """
     angles = [i for i in closure.free if closure.turning[i]]
     q = np.zeros(closure.n)
@@ -109,10 +109,17 @@ def _seeds(closure: Closure, count: int, around: _Near | None = None) -> Iterato
     rng = np.random.default_rng(seed=1)  # any: the same starts in every run
     rods = any(joint.swings for joint in closure.case.scene.joints.values())
     places = [i for i in closure.free if not closure.turning[i]] if rods else []
-    for _ in range(count if angles or places else 0):
+    for k in range(count if angles or places else 0):
         q[angles] = rng.uniform(-math.pi, math.pi, len(angles))
         q[places] = closure.reach * rng.uniform(-2.0, 2.0, len(places))
-        yield _laid_out(closure, q) if around is None else _laid_out(closure, around.said(q.copy()))
+        if around is None:
+            yield _laid_out(closure, q)
+        else:
+            beside = np.zeros(closure.n)
+            beside[list(around.numbers)] = 1.0
+            beside[list(closure.given)] = 0.0
+            beside *= closure.units * rng.uniform(-NEAR, NEAR, closure.n) * k / count
+            yield _laid_out(closure, around.said(q.copy()) + beside)
 
 
 def _laid_out(closure: Closure, guess: Array, keep: Collection[int] = ()) -> Array:

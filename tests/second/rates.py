@@ -25,18 +25,21 @@ def rates(now: Now, initial: dict[str, Any]) -> Array:
     for part, says in initial.items():
         given(now, part, says, add)
     u, *_ = np.linalg.lstsq(np.array(W).reshape(-1, now.n), np.array(w), rcond=RANK)
-    for J in [*places_given(now, initial), *np.eye(now.n)]:
+    for J, value in [*places_given(now, initial), *((J, 0.0) for J in np.eye(now.n))]:
         A = np.array([*W, J])
         if np.linalg.matrix_rank(A, tol=RANK) > np.linalg.matrix_rank(A[:-1], tol=RANK):
-            add(J, 0.0)
+            add(J, value)
             u, *_ = np.linalg.lstsq(np.array(W), np.array(w), rcond=RANK)
     return u
 
 
-def places_given(now: Now, initial: dict[str, Any]) -> list[Array]:
-    """The rows of the joints' coordinates whose places are given: their rates come first."""
+def places_given(now: Now, initial: dict[str, Any]) -> list[tuple[Array, float]]:
+    """The rows of the joints' coordinates whose places are given, at rest: these rates come first.
+
+    Against a point of the ground that moves, rest is another rate of the body.
+    """
     return [
-        l.J
+        (l.J, -l.v)
         for part, says in initial.items()
         if part in now.model.joints
         for name, l in now.coordinates[part].items()

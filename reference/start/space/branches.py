@@ -17,20 +17,24 @@ from .closure import SpatialClosure
 from .initial_conditions import attitude
 
 UP, STILL = np.array([UPRIGHT]), np.zeros((1, 3))
-LOCKED = 1e-9  # sine: below, a turn about one axis is not told from one about the other
+LOCKED = 1e-5  # sine: below, rounding moves the turns about either axis by more than 1e-11
 REACHED = 1e-6  # rad: near gimbal lock half of the digits of an angle are lost
 ALIKE = 0.5  # between the cosine of a held axis, 1, and those of its joint turned over, 0 and -1
 
 
 def closes(scene: Scene) -> bool:
     """Whether a joint joins what is joined already, be it on the ground or free of it."""
-    island = {name: name for name in (GROUND, *scene.bodies)}
+    return len(scene.joints) > 1 + len(scene.bodies) - len(chains(scene))
+
+
+def chains(scene: Scene) -> list[set[str]]:
+    """The bodies, and the ground, that joints hold together."""
+    found = [{name} for name in (GROUND, *scene.bodies)]
     for joint in scene.joints.values():
-        one, other = island[joint.a.body], island[joint.b.body]
-        if one == other:
-            return True
-        island = {name: one if at == other else at for name, at in island.items()}
-    return False
+        ends = {joint.a.body, joint.b.body}
+        joined = [chain for chain in found if chain & ends]
+        found = [chain for chain in found if not chain & ends] + [set().union(*joined)]
+    return found
 
 
 def faithful(closure: SpatialClosure, q: Array) -> bool:

@@ -13,7 +13,7 @@ from ...mechanism.constraints.constraint import residuals
 from ...mechanism.constraints.equation_table import Table
 from ...mechanism.modes.spatial_mode import SpatialMultibody
 from ...system import Array
-from .initial_conditions import Equation, Given
+from .initial_conditions import PLACES, Equation, Given
 
 RANK = 1e-9  # singular values below this part of the largest count as zero
 
@@ -34,6 +34,7 @@ class SpatialClosure:
         self.holonomic = np.array([at is not None for each in held for at in each], bool)
         self.given = Given(case, self.mode)
         self.size = size_in_space(case, scene)
+        self.rounding = max(1.0, _reach(case, scene) / self.size)  # of places, in sizes
         self.units = np.where(self.where.turning, 1.0, self.size)
 
     def equations(self, q: Array) -> tuple[Array, Array, list[str]]:
@@ -87,13 +88,15 @@ def size_in_space(case: Case, scene: Scene) -> float:
     lengths += [body.radius for body in scene.bodies.values() if body.radius]
     if largest := max(lengths, default=0.0):
         return largest
+    return _reach(case, scene)
+
+
+def _reach(case: Case, scene: Scene) -> float:
+    """The largest given distance [m] from the origin: what rounding is relative to."""
     reach = [abs(x) for p in scene.points.values() for x in p.at]
-    reach += [
-        abs(x)
-        for p in case.initial.values()
-        for key, x in p.given.items()
-        if key in ("x", "y", "z")
-    ]
+    starts = case.initial.values()
+    reach += [abs(x) for p in starts for key, x in p.given.items() if key in PLACES]
+    reach += [abs(x) for p in starts for place in p.points.values() for x in place]
     return max(reach, default=1.0) or 1.0
 
 

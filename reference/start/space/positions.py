@@ -1,16 +1,20 @@
 """The positions at the start in space: Newton's method from a guess, and other ways to assemble."""
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from ....cases.case import Case, Placement
+from ....cases.case import Placement
+from ....cases.scene import GROUND
+from ....cases.scene.rotation import about, product
 from ...system import Array
 from . import refusal
-from .branches import closes, faithful, locked, past_lock, unreached
+from .branches import chains, closes, faithful, locked, past_lock, unreached
 from .closure import SpatialClosure, least, null
 from .guess import laid_out
+from .initial_conditions import PLACES
 from .ways import alike, distance, none_near, several_ways, unnamed
 
 DEAD = 1e-5  # singular values below this part of the largest: there rounding moves the start
@@ -18,7 +22,7 @@ CLOSED = 1e-12  # residual in sizes or rad; Newton reaches rounding or fails
 SEEDS = 40  # starts from which other assemblies are looked for
 SAME = 1e-6  # solutions nearer than this (in sizes and rad) are the same one
 NEAR = 0.5  # rad or sizes: of ways this close to `near` only nearer ones are looked for
-BESIDE = 12  # starts that have what is near: two ways this close draw about as many each
+BESIDE = 20  # starts around it, ever farther: two ways this close draw about as many each
 FAR = np.pi / 2  # rad, or as many sizes: what `near` says and is so far off, is a mistake
 STEPS = 50  # of Newton: quadratic, more only where nothing closes
 LONGEST = 1.0  # size or rad in one step
@@ -34,17 +38,14 @@ def positions(closure: SpatialClosure) -> Array:
     """
     for joint, angle in locked(closure):
         raise refusal.locked(closure.case, joint, angle)
-    placed = _together(closure.case)
     nearest: tuple[float, Array] | None = None
     ways: list[Array] = []
-    for tried, seeds in enumerate(_seeds(closure)):
-        q, gap = _newton(closure, laid_out(closure.where, placed, seeds))
+    for guess in _guesses(closure, ways):
+        q, gap = _newton(closure, guess)
         if nearest is None or gap < nearest[0]:
             nearest = gap, q
-        if gap < CLOSED and faithful(closure, q) and _new(closure, q, ways):
+        if gap < CLOSED * closure.rounding and faithful(closure, q) and _new(closure, q, ways):
             ways.append(q)
-        if ways and (not _loops(closure) or (tried >= BESIDE and _near(closure, ways))):
-            break
     assert nearest is not None
     if not ways and not np.isfinite(nearest[0]):
         raise refusal.flat(closure.case)
@@ -64,11 +65,6 @@ def positions(closure: SpatialClosure) -> Array:
     for joint in unreached(closure, ways[0]):
         raise refusal.unreached(closure.case, joint)
     return ways[0]
-
-
-def _near(closure: SpatialClosure, ways: list[Array]) -> bool:
-    """Whether one is so near to what `near` says that only nearer ones would matter."""
-    return bool(closure.case.near) and min(distance(closure, q) for q in ways) < NEAR
 
 
 def nearest_ways(closure: SpatialClosure, ways: list[Array]) -> list[Array]:
@@ -91,42 +87,91 @@ def _least(ways: list[Array], sizes: Sequence[float]) -> list[Array]:
     return [q for q, size in zip(ways, sizes, strict=True) if size < min(sizes) + SAME]
 
 
-def _together(case: Case) -> dict[str, Placement]:
+def _guesses(closure: SpatialClosure, ways: list[Array]) -> Iterator[Array]:
+    """First guesses of q: what is near, some beside it, and any; ways: what was found of them.
+
+    Where one way is so near to what `near` says that only nearer ones would matter, the last are
+    left out.
+    """
+    case, where = closure.case, closure.where
+    rng = np.random.default_rng(seed=1)  # any: the same starts in every run
+    yield laid_out(where, _together(case.initial, case.near), {})
+    if ways and not _several(closure):
+        return
+    for k in range(BESIDE if case.near else 0):
+        beside = _beside(closure, k / BESIDE * NEAR, rng)
+        yield laid_out(where, _together(case.initial, beside), _anywhere(closure, rng))
+    if case.near and ways and min(distance(closure, q) for q in ways) < NEAR:
+        return
+    for _ in range(SEEDS):
+        yield laid_out(where, case.initial, _anywhere(closure, rng))
+
+
+def _together(
+    initial: Mapping[str, Placement], near: Mapping[str, Placement]
+) -> dict[str, Placement]:
     """The placements by name: what is given, and what is near where nothing is given."""
-    both = {**case.near, **case.initial}
-    for name in case.near.keys() & case.initial.keys():
-        near, given = case.near[name], case.initial[name]
+    both = {**near, **initial}
+    for name in near.keys() & initial.keys():
+        guess, given = near[name], initial[name]
         both[name] = replace(
             given,
-            given={**near.given, **given.given},
-            points={**near.points, **given.points},
-            attitude=given.attitude or near.attitude,
+            given={**guess.given, **given.given},
+            points={**guess.points, **given.points},
+            attitude=given.attitude or guess.attitude,
         )
     return both
 
 
-def _loops(closure: SpatialClosure) -> bool:
-    """Whether joints close loops, or points are placed: then there may be several ways."""
-    return (
-        closes(closure.scene)
-        or any(p.points for p in closure.case.initial.values())
-        or (len(closure.scene.contacts) > 0)
-    )
+def _several(closure: SpatialClosure) -> bool:
+    """Whether there may be several ways: joints close a loop, or more holds a chain than its root.
+
+    Its root is the ground, or a body that is placed by itself.
+    """
+    scene, own = closure.scene, {n: p for n, p in closure.case.initial.items() if _places(p)}
+    if closes(scene) or scene.contacts or any(p.points for p in own.values()):
+        return True
+    return any(len(roots & {GROUND, *own}) > 1 for roots in chains(scene))
 
 
-def _seeds(closure: SpatialClosure) -> Iterator[Seeds]:
-    """Coordinates of joints: none, and then anywhere."""
-    yield {}
-    rng = np.random.default_rng(seed=1)  # any: the same starts in every run
-    for _ in range(SEEDS):
-        yield {
-            joint.name: {
-                freedom.name or f"#{i}": float(rng.uniform(-np.pi, np.pi))
-                for i, freedom in enumerate(joint.freedoms)
-                if freedom.kind == "turn"
-            }
-            for joint in closure.scene.joints.values()
+def _places(placement: Placement) -> bool:
+    """Whether it says where a body is, be it by one number."""
+    placed = placement.points or placement.attitude is not None
+    return bool(placed) or any(axis in placement.given for axis in PLACES)
+
+
+def _anywhere(closure: SpatialClosure, rng: np.random.Generator) -> Seeds:
+    """Turns of joints anywhere."""
+    return {
+        joint.name: {
+            freedom.name or f"#{i}": float(rng.uniform(-np.pi, np.pi))
+            for i, freedom in enumerate(joint.freedoms)
+            if freedom.kind == "turn"
         }
+        for joint in closure.scene.joints.values()
+    }
+
+
+def _beside(closure: SpatialClosure, far: float, rng: np.random.Generator) -> dict[str, Placement]:
+    """What is near, but off by up to `far`, in rad or sizes."""
+
+    def off(turns: bool = False) -> float:
+        return float(rng.uniform(-far, far)) * (1.0 if turns else closure.size)
+
+    found: dict[str, Placement] = {}
+    for name, near in closure.case.near.items():
+        joint = closure.scene.joints.get(name)
+        turns = {} if joint is None else {f.name: f.kind == "turn" for f in joint.named}
+        given = {key: x + off(turns.get(key, False)) for key, x in near.given.items()}
+        points = {key: tuple(x + off() for x in place) for key, place in near.points.items()}
+        e = near.attitude
+        if e is not None:
+            x, y, z = rng.normal(size=3).tolist()
+            size = math.hypot(x, y, z)
+            turn = about((x / size, y / size, z / size), off(turns=True))
+            e = tuple(product(np.array(e), np.array(turn)).tolist())
+        found[name] = replace(near, given=given, points=points, attitude=e)
+    return found
 
 
 def _newton(closure: SpatialClosure, q: Array) -> tuple[Array, float]:
@@ -136,7 +181,7 @@ def _newton(closure: SpatialClosure, q: Array) -> tuple[Array, float]:
             residual, rows, _ = closure.equations(q)
         if not np.all(np.isfinite(residual)):
             return q, np.inf
-        if np.max(np.abs(residual), initial=0.0) < 1e-3 * CLOSED:
+        if np.max(np.abs(residual), initial=0.0) < 1e-3 * CLOSED * closure.rounding:
             break
         change = least(rows, residual)
         largest = float(np.max(np.abs(change), initial=0.0))

@@ -27,48 +27,53 @@ def rates(closure: SpatialClosure, q: Array) -> Array:
     rows = np.vstack([rows, *(e.row for e in found)])
     right = np.concatenate([g, [-e.residual for e in found]])
     names = [*closure.owners, *(e.name for e in found)]
+    left = _left(closure, q, rows)
+    held, more = (rows, right), np.array([e.row for e in left]).reshape(-1, closure.where.size)
+    rows = np.vstack([rows, more])
+    right = np.concatenate([right, [-e.residual for e in left]])
     still = _still(closure, found)
-    carried = any(equation.residual for equation in _joints(closure, q))  # by a point that moves
-    if not carried and not _violated(rows, right, still):
+    if not _violated(rows, right, still):
         return still
-    rows, right, names = _at_rest(closure, q, rows, right, names)
+    v = _least(closure, *held)
+    if _violated(*held, v):
+        residual = np.abs(held[0] @ v - held[1])
+        raise messages.rates_violate(closure.case, names[int(np.argmax(residual))])
+    for columns in _unsaid(closure, rows, right):
+        rows = np.vstack([rows, np.eye(closure.where.size)[columns]])
+        right = np.append(right, np.zeros(len(columns)))
+    v = _least(closure, rows, right)
+    if _violated(rows, right, v):
+        count = rank(np.vstack([held[0], more]) * closure.units) - rank(held[0] * closure.units)
+        raise messages.missing(closure.case, count, [e.name for e in left])
+    loose = null(rows * closure.units, closure.where.size)
+    return _resting(closure, rows, right, loose) if len(loose) else v
+
+
+def _least(closure: SpatialClosure, rows: Array, right: Array) -> Array:
+    """v (n,) that satisfies the rows, or nearly; once more of what rounding has left."""
     units = closure.units
     v = units * least(rows * units, right)
-    v = v + units * least(rows * units, right - rows @ v)
-    if _violated(rows, right, v):
-        worst = names[int(np.argmax(np.abs(rows @ v - right)))]
-        raise messages.rates_violate(closure.case, worst)
-    loose = null(rows * units, closure.where.size)
-    return _resting(closure, rows, right, loose) if len(loose) else v
+    return v + units * least(rows * units, right - rows @ v)
+
+
+def _left(closure: SpatialClosure, q: Array, rows: Array) -> list[Equation]:
+    """The joints' rates that nobody gives and nothing determines: all of them are to be 0."""
+    units, known = closure.units, rank(rows * closure.units)
+    return [
+        equation
+        for equation in _joints(closure, q)
+        if rank(np.vstack([rows, equation.row]) * units) > known
+    ]
 
 
 def _resting(closure: SpatialClosure, rows: Array, right: Array, loose: Array) -> Array:
     """With 0 for every rate that is still open, if all else allows that."""
     still = np.eye(closure.where.size)[refusal.open_columns(loose)]
     rows, right = np.vstack([rows, still]), np.append(right, np.zeros(len(still)))
-    units = closure.units
-    v = units * least(rows * units, right)
-    v = v + units * least(rows * units, right - rows @ v)
+    v = _least(closure, rows, right)
     if _violated(rows, right, v):
         raise refusal.rates_open(closure, loose)
     return v
-
-
-def _at_rest(
-    closure: SpatialClosure, q: Array, rows: Array, right: Array, names: list[str]
-) -> tuple[Array, Array, list[str]]:
-    """With them, one by one, the joints' rates that are still open: they are 0."""
-    units = closure.units
-    for equation in _joints(closure, q):
-        more = np.vstack([rows, equation.row])
-        if rank(more * units) > rank(rows * units):
-            rows, right = more, np.append(right, -equation.residual)
-            names = [*names, equation.name]
-    for columns in _unsaid(closure, rows, right):
-        still = np.eye(closure.where.size)[columns]
-        rows, right = np.vstack([rows, still]), np.append(right, np.zeros(len(columns)))
-        names = [*names, *([""] * len(columns))]
-    return rows, right, names
 
 
 def _unsaid(closure: SpatialClosure, rows: Array, right: Array) -> Iterator[list[int]]:

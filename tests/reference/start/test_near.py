@@ -101,3 +101,103 @@ def test_what_does_not_decide_is_refused_in_space(tmp_path: Path) -> None:
     (mistake,) = caught.value.mistakes
     assert mistake.where == "near.bearing.angle"
     assert "cannot be assembled near this: bearing.angle is " in mistake.what
+
+
+ROD = """\
+scene:
+  space: 3
+  points: {O: [0, 0, 0]}
+  bodies: {rod: {bar: {mass: 1.0, length: 1.0}}}
+  joints: {q: {hinge: [ground.O, rod.start], axis: [0, -1, 0]}}
+initial: {rod: {x: 0.3}}
+NEAR
+allow: {rod.z: 1.0e-3}
+"""
+
+
+def test_a_chain_that_a_body_holds_may_have_two_ways(tmp_path: Path) -> None:
+    """A rod by its x alone is up or down, though nothing closes a loop."""
+    with pytest.raises(CaseError, match=r"can be assembled in 2 ways: q\.angle"):
+        start_poses(typed(tmp_path, ROD.replace("NEAR\n", "")))
+    for z in (0.4, 0.1, -0.1, -0.4):
+        pose = start_poses(typed(tmp_path, ROD.replace("NEAR", f"near: {{rod: {{z: {z}}}}}")))
+        assert pose["rod"][2] == pytest.approx(math.copysign(0.4, z), abs=1e-12)
+
+
+WRIST = """\
+scene:
+  space: 3
+  points: {O: [0, 0, 0]}
+  bodies:
+    a: {sphere: {mass: 1.0, radius: 0.1}}
+    b: {sphere: {mass: 1.0, radius: 0.1}}
+    c: {sphere: {mass: 1.0, radius: 0.1}}
+  joints:
+    q1: {hinge: [ground.O, a.center], axis: [0, 0, 1]}
+    q2: {hinge: [a.center, b.center], axis: [0, 1, 0]}
+    q3: {hinge: [b.center, c.center], axis: [0, 0, 1]}
+initial:
+  c: {attitude: [{axis: [0, 0, 1], angle: 0.5}, {axis: [0, 1, 0], angle: 0.7},
+                 {axis: [0, 0, 1], angle: -0.4}]}
+near: {q2: {angle: NEAR}}
+allow: {q2.angle: 1.0e-3}
+"""
+
+
+@pytest.mark.parametrize("near", [0.6, -0.6])
+def test_a_wrist_that_an_attitude_holds_has_two(near: float, tmp_path: Path) -> None:
+    """Euler's angles (ψ, θ, φ) and (ψ + π, −θ, φ + π) make one attitude."""
+    w, x, y, z = start_poses(typed(tmp_path, WRIST.replace("NEAR", str(near))))["a"][3:7]
+    assert (x, y) == pytest.approx((0.0, 0.0), abs=1e-12)
+    turned = math.remainder(2 * math.atan2(z, w) - 0.5, math.tau)
+    assert abs(turned) == pytest.approx(0.0 if near > 0 else math.pi, abs=1e-12)
+
+
+PAIR = """\
+scene:
+  space: 3
+  points: {O: [0, 0, 0], Q: [0.8, 0, 0]}
+  bodies:
+    a: {block: {mass: 1.0, size: [0.5, 0.1, 0.1]}, points: {s: [-0.25, 0, 0], e: [0.25, 0, 0]}}
+    b: {block: {mass: 1.0, size: [0.5, 0.1, 0.1]}, points: {s: [-0.25, 0, 0], e: [0.25, 0, 0]}}
+  joints:
+    q1: {hinge: [ground.O, a.s], axis: [0, -1, 0]}
+    q2: {hinge: [a.e, b.s], axis: [0, -1, 0]}
+    end: {freedoms: {u: {slide: [0, 1, 0]}, g: {hinge: [1, 0, 0]}, h: {hinge: [0, 1, 0]},
+                     k: {hinge: [1, 0, 0]}}, of: [ground.Q, b.e]}
+initial: {}
+near: {q1: {angle: FIRST}, q2: {angle: SECOND}}
+allow: {a.x: 1.0e-3}
+"""
+BETA = math.acos(0.8)  # of two equal links that reach 0.8 of their length: q1 = ±β, q2 = ∓2β
+
+
+def pair(folder: Path, first: float, second: float) -> float:
+    text = PAIR.replace("FIRST", repr(first)).replace("SECOND", repr(second))
+    w, _, y, _ = start_poses(typed(folder, text))["a"][3:7]
+    return -2 * math.atan2(y, w)
+
+
+@pytest.mark.mutant("in space all starts of the search are what is near")
+@pytest.mark.parametrize(
+    ("first", "second"), [(0.0, 0.1), (0.0, -0.1), (-0.4, -0.3), (0.9, 0.2), (-1.5, 0.0)]
+)
+def test_near_that_names_every_turn_is_a_guess_all_the_same(
+    first: float, second: float, tmp_path: Path
+) -> None:
+    """Of all that it says the worst counts; at (0, 0), straight, Newton finds no way at all."""
+    off = {sign: max(abs(first - sign * BETA), abs(second + 2 * sign * BETA)) for sign in (1, -1)}
+    found = pair(tmp_path, first, second)
+    assert found == pytest.approx(min(off, key=off.__getitem__) * BETA, abs=1e-9)
+
+
+def test_in_the_middle_of_all_turns_it_decides_nothing(tmp_path: Path) -> None:
+    with pytest.raises(CaseError, match="can be assembled in 2 ways"):
+        pair(tmp_path, 0.0, 0.0)
+
+
+def test_far_from_the_origin_rounding_is_a_place(tmp_path: Path) -> None:
+    """At 10 km a place has twelve digits of a metre, and the loop is closed to that."""
+    far = PAIR.replace("[0, 0, 0], Q: [0.8, 0, 0]", "[10000, 0, 0], Q: [10000.8, 0, 0]")
+    text = far.replace("FIRST", "0.6").replace("SECOND", "-1.2")
+    assert start_poses(typed(tmp_path, text))["a"][0] == pytest.approx(10000.2, abs=1e-10)

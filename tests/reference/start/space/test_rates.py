@@ -7,6 +7,7 @@ import pytest
 from given.scenes import typed
 from scipy.spatial.transform import Rotation
 
+from textmech.cases.mistake import CaseError
 from textmech.reference.mechanism.kinematics.spatial_coordinates import SpatialCoordinates
 from textmech.reference.start.space import initial_conditions as module
 from textmech.reference.start.space.assembly import assemble_in_space
@@ -120,3 +121,79 @@ def test_rates_in_the_axes_of_the_other_part_are_seen(
 def test_a_rate_against_the_ground_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module.Given, "_driven", lambda self, anchor: np.zeros(3))
     assert on_hook(tmp_path) > 0.1
+
+
+CARRIED = """\
+scene:
+  space: 3
+  gravity: none
+  bodies: {a: {sphere: {mass: 1.0, radius: 0.1}}, b: {sphere: {mass: 1.0, radius: 0.1}}}
+  joints: {q: {JOINT}}
+initial: {a: {x: 0, y: 0, z: 0, attitude: {axis: [0, 0, 1], angle: 0}, RATE}, q: {PLACE}}
+allow: {a.x: 1.0e-3}
+"""
+
+
+@pytest.mark.mutant("what is carried stands still where the rows allow it")
+@pytest.mark.parametrize(
+    ("joint", "rate", "place", "field", "wanted"),
+    [
+        ("hinge: [a.center, b.center], axis: [0, 0, 1]", "omega: [0, 0, 3]", "angle: 0.5", 12, 3.0),
+        ("slide: [a.center, b.center], along: [1, 0, 0]", "vx: 1.5", "shift: 0.5", 7, 1.5),
+    ],
+)
+def test_a_joint_whose_rate_nobody_gives_carries_along(
+    joint: str, rate: str, place: str, field: int, wanted: float, tmp_path: Path
+) -> None:
+    """Where the axis is the one about which the first part turns, the second could stand still."""
+    text = CARRIED.replace("JOINT", joint).replace("RATE", rate).replace("PLACE", place)
+    case = typed(tmp_path, text)
+    poses = SpatialCoordinates(case.scene).poses(*assemble_in_space(case, case.scene))
+    assert poses["b"][field] == pytest.approx(wanted, abs=KNOWN)
+
+
+LOOP = """\
+scene:
+  space: 3
+  points: {O: [0, 0, 0], Q: {at: [0.9, 0, 0.3], velocity: [VELOCITY]}}
+  bodies:
+    b1: {block: {mass: 1.0, size: [0.5, 0.1, 0.1]}, points: {s: [-0.25, 0, 0], e: [0.25, 0, 0]}}
+    b2: {block: {mass: 1.0, size: [0.5, 0.1, 0.1]}, points: {s: [-0.25, 0, 0], e: [0.25, 0, 0]}}
+    b3: {block: {mass: 1.0, size: [0.5, 0.1, 0.1]}, points: {s: [-0.25, 0, 0], e: [0.25, 0, 0]}}
+  joints: {JOINTS}
+initial: {q1: {angle: 1.2GIVEN}}
+near: {q2: {angle: -1.0}, q3: {angle: -0.8}}
+allow: {b1.x: 1.0e-3}
+"""
+LINKS = (
+    "q1: {hinge: [ground.O, b1.s], axis: [0, -1, 0]}",
+    "q2: {hinge: [b1.e, b2.s], axis: [0, -1, 0]}",
+    "q3: {hinge: [b2.e, b3.s], axis: [0, -1, 0]}",
+    "end: {freedoms: {u: {slide: [0, 1, 0]}, g: {hinge: [1, 0, 0]}, h: {hinge: [0, 1, 0]}, "
+    "k: {hinge: [1, 0, 0]}}, of: [ground.Q, b3.e]}",
+)
+
+
+def loop(folder: Path, velocity: str, given: str, joints: tuple[str, ...]) -> Array:
+    """v of a loop of one freedom."""
+    text = LOOP.replace("VELOCITY", velocity).replace("GIVEN", given)
+    case = typed(folder, text.replace("JOINTS", ", ".join(joints)))
+    return assemble_in_space(case, case.scene)[1]
+
+
+@pytest.mark.mutant("joints' rates that are left, 0 one by one in the order of the file")
+@pytest.mark.parametrize("joints", [LINKS, LINKS[::-1]])
+def test_rates_that_cannot_all_be_zero_are_asked_for(
+    joints: tuple[str, ...], tmp_path: Path
+) -> None:
+    """The loop's end is carried along: whichever joint rests, another turns."""
+    with pytest.raises(CaseError, match=r"1 more needed: .*q.\.omega"):
+        loop(tmp_path, "0.3, 0, 0.2", "", joints)
+
+
+def test_a_loop_moves_the_same_in_any_order_of_its_joints(tmp_path: Path) -> None:
+    still = loop(tmp_path, "0, 0, 0", "", LINKS)
+    assert not still.any()
+    one, other = (loop(tmp_path, "0.3, 0, 0.2", ", omega: 0.7", j) for j in (LINKS, LINKS[::-1]))
+    assert one == pytest.approx(other, abs=KNOWN)
+    assert np.max(np.abs(one)) > 0.5
