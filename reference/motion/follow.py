@@ -20,7 +20,7 @@ from ..system import Array, Guard, Mode, System
 from .event_location import INSIDE, TOGETHER, Fall, Within, clear, first
 from .mode_onset import Early
 from .stuck import Stuck, Watched, slope
-from .zeno import MOST, ZenoError, accumulation, ends_here, settles
+from .zeno import MOST, ZenoError, accumulation, ends_here, gone, settles
 
 TOLERANCE = 1e-15  # per step; the integrators do not go below 4 ε, so: as well as doubles can
 STAGES = 5  # of the implicit integrator
@@ -244,8 +244,11 @@ class _Walk:
         parted = self.system.modes[ended].parted(before)
         mode, q, v = guard.then(t, *parted)
         name = guard.event or f"{ended} to {mode}"
-        if self._piles_up(name, t, refused=guard.at_last is None) and guard.at_last is not None:
-            mode, q, v = guard.at_last(t, *parted)
+        following = self._piles_up(name, t, refused=guard.at_last is None)
+        if following is not None and guard.at_last is not None:
+            last = guard.at_last(t, *parted)
+            if gone(v, last[2], self.system.modes[mode].accelerations(t, q, v), following):
+                mode, q, v = last
         self.spent = i if mode == ended else None
         k, after = len(self.fired[name]), np.concatenate([q, v])
         if guard.vain and mode == ended and np.array_equal(before, after):
@@ -262,8 +265,11 @@ class _Walk:
             self.y[-1], self.phase[-1] = self.now, len(self.changes)
         self._keep(on_sample(self.t, self.stops))
 
-    def _piles_up(self, name: str, t: float, *, refused: bool) -> bool:
-        """Whether this was the last of infinitely many; raises ZenoError if that is refused."""
+    def _piles_up(self, name: str, t: float, *, refused: bool) -> float | None:
+        """The next distance [s] if this may be the last of infinitely many, else None.
+
+        Raises ZenoError if that is refused.
+        """
         begin, end = float(self.times[0]), float(self.times[-1])
         self.fired[name].append(t)
         if sum(map(len, self.fired.values())) > MOST:
@@ -275,7 +281,7 @@ class _Walk:
             raise ZenoError(
                 name, t, f"happens without end before {limit:.6g} s (a Zeno sequence), seen"
             )
-        return False
+        return None
 
 
 def _falling(mode: Mode, guard: Guard) -> Fall:

@@ -4,11 +4,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..system import EARLY, LAST
+from ..system import EARLY, LAST, Array
 from .event_location import TOGETHER
 
 MOST = 10_000  # events
 SEEN = 6  # firings of one name from which an accumulation is judged: five distances
+FLIGHTS = 30.0  # of what acts over the next distance, a half of which is turned around: skew axes
+ROUNDING = 1e-12  # of all velocities
 NEAR = 1e-5  # of the duration: an accumulation point this close ends the motion
 
 
@@ -34,21 +36,32 @@ def accumulation(instants: Sequence[float]) -> float | None:
     return instants[-1] + float(distances[-1]) * ratio / (1.0 - ratio) if ratio < 1.0 else None
 
 
-def settles(event: str, instants: Sequence[float], duration: float) -> bool:
-    """Whether the instants pile up so close to the last that the motion may go on from there.
+def settles(event: str, instants: Sequence[float], duration: float) -> float | None:
+    """The next distance [s], where instants pile up so close that a motion may go on from there.
 
-    Raises ZenoError where they are one, from which no motion goes on.
+    None where they do not. Raises ZenoError where they are one, from which no motion goes on.
     """
     if len(instants) < 3:
-        return False
+        return None
     one, two = np.diff(instants[-3:]).tolist()
     if two < one:
         following = two * two / one
         if following <= LAST * duration or following <= EARLY * duration * (1.0 - two / one):
-            return True
+            return following
     if len(instants) >= SEEN and instants[-1] - instants[-SEEN] <= TOGETHER:
         raise ZenoError(event, instants[-1], "happens again and again")
-    return False
+    return None
+
+
+def gone(then: Array, last: Array, accelerations: Array, following: float) -> bool:
+    """Whether the velocities that the last of infinitely many events leaves, (n,), differ no more
+    from those without end than what acts turns around in the next distance.
+
+    Else they were not the last: two blows may come soon after each other and a long flight follow.
+    """
+    deleted = float(np.max(np.abs(then - last), initial=0.0))
+    turned = following * float(np.max(np.abs(accelerations), initial=0.0))
+    return deleted <= FLIGHTS * turned + ROUNDING * float(np.max(np.abs(then), initial=0.0))
 
 
 def ends_here(limit: float, t: float, begin: float, end: float) -> bool:

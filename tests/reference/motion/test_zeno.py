@@ -15,6 +15,7 @@ from textmech.reference.motion import follow as event
 from textmech.reference.motion import zeno as module
 from textmech.reference.motion.follow import follow
 from textmech.reference.motion.zeno import ZenoError, accumulation, ends_here, settles
+from textmech.reference.solve import solve
 from textmech.reference.system import Array, Guard, System
 from textmech.reference.systems.contact.bouncing_disk import BouncingDisk
 
@@ -152,5 +153,65 @@ def test_the_quickest_of_the_distances_is_seen(monkeypatch: pytest.MonkeyPatch):
 
 
 def test_distances_that_stay_pile_up_nowhere():
-    assert not settles("bounces", [0.0, 1.0, 1.5, 1.99], 10.0)
-    assert settles("bounces", [0.0, 1.0, 1.0 + 1e-13], 10.0)
+    assert settles("bounces", [0.0, 1.0, 1.5, 1.99], 10.0) is None
+    assert settles("bounces", [0.0, 1.0, 1.0 + 1e-13], 10.0) == pytest.approx(1e-26, rel=1e-2)
+
+
+STRUCK = """\
+scene:
+  bodies: {p: {particle: {mass: 1.0}}, B: {disk: {mass: 1.0, radius: 0.2}}}
+  contacts:
+    f: {between: [p, ground.floor], friction: 0, restitution: 1}
+    k: {between: [p, B], friction: 0, restitution: 1}
+initial:
+  p: {x: 0, y: 0.3, vx: 0, vy: 0}
+  B: {x: 0, y: HEIGHT, vx: 0, vy: -3, angle: 0, omega: 0}
+events: {lands: {f.gap: falls to zero}, hits: {k.gap: falls to zero}}
+duration: DURATION
+samples: 61
+allow: {p.y: 1.0e-6, B.y: 1.0e-6, lands.time: 1.0e-6}
+"""
+
+
+def struck(height: float, times: Array) -> Array:
+    """(N, 2) [m] of a particle and an equal disk that falls on it, by flights and blows alone."""
+    g, t = 9.80665, 0.0
+    y, v = np.array([0.3, height]), np.array([0.0, -3.0])
+    found = []
+    for sample in times.tolist():
+        while True:
+            lands = (v[0] + math.sqrt(v[0] ** 2 + 2 * g * y[0])) / g
+            gap, closing = y[1] - y[0] - 0.2, v[0] - v[1]
+            hits = gap / closing if closing > 0 else math.inf
+            first = min(lands, hits)
+            ahead = min(first, sample - t)
+            y, v, t = y + v * ahead - g * ahead * ahead / 2, v - g * ahead, t + ahead
+            if first > ahead:
+                break
+            v = v[::-1].copy() if hits <= lands else v * [-1.0, 1.0]
+            y[0] = y[0] if hits <= lands else 0.0
+        found.append(y.copy())
+    return np.array(found)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("height", "duration"), [(5.12743, 1.2), (5.1389, 1.2), (5.1389, 9.6)])
+def test_two_blows_soon_after_each_other_end_no_motion(
+    height: float, duration: float, tmp_path: Path
+) -> None:
+    """A tenth of a millisecond after a bounce it is thrown back at the floor, and flies on."""
+    text = STRUCK.replace("HEIGHT", repr(height)).replace("DURATION", repr(duration))
+    case = scenes.typed(tmp_path, text, tail="")
+    moved = solve(case).trajectory.states
+    y = np.stack([moved["p"][:, 1], moved["B"][:, 1]], axis=1)
+    assert y == pytest.approx(struck(height, case.times), abs=1e-7)
+
+
+@pytest.mark.mutant("two blows soon after each other taken for the end of all bounces")
+@pytest.mark.slow
+def test_the_end_of_bounces_that_fly_on_is_seen(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(event, "gone", lambda *_: True)
+    with pytest.raises(AssertionError):
+        test_two_blows_soon_after_each_other_end_no_motion(5.12743, 1.2, tmp_path)
