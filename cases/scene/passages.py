@@ -11,6 +11,7 @@ from ..trajectory import Array, Trajectory
 AROUND = 8  # steps in a curve: of seventh degree, as the integrator's eighth order
 ROOT = 1e-15  # s: what the root-finder is asked for
 JUMP = 1e-6  # of the largest value: what a curve leaves open that goes on for a quarter of a step
+MIRRORED = 0.5  # of a fold's size: so well a curve goes on to it; one with no fold is off by twice
 LOCATED = 1e-12  # s: how well an extremum between two steps is found
 
 Curve = Callable[[float], float]
@@ -47,9 +48,10 @@ def passing(
     for part in _unbroken(times, u, corners):
         times, u, bends, rows = _rows(*part, still, corners)
         clear = [row for row in rows if abs(row[1]) > still]
-        for (before, above, i), (after, below, _) in pairwise(clear):
+        for (before, above, i), (after, below, k) in pairwise(clear):
             if above > 0.0 > below:
-                curve = _curve(times, u, i, bends)
+                hidden = after != times[k]  # it is told by a curve, and falls by this one
+                curve = _curve(times, u, k if hidden else i, bends)
                 yield float(brentq(curve, before, after, xtol=ROOT)), curve
 
 
@@ -150,6 +152,9 @@ def _hidden(
     near &= here <= np.maximum(left, right) - here
     for i in (np.flatnonzero(near) + 1).tolist():
         sides = ((i - 1, i), (i, i + 1)) if i in bends else ((i - 1, i + 1),)
+        if i not in bends and (bend := _mirrored(times, signs[i - 1] * u, i, bends)) is not None:
+            yield bend, 0.0, i
+            continue
         for begin, end in sides:
             k = begin if i in bends else i
             sign, curve = float(signs[i - 1]), _curve(times, u, k, bends)
@@ -161,3 +166,28 @@ def _hidden(
             )
             if turn.fun <= still:
                 yield float(turn.x), float(sign * turn.fun), k
+
+
+def _mirrored(times: Array, u: Array, i: int, bends: Sequence[int]) -> float | None:
+    """When [s] u (N,) comes to zero beside row i and turns back at once: the size of what passes.
+
+    A curve through the rows on one side then goes on below zero, as far as the row beyond is above.
+    """
+    from scipy.optimize import brentq
+
+    begin = max((k for k in bends if k <= i), default=0)
+    end = 1 + min((k for k in bends if k > i), default=len(u) - 1)
+    found: list[tuple[float, float]] = []
+    for last, beyond in ((i, i + 1), (i - 1, i), (i, i - 1), (i + 1, i)):
+        if beyond > last:
+            rows = slice(max(begin, last + 1 - AROUND), last + 1)
+        else:
+            rows = slice(last, min(end, last + AROUND))
+        if len(u[rows]) < AROUND // 2 or not begin <= beyond < end:
+            continue
+        curve = polynomial(times[rows], u[rows])
+        on = curve(float(times[beyond]))
+        off = abs((on + u[beyond]) / (on - u[beyond]))
+        if off < MIRRORED and on < 0.0 < u[last]:
+            found.append((off, float(brentq(curve, times[last], times[beyond], xtol=ROOT))))
+    return min(found)[1] if found else None  # a curve with one row of the other side tells worse

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from textmech.cases.scene import passages as module
-from textmech.cases.scene.passages import passages, polynomial
+from textmech.cases.scene.passages import passages, polynomial, touches
 
 STILL = 1e-9
 
@@ -115,3 +115,21 @@ def test_a_curve_has_its_points(recwarn: pytest.WarningsRecorder) -> None:
             at = polynomial(np.array(x), y)
             assert [at(t) for t in x] == y.tolist()
     assert not recwarn.list
+
+
+@pytest.mark.parametrize("count", [11, 21, 34, 51, 101, 201])
+@pytest.mark.parametrize("zero", [0.3, 0.31, 0.4142, 0.5003, 0.77])
+def test_the_size_of_what_passes_zero_turns_back_there(count: int, zero: float) -> None:
+    """|sin 3 (t − t₀)|, as a speed: a curve through both sides would tell any depth."""
+    times = np.linspace(0.0, 1.0, count) ** 1.1
+    u = np.abs(np.sin(3.0 * (times - zero)))
+    assert list(passages(times, u, STILL)) == []
+    found = list(touches(times, u, STILL))
+    assert found == pytest.approx([zero], abs=1e-3 if count < 30 else 1e-6)  # few rows tell less
+
+
+@pytest.mark.mutant("a kink at zero passed by a curve through both of its sides")
+def test_a_curve_through_a_kink_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "_mirrored", lambda *_: None)
+    with pytest.raises(AssertionError):
+        test_the_size_of_what_passes_zero_turns_back_there(51, 0.4142)
