@@ -69,6 +69,16 @@ def refusals(case: Case, generated: Generated) -> Iterator[None]:
         raise CaseError([_mistake(case, generated, failure)]) from failure
 
 
+def unreached(case: Case, joint: str, t: float) -> CaseError:
+    """Three turns about skew axes that cannot make the attitude to which the motion leads."""
+    names = ", ".join(repr(turn.name) for turn in case.scene.joints[joint].turns)
+    what = (
+        f"the turns {names} cannot make the attitude at t = {t:.4g} s: their axes are skew, and "
+        "leave some out; write a ball, or axes of which each is at right angles to the one before"
+    )
+    return CaseError([case.mistake(("scene", "joints", joint), what)])
+
+
 def _where(case: Case, among: Sequence[str]) -> tuple[str, ...]:
     """Where the file has most of what may go on in very many ways."""
     sections = ("contacts", "joints", "forces")

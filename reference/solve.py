@@ -26,7 +26,7 @@ from .islands import Island, parts, together
 from .mechanism.modes.either import Generated
 from .motion.bodies import Answer, Beside
 from .motion.follow import Followed, follow
-from .refusal import bounded, refusals
+from .refusal import bounded, refusals, unreached
 from .start.mechanism import mechanism
 from .states.answer import answered
 from .system import Pose, System
@@ -106,6 +106,8 @@ def _solved(case: Case) -> Island:
             motion = replace(motion, record=answer.record(forces=_felt(case)))
         marched = built.march(forces=pressed(case))  # in coordinates that see each turn
         check_premises(case, marched, found)
+        if built.turns.missed is not None:
+            raise unreached(case, *built.turns.missed)
         checks = (*certify(case, answer, built, generated, motion), *opened)
     return Island(case, motion, checks, generated.base)
 

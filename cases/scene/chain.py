@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -54,12 +54,17 @@ def shifted(
 class Turns:
     """(N, K) each: the angles [rad] of successive turns, but for whole turns, and their rates.
 
-    free (N,): of three turns the volume of their axes, 0 at gimbal lock, else 1.
+    free (N,): of three turns the volume of their axes, 0 at gimbal lock, else 1. aside (N,): how
+    fast [rad/s] three turns pass gimbal lock beside it, the first one's rate times free. missed
+    (N,): how far the cosine of the middle turn is beyond ±1, where three about skew axes
+    cannot make the attitude.
     """
 
     angles: Array
     rates: Array
     free: Array
+    aside: Array = field(default_factory=lambda: np.zeros(1))
+    missed: Array = field(default_factory=lambda: np.zeros(1))
 
     def near(self, expected: Array) -> Array:
         """(N, K) the angles, with the whole turns that bring them nearest to what is expected."""
@@ -80,10 +85,11 @@ def turned_by(
     between = product(inverse(q_a), q_b)
     relative = turned(between, omega_b) - omega_a  # ω of b against a, in the axes of a
     own = [np.asarray(axis, dtype=float) for axis in axes]
-    return [_turns(own, angles, relative) for angles in _angles(own, between)]
+    missed = np.maximum(np.abs(_cosine(own, between)) - 1.0, 0.0) if len(own) > 2 else np.zeros(n)
+    return [_turns(own, angles, relative, missed) for angles in _angles(own, between)]
 
 
-def _turns(axes: Sequence[Array], angles: Array, relative: Array) -> Turns:
+def _turns(axes: Sequence[Array], angles: Array, relative: Array, missed: Array) -> Turns:
     """With θ̇ of ω = Σ θ̇ n, each axis n as the turns before it leave it."""
     columns, so_far = [], np.tile(UPRIGHT, (len(angles), 1))
     for axis, angle in zip(axes, angles.T, strict=True):
@@ -93,7 +99,7 @@ def _turns(axes: Sequence[Array], angles: Array, relative: Array) -> Turns:
     n = np.stack(columns, axis=-1)
     rates = (np.linalg.pinv(n, rcond=ROUNDING) @ relative[:, :, None])[:, :, 0]
     free = np.abs(np.linalg.det(n)) if len(axes) == n.shape[1] else np.ones(len(angles))
-    return Turns(angles, rates, free)
+    return Turns(angles, rates, free, np.abs(rates[:, 0]) * free, missed)
 
 
 def _angles(axes: Sequence[Array], between: Array) -> list[Array]:
@@ -112,11 +118,8 @@ def _three(axes: Sequence[Array], between: Array) -> list[Array]:
     """The middle turn from how the last axis stands to the first; then as with two."""
     a, b, c = axes
     last = turned(between, c)  # the third axis, in the axes of the first part
-    # a · (turn of b by β) c = a · last: A cos β + B sin β + C
-    along = (a @ b) * (b @ c)
-    A, B = a @ c - along, a @ np.cross(b, c)
-    size, phase = math.hypot(A, B), math.atan2(B, A)
-    beta = np.arccos(np.clip((last @ a - along) / size, -1.0, 1.0))
+    phase = math.atan2(a @ np.cross(b, c), a @ c - (a @ b) * (b @ c))
+    beta = np.arccos(np.clip(_cosine(axes, between), -1.0, 1.0))
     found = []
     for middle in (phase + beta, phase - beta):
         middle = np.remainder(middle + math.pi, math.tau) - math.pi
@@ -126,6 +129,17 @@ def _three(axes: Sequence[Array], between: Array) -> list[Array]:
         found.append(np.column_stack([first, middle, twist(rest, c)]))
     nearer = (np.abs(found[0][:, 1]) <= np.abs(found[1][:, 1]))[:, None]
     return [np.where(nearer, *found), np.where(nearer, *reversed(found))]
+
+
+def _cosine(axes: Sequence[Array], between: Array) -> Array:
+    """(N,) cos(β − phase) of the middle one of three turns: a · (turn of b by β) c = a · last.
+
+    A cos β + B sin β + C; of skew axes beyond ±1 where they cannot make the attitude.
+    """
+    a, b, c = axes
+    along = (a @ b) * (b @ c)
+    size = math.hypot(a @ c - along, a @ np.cross(b, c))
+    return (turned(between, c) @ a - along) / size
 
 
 def _turn(axis: Array, angle: Array) -> Array:

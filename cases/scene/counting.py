@@ -25,7 +25,8 @@ def nearest(ways: Sequence[Turns], expected: Array) -> Turns:
         return replace(ways[0], angles=angles[0])
     first, second = (np.sum((one - expected) ** 2, axis=1) for one in angles)
     mine = (first <= second)[:, None]
-    return Turns(np.where(mine, *angles), np.where(mine, *(w.rates for w in ways)), ways[0].free)
+    rates = np.where(mine, *(way.rates for way in ways))
+    return replace(ways[0], angles=np.where(mine, *angles), rates=rates)
 
 
 def counted(ways: Sequence[Turns], times: Array, begins: Sequence[float | None]) -> Turns:
@@ -69,7 +70,7 @@ def _one_by_one(ways: Sequence[Turns], times: Array, start: Array) -> Turns:
             there = way.angles[i] + math.tau * np.round((expected - way.angles[i]) / math.tau)
             if (apart := float(np.max(np.abs(there - expected)))) < off:
                 off, angles[i], rates[i] = apart, there, way.rates[i]
-    return Turns(angles, rates, ways[0].free)
+    return replace(ways[0], angles=angles, rates=rates)
 
 
 def far(found: Turns, times: Array) -> Array:

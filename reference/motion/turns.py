@@ -5,6 +5,7 @@ goes too far from one to the next to be counted: good to 1e-4 of what changes, a
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -12,7 +13,7 @@ import numpy as np
 
 from ...cases.scene import Scene
 from ...cases.scene.chain import Turns
-from ...cases.scene.counting import LOCKED, far
+from ...cases.scene.counting import THREE, far
 from ...cases.scene.frame import SPACE
 from ...cases.scene.observe import motion_of
 from ...cases.trajectory import Array, Trajectory
@@ -24,19 +25,22 @@ ROUNDS = 24  # halvings of what is too far: gimbal lock is met then, or passed b
 # rad: three turns that go so near to gimbal lock jump there by half turns, or do not, by what the
 # cubic between two steps is off, but where they go straight through: then the others hardly turn.
 NEAR, STRAIGHT = 1e-4, 1e-6
+MISSED = 1e-9  # of a cosine: far above its rounding, and a turn's width of 4e-5 rad
 
 
 @dataclass(frozen=True)
 class Counted:
     """The turns [rad] of each joint (M, K) at times (M,), which are close enough to be counted.
 
-    rates: theirs [rad/s]. lost: whether it cannot be told which way three turns go.
+    rates: theirs [rad/s]. lost: whether it cannot be told which way three turns go. missed: a joint
+    whose three turns cannot make its attitude, and when [s].
     """
 
     times: Array = field(default_factory=lambda: np.zeros(1))
     angles: dict[str, Array] = field(default_factory=dict)
     rates: dict[str, Array] = field(default_factory=dict)
     lost: bool = False
+    missed: tuple[str, float] | None = None
 
     def told(self, motion: Trajectory) -> Trajectory:
         """The motion, with what its turns are near at its own times."""
@@ -87,15 +91,23 @@ def counted(scene: Scene, system: System, followed: Followed) -> Counted:
         {name: turns.angles for name, turns in found.items()},
         {name: turns.rates for name, turns in found.items()},
         any(_lost(turns) for turns in found.values()),
+        _missed(times, found),
     )
 
 
 def _lost(turns: Turns) -> bool:
-    near = (turns.free > LOCKED) & (turns.free < NEAR)
-    if not near.any():
+    near = turns.free < NEAR
+    if turns.angles.shape[1] < THREE or not near.any():
         return False
-    first, middle = np.abs(turns.rates[near, :2]).T
-    return bool(np.any(first * turns.free[near] > STRAIGHT * middle))
+    return bool(np.any(turns.aside[near] > STRAIGHT * np.abs(turns.rates[near, 1])))
+
+
+def _missed(times: Array, found: Mapping[str, Turns]) -> tuple[str, float] | None:
+    for name, turns in found.items():
+        beyond = np.broadcast_to(turns.missed > MISSED, times.shape)
+        if beyond.any():
+            return name, float(times[np.argmax(beyond)])
+    return None
 
 
 @dataclass(frozen=True)

@@ -4,14 +4,18 @@ Known by closed forms, and by the same scene in the plane, where a state holds i
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from given import scenes
+from scipy.spatial.transform import Rotation
 
 from textmech.cases.case import Case
+from textmech.cases.mistake import CaseError
 from textmech.cases.scene import Scene
 from textmech.cases.scene.joint import Joint
 from textmech.cases.scene.motion import Motion
@@ -212,3 +216,58 @@ def test_nothing_is_counted_in_the_plane(tmp_path: Path) -> None:
     case = typed(tmp_path, PLANE + WOUND.replace("PART", "b"), 1.8, 7, "q.angle: 1")
     assert solve(case).trajectory.near == {}
     assert Counted().unrolled() == 0.0
+
+
+PASSING = """\
+scene:
+  space: 3
+  gravity: none
+  points: {O: [0, 0, 0]}
+  bodies: {b: {sphere: {mass: 1.5, radius: 0.3}}}
+  joints:
+    j: {freedoms: {p: {hinge: FIRST}, q: {hinge: SECOND}, r: {hinge: THIRD}},
+        of: [ground.O, b.center]}
+initial: {j: {p: PLACES}, b: {omega: RATES}}
+duration: 2.4
+samples: SAMPLES
+allow: {j.p: 1.0, j.q: 1.0}
+"""
+
+
+def spun(
+    folder: Path, axes: Sequence[Any], turns: Sequence[float], w: Sequence[float], n: int
+) -> Case:
+    """A sphere that goes on as it spins, and whose attitude three turns tell."""
+    text = PASSING.replace("SAMPLES", str(n)).replace("RATES", str(list(w)))
+    p, q, r = turns
+    text = text.replace("PLACES", f"{p!r}, q: {q!r}, r: {r!r}")
+    for word, axis in zip(("FIRST", "SECOND", "THIRD"), axes, strict=True):
+        text = text.replace(word, str(list(axis)))
+    return scenes.typed(folder, text, tail="")
+
+
+@pytest.mark.mutant("gimbal lock passed beside it where a step falls on the nearest point")
+@pytest.mark.parametrize("samples", [4, 7, 13, 25])
+@pytest.mark.parametrize("beside", [1e-6, 1e-7])
+def test_who_passes_gimbal_lock_beside_it_is_not_certified(
+    beside: float, samples: int, tmp_path: Path
+) -> None:
+    """At 1.2 s, which is a sample of some, the middle turn is as near as that and turns back.
+
+    There the first and the last jump by half a turn; who goes on straight is off by one.
+    """
+    there = Rotation.from_euler("ZYX", [0.4, math.pi / 2 - beside, -0.3])
+    # ω in body axes, of which the part about the middle axis, [0, cos r, −sin r], is 0
+    w = np.array([0.9, math.sin(-0.3), math.cos(-0.3)])
+    start = there * Rotation.from_rotvec(-1.2 * w)
+    p, q, r = start.as_euler("ZYX").tolist()
+    case = spun(tmp_path, np.eye(3)[::-1].tolist(), (p, q, r), w.tolist(), samples)
+    assert not solve(case).holds
+
+
+@pytest.mark.parametrize("samples", [3, 9, 25])
+def test_who_leaves_what_skew_turns_can_make_is_refused(samples: int, tmp_path: Path) -> None:
+    axes = [[1.9, 0.48, -1.58], [1.73, 0.35, -0.94], [0.91, 0.02, -0.62]]
+    case = spun(tmp_path, axes, (-0.475, 1.284, 1.169), (-0.12, -0.27, 1.0), samples)
+    with pytest.raises(CaseError, match=r"'p', 'q', 'r' cannot make the attitude at t = 0\.6"):
+        solve(case)
