@@ -170,7 +170,9 @@ class Mechanism(System):
             assert e.normal is not None
             rises = self.built.change(e.normal, after[0], t, q, v)
             if rises < -self.built.small(t, q, v):
-                raise painleve(e.name, f"neither staying nor leaving the {e.plane}", t)
+                raise painleve(
+                    self.elements, e.name, f"neither staying nor leaving the {e.plane}", t
+                )
             return after
 
         return then
@@ -206,6 +208,7 @@ class Mechanism(System):
         forces = self.built.forces(mode, t, q, v)
         # At an event a force or rate is at its bound, as well as events are located.
         force = 1e-9 * (max(map(abs, forces.values()), default=0.0) or 1.0)
+        force = max(force, self.built.small(t, q, v) * float(np.max(self.built.M)))
         slow = self.built.still(t, q, v, part=1e-9)
         for e, state in zip(self.elements, self.built.states[mode], strict=True):
             if isinstance(e, OneSided) and e.ends(state, t, q) < -CLOSED * self.size:

@@ -31,12 +31,14 @@ class Undetermined(Exception):
         self.part, self.time = part, time
 
 
-def painleve(part: str, which: str, t: float) -> Undetermined:
+def painleve(elements: Sequence[Element], part: str, which: str, t: float) -> Undetermined:
     """No motion satisfies the law, or two do."""
     what = (
         f"with this friction the motion is not determined: at t = {t:.4g} s {which} "
         "satisfies the law (Painlevé's paradox)"
     )
+    if all(e.frictionless or not e.slips for e in elements):
+        what = f"the motion is not determined: at t = {t:.4g} s {which} satisfies the law"
     return Undetermined(part, what, t)
 
 
@@ -118,13 +120,15 @@ def settled(
     if not found and singular:
         raise Undetermined(_blamed(modes, choices), str(singular), t) from singular
     if not found:
-        raise painleve(_blamed(modes, choices), "no motion", t)
+        raise painleve(modes.elements, _blamed(modes, choices), "no motion", t)
     first, *others = found
     for other in others:
         pairs = (modes.states[mode] for mode, _, _ in (first, other))
         for e, one, two in zip(modes.elements, *pairs, strict=True):
             if (one == "open") != (two == "open") and not _alike(modes, first, other, t):
-                raise painleve(e.name, f"both staying on and leaving the {e.plane}", t)
+                raise painleve(
+                    modes.elements, e.name, f"both staying on and leaving the {e.plane}", t
+                )
             if sign(one) * sign(two) < 0:  # at rest, held by the others whichever way it rubs
                 raise Undetermined(e.name, str(SingularPose(e.name)), t)
     return first

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Collection, Iterator, Mapping
+from functools import cached_property
 
 import numpy as np
 
@@ -175,8 +176,18 @@ class Modes(Mapping[str, Multibody]):
         return float(f @ self[mode].accelerations(t, q, v)) - gamma
 
     def small(self, t: float, q: Array, v: Array) -> float:
-        """An acceleration [m/s²] that may be nothing but rounding here."""
-        return ROUNDING * self.base.terms(t, q, v)[0]
+        """An acceleration [m/s²] that may be nothing but rounding here.
+
+        Where all forces have ended what is left of them is rounding, and no size of anything.
+        """
+        return ROUNDING * max(self.base.terms(t, q, v)[0], self._usual)
+
+    @cached_property
+    def _usual(self) -> float:
+        """The largest acceleration [m/s²] of a force at the start, as at any corner of its law."""
+        corners = [corner for law in self.scene.laws() for corner in law.corners]
+        times = [0.0, *corners, *(math.nextafter(corner, -math.inf) for corner in corners)]
+        return max(self.base.terms(t, *self.start)[0] for t in times)
 
     def still(self, t: float, q: Array, v: Array, *, part: float) -> float:
         """A speed that is none [m/s]: that part of the motion's, and what forces give so early.

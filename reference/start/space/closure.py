@@ -115,5 +115,8 @@ def null(rows: Array, n: int, below: float = RANK) -> Array:
 
 
 def rank(rows: Array, below: float = RANK) -> int:
+    """The number of singular values that are not zero: `below` of the largest."""
+    if not rows.size:
+        return 0
     s = np.linalg.svd(rows, compute_uv=False)
     return int(np.sum(s > below * s[0]))
