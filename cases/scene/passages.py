@@ -187,7 +187,7 @@ def _mirrored(times: Array, u: Array, i: int, bends: Sequence[int]) -> float | N
             continue
         curve = polynomial(times[rows], u[rows])
         on = curve(float(times[beyond]))
-        off = abs((on + u[beyond]) / (on - u[beyond]))
-        if off < MIRRORED and on < 0.0 < u[last]:
+        both = min(u[last], u[beyond]) > 0.0 > on
+        if both and (off := abs(on / u[beyond] + 1.0)) < MIRRORED:
             found.append((off, float(brentq(curve, times[last], times[beyond], xtol=ROOT))))
     return min(found)[1] if found else None  # a curve with one row of the other side tells worse
