@@ -1,5 +1,6 @@
 """(2.86) with an exponent below 1 stops a slide, however many samples there are."""
 
+import itertools
 import math
 from pathlib import Path
 
@@ -83,8 +84,9 @@ def test_a_stop_that_rounding_decides_is_seen(
         monkeypatch.setattr(Stopping, "slowing", lambda self, speed: speed)
     else:
         monkeypatch.setattr(Stopping, "idle", lambda self, state: ())
-    cases = [slide(tmp_path, alpha, n) for alpha, n in ((0.9, 41), (0.5, 51), (0.3, 101))]
-    assert not all(map(holds, cases))
+    # Rounding, another one on another processor, decides which of them.
+    each = itertools.product((0.5, 0.9, 0.7, 0.3, 0.2), (51, 41, 101))
+    assert not all(holds(slide(tmp_path, alpha, n)) for alpha, n in each)
 
 
 def test_a_root_is_bracketed_by_what_was_asked_for() -> None:
