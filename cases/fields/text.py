@@ -24,7 +24,8 @@ class Text(Plain):
 
     def check(self, value: object, known: Names) -> str:
         if not isinstance(value, str) or not value.strip():
-            raise wrong(f"should be text, is {shown(value)}")
+            empty = isinstance(value, str)
+            raise wrong("should not be empty" if empty else f"should be text, is {shown(value)}")
         value = value.rstrip("\n")  # what a block of YAML ends with
         if (hidden := unseen(value)) is not None:
             raise wrong(f"should be one line of text, has the character {plain(hidden)}")

@@ -64,7 +64,7 @@ class Parsed:
     def names(self, section: str, sound: Iterable[str]) -> list[str]:
         """The names of a section, sound or not, to hint at."""
         unsound = (p[2] for p in self.broken if p[:2] == ("scene", section) and len(p) == 3)
-        return [*sound, *sorted(map(str, unsound))]
+        return [*sound, *sorted(name for name in map(str, unsound) if name.strip())]
 
 
 def parse(data: Mapping[str, Any]) -> Parsed:

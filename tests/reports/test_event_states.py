@@ -228,6 +228,18 @@ def test_a_state_at_what_never_happens_is_a_mistake(bouncing: Callable[[str], An
     assert mistaken(count, solve(count).trajectory) == []
 
 
+@pytest.mark.parametrize(("duration", "counts"), [(1.6, False), (1.0, True)])
+def test_what_happens_without_end_has_no_count(
+    bouncing: Callable[[str], Any], duration: float, counts: bool
+) -> None:
+    """With e = 0.5 all bounces from 1 m end after 3 √(2/g) = 1.355 s; in a second there are two."""
+    case = replace(bouncing("lands.count: 0.5"), duration=duration)
+    case = replace(case, events={"lands": case.events["lands"]})
+    found = mistaken(case, solve(case).trajectory)
+    assert [mistake.where for mistake in found] == ([] if counts else ["allow.lands.count"])
+    assert all("happens without end before 1.355 s" in mistake.what for mistake in found)
+
+
 def test_a_contact_that_lands_is_named_by_its_zero(bouncing: Callable[[str], Any]) -> None:
     case = bouncing("lands.time: 1.0e-3")
     other = replace(case, events={"lands": Event("touch.gap", "falls to zero", 0.1)})

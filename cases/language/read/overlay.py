@@ -36,7 +36,7 @@ def overlay(document: Document) -> tuple[dict[str, tuple[dict[str, Any], Source]
         wrong = [source.mistake((*path, *where), what) for where, what in _mistakes(name, changes)]
         if wrong:
             mistakes += wrong
-        else:
+        elif changes is not None:
             variants[name] = (_merged(base, changes), _places(source, path))
     # Where no variant is sound the rest is still looked at, so that all mistakes are said at once.
     return variants or {"": (base, source)}, mistakes
@@ -46,6 +46,8 @@ def _mistakes(name: str, changes: object) -> Iterator[tuple[Path, str]]:
     """Yields what is wrong with a variant's form: the place below its name, and the words."""
     if not name.isidentifier():
         yield (), f"{name!r} is not a name: letters, digits and _, not starting with a digit"
+    if changes is None:
+        return  # a key without a value is among the mistakes of the document already
     if not isinstance(changes, dict):
         yield (), f"should be a map of keys, is {shown(changes)}"
         return
