@@ -17,7 +17,7 @@ from .element import State
 from .impact import NoImpact, Several, impact
 from .mode_selection import After, Options, Undetermined, closed, settled, staying
 from .modes import Modes, rate
-from .simultaneous_impacts import check_alone
+from .simultaneous_impacts import check_alone, strikes_too
 
 ANY = 1e9  # coefficient that lets nothing slip; an infinite one times a zero impulse would be nan
 STILL = 1e-12  # of the largest velocity: what a projection or an assembly leaves of a zero rate
@@ -44,7 +44,7 @@ def landed(
     if rests and not modes.elements[i].slips:
         return _at_rest(modes, mode, i, t, q, v)
     # touching: the numbers of the closed contacts, and i; met: their rows, in the same order.
-    touching, met = _meetings(modes, mode, i, t, q, v, rests=rests)
+    touching, met = _meetings(modes, mode, i, t, q, v, rests=rests, near=near)
     still = modes.still(t, q, v, part=STILL)
     if strikes := any(m.strikes and m.normal.rate(v) < -still for m in met):
         v, states = _struck(modes, mode, i, met, t, q, v, near)
@@ -123,17 +123,29 @@ def _after(m: Meeting, state: State, v: Array, still: float, flies: float) -> Op
 
 
 def _meetings(
-    modes: Modes, mode: str, i: int, t: float, q: Array, v: Array, *, rests: bool
+    modes: Modes,
+    mode: str,
+    i: int,
+    t: float,
+    q: Array,
+    v: Array,
+    *,
+    rests: bool,
+    near: float = 0.0,
 ) -> tuple[list[int], list[Meeting]]:
     """Returns the numbers of the contacts that are closed or strike, and each one's Meeting."""
-    touching, met = [], []
+    touching, met, first = list[int](), list[Meeting](), modes.elements[i]
     for k, (e, state) in enumerate(zip(modes.elements, modes.states[mode], strict=True)):
-        if e.normal is not None and (k == i or state != "open"):
+        if e.normal is None:
+            continue
+        alike = e.slips == first.slips and not (e.restitution or first.restitution or rests)
+        too = state == "open" and alike and strikes_too(e, t, q, v, near)
+        if k == i or state != "open" or too:
             normal, tangent = _condition(e.normal, t, q, v), _condition(e.slip, t, q, v)
             back = e.restitution * normal.rate(v) if k == i and not rests else 0.0
             after = normal.g - back  # Newton: the approach times the restitution, reversed
             touching.append(k)
-            met.append(Meeting(e, normal, tangent, after, k == i))
+            met.append(Meeting(e, normal, tangent, after, k == i or too))
     return touching, met
 
 

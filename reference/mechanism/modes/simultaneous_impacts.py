@@ -38,7 +38,7 @@ def check_alone(
         e
         for e, state in zip(modes.elements, modes.states[mode], strict=True)
         if _shares(first, e, state)
-        if state != "open" or _strikes_too(e, t, q, v, near, small)
+        if state != "open" or strikes_too(e, t, q, v, near)
     ]
     if not others:
         return
@@ -60,13 +60,16 @@ def check_alone(
 def _shares(first: Element, e: Element, state: State) -> bool:
     """Whether it matters in which order they strike: not, where all stay together afterwards.
 
-    What only rests on a plane without bouncing is held by it.
+    What only rests on a plane without bouncing is held by it. Two that strike planes at once, as
+    both corners of what falls flat, are one blow where neither bounces.
     """
-    if e is first or e.normal is None or not (first.two or e.two):
+    if e is first or e.normal is None or not (first.two or e.two or state == "open"):
         return False
     return e.restitution > 0.0 or ((e.two or state == "open") and first.restitution > 0.0)
 
 
-def _strikes_too(e: Element, t: float, q: Array, v: Array, near: float, small: float) -> bool:
+def strikes_too(e: Element, t: float, q: Array, v: Array, near: float) -> bool:
+    """Whether an open contact closes at this instant as well; near [m]: a gap that is none."""
     assert e.normal is not None
+    small = ROUNDING * float(np.max(np.abs(v)))
     return e.normal.f(t, q.tolist())[0] <= near and rate(e.normal, t, q, v) < -small

@@ -128,3 +128,94 @@ allow: {dot.x: 1.0e-2}
     (mistake,) = caught.value.mistakes
     assert mistake.where == "scene.contacts.touch"
     assert "dot.center has left the top of lower at t = 0.4" in mistake.what
+
+
+FLAT = """\
+scene:
+  GRAVITY
+  planes: {wall: {at: [0.8, 0], normal: [-1, 0]}}
+  bodies: {b: {block: {mass: 1.0, width: 0.3, height: 0.2}}}
+  contacts: {CONTACTS}
+initial: {b: {x: 0.2, y: 0.6, angle: 0, vx: VX, vy: 0, omega: 0}}
+events: {one: {l.gap: falls to zero}, other: {r.gap: falls to zero}}
+duration: 0.6
+samples: 41
+allow: {b.x: 1.0e-3, b.y: 1.0e-3, one.time: 1.0e-3, other.time: 1.0e-3}
+"""
+# Each with what it strikes, and the velocities and the turn with which that leaves it.
+FALLS = {
+    "the floor": ("lower_left", "lower_right", "ground.floor", "", 0.0, (0.0, 0.0, 0.0)),
+    "a wall": ("lower_right", "upper_right", "ground.wall", "gravity: none", 2.0, (0.0, 0.0, 0.0)),
+}
+
+
+def flat(folder: Path, what: str, e: float, mu: float, *, swapped: bool) -> tuple[float, ...]:
+    """vx, vy and omega at the end of a block that strikes with two corners at one instant."""
+    one, other, plane, gravity, vx, _ = FALLS[what]
+    law = f"friction: {mu}, restitution: {e}"
+    each = [
+        f"l: {{between: [b.{one}, {plane}], {law}}}",
+        f"r: {{between: [b.{other}, {plane}], {law}}}",
+    ]
+    text = FLAT.replace("CONTACTS", ", ".join(each[::-1] if swapped else each))
+    text = text.replace("GRAVITY\n", f"{gravity}\n").replace("VX", repr(vx))
+    if what == "the floor":
+        text = text.replace("b.x: 1.0e-3, ", "")
+    else:
+        text = text.replace("b.y: 1.0e-3, ", "")
+    solution = solve(scenes.typed(folder, text, tail=""))
+    assert solution.holds
+    return tuple(float(x) for x in solution.trajectory.states["b"][-1, VX:])
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+@pytest.mark.parametrize("mu", [0.0, 0.3])
+@pytest.mark.parametrize("what", FALLS)
+def test_what_falls_flat_without_bouncing_stays_flat(
+    what: str, mu: float, tmp_path: Path, *, swapped: bool
+) -> None:
+    """Both corners strike in one blow: one after the other would turn it, as the file has them."""
+    *_, known = FALLS[what]
+    assert flat(tmp_path, what, 0.0, mu, swapped=swapped) == pytest.approx(known, abs=1e-12)
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+@pytest.mark.parametrize("what", FALLS)
+def test_two_corners_that_bounce_at_one_instant_are_refused(
+    what: str, tmp_path: Path, *, swapped: bool
+) -> None:
+    with pytest.raises(CaseError, match="strike at one instant"):
+        flat(tmp_path, what, 0.5, 0.0, swapped=swapped)
+
+
+@pytest.mark.mutant(
+    "two corners that strike at one instant, one after the other in the file's order"
+)
+def test_one_after_the_other_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(landing, "strikes_too", lambda *_: False)
+    with pytest.raises(AssertionError):
+        test_what_falls_flat_without_bouncing_stays_flat("a wall", 0.0, tmp_path, swapped=False)
+
+
+ROPES = """\
+scene:
+  points: {A: [-0.3, 1.0], B: [0.3, 1.0]}
+  bodies: {bob: {particle: {mass: 1.0}}}
+  forces: {FORCES}
+initial: {bob: {x: 0, y: 1.0}}
+events: {one: {a.gap: falls to zero}, other: {b.gap: falls to zero}}
+allow: {bob.y: 1.0e-3}
+"""
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+def test_two_ropes_that_come_taut_at_one_instant_hold_it_on_their_axis(
+    tmp_path: Path, *, swapped: bool
+) -> None:
+    each = ["a: {rope: [ground.A, bob.center], length: 0.5}"]
+    each.append("b: {rope: [ground.B, bob.center], length: 0.5}")
+    text = ROPES.replace("FORCES", ", ".join(each[::-1] if swapped else each))
+    solution = solve(scenes.typed(tmp_path, text))
+    assert solution.holds
+    x, y, *_, vx, vy, _ = solution.trajectory.states["bob"][-1]
+    assert (x, y, vx, vy) == pytest.approx((0.0, 0.6, 0.0, 0.0), abs=1e-12)
