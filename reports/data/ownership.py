@@ -28,7 +28,7 @@ _TABLES = {
     "releases": re.compile(r"case,theme,engine,version,setting,realised,quantity,"),
     "times of events": re.compile(r"engine,setting,realised,event,k,"),
     "poses": re.compile(r"engine,setting,realised,body,field,unit,t \[s\],value"),
-    "motions": re.compile(r"(t \[s\]|state)(,[^\r\n]* reference|$)"),
+    "motions": re.compile(r"(t \[s\]|state),[^\r\n]* reference"),
 }
 """How the first lines begin of what `--keep` and `versions` write."""
 _PARQUET = b"PAR1"

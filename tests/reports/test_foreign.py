@@ -193,6 +193,15 @@ def test_a_report_with_a_column_of_somebodys_own_is_not_overwritten(tmp_path: Pa
     begins.unasked(tmp_path, ["tolerance.csv"], overwrite=False)
 
 
+@pytest.mark.parametrize("head", ["state", "t [s]", "state,capital"])
+def test_a_table_that_has_our_first_column_alone_is_not_overwritten(
+    head: str, tmp_path: Path
+) -> None:
+    (tmp_path / "u.csv").write_text(f"{head}\nOhio\n", encoding="utf-8")
+    with pytest.raises(FileExistsError, match="was not written by textmech"):
+        ownership.unasked(tmp_path, ["u.csv"], overwrite=False)
+
+
 @pytest.mark.mutant("a picture overwrites a file that is not ours")
 @pytest.mark.parametrize("name", ["a.svg", "a.png", "A.PNG"])
 def test_a_picture_overwrites_no_stranger(name: str, tmp_path: Path) -> None:

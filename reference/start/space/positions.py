@@ -153,7 +153,7 @@ def _anywhere(closure: SpatialClosure, rng: np.random.Generator) -> Seeds:
 
 
 def _beside(closure: SpatialClosure, far: float, rng: np.random.Generator) -> dict[str, Placement]:
-    """What is near, but off by up to `far`, in rad or sizes."""
+    """Placements as `near` says them, but off by up to `far`, in rad or sizes."""
 
     def off(turns: bool = False) -> float:
         return float(rng.uniform(-far, far)) * (1.0 if turns else closure.size)
