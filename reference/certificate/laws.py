@@ -25,9 +25,7 @@ from .random_states import drawn
 LAW = 1e-12  # of the largest term: the laws are algebra, only rounding may differ
 SOME = 8  # samples: a force that is zero at one of them is none at the others
 BESIDE = 1  # state of a mode beside its motion; the tests draw a hundred
-OF_MULTIPLIERS = (
-    0.1  # of what masses far apart lose where equations are reduced: not multiplied here
-)
+OF_MULTIPLIERS = 0.1  # of what reduced equations lose: masses are not multiplied with each other
 SINGULAR = 1e8  # condition of equations that have lost half of their digits: they are not asked
 ELIMINATED = {
     "Voronets (2.66)": voronets.accelerations,

@@ -1,6 +1,6 @@
 """The rates at the start: what is given, and what the constraints make of it."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -74,17 +74,23 @@ def _open(rows: Array, g: Array, v: Array) -> tuple[Array, bool]:
     return residual, bool(np.max(np.abs(residual), initial=0.0) > CLOSED * scale)
 
 
-def mechanisms(scene: Scene) -> Iterator[set[str]]:
+def mechanisms(scene: Scene) -> list[set[str]]:
     """The bodies that joints hold together, and what may stand on each other.
 
     What only shares the ground moves by itself.
     """
-    groups = [{name} for name in scene.bodies]
     held = [{joint.a.body, joint.b.body} - {GROUND} for joint in scene.joints.values()]
-    for ends in (*held, *({pair.body, pair.touched} for pair in scene.pairs.values())):
-        touched = [group for group in groups if group & ends]
-        groups = [group for group in groups if not group & ends] + [set().union(*touched)]
-    yield from groups
+    touching = [{pair.body, pair.touched} for pair in scene.pairs.values()]
+    return joined(scene.bodies, [*held, *touching])
+
+
+def joined(names: Iterable[str], links: Iterable[set[str]]) -> list[set[str]]:
+    """The names in groups: two of one link are in one."""
+    groups = [{name} for name in names]
+    for link in links:
+        met = [group for group in groups if group & link]
+        groups = [group for group in groups if not group & link] + [set().union(*met)]
+    return groups
 
 
 def _as_rate(name: str) -> str:

@@ -131,13 +131,14 @@ def _meetings(
     v: Array,
     *,
     rests: bool,
-    near: float = 0.0,
+    near: float,
 ) -> tuple[list[int], list[Meeting]]:
     """Returns the numbers of the contacts that are closed or strike, and each one's Meeting."""
     touching, met, first = list[int](), list[Meeting](), modes.elements[i]
     for k, (e, state) in enumerate(zip(modes.elements, modes.states[mode], strict=True)):
         if e.normal is None:
             continue
+        # A pivot has its own end of all blows, `_at_rest`; what bounces has to strike alone.
         alike = e.slips == first.slips and not (e.restitution or first.restitution or rests)
         too = state == "open" and alike and strikes_too(e, t, q, v, near)
         if k == i or state != "open" or too:

@@ -37,7 +37,7 @@ class Mechanism(System):
         self.size = size
         self.modes = self.built = Modes(scene, start)
         self.base, self.elements = self.built.base, self.built.elements
-        self.corners = [corner for law in scene.laws() for corner in law.corners]
+        self.corners = self.built.corners
         sines = [f.signal for f in scene.signals() if f.signal.law == "sine"]
         fastest = max((abs(s.angular_frequency) for s in sines), default=0.0)
         self.longest = math.tau / fastest / PIECES if fastest else None

@@ -33,6 +33,7 @@ class Modes(Mapping[str, Multibody]):
         self.base = Multibody(scene, start)  # what holds in all of them
         where = self.base.where
         self._begins = float(np.max(np.abs(start[1]), initial=0.0))
+        self.corners = [corner for law in scene.laws() for corner in law.corners]
         self.elements: tuple[Element, ...] = (
             *elements(scene, where),
             *stopping(scene, where, self._begins),
@@ -185,8 +186,8 @@ class Modes(Mapping[str, Multibody]):
     @cached_property
     def _usual(self) -> float:
         """The largest acceleration [m/s²] of a force at the start, as at any corner of its law."""
-        corners = [corner for law in self.scene.laws() for corner in law.corners]
-        times = [0.0, *corners, *(math.nextafter(corner, -math.inf) for corner in corners)]
+        before = [math.nextafter(corner, -math.inf) for corner in self.corners]
+        times = [0.0, *self.corners, *before]
         return max(self.base.terms(t, *self.start)[0] for t in times)
 
     def still(self, t: float, q: Array, v: Array, *, part: float) -> float:

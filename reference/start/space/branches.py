@@ -13,6 +13,7 @@ from ....cases.scene.chain import turned_by
 from ....cases.scene.joint import Joint
 from ....cases.scene.rotation import UPRIGHT, about, angle_between, matrix, product, turned
 from ...system import Array
+from ..rates import joined
 from .closure import SpatialClosure
 from .initial_conditions import attitude
 
@@ -29,12 +30,8 @@ def closes(scene: Scene) -> bool:
 
 def chains(scene: Scene) -> list[set[str]]:
     """The bodies, and the ground, that joints hold together."""
-    found = [{name} for name in (GROUND, *scene.bodies)]
-    for joint in scene.joints.values():
-        ends = {joint.a.body, joint.b.body}
-        joined = [chain for chain in found if chain & ends]
-        found = [chain for chain in found if not chain & ends] + [set().union(*joined)]
-    return found
+    joints = scene.joints.values()
+    return joined((GROUND, *scene.bodies), [{joint.a.body, joint.b.body} for joint in joints])
 
 
 def faithful(closure: SpatialClosure, q: Array) -> bool:

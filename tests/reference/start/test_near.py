@@ -40,6 +40,21 @@ def test_the_nearer_of_two_ways_is_taken_in_the_plane(reach: str, tmp_path: Path
         assert found == pytest.approx(math.copysign(beta, share), abs=1e-5)
 
 
+@pytest.mark.mutant("in the plane all starts beside what is near are what is near")
+def test_near_that_names_both_angles_is_a_guess_in_the_plane(tmp_path: Path) -> None:
+    """Nearly stretched, where Newton's first step from (0.2201, 0.2091) leads to the farther way.
+
+    Off by 0.2765 rad is the one, by 0.2811 rad the other; the first time only the latter was found.
+    """
+    text = ELBOW.replace("length: 0.5", "length: 0.732").replace("length: 0.4", "length: 0.573")
+    text = text.replace("0.REACH", "1.3023515").replace(
+        "ANGLE deg}", "0.2201}, lower: {angle: 0.2091}"
+    )
+    found = start_poses(typed(tmp_path, text))["upper"][2]
+    cosine = (0.732**2 + 1.3023515**2 - 0.573**2) / (2 * 0.732 * 1.3023515)
+    assert found == pytest.approx(-math.acos(cosine), abs=1e-9)
+
+
 @pytest.mark.slow
 def test_in_the_middle_it_decides_nothing(tmp_path: Path) -> None:
     with pytest.raises(CaseError, match="can be assembled in 2 ways"):
