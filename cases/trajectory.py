@@ -23,9 +23,11 @@ class Trajectory:
     record: every step of a motion that switches, from which event times are read. phase: in the
     reference's record, the number of the smooth piece that a row belongs to; an event stands there
     twice, as the last row of one piece and the first of the next. switches: (K,) s, when the
-    reference changes from one smooth piece to the next; an engine has none to tell. near: in space,
-    by joint (N, K), its turns [rad] as whoever made the motion counted them on the way: attitudes
-    tell them but for whole turns. fastest: how fast [rad/s] the fastest of them goes on the way.
+    reference changes from one smooth piece to the next; an engine has none to tell. endless: (K,)
+    s, of each pile of events without end the times that the reference has followed; it leaves out
+    the rest. near: in space, by joint (N, K), its turns [rad] as whoever made the motion counted
+    them on the way: attitudes tell them but for whole turns. fastest: how fast [rad/s] the fastest
+    of them goes on the way.
     """
 
     times: Array
@@ -34,5 +36,6 @@ class Trajectory:
     record: "Trajectory | None" = None
     phase: NDArray[np.int64] | None = None
     switches: Array = field(default_factory=lambda: np.zeros(0))
+    endless: tuple[Array, ...] = ()
     near: Mapping[str, Array] = field(default_factory=dict)
     fastest: float = 0.0

@@ -101,7 +101,8 @@ def _solved(case: Case) -> Island:
         look()
         corners = [t for t in system.corners if 0.0 < t < case.duration]
         switches = np.array([*(change.time for change in followed.changes), *corners], dtype=float)
-        motion = replace(answer.trajectory(case.times), switches=switches)
+        motion = answer.trajectory(case.times)
+        motion = replace(motion, switches=switches, endless=followed.endless)
         if case.events:
             motion = replace(motion, record=answer.record(forces=_felt(case)))
         marched = built.march(forces=pressed(case))  # in coordinates that see each turn

@@ -20,7 +20,7 @@ from ..system import Array, Guard, Mode, System
 from .event_location import INSIDE, TOGETHER, Fall, Within, clear, first
 from .mode_onset import Early
 from .stuck import Stuck, Watched, slope
-from .zeno import MOST, ZenoError, accumulation, ends_here, gone, settles
+from .zeno import MOST, ZenoError, accumulation, ends_here, gone, pile, settles
 
 TOLERANCE = 1e-15  # per step; the integrators do not go below 4 ε, so: as well as doubles can
 STAGES = 5  # of the implicit integrator
@@ -75,6 +75,7 @@ class Followed:
     names its mode. march: the start and the end of every accepted step. rows: the same with three
     states inside each step, if they were asked for. An event stands in both twice, as the last row
     of one phase and the first of the next. touched: what came to zero and was taken for no event.
+    endless: the times [s] of each pile of events without end, as far as they were followed.
     """
 
     y: Array
@@ -85,6 +86,7 @@ class Followed:
     march: tuple[Kept, ...] = ()
     rows: tuple[Kept, ...] = ()
     touched: tuple[Touch, ...] = ()
+    endless: tuple[Array, ...] = ()
 
     @property
     def modes(self) -> tuple[str, ...]:
@@ -110,7 +112,7 @@ def follow(system: System, times: Array, *, by: Chosen = either, every: bool = F
     return Followed(
         np.array(walk.y), np.array(walk.phase, dtype=np.int64), tuple(walk.phases),
         tuple(walk.changes), walk.steps, tuple(walk.march), tuple(walk.rows),
-        tuple(walk.touched),
+        tuple(walk.touched), tuple(walk.endless),
     )  # fmt: skip
 
 
@@ -129,6 +131,7 @@ class _Walk:
     march: list[Kept] = field(default_factory=list)
     rows: list[Kept] = field(default_factory=list)
     touched: list[Touch] = field(default_factory=list)
+    endless: list[Array] = field(default_factory=list)
     steps: int = 0
     passed: float = -math.inf  # the last corner
     spent: int | None = None  # the guard that has just fired, if its mode goes on
@@ -249,6 +252,7 @@ class _Walk:
             last = guard.at_last(t, *parted)
             if gone(v, last[2], self.system.modes[mode].accelerations(t, q, v), following):
                 mode, q, v = last
+                self.endless.append(pile(self.fired[name]))
         self.spent = i if mode == ended else None
         k, after = len(self.fired[name]), np.concatenate([q, v])
         if guard.vain and mode == ended and np.array_equal(before, after):

@@ -64,6 +64,14 @@ def gone(then: Array, last: Array, accelerations: Array, following: float) -> bo
     return deleted <= FLIGHTS * turned + ROUNDING * float(np.max(np.abs(then), initial=0.0))
 
 
+def pile(instants: Sequence[float]) -> Array:
+    """The last of the instants (≥ 3,) [s], as far back as each distance is less than the one
+    before."""
+    distances = np.diff(instants)
+    longer = np.flatnonzero(distances[1:] >= distances[:-1])
+    return np.array(instants[int(longer[-1]) + 1 if len(longer) else 0 :], dtype=np.float64)
+
+
 def ends_here(limit: float, t: float, begin: float, end: float) -> bool:
     """Whether an accumulation at `limit` ends the motion that stands at t, before its end."""
     return limit <= end and limit - t <= NEAR * (end - begin)

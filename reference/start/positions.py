@@ -48,8 +48,8 @@ def positions(closure: Closure) -> Array:
     _determined(closure, ways[0])
     if len(ways) > 1:
         raise refusal.several_ways(closure, ways)
-    if wanted.distance(ways[0]) > FAR:
-        told = [max(wanted.apart(q), key=lambda each: abs(each[1])) for q in found]
+    if wanted.given and max(abs(off) for _, off, _ in wanted.apart(ways[0], turns=True)) > FAR:
+        told = [max(wanted.apart(q, turns=True), key=lambda each: abs(each[1])) for q in found]
         raise messages.none_near(closure.case, told[0][0], [value for *_, value in told])
     _on_its_turns(closure, ways[0])
     return ways[0]
@@ -86,11 +86,14 @@ class _Near:
         """In rad and sizes; 0 if nothing is said."""
         return max((abs(off) for _, off, _ in self.apart(q)), default=0.0)
 
-    def apart(self, q: Array) -> Iterator[tuple[str, float, str]]:
-        """For all that is said: its name, how far q is from it, in rad or sizes, and what q has."""
+    def apart(self, q: Array, *, turns: bool = False) -> Iterator[tuple[str, float, str]]:
+        """For all that is said: its name, how far q is from it, in rad or sizes, and what q has.
+
+        turns: whether whole ones count, which what is given elsewhere may hold.
+        """
         c = self.closure
         for i, value in self.numbers.items():
-            off = _turned(c, i, q[i] - value) / c.units[i]
+            off = (q[i] - value if turns else _turned(c, i, q[i] - value)) / c.units[i]
             yield c.where.names[i], off, refusal.shown(q[i], turns=bool(c.turning[i]))
         for point, at in self.points:
             r = point.places(0.0, q.tolist())
@@ -200,5 +203,6 @@ def undetermined(jacobian: Array, names: list[str], below: float) -> list[str]:
         return names
     _, s, vt = np.linalg.svd(jacobian)
     kept = int(np.sum(s > below * s[0]))
-    open_ = np.max(np.abs(vt[kept:]), axis=0, initial=0.0) > SAME
+    # What the smallest values that count leave of what is determined is as small as they are.
+    open_ = np.max(np.abs(vt[kept:]), axis=0, initial=0.0) > max(SAME, 10 * below)
     return [name for name, is_open in zip(names, open_, strict=True) if is_open]

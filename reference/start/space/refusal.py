@@ -11,6 +11,7 @@ from ..messages import DEGREES
 from .closure import SpatialClosure
 
 OPEN = 1e-6  # of a direction's largest entry: smaller ones are rounding
+HARDLY = 1e-4  # beside a dead centre: ten times the singular values that count as zero there
 
 
 def cannot_close(closure: SpatialClosure, q: Array) -> CaseError:
@@ -58,28 +59,28 @@ def open_ended(closure: SpatialClosure, q: Array, loose: Array) -> CaseError:
 
 def dead_centre(closure: SpatialClosure, q: Array, loose: Array) -> CaseError:
     """Coordinates that hardly follow from what is given."""
-    return messages.dead_centre(closure.case, _open(closure, q, loose))
+    return messages.dead_centre(closure.case, _open(closure, q, loose, HARDLY))
 
 
-def _open(closure: SpatialClosure, q: Array, loose: Array) -> list[str]:
-    """The coordinates that change along the directions `loose` (k, n)."""
+def _open(closure: SpatialClosure, q: Array, loose: Array, small: float = OPEN) -> list[str]:
+    """The coordinates that change by more than `small` along the directions `loose` (k, n)."""
     names: list[str] = []
     for joint in closure.scene.joints.values():
         for freedom, _, row in closure.given.coordinates(joint, q):
-            if np.max(np.abs(loose @ (row * closure.units))) > OPEN and freedom.name:
+            if np.max(np.abs(loose @ (row * closure.units))) > small and freedom.name:
                 names.append(f"{joint.name}.{freedom.name}")
         if any(f.kind == "ball" for f in joint.freedoms):
             rows = closure.given.relative(joint, q)
-            if np.max(np.abs(loose @ (rows * closure.units).T)) > OPEN:
+            if np.max(np.abs(loose @ (rows * closure.units).T)) > small:
                 names.append(f"{joint.name}.attitude")
     held = {end.body for joint in closure.scene.joints.values() for end in joint.refers()}
     for body in (name for name in closure.scene.bodies if name not in held):
         at = closure.where.slots[body]
         places = [f"{body}.{axis}" for axis in "xyz"]
         names += [
-            name for i, name in enumerate(places) if np.max(np.abs(loose[:, at.r_dot + i])) > OPEN
+            name for i, name in enumerate(places) if np.max(np.abs(loose[:, at.r_dot + i])) > small
         ]
-        if at.omega is not None and np.max(np.abs(loose[:, at.omega : at.omega + 3])) > OPEN:
+        if at.omega is not None and np.max(np.abs(loose[:, at.omega : at.omega + 3])) > small:
             names.append(f"{body}.attitude")
     return names or _open_places(closure, loose)
 

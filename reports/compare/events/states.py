@@ -19,13 +19,11 @@ from ....cases.scene.passages import bent, polynomial
 from ....cases.scene.quantity import SIDES, AtEvent, at_event
 from ....cases.scene.still import still
 from ....cases.trajectory import Array, Trajectory
-from .times import grazed, never, reference_events
+from .times import grazed, limit_of, never, reference_events
 
 ROWS = 8  # of the reference: of seventh degree, as the integrator's eighth order
 STEPS = 4  # of an engine: of third degree, as the best of their integrators is of fourth order
 BESIDE = 1e-6  # of a step: a row so near an event may be before it or after it
-PILED, ALIKE = 5, 0.01  # events whose distances shrink by one ratio, but for so much of it
-ENDS = 1e-4  # of the duration: the last distance of those that pile up
 
 Rows = NDArray[np.int64]
 
@@ -84,27 +82,22 @@ def mistaken(case: Case, reference: Trajectory) -> list[Mistake]:
     if record is None:
         return never(case, reference)
     found = list(grazed(case, record)) or never(case, reference) or list(_jumps(case, record))
-    return found or list(_endless(case, record))
+    return found or list(_endless(case, reference))
 
 
-def _endless(case: Case, record: Trajectory) -> Iterator[Mistake]:
+def _endless(case: Case, reference: Trajectory) -> Iterator[Mistake]:
     """A mistake for every count of events that pile up, as of a ball that bounces ever lower."""
     for name in case.allow:
         event, _, field = name.rpartition(".")
-        if field != "count" or event not in case.events:
-            continue
-        times = reference_events(case.scene, record, case.events[event])[-PILED:]
-        apart = np.diff(times)
-        if len(apart) < PILED - 1 or apart[-1] > ENDS * case.duration:
-            continue
-        ratios = apart[1:] / apart[:-1]
-        if np.max(ratios) < 1.0 and np.ptp(ratios) < ALIKE:
-            what = (
-                f"happens without end before {times[-1]:.4g} s, and the reference leaves out what "
-                "is too short to see: no count of it is a claim; leave it out, or shorten the "
-                "duration"
-            )
-            yield case.mistake(("allow", name), what)
+        if field == "count" and event in case.events:
+            limit = limit_of(case, reference, case.events[event])
+            if limit is not None:
+                what = (
+                    f"happens without end before {limit:.4g} s, and the reference leaves out what "
+                    "is too short to see: no count of it is a claim; leave it out, or shorten the "
+                    "duration"
+                )
+                yield case.mistake(("allow", name), what)
 
 
 def _jumps(case: Case, record: Trajectory) -> Iterator[Mistake]:

@@ -23,6 +23,7 @@ from .rests import LOW, STEPS, rests
 CURVE = 4  # steps in the curve that what falls is continued by: as good as an engine of order 4
 SMALL = 1e-4  # of the largest value: a hump as low as this may be rounding or a soft floor
 SURE = 2  # times STEPS and SMALL: no engine near the reference can miss such a hump
+BESIDE = 0.1  # of the last distance of a pile: an event and one of the pile that are the same
 TREMBLE = 1e-6  # steps: two zeros of a curve that touch are not rounding's to lose
 
 
@@ -169,6 +170,30 @@ def never(case: Case, reference: Trajectory) -> list[Mistake]:
         what = f"never happens in {case.duration:g} s: nothing is compared"
         found += [case.mistake(place, what) for place in places]
     return found
+
+
+def limit_of(case: Case, reference: Trajectory, event: Event) -> float | None:
+    """The time [s] before which the event happens without end; None if it does not.
+
+    It is what piles up, or happens between what does, as apexes between bounces. Where it is not
+    seen up to the last of a pile, it is known by this: all that follows is too small to be seen.
+    """
+    record = reference.record
+    if record is None or not reference.endless:
+        return None
+    u, small, _ = _pieces(case.scene, record, event)
+    times = reference_events(case.scene, record, event)
+    for pile in reference.endless:
+        beside = BESIDE * float(pile[-1] - pile[-2])
+        mine = times[(times >= pile[0] - beside) & (times <= pile[-1] + beside)]
+        if not len(mine):
+            continue
+        after = u[(record.times > mine[-1] + beside) & (record.times < pile[-1])]
+        itself = np.min(np.abs(pile - mine[-1])) <= beside
+        unseen = bool(np.all(np.abs(after) <= small)) and (itself or len(mine) > 1)
+        if unseen or mine[-1] > pile[-2] + beside:
+            return float(pile[-1])
+    return None
 
 
 def grazed(case: Case, record: Trajectory) -> Iterator[Mistake]:

@@ -55,6 +55,32 @@ def test_near_that_names_both_angles_is_a_guess_in_the_plane(tmp_path: Path) -> 
     assert found == pytest.approx(-math.acos(cosine), abs=1e-9)
 
 
+@pytest.mark.mutant("near a whole turn off what is given is as near as any")
+def test_near_a_turn_off_what_is_given_is_a_mistake_in_the_plane(tmp_path: Path) -> None:
+    """The upper bar has the angle of the hip, and no turn more."""
+    text = ELBOW.replace("{lower: {end: [0.REACH, 0]}}", "{hip: {angle: 0.3}, lower: {angle: 0}}")
+    for off, fits in ((-0.2, True), (2 * math.pi, False), (-6.2, False)):
+        case = typed(tmp_path, text.replace("ANGLE deg", f"{0.3 + off} rad"))
+        if fits:
+            assert start_poses(case)["upper"][2] == pytest.approx(0.3, abs=1e-15)
+            continue
+        with pytest.raises(CaseError) as wrong:
+            start_poses(case)
+        (mistake,) = wrong.value.mistakes
+        assert mistake.where == "near.upper.angle"
+        assert "upper.angle is 17.19 deg; say one of these" in mistake.what
+
+
+def test_beside_a_dead_centre_only_what_is_open_is_named(tmp_path: Path) -> None:
+    """Stretched by all but 3e-11 m: the lower bar's end is given, both angles are open."""
+    text = ELBOW.replace("0.REACH", "0.89999999997").replace("ANGLE", "0.01")
+    with pytest.raises(CaseError) as wrong:
+        start_poses(typed(tmp_path, text))
+    (mistake,) = wrong.value.mistakes
+    open_ = "upper.y, upper.angle, lower.y, lower.angle"
+    assert mistake.what.endswith(f"hardly determines {open_}; give one of these instead")
+
+
 @pytest.mark.slow
 def test_in_the_middle_it_decides_nothing(tmp_path: Path) -> None:
     with pytest.raises(CaseError, match="can be assembled in 2 ways"):
