@@ -1,11 +1,13 @@
 """Elements answer for themselves: nobody else asks what they are, and a new one fits in."""
 
 import ast
+import math
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from scipy.integrate import quad
 
 from textmech.cases.scene.forces.force import FORCES
 from textmech.cases.scene.joint import FREEDOMS
@@ -60,16 +62,50 @@ def test_asking_is_seen(line: str) -> None:
     assert asked(line)
 
 
+def answers(script: str, folder: Path) -> dict[str, float]:
+    """The numbers that a script beside this file prints, by their names."""
+    run = subprocess.run(
+        [sys.executable, Path(__file__).with_name(script), folder],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert run.returncode == 0, run.stderr
+    return {name: float(size) for name, size in map(str.split, run.stdout.splitlines())}
+
+
 @pytest.mark.slow
 def test_a_new_force_element_is_said_in_five_places(tmp_path: Path) -> None:
     """tests/cable.py adds one to the tables, in a process of its own, and a case uses it."""
-    script = Path(__file__).with_name("cable.py")
-    run = subprocess.run(
-        [sys.executable, script, tmp_path], capture_output=True, text=True, check=False
-    )
-    assert run.returncode == 0, run.stderr
-    found = {name: float(size) for name, size in map(str.split, run.stdout.splitlines())}
+    found = answers("cable.py", tmp_path)
     assert found["energy"] < 1e-13  # J: the shared potential is that of the force
     assert found["mujoco"] < 1e-9
     assert found["hinge.fx"] < 1e-7
     assert found["pymunk"] < 1e-4
+
+
+@pytest.mark.slow
+def test_a_new_element_of_one_side_is_said_in_four_places(tmp_path: Path) -> None:
+    """tests/strut.py adds one on which a ball lies, 30° from the top, and leaves where it has to.
+
+    It leaves at cos θ = 2/3 cos 30°, after ∫ dθ/√(2 g/L (cos 30° − cos θ)), with θ = 30° + u².
+    """
+    found = answers("strut.py", tmp_path)
+    begin, end = math.pi / 6, math.acos(2 / 3 * math.cos(math.pi / 6))
+
+    def slowness(u: float) -> float:
+        fallen = math.cos(begin) - math.cos(begin + u * u)
+        return 2 * u / math.sqrt(2 * 9.80665 / 0.5 * fallen) if u else 0.0
+
+    time, _ = quad(slowness, 1e-9, math.sqrt(end - begin), epsabs=1e-13, epsrel=1e-13)
+    assert found["leaves"] == pytest.approx(time, rel=1e-7)
+    for engine in ("mujoco", "pymunk"):
+        assert found[engine] < 1e-4  # m: a step of 0.1 ms at 1 m/s
+        assert found[f"{engine}.force"] < 1e-2  # N of 17
+
+
+@pytest.mark.slow
+def test_a_new_joint_is_said_in_one_place(tmp_path: Path) -> None:
+    """tests/bearing.py adds one of a slide and a turn, on which a bar falls and turns evenly."""
+    found = answers("bearing.py", tmp_path)
+    assert found["turned"] < 1e-12
+    assert found["fallen"] < 1e-12
+    assert found["mujoco"] < 1e-9

@@ -14,6 +14,7 @@ from .body import Body
 from .constraint import Edge
 from .contact import Contact
 from .forces.couple import Couple
+from .forces.element import Limit
 from .forces.force import (
     Damper,
     Drag,
@@ -30,8 +31,6 @@ from .forces.force import (
     Viscous,
     of,
 )
-from .forces.rope import Rope
-from .forces.stops import Stops
 from .frame import PLANE, Frame
 from .joint import Joint, planar_joint
 from .pair import Pair
@@ -54,6 +53,7 @@ __all__ = [
     "Frame",
     "GroundPoint",
     "Joint",
+    "Limit",
     "LinearMuscle",
     "Magnetic",
     "Motor",
@@ -160,18 +160,9 @@ class Scene:
         """The springs that only press or only pull."""
         return (spring for spring in self.springs() if spring.only)
 
-    def ropes(self) -> Iterator[Rope]:
-        """The ropes."""
-        return of(Rope, self.forces.values())
-
-    def stops(self) -> Iterator[Stops]:
-        """The stops of joints."""
-        return of(Stops, self.forces.values())
-
-    def limits(self) -> Iterator[str]:
-        """The reactions of ropes and stops, by quantity: they may be none."""
-        for force in self.forces.values():
-            yield from (f"{force.name}.{name}" for told in force.given.values() for name in told)
+    def limits(self) -> Iterator[Limit]:
+        """The forces that hold on one side: ropes and stops."""
+        return of(Limit, self.forces.values())
 
     def dampers(self) -> Iterator[Damper]:
         """The dampers along a line."""

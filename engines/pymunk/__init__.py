@@ -155,7 +155,7 @@ def _run(
 ) -> Trajectory:
     world = placed(scene, start, step, numbers, realised)
     felt = tuple(name for name in wanted if name not in scene.inner())
-    felt_by = {*scene.contacts, *scene.pairs, *world.ropes, *world.stops}
+    felt_by = {*scene.contacts, *scene.pairs, *world.limits}
     touching = tuple(name for name in felt if name.rpartition(".")[0] in felt_by)
     midpoint = bool(numbers.get("time.midpoint"))
     kept = Record(world, step, midpoint, touching) if record else None

@@ -56,8 +56,8 @@ def elements(scene: Scene) -> dict[str, float]:
         found[f"{spring.name}.pulls"] = 0.0 if spring.only == "compression" else 1.0
         found[f"{spring.name}.pushes"] = 0.0 if spring.only == "tension" else 1.0
     found |= {f"{d.name}.damping": d.damping for d in scene.dampers()}
-    found |= {f"{s.name}.{side}": at for s in scene.stops() for side, (_, at) in s.sides.items()}
-    found |= {f"{rope.name}.length": rope.length for rope in scene.ropes()}
+    for limit in scene.limits():
+        found |= {f"{limit.name}.{key}": number for key, number in limit.numbers().items()}
     for wire in of(Torsion, scene.forces.values()):
         found[f"{wire.name}.stiffness"] = wire.stiffness
         found[f"{wire.name}.rest_angle"] = wire.rest_angle

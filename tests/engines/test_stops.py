@@ -126,7 +126,7 @@ def test_stops_that_throw_back_differently_have_springs_of_their_own(tmp_path: P
     lively = FORWARD.replace("high: HIGH", "high: 35").replace("deg}", "deg, restitution: 0.5}", 1)
     shaft = "    more: {stops: hinge, high: 12 deg}\n    hand:"
     case, motion = known(tmp_path, lively.replace("    hand:", shaft, 1))
-    assert [stops.restitution for stops in case.scene.stops()] == [0.5, 0.0]
+    assert [limit.back for limit in case.scene.limits()] == [0.5, 0.0]
     scene = case.scene
 
     def apart(**restitution: float) -> float:

@@ -35,7 +35,7 @@ EDGES: Mapping[str, Realised] = {"mujoco": "law", "pymunk": "driver"}
 
 def builds(engine: Engine, scene: Scene) -> bool:
     """Whether the engine has all that shipped scenes are made of, but edges."""
-    thrown = any(stops.restitution for stops in scene.stops())  # which pymunk has nothing for
+    thrown = any(limit.back for limit in scene.limits())  # which pymunk has nothing for
     pulled = any(rate.endswith(".speed") for rate in scene.drives)  # no motor along a line
     return engine.name in SPATIAL or (scene.frame is PLANE and not thrown and not pulled)
 

@@ -52,10 +52,10 @@ SOURCE = inspect.getsource(Silent)
 
 
 def test_every_noun_of_a_scene_is_there() -> None:
-    """But for what is no field of it: a frame, and what all forces share."""
+    """But for what is no field of it: a frame, and what all forces, or all limits, share."""
     exported = {getattr(scene, name) for name in scene.__all__}
-    missing = {kind for kind in exported if is_dataclass(kind)} - set(ALL) - {scene.Frame, Force}
-    assert not missing
+    shared = {scene.Frame, Force, scene.Limit}
+    assert not {kind for kind in exported if is_dataclass(kind)} - set(ALL) - shared
 
 
 @pytest.mark.parametrize(

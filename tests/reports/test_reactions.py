@@ -27,7 +27,8 @@ def test_in_the_plane_each_force_is_asked_for_by_itself() -> None:
         ]
         rods = {f"{joint.name}.force" for joint in one.scene.joints.values() if joint.swings}
         told = tuple(name for name in forces if name not in rods)
-        inner, limits = one.scene.inner(), one.scene.limits()
+        inner = one.scene.inner()
+        limits = [force for limit in one.scene.limits() for force in limit.reactions()]
         assert wanted_reactions(one.scene, forces) == (*told, *inner)
         assert wanted_reactions(one.scene, table(one.scene)) == (*told, *limits, *inner)
 

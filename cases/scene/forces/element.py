@@ -1,6 +1,6 @@
 """The questions that every force element answers, so that nobody asks which one it is."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
@@ -90,3 +90,36 @@ class Force:
         mobility: how easily [1/kg] a point moves.
         """
         return 0.0, 0.0
+
+
+@dataclass(frozen=True)
+class Limit(Force):
+    """(2.14) on one side: what it measures ends somewhere, and only there it exerts something.
+
+    Its sides are its reactions. Without a word of a restitution what strikes one keeps no rate.
+    """
+
+    works = False  # what does not move takes no work, and an impact's is none of a power
+    measured: ClassVar[str]  # the quantity that ends
+
+    @property
+    def sides(self) -> dict[str, tuple[float, float]]:
+        """By its reaction, for each end: the sense in which it pushes, and where it is [m or rad].
+
+        What is measured, less where it ends, keeps this sense.
+        """
+        raise NotImplementedError
+
+    @property
+    def back(self) -> float:
+        """The part of the rate that it throws back where it is struck."""
+        return 0.0
+
+    def reactions(self) -> Iterator[str]:
+        """Yields what it exerts at each end, by quantity."""
+        return (f"{self.name}.{side}" for told in self.given.values() for side in told)
+
+    def gaps(self, motion: Motion) -> Iterator[Array]:
+        """Yields for each side how far (N,) it is from its end, below zero where it is passed."""
+        at = self.observe(motion, self.measured)
+        return (sense * (at - end) for sense, end in self.sides.values())

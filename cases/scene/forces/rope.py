@@ -9,11 +9,11 @@ from ...fields.kind import Fields
 from ...trajectory import Array
 from ..motion import Motion
 from ..point import Anchor
-from .element import Force
+from .element import Limit
 
 
 @dataclass(frozen=True)
-class Rope(Force):
+class Rope(Limit):
     """(2.14) on one side, λ ≤ L: it pulls where it is taut, and is slack where λ < L.
 
     Where it comes taut its ends keep no velocity along it that would part them: the impact is
@@ -21,11 +21,16 @@ class Rope(Force):
     """
 
     word = "rope"
+    measured = "length"
     given: ClassVar[Mapping[str, tuple[str, ...]]] = {"force": ("force",)}
-    works = False  # taut it has one length; what an impact takes is none of its power
     a: Anchor  # one end
     b: Anchor  # the other
     length: Annotated[float, In("m", above=0)]  # L
+
+    @property
+    def sides(self) -> dict[str, tuple[float, float]]:
+        """It pulls where it is as long as it can be."""
+        return {"force": (-1.0, self.length)}
 
     def refers(self) -> tuple[Anchor, ...]:
         """Its two ends."""

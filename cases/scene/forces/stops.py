@@ -10,13 +10,14 @@ from ...fields.field import In
 from ...trajectory import Array
 from ..body import Body
 from ..motion import Motion
+from .element import Limit
 from .turning import Turning
 
 SIDES = ("low", "high")
 
 
 @dataclass(frozen=True)
-class Stops(Turning):
+class Stops(Limit, Turning):
     """(2.14) on one side, φ ≥ `low` and φ ≤ `high`: what passes neither, and may rest on one.
 
     Where it is struck, the rate of the turn after is −`restitution` of that before.
@@ -24,7 +25,7 @@ class Stops(Turning):
 
     word = "stops"
     winds = True
-    works = False  # what does not move takes no work, and an impact's is none of a power
+    measured = "angle"
     given: ClassVar[Mapping[str, tuple[str, ...]]] = {"torque": SIDES}
     low: Annotated[float, In("rad")] | None = None  # the least angle; None: it has no end there
     high: Annotated[float, In("rad")] | None = None  # the largest
@@ -43,6 +44,11 @@ class Stops(Turning):
         """For each stop that there is: the sense in which it pushes and the angle where it is."""
         found = {"low": (1.0, self.low), "high": (-1.0, self.high)}
         return {side: (sense, at) for side, (sense, at) in found.items() if at is not None}
+
+    @property
+    def back(self) -> float:
+        """Its restitution."""
+        return self.restitution
 
     def observe(self, motion: Motion, field: str) -> Array:
         """(N,) angle [rad], or torque [N m] of what pushes from below less that from above."""

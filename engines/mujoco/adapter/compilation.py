@@ -18,13 +18,13 @@ from ....cases.trajectory import Array
 from ...engine import Choice, Plan, Start
 from ..callbacks.contact_friction import one_touch, touches
 from ..callbacks.inner_state import acting
-from ..callbacks.rope_limit import draw
+from ..callbacks.rope_limit import draw, ropes_of
 from ..callbacks.settle import settle
 from ..callbacks.settle_in_space import settle_in_space
 from ..callbacks.signal import installed, listening
+from ..model.force import lean
 from ..model.number_text import EACH
 from ..model.scene import mjcf
-from ..model.stops import lean
 from ..settings.groups import GROUPS, single
 
 NOMINAL = 1e-3  # s: with which a scene is compiled; any step would do
@@ -114,7 +114,7 @@ def _settle(
     by = settle_in_space if scene.frame is SPACE else settle
     moved: dict[str, Any] = {**by(scene, model, data, start)}
     lean(scene, model, data)
-    roped = any(scene.ropes())
+    roped = any(ropes_of(scene))
     moved |= draw(scene, model, data) if roped else {}
     model.key_qpos[0], model.key_qvel[0] = data.qpos, data.qvel
     if roped:

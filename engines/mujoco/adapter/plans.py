@@ -13,6 +13,7 @@ from ...law import one_number
 from ..callbacks.contact_friction import one_touch
 from ..callbacks.friction import one_slide, smooth_only
 from ..callbacks.rope_impact import catches
+from ..callbacks.rope_limit import ropes_of
 from ..callbacks.spring_switch import has_corners
 from ..callbacks.stepping import (
     Stepper,
@@ -163,9 +164,8 @@ def plan(
     dry = bool(dry_joints(scene))
     jumps = any(law.corners for law in scene.laws())
     first = integrator != "RK4" or bool(met(scene)) or (dry and realised != "driver")
-    first |= any(scene.stops())
-    first |= any(scene.ropes()) and realised != "driver"
     first |= any(scene.one_sided()) and realised != "driver"
+    first |= any(scene.limits()) and not (realised == "driver" and catches(scene))
     corners = any(force.corner for force in scene.forces.values())
     following = (1, 2) if first else (4, 5) if dry else (2, 3)
     bare = Plan(
@@ -201,7 +201,7 @@ def _words(scene: Scene, start: Start, plan: Plan, settles: bool, tuned: bool, s
         lasts, kept = spread(thrown)
         words.append(f"a bounce lasts {lasts:.0f} steps, and keeps its speed to about {kept:.2g} %")
     words += [f"{name} has {LEAST:g} kg m² about its own axis" for name in _slender(scene)]
-    if settles and (met(scene) or any(scene.ropes())):
+    if settles and (met(scene) or any(ropes_of(scene))):
         *_, moved = placed(scene, start, step, plan, settles=True)
         words += _begun_in_space(moved) if scene.frame is SPACE else _begun(scene, moved)
     return "; ".join(words)

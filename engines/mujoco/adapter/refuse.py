@@ -57,8 +57,7 @@ def _unbuilt(scene: Scene, tree: Tree) -> Iterator[str]:
     if what := attribute_conflict(scene):
         yield f"adapter: {what}"
     soft = [*tree.loops, *scene.contacts.values(), *scene.pairs.values()]
-    soft += [*scene.ropes(), *scene.stops()]
-    soft += dry_joints(scene)
+    soft += [*scene.limits(), *dry_joints(scene)]
     for edge in scene.constraints.values() if soft else ():
         yield f"adapter: {edge.name} beside {soft[0].name}, whose force gives way by itself"
 

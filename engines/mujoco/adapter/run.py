@@ -37,8 +37,7 @@ def simulate(
     grid = all_steps(times, model.opt.timestep) if every else times
     steps = way(scene, realised).steps(scene, model, data)
     laws = [*steps.controls, *point_force_callbacks(scene, model)]
-    given = (force.name for force in scene.forces.values() if force.given)
-    felt_by = {*scene.contacts, *scene.pairs, *given}
+    felt_by = {*scene.contacts, *scene.pairs, *(limit.name for limit in scene.limits())}
     touching = tuple(name for name in reactions if name.partition(".")[0] in felt_by)
     corners = Corners(controls(scene), float(model.opt.timestep))
     steps.take = corners.held(steps.take)

@@ -14,7 +14,7 @@ from ....cases.scene import Scene
 from ....cases.trajectory import Array
 from ..model.tree import dry_joints, spanning_tree
 from .cut import Cut, Height
-from .rope_limit import NEAR, Tendons, lengthen
+from .rope_limit import NEAR, Tendons, lengthen, ropes_of
 
 FAR, FAST = 1e-2, 10.0  # of a rope's length, and steps at its rate: as near it is looked at
 
@@ -22,8 +22,9 @@ FAR, FAST = 1e-2, 10.0  # of a rope's length, and steps at its rate: as near it 
 def catches(scene: Scene) -> bool:
     """Whether ropes are all that switches or gives way in the scene."""
     soft = scene.pressed or scene.constraints or dry_joints(scene)
-    soft = soft or any(scene.one_sided()) or any(scene.stops())
-    return any(scene.ropes()) and not soft and not spanning_tree(scene).loops
+    soft = soft or any(scene.one_sided()) or spanning_tree(scene).loops
+    ropes = [*ropes_of(scene)]
+    return bool(ropes) and not soft and len(ropes) == len([*scene.limits()])
 
 
 class Catching(Cut[int]):
@@ -31,7 +32,7 @@ class Catching(Cut[int]):
 
     def __init__(self, scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         super().__init__(model, data)
-        ropes = list(scene.ropes())
+        ropes = list(ropes_of(scene))
         self._tendons = Tendons(model, data, [model.tendon(rope.name).id for rope in ropes])
         self._most = np.array([rope.length for rope in ropes])
         self._ends = list(zip(self._tendons.numbers, self._most.tolist(), strict=True))

@@ -5,7 +5,7 @@ the tendon adds to it, JÌ‡ v. On a circle it comes to pull enough where it is JÌ
 long it is started, or its force would be wrong until it is.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import mujoco
@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....cases.scene import Scene
+from ....cases.scene.forces.force import Rope, of
 from ....cases.trajectory import Array
 
 NEAR = 1e-9  # of a rope's length: so near its end it is taut
@@ -63,9 +64,14 @@ class Tendons:
         return found
 
 
+def ropes_of(scene: Scene) -> Iterator[Rope]:
+    """The scene's ropes."""
+    return of(Rope, scene.forces.values())
+
+
 def draw(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, float]:
     """Moves the data to where ropes that are taut pull rightly; how much too long [m] they are."""
-    ropes = list(scene.ropes())
+    ropes = list(ropes_of(scene))
     tendons = Tendons(model, data, [model.tendon(rope.name).id for rope in ropes])
     mujoco.mj_forward(model, data)
     rows, most = tendons.rows(), np.array([rope.length for rope in ropes])

@@ -121,17 +121,14 @@ def meet(scene: Scene, pair: Pair, start: Start) -> bool:
 
 
 def closed(scene: Scene, start: Start) -> bool:
-    """Whether at the start anything lies on its plane or on another, or a rope or a stop holds."""
+    """Whether at the start anything lies on its plane or on another, or a limit holds."""
     if scene.frame is SPACE:
         return bool(scene.contacts)  # all that touches does, from the start on
     on_planes = any(lies(scene, contact, start) for contact in touching(scene).values())
     if on_planes or any(meet(scene, pair, start) for pair in scene.pairs.values()):
         return True
     motion = begun(scene, start)
-    if any(rope.observe(motion, "gap")[0] <= CLOSED for rope in scene.ropes()):
-        return True
-    angles = ((stops, stops.observe(motion, "angle")[0]) for stops in scene.stops())
-    return any(abs(a - at) <= CLOSED for stops, a in angles for _, at in stops.sides.values())
+    return any(gap[0] <= CLOSED for limit in scene.limits() for gap in limit.gaps(motion))
 
 
 def height(scene: Scene, contact: Contact, start: Start) -> float:

@@ -14,7 +14,7 @@ import mujoco
 import numpy as np
 
 from ....cases.fields.signal import Signal
-from ....cases.scene import CENTER, GROUND, Anchor, Scene
+from ....cases.scene import CENTER, GROUND, Anchor, Limit, Scene
 from ....cases.scene.forces.force import (
     Couple,
     Damper,
@@ -35,9 +35,9 @@ from ....cases.scene.forces.muscle import Contracting
 from ....cases.scene.forces.turning import Motor, Torsion, TorsionDamper
 from ....cases.trajectory import Array
 from .hinge import Hinge, hinge
-from .number_text import written
-from .rope import rope_length, write_rope
-from .stops import stop_numbers, write_stops
+from .number_text import soft, written
+from .rope import finish_rope, rope_length, tension, write_rope
+from .stops import finish_stops, lean_back, pushing, stop_numbers, write_stops
 
 # Viscous friction along a slide as MuJoCo's damping of a joint: a v + b v|v| + c v³.
 
@@ -165,7 +165,7 @@ class Element:
     law that its control follows; outer: what it exerts on bodies at its force (N,), by its gear,
     unless through a tendon, whose forces MuJoCo counts rightly itself. lacks: why MuJoCo has no
     element for it, so that it is told by our law; or None. damping: of what is its joint's damping,
-    what it exerts (N,) at the slips (N,).
+    what it exerts (N,) at the slips (N,). limit: of what holds on one side.
     """
 
     write: Callable[..., None] = lambda *_: None
@@ -174,6 +174,22 @@ class Element:
     outer: Callable[[Any, Array, Array], Iterator[Outer]] = lambda *_: iter(())
     lacks: Callable[[Any], str | None] = lambda force: None
     damping: Callable[[Any, Array], Array] | None = None
+    limit: "Limited | None" = None
+
+
+@dataclass(frozen=True)
+class Limited:
+    """The numbers, sensors and start of a limit, beside its range; called as the `Element`'s are.
+
+    group: of soft constraints, whose numbers it has. finish: gives it these, and its sensors.
+    sensed: what it exerts (N,) at one of its sides, from the sensors' rows (N, ·). lean: moves what
+    starts at its end to where MuJoCo sees it.
+    """
+
+    group: str
+    finish: Callable[..., None]
+    sensed: Callable[[mujoco.MjModel, Any, str, Array], Array]
+    lean: Callable[..., None] = lambda model, data, force, *about: None
 
 
 def lacking(scene: Scene) -> list[tuple[Force, str]]:
@@ -188,6 +204,41 @@ def write(root: ET.Element, scene: Scene) -> None:
     for force in scene.forces.values():
         ELEMENTS[type(force)].write(sections, force, *_about(scene, force, root))
     root.extend(section for section in sections.values() if len(section))
+
+
+def finish(root: ET.Element, scene: Scene, numbers: Mapping[str, object]) -> None:
+    """A setting's numbers for the limits, and their sensors behind those of contacts."""
+    for limit in scene.limits():
+        found = root.find("sensor")
+        sensors = ET.SubElement(root, "sensor") if found is None else found
+        its = _limited(limit)
+        its.finish(
+            root, sensors, limit, soft(numbers, its.group, limit.name), *_about(scene, limit, root)
+        )
+
+
+def limited(scene: Scene, group: str) -> list[Limit]:
+    """The limits that have the numbers of a group of soft constraints."""
+    return [limit for limit in scene.limits() if _limited(limit).group == group]
+
+
+def limit_force(scene: Scene, model: mujoco.MjModel, quantity: str, sensed: Array) -> Array:
+    """(N,) what a limit exerts at one of its sides, from the sensors' rows (N, ·)."""
+    name, _, side = quantity.rpartition(".")
+    limit = next(limit for limit in scene.limits() if limit.name == name)
+    return _limited(limit).sensed(model, limit, side, sensed)
+
+
+def lean(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """Moves what starts at the end of a limit to where MuJoCo sees it."""
+    for limit in scene.limits():
+        _limited(limit).lean(model, data, limit, *_about(scene, limit))
+
+
+def _limited(limit: Limit) -> Limited:
+    found = ELEMENTS[type(limit)].limit
+    assert found is not None, limit.word
+    return found
 
 
 def signals(scene: Scene) -> list[Signal]:
@@ -317,6 +368,8 @@ ELEMENTS: dict[type[Force], Element] = {
     Magnetic: Element(lacks=lambda force: "engine: MuJoCo has no force of a magnetic field"),
     Muscle: Element(write_muscle, signal=lambda force: NOTHING, lacks=lambda force: ANOTHER),
     LinearMuscle: Element(write_muscle, signal=lambda force: NOTHING, lacks=lambda force: ANOTHER),
-    Rope: Element(write_rope, rope_length),
-    Stops: Element(write_stops, stop_numbers),
+    Rope: Element(write_rope, rope_length, limit=Limited("rope", finish_rope, tension)),
+    Stops: Element(
+        write_stops, stop_numbers, limit=Limited("stop", finish_stops, pushing, lean_back)
+    ),
 }

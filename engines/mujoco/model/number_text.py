@@ -4,6 +4,9 @@ from collections.abc import Iterable, Mapping
 
 from ....cases.scene.rotation import Vector3
 
+Softness = Mapping[str, str]
+"""The attributes of one soft constraint, as a setting has them."""
+
 
 def written(*values: object) -> str:
     """Numbers so that they come back bit for bit; lists separated by blanks."""

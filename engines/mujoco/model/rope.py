@@ -5,12 +5,11 @@ from xml.etree import ElementTree as ET
 
 import mujoco
 
-from ....cases.scene import Scene
 from ....cases.scene.forces.rope import Rope
 from ....cases.trajectory import Array
 from ...engine import Choice
 from .contact import HARDEST
-from .number_text import written
+from .number_text import Softness, written
 
 
 def write_rope(sections: Mapping[str, ET.Element], rope: Rope) -> None:
@@ -21,18 +20,11 @@ def write_rope(sections: Mapping[str, ET.Element], rope: Rope) -> None:
         ET.SubElement(spatial, "site", site=str(end))
 
 
-def finish_ropes(root: ET.Element, scene: Scene, soft: dict[str, str]) -> None:
-    """A setting's numbers for the limits, and their sensors behind those of contacts."""
-    names = [rope.name for rope in scene.ropes()]
-    if not names:
-        return
-    found = root.find("sensor")
-    sensors = ET.SubElement(root, "sensor") if found is None else found
-    for spatial in root.iter("spatial"):
-        if spatial.get("name") in names:
-            spatial.attrib.update(soft)
-    for name in names:
-        ET.SubElement(sensors, "tendonlimitfrc", name=name, tendon=name)
+def finish_rope(root: ET.Element, sensors: ET.Element, rope: Rope, soft: Softness) -> None:
+    """A setting's numbers for the limit, and its sensor."""
+    (spatial,) = (each for each in root.iter("spatial") if each.get("name") == rope.name)
+    spatial.attrib.update(soft)
+    ET.SubElement(sensors, "tendonlimitfrc", name=rope.name, tendon=rope.name)
 
 
 def rope_length(model: mujoco.MjModel, rope: Rope) -> dict[str, float]:
@@ -40,9 +32,9 @@ def rope_length(model: mujoco.MjModel, rope: Rope) -> dict[str, float]:
     return {"length": model.tendon_range[model.tendon(rope.name).id, 1]}
 
 
-def tension(model: mujoco.MjModel, rope: str, sensed: Array) -> Array:
+def tension(model: mujoco.MjModel, rope: Rope, side: str, sensed: Array) -> Array:
     """(N,) what pulls its ends together, from the sensors' rows (N, ·)."""
-    return sensed[:, model.sensor(rope).adr[0]]
+    return sensed[:, model.sensor(rope.name).adr[0]]
 
 
 def recipe() -> list[Choice]:

@@ -24,14 +24,12 @@ from .contact import lies, place
 from .drive import controls
 from .drive import write as write_drives
 from .edge import write_room
-from .force import BY_ITSELF, begun_with, write
+from .force import BY_ITSELF, begun_with, finish, write
 from .loops import add_loops, add_rods
 from .number_text import attributes, lifted, soft, written
 from .pairs import add_geoms, add_pair_sensors, add_pairs
 from .planes import Soft, add_contacts, add_geom, add_planes, add_sensors, met, touching
-from .rope import finish_ropes
 from .start import started
-from .stops import finish_stops
 from .tree import AXES, Branch, Tree, called, held_angle, local, natives, spanning_tree, turned
 
 HEAVY = 1e15  # kg of a driven point: 1 N changes its velocity by 1e-15 m/s in a second
@@ -70,8 +68,7 @@ def mjcf(
     add_rods(root, tree.loops)
     write_drives(root, scene)
     write_room(root, scene)
-    finish_ropes(root, scene, attributes(numbers, "rope"))
-    finish_stops(root, scene, partial(soft, numbers, "stop"))
+    finish(root, scene, numbers)
     _start(root, scene, start, begun, out=_leaves_plane(scene, numbers))
     ET.indent(root)
     return ET.tostring(root, encoding="unicode") + "\n"

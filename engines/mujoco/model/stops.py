@@ -7,15 +7,14 @@ from xml.etree import ElementTree as ET
 import mujoco
 import numpy as np
 
-from ....cases.scene import Scene
+from ....cases.scene import Limit
 from ....cases.scene.forces.stops import Stops
 from ....cases.trajectory import Array
 from ...engine import Choice
 from .bounce import dead, springy
 from .contact import HARDEST
-from .hinge import Hinge, hinge
-from .number_text import of_one, written
-from .planes import Soft
+from .hinge import Hinge
+from .number_text import Softness, of_one, written
 
 NEVER = 1e6  # rad: where no turn ends
 AT = 1e-9  # rad: what is nearer to a stop is at it
@@ -35,16 +34,14 @@ def _ends(stops: Stops) -> tuple[float, float]:
     return low, NEVER if stops.high is None else stops.high
 
 
-def finish_stops(root: ET.Element, scene: Scene, soft: Soft) -> None:
-    """A setting's numbers for the limits, and their sensors behind those of others."""
-    for stops in scene.stops():
-        about = hinge(scene, stops, root)
-        assert about.element is not None
-        about.element.attrib.update(soft(stops.name))
-        found = root.find("sensor")
-        sensors = ET.SubElement(root, "sensor") if found is None else found
-        ET.SubElement(sensors, "jointlimitfrc", name=stops.name, joint=about.name)
-        ET.SubElement(sensors, "jointpos", name=f"{stops.name}.angle", joint=about.name)
+def finish_stops(
+    root: ET.Element, sensors: ET.Element, stops: Stops, soft: Softness, about: Hinge
+) -> None:
+    """A setting's numbers for the limits, and their sensors."""
+    assert about.element is not None
+    about.element.attrib.update(soft)
+    ET.SubElement(sensors, "jointlimitfrc", name=stops.name, joint=about.name)
+    ET.SubElement(sensors, "jointpos", name=f"{stops.name}.angle", joint=about.name)
 
 
 def stop_numbers(model: mujoco.MjModel, stops: Stops, about: Hinge) -> dict[str, float]:
@@ -53,33 +50,32 @@ def stop_numbers(model: mujoco.MjModel, stops: Stops, about: Hinge) -> dict[str,
     return {side: {"low": low, "high": high}[side] for side in stops.sides}
 
 
-def lean(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+def lean_back(model: mujoco.MjModel, data: mujoco.MjData, stops: Stops, about: Hinge) -> None:
     """Puts what starts at a stop a rounding behind it: exactly there MuJoCo sees no limit."""
-    for stops in scene.stops():
-        joint = model.joint(hinge(scene, stops).name).id
-        place = model.jnt_qposadr[joint]
-        for end, way in zip(model.jnt_range[joint], (-1.0, 1.0), strict=True):
-            if abs(data.qpos[place] - end) <= AT:
-                data.qpos[place] = end + way * BEHIND
+    joint = model.joint(about.name).id
+    place = model.jnt_qposadr[joint]
+    for end, way in zip(model.jnt_range[joint], (-1.0, 1.0), strict=True):
+        if abs(data.qpos[place] - end) <= AT:
+            data.qpos[place] = end + way * BEHIND
 
 
-def pushing(scene: Scene, model: mujoco.MjModel, quantity: str, sensed: Array) -> Array:
+def pushing(model: mujoco.MjModel, stops: Stops, side: str, sensed: Array) -> Array:
     """(N,) with what moment one of the stops pushes, from the sensors' rows (N, ·)."""
-    name, _, side = quantity.rpartition(".")
-    stops = next(stops for stops in scene.stops() if stops.name == name)
-    size, angle = (sensed[:, model.sensor(n).adr[0]] for n in (name, f"{name}.angle"))
+    size, angle = (
+        sensed[:, model.sensor(name).adr[0]] for name in (stops.name, f"{stops.name}.angle")
+    )
     low, high = _ends(stops)
     below = angle < (low + high) / 2
     return np.where(below == (side == "low"), size, 0.0)
 
 
-def recipe(all_of_them: Sequence[Stops]) -> list[Choice]:
+def recipe(all_of_them: Sequence[Limit]) -> list[Choice]:
     """The limits' numbers: of the stops that throw back most, and what others have instead."""
-    most = max(stops.restitution for stops in all_of_them)
-    others = [stops for stops in all_of_them if stops.restitution != most]
+    most = max(stops.back for stops in all_of_them)
+    others = [stops for stops in all_of_them if stops.back != most]
     return [
         _spring("stop", most),
-        *(_spring(of_one(stops.name), stops.restitution) for stops in others),
+        *(_spring(of_one(stops.name), stops.back) for stops in others),
         Choice("stop.solimplimit", [HARDEST, HARDEST, 0.001], "the hardest MuJoCo takes"),
         Choice(
             "flag.diagexact", "enable", "or k and b are those of the inertia at the file's own pose"

@@ -11,12 +11,10 @@ from ....cases.scene.frame import PLANE, SPACE
 from ....cases.trajectory import Array
 from ...law import TORQUES
 from ..model.drive import Drive
-from ..model.force import ELEMENTS, outer
+from ..model.force import ELEMENTS, limit_force, outer
 from ..model.loops import connections, pulled
 from ..model.pairs import pair_force
 from ..model.planes import touching
-from ..model.rope import tension
-from ..model.stops import pushing
 from ..model.tree import Tree, called, freedoms_left, number_of
 
 Seen = Mapping[str, Array]
@@ -144,13 +142,11 @@ def _site(model: mujoco.MjModel, seen: Seen, anchor: Anchor | str) -> Array:
 def felt_force(
     scene: Scene, model: mujoco.MjModel, name: str, felt: Array, pushed: Array | None = None
 ) -> Array:
-    """(N,) of a contact, see `contact_force`, of a rope or a stop, from the sensors' rows."""
+    """(N,) of a contact, see `contact_force`, or of a limit, from the sensors' rows."""
     part = name.rpartition(".")[0]
     if part in scene.contacts or part in scene.pairs:
         return contact_force(scene, model, name, felt, pushed)
-    if any(rope.name == part for rope in scene.ropes()):
-        return tension(model, part, felt)
-    return pushing(scene, model, name, felt)
+    return limit_force(scene, model, name, felt)
 
 
 def contact_force(

@@ -15,6 +15,7 @@ from ....cases.scene import Scene
 from ...engine import Choice, Start
 from ...foot_contact import strides
 from ..model.contact import HARDEST, SOFTEST, recipe
+from ..model.force import limited
 from ..model.hinge import hinge
 from ..model.loops import recipe as rods
 from ..model.planes import met
@@ -122,7 +123,7 @@ def _contacts(scene: Scene) -> dict[str, Places]:
 def _stops(scene: Scene) -> dict[str, Places]:
     return {
         one.name: lambda scene, model, one=one: model.joint(hinge(scene, one).name).id
-        for one in scene.stops()
+        for one in limited(scene, "stop")
     }
 
 
@@ -163,7 +164,7 @@ GROUPS: Mapping[str, Group] = {
         Group(
             "rope",
             "ropes",
-            of=lambda scene: any(scene.ropes()),
+            of=lambda scene: bool(limited(scene, "rope")),
             recipe=lambda scene, start: ropes(),
             option="tendon",
             default="tendon",
@@ -173,8 +174,8 @@ GROUPS: Mapping[str, Group] = {
         Group(
             "stop",
             "stops",
-            of=lambda scene: any(scene.stops()),
-            recipe=lambda scene, start: stops([*scene.stops()]),
+            of=lambda scene: bool(limited(scene, "stop")),
+            recipe=lambda scene, start: stops(limited(scene, "stop")),
             option="joint",
             default="joint",
             fields={"solreflimit": "jnt_solref"},

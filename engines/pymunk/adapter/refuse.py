@@ -5,11 +5,10 @@ import math
 from ....cases.scene import GROUND, Scene
 from ....cases.scene.frame import PLANE
 from ...foot_contact import NO_STRIDE, strides
-from ..callbacks.force import ELEMENTS, lacking
+from ..callbacks.force import ELEMENTS, lacking, throws_back
 from ..model.drive import NO_LINE
 from ..model.edge import NO_EDGE
 from ..model.pair import MOST
-from ..model.stops import throws_back
 
 
 def not_native(scene: Scene) -> list[str]:

@@ -113,7 +113,7 @@ def building(world: World, start: Start, numbers: Mapping[str, Any]) -> list[str
         "ground = space.static_body",
         "bodies = {}",
         *(["joints = []  # all that hold bodies"] if _kept(world) else []),
-        *(["limits = []  # ropes and stops, which give way"] if _limits(world) else []),
+        *(["limits = []  # ropes and stops, which give way"] if world.limits else []),
         *(["motors = {}"] if world.motors else []),
         *helpers(world.scene.laws()),
         *(["", *_CARRIED] if world.slots else []),
@@ -183,18 +183,14 @@ def _bodies(world: World) -> Iterator[str]:
         yield "space.add(body)"
 
 
-def _limits(world: World) -> dict[str, Constraint]:
-    return {**world.ropes, **world.stops}
-
-
 def _kept(world: World) -> bool:
     """Whether a setting has joints to change."""
-    return bool(world.joints or _limits(world))
+    return bool(world.joints or world.limits)
 
 
 def _owners(world: World, name: str) -> tuple[str, ...]:
     """Whose numbers a joint has."""
-    if name in _limits(world):
+    if name in world.limits:
         return "constraint", "limit"
     return ("constraint",) if name in world.joints else ()
 
@@ -202,7 +198,8 @@ def _owners(world: World, name: str) -> tuple[str, ...]:
 def _constraints(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
     brakes = {name: (brake,) for name, brake in world.brakes.items()}
     named = {name: (*parts, *brakes.get(name, ())) for name, parts in world.joints.items()}
-    named |= {name: (line,) for name, line in (world.lines | world.ropes | world.stops).items()}
+    named |= {name: (line,) for name, line in world.lines.items()}
+    named |= {name: (limit.joint,) for name, limit in world.limits.items()}
     for name, parts in named.items():
         for part in parts:
             yield ""

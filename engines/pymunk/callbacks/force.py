@@ -8,12 +8,13 @@ drift later. The midpoint protocol evaluates it there; else it is the force at t
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from pymunk.body import Body
-from pymunk.constraints import DampedRotarySpring, DampedSpring
+from pymunk.constraints import Constraint, DampedRotarySpring, DampedSpring
 
-from ....cases.scene import Force, Scene
+from ....cases.scene import Force, Limit, Scene
 from ....cases.scene.forces.force import (
     Couple,
     Damper,
@@ -35,9 +36,10 @@ from ...engine import Realised
 from ...signal import acting, in_time
 from ..model.chipmunk_state import State, pushing, reading, turning
 from ..model.number_text import written
+from ..model.rope import pulled, rope_joint, rope_numbers
 from ..model.script_signals import as_text
-from ..model.stops import stop_numbers
-from ..model.world import World
+from ..model.stops import pressed, stop_numbers, stops_joint
+from ..model.world import Held, World
 from . import unilateral_spring as one_side
 from .line_forces import Exerted, Load, drifted, midpoint_force, pull
 from .point_forces import BY_LAW
@@ -118,13 +120,54 @@ class Element:
     name. script: the same as lines of Python. lacks: why pymunk has none, so that our law tells it.
     """
 
-    load: Callable[[World, Any, str], Exerted]
+    load: Callable[[World, Any, str], Exerted] = lambda world, force, name: _nothing
     line: Callable[[Any], dict[str, float]] | None = None
     numbers: Callable[[Any], dict[str, float]] = lambda line: {}
     by_length: Callable[[Any], Callable[[Any, float], float] | None] = lambda force: None
     tell: Callable[[World, Any, float, float], Apply] | None = None
     script: Callable[[World, Any, Callable[[Body], str], bool], Iterator[str]] | None = None
     lacks: str = ""
+    limit: "Limited | None" = None
+
+
+@dataclass(frozen=True)
+class Limited:
+    """A limit as a joint of pymunk's, none of which throws back what strikes it.
+
+    called: the joint's name in words. numbers: for the audit. impulse: of its last step at one of
+    the limit's sides [N s, N m s].
+    """
+
+    called: str
+    joint: Callable[[World, Any], Constraint]
+    numbers: Callable[[Any, Any], dict[str, float]]
+    impulse: Callable[[Any, str], float]
+
+
+def limits(world: World) -> None:
+    """Adds the limits' joints, in the order of the case file."""
+    for limit in world.scene.limits():
+        its = _limited(limit)
+        joint = its.joint(world, limit)
+        world.limits[limit.name] = Held(joint, partial(its.impulse, joint))
+        world.space.add(joint)
+
+
+def throws_back(scene: Scene) -> str | None:
+    """Why pymunk's joints cannot throw back as the scene's limits do; None if none of them does."""
+    for limit in scene.limits():
+        if limit.back:
+            return (
+                f"engine: pymunk's {_limited(limit).called} throws nothing back, and {limit.name} "
+                f"has the restitution {limit.back:g}"
+            )
+    return None
+
+
+def _limited(limit: Limit) -> Limited:
+    found = ELEMENTS[type(limit)].limit
+    assert found is not None, limit.word
+    return found
 
 
 def lines(world: World, realised: Realised) -> None:
@@ -165,12 +208,13 @@ def tells(world: World, step: float, *, midpoint: bool) -> list[Apply]:
 
 
 def numbers(world: World) -> dict[str, float]:
-    """The numbers of pymunk's lines, ropes and stops, as `Force.numbers` names them."""
-    ropes = {f"{name}.length": joint.max for name, joint in world.ropes.items()}
-    for stops in world.scene.stops():
-        held = stop_numbers(world.stops[stops.name], stops)
-        ropes |= {f"{stops.name}.{side}": at for side, at in held.items()}
-    return ropes | {
+    """The numbers of pymunk's lines and limits, as `Force.numbers` names them."""
+    held = {
+        f"{limit.name}.{key}": number
+        for limit in world.scene.limits()
+        for key, number in _limited(limit).numbers(world.limits[limit.name].joint, limit).items()
+    }
+    return held | {
         f"{name}.{key}": number
         for name, line in world.lines.items()
         for key, number in ELEMENTS[type(world.scene.forces[name])].numbers(line).items()
@@ -301,8 +345,8 @@ ELEMENTS: dict[type[Force], Element] = {
     Magnetic: Element(**BY_LAW, lacks="engine: pymunk has no force of a magnetic field"),
     Muscle: Element(**BY_LAW, lacks="engine: pymunk has no muscle"),
     LinearMuscle: Element(**BY_LAW, lacks="engine: pymunk has no muscle"),
-    Rope: Element(load=lambda world, rope, name: _nothing),  # a joint
-    Stops: Element(load=lambda world, stops, name: _nothing),
+    Rope: Element(limit=Limited("slide joint", rope_joint, rope_numbers, pulled)),
+    Stops: Element(limit=Limited("rotary limit", stops_joint, stop_numbers, pressed)),
 }  # fmt: skip
 
 

@@ -82,15 +82,11 @@ def _two_bounds(contact: Contact) -> bool:
 
 
 def _only(scene: Scene, body: str) -> bool:
-    """Whether one joint or contact is all that holds the body, and no rope or stop ever does."""
+    """Whether one joint or contact is all that holds the body, and no limit ever does."""
     joints = [j for j in scene.joints.values() if body in (j.a.body, j.b.body)]
     pairs = [p for p in scene.pairs.values() if body in (p.body, p.touched)]
     contacts = [c for c in scene.contacts.values() if c.body == body]
-    limited = any(
-        body in (end.body for end in scene.ends(force))
-        for force in scene.forces.values()
-        if force.given
-    )
+    limited = any(body in (end.body for end in scene.ends(limit)) for limit in scene.limits())
     return len(joints) + len(pairs) + len(contacts) == 1 and not limited
 
 

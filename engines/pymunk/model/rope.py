@@ -9,6 +9,7 @@ import math
 
 from pymunk.constraints import SlideJoint
 
+from ....cases.scene.forces.rope import Rope
 from ...engine import Choice
 from .world import World
 
@@ -16,13 +17,20 @@ FASTEST = 150.0  # 1/s: at 0.1 ms a ball that swings on a rope is ten times near
 SLOWING = 1.5  # s^-1/2: it meets FASTEST at 0.1 ms; at 1 ms a ball that is caught is caught once
 
 
-def add_ropes(world: World) -> None:
-    """In the order of the case file."""
-    for rope in world.scene.ropes():
-        a, b = world.body(rope.a), world.body(rope.b)
-        ends = world.local(rope.a), world.local(rope.b)
-        world.ropes[rope.name] = joint = SlideJoint(a, b, *ends, 0.0, rope.length)
-        world.space.add(joint)
+def rope_joint(world: World, rope: Rope) -> SlideJoint:
+    """Between its ends."""
+    ends = world.local(rope.a), world.local(rope.b)
+    return SlideJoint(world.body(rope.a), world.body(rope.b), *ends, 0.0, rope.length)
+
+
+def rope_numbers(joint: SlideJoint, rope: Rope) -> dict[str, float]:
+    """How long it is."""
+    return {"length": joint.max}
+
+
+def pulled(joint: SlideJoint, side: str) -> float:
+    """The impulse [N s] of the last step."""
+    return joint.impulse
 
 
 def eases(step: float) -> Choice:

@@ -1,5 +1,6 @@
 """A pymunk Space and its parts, by their names in the scene."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from pymunk.body import Body
@@ -8,9 +9,7 @@ from pymunk.constraints import (
     DampedRotarySpring,
     DampedSpring,
     GrooveJoint,
-    RotaryLimitJoint,
     SimpleMotor,
-    SlideJoint,
 )
 from pymunk.shapes import Circle, Segment
 from pymunk.space import Space
@@ -19,6 +18,14 @@ from ....cases.scene import GROUND, Anchor, Scene, Vector
 from ...foot_contact import Stride
 from .pin import Pin
 from .slot import Line
+
+
+@dataclass(frozen=True)
+class Held:
+    """A limit's joint, and the impulse of its last step by the limit's side."""
+
+    joint: Constraint
+    impulse: Callable[[str], float]
 
 
 @dataclass(frozen=True)
@@ -43,8 +50,7 @@ class World:
     lines: dict[str, DampedSpring | DampedRotarySpring] = field(default_factory=dict)
     motors: dict[str, SimpleMotor] = field(default_factory=dict)
     slots: dict[str, Line] = field(default_factory=dict)
-    ropes: dict[str, SlideJoint] = field(default_factory=dict)
-    stops: dict[str, RotaryLimitJoint] = field(default_factory=dict)
+    limits: dict[str, Held] = field(default_factory=dict)
     pins: dict[str, Pin] = field(default_factory=dict)
     wheels: dict[str, Circle] = field(default_factory=dict)
     planes: dict[str, Segment] = field(default_factory=dict)

@@ -10,20 +10,19 @@ from pymunk.constraints import Constraint
 from pymunk.shapes import Shape
 
 from ....cases.scene import Scene, Vector
-from ..model.stops import pressed
 from ..model.world import World
 
 Planes = dict[str, tuple[float, float]]
 
 
 def impulses(world: World, reactions: tuple[str, ...]) -> Callable[[], list[float]]:
-    """A function that reads them [N s]: a joint's or a rope's size, an edge's, a plane's two.
+    """A function that reads them [N s]: a joint's size, an edge's, a plane's two.
 
     Of a step that was cut they are what its last part would give in a whole one.
     """
     parts = [quantity.rpartition(".") for quantity in reactions]
     joints = [_holding(world, name) for name, _, _ in parts]
-    stops = [world.stops.get(name) for name, _, _ in parts]
+    limits = [world.limits.get(name) for name, _, _ in parts]
     pins = [world.pins.get(quantity) for quantity in reactions]
     points = [_points(world.scene, name) for name, _, _ in parts]
     wanted = {name for names in points for name in names}
@@ -35,13 +34,13 @@ def impulses(world: World, reactions: tuple[str, ...]) -> Callable[[], list[floa
         *((body, _paired, names) for body, names in pairs.items()),
     ]  # fmt: skip
     reads: list[Callable[[], float]] = []
-    for (name, _, what), joint, pin, stop, names in zip(
-        parts, joints, pins, stops, points, strict=True
+    for (name, _, what), joint, pin, limit, names in zip(
+        parts, joints, pins, limits, points, strict=True
     ):
         if pin:
             reads.append(pin.impulse)
-        elif stop:
-            reads.append(partial(pressed, stop, what))
+        elif limit:
+            reads.append(partial(limit.impulse, what))
         elif joint:
             reads.append(partial(_size, joint))
         else:
@@ -73,9 +72,9 @@ def _along(x: float, y: float, names: Sequence[str], felt: Planes) -> float:
 
 
 def _holding(world: World, name: str) -> list[Constraint]:
-    """Constraints that exert a joint's or a rope's force: in a slide one holds, one rubs across."""
+    """Constraints that exert a joint's force: in a slide one holds, one rubs across."""
     if name not in world.joints:
-        return [world.ropes[name]] if name in world.ropes else []
+        return []
     rubs = name in world.brakes and world.scene.joints[name].shifts
     return [world.joints[name][0], *([world.brakes[name]] if rubs else [])]
 

@@ -16,13 +16,11 @@ from pymunk.space import Space
 from ....cases.scene import GROUND, DryFriction, Joint, Scene, Vector
 from ...engine import Realised, Start
 from ...foot_contact import stride
-from ..callbacks.force import lines
+from ..callbacks.force import limits, lines
 from ..model.contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle, closed, only, planes
 from ..model.edge import add_edges
 from ..model.pair import add_pairs
-from ..model.rope import add_ropes
 from ..model.slot import holds_angle, line, oblique, pinned, turns
-from ..model.stops import add_stops
 from ..model.world import World
 
 # Half the length [m] of planes, and of a slide's groove, which pymunk wants finite. Every step
@@ -42,15 +40,14 @@ def build(scene: Scene, start: Start, numbers: Mapping[str, Any], realised: Real
     _contacts(world)
     _joints(world, start, across=bool(numbers.get("slot.across")))
     add_edges(world)
-    add_ropes(world)
-    add_stops(world)
+    limits(world)
     lines(world, realised)
     joints = [part for parts in world.joints.values() for part in parts]
-    limits = [*world.ropes.values(), *world.stops.values()]
-    joints += limits
+    ends = [limit.joint for limit in world.limits.values()]
+    joints += ends
     for name, value in numbers.items():
         owner, _, attribute = name.partition(".")
-        for part in {"space": [space], "constraint": joints, "limit": limits}.get(owner, ()):
+        for part in {"space": [space], "constraint": joints, "limit": ends}.get(owner, ()):
             setattr(part, attribute, value)
     return world
 

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ....cases.scene import CENTER, Anchor, Bounds, Scene
+from ....cases.scene import CENTER, Anchor, Bounds, Limit, Scene
 from ....cases.scene.forces.couple import Couple
 from ....cases.scene.forces.drag import Drag, Viscous
 from ....cases.scene.forces.force import (
@@ -22,9 +22,7 @@ from ....cases.scene.forces.force import (
     Motor,
     Muscle,
     Push,
-    Rope,
     Spring,
-    Stops,
     Torque,
     Torsion,
     TorsionDamper,
@@ -543,9 +541,9 @@ class Gyroscopic:
 
 @dataclass(frozen=True)
 class Unilateral(Action):
-    """A rope or a stop: it exerts something only where it holds, and is a constraint there."""
+    """It exerts something only where it ends, and is a constraint there."""
 
-    force: Force
+    force: Limit
 
     def loads(self, k: Kinematics) -> list[Load]:
         """Nothing."""
@@ -566,14 +564,17 @@ ACTIONS: dict[type[Force], type[Action]] = {
     Magnetic: Deflected,
     Muscle: HillContracted,
     LinearMuscle: LinearContracted,
-    Rope: Unilateral,
-    Stops: Unilateral,
 }
 
 
 def actions(forces: Sequence[Force]) -> list[Action]:
     """The formulas of each element, in order. Raises NotImplementedError of an unknown kind."""
-    unknown = [force.name for force in forces if type(force) not in ACTIONS]
-    if unknown:
-        raise NotImplementedError(f"{unknown[0]} is not known to the reference")
-    return [ACTIONS[type(force)](force) for force in forces]
+    return [_action(force) for force in forces]
+
+
+def _action(force: Force) -> Action:
+    if isinstance(force, Limit):
+        return Unilateral(force)
+    if type(force) not in ACTIONS:
+        raise NotImplementedError(f"{force.name} is not known to the reference")
+    return ACTIONS[type(force)](force)

@@ -145,7 +145,7 @@ class Multibody(Mode):
         for at, law in self._coulomb:
             _add(found, law.tangent.reactions(t, numbers, [law.factor * multipliers[at]]))
         idle = [f"{joint.name}.torque" for joint in self.scene.joints.values() if not joint.turns]
-        idle += self.scene.limits()
+        idle += [force for limit in self.scene.limits() for force in limit.reactions()]
         found = dict.fromkeys(idle, 0.0) | found  # a particle takes no moment, a rope may be slack
         for shared in self._shared:
             found |= shared.divided(found)

@@ -13,10 +13,11 @@ both sides, so q̇ and q̈ go through the event, and the rates of q̈ jump.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
-from ....cases.scene import CENTER, Anchor, Scene
+from ....cases.scene import CENTER, Anchor, Limit, Scene
 from ....cases.scene.forces.force import Spring
 from ....cases.scene.forces.rope import Rope
 from ....cases.scene.forces.stops import Stops
@@ -38,21 +39,12 @@ from .element import Element, State, Touching
 
 
 def unilateral(scene: Scene, where: Layout) -> Iterator[Element]:
-    """Yields an element for each pair, rope, side of a stop and one-sided spring of the scene."""
+    """Yields an element for each pair, each side of a limit and one-sided spring of the scene."""
     for pair in scene.pairs.values():
         yield paired(pair, where)
-    for rope in scene.ropes():
-        yield Roped(
-            name=rope.name, quantity=f"{rope.name}.force", normal=taut(rope, where),
-            plane="end of its length",
-        )  # fmt: skip
-    for stops in scene.stops():
-        for side, (sense, at) in stops.sides.items():
-            name = f"{stops.name}.{side}"
-            yield Stopped(
-                name=name, quantity=name, normal=stopped(scene, stops, side, sense, at, where),
-                restitution=stops.restitution, plane=f"{side} stop",
-            )  # fmt: skip
+    for limit in scene.limits():
+        for side in limit.sides:
+            yield LIMITS[type(limit)](scene, limit, side, where)
     for spring in scene.one_sided():
         yield OneSided(name=spring.name, spring=spring, line=_line(spring, where))
 
@@ -108,7 +100,7 @@ def _ends(pair: Pair) -> tuple[Anchor, Anchor]:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Limit(Element):
+class Limited(Element):
     """It shares its friction with nothing: it has none. quantity: the reaction of its row."""
 
     quantity: str
@@ -129,7 +121,7 @@ class Limit(Element):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Roped(Limit):
+class Roped(Limited):
     """A rope's end."""
 
     endings: tuple[str, str] = ("slackens", "tightens")
@@ -144,14 +136,17 @@ class Roped(Limit):
         return f"{self.name} would have to push"
 
 
-def taut(rope: Rope, where: Layout) -> Constraint:
+def roped(scene: Scene, rope: Rope, side: str, where: Layout) -> Limited:
     """(2.14) −λ = −L; its multiplier pulls both ends together."""
+    sense, at = rope.sides[side]
     row = (Distance(FIRST, SECOND),)
-    return Constraint(rope.name, (rope.a, rope.b), (row,), (("force",),), (-rope.length,), where)
+    taut = Constraint(rope.name, (rope.a, rope.b), (row,), ((side,),), (sense * at,), where)
+    quantity = f"{rope.name}.{side}"
+    return Roped(name=rope.name, quantity=quantity, normal=taut, plane="end of its length")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Stopped(Limit):
+class Stopped(Limited):
     """One of the two stops of a joint's turn (2.14): φ − low ≥ 0 and high − φ ≥ 0."""
 
     endings: tuple[str, str] = ("leaves", "strikes")
@@ -166,14 +161,22 @@ class Stopped(Limit):
         return f"{self.name} would have to hold what leaves it"
 
 
-def stopped(
-    scene: Scene, stops: Stops, side: str, sense: float, at: float, where: Layout
-) -> Constraint:
+def stopped(scene: Scene, stops: Stops, side: str, where: Layout) -> Limited:
     """(2.14) ±(φ_B − φ_A) = ±φ₀; its multiplier is a moment on the second part, or the opposite."""
-    joint = scene.joints[stops.joint]
-    row = (Turning(SECOND, sense), Turning(FIRST, -sense))
-    ends, held = (joint.a, joint.b), (sense * at,)
-    return Constraint(stops.name, ends, (row,), ((side,),), held, where)
+    joint, (sense, at) = scene.joints[stops.joint], stops.sides[side]
+    row, ends = (Turning(SECOND, sense), Turning(FIRST, -sense)), (joint.a, joint.b)
+    struck = Constraint(stops.name, ends, (row,), ((side,),), (sense * at,), where)
+    name = f"{stops.name}.{side}"
+    return Stopped(
+        name=name, quantity=name, normal=struck, restitution=stops.back, plane=f"{side} stop"
+    )
+
+
+LIMITS: dict[type[Limit], Callable[[Scene, Any, str, Layout], Limited]] = {
+    Rope: roped,
+    Stops: stopped,
+}
+"""What each kind of limit is at one of its sides."""
 
 
 # Springs that only press or only pull: (2.82) on one side of the rest length, else slack.
