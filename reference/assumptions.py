@@ -16,7 +16,7 @@ from ..cases.scene.observe import motion_of, observe
 from ..cases.scene.passages import dips, smooth
 from ..cases.scene.quantity import table
 from ..cases.trajectory import Array, Trajectory
-from .mechanism.modes.either import Generated
+from .mechanism.modes.mechanism import Mechanism
 from .motion.event_location import TOUCH
 from .motion.follow import Followed, Touch
 from .start.sizes import size_of
@@ -34,7 +34,7 @@ UNITS = {"x": "m", "y": "m", "z": "m", "angle": "rad", "attitude": "1"}
 UNITS |= {"vx": "m/s", "vy": "m/s", "vz": "m/s"} | dict.fromkeys(("omega", *RATES[3:]), "rad/s")
 
 
-def check_start(case: Case, system: System, generated: Generated) -> None:
+def check_start(case: Case, system: System, generated: Mechanism) -> None:
     """Raises CaseError with what a hand-written system starts otherwise than the scene does."""
     mode, *state = system.start()
     told = system.modes[mode].poses(0.0, *state)

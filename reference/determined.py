@@ -17,7 +17,7 @@ from ..cases.scene.quantity import at_event, table
 from ..cases.trajectory import Trajectory
 from .certificate.agreement import Check, worst
 from .mechanism.constraints.leeway import LEANS, Leeway
-from .mechanism.modes.either import Generated
+from .mechanism.modes.mechanism import Mechanism
 from .motion.bodies import Answer
 from .system import Pose
 
@@ -34,7 +34,7 @@ Spans = Mapping[str, tuple[float, float]]
 """By reaction: its least and its largest value."""
 
 
-def check_determined(case: Case, built: Answer, generated: Generated) -> tuple[Check, ...]:
+def check_determined(case: Case, built: Answer, generated: Mechanism) -> tuple[Check, ...]:
     """How far apart the values of a force are that is asked for, of the largest force.
 
     Raises CaseError with those that statics does not decide.
@@ -76,7 +76,7 @@ def _felt(case: Case, name: str) -> bool:
 
 
 def _samples(
-    case: Case, built: Answer, generated: Generated
+    case: Case, built: Answer, generated: Mechanism
 ) -> Iterator[tuple[float, Mapping[str, Pose], Leeway]]:
     """The samples at which equilibrium leaves forces open, and those."""
     followed = built.followed

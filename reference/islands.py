@@ -17,7 +17,7 @@ from ..cases.trajectory import Trajectory
 from .certificate.agreement import Check, gravest
 from .certificate.errors import ERROR
 from .certificate.island_check import alone
-from .mechanism.modes.either import Base
+from .mechanism.modes.mode import Multibody
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class Island:
     case: Case
     motion: Trajectory
     checks: tuple[Check, ...]
-    base: Base
+    base: Multibody
 
 
 def parts(case: Case) -> tuple[Case, ...]:

@@ -20,8 +20,7 @@ from ..cases.scene.frame import SPACE
 from ..cases.scene.islands import apart
 from .integrators.budget import Endless, budget
 from .laws.rotation import axes
-from .mechanism.modes.either import Generated
-from .mechanism.modes.mechanism import BadStart
+from .mechanism.modes.mechanism import BadStart, Mechanism
 from .mechanism.modes.mode_selection import Undetermined
 from .mechanism.modes.simultaneous_impacts import OneInstant
 from .motion.stuck import Stuck
@@ -61,7 +60,7 @@ def bounded(case: Case) -> Iterator[None]:
 
 
 @contextmanager
-def refusals(case: Case, generated: Generated) -> Iterator[None]:
+def refusals(case: Case, generated: Mechanism) -> Iterator[None]:
     """Turns what stops the motion into CaseError."""
     try:
         yield
@@ -103,7 +102,7 @@ def _fewer(among: Sequence[str]) -> str:
     )
 
 
-def _mistake(case: Case, generated: Generated, failure: Exception) -> Mistake:
+def _mistake(case: Case, generated: Mechanism, failure: Exception) -> Mistake:
     match failure:
         case BadStart():
             return case.mistake(("initial",), str(failure))
@@ -143,7 +142,7 @@ def _upright(case: Case, poses: Mapping[str, Pose]) -> str | None:
     return None
 
 
-def _line(case: Case, generated: Generated, t: float, q: Array) -> str | None:
+def _line(case: Case, generated: Mechanism, t: float, q: Array) -> str | None:
     name = generated.base.without_direction(t, q, SHORT * size_of(case))
     return None if name is None else f"{name} has no length there, and so no direction"
 

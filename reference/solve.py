@@ -23,7 +23,7 @@ from .integrators.budget import apart
 from .integrators.now import begun, doing
 from .integrators.threads import one_thread
 from .islands import Island, parts, together
-from .mechanism.modes.either import Generated
+from .mechanism.modes.mechanism import Mechanism
 from .motion.bodies import Answer, Beside
 from .motion.follow import Followed, follow
 from .refusal import bounded, refusals, unreached
@@ -124,7 +124,7 @@ def _written(case: Case) -> System | None:
         raise CaseError([case.mistake(("parameters",), f"{case.system}: {error}")]) from error
 
 
-def reactions_of(generated: Generated, found: Followed, followed: Followed) -> Beside:
+def reactions_of(generated: Mechanism, found: Followed, followed: Followed) -> Beside:
     """The generated modes' reactions on the written motion, phase by phase.
 
     With another count of phases there are none, and the certificate says why; nor are there any in

@@ -19,7 +19,7 @@ from ..integrators.implicit import Radau
 from ..integrators.march import Method, Slope
 from ..integrators.now import doing
 from ..integrators.radau import radau_table
-from ..mechanism.modes.either import Generated
+from ..mechanism.modes.mechanism import Mechanism
 from ..motion.bodies import Answer
 from ..motion.follow import TOLERANCE, Followed, either, follow
 from ..start.sizes import size_of
@@ -52,7 +52,7 @@ def certify(
     case: Case,
     written: Answer,
     built: Answer,
-    generated: Generated,
+    generated: Mechanism,
     motion: Trajectory,
 ) -> tuple[Check, ...]:
     """The results of every check that applies to the case.
@@ -98,7 +98,7 @@ def certify(
 
 
 def as_the_file_says(
-    case: Case, answer: Answer, generated: Generated, motion: Trajectory, own: float
+    case: Case, answer: Answer, generated: Mechanism, motion: Trajectory, own: float
 ) -> Iterator[Check]:
     """Checks what all answers might share: laws, joints and the start, from the states alone."""
     lengths = size_of(case)

@@ -14,7 +14,7 @@ from ...cases.scene.frame import PLANE
 from ...cases.scene.observe import motion_of, observe
 from ...cases.scene.quantity import table
 from ...cases.trajectory import Array, Trajectory
-from ..mechanism.modes.either import Generated
+from ..mechanism.modes.mechanism import Mechanism
 from .agreement import Check, worst
 from .reading import Size
 
@@ -26,7 +26,7 @@ SEED = 8  # of rates that make a force's power tell all of it: any
 
 
 def prescribed(
-    case: Case, motion: Trajectory, generated: Generated, size: Size, own: float
+    case: Case, motion: Trajectory, generated: Mechanism, size: Size, own: float
 ) -> Iterator[Check]:
     """Drives, blades, points and forces against their laws; own: what the motion is known to.
 
@@ -85,7 +85,7 @@ def _blades(case: Case, motion: Trajectory, size: Size) -> Iterator[float]:
             yield size.apart("m/s", speed, law.at(motion.times)[:, 0])
 
 
-def _points(case: Case, generated: Generated, size: Size) -> Iterator[float]:
+def _points(case: Case, generated: Mechanism, size: Size) -> Iterator[float]:
     """Where the mechanism has the ground's points that move, and how fast: at every sample."""
     for name, point in case.scene.points.items():
         if not point.driven:
@@ -96,7 +96,7 @@ def _points(case: Case, generated: Generated, size: Size) -> Iterator[float]:
             yield size.apart(unit, columns, 0.0 * columns)
 
 
-def _forces(case: Case, motion: Trajectory, generated: Generated) -> Iterator[float]:
+def _forces(case: Case, motion: Trajectory, generated: Mechanism) -> Iterator[float]:
     """The power of what acts by a law, at the motion's places and any rates.
 
     Any, because a force across the motion has none there.

@@ -9,7 +9,6 @@ from ...cases.scene.frame import SPACE
 from ...cases.trajectory import Array, Trajectory
 from ..mechanism.kinematics.coordinates import Coordinates
 from ..mechanism.kinematics.spatial_coordinates import SpatialCoordinates
-from ..mechanism.modes.either import Base
 from ..mechanism.modes.mode import Multibody
 from ..mechanism.modes.spatial_mode import SpatialMultibody
 from ..system import Pose
@@ -19,7 +18,7 @@ from .reaction_check import AGREE, condition, lost
 ASKED, SEED = 3, 3  # samples at which the whole scene is asked, at any rates
 
 
-def alone(case: Case, motion: Trajectory, islands: Sequence[Base]) -> Check:
+def alone(case: Case, motion: Trajectory, islands: Sequence[Multibody]) -> Check:
     """The accelerations of the whole scene, in which an island feels nothing of the others.
 
     At any rates, because a damper between two islands at rest does nothing.
@@ -46,13 +45,13 @@ def _state(motion: Trajectory, i: int) -> dict[str, Pose]:
     return {**beside, **{name: tuple(rows[i]) for name, rows in motion.states.items()}}
 
 
-def _whole(case: Case, start: Mapping[str, Pose]) -> Base:
+def _whole(case: Case, start: Mapping[str, Pose]) -> Multibody:
     if case.scene.frame is SPACE:
         return SpatialMultibody(case.scene, SpatialCoordinates(case.scene).place(start))
     return Multibody(case.scene, Coordinates(case.scene).place(start))
 
 
-def _accelerations(base: Base, t: float, poses: Mapping[str, Pose]) -> dict[str, Array]:
+def _accelerations(base: Multibody, t: float, poses: Mapping[str, Pose]) -> dict[str, Array]:
     """The acceleration of each body by its name, as the rates in its pose."""
     q, v = base.place(poses)
     rates, frame = base.poses(t, q, base.accelerations(t, q, v)), base.scene.frame

@@ -15,7 +15,8 @@ from ..coverage import look
 from ..formalisms import appell, chaplygin, energy, lagrange, lagrangian, newton_euler, voronets
 from ..formalisms.dependent import dependent
 from ..integrators.now import reached
-from ..mechanism.modes.either import Base, Generated
+from ..mechanism.modes.mechanism import Mechanism
+from ..mechanism.modes.mode import Multibody
 from ..mechanism.modes.spatial_mode import SpatialMultibody
 from ..motion.bodies import Answer
 from ..system import Array, Mode
@@ -38,7 +39,7 @@ ELIMINATED = {
 class Scale:
     """The scale of a motion: its bodies in maximal coordinates, and how fast each coordinate is."""
 
-    base: Base
+    base: Multibody
     speeds: Array  # (n,) m/s or rad/s
     duration: float = math.inf  # s
 
@@ -88,7 +89,7 @@ class Scale:
         )
 
 
-def laws(answer: Answer, generated: Generated, times: Array) -> Iterator[Check]:
+def laws(answer: Answer, generated: Mechanism, times: Array) -> Iterator[Check]:
     """The laws of every mode along its own part of the motion; the worst of each."""
     found: dict[str, list[Check]] = {}
     followed, written = answer.followed, answer.system is not generated
@@ -104,7 +105,7 @@ def laws(answer: Answer, generated: Generated, times: Array) -> Iterator[Check]:
     yield from map(gravest, found.values())
 
 
-def _speeds(answer: Answer, base: Base, times: Array) -> Array:
+def _speeds(answer: Answer, base: Multibody, times: Array) -> Array:
     """The largest |v| of a kind, and at least what goes through the size, or 1 rad, in the time."""
     modes = (answer.system.modes[name] for name in answer.followed.modes)
     rows = zip(modes, times.tolist(), answer.followed.y, strict=True)

@@ -11,7 +11,8 @@ import numpy as np
 
 from ..coverage import look
 from ..formalisms.derivative import along
-from ..mechanism.modes.either import Base, Generated
+from ..mechanism.modes.mechanism import Mechanism
+from ..mechanism.modes.mode import Multibody
 from ..motion.bodies import Answer
 from ..system import Array, Mode
 from .agreement import Check, worst
@@ -23,7 +24,7 @@ DIGITS = 100  # times ε and the condition of its equations: what these lose
 
 
 def reaction_checks(
-    written: Answer, built: Answer, generated: Generated, times: Array
+    written: Answer, built: Answer, generated: Mechanism, times: Array
 ) -> Iterator[Check]:
     """Accelerations, and reactions where the system knows its own; phase by phase.
 
@@ -64,7 +65,7 @@ def _power(x: float) -> float:
     return 10.0 ** math.ceil(math.log10(x)) if x else 0.0
 
 
-def _accelerations(mode: Mode, base: Base, t: float, q: Array, v: Array) -> Array:
+def _accelerations(mode: Mode, base: Multibody, t: float, q: Array, v: Array) -> Array:
     """(n,) of the bodies: the change of the velocities that the system's poses have."""
     a = mode.accelerations(t, q, v)
 
@@ -75,7 +76,7 @@ def _accelerations(mode: Mode, base: Base, t: float, q: Array, v: Array) -> Arra
     return rates
 
 
-def _borne(rows: Array, base: Base, t: float, q: Array, v: Array) -> float:
+def _borne(rows: Array, base: Multibody, t: float, q: Array, v: Array) -> float:
     """The largest force that one force exerts along what the rows hold.
 
     A reaction is the sum of such, and where it goes through zero their rounding is left of it.
@@ -113,7 +114,7 @@ def lost(condition: float) -> float:
     return _power(DIGITS * EPS * condition)  # their digits would be rounding's
 
 
-def condition(rows: Array, base: Base) -> float:
+def condition(rows: Array, base: Multibody) -> float:
     """Condition number of the equations for the multipliers, in units where each row has size 1."""
     if not len(rows):
         return 1.0

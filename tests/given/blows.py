@@ -18,7 +18,7 @@ from given import scenes
 from textmech.reference.mechanism.modes import impact_transition as landing
 from textmech.reference.mechanism.modes.blow import Condition, Meeting
 from textmech.reference.mechanism.modes.element import State
-from textmech.reference.mechanism.modes.mechanism import Mechanism
+from textmech.reference.mechanism.modes.mechanism import PlanarMechanism
 from textmech.reference.system import Array
 
 R = 0.3  # of the disk, and half the side of the box
@@ -128,7 +128,7 @@ def blow(tmp_path: Path, make: Any, seed: int, *, order: int = 0, mirrored: bool
     q[slice(*columns["ball"])] = way * x, y, 0.0
     v[slice(*columns["ball"])] = way * vx, vy, way * omega
     v[columns["d"][0] + 1] = kinds.get("drifts", 0.0)
-    built = Mechanism(case.scene, (q, v), R).built
+    built = PlanarMechanism(case.scene, (q, v), R).built
     i = [e.name for e in built.elements].index("hit")
     states: Any = tuple("open" if e.name == "hit" else "sticks" for e in built.elements)
     mode = built.name(states)

@@ -1,6 +1,6 @@
-"""Any planar scene as a System, in maximal coordinates: its modes and what ends them.
+"""Any scene as a System, in maximal coordinates: its modes and what ends them.
 
-A scene in which nothing switches has one mode, and no guards.
+A scene in which nothing switches, as none in space does, has one mode and no guards.
 """
 
 import math
@@ -9,16 +9,18 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from ....cases.scene import Scene
-from ...system import Array, Guard, System
+from ...system import MOVING, Array, Guard, System
 from ..constraints.constraint import Constraint
 from ..constraints.leeway import Leeway
 from ..forces.action import blurred
 from .element import REST, Element, State, sign
 from .halting import halting
 from .impact_transition import STILL, landed
+from .mode import Multibody
 from .mode_selection import After, Options, closed, opening, painleve, settled, staying, yielding
 from .modes import Modes, rate
 from .shared_friction import alike_contacts
+from .spatial_mode import SpatialMultibody
 from .unilateral import HAPPENS, OTHER, OneSided
 
 CLOSED = 1e-9  # of the scene's size: a start this close to the floor stands on it
@@ -31,6 +33,42 @@ class BadStart(Exception):
 
 
 class Mechanism(System):
+    """A system that is made from a scene. base: what holds in all of its modes."""
+
+    base: Multibody
+
+    def leeway(self, mode: str, t: float, q: Array, v: Array) -> Leeway | None:
+        """The forces that the laws allow in a mode here; None where there is one of each."""
+        raise NotImplementedError
+
+    def driven_point(self, name: str, t: float) -> tuple[float, ...]:
+        """The place and the velocity of a point of the ground that moves, in the frame's axes."""
+        return self.base.driven_point(name, t)
+
+    def powers(self, t: float, q: Array, v: Array) -> dict[str, float]:
+        """The power [W] at any rates of each force that follows a law in time, by its name."""
+        forces = self.base.forces(t, q, v)
+        return {force.name: float(forces[force.name] @ v) for force in self.base.scene.signals()}
+
+
+class SpatialMechanism(Mechanism):
+    """The scene as its one mode, which is its `base` too."""
+
+    def __init__(self, scene: Scene, start: tuple[Array, Array]) -> None:
+        self.base = self._only = SpatialMultibody(scene, start)
+        self.modes = {MOVING: self.base}
+        self.corners = [corner for law in scene.laws() for corner in law.corners]
+
+    def start(self) -> After:
+        """The assembled start."""
+        return MOVING, *self.base.start()
+
+    def leeway(self, mode: str, t: float, q: Array, v: Array) -> Leeway | None:
+        """The forces that rows, and floors that only push, leave open."""
+        return self._only.leeway(t, q, v)
+
+
+class PlanarMechanism(Mechanism):
     """The scene as modes and guards; `size` [m] is what its gaps are small against."""
 
     def __init__(self, scene: Scene, start: tuple[Array, Array], size: float) -> None:
@@ -178,17 +216,8 @@ class Mechanism(System):
         return then
 
     def leeway(self, mode: str, t: float, q: Array, v: Array) -> Leeway | None:
-        """The forces that the laws allow in a mode here; None where there is one of each."""
+        """The forces that friction and the rows of a mode leave open."""
         return self.built.leeway(mode, t, q, v)
-
-    def driven_point(self, name: str, t: float) -> tuple[float, ...]:
-        """x, y, vx, vy of a point of the ground that moves."""
-        return self.base.driven_point(name, t)
-
-    def powers(self, t: float, q: Array, v: Array) -> dict[str, float]:
-        """The power [W] at any rates of each force that follows a law in time, by its name."""
-        forces = self.base.forces(t, q, v)
-        return {force.name: float(forces[force.name] @ v) for force in self.base.scene.signals()}
 
     def beyond(self, mode: str, t: float, q: Array, v: Array) -> After:
         """The mode and state under another force: what rubs, and what touches, may change."""

@@ -15,7 +15,7 @@ from given.mutants import mutant, with_mode
 from textmech.cases.case import Case
 from textmech.reference.certificate import certify as module
 from textmech.reference.certificate.agreement import Check
-from textmech.reference.mechanism.modes.mechanism import Mechanism
+from textmech.reference.mechanism.modes.mechanism import PlanarMechanism
 from textmech.reference.motion.follow import Followed, follow
 from textmech.reference.system import MOVING, Array, Guard, System
 from textmech.reference.systems import written
@@ -110,7 +110,7 @@ def test_a_written_system_without_the_change_is_seen(braking: Case) -> None:
 def test_a_generated_one_without_the_change_is_seen(
     braking: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(Mechanism, "guards", lambda self, mode: ())
+    monkeypatch.setattr(PlanarMechanism, "guards", lambda self, mode: ())
     checks = by_name(certified(braking, answer(braking)))
     assert math.isinf(checks["generated events"].difference)
     assert not checks["generated events"].holds

@@ -16,7 +16,7 @@ from textmech.reference.certificate import certify as module
 from textmech.reference.certificate.agreement import Check
 from textmech.reference.certificate.errors import ERROR
 from textmech.reference.integrators.explicit import DormandPrince
-from textmech.reference.mechanism.modes.mechanism import Mechanism
+from textmech.reference.mechanism.modes.mechanism import PlanarMechanism
 from textmech.reference.motion.follow import Followed, follow
 from textmech.reference.system import Load, System
 from textmech.reference.systems import written
@@ -108,7 +108,7 @@ def second_late(case: Case, system: System, patch: Patch) -> tuple[Case, System]
 
 
 def without_guards(case: Case, system: System, patch: Patch) -> tuple[Case, System]:
-    patch.setattr(Mechanism, "guards", lambda self, mode: ())
+    patch.setattr(PlanarMechanism, "guards", lambda self, mode: ())
     return case, system
 
 

@@ -16,7 +16,7 @@ from textmech.cases.scene import (
     shape,
 )
 from textmech.reference.formalisms import lagrange
-from textmech.reference.mechanism.modes.mechanism import Mechanism
+from textmech.reference.mechanism.modes.mechanism import PlanarMechanism
 from textmech.reference.mechanism.modes.smooth import SmoothMultibody
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Only
@@ -48,7 +48,7 @@ def guided(mass: float, smooth: Smooth | None) -> Scene:
 def test_a_slide_brakes_by_its_own_bound(way: float) -> None:
     """(2.89) v₀ m / F₊ forward, v₀ m / F₋ backward; then it rests, by no force."""
     q, v = np.array([0.1, -0.2]), way * np.array([0.6, 0.8])
-    system = Mechanism(guided(1.3, None), (q, v), 1.0)
+    system = PlanarMechanism(guided(1.3, None), (q, v), 1.0)
     followed = follow(system, np.linspace(0.0, 1.0, 11))
     (stop,) = followed.changes
     assert stop.time == pytest.approx(1.3 / (2.0 if way > 0 else 2.5), abs=1e-12)
@@ -61,7 +61,7 @@ def test_smooth_friction_of_a_slide_by_the_formalisms() -> None:
     """(2.95) outside the band is −F₊; the residual by superposition is the sum of the forces."""
     law = Smooth(band=0.05, sharpness=100.0)
     start = np.array([0.1, -0.2]), np.zeros(2)
-    system = Mechanism(guided(1.3, law), start, 1.0)
+    system = PlanarMechanism(guided(1.3, law), start, 1.0)
     mechanism = system.modes[system.start()[0]]
     assert isinstance(mechanism, SmoothMultibody)
     for speed in (-1.0, -0.05, 0.0, 0.02, 0.05, 1.0):
@@ -88,7 +88,7 @@ def test_smooth_friction_on_an_oblique_slide_of_odd_mass() -> None:
         forces={"coil": Spring("coil", Anchor("ground", "hook"), ends[1], 2.0, 1.0)},
     )
     times = np.linspace(0.0, 5.0, 26)
-    y = follow(Mechanism(scene, (np.zeros(2), np.zeros(2)), 1.0), times).y
+    y = follow(PlanarMechanism(scene, (np.zeros(2), np.zeros(2)), 1.0), times).y
     block = SmoothDynamometer(1.3, 2.0, 2.0, 3.0, 3.0, 6.0, 6.0, 5e-4, 1e5)
     exact = follow(Only(block), times).y
     assert y[:, :2] @ [0.6, 0.8] == pytest.approx(exact[:, 0], abs=1e-9)

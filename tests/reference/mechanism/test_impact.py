@@ -11,7 +11,7 @@ from given.refused import refused
 from given.rod import rod
 
 from textmech.cases.scene import Anchor, Contact, Scene, shape
-from textmech.reference.mechanism.modes.mechanism import Mechanism
+from textmech.reference.mechanism.modes.mechanism import PlanarMechanism
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 from textmech.reports.compare.events.times import reference_events
@@ -56,7 +56,7 @@ def test_a_disk_that_lands_turning_rolls_or_slides_by_the_cone() -> None:
         touch = Contact("touch", Anchor("wheel", "center"), mu, mu)
         scene = Scene((0.0, -9.80665), {}, {"wheel": disk}, {}, {"touch": touch}, {})
         start = np.array([0.0, 1.25, 0.0]), np.array([1.0, 0.0, 4.0])
-        followed = follow(Mechanism(scene, start, 0.25), np.linspace(0.0, 0.46, 3))
+        followed = follow(PlanarMechanism(scene, start, 0.25), np.linspace(0.0, 0.46, 3))
         land = followed.changes[0]
         v_n, slip = math.sqrt(2 * 9.80665), 1.0 + 0.25 * 4.0
         jump = -slip / 3 if rolls else -mu * v_n

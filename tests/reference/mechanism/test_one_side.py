@@ -11,7 +11,7 @@ from given import scenes
 
 from textmech.cases.scene.observe import observe
 from textmech.reference.formalisms import energy, lagrange
-from textmech.reference.mechanism.modes.mechanism import Mechanism
+from textmech.reference.mechanism.modes.mechanism import PlanarMechanism
 from textmech.reference.mechanism.modes.unilateral import OneSided
 from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import Followed, follow
@@ -216,10 +216,10 @@ def test_a_mistake_in_the_switch_is_seen(tmp_path: Path, monkeypatch: pytest.Mon
     assert named(wrong) != named(sound)
     monkeypatch.undo()
 
-    def never(self: Mechanism, mode: str) -> Sequence[Guard]:
+    def never(self: PlanarMechanism, mode: str) -> Sequence[Guard]:
         return ()
 
-    monkeypatch.setattr(Mechanism, "guards", never)
+    monkeypatch.setattr(PlanarMechanism, "guards", never)
     glued = follow(mechanism(tmp_path, 0.8, 0.0), np.linspace(0.0, 1.0, 11))
     ends: list[Array] = [f.y[-1] for f in (sound, glued)]
     assert np.abs(ends[1] - ends[0]).max() > 0.1

@@ -10,7 +10,7 @@ from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene import Anchor, Contact, Scene, shape
 from textmech.reference.mechanism.modes import mechanism
-from textmech.reference.mechanism.modes.mechanism import Mechanism
+from textmech.reference.mechanism.modes.mechanism import PlanarMechanism
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 
@@ -22,7 +22,7 @@ def said(mode: str, q: tuple[float, ...], v: tuple[float, ...], *, gravity: tupl
     disk = shape.disk(name="wheel", mass=1.3, radius=0.25, points={})
     touch = Contact("touch", Anchor("wheel", "center"), 0.4, 0.4)
     scene = Scene(gravity, {}, {"wheel": disk}, {}, {"touch": touch}, {})
-    disks = Mechanism(scene, (np.array(STANDS), np.zeros(3)), 0.25)
+    disks = PlanarMechanism(scene, (np.array(STANDS), np.zeros(3)), 0.25)
     built = disks.built
     names = {s: built.name((s,)) for s in ("open", "slides +", "slides -", "sticks")}
     return disks.possible(names[mode], 0.0, np.array(q), np.array(v))
@@ -152,7 +152,7 @@ def phases(tmp_path: Path, ends: list[str]) -> list[tuple[float, dict[str, str]]
     """When the ladder goes on otherwise, and what each end does then."""
     text = LADDER.replace("CONTACTS", "\n    ".join(ends))
     made = scenes.mechanism(scenes.typed(tmp_path, text))
-    assert isinstance(made, Mechanism)
+    assert isinstance(made, PlanarMechanism)
     names = [e.name for e in made.elements]
     return [
         (change.time, dict(zip(names, made.built.states[change.mode_after], strict=True)))
@@ -170,6 +170,6 @@ def test_a_ladder_rests_at_both_ends_in_whatever_order_they_are_told(tmp_path: P
 
 @pytest.mark.mutant("what stops at the instant of another goes on to slide, at rest")
 def test_one_end_of_a_ladder_rests_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(Mechanism, "_stops_too", lambda *_: None)
+    monkeypatch.setattr(PlanarMechanism, "_stops_too", lambda *_: None)
     with pytest.raises(AssertionError):
         test_a_ladder_rests_at_both_ends_in_whatever_order_they_are_told(tmp_path)

@@ -13,7 +13,7 @@ from given import scenes
 from textmech.reference.integrators import march
 from textmech.reference.integrators.dop853 import DOP853
 from textmech.reference.mechanism.modes import element
-from textmech.reference.mechanism.modes.mechanism import Mechanism
+from textmech.reference.mechanism.modes.mechanism import PlanarMechanism
 from textmech.reference.motion.follow import Followed, follow
 from textmech.reference.motion.mode_onset import Early
 from textmech.reference.motion.stuck import Stuck
@@ -51,7 +51,7 @@ SCENES = {
 }
 
 
-def moved(tmp_path: Path, name: str, start: float) -> tuple[Mechanism, Followed]:
+def moved(tmp_path: Path, name: str, start: float) -> tuple[PlanarMechanism, Followed]:
     text, friction, pull = SCENES[name]
     text = text.replace("FRICTION", friction).replace("PULL", pull).replace("START", str(start))
     mechanism = scenes.mechanism(scenes.typed(tmp_path, text))

@@ -9,7 +9,7 @@ from given.typed_scenes import PARALLELOGRAM, SPRING, time_to_flat
 
 from textmech.cases.case import Case
 from textmech.reference.integrators.march import IntegrationError
-from textmech.reference.mechanism.modes.mechanism import Mechanism
+from textmech.reference.mechanism.modes.mechanism import PlanarMechanism
 from textmech.reference.motion import stuck as watching
 from textmech.reference.motion.follow import follow
 from textmech.reference.motion.stuck import Stuck, Watched
@@ -29,7 +29,7 @@ allow: {wheel.x: 1.0e-3, dot.x: 1.0e-2}
 FLAT = np.arccos(-0.5 / 1.5) / np.sqrt(3 / 0.7)  # s: there 0.5 m + 1.5 m cos(√(c/m) t) is zero
 
 
-def stuck(case: Case) -> tuple[Mechanism, Stuck]:
+def stuck(case: Case) -> tuple[PlanarMechanism, Stuck]:
     mechanism = scenes.mechanism(case)
     with pytest.raises(Stuck) as caught:
         follow(mechanism, case.times)
