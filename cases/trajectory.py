@@ -22,7 +22,9 @@ class Trajectory:
     something jumps, what acts after it.
     record: every step of a motion that switches, from which event times are read. phase: in the
     reference's record, the number of the smooth piece that a row belongs to; an event stands there
-    twice, as the last row of one piece and the first of the next. switches: (K,) s, when the
+    twice, as the last row of one piece and the first of the next. ended: by the number of a piece,
+    in the words of the mechanism what ended it, as `touch lands`; empty where nothing with a name
+    did. switches: (K,) s, when the
     reference changes from one smooth piece to the next; an engine has none to tell. endless: (K,)
     s, of each pile of events without end the times that the reference has followed; it leaves out
     the rest. near: in space, by joint (N, K), its turns [rad] as whoever made the motion counted
@@ -35,6 +37,7 @@ class Trajectory:
     reactions: Mapping[str, Array]
     record: "Trajectory | None" = None
     phase: NDArray[np.int64] | None = None
+    ended: tuple[str, ...] = ()
     switches: Array = field(default_factory=lambda: np.zeros(0))
     endless: tuple[Array, ...] = ()
     near: Mapping[str, Array] = field(default_factory=dict)

@@ -104,7 +104,8 @@ def _solved(case: Case) -> Island:
         motion = answer.trajectory(case.times)
         motion = replace(motion, switches=switches, endless=followed.endless)
         if case.events:
-            motion = replace(motion, record=answer.record(forces=_felt(case)))
+            record = replace(answer.record(forces=_felt(case)), ended=_ended(found, followed))
+            motion = replace(motion, record=record)
         marched = built.march(forces=pressed(case))  # in coordinates that see each turn
         check_premises(case, marched, found)
         if built.turns.missed is not None:
@@ -140,6 +141,13 @@ def reactions_of(generated: Mechanism, found: Followed, followed: Followed) -> B
         return mode.reactions(t, *generated.base.place(poses))
 
     return reactions
+
+
+def _ended(found: Followed, followed: Followed) -> tuple[str, ...]:
+    """The generated mechanism's words for what ended each phase of the motion, where both agree."""
+    if len(found.changes) != len(followed.changes):
+        return ()
+    return (*(change.name or "" for change in found.changes), "")
 
 
 def _accelerations(case: Case) -> bool:

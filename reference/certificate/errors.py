@@ -49,7 +49,9 @@ def errors(
             if name in sums:
                 error = max(error, _summed(case, motion, closer, name))
         elif name in times:
+            event = case.events[times[name].part]
             off = late + _unread(case, motion, others, times[name].part)
+            off += _piled(motion.endless) if event.rule == "stays zero" else 0.0
             error, unit = max(EPS * float(motion.times[-1]), off), times[name].unit
         elif at is not None:  # known as everywhere in the motion, but the event is late
             own = observe(case.scene, motion, at.quantity)
@@ -61,6 +63,15 @@ def errors(
             continue  # a count: the changes of mode are compared by name and number
         if least is not None:
             yield Check(f"{ERROR}{name}", error / least, SHARE, error, unit)
+
+
+def _piled(endless: Sequence[Array]) -> float:
+    """How long [s] after the last of a pile that was followed its limit may be."""
+    rest = 0.0
+    for pile in endless:
+        two, one = np.diff(pile[-3:]).tolist()
+        rest = max(rest, one * one / (two - one))
+    return rest
 
 
 def _unread(case: Case, motion: Trajectory, others: Mapping[str, Trajectory], name: str) -> float:

@@ -20,7 +20,7 @@ from ..system import Array, Guard, Mode, System
 from .event_location import INSIDE, TOGETHER, Fall, Within, clear, first
 from .mode_onset import Early
 from .stuck import Stuck, Watched, slope
-from .zeno import MOST, ZenoError, accumulation, ends_here, gone, pile, settles
+from .zeno import MOST, ROUNDING, ZenoError, accumulation, ends_here, gone, pile, settles
 
 TOLERANCE = 1e-15  # per step; the integrators do not go below 4 ε, so: as well as doubles can
 STAGES = 5  # of the implicit integrator
@@ -255,11 +255,19 @@ class _Walk:
                 self.endless.append(pile(self.fired[name]))
         self.spent = i if mode == ended else None
         k, after = len(self.fired[name]), np.concatenate([q, v])
-        if guard.vain and mode == ended and np.array_equal(before, after):
-            self.t, self.now = t, before
+        back = mode == ended and np.array_equal(before, after)
+        if guard.vain and (back or self._trembles(t, ended, before, after)):
+            self.t, self.now, self.spent = t, before, i
             self.fired[name].pop()
             return
         self._change(Change(guard.event, k, t, ended, mode, before, after, i))
+
+    def _trembles(self, t: float, mode: str, before: Array, after: Array) -> bool:
+        """Whether the mode has only just begun, by another event, and this one changes nothing."""
+        last = self.changes[-1] if self.changes else None
+        if last is None or t - last.time > TOGETHER or last.mode_before == mode:
+            return False
+        return bool(np.max(np.abs(after - before)) <= ROUNDING * np.max(np.abs(before)))
 
     def _change(self, change: Change) -> None:
         self.changes.append(change)

@@ -129,7 +129,8 @@ def settled(
                 raise painleve(
                     modes.elements, e.name, f"both staying on and leaving the {e.plane}", t
                 )
-            if sign(one) * sign(two) < 0:  # at rest, held by the others whichever way it rubs
+            # At rest, held by the others whichever way it rubs; where nothing presses, it does not.
+            if sign(one) * sign(two) < 0 and not _exert_alike(modes, first, other, t):
                 raise Undetermined(e.name, str(SingularPose(e.name)), t)
     return first
 
@@ -165,6 +166,13 @@ def _agrees(
         if s and s * modes.change(e.tangent, mode, t, q, v) < -small:
             return False
     return True
+
+
+def _exert_alike(modes: Modes, one: After, other: After, t: float) -> bool:
+    """Whether both answers are the same motion, by the same forces."""
+    a, b = (modes.forces(mode, t, q, v) for mode, q, v in (one, other))
+    room = modes.small(t, *one[1:]) * float(np.max(modes.M))
+    return _alike(modes, one, other, t) and all(abs(a[name] - b[name]) <= room for name in a)
 
 
 def _alike(modes: Modes, one: After, other: After, t: float) -> bool:

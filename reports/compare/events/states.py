@@ -19,7 +19,7 @@ from ....cases.scene.passages import bent, polynomial
 from ....cases.scene.quantity import SIDES, AtEvent, at_event
 from ....cases.scene.still import still
 from ....cases.trajectory import Array, Trajectory
-from .times import grazed, limit_of, never, reference_events
+from .times import faint, grazed, limit_of, never, reference_events
 
 ROWS = 8  # of the reference: of seventh degree, as the integrator's eighth order
 STEPS = 4  # of an engine: of third degree, as the best of their integrators is of fourth order
@@ -82,22 +82,26 @@ def mistaken(case: Case, reference: Trajectory) -> list[Mistake]:
     if record is None:
         return never(case, reference)
     found = list(grazed(case, record)) or never(case, reference) or list(_jumps(case, record))
-    return found or list(_endless(case, reference))
+    return found or list(_uncounted(case, reference))
 
 
-def _endless(case: Case, reference: Trajectory) -> Iterator[Mistake]:
+def _uncounted(case: Case, reference: Trajectory) -> Iterator[Mistake]:
     """A mistake for every count of events that pile up, as of a ball that bounces ever lower."""
     for name in case.allow:
         event, _, field = name.rpartition(".")
-        if field == "count" and event in case.events:
-            limit = limit_of(case, reference, case.events[event])
-            if limit is not None:
-                what = (
-                    f"happens without end before {limit:.4g} s, and the reference leaves out what "
-                    "is too short to see: no count of it is a claim; leave it out, or shorten the "
-                    "duration"
-                )
-                yield case.mistake(("allow", name), what)
+        if field != "count" or event not in case.events:
+            continue
+        if (limit := limit_of(case, reference, case.events[event])) is not None:
+            why = (
+                f"happens without end before {limit:.4g} s, and the reference leaves out what "
+                "is too short to see"
+            )
+        elif (t := faint(case, reference, case.events[event])) is not None:
+            why = f"happens so softly at {t:.6g} s that rounding tells how often it does from then"
+        else:
+            continue
+        what = f"{why}: no count of it is a claim; leave it out, or shorten the duration"
+        yield case.mistake(("allow", name), what)
 
 
 def _jumps(case: Case, record: Trajectory) -> Iterator[Mistake]:

@@ -4,7 +4,8 @@ The reference knows its phases, and an event is the boundary of two. An engine o
 it creeps: it never rests. So no threshold is a time here; a threshold only tells what is near.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 
 from ....cases.case import Case, Event
 from ....cases.mistake import Mistake
-from ....cases.scene import Scene
+from ....cases.scene import Limit, Scene
 from ....cases.scene.observe import observe
 from ....cases.scene.passages import lasting, passages, touches
 from ....cases.scene.quantity import at_event
@@ -23,6 +24,7 @@ from .rests import LOW, STEPS, rests
 CURVE = 4  # steps in the curve that what falls is continued by: as good as an engine of order 4
 SMALL = 1e-4  # of the largest value: a hump as low as this may be rounding or a soft floor
 SURE = 2  # times STEPS and SMALL: no engine near the reference can miss such a hump
+SOFT = 1e-10  # of the largest rate: of a blow that changes none by more, rounding may be a part
 BESIDE = 0.1  # of the last distance of a pile: an event and one of the pile that are the same
 TREMBLE = 1e-6  # steps: two zeros of a curve that touch are not rounding's to lose
 
@@ -30,17 +32,75 @@ TREMBLE = 1e-6  # steps: two zeros of a curve that touch are not rounding's to l
 def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
     """Times (K,) [s] of the event, from the boundaries of the reference's phases."""
     u, small, pieces = _pieces(scene, record, event)
+    phases = _phases(scene, record, event, u, small, pieces)
     happens = _RULES[event.rule]
-    times = [
-        float(record.times[before[-1]])
-        for before, after in pairwise(pieces)
-        if happens(u[before], u[after], small)
-    ]
+    times = [float(before.end) for before, after in pairwise(phases) if happens(before, after)]
     if event.crosses:
         corners = _corners(scene)
         for piece in pieces:
             times += passages(record.times[piece], u[piece], small, corners)
     return np.array(sorted(times), float)
+
+
+@dataclass(frozen=True)
+class _Phase:
+    """A piece of the record, as an event sees it: whether its quantity leaves zero, or falls to it.
+
+    end: of the piece [s].
+    """
+
+    moves: bool
+    falls: bool
+    end: float
+
+
+def _phases(
+    scene: Scene,
+    record: Trajectory,
+    event: Event,
+    u: Array,
+    small: float,
+    pieces: Sequence[NDArray[np.int64]],
+) -> list[_Phase]:
+    """Each piece by the size of u, and by what ended it: a hop may be smaller than what counts."""
+    assert record.phase is not None  # the reference's record has it
+    names, found = _names(scene, event), list[_Phase]()
+    numbers = [int(record.phase[piece[0]]) for piece in pieces]
+    for piece, number, then in zip(pieces, numbers, [*numbers[1:], len(record.ended)], strict=True):
+        ended = any(name in names for name in record.ended[number:then])
+        moves = ended or _leaves(u[piece], small)
+        falls = ended or (moves and _lands(u[piece], small))
+        found.append(_Phase(moves, falls, float(record.times[piece[-1]])))
+    return found
+
+
+_WORDS = {
+    "gap": ("lands", "tightens"),
+    "slip": ("stops",),
+    "normal": ("opens",),
+    "force": ("slackens",),
+}
+"""By a field, the mechanism's words for what happens where it falls to zero."""
+
+
+_BLOWS = {"gap": _WORDS["gap"]}
+
+
+def _names(scene: Scene, event: Event, words: Mapping[str, Sequence[str]] = _WORDS) -> set[str]:
+    """The mechanism's names for what ends a phase where the event's quantity falls to its value."""
+    part, _, field = event.quantity.rpartition(".")
+    found = set[str]()
+    if event.value == 0.0 and event.rule != "rises to zero":
+        found = {f"{part} {word}" for word in words.get(field, ())}
+    limit = scene.forces.get(part)
+    if isinstance(limit, Limit):
+        if words is _WORDS and field in limit.sides and event.value == 0.0:
+            found.add(f"{part}.{field} leaves")
+        falls = 1.0 if event.rule != "rises to zero" else -1.0
+        for side, (sense, at) in limit.sides.items():
+            if field == limit.measured and (sense, at) == (falls, event.value):
+                found |= {f"{part} tightens", f"{part}.{side} strikes"}
+    return found
 
 
 def _pieces(
@@ -55,11 +115,11 @@ def _corners(scene: Scene) -> list[float]:
     return [t for law in scene.laws() for t in law.corners]
 
 
-_RULES: Mapping[str, Callable[[Array, Array, float], bool]] = {
-    "stays zero": lambda u, then, still: _leaves(u, still) and not _leaves(then, still),
-    "leaves zero": lambda u, then, still: not _leaves(u, still) and _leaves(then, still),
-    "falls to zero": lambda u, then, still: _leaves(u, still) and _lands(u, still),
-    "rises to zero": lambda u, then, still: _leaves(u, still) and _lands(u, still),
+_RULES: Mapping[str, Callable[[_Phase, _Phase], bool]] = {
+    "stays zero": lambda before, after: before.moves and not after.moves,
+    "leaves zero": lambda before, after: not before.moves and after.moves,
+    "falls to zero": lambda before, after: before.falls,
+    "rises to zero": lambda before, after: before.falls,
 }
 
 
@@ -177,22 +237,41 @@ def limit_of(case: Case, reference: Trajectory, event: Event) -> float | None:
 
     It is what piles up, or happens between what does, as apexes between bounces. Where it is not
     seen up to the last of a pile, it is known by this: all that follows is too small to be seen.
+    What stays zero does not happen without end.
     """
     record = reference.record
-    if record is None or not reference.endless:
+    if record is None or not event.crosses:
         return None
     u, small, _ = _pieces(case.scene, record, event)
-    times = reference_events(case.scene, record, event)
+    times, told = reference_events(case.scene, record, event), _names(case.scene, event)
     for pile in reference.endless:
         beside = BESIDE * float(pile[-1] - pile[-2])
         mine = times[(times >= pile[0] - beside) & (times <= pile[-1] + beside)]
         if not len(mine):
             continue
-        after = u[(record.times > mine[-1] + beside) & (record.times < pile[-1])]
-        itself = np.min(np.abs(pile - mine[-1])) <= beside
-        unseen = bool(np.all(np.abs(after) <= small)) and (itself or len(mine) > 1)
+        then = pile[pile >= mine[-1] - beside][0]
+        after = u[(record.times > then + beside) & (record.times < pile[-1])]
+        unseen = not told and len(mine) > 1 and bool(np.all(np.abs(after) <= small))
         if unseen or mine[-1] > pile[-2] + beside:
             return float(pile[-1])
+    return None
+
+
+def faint(case: Case, reference: Trajectory, event: Event) -> float | None:
+    """The first time [s] at which a blow that is such an event changes no rate by more than what
+    rounding does; None without one."""
+    record, blows = reference.record, _names(case.scene, event, _BLOWS)
+    if record is None or record.phase is None or not blows:
+        return None
+    frame = case.scene.frame
+    columns = [*frame.alike("m/s"), *frame.alike("rad/s")]
+    rates = np.hstack([states[:, columns] for states in record.states.values()])
+    large = float(np.max(np.abs(rates)))
+    for before, after in pairwise(lasting(record)):
+        numbers = slice(int(record.phase[before[0]]), int(record.phase[after[0]]))
+        jump = float(np.max(np.abs(rates[after[0]] - rates[before[-1]])))
+        if blows.intersection(record.ended[numbers]) and jump <= SOFT * large:
+            return float(record.times[before[-1]])
     return None
 
 
