@@ -22,6 +22,7 @@ def locked(path: Path, waiting: Callable[[], None] | None = None) -> Iterator[No
     if fcntl is None or held is None:
         yield
         return
+    _HELD.add(held)
     try:
         try:
             fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -33,8 +34,27 @@ def locked(path: Path, waiting: Callable[[], None] | None = None) -> Iterator[No
             pass  # a network file system without locks
         yield
     finally:
+        _close(held)
+
+
+_HELD: set[int] = set()
+"""The locks' descriptors: a process that an engine forks would hold them as long as it lives."""
+
+
+def _close(held: int) -> None:
+    if held in _HELD:
+        _HELD.discard(held)
         with suppress(OSError):
             os.close(held)
+
+
+def _let_go() -> None:
+    for held in [*_HELD]:
+        _close(held)
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_let_go)
 
 
 def _opened(path: Path) -> int | None:

@@ -111,9 +111,9 @@ class _Process:
         try:
             self._here.send(call)
             most = min(getattr(asked, "limit", DAYS), DAYS)
-            if not wait([self._here, self._process.sentinel], most) and most < DAYS:
+            if not self._answered(most):
                 self.kill()
-                raise ProcessDied(f"it took longer than {most:.0f} s, and was ended")
+                raise ProcessDied(f"it took longer than {most:.3g} s, and was ended")
             if not self._here.poll():
                 raise EOFError
             value, error = self._here.recv()
@@ -125,6 +125,17 @@ class _Process:
         if error is not None:
             raise error
         return value
+
+    def _answered(self, most: float) -> bool:
+        """Whether it has, or is gone, within `most` s: what an engine forked may hold its pipes."""
+        until = time.monotonic() + most
+        while (left := until - time.monotonic()) > 0.0:
+            if wait([self._here, self._process.sentinel], min(left, GLANCE)):
+                return True
+            with _CHILDREN:
+                if not self._process.is_alive():
+                    return True
+        return most >= DAYS
 
     def doing(self) -> str:
         """The task's name, what the process is at, for how long [s]; empty without a named task."""
@@ -170,6 +181,7 @@ def _serve(calls: Connection, words: Any, jobs: int) -> None:
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     if hasattr(signal, "pthread_sigmask"):
         signal.pthread_sigmask(signal.SIG_UNBLOCK, ending.known_signals())
+    own = os.getpid()
     while True:
         try:
             received = calls.recv_bytes()
@@ -182,6 +194,8 @@ def _serve(calls: Connection, words: Any, jobs: int) -> None:
             value = fn(*args, **kwargs)
         except BaseException as raised:  # sys.exit too is one task's
             error = raised
+        if os.getpid() != own:  # an engine forked, and came back in both: one answer is enough
+            os._exit(0)
         try:
             calls.send((value, error))
         except BaseException as unsent:  # what cannot be pickled

@@ -22,7 +22,7 @@ from ..data.file_content import content
 from .lock import locked
 
 MAKING, DECIDED = ".writing-", ".written-"
-NEW, OLD, NAMES = "new", "old", "names"
+NEW, OLD, BACK, NAMES = "new", "old", "back", "names"
 Texts = Mapping[str, str | bytes]
 """What is written, by the files' names."""
 _ENDING = re.compile(r"[a-z0-9_]+")
@@ -136,6 +136,8 @@ def _swept(made: Path, names: list[str] | None) -> None:
     for name in names or ():
         for part in (NEW, OLD):
             _gone(made / part / name)
+    if names is not None:
+        _gone(made / BACK)
     for part in (NEW, OLD):
         _empty(made / part)
     with suppress(OSError):
@@ -166,10 +168,15 @@ def _finish(decided: Path, folder: Path, names: list[str]) -> None:
 
 
 def _undo(decided: Path, folder: Path, names: list[str]) -> None:
+    """What was moved is put back, from copies that stay: whatever strikes, it is done once more."""
     for name in names:
+        if _stands(decided / NEW / name):
+            continue  # it never moved, and may be what the folder refused
         if _stands(decided / OLD / name):
-            (decided / OLD / name).replace(folder / name)
-        elif not _stands(decided / NEW / name):
+            _gone(decided / BACK)
+            _copied(decided / OLD / name, decided / BACK)
+            (decided / BACK).replace(folder / name)
+        else:
             (folder / name).unlink(missing_ok=True)
     decided.rename(decided.with_name(decided.name.replace(DECIDED, MAKING)))
 

@@ -2,6 +2,7 @@
 in it, and who only reads writes nothing at all."""
 
 import os
+import re
 import shutil
 import stat
 from collections.abc import Callable
@@ -180,7 +181,7 @@ def test_a_table_that_leads_to_a_device_hangs_nothing(
     linked(folder / "tolerance.csv", Path(to))
     done = textmech("diff", folder, report(tmp_path / "other"))
     assert done.returncode == 2
-    assert "tolerance.csv: " in done.stderr
+    assert re.search(r"tolerance\.csv:(\d+:)? ", done.stderr)  # kmsg may have lines to read
 
 
 @pytest.mark.mutant("a table that only begins like a report counts as ours")

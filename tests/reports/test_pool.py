@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from textmech.reports.system import pool
+from textmech.reports.system.lock import locked
 from textmech.reports.system.processes import Processes
 
 
@@ -157,3 +158,57 @@ def grown(shared: list[int]) -> int:
     shared.append(0)
     time.sleep(0.01)
     return len(shared) - before
+
+
+# Engines that fork.
+
+
+def double(task: int) -> int:
+    """Comes back in two processes, as from a library that forks by itself, one after the other."""
+    if os.fork() == 0:
+        time.sleep(0.05)
+    return task * task
+
+
+def test_a_task_that_comes_back_twice_is_answered_once() -> None:
+    """Else its second answer would be that of the next task."""
+    with pool.local(1) as executor:
+        for task in range(4):
+            assert dict(pool.spread(double, [task], executor)) == {0: task * task}
+            time.sleep(0.1)
+
+
+def helped(task: int) -> int:
+    """Leaves a process behind that holds all it has been given, and dies."""
+    if task == 1 and os.fork() == 0:
+        time.sleep(20)
+        os._exit(0)
+    if task == 1:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return task
+
+
+def test_what_a_task_leaves_running_hides_no_death() -> None:
+    begun = time.monotonic()
+    with pool.local(1) as executor:
+        found = dict(pool.spread(helped, [0, 1, 2], executor))
+    assert found == {0: 0, 1: pool.Died("the process died (SIGKILL)"), 2: 2}
+    assert time.monotonic() - begun < 15  # s: of the 20 that it would be waited for
+
+
+@pytest.mark.mutant("a lock that a forked process holds as long as it lives")
+def test_a_lock_ends_with_who_holds_it_and_not_with_what_it_forked(tmp_path: Path) -> None:
+    waited, (ready, begun) = list[int](), os.pipe()
+    with locked(tmp_path / "lock"):
+        left = os.fork()
+        if left == 0:
+            os.write(begun, b"1")
+            time.sleep(20)
+            os._exit(0)
+        os.read(ready, 1)
+    with locked(tmp_path / "lock", lambda: os.kill(left, signal.SIGKILL) or waited.append(1)):
+        assert not waited
+    os.kill(left, signal.SIGKILL)
+    os.waitpid(left, 0)
+    os.close(ready)
+    os.close(begun)

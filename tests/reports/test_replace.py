@@ -132,3 +132,26 @@ def test_a_sweep_that_is_struck_costs_nothing_and_is_the_next_ones(
     assert {name: (folder / name).read_text() for name in NEW} == NEW
     replace(folder, NEW)
     assert found(folder) == NEW
+
+
+@pytest.mark.mutant("what is put back is moved back, and deleted by the second try")
+@pytest.mark.parametrize("refused", NEW)
+def test_a_file_that_cannot_be_replaced_costs_no_other(
+    refused: str, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As one that a container mounts, or that somebody holds open: nobody takes its place."""
+    whole = Path.replace
+
+    def busy(self: Path, target: Path) -> Path:
+        if target == folder / refused:
+            raise OSError(16, "Device or resource busy")
+        return whole(self, target)
+
+    monkeypatch.setattr(Path, "replace", busy)
+    for _ in range(2):  # and again: nothing of the first try is in the way
+        with pytest.raises(OSError, match="busy"):
+            replace(folder, NEW)
+        assert found(folder) == OLD
+    monkeypatch.undo()
+    replace(folder, NEW)
+    assert found(folder) == NEW
