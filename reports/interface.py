@@ -138,6 +138,7 @@ def run(
     from .batch.request import asked
     from .data.user_settings import made
     from .output import committed, write
+    from .show import cures
     from .show.summary import summary
     from .system import pool
 
@@ -158,9 +159,10 @@ def run(
         )
     if mistakes := [*wanted.mistakes, *report.mistakes]:
         raise CaseError(mistakes)
+    told_cures = cures.known(report.cases, report.causes)
     frames = {Path(n).stem: f for n, f in write.tables(report, report.cases).items()}
     return Comparisons(
-        summary=pd.DataFrame(map(vars, summary(report.comparisons, report.rungs))),
+        summary=pd.DataFrame(map(vars, summary(report.comparisons, report.rungs, told_cures))),
         tolerance=frames["tolerance"],
         convergence=frames["convergence"],
         steps=frames["steps"],

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 class Now:
     """In words what is being done, since when, and how far it is of how much: of s, or of states.
 
-    task: of what, as `four_bar: `. unit: empty for numbers of things.
+    task: of what, as `four_bar`. unit: empty for numbers of things.
     """
 
     task: str = ""
@@ -32,6 +32,10 @@ class Now:
         rest = time_left(time.monotonic() - self.since, part)
         return f"{self.what}, at {self.at:.4g} of {self.end:.4g}{unit}{rest and ', ' + rest}"
 
+    def line(self) -> str:
+        """The same after what it is done of."""
+        return ": ".join(part for part in (self.task, self.text()) if part)
+
 
 NOW = Now()
 SURE = 0.02  # of a part: before that much is done nobody knows how long the rest takes
@@ -39,7 +43,7 @@ SURE = 0.02  # of a part: before that much is done nobody knows how long the res
 
 def begun(task: str) -> None:
     """Says of what all that follows is done."""
-    NOW.task = f"{task}: " if task else ""
+    NOW.task = task
     doing("")
 
 

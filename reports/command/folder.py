@@ -1,6 +1,9 @@
 """A folder that is named on the command line."""
 
+import atexit
 import os
+from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +23,8 @@ class Folder(click.Path):
         if not value:
             self.fail("the folder's name is empty; the current one is '.'", param, ctx)
         folder = Path(str(super().convert(value, param, ctx)))
+        missing = [each for each in (folder, *folder.parents) if not os.path.lexists(each)]
+        atexit.register(_unmade, missing)
         try:
             folder.mkdir(parents=True, exist_ok=True)
             _tried(folder)
@@ -27,6 +32,13 @@ class Folder(click.Path):
         except OSError as error:
             self.fail(f"cannot write to {folder}: {error.strerror}", param, ctx)
         return folder
+
+
+def _unmade(folders: Sequence[Path]) -> None:
+    """Away with what was made, the innermost first, and has nothing in it: a refused command's."""
+    with suppress(OSError):
+        for folder in folders:
+            folder.rmdir()
 
 
 def _tried(folder: Path) -> None:

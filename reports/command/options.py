@@ -18,13 +18,20 @@ processes = click.option(
 )
 
 
+def _chosen(context: click.Context, option: click.Parameter, seconds: float | None) -> None:
+    try:
+        choose(seconds)
+    except ValueError as error:
+        raise click.BadParameter(str(error), context, option) from None
+
+
 def jobs(command: Any) -> Any:
     """How the work is spread over processes, and how long one of them may take for a task."""
     decorated = click.option(
         "--time-limit",
         type=click.FloatRange(min=0, min_open=True),
         expose_value=False,
-        callback=lambda _, __, value: choose(value),
+        callback=_chosen,
         metavar="S",
         help="How long an engine may take for one run, beyond ten times what its steps are worth; "
         "120 s by default, or $TEXTMECH_TIME_LIMIT.",

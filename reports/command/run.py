@@ -127,7 +127,7 @@ def run(
     if keep is not None:
         kept.keep(report, keep, overwrite=overwrite)
         DONE.append(f"the trajectories are in {keep}")
-    known = {**cures.committed(report.cases), **cures.found_cures(report.causes)}
+    known = cures.known(report.cases, report.causes)
     code = BAD_INPUT if mistakes else FAILED if report.fails else 0
     if wants_json:
         document.write(document.of_run(report, mistakes, cures=known, written=out, exit_code=code))

@@ -34,13 +34,14 @@ def strobe(axes: Any, motion: Motion, ghosts: Sequence[Column]) -> None:
         trail = _seen(np.stack([unpacked(c) for c in motion["trail"]], axis=1))
         axes.plot(*trail.T, color=INK, lw=0.8, alpha=0.5)
     axes.set_aspect("equal", adjustable="datalim")
-    limits = axes.get_xlim(), axes.get_ylim()
+    limits = axes.dataLim.frozen()
     for one in ghosts:
         told = motion["ghosts"][one.key]["poses"]
         ends = {part: rows[-1] for part, rows in _frames(told).items()}
         code = style(one, ghosts)["color"]
         _bodies(axes, motion, ends, color=code, ls="--", lw=1.3, label=one.title)
-    axes.set(xlim=limits[0], ylim=limits[1])
+    axes.dataLim.set(limits)  # what drifts far away is cut off
+    axes.autoscale_view()
     for place in motion["sketch"]["ground"]:
         axes.plot(*_seen(np.array([place])).T, marker=6, color=INK, ms=8, alpha=0.6)
     axes.set_axis_off()

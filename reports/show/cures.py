@@ -27,6 +27,11 @@ def committed(cases: Sequence[Case]) -> Cures:
     return {key: cure for key, cure in cures(HERE).items() if key[0] in ours}
 
 
+def known(cases: Sequence[Case], causes: Iterable[Cause]) -> Cures:
+    """Returns the cures of a run: those of shipped cases, and those that it has searched for."""
+    return {**committed(cases), **found_cures(causes)}
+
+
 def cures(folder: Path) -> Cures:
     """By case, engine, setting and quantity, in words: the two cheapest, with their steps.
 

@@ -130,7 +130,7 @@ def _tell_on(ended: threading.Event, write: Callable[[str], object] | None) -> N
 def _at() -> str:
     """Returns what is being worked on: by the processes of a phase, or by this one."""
     if not _PHASES or not (working := _PHASES[-1].working()):
-        return (_PHASES[-1].line.strip() if _PHASES else "") or f"{NOW.task}{NOW.text()}"
+        return (_PHASES[-1].line.strip() if _PHASES else "") or NOW.line()
     phase = _PHASES[-1]
     return f"{phase.line.strip()}; at {'; '.join(working)}" if not phase.terminal else working[0]
 

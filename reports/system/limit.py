@@ -13,18 +13,28 @@ SLACK = 10.0  # times what a run is worth: the machine may be busy, or old
 
 
 def limit(worth: float = 0.0) -> float:
-    """The time [s] for a task that is worth so much [s]."""
-    try:
-        beyond = float(os.environ.get(VARIABLE, USUAL))
-    except ValueError:
-        beyond = USUAL
-    return (beyond if beyond > 0.0 else USUAL) + SLACK * worth
+    """The time [s] for a task that is worth so much [s]. Raises ValueError as `choose` does."""
+    return _beyond(os.environ.get(VARIABLE, USUAL), f"${VARIABLE}") + SLACK * worth
 
 
 def choose(seconds: float | None) -> None:
-    """Another one from now on."""
+    """Another one from now on; None: the usual one, or what the environment says.
+
+    Raises ValueError for what is no time above 0.
+    """
     if seconds is not None:
-        os.environ[VARIABLE] = repr(seconds)
+        os.environ[VARIABLE] = repr(_beyond(seconds, "it"))
+    limit()
+
+
+def _beyond(said: str | float, what: str) -> float:
+    try:
+        beyond = float(said)
+    except ValueError:
+        beyond = 0.0
+    if not beyond > 0.0:  # nan is none either
+        raise ValueError(f"{what} should be a number of seconds above 0, is {said!r}")
+    return beyond
 
 
 MEMORY = "TEXTMECH_MEMORY_LIMIT"

@@ -191,6 +191,24 @@ def test_a_script_says_each_law_in_time(name: str) -> None:
     np.testing.assert_allclose(pasted(LAWS[name], times), known, rtol=0, atol=1e-14)
 
 
+@pytest.mark.mutant("a pasted callback that steps other models too")
+def test_a_pasted_callback_leaves_other_models_alone() -> None:
+    """It is pasted once the model is loaded: while there is one MuJoCo loads none, as it says."""
+    model = mujoco.MjModel.from_xml_string(MOTOR)
+    other, data = mujoco.MjModel.from_xml_string("<mujoco/>"), mujoco.MjData(model)
+    said, code = told(model, [LAWS["sine"]]).split("<!--")[-2:]
+    assert "while one is set MuJoCo loads no model" in said
+    try:
+        exec(code.split("-->")[0], {})
+        with pytest.raises(ValueError, match="Python exception"):
+            mujoco.MjModel.from_xml_string(MOTOR)
+        mujoco.mj_step(other, mujoco.MjData(other))
+        mujoco.mj_step(model, data)
+    finally:
+        mujoco.set_mjcb_control(None)
+    assert data.ctrl[0] == pytest.approx(np.sin(0.4), rel=1e-12)
+
+
 def test_each_law_that_a_callback_follows_is_asked() -> None:
     assert {*LAWS, *BY_ITSELF} == {*get_args(Law)}
 

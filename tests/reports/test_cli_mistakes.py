@@ -140,3 +140,17 @@ def test_list_finds_words_or_says_that_it_does_not() -> None:
     done = textmech("list", "unicorn")
     assert (done.returncode, done.stdout) == (2, "")
     assert "no shipped case has unicorn in it" in done.stderr
+
+
+@pytest.mark.parametrize("said", ["x", "-1", "0", "nan", ""])
+def test_a_time_limit_that_is_none_is_said(said: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TEXTMECH_TIME_LIMIT", said)
+    done = textmech("run", "bar_pendulum", "--engine", "mujoco.shipped")
+    assert done.returncode == 2
+    assert f"$TEXTMECH_TIME_LIMIT should be a number of seconds above 0, is {said!r}" in done.stderr
+
+
+def test_no_number_is_no_time_limit() -> None:
+    done = textmech("run", "bar_pendulum", "--time-limit", "nan")
+    assert done.returncode == 2
+    assert "'--time-limit': it should be a number of seconds above 0, is nan" in done.stderr

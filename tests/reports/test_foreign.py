@@ -5,6 +5,8 @@ import os
 import re
 import shutil
 import stat
+import subprocess
+import sys
 from collections.abc import Callable
 from dataclasses import fields
 from dataclasses import replace as changed
@@ -216,3 +218,24 @@ def test_a_picture_overwrites_no_stranger(name: str, tmp_path: Path) -> None:
     unasked(tmp_path, [name], overwrite=True)
     save(Figure(), file)
     unasked(tmp_path, [name], overwrite=False)
+
+
+def test_a_strangers_table_beside_a_report_is_not_compared(tmp_path: Path, folder: Path) -> None:
+    """`run --out` leaves it alone, and so does who reads."""
+    (folder / "mine.csv").write_text("a,b\n1\n", encoding="utf-8")
+    os.mkfifo(folder / "pipe.csv")
+    (folder / "drawer.csv").mkdir()
+    done = textmech("diff", folder, report(tmp_path / "other"))
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.strip().endswith("nothing changed")
+
+
+def test_a_refused_command_leaves_no_empty_folder(tmp_path: Path) -> None:
+    command = [sys.executable, "-c", "from textmech.reports.start import main; main()", "run"]
+    for words in (["nope.yaml"], ["bar_pendulum", "--engine", "nope"]):
+        done = subprocess.run(
+            [*command, *words, "--out", "new/one/more"], cwd=tmp_path, check=False, timeout=60,
+            capture_output=True, text=True,
+        )  # fmt: skip
+        assert done.returncode == 2, done.stderr
+        assert [*tmp_path.iterdir()] == []

@@ -1,5 +1,6 @@
 """The interface for Python: the frames, and the command's own words for what is wrong."""
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 
@@ -60,6 +61,14 @@ def test_solve_of_an_attitude_gives_its_angle() -> None:
     assert found.units["body.attitude"] == "rad"
     assert found.motion["body.attitude"].iloc[0] == 0
     assert found.motion["body.attitude"].max() > 1
+
+
+@pytest.mark.slow
+def test_the_summary_is_that_of_the_command() -> None:
+    found = run("bar_pendulum", engines=["mujoco.shipped"]).summary
+    told = command("run", "bar_pendulum", "--engine", "mujoco.shipped", "--json").stdout
+    assert found.cured.tolist() == [line["cured"] for line in json.loads(told)["summary"]]
+    assert "RK4" in found.cured[0]
 
 
 @pytest.mark.slow

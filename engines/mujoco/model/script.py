@@ -16,8 +16,10 @@ from .number_text import written
 from .tree import called
 
 _SAID = (
-    "what follows such a law in time is a control, which no MJCF file sets: start at the keyframe, "
-    "and paste this callback, which is asked at every stage (set between steps it would be held)"
+    "what follows such a law in time is a control, which no MJCF file sets: load the model, start "
+    "at the keyframe, and then paste this callback, which is asked at every stage (set between "
+    "steps it would be held); while one is set MuJoCo loads no model, and "
+    "mujoco.set_mjcb_control(None) takes it away"
 )
 _CORNERS = "where a law jumps or bends our run holds its mean over that step, which is of 2nd order"
 
@@ -36,7 +38,9 @@ def told(model: mujoco.MjModel, laws: Sequence[Signal]) -> str:
     ]
     if not lines:
         return ""
-    begins = ["def control(model, data):", "    t = data.time"]
+    # MuJoCo asks it of every model of the process.
+    begins = ["def control(model, data):", f"    if model.nu != {model.nu}:", "        return"]
+    begins.append("    t = data.time")
     code = ["import math", "import mujoco", "import numpy", *begins, *lines]
     said = [_SAID, _CORNERS] if any(law.corners for law in laws) else [_SAID]
     return commented(said) + "\n".join(

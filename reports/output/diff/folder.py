@@ -10,7 +10,6 @@ from pathlib import Path
 
 from ....cases.mistake import CaseError, Mistake
 from ...data import file_content, runs
-from ...data.row import OF_NO_RUN
 from ...data.runs import Written
 from .columns import ERRORS, KNOWN, Row
 
@@ -101,13 +100,13 @@ def _opened(name: str, path: Path) -> Folder:
         raise CaseError([_mistake(path, what)])
     tables: dict[str, Table] = {}
     mistakes: list[Mistake] = []
+    written = _written(path)
     for file in sorted(path.glob("*.csv")):
-        if file.name not in (*OF_NO_RUN, runs.NAME):
+        if file.name in KNOWN or file.name in written:  # others are not ours to read
             try:
                 tables[file.name] = read(file)
             except CaseError as error:
                 mistakes += error.mistakes
-    written = _written(path)
     for table in tables.values():
         mistakes += [*_unreadable(table)] or [*_doubted(table, written)]
     mistakes += _mixed(tables, written)
@@ -134,7 +133,7 @@ def read(path: Path) -> Table:
             records.append((line, cells))
             line = reader.line_num + 1
     except csv.Error as error:
-        raise CaseError([_mistake(path, f"is no CSV: {error}")]) from None
+        raise CaseError([_mistake(path, f"is no CSV: {error}", line)]) from None
     if not records:
         what = "is empty: its first line should name the columns"
         raise CaseError([_mistake(path, what)])

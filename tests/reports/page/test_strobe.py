@@ -73,7 +73,7 @@ def test_the_scale_is_the_mechanisms() -> None:
         return axes.get_ylim()[0]
 
     assert -3.0 < lowest() < 0.0
-    assert lowest(otherwise(strobe, "axes.set(xlim=limits[0], ylim=limits[1])", "pass")) < -90.0
+    assert lowest(otherwise(strobe, "axes.dataLim.set(limits)", "pass")) < -90.0
 
 
 @pytest.mark.mutant("ink by 0.8 k / last, of which rounding may make more than all")
